@@ -1,0 +1,269 @@
+//! What an accelerometer in a pen feels when the pen is stroked over a material.
+//!
+//! The ball tip rides on the relief ([`dilate`]), its patch of contact smooths what is finer
+//! ([`patch_low_pass`]), and the pen moves on the springs of the contact and of the hand, with loss of contact:
+//!
+//! - normal: `m z̈ = F_c − F − B ż − K z`, with `F_c = max(0, F + k (h − z) + c (ḣ − ż))`
+//! - lateral: `m (ü + 2 ζ_l ω_l u̇ + ω_l² u) = µ F s ξ + µ (F_c − F) + F_c dh/dx`
+//!
+//! where ξ is a unit process of friction along the path and `c = 2 ζ √(k m)`. Both axes become one by
+//! [`crate::dft321`], and the result is high-passed and brought to [`STROKE_RATE_HZ`].
+//!
+//! All that depends on the surface is worked out once in [`prepare`], and on the force once in [`press`].
+
+mod dynamics;
+mod tip;
+
+pub use crate::contact_model::tip::{dilate, patch_low_pass};
+
+use crate::contact_model::dynamics::{Path, Springs};
+use crate::dft321::dft321;
+use crate::filter::{butterworth_high_pass, decimate, filter_zero_phase};
+use crate::height_field::{HeightField, PROFILE_STEP_M, profile};
+use crate::material::Material;
+use crate::rng::{Random, derive_seed};
+
+/// Sampling rate of a simulated stroke.
+pub const STROKE_RATE_HZ: f64 = 1000.0;
+
+/// Cut-off of the high-pass that removes the hand's own motion.
+pub const STROKE_HIGH_PASS_HZ: f64 = 10.0;
+
+/// Length of surface that serves a second at 250 mm/s, with room to start anywhere.
+pub const STARTER_PATH_M: f64 = 0.45;
+
+/// Speed at which materials are compared.
+pub const REFERENCE_SPEED_MPS: f64 = 0.1;
+
+/// Force at which materials are compared, and at which the whole relief is transmitted.
+pub const REFERENCE_FORCE_N: f64 = 1.0;
+
+/// Simulation steps for each sample of a stroke.
+const OVERSAMPLING: usize = 16;
+
+/// Time simulated before and after a stroke for the start and the filters to settle.
+const MARGIN_SECS: f64 = 0.15;
+
+/// Length at each end of a path that is not used: a path is no loop, but its filters treat it as one.
+const PATH_END_M: f64 = 5e-3;
+
+/// A pen with a ball tip, and the hand that holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tool {
+    /// Radius of the ball.
+    pub tip_radius_m: f64,
+    /// Plane-strain elastic modulus of the ball.
+    pub tip_modulus_pa: f64,
+    /// Stiffness of the pen between ball and sensor.
+    pub body_stiffness_n_per_m: f64,
+    /// Mass of the pen.
+    pub mass_kg: f64,
+    /// Stiffness of the hand.
+    pub hand_stiffness_n_per_m: f64,
+    /// Damping of the hand.
+    pub hand_damping_n_s_per_m: f64,
+    /// Resonance of the pen sideways in the grip.
+    pub lateral_resonance_hz: f64,
+    /// Damping ratio of that resonance.
+    pub lateral_damping_ratio: f64,
+}
+
+/// A 40 g pen with a plastic ball of 3 mm, held as for writing.
+pub const PEN: Tool = Tool {
+    tip_radius_m: 1.5e-3,
+    tip_modulus_pa: 3.3e9,
+    body_stiffness_n_per_m: 1e5,
+    mass_kg: 0.040,
+    hand_stiffness_n_per_m: 400.0,
+    hand_damping_n_s_per_m: 8.0,
+    lateral_resonance_hz: 110.0,
+    lateral_damping_ratio: 0.5,
+};
+
+/// How and for how long the pen is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// Speed along the surface, above 0.
+    pub speed_mps: f64,
+    /// Mean normal force, above 0.
+    pub force_n: f64,
+    /// Length of the signal.
+    pub duration_secs: f64,
+}
+
+/// A material laid out under the pen: all that does not depend on force and speed.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    material: Material,
+    tool: Tool,
+    /// Height of the ball's lowest point along the path.
+    tip_heights_m: Vec<f64>,
+    /// Unit process of friction along the path.
+    friction: Vec<f64>,
+}
+
+/// A [`Surface`] under a certain force.
+#[derive(Clone, Debug)]
+pub struct PressedSurface {
+    path: Path,
+    springs: Springs,
+    force_n: f64,
+}
+
+/// Why a stroke could not be simulated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StrokeError {
+    /// A stroke needs a finite speed, force and duration above zero.
+    #[error("{quantity} is {value}, needs to be above 0 and finite")]
+    NotPositive {
+        /// Which quantity, with its unit.
+        quantity: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// The stroke is longer than the prepared path.
+    #[error("needs {needed_m} m of surface, has {available_m} m")]
+    PathTooShort {
+        /// Length that the stroke covers with its margins.
+        needed_m: f64,
+        /// Usable length of the path.
+        available_m: f64,
+    },
+}
+
+/// Lays out `path_m` of the material's tile ([`profile`]) under the tool.
+///
+/// `field` is the tile of the same material. Costs some tens of milliseconds for [`STARTER_PATH_M`].
+pub fn prepare(material: &Material, field: &HeightField, tool: &Tool, path_m: f64, seed: u64) -> Surface {
+    let seed = derive_seed(seed, &material.id);
+    let n_points = (path_m / PROFILE_STEP_M).round().max(0.0) as usize;
+    let heights_m = profile(field, n_points, derive_seed(seed, "detail"));
+    Surface {
+        material: material.clone(),
+        tool: *tool,
+        tip_heights_m: dilate(&heights_m, PROFILE_STEP_M, tool.tip_radius_m),
+        friction: tip::friction_process(n_points, PROFILE_STEP_M, derive_seed(seed, "friction")),
+    }
+}
+
+/// The surface as it meets the tip under this force, for any number of strokes.
+///
+/// # Errors
+/// [`StrokeError::NotPositive`].
+pub fn press(surface: &Surface, force_n: f64) -> Result<PressedSurface, StrokeError> {
+    require_positive("force in N", force_n)?;
+    let Surface { material, tool, tip_heights_m, friction } = surface;
+    let patch_m = patch_radius_m(material, tool, force_n);
+    let transmitted = (force_n / REFERENCE_FORCE_N).powf(material.load_exponent);
+    let heights_m = patch_low_pass(tip_heights_m, PROFILE_STEP_M, patch_m)
+        .into_iter()
+        .map(|height| transmitted * height)
+        .collect();
+    let mu = material.friction_coefficient;
+    let drag_n = patch_low_pass(friction, PROFILE_STEP_M, patch_m)
+        .into_iter()
+        .map(|friction| mu * force_n * material.friction_heterogeneity * friction)
+        .collect();
+    let stiffness = contact_stiffness_n_per_m(material, tool, force_n);
+    let springs = Springs {
+        contact_n_per_m: stiffness,
+        damping_n_s_per_m: 2.0 * material.contact_damping_ratio * (stiffness * tool.mass_kg).sqrt(),
+        friction_coefficient: mu,
+        tool: *tool,
+    };
+    Ok(PressedSurface { path: Path { heights_m, drag_n, step_m: PROFILE_STEP_M }, springs, force_n })
+}
+
+/// Acceleration in m/s² at [`STROKE_RATE_HZ`] of a stroke over a pressed surface; `seed` decides where it starts.
+///
+/// # Errors
+/// [`StrokeError::NotPositive`] and [`StrokeError::PathTooShort`].
+pub fn drag(
+    pressed: &PressedSurface,
+    speed_mps: f64,
+    duration_secs: f64,
+    seed: u64,
+) -> Result<Vec<f64>, StrokeError> {
+    require_positive("speed in m/s", speed_mps)?;
+    require_positive("duration in s", duration_secs)?;
+    let n_samples = (duration_secs * STROKE_RATE_HZ).round() as usize;
+    let n_margin = (MARGIN_SECS * STROKE_RATE_HZ).round() as usize;
+    let n_steps = (n_samples + 2 * n_margin) * OVERSAMPLING;
+    let rate_hz = STROKE_RATE_HZ * OVERSAMPLING as f64;
+
+    let needed_m = n_steps as f64 / rate_hz * speed_mps;
+    let available_m = pressed.path.length_m() - 2.0 * PATH_END_M;
+    if needed_m > available_m {
+        return Err(StrokeError::PathTooShort { needed_m, available_m: available_m.max(0.0) });
+    }
+    let start_m = PATH_END_M + Random::new(seed).uniform() * (available_m - needed_m);
+
+    let [normal, lateral] = dynamics::accelerations_mps2(
+        &pressed.path,
+        &pressed.springs,
+        pressed.force_n,
+        &dynamics::Run { start_m, speed_mps, rate_hz, n_steps },
+    );
+    let combined = dft321(&[&normal, &lateral]);
+    assert!(combined.is_ok(), "both axes have {n_steps} samples");
+    let mut signal = decimate(&combined.unwrap_or_default(), OVERSAMPLING);
+    filter_zero_phase(&butterworth_high_pass(2, STROKE_HIGH_PASS_HZ, STROKE_RATE_HZ), &mut signal);
+    Ok(signal[n_margin..n_margin + n_samples].to_vec())
+}
+
+/// Acceleration in m/s² at [`STROKE_RATE_HZ`] of one stroke: [`press`] and [`drag`].
+///
+/// # Errors
+/// As [`press`] and [`drag`].
+pub fn simulate(surface: &Surface, stroke: &Stroke, seed: u64) -> Result<Vec<f64>, StrokeError> {
+    drag(&press(surface, stroke.force_n)?, stroke.speed_mps, stroke.duration_secs, seed)
+}
+
+/// Physical label of roughness: log₁₀ of the root mean square, in m/s², of one second at
+/// [`REFERENCE_SPEED_MPS`] and [`REFERENCE_FORCE_N`].
+///
+/// # Errors
+/// As [`simulate`].
+pub fn roughness(surface: &Surface, seed: u64) -> Result<f64, StrokeError> {
+    let reference = Stroke { speed_mps: REFERENCE_SPEED_MPS, force_n: REFERENCE_FORCE_N, duration_secs: 1.0 };
+    let signal = simulate(surface, &reference, seed)?;
+    let power = signal.iter().map(|value| value * value).sum::<f64>() / signal.len() as f64;
+    Ok(0.5 * power.log10())
+}
+
+/// Physical label of hardness: log₁₀ of [`hertz_stiffness_n_per_m`] at [`REFERENCE_FORCE_N`].
+pub fn hardness(material: &Material, tool: &Tool) -> f64 {
+    hertz_stiffness_n_per_m(material, tool, REFERENCE_FORCE_N).log10()
+}
+
+/// Modulus E* of ball and surface in series: `1/E* = 1/E + 1/E_tip`.
+pub fn effective_modulus_pa(material: &Material, tool: &Tool) -> f64 {
+    1.0 / (1.0 / material.youngs_modulus_pa + 1.0 / tool.tip_modulus_pa)
+}
+
+/// Radius of the contact patch by Hertz: `a = (¾ F R / E*)^⅓`.
+pub fn patch_radius_m(material: &Material, tool: &Tool, force_n: f64) -> f64 {
+    (0.75 * force_n * tool.tip_radius_m / effective_modulus_pa(material, tool)).cbrt()
+}
+
+/// Stiffness of the Hertz contact about its mean force: `k = 3/2 (4/3 E* √R)^⅔ F^⅓`.
+pub fn hertz_stiffness_n_per_m(material: &Material, tool: &Tool, force_n: f64) -> f64 {
+    let load_factor = 4.0 / 3.0 * effective_modulus_pa(material, tool) * tool.tip_radius_m.sqrt();
+    1.5 * load_factor.cbrt().powi(2) * force_n.cbrt()
+}
+
+/// Stiffness between relief and sensor: Hertz contact, asperities `F / (½ h_rms)` and the pen's body in series.
+pub fn contact_stiffness_n_per_m(material: &Material, tool: &Tool, force_n: f64) -> f64 {
+    let asperity_compliance = 0.5 * material.height_rms_m / force_n;
+    let hertz_compliance = 1.0 / hertz_stiffness_n_per_m(material, tool, force_n);
+    1.0 / (hertz_compliance + asperity_compliance + 1.0 / tool.body_stiffness_n_per_m)
+}
+
+fn require_positive(quantity: &'static str, value: f64) -> Result<(), StrokeError> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(StrokeError::NotPositive { quantity, value }) }
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "a test that cannot set itself up fails")]
+mod tests;

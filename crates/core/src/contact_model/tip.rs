@@ -1,0 +1,191 @@
+//! What the ball and its patch of contact make of a profile.
+
+use crate::rng::Random;
+use realfft::RealFftPlanner;
+use rustfft::num_complex::Complex;
+use std::f64::consts::TAU;
+
+/// Wavelength above which the friction process is flat.
+const FRICTION_ROLL_OFF_M: f64 = 2e-3;
+
+/// Hurst exponent of the friction process.
+const FRICTION_HURST: f64 = 0.6;
+
+/// Height of the lowest point of a ball that rides on a profile: `max over u of h(x+u) + √(R² − u²) − R`.
+///
+/// `step_m` is the distance between points; beyond its ends the profile counts as absent. Cost is points times the
+/// reach of the ball at the profile's range.
+pub fn dilate(heights_m: &[f64], step_m: f64, tip_radius_m: f64) -> Vec<f64> {
+    let (low, high) = heights_m
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(*h), high.max(*h)));
+    // Where the ball lies higher than the profile's range it cannot touch anything.
+    let reach: Vec<f64> = (0..=(tip_radius_m / step_m).floor() as usize)
+        .map(|i| (tip_radius_m.powi(2) - (i as f64 * step_m).powi(2)).max(0.0).sqrt() - tip_radius_m)
+        .take_while(|cap| -cap <= high - low)
+        .collect();
+    let mut lowest = heights_m.to_vec();
+    for (distance, cap) in reach.iter().enumerate().skip(1) {
+        let n_pairs = heights_m.len().saturating_sub(distance);
+        for (lowest, height) in lowest[..n_pairs].iter_mut().zip(&heights_m[heights_m.len() - n_pairs..]) {
+            *lowest = lowest.max(height + cap);
+        }
+        let n = lowest.len();
+        for (lowest, height) in lowest[n - n_pairs..].iter_mut().zip(&heights_m[..n_pairs]) {
+            *lowest = lowest.max(height + cap);
+        }
+    }
+    lowest
+}
+
+/// A profile averaged over a patch of contact with Hertz's pressure: gain `3 (sin ka − ka cos ka) / (ka)³` at the
+/// angular wave number k, for a patch of radius a.
+///
+/// The profile counts as a loop, so that its ends, for a patch's radius, mix.
+pub fn patch_low_pass(heights_m: &[f64], step_m: f64, patch_radius_m: f64) -> Vec<f64> {
+    let n = heights_m.len();
+    if n == 0 {
+        return Vec::new();
+    }
+    let mut planner = RealFftPlanner::<f64>::new();
+    let forward = planner.plan_fft_forward(n);
+    let inverse = planner.plan_fft_inverse(n);
+    let mut spectrum = forward.make_output_vec();
+    let mut signal = heights_m.to_vec();
+    check_run(&forward.process(&mut signal, &mut spectrum));
+    for (i, value) in spectrum.iter_mut().enumerate() {
+        let k_per_m = TAU * i as f64 / (n as f64 * step_m);
+        *value *= patch_gain(k_per_m * patch_radius_m) / n as f64;
+    }
+    check_run(&inverse.process(&mut spectrum, &mut signal));
+    signal
+}
+
+/// Friction along a path as a process of unit variance.
+pub(super) fn friction_process(n_points: usize, step_m: f64, seed: u64) -> Vec<f64> {
+    let n = n_points.next_multiple_of(256).max(256);
+    let mut random = Random::new(seed);
+    let mut planner = RealFftPlanner::<f64>::new();
+    let inverse = planner.plan_fft_inverse(n);
+    let mut spectrum = inverse.make_input_vec();
+    for (i, value) in spectrum.iter_mut().enumerate().skip(1).take(n / 2 - 1) {
+        let q = i as f64 / (n as f64 * step_m) * FRICTION_ROLL_OFF_M;
+        let power = (1.0 + q * q).powf(-FRICTION_HURST - 0.5);
+        *value = power.sqrt() * Complex::new(random.normal(), random.normal());
+    }
+    let mut process = inverse.make_output_vec();
+    check_run(&inverse.process(&mut spectrum, &mut process));
+    let rms = (process.iter().map(|value| value * value).sum::<f64>() / n as f64).sqrt();
+    process.truncate(n_points);
+    for value in &mut process {
+        *value /= rms;
+    }
+    process
+}
+
+fn patch_gain(ka: f64) -> f64 {
+    // Below this the closed form loses digits to cancellation, and the first term of the series suffices.
+    if ka < 1e-2 {
+        return 1.0 - ka * ka / 10.0;
+    }
+    3.0 * (ka.sin() - ka * ka.cos()) / ka.powi(3)
+}
+
+fn check_run(outcome: &Result<(), realfft::FftError>) {
+    assert!(outcome.is_ok(), "the transform's buffers come from its own plan: {outcome:?}");
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "a test that cannot set itself up fails")]
+mod tests {
+    use super::*;
+    use crate::rng::lcg_noise;
+
+    const STEP_M: f64 = 10e-6;
+    const RADIUS_M: f64 = 1.5e-3;
+
+    /// Oracle: the definition, every pair of points.
+    fn dilate_slowly(heights_m: &[f64]) -> Vec<f64> {
+        let at = |i: usize, j: usize| {
+            let u = i.abs_diff(j) as f64 * STEP_M;
+            if u <= RADIUS_M { heights_m[j] + (RADIUS_M * RADIUS_M - u * u).sqrt() - RADIUS_M } else { -1.0 }
+        };
+        (0..heights_m.len())
+            .map(|i| (0..heights_m.len()).map(|j| at(i, j)).fold(f64::NEG_INFINITY, f64::max))
+            .collect()
+    }
+
+    #[test]
+    fn a_flat_profile_stays_flat() {
+        assert_eq!(dilate(&[3e-6; 40], STEP_M, RADIUS_M), [3e-6; 40]);
+        assert!(dilate(&[], STEP_M, RADIUS_M).is_empty());
+    }
+
+    #[test]
+    fn a_spike_becomes_the_cap_of_the_ball() {
+        let mut heights = vec![0.0; 101];
+        heights[50] = 20e-6;
+        for (i, got) in dilate(&heights, STEP_M, RADIUS_M).iter().enumerate() {
+            let u = i.abs_diff(50) as f64 * STEP_M;
+            let cap = 20e-6 - RADIUS_M + (RADIUS_M * RADIUS_M - u * u).sqrt();
+            assert!((got - cap.max(0.0)).abs() < 1e-18);
+        }
+    }
+
+    #[test]
+    fn dilation_matches_its_definition() {
+        for (scale, n) in [(1e-6, 300), (1e-4, 300), (5e-3, 200)] {
+            let heights: Vec<f64> = lcg_noise(n, 4).iter().map(|v| v * scale).collect();
+            for (got, expected) in dilate(&heights, STEP_M, RADIUS_M).iter().zip(dilate_slowly(&heights)) {
+                assert!((got - expected).abs() < 1e-15 * scale / 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn the_patch_scales_a_sine_by_its_gain() {
+        let n = 2000_u16;
+        for (n_periods, patch_m) in [(4.0, 50e-6), (40.0, 100e-6), (100.0, 80e-6), (3.0, 2e-3)] {
+            let k = TAU * n_periods / (f64::from(n) * STEP_M);
+            let sine: Vec<f64> = (0..n).map(|i| (k * f64::from(i) * STEP_M).sin()).collect();
+            let ka = k * patch_m;
+            let gain = 3.0 * (ka.sin() - ka * ka.cos()) / ka.powi(3);
+            for (got, sine) in patch_low_pass(&sine, STEP_M, patch_m).iter().zip(&sine) {
+                assert!((got - gain * sine).abs() < 1e-12, "ka {ka}");
+            }
+        }
+    }
+
+    /// Slow oracle: the gain is the mean of cos(kx) over the hemispherical pressure of a disk.
+    #[test]
+    fn the_gain_is_the_integral_over_the_pressure() {
+        for ka in [0.005, 0.02, 0.5, 2.0, 7.0] {
+            let n = 20_000;
+            // The pressure √(1 − r²) summed across leaves weight π/2 (1 − x²) along x.
+            let integral: f64 = (0..n)
+                .map(|i| {
+                    let x = (f64::from(i) + 0.5) / f64::from(n);
+                    1.5 * (1.0 - x * x) * (ka * x).cos() / f64::from(n)
+                })
+                .sum();
+            assert!((patch_gain(ka) - integral).abs() < 1e-8, "ka {ka}");
+        }
+    }
+
+    #[test]
+    fn friction_has_unit_variance_and_its_slope() {
+        let n = 1 << 16;
+        let mut process = friction_process(n, STEP_M, 2);
+        let power = process.iter().map(|v| v * v).sum::<f64>() / n as f64;
+        assert!((power - 1.0).abs() < 1e-12);
+        let forward = RealFftPlanner::<f64>::new().plan_fft_forward(n);
+        let mut spectrum = forward.make_output_vec();
+        forward.process(&mut process, &mut spectrum).expect("own plan");
+        let band = |first: usize| {
+            spectrum[first..2 * first].iter().map(Complex::norm_sqr).sum::<f64>() / first as f64
+        };
+        // Well above the roll-off each octave falls by 2^(2H+1); 3277 bins and more give a percent or two.
+        let slope = (band(4000) / band(8000)).log2();
+        assert!((slope - (2.0 * FRICTION_HURST + 1.0)).abs() < 0.15, "slope {slope}");
+    }
+}

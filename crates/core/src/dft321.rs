@@ -1,0 +1,181 @@
+//! DFT321: three axes of acceleration to one (Landin, Romano, McMahan and Kuchenbecker 2010).
+//!
+//! The result has the magnitude `|A(f)|² = |X|² + |Y|² + |Z|²`, so energy is preserved and the magnitude does
+//! not depend on how the sensor is turned, and the phase `∠A = ∠(X + Y + Z)`, which does.
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
+/// Below this share of the largest magnitude, the phase of the sum of the axes is taken as undefined and set to 0.
+const UNDEFINED_PHASE_SHARE: f64 = 1e-12;
+
+/// Why axes could not be combined.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Dft321Error {
+    /// No axis was given.
+    #[error("needs at least one axis, got none")]
+    NoAxes,
+    /// The axes differ in length.
+    #[error("all axes need the same length, got {first} and {other} samples")]
+    UnequalLengths {
+        /// Samples in the first axis.
+        first: usize,
+        /// Samples in the axis that differs.
+        other: usize,
+    },
+}
+
+/// The single-axis signal of a whole segment, in the unit of the axes (one slice an axis, one to three as a rule).
+///
+/// # Errors
+/// [`Dft321Error::NoAxes`] and [`Dft321Error::UnequalLengths`].
+pub fn dft321(axes: &[&[f64]]) -> Result<Vec<f64>, Dft321Error> {
+    let Some(first_axis) = axes.first() else { return Err(Dft321Error::NoAxes) };
+    let first = first_axis.len();
+    if let Some(axis) = axes.iter().find(|axis| axis.len() != first) {
+        return Err(Dft321Error::UnequalLengths { first, other: axis.len() });
+    }
+    if first == 0 {
+        return Ok(Vec::new());
+    }
+
+    let mut planner = RealFftPlanner::<f64>::new();
+    let forward = planner.plan_fft_forward(first);
+    let mut power = vec![0.0; first / 2 + 1];
+    let mut sum = vec![Complex::new(0.0, 0.0); first / 2 + 1];
+    let mut spectrum = forward.make_output_vec();
+    for axis in axes {
+        let mut buffer = axis.to_vec();
+        check_run(&forward.process(&mut buffer, &mut spectrum));
+        for ((power, sum), value) in power.iter_mut().zip(&mut sum).zip(&spectrum) {
+            *power += value.norm_sqr();
+            *sum += value;
+        }
+    }
+
+    let floor = UNDEFINED_PHASE_SHARE * power.iter().copied().fold(0.0, f64::max).sqrt();
+    let mut combined: Vec<Complex<f64>> =
+        power.iter().zip(&sum).map(|(power, sum)| power.sqrt() * unit_phase(*sum, floor)).collect();
+    // The bins of a real signal's mean and Nyquist frequency are real; rounding must not say otherwise.
+    combined[0].im = 0.0;
+    if first.is_multiple_of(2) {
+        combined[first / 2].im = 0.0;
+    }
+
+    let inverse = planner.plan_fft_inverse(first);
+    let mut signal = inverse.make_output_vec();
+    check_run(&inverse.process(&mut combined, &mut signal));
+    for value in &mut signal {
+        *value /= first as f64;
+    }
+    Ok(signal)
+}
+
+fn unit_phase(value: Complex<f64>, floor: f64) -> Complex<f64> {
+    let norm = value.norm();
+    if norm > floor { value / norm } else { Complex::new(1.0, 0.0) }
+}
+
+fn check_run(outcome: &Result<(), realfft::FftError>) {
+    assert!(outcome.is_ok(), "the transform's buffers come from its own plan: {outcome:?}");
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "a test that cannot set itself up fails")]
+mod tests {
+    use super::*;
+    use crate::rng::lcg_noise;
+    use proptest::prelude::{Strategy as _, any, proptest};
+    use std::f64::consts::TAU;
+
+    const GOLDEN: &str = include_str!("../../../vectors/c_dft321/dft321_vectors.json");
+
+    type Frames = Vec<[f64; 3]>;
+
+    fn combine(frames: &[[f64; 3]]) -> Vec<f64> {
+        let axes: [Vec<f64>; 3] = [0, 1, 2].map(|axis| frames.iter().map(|frame| frame[axis]).collect());
+        dft321(&[&axes[0], &axes[1], &axes[2]]).expect("axes of equal length")
+    }
+
+    fn energy(values: impl IntoIterator<Item = f64>) -> f64 {
+        values.into_iter().map(|v| v * v).sum()
+    }
+
+    fn magnitudes(signal: &[f64]) -> Vec<f64> {
+        let n = signal.len();
+        (0..=n / 2)
+            .map(|k| {
+                let turn = |i: usize| TAU * ((k * i) % n) as f64 / n as f64;
+                let re: f64 = signal.iter().enumerate().map(|(i, v)| v * turn(i).cos()).sum();
+                let im: f64 = signal.iter().enumerate().map(|(i, v)| v * turn(i).sin()).sum();
+                re.hypot(im)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn golden_vectors_of_even_and_odd_length() {
+        let golden: serde_json::Value = serde_json::from_str(GOLDEN).expect("valid JSON");
+        for n in [8, 7] {
+            let frames: Frames = serde_json::from_value(golden[format!("in{n}")].clone()).expect("frames");
+            let expected: Vec<f64> =
+                serde_json::from_value(golden[format!("out{n}")].clone()).expect("samples");
+            let got = combine(&frames);
+            // Two FFT libraries agree to a few roundings of numbers near 10.
+            for (got, expected) in got.iter().zip(&expected) {
+                assert!((got - expected).abs() < 1e-13, "{got} is not {expected}");
+            }
+            assert_eq!(got.len(), expected.len());
+        }
+    }
+
+    #[test]
+    fn one_axis_comes_back_unchanged() {
+        let axis = lcg_noise(101, 3);
+        let same = dft321(&[&axis]).expect("one axis");
+        assert!(axis.iter().zip(&same).all(|(a, b)| (a - b).abs() < 1e-12));
+    }
+
+    #[test]
+    fn axes_that_cancel_keep_their_energy() {
+        let axis = lcg_noise(64, 5);
+        let negated: Vec<f64> = axis.iter().map(|v| -v).collect();
+        let combined = dft321(&[&axis, &negated]).expect("equal lengths");
+        assert!((energy(combined) - 2.0 * energy(axis)).abs() < 1e-10);
+    }
+
+    #[test]
+    fn what_cannot_be_combined_is_refused() {
+        assert_eq!(dft321(&[]), Err(Dft321Error::NoAxes));
+        assert_eq!(dft321(&[&[1.0, 2.0], &[1.0]]), Err(Dft321Error::UnequalLengths { first: 2, other: 1 }));
+        assert_eq!(dft321(&[&[], &[]]), Ok(Vec::new()));
+    }
+
+    proptest! {
+        #[test]
+        fn energy_is_preserved_and_magnitude_does_not_turn(
+            n in 2_usize..120,
+            seed in any::<u64>(),
+            angles in [0.0..TAU, 0.0..TAU].prop_map(|angles| angles),
+        ) {
+            let noise = lcg_noise(3 * n, seed);
+            let frames: Frames = noise.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
+            let turned: Frames = frames.iter().map(|frame| turn(*frame, angles)).collect();
+            let combined = combine(&frames);
+            let total = energy(frames.iter().flatten().copied());
+            proptest::prop_assert!((energy(combined.iter().copied()) - total).abs() < 1e-11 * total);
+            let scale = total.sqrt() * (n as f64).sqrt();
+            for (a, b) in magnitudes(&combined).iter().zip(magnitudes(&combine(&turned))) {
+                proptest::prop_assert!((a - b).abs() < 1e-11 * scale, "{} is not {}", a, b);
+            }
+        }
+    }
+
+    fn turn([x, y, z]: [f64; 3], [about_z, about_x]: [f64; 2]) -> [f64; 3] {
+        let (sin, cos) = about_z.sin_cos();
+        let (x, y) = (cos * x - sin * y, sin * x + cos * y);
+        let (sin, cos) = about_x.sin_cos();
+        [x, cos * y - sin * z, sin * y + cos * z]
+    }
+}

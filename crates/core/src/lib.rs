@@ -1,0 +1,44 @@
+//! Texture models, spaces, blending and the physics behind the starter library.
+//!
+//! Pure: nothing here touches a file, a clock, a thread, the environment or unseeded randomness.
+//!
+//! # Conventions
+//!
+//! - `f64` and SI units. Across a public boundary a quantity is a type of [`units`]; a bare `f64` has no unit.
+//! - A *texture* is known by its index in a library; a *point* of the space runs 0..100 on both axes, 0 = roughest and
+//!   0 = hardest ([`space::SpacePoint`]).
+//! - Power spectral densities are one-sided, in (m/s²)²/Hz.
+//!
+//! ```
+//! use shagreen_core::blend::{Mode, author};
+//! use shagreen_core::space::{Space, SpacePoint};
+//!
+//! let at = |rs, hs| SpacePoint::new(rs, hs).map(Some);
+//! let space = Space::new(&[at(0.0, 0.0)?, at(100.0, 0.0)?, at(0.0, 100.0)?])?;
+//! let authored = author(&space, SpacePoint::new(25.0, 25.0)?, Mode::Power).expect("the space has textures");
+//! assert_eq!(authored.parents[0], (0, 0.5));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![forbid(unsafe_code)]
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+)]
+
+pub mod ar;
+pub mod blend;
+pub mod contact_model;
+pub mod dft321;
+pub mod filter;
+pub mod height_field;
+pub mod lsf;
+pub mod material;
+pub mod plane;
+pub mod render;
+pub mod rng;
+pub mod shading;
+pub mod space;
+pub mod spectrum;
+pub mod texture;
+pub mod triangulation;
+pub mod units;

@@ -1,0 +1,241 @@
+//! The parameters of a physical material: what [`crate::height_field`] builds, [`crate::contact_model`] strokes
+//! and [`crate::shading`] lights.
+
+use std::f64::consts::FRAC_PI_2;
+
+/// A surface by its physics and its looks.
+///
+/// The grain of a stretched surface runs along y; a stroke goes along x, across it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Kebab-case identifier, unique in a library; it takes part in every seed.
+    pub id: String,
+    /// Name to show.
+    pub name: String,
+    /// Words to search by.
+    pub tags: Vec<String>,
+    /// Plane-strain elastic modulus of the surface, above 0.
+    pub youngs_modulus_pa: f64,
+    /// Root mean square height of the fractal part, 0 or more.
+    pub height_rms_m: f64,
+    /// Hurst exponent H of the fractal part, 0 to 1: its line spectrum falls as frequency^-(2H+1).
+    pub hurst: f64,
+    /// Wavelength above which the fractal part's spectrum is flat, above 0.
+    pub roll_off_m: f64,
+    /// How many times longer along y than along x the fractal part and ridges are, 1 or more.
+    pub stretch: f64,
+    /// The regular part of the relief.
+    pub pattern: Option<Pattern>,
+    /// Scattered grains, fibers and pits.
+    pub bumps: Vec<Bumps>,
+    /// Coefficient of sliding friction, 0 or more.
+    pub friction_coefficient: f64,
+    /// Root mean square of the friction coefficient's variation along the path, relative to its mean, 0 or more.
+    pub friction_heterogeneity: f64,
+    /// Damping ratio of the contact resonance, 0 or more.
+    pub contact_damping_ratio: f64,
+    /// Exponent γ, 0 to 1, with which the transmitted relief grows with load, as (force / 1 N)^γ.
+    ///
+    /// It stands for what a rigid ball on a flat spring leaves out: a soft cover is pressed onto what it covers,
+    /// a rough contact engages more asperities, and a hand that presses harder grips harder.
+    pub load_exponent: f64,
+    /// Color of the lowest parts, sRGB.
+    pub valley_srgb: [u8; 3],
+    /// Color of the highest parts, sRGB.
+    pub peak_srgb: [u8; 3],
+    /// From 0, matte, to 1, a mirror.
+    pub gloss: f64,
+    /// Share of the light that is reflected as by bare metal, 0 to 1.
+    pub metallic: f64,
+    /// Strength of color flecks that are not relief, 0 to 1.
+    pub mottle: f64,
+    /// Size of those flecks, above 0.
+    pub mottle_scale_m: f64,
+}
+
+/// A repeated relief of height ±`amplitude_m` about its middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pattern {
+    /// Its shape.
+    pub kind: PatternKind,
+    /// Distance between neighbors, above 0; rounded so that a whole number fits the tile.
+    pub period_m: f64,
+    /// Half the height from valley to peak, 0 or more.
+    pub amplitude_m: f64,
+    /// Irregularity of place (in periods, root mean square) and of height (relative), 0 to 1.
+    pub jitter: f64,
+}
+
+/// The shape of a [`Pattern`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PatternKind {
+    /// Rounded ridges along y, as of wood grain, brushing or cardboard flutes.
+    Ridges,
+    /// Threads that pass over and under one another in turn.
+    PlainWeave,
+    /// Threads that pass over two and under one, each row one thread on: diagonal ribs.
+    Twill,
+    /// Round studs in staggered rows.
+    Domes,
+    /// Arched loops of yarn in staggered rows.
+    Loops,
+    /// Flat-topped patches parted by creases.
+    Pebbles,
+    /// Hollows parted by thin walls.
+    Cells,
+}
+
+/// A random scatter of Gaussian bumps, of fibers where elongated, of pits where negative.
+///
+/// Heights and radii are log-normal about these medians; where bumps of one scatter overlap, the larger counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bumps {
+    /// Median height; negative for pits.
+    pub height_m: f64,
+    /// Median standard deviation of the profile across, above 0.
+    pub radius_m: f64,
+    /// How many times longer than wide, 1 or more.
+    pub elongation: f64,
+    /// Largest angle between the long axis and y, 0 (along the grain) to π/2 (all directions alike).
+    pub spread_rad: f64,
+    /// Mean number on a square meter, 0 or more.
+    pub density_per_m2: f64,
+}
+
+/// Why a material's parameters make no surface.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MaterialError {
+    /// The identifier is empty or holds something else than lower-case letters, digits and single hyphens.
+    #[error("the id \"{id}\" is not kebab-case")]
+    Id {
+        /// What was given.
+        id: String,
+    },
+    /// A number lies outside the range that has a meaning.
+    #[error("{field} of {id} is {value}, needs {low} to {high}")]
+    OutOfRange {
+        /// The material.
+        id: String,
+        /// The parameter, as its field is called.
+        field: &'static str,
+        /// What was given.
+        value: f64,
+        /// Smallest meaningful value.
+        low: f64,
+        /// Largest meaningful value.
+        high: f64,
+    },
+}
+
+/// Smallest length or stiffness that counts as above zero.
+const TINY: f64 = 1e-9;
+
+/// Checks that every parameter has a meaning and that no length would ask for unbounded work.
+///
+/// # Errors
+/// [`MaterialError::Id`], or [`MaterialError::OutOfRange`] for the first parameter found wrong; NaN is always wrong.
+pub fn validate(material: &Material) -> Result<(), MaterialError> {
+    let id = &material.id;
+    let is_word = |word: &str| {
+        !word.is_empty() && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())
+    };
+    if !id.split('-').all(is_word) {
+        return Err(MaterialError::Id { id: id.clone() });
+    }
+    let check = |(field, value, low, high): (&'static str, f64, f64, f64)| {
+        if (low..=high).contains(&value) {
+            Ok(())
+        } else {
+            Err(MaterialError::OutOfRange { id: id.clone(), field, value, low, high })
+        }
+    };
+    let numbers = [
+        ("youngs_modulus_pa", material.youngs_modulus_pa, 1e3, 1e13),
+        ("height_rms_m", material.height_rms_m, 0.0, 1e-2),
+        ("hurst", material.hurst, 0.05, 1.0),
+        ("roll_off_m", material.roll_off_m, 1e-5, 1e-1),
+        ("stretch", material.stretch, 1.0, 1e3),
+        ("friction_coefficient", material.friction_coefficient, 0.0, 10.0),
+        ("friction_heterogeneity", material.friction_heterogeneity, 0.0, 10.0),
+        ("contact_damping_ratio", material.contact_damping_ratio, 0.0, 2.0),
+        ("load_exponent", material.load_exponent, 0.0, 1.0),
+        ("gloss", material.gloss, 0.0, 1.0),
+        ("metallic", material.metallic, 0.0, 1.0),
+        ("mottle", material.mottle, 0.0, 1.0),
+        ("mottle_scale_m", material.mottle_scale_m, 1e-5, 1.0),
+    ];
+    numbers.into_iter().try_for_each(check)?;
+    if let Some(pattern) = &material.pattern {
+        check(("pattern.period_m", pattern.period_m, 1e-5, 1.0))?;
+        check(("pattern.amplitude_m", pattern.amplitude_m, 0.0, 1e-2))?;
+        check(("pattern.jitter", pattern.jitter, 0.0, 1.0))?;
+    }
+    for bumps in &material.bumps {
+        check(("bumps.height_m", bumps.height_m, -1e-2, 1e-2))?;
+        check(("bumps.radius_m", bumps.radius_m, TINY, 1e-2))?;
+        check(("bumps.elongation", bumps.elongation, 1.0, 1e3))?;
+        check(("bumps.spread_rad", bumps.spread_rad, 0.0, FRAC_PI_2 + TINY))?;
+        check(("bumps.density_per_m2", bumps.density_per_m2, 0.0, 1e10))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A plain, smooth, valid material for the tests of this crate.
+    pub(crate) fn plain() -> Material {
+        Material {
+            id: "plain".to_owned(),
+            name: "Plain".to_owned(),
+            tags: Vec::new(),
+            youngs_modulus_pa: 1e9,
+            height_rms_m: 1e-6,
+            hurst: 0.7,
+            roll_off_m: 1e-3,
+            stretch: 1.0,
+            pattern: None,
+            bumps: Vec::new(),
+            friction_coefficient: 0.3,
+            friction_heterogeneity: 0.1,
+            contact_damping_ratio: 0.2,
+            load_exponent: 0.1,
+            valley_srgb: [60, 60, 60],
+            peak_srgb: [200, 200, 200],
+            gloss: 0.3,
+            metallic: 0.0,
+            mottle: 0.0,
+            mottle_scale_m: 1e-3,
+        }
+    }
+
+    fn check(change: impl FnOnce(&mut Material), expected_field: Option<&str>) {
+        let mut material = plain();
+        change(&mut material);
+        let field = match validate(&material) {
+            Ok(()) => None,
+            Err(MaterialError::Id { .. }) => Some("id"),
+            Err(MaterialError::OutOfRange { field, .. }) => Some(field),
+        };
+        assert_eq!(field, expected_field);
+    }
+
+    #[test]
+    fn a_meaningful_material_is_valid_and_nonsense_is_named() {
+        check(|_| (), None);
+        check(|m| m.id = "sandpaper-p320".to_owned(), None);
+        check(|m| m.id = String::new(), Some("id"));
+        check(|m| m.id = "flat--rubber".to_owned(), Some("id"));
+        check(|m| m.id = "Flat rubber".to_owned(), Some("id"));
+        check(|m| m.hurst = f64::NAN, Some("hurst"));
+        check(|m| m.gloss = 1.5, Some("gloss"));
+        check(|m| m.youngs_modulus_pa = 0.0, Some("youngs_modulus_pa"));
+        let pattern = Pattern { kind: PatternKind::Twill, period_m: 0.0, amplitude_m: 1e-6, jitter: 0.1 };
+        check(|m| m.pattern = Some(pattern), Some("pattern.period_m"));
+        let bumps =
+            Bumps { height_m: 1e-6, radius_m: 1e-4, elongation: 0.5, spread_rad: 0.0, density_per_m2: 1e6 };
+        check(|m| m.bumps.push(bumps), Some("bumps.elongation"));
+    }
+}

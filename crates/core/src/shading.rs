@@ -1,0 +1,279 @@
+//! A picture of a material, lit from the upper left, from the same tile that is stroked.
+//!
+//! Heights are micrometers and would hardly show at their true slope, so slopes are scaled by one factor for a
+//! picture, chosen so that a steeper relief still looks steeper ([`display_slope`]). Nothing else is invented but
+//! color flecks ([`Material::mottle`]) and the room that glossy surfaces mirror.
+
+mod light;
+
+use crate::height_field::{HeightField, height_m};
+use crate::material::Material;
+use crate::rng::{derive_seed, lattice_uniform};
+use crate::shading::light::{Rgb, lerp};
+
+/// Pictures are computed at this many points along each side of a pixel, and averaged.
+const SUPERSAMPLING: usize = 3;
+
+/// Radii of the neighborhoods against which hollows are darkened.
+const CAVITY_RADII_M: [f64; 2] = [0.2e-3, 0.9e-3];
+
+/// How large a picture is, and how much of the surface it covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Framing {
+    /// Pixels along each side, at least 8.
+    pub n_pixels: usize,
+    /// Length of surface along each side, above 0; beyond the tile's side the surface repeats.
+    pub millimeters: f64,
+}
+
+/// A square picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Red, green and blue (sRGB) of each pixel, row after row from the upper left.
+    pub rgb: Vec<u8>,
+    /// Length of surface that the width covers.
+    pub millimeters: f64,
+}
+
+/// The picture of a material's tile, taken straight from above.
+///
+/// x of the tile runs to the right and y down; `field` is the tile of the same material.
+pub fn shade(field: &HeightField, material: &Material, framing: &Framing) -> Picture {
+    assert!(framing.n_pixels >= 8, "a picture needs 8 pixels a side, got {}", framing.n_pixels);
+    let n_points = framing.n_pixels * SUPERSAMPLING;
+    let relief = Relief::new(field, framing.millimeters * 1e-3, n_points);
+    let points = shade_points(&relief, material);
+    let mut rgb = Vec::with_capacity(3 * framing.n_pixels * framing.n_pixels);
+    for row in 0..framing.n_pixels {
+        for column in 0..framing.n_pixels {
+            let mut sum = [0.0; 3];
+            for y in row * SUPERSAMPLING..(row + 1) * SUPERSAMPLING {
+                for x in column * SUPERSAMPLING..(column + 1) * SUPERSAMPLING {
+                    let point = points[y * n_points + x];
+                    sum = [0, 1, 2].map(|c| sum[c] + point[c]);
+                }
+            }
+            let share = 1.0 / (SUPERSAMPLING * SUPERSAMPLING) as f64;
+            rgb.extend(sum.map(|linear| light::srgb_byte(linear * share)));
+        }
+    }
+    let n = framing.n_pixels;
+    Picture { width: n, height: n, rgb, millimeters: framing.millimeters }
+}
+
+/// Root mean square slope that a picture shows for a relief's true one: more for more, but far less than in
+/// proportion.
+pub fn display_slope(slope: f64) -> f64 {
+    0.62 * slope.max(0.0).powf(0.3)
+}
+
+/// Heights and slopes at the points of a picture.
+struct Relief {
+    n_points: usize,
+    spacing_m: f64,
+    heights_m: Vec<f64>,
+    slopes: Vec<[f64; 2]>,
+    height_rms_m: f64,
+    slope_rms: f64,
+}
+
+impl Relief {
+    fn new(field: &HeightField, side_m: f64, n_points: usize) -> Self {
+        let spacing_m = side_m / n_points as f64;
+        // One point more on every side for the slopes.
+        let wide = n_points + 2;
+        let sampled: Vec<f64> = (0..wide * wide)
+            .map(|i| height_m(field, (i % wide) as f64 * spacing_m, (i / wide) as f64 * spacing_m))
+            .collect();
+        let at = |x: usize, y: usize| sampled[y * wide + x];
+        let inner = (0..n_points * n_points).map(|i| (i % n_points + 1, i / n_points + 1));
+        let heights_m: Vec<f64> = inner.clone().map(|(x, y)| at(x, y)).collect();
+        let slopes: Vec<[f64; 2]> = inner
+            .map(|(x, y)| {
+                [at(x + 1, y) - at(x - 1, y), at(x, y + 1) - at(x, y - 1)]
+                    .map(|rise| rise / (2.0 * spacing_m))
+            })
+            .collect();
+        let n = heights_m.len() as f64;
+        let mean = heights_m.iter().sum::<f64>() / n;
+        let variance = heights_m.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / n;
+        let slope_variance = slopes.iter().map(|[x, y]| x * x + y * y).sum::<f64>() / n;
+        Self {
+            n_points,
+            spacing_m,
+            heights_m: heights_m.iter().map(|h| h - mean).collect(),
+            slopes,
+            height_rms_m: variance.sqrt(),
+            slope_rms: slope_variance.sqrt(),
+        }
+    }
+
+    /// How far each point lies below its neighborhood, in units of the relief's root mean square height.
+    fn depth_below_neighbors(&self, radius_m: f64) -> Vec<f64> {
+        let radius = (radius_m / self.spacing_m).round().max(1.0) as usize;
+        let mean = box_mean(&self.heights_m, self.n_points, radius);
+        let unit = self.height_rms_m.max(f64::MIN_POSITIVE);
+        mean.iter().zip(&self.heights_m).map(|(mean, height)| (mean - height) / unit).collect()
+    }
+}
+
+/// Linear color of every point.
+fn shade_points(relief: &Relief, material: &Material) -> Vec<Rgb> {
+    let n = relief.n_points;
+    let exaggeration = display_slope(relief.slope_rms) / relief.slope_rms.max(f64::MIN_POSITIVE);
+    let valley = light::linear(material.valley_srgb);
+    let peak = light::linear(material.peak_srgb);
+    let flecks = Flecks::new(material, relief);
+    let hollows = CAVITY_RADII_M.map(|radius_m| relief.depth_below_neighbors(radius_m));
+    // A relief that shows little also shades its hollows little.
+    let depth = display_slope(relief.slope_rms);
+
+    (0..n * n)
+        .map(|i| {
+            let (x, y) = (i % n, i / n);
+            let standing = relief.heights_m[i] / relief.height_rms_m.max(f64::MIN_POSITIVE);
+            let mut albedo = lerp(valley, peak, 0.5 + 0.5 * (0.8 * standing).tanh());
+            albedo = lerp(albedo, valley, flecks.at(x, y));
+            let hollow: f64 = hollows.iter().map(|depths| depths[i].max(0.0)).sum();
+            let open = 1.0 / (1.0 + 0.9 * depth * hollow);
+            let normal =
+                light::unit([-exaggeration * relief.slopes[i][0], -exaggeration * relief.slopes[i][1], 1.0]);
+            let place = [x, y].map(|k| (k as f64 + 0.5) / n as f64);
+            light::reflect(material, albedo, normal, place, open)
+        })
+        .collect()
+}
+
+/// Color variation that is not relief: two octaves of smooth lattice noise.
+struct Flecks {
+    strength: f64,
+    points_per_fleck: f64,
+    seed: u64,
+}
+
+impl Flecks {
+    fn new(material: &Material, relief: &Relief) -> Self {
+        Self {
+            strength: material.mottle,
+            points_per_fleck: (material.mottle_scale_m / relief.spacing_m).max(1.0),
+            seed: derive_seed(0, &material.id),
+        }
+    }
+
+    /// 0, none, to `strength`.
+    fn at(&self, x: usize, y: usize) -> f64 {
+        let [u, v] = [x, y].map(|k| k as f64 / self.points_per_fleck);
+        let noise = 0.65 * self.smooth(u, v) + 0.35 * self.smooth(2.3 * u + 0.37, 2.3 * v + 0.71);
+        self.strength * light::smoothstep(0.42, 0.72, noise)
+    }
+
+    fn smooth(&self, u: f64, v: f64) -> f64 {
+        let (i, j) = (u.floor(), v.floor());
+        let [s, t] = [u - i, v - j].map(|t| light::smoothstep(0.0, 1.0, t));
+        let at = |di: i64, dj: i64| lattice_uniform(self.seed, i as i64 + di, j as i64 + dj);
+        let row = |dj: i64| at(0, dj) + s * (at(1, dj) - at(0, dj));
+        row(0) + t * (row(1) - row(0))
+    }
+}
+
+/// Mean over the square of side `2 radius + 1` around each cell, cut off at the edges.
+fn box_mean(values: &[f64], n: usize, radius: usize) -> Vec<f64> {
+    // Sums over the rectangle from the corner: each square is then four look-ups.
+    let stride = n + 1;
+    let mut sums = vec![0.0; stride * stride];
+    for y in 0..n {
+        let mut row = 0.0;
+        for x in 0..n {
+            row += values[y * n + x];
+            sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + row;
+        }
+    }
+    (0..n * n)
+        .map(|i| {
+            let range = |k: usize| (k.saturating_sub(radius), (k + radius + 1).min(n));
+            let ((left, right), (top, bottom)) = (range(i % n), range(i / n));
+            let total =
+                sums[bottom * stride + right] - sums[top * stride + right] - sums[bottom * stride + left]
+                    + sums[top * stride + left];
+            total / ((right - left) * (bottom - top)) as f64
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::height_field::{Tile, synthesize};
+    use crate::material::tests::plain;
+    use crate::rng::lcg_noise;
+
+    const TILE: Tile = Tile { n_cells: 128, spacing_m: 40e-6 };
+    const FRAMING: Framing = Framing { n_pixels: 32, millimeters: 5.0 };
+
+    fn picture(material: &Material) -> Picture {
+        shade(&synthesize(material, TILE, 1), material, &FRAMING)
+    }
+
+    #[test]
+    fn box_mean_matches_its_definition() {
+        let n = 13;
+        let values = lcg_noise(n * n, 3);
+        for radius in [1, 2, 5, 20] {
+            let means = box_mean(&values, n, radius);
+            for (i, got) in means.iter().enumerate() {
+                let near: Vec<f64> = (0..n * n)
+                    .filter(|j| (i % n).abs_diff(j % n) <= radius && (i / n).abs_diff(j / n) <= radius)
+                    .map(|j| values[j])
+                    .collect();
+                let expected = near.iter().sum::<f64>() / near.len() as f64;
+                assert!((got - expected).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_picture_has_its_size_and_is_a_function_of_its_inputs() {
+        let once = picture(&plain());
+        assert_eq!((once.width, once.height, once.rgb.len()), (32, 32, 3 * 32 * 32));
+        assert_eq!(once.millimeters, 5.0);
+        assert_eq!(once, picture(&plain()));
+    }
+
+    #[test]
+    fn slopes_toward_the_upper_left_are_lighter() {
+        let mut material = plain();
+        material.gloss = 0.0;
+        material.valley_srgb = [128, 128, 128];
+        material.peak_srgb = [128, 128, 128];
+        let lit = light::reflect(&material, [0.3; 3], light::unit([-0.3, -0.3, 1.0]), [0.5; 2], 1.0);
+        let flat = light::reflect(&material, [0.3; 3], [0.0, 0.0, 1.0], [0.5; 2], 1.0);
+        let away = light::reflect(&material, [0.3; 3], light::unit([0.3, 0.3, 1.0]), [0.5; 2], 1.0);
+        assert!(lit[0] > flat[0] && flat[0] > away[0]);
+        let hollow = light::reflect(&material, [0.3; 3], [0.0, 0.0, 1.0], [0.5; 2], 0.4);
+        assert!(hollow[0] < flat[0]);
+    }
+
+    #[test]
+    fn a_rougher_relief_shows_more_contrast_and_a_flat_one_none() {
+        let contrast = |height_rms_m: f64| {
+            let gray = [150, 150, 150];
+            let material =
+                Material { height_rms_m, gloss: 0.0, valley_srgb: gray, peak_srgb: gray, ..plain() };
+            let rgb = picture(&material).rgb;
+            let mean = rgb.iter().map(|v| f64::from(*v)).sum::<f64>() / rgb.len() as f64;
+            rgb.iter().map(|v| (f64::from(*v) - mean).abs()).sum::<f64>() / rgb.len() as f64
+        };
+        let [flat, fine, coarse] = [0.0, 1e-6, 3e-5].map(contrast);
+        assert!(flat < 2.0 && fine > 2.0 * flat && coarse > 1.5 * fine, "{flat} {fine} {coarse}");
+    }
+
+    #[test]
+    fn display_slope_grows_with_slope() {
+        let shown: Vec<f64> = [0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0].map(display_slope).to_vec();
+        assert!(shown.is_sorted_by(|a, b| a < b) && shown[0] == 0.0);
+    }
+}

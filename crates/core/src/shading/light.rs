@@ -1,0 +1,135 @@
+//! The lamp, the room and the camera of a picture; colors are linear light, 0 to 1 and beyond.
+
+use crate::material::Material;
+
+/// Red, green and blue.
+pub(super) type Rgb = [f64; 3];
+
+/// A direction: x to the right, y down the picture, z toward the camera.
+pub(super) type Direction = [f64; 3];
+
+/// Toward the lamp, at the upper left.
+const LAMP: Direction = [-0.507, -0.541, 0.671];
+
+/// Light from all around, against the lamp's 1 on a flat surface.
+const AMBIENT: f64 = 0.38;
+
+/// Reflectance of a smooth non-metal seen straight from above.
+const DIELECTRIC_REFLECTANCE: f64 = 0.045;
+
+/// How much the view direction turns from one edge of a picture to the other.
+const PERSPECTIVE: f64 = 0.55;
+
+/// Light that leaves a point toward the camera.
+///
+/// `place` is the point in the picture, 0 to 1; `open`, 0 to 1, is how much of the room it sees.
+pub(super) fn reflect(
+    material: &Material,
+    albedo: Rgb,
+    normal: Direction,
+    place: [f64; 2],
+    open: f64,
+) -> Rgb {
+    let diffuse = (dot(normal, LAMP) / LAMP[2]).max(0.0);
+    let matte = (AMBIENT * open + (1.0 - AMBIENT) * diffuse * (0.4 + 0.6 * open)) * (1.0 - material.metallic);
+
+    let view = unit([PERSPECTIVE * (0.5 - place[0]), PERSPECTIVE * (0.5 - place[1]), 1.0]);
+    let facing = dot(normal, view).clamp(0.0, 1.0);
+    let mirrored = [0, 1, 2].map(|c| 2.0 * facing * normal[c] - view[c]);
+    let fresnel = DIELECTRIC_REFLECTANCE + (1.0 - DIELECTRIC_REFLECTANCE) * (1.0 - facing).powi(5);
+    let sheen = open * room(mirrored, material.gloss);
+
+    let clear = material.gloss.sqrt() * fresnel * (1.0 - material.metallic);
+    albedo.map(|albedo| albedo * matte + clear * sheen * 3.2 + material.metallic * albedo * sheen)
+}
+
+/// Brightness of the room toward a direction, blurred the more the less glossy the mirror.
+fn room(direction: Direction, gloss: f64) -> f64 {
+    let blur = 0.03 + 0.75 * (1.0 - gloss).powi(2);
+    let [x, y, z] = direction;
+    // Dim below, lighter toward the top of the picture.
+    let walls = 0.35 + 0.55 * smoothstep(-0.25 - blur, 0.25 + blur, -y - 0.25 * x);
+    // A window at the upper left, seen in perspective, two panes by two.
+    let [s, t] = [x / z.max(0.05) + 0.24, y / z.max(0.05) + 0.24];
+    let pane = |t: f64| band(t, 0.13, blur * 0.5) * (1.0 - band(t, 0.008, blur * 0.5 + 0.004));
+    walls + window_strength(gloss) * pane(s) * pane(t)
+}
+
+/// A blurred window spreads its light, so it is dimmer where it is wider.
+fn window_strength(gloss: f64) -> f64 {
+    0.8 + 3.2 * gloss.powi(4)
+}
+
+/// 1 within `half_width` of 0, falling to 0 over `blur`.
+fn band(t: f64, half_width: f64, blur: f64) -> f64 {
+    1.0 - smoothstep(half_width - 0.5 * blur, half_width + 0.5 * blur + 1e-6, t.abs())
+}
+
+/// 0 below `low`, 1 above `high`, smooth between.
+pub(super) fn smoothstep(low: f64, high: f64, value: f64) -> f64 {
+    let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// The color a share `t` of the way from `a` to `b`.
+pub(super) fn lerp(a: Rgb, b: Rgb, t: f64) -> Rgb {
+    [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]))
+}
+
+/// The direction with length 1.
+pub(super) fn unit(direction: Direction) -> Direction {
+    let length = dot(direction, direction).sqrt();
+    direction.map(|component| component / length)
+}
+
+fn dot(a: Direction, b: Direction) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Linear light of an sRGB color (IEC 61966-2-1).
+pub(super) fn linear(srgb: [u8; 3]) -> Rgb {
+    srgb.map(|byte| {
+        let value = f64::from(byte) / 255.0;
+        if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    })
+}
+
+/// The sRGB byte of a linear light; highlights roll off instead of clipping.
+pub(super) fn srgb_byte(linear: f64) -> u8 {
+    const KNEE: f64 = 0.8;
+    let over = (linear - KNEE).max(0.0);
+    let value = linear.clamp(0.0, KNEE) + (1.0 - KNEE) * (1.0 - (-over / (1.0 - KNEE)).exp());
+    let encoded = if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
+    (255.0 * encoded).round().clamp(0.0, 255.0) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn srgb_round_trips_below_the_highlights() {
+        for byte in 0..=230_u8 {
+            // The roll-off begins at a linear 0.8, which is byte 231.
+            assert_eq!(srgb_byte(linear([byte; 3])[0]), byte);
+        }
+        assert_eq!((srgb_byte(-1.0), srgb_byte(1e9)), (0, 255));
+    }
+
+    #[test]
+    fn highlights_keep_their_order() {
+        let bytes: Vec<u8> = (0..40).map(|i| srgb_byte(0.7 + 0.02 * f64::from(i))).collect();
+        assert!(bytes.is_sorted() && bytes[0] < bytes[20]);
+    }
+
+    #[test]
+    fn a_glossier_mirror_shows_a_brighter_window() {
+        let brightest = |gloss: f64| {
+            (0..100)
+                .flat_map(|i| (0..100).map(move |j| [i, j].map(|k| 0.012 * (f64::from(k) - 50.0))))
+                .map(|[x, y]| room(unit([x, y, 1.0]), gloss))
+                .fold(0.0, f64::max)
+        };
+        assert!(brightest(1.0) > brightest(0.5) && brightest(0.5) > brightest(0.0));
+    }
+}

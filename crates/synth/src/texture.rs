@@ -1,0 +1,272 @@
+//! A texture as the callback sees it: nodes over (speed, force) and a triangulation to interpolate between them.
+
+use crate::contact::Contact;
+
+/// Highest order of a predictor.
+pub const MAX_ORDER: usize = 32;
+
+/// "No neighbor" in [`Triangle::neighbors`].
+pub const NO_NEIGHBOR: u16 = u16::MAX;
+
+/// What was measured at one speed and force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Output level, the root mean square in m/s²; zero at zero speed or force.
+    pub level_mps2: f32,
+    /// Line spectral frequencies in radians (0, π), ascending; the first `order` count.
+    pub lsf: [f32; MAX_ORDER],
+}
+
+/// Three nodes and the affine map from a contact to its weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// Indices of the three nodes.
+    pub nodes: [u16; 3],
+    /// Neighbor across the edge opposite each node, or [`NO_NEIGHBOR`].
+    pub neighbors: [u16; 3],
+    /// First weight `= m[0] x + m[1] y + m[2]`, second likewise from `m[3..]`, with `x = speed / speed_max` and
+    /// `y = force / force_max`; the third is what is left of one.
+    pub weights: [f32; 6],
+    /// ln of the power gain `1 / Π (1 - k²)` of the predictor at the three nodes, then at the middles of the edges
+    /// opposite each node. The gain between is the quadratic through these six: interpolated frequencies do not have
+    /// interpolated gains, and an exact gain would cost a step-down recursion at every tick.
+    pub ln_gain: [f32; 6],
+}
+
+/// Why slices do not make a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TextureError {
+    /// The order is zero or above [`MAX_ORDER`].
+    Order,
+    /// The rate, or the largest speed or force, is not a positive finite number.
+    Range,
+    /// There is no triangle, or one names a node or neighbor that does not exist.
+    Triangle,
+    /// A level, frequency, weight or gain is not finite, or frequencies do not ascend within (0, π).
+    Number,
+}
+
+/// A prepared texture, lent to the renderer. Checked once by [`Texture::new`], so that everything after is total.
+#[derive(Clone, Copy, Debug)]
+pub struct Texture<'a> {
+    rate_hz: f32,
+    order: usize,
+    speed_max_mps: f32,
+    force_max_n: f32,
+    nodes: &'a [Node],
+    triangles: &'a [Triangle],
+}
+
+/// The model at one contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Evaluated {
+    /// Line spectral frequencies in radians; the first `order` count.
+    pub lsf: [f32; MAX_ORDER],
+    /// Output level, the root mean square in m/s².
+    pub level_mps2: f32,
+    /// Standard deviation of the excitation that gives this level, in m/s².
+    pub sigma_mps2: f32,
+}
+
+impl<'a> Texture<'a> {
+    /// A texture over checked slices.
+    ///
+    /// # Errors
+    /// [`TextureError`] names the first rule that a slice breaks.
+    pub fn new(
+        rate_hz: f32,
+        order: usize,
+        speed_max_mps: f32,
+        force_max_n: f32,
+        nodes: &'a [Node],
+        triangles: &'a [Triangle],
+    ) -> Result<Self, TextureError> {
+        let positive = |x: f32| x.is_finite() && x > 0.0;
+        if order == 0 || order > MAX_ORDER {
+            return Err(TextureError::Order);
+        }
+        if !(positive(rate_hz) && positive(speed_max_mps) && positive(force_max_n)) {
+            return Err(TextureError::Range);
+        }
+        let node_is_good = |node: &Node| {
+            node.level_mps2.is_finite()
+                && node.level_mps2 >= 0.0
+                && node.lsf[0] > 0.0
+                && node.lsf[order - 1] < core::f32::consts::PI
+                && node.lsf[..order].windows(2).all(|w| w[0] < w[1])
+        };
+        if !nodes.iter().all(node_is_good) {
+            return Err(TextureError::Number);
+        }
+        let n_triangles = triangles.len();
+        if n_triangles == 0 || n_triangles >= usize::from(NO_NEIGHBOR) {
+            return Err(TextureError::Triangle);
+        }
+        for triangle in triangles {
+            let neighbor_is_good = |&t: &u16| t == NO_NEIGHBOR || usize::from(t) < n_triangles;
+            if !triangle.nodes.iter().all(|&n| usize::from(n) < nodes.len())
+                || !triangle.neighbors.iter().all(neighbor_is_good)
+            {
+                return Err(TextureError::Triangle);
+            }
+            if !triangle.weights.iter().chain(&triangle.ln_gain).all(|x| x.is_finite()) {
+                return Err(TextureError::Number);
+            }
+        }
+        Ok(Self { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles })
+    }
+
+    /// Samples a second of the model, in Hz.
+    pub fn rate_hz(&self) -> f32 {
+        self.rate_hz
+    }
+
+    /// Order of the predictor, the same at every node.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The model at `contact`, clamped to the measured range.
+    ///
+    /// `hint` is the triangle of the last call and becomes that of this one: a hand moves little in a tick, so the
+    /// walk is a step or two. It never takes more steps than there are triangles.
+    pub fn evaluate(&self, contact: Contact, hint: &mut u16) -> Evaluated {
+        let contact = contact.sanitized();
+        let x = (contact.speed_mps / self.speed_max_mps).min(1.0);
+        let y = (contact.force_n / self.force_max_n).min(1.0);
+        let (triangle, weights) = self.locate(x, y, hint);
+        let [a, b, c] = triangle.nodes.map(|n| &self.nodes[usize::from(n)]);
+        let [u, v, w] = weights;
+        let mut lsf = [0.0; MAX_ORDER];
+        for (i, out) in lsf[..self.order].iter_mut().enumerate() {
+            *out = u * a.lsf[i] + v * b.lsf[i] + w * c.lsf[i];
+        }
+        let level_mps2 = (u * a.level_mps2 + v * b.level_mps2 + w * c.level_mps2).max(0.0);
+        let g = &triangle.ln_gain;
+        let ln_gain = u * (2.0 * u - 1.0) * g[0]
+            + v * (2.0 * v - 1.0) * g[1]
+            + w * (2.0 * w - 1.0) * g[2]
+            + 4.0 * (v * w * g[3] + w * u * g[4] + u * v * g[5]);
+        Evaluated { lsf, level_mps2, sigma_mps2: level_mps2 * libm::expf(-0.5 * ln_gain) }
+    }
+
+    /// The triangle that holds a normalized contact, and its three weights, each at least zero, that sum to one.
+    fn locate(&self, x: f32, y: f32, hint: &mut u16) -> (&Triangle, [f32; 3]) {
+        let mut current = usize::from(*hint);
+        if current >= self.triangles.len() {
+            current = 0;
+        }
+        let mut weights = [0.0; 3];
+        for _ in 0..=self.triangles.len() {
+            let m = &self.triangles[current].weights;
+            let u = m[0] * x + m[1] * y + m[2];
+            let v = m[3] * x + m[4] * y + m[5];
+            weights = [u, v, 1.0 - u - v];
+            let mut lowest = 0;
+            for i in 1..3 {
+                if weights[i] < weights[lowest] {
+                    lowest = i;
+                }
+            }
+            let next = self.triangles[current].neighbors[lowest];
+            if weights[lowest] >= -1e-6 || next == NO_NEIGHBOR {
+                break;
+            }
+            current = usize::from(next);
+        }
+        *hint = current as u16;
+        // A contact a rounding error outside: all three weights are clamped and sum to one again.
+        let clamped = weights.map(|w| w.max(0.0));
+        let sum = clamped[0] + clamped[1] + clamped[2];
+        (&self.triangles[current], if sum > 0.0 { clamped.map(|w| w / sum) } else { [1.0, 0.0, 0.0] })
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    extern crate std;
+    use super::{MAX_ORDER, NO_NEIGHBOR, Node, Texture, TextureError, Triangle};
+    use crate::contact::Contact;
+
+    /// Order 2 on the unit square of 1 m/s and 1 N: silent but at the corner of full speed and force.
+    pub(crate) fn square() -> ([Node; 4], [Triangle; 2]) {
+        let node = |level_mps2: f32, low: f32| {
+            let mut lsf = [0.0; MAX_ORDER];
+            (lsf[0], lsf[1]) = (low, low + 0.2);
+            Node { level_mps2, lsf }
+        };
+        let nodes = [node(0.0, 0.5), node(0.0, 0.7), node(1.0, 0.9), node(0.0, 0.6)];
+        let ln_gain = [1.0; 6];
+        let triangles = [
+            // (0,0) (1,0) (1,1): weights 1 - x, x - y, y.
+            Triangle {
+                nodes: [0, 1, 2],
+                neighbors: [NO_NEIGHBOR, 1, NO_NEIGHBOR],
+                weights: [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0],
+                ln_gain,
+            },
+            // (0,0) (1,1) (0,1): weights 1 - y, x, y - x.
+            Triangle {
+                nodes: [0, 2, 3],
+                neighbors: [NO_NEIGHBOR, NO_NEIGHBOR, 0],
+                weights: [0.0, -1.0, 1.0, 1.0, 0.0, 0.0],
+                ln_gain,
+            },
+        ];
+        (nodes, triangles)
+    }
+
+    #[test]
+    fn evaluates_and_walks_between_triangles() {
+        let (nodes, triangles) = square();
+        let texture = Texture::new(1000.0, 2, 1.0, 1.0, &nodes, &triangles).unwrap();
+        let mut hint = 0;
+        for (speed_mps, force_n, level, low, triangle) in [
+            (1.0, 1.0, 1.0, 0.9, 0),
+            (0.5, 0.25, 0.25, 0.5 * 0.5 + 0.25 * 0.7 + 0.25 * 0.9, 0),
+            (0.25, 0.5, 0.25, 0.5 * 0.5 + 0.25 * 0.9 + 0.25 * 0.6, 1),
+            (9.0, 9.0, 1.0, 0.9, 1),
+            (0.5, 0.0, 0.0, 0.6, 0),
+        ] {
+            let at = texture.evaluate(Contact { speed_mps, force_n }, &mut hint);
+            assert!(
+                (at.level_mps2 - level).abs() < 1e-6,
+                "level at {speed_mps} {force_n}: {}",
+                at.level_mps2
+            );
+            assert!((at.lsf[0] - low).abs() < 1e-6);
+            assert!((at.sigma_mps2 - level * (-0.5_f32).exp()).abs() < 1e-6);
+            assert_eq!(hint, triangle);
+        }
+    }
+
+    #[test]
+    fn nonsense_contacts_and_hints_are_silent_not_fatal() {
+        let (nodes, triangles) = square();
+        let texture = Texture::new(1000.0, 2, 1.0, 1.0, &nodes, &triangles).unwrap();
+        for x in [f32::NAN, f32::INFINITY, -3.0] {
+            let mut hint = u16::MAX;
+            assert_eq!(texture.evaluate(Contact { speed_mps: x, force_n: x }, &mut hint).level_mps2, 0.0);
+        }
+    }
+
+    #[test]
+    fn broken_slices_are_refused() {
+        let (nodes, triangles) = square();
+        let error = |rate, order, nodes: &[Node], triangles: &[Triangle]| {
+            Texture::new(rate, order, 1.0, 1.0, nodes, triangles).err()
+        };
+        assert_eq!(error(1000.0, 0, &nodes, &triangles), Some(TextureError::Order));
+        assert_eq!(error(1000.0, 33, &nodes, &triangles), Some(TextureError::Order));
+        assert_eq!(error(f32::NAN, 2, &nodes, &triangles), Some(TextureError::Range));
+        assert_eq!(error(1000.0, 2, &nodes, &[]), Some(TextureError::Triangle));
+        assert_eq!(error(1000.0, 2, &nodes[..2], &triangles), Some(TextureError::Triangle));
+        let mut bad = nodes;
+        bad[1].lsf[1] = 0.1;
+        assert_eq!(error(1000.0, 2, &bad, &triangles), Some(TextureError::Number));
+        bad = nodes;
+        bad[1].level_mps2 = f32::NAN;
+        assert_eq!(error(1000.0, 2, &bad, &triangles), Some(TextureError::Number));
+    }
+}
