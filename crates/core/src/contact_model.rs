@@ -7,7 +7,8 @@
 //! - lateral: `m (ü + 2 ζ_l ω_l u̇ + ω_l² u) = µ F s ξ + µ (F_c − F) + F_c dh/dx`
 //!
 //! where ξ is a unit process of friction along the path and `c = 2 ζ √(k m)`. Both axes become one by
-//! [`crate::dft321`], and the result is high-passed and brought to [`STROKE_RATE_HZ`].
+//! [`crate::dft321`], and the result is high-passed and brought to [`STROKE_RATE`].
+//! Lengths, in m, have no type of their own here; their names say so.
 //!
 //! All that depends on the surface is worked out once in [`prepare`], and on the force once in [`press`].
 
@@ -22,21 +23,19 @@ use crate::filter::{butterworth_high_pass, decimate, filter_zero_phase};
 use crate::height_field::{HeightField, PROFILE_STEP_M, profile};
 use crate::material::Material;
 use crate::rng::{Random, derive_seed};
+use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 /// Sampling rate of a simulated stroke.
-pub const STROKE_RATE_HZ: f64 = 1000.0;
+pub const STROKE_RATE: Hertz = Hertz(1000.0);
 
 /// Cut-off of the high-pass that removes the hand's own motion.
-pub const STROKE_HIGH_PASS_HZ: f64 = 10.0;
+pub const STROKE_HIGH_PASS: Hertz = Hertz(10.0);
 
 /// Length of surface that serves a second at 250 mm/s, with room to start anywhere.
 pub const STARTER_PATH_M: f64 = 0.45;
 
-/// Speed at which materials are compared.
-pub const REFERENCE_SPEED_MPS: f64 = 0.1;
-
-/// Force at which materials are compared, and at which the whole relief is transmitted.
-pub const REFERENCE_FORCE_N: f64 = 1.0;
+/// Speed and force at which materials are compared; at this force the whole relief is transmitted.
+pub const REFERENCE_CONTACT: Contact = Contact { speed: MetersPerSecond(0.1), force: Newtons(1.0) };
 
 /// Simulation steps for each sample of a stroke.
 const OVERSAMPLING: usize = 16;
@@ -79,17 +78,6 @@ pub const PEN: Tool = Tool {
     lateral_resonance_hz: 110.0,
     lateral_damping_ratio: 0.5,
 };
-
-/// How and for how long the pen is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stroke {
-    /// Speed along the surface, above 0.
-    pub speed_mps: f64,
-    /// Mean normal force, above 0.
-    pub force_n: f64,
-    /// Length of the signal.
-    pub duration_secs: f64,
-}
 
 /// A material laid out under the pen: all that does not depend on force and speed.
 #[derive(Clone, Debug)]
@@ -151,11 +139,12 @@ pub fn prepare(material: &Material, field: &HeightField, tool: &Tool, path_m: f6
 ///
 /// # Errors
 /// [`StrokeError::NotPositive`].
-pub fn press(surface: &Surface, force_n: f64) -> Result<PressedSurface, StrokeError> {
+pub fn press(surface: &Surface, force: Newtons) -> Result<PressedSurface, StrokeError> {
+    let force_n = force.0;
     require_positive("force in N", force_n)?;
     let Surface { material, tool, tip_heights_m, friction } = surface;
-    let patch_m = patch_radius_m(material, tool, force_n);
-    let transmitted = (force_n / REFERENCE_FORCE_N).powf(material.load_exponent);
+    let patch_m = material.patch_share * patch_radius_m(material, tool, force);
+    let transmitted = (force_n / REFERENCE_CONTACT.force.0).powf(material.load_exponent);
     let heights_m = patch_low_pass(tip_heights_m, PROFILE_STEP_M, patch_m)
         .into_iter()
         .map(|height| transmitted * height)
@@ -165,7 +154,7 @@ pub fn press(surface: &Surface, force_n: f64) -> Result<PressedSurface, StrokeEr
         .into_iter()
         .map(|friction| mu * force_n * material.friction_heterogeneity * friction)
         .collect();
-    let stiffness = contact_stiffness_n_per_m(material, tool, force_n);
+    let stiffness = contact_stiffness_n_per_m(material, tool, force);
     let springs = Springs {
         contact_n_per_m: stiffness,
         damping_n_s_per_m: 2.0 * material.contact_damping_ratio * (stiffness * tool.mass_kg).sqrt(),
@@ -175,22 +164,24 @@ pub fn press(surface: &Surface, force_n: f64) -> Result<PressedSurface, StrokeEr
     Ok(PressedSurface { path: Path { heights_m, drag_n, step_m: PROFILE_STEP_M }, springs, force_n })
 }
 
-/// Acceleration in m/s² at [`STROKE_RATE_HZ`] of a stroke over a pressed surface; `seed` decides where it starts.
+/// Acceleration in m/s² at [`STROKE_RATE`] of a stroke over a pressed surface; `seed` decides where it starts.
 ///
 /// # Errors
 /// [`StrokeError::NotPositive`] and [`StrokeError::PathTooShort`].
 pub fn drag(
     pressed: &PressedSurface,
-    speed_mps: f64,
+    speed: MetersPerSecond,
     duration_secs: f64,
     seed: u64,
 ) -> Result<Vec<f64>, StrokeError> {
+    let speed_mps = speed.0;
+
     require_positive("speed in m/s", speed_mps)?;
     require_positive("duration in s", duration_secs)?;
-    let n_samples = (duration_secs * STROKE_RATE_HZ).round() as usize;
-    let n_margin = (MARGIN_SECS * STROKE_RATE_HZ).round() as usize;
+    let n_samples = (duration_secs * STROKE_RATE.0).round() as usize;
+    let n_margin = (MARGIN_SECS * STROKE_RATE.0).round() as usize;
     let n_steps = (n_samples + 2 * n_margin) * OVERSAMPLING;
-    let rate_hz = STROKE_RATE_HZ * OVERSAMPLING as f64;
+    let rate_hz = STROKE_RATE.0 * OVERSAMPLING as f64;
 
     let needed_m = n_steps as f64 / rate_hz * speed_mps;
     let available_m = pressed.path.length_m() - 2.0 * PATH_END_M;
@@ -208,33 +199,38 @@ pub fn drag(
     let combined = dft321(&[&normal, &lateral]);
     assert!(combined.is_ok(), "both axes have {n_steps} samples");
     let mut signal = decimate(&combined.unwrap_or_default(), OVERSAMPLING);
-    filter_zero_phase(&butterworth_high_pass(2, STROKE_HIGH_PASS_HZ, STROKE_RATE_HZ), &mut signal);
+    filter_zero_phase(&butterworth_high_pass(2, STROKE_HIGH_PASS, STROKE_RATE), &mut signal);
     Ok(signal[n_margin..n_margin + n_samples].to_vec())
 }
 
-/// Acceleration in m/s² at [`STROKE_RATE_HZ`] of one stroke: [`press`] and [`drag`].
+/// Acceleration in m/s² at [`STROKE_RATE`] of one stroke of this speed and mean force: [`press`] and [`drag`].
 ///
 /// # Errors
 /// As [`press`] and [`drag`].
-pub fn simulate(surface: &Surface, stroke: &Stroke, seed: u64) -> Result<Vec<f64>, StrokeError> {
-    drag(&press(surface, stroke.force_n)?, stroke.speed_mps, stroke.duration_secs, seed)
+pub fn simulate(
+    surface: &Surface,
+    contact: Contact,
+    duration_secs: f64,
+    seed: u64,
+) -> Result<Vec<f64>, StrokeError> {
+    drag(&press(surface, contact.force)?, contact.speed, duration_secs, seed)
 }
 
 /// Physical label of roughness: log₁₀ of the root mean square, in m/s², of one second at
-/// [`REFERENCE_SPEED_MPS`] and [`REFERENCE_FORCE_N`].
+/// [`REFERENCE_CONTACT`].
 ///
 /// # Errors
 /// As [`simulate`].
 pub fn roughness(surface: &Surface, seed: u64) -> Result<f64, StrokeError> {
-    let reference = Stroke { speed_mps: REFERENCE_SPEED_MPS, force_n: REFERENCE_FORCE_N, duration_secs: 1.0 };
-    let signal = simulate(surface, &reference, seed)?;
+    let signal = simulate(surface, REFERENCE_CONTACT, 1.0, seed)?;
+
     let power = signal.iter().map(|value| value * value).sum::<f64>() / signal.len() as f64;
     Ok(0.5 * power.log10())
 }
 
-/// Physical label of hardness: log₁₀ of [`hertz_stiffness_n_per_m`] at [`REFERENCE_FORCE_N`].
+/// Physical label of hardness: log₁₀ of [`hertz_stiffness_n_per_m`] at the force of [`REFERENCE_CONTACT`].
 pub fn hardness(material: &Material, tool: &Tool) -> f64 {
-    hertz_stiffness_n_per_m(material, tool, REFERENCE_FORCE_N).log10()
+    hertz_stiffness_n_per_m(material, tool, REFERENCE_CONTACT.force).log10()
 }
 
 /// Modulus E* of ball and surface in series: `1/E* = 1/E + 1/E_tip`.
@@ -243,20 +239,20 @@ pub fn effective_modulus_pa(material: &Material, tool: &Tool) -> f64 {
 }
 
 /// Radius of the contact patch by Hertz: `a = (¾ F R / E*)^⅓`.
-pub fn patch_radius_m(material: &Material, tool: &Tool, force_n: f64) -> f64 {
-    (0.75 * force_n * tool.tip_radius_m / effective_modulus_pa(material, tool)).cbrt()
+pub fn patch_radius_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
+    (0.75 * force.0 * tool.tip_radius_m / effective_modulus_pa(material, tool)).cbrt()
 }
 
 /// Stiffness of the Hertz contact about its mean force: `k = 3/2 (4/3 E* √R)^⅔ F^⅓`.
-pub fn hertz_stiffness_n_per_m(material: &Material, tool: &Tool, force_n: f64) -> f64 {
+pub fn hertz_stiffness_n_per_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
     let load_factor = 4.0 / 3.0 * effective_modulus_pa(material, tool) * tool.tip_radius_m.sqrt();
-    1.5 * load_factor.cbrt().powi(2) * force_n.cbrt()
+    1.5 * load_factor.cbrt().powi(2) * force.0.cbrt()
 }
 
 /// Stiffness between relief and sensor: Hertz contact, asperities `F / (½ h_rms)` and the pen's body in series.
-pub fn contact_stiffness_n_per_m(material: &Material, tool: &Tool, force_n: f64) -> f64 {
-    let asperity_compliance = 0.5 * material.height_rms_m / force_n;
-    let hertz_compliance = 1.0 / hertz_stiffness_n_per_m(material, tool, force_n);
+pub fn contact_stiffness_n_per_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
+    let asperity_compliance = 0.5 * material.height_rms_m / force.0;
+    let hertz_compliance = 1.0 / hertz_stiffness_n_per_m(material, tool, force);
     1.0 / (hertz_compliance + asperity_compliance + 1.0 / tool.body_stiffness_n_per_m)
 }
 
@@ -265,5 +261,4 @@ fn require_positive(quantity: &'static str, value: f64) -> Result<(), StrokeErro
 }
 
 #[cfg(test)]
-#[allow(clippy::expect_used, reason = "a test that cannot set itself up fails")]
 mod tests;

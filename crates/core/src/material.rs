@@ -32,6 +32,10 @@ pub struct Material {
     pub friction_coefficient: f64,
     /// Root mean square of the friction coefficient's variation along the path, relative to its mean, 0 or more.
     pub friction_heterogeneity: f64,
+    /// Share, above 0 to 1, of the Hertz patch's radius over which relief and friction are averaged.
+    ///
+    /// It is 1 for a continuous solid, and less where fibers, struts or slip waves touch and let go one by one.
+    pub patch_share: f64,
     /// Damping ratio of the contact resonance, 0 or more.
     pub contact_damping_ratio: f64,
     /// Exponent γ, 0 to 1, with which the transmitted relief grows with load, as (force / 1 N)^γ.
@@ -158,6 +162,7 @@ pub fn validate(material: &Material) -> Result<(), MaterialError> {
         ("stretch", material.stretch, 1.0, 1e3),
         ("friction_coefficient", material.friction_coefficient, 0.0, 10.0),
         ("friction_heterogeneity", material.friction_heterogeneity, 0.0, 10.0),
+        ("patch_share", material.patch_share, 1e-3, 1.0),
         ("contact_damping_ratio", material.contact_damping_ratio, 0.0, 2.0),
         ("load_exponent", material.load_exponent, 0.0, 1.0),
         ("gloss", material.gloss, 0.0, 1.0),
@@ -175,7 +180,7 @@ pub fn validate(material: &Material) -> Result<(), MaterialError> {
         check(("bumps.height_m", bumps.height_m, -1e-2, 1e-2))?;
         check(("bumps.radius_m", bumps.radius_m, TINY, 1e-2))?;
         check(("bumps.elongation", bumps.elongation, 1.0, 1e3))?;
-        check(("bumps.spread_rad", bumps.spread_rad, 0.0, FRAC_PI_2 + TINY))?;
+        check(("bumps.spread_rad", bumps.spread_rad, 0.0, FRAC_PI_2))?;
         check(("bumps.density_per_m2", bumps.density_per_m2, 0.0, 1e10))?;
     }
     Ok(())
@@ -200,6 +205,7 @@ pub(crate) mod tests {
             bumps: Vec::new(),
             friction_coefficient: 0.3,
             friction_heterogeneity: 0.1,
+            patch_share: 1.0,
             contact_damping_ratio: 0.2,
             load_exponent: 0.1,
             valley_srgb: [60, 60, 60],

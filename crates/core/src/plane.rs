@@ -1,5 +1,7 @@
 //! A texture's speed-force plane: measured nodes, the boundary around them, and what lies between.
 
+use std::collections::BTreeMap;
+
 use shagreen_synth::texture as synth;
 
 use crate::ar::{power_gain, psd};
@@ -135,10 +137,19 @@ impl Plane {
             out
         };
         let ln_gain = |lsf: &[f64]| power_gain(&ar_from_lsf(lsf)).ln().min(60.0);
-        let middle = |a: usize, b: usize| {
-            let pairs = self.vertices[a].0.iter().zip(&self.vertices[b].0);
-            ln_gain(&pairs.map(|(x, y)| 0.5 * (x + y)).collect::<Vec<_>>())
-        };
+        let at_vertex: Vec<f64> = self.vertices.iter().map(|(lsf, _)| ln_gain(lsf)).collect();
+        // Two triangles share an edge: its middle is worked out once.
+        let mut at_middle = BTreeMap::new();
+        for corners in self.triangulation.triangles() {
+            for i in 0..3 {
+                let (a, b) = edge(corners[i], corners[(i + 1) % 3]);
+                at_middle.entry((a, b)).or_insert_with(|| {
+                    let pairs = self.vertices[a].0.iter().zip(&self.vertices[b].0);
+                    ln_gain(&pairs.map(|(x, y)| 0.5 * (x + y)).collect::<Vec<_>>())
+                });
+            }
+        }
+        let middle = |a: usize, b: usize| at_middle[&edge(a, b)];
         let triangle = |(index, corners): (usize, &[usize; 3])| {
             let t = &self.triangulation;
             let [a, b, c] = *corners;
@@ -147,12 +158,11 @@ impl Plane {
             let (x, y) = (t.weights_in(index, [1.0, 0.0]), t.weights_in(index, [0.0, 1.0]));
             let map = |i: usize| [x[i] - origin[i], y[i] - origin[i], origin[i]];
             let ([u0, u1, u2], [v0, v1, v2]) = (map(0), map(1));
-            let corner = |i: usize| ln_gain(&self.vertices[i].0);
             synth::Triangle {
                 nodes: [a as u16, b as u16, c as u16],
                 neighbors: t.neighbors()[index].map(|n| n.map_or(synth::NO_NEIGHBOR, |n| n as u16)),
                 weights: [u0, u1, u2, v0, v1, v2].map(|w| w as f32),
-                ln_gain: [corner(a), corner(b), corner(c), middle(b, c), middle(c, a), middle(a, b)]
+                ln_gain: [at_vertex[a], at_vertex[b], at_vertex[c], middle(b, c), middle(c, a), middle(a, b)]
                     .map(|g| g as f32),
             }
         };
@@ -165,6 +175,11 @@ impl Plane {
             triangles: self.triangulation.triangles().iter().enumerate().map(triangle).collect(),
         }
     }
+}
+
+/// An edge by its ends, whichever comes first.
+fn edge(a: usize, b: usize) -> (usize, usize) {
+    (a.min(b), a.max(b))
 }
 
 /// A texture as the renderer takes it.

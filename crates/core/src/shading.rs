@@ -67,8 +67,10 @@ pub fn shade(field: &HeightField, material: &Material, framing: &Framing) -> Pic
 
 /// Root mean square slope that a picture shows for a relief's true one: more for more, but far less than in
 /// proportion.
-pub fn display_slope(slope: f64) -> f64 {
-    0.62 * slope.max(0.0).powf(0.3)
+///
+/// The glossier (0 to 1) the less: a mirror betrays slopes that a matte surface hides.
+pub fn display_slope(slope: f64, gloss: f64) -> f64 {
+    0.9 * slope.max(0.0).powf(0.4) * (1.0 - 0.8 * gloss * gloss)
 }
 
 /// Heights and slopes at the points of a picture.
@@ -124,13 +126,12 @@ impl Relief {
 /// Linear color of every point.
 fn shade_points(relief: &Relief, material: &Material) -> Vec<Rgb> {
     let n = relief.n_points;
-    let exaggeration = display_slope(relief.slope_rms) / relief.slope_rms.max(f64::MIN_POSITIVE);
+    let depth = display_slope(relief.slope_rms, material.gloss);
+    let exaggeration = depth / relief.slope_rms.max(f64::MIN_POSITIVE);
     let valley = light::linear(material.valley_srgb);
     let peak = light::linear(material.peak_srgb);
     let flecks = Flecks::new(material, relief);
     let hollows = CAVITY_RADII_M.map(|radius_m| relief.depth_below_neighbors(radius_m));
-    // A relief that shows little also shades its hollows little.
-    let depth = display_slope(relief.slope_rms);
 
     (0..n * n)
         .map(|i| {
@@ -139,6 +140,7 @@ fn shade_points(relief: &Relief, material: &Material) -> Vec<Rgb> {
             let mut albedo = lerp(valley, peak, 0.5 + 0.5 * (0.8 * standing).tanh());
             albedo = lerp(albedo, valley, flecks.at(x, y));
             let hollow: f64 = hollows.iter().map(|depths| depths[i].max(0.0)).sum();
+            // A relief that shows little also shades its hollows little.
             let open = 1.0 / (1.0 + 0.9 * depth * hollow);
             let normal =
                 light::unit([-exaggeration * relief.slopes[i][0], -exaggeration * relief.slopes[i][1], 1.0]);
@@ -273,7 +275,8 @@ mod tests {
 
     #[test]
     fn display_slope_grows_with_slope() {
-        let shown: Vec<f64> = [0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0].map(display_slope).to_vec();
+        let shown: Vec<f64> =
+            [0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0].map(|slope| display_slope(slope, 0.5)).to_vec();
         assert!(shown.is_sorted_by(|a, b| a < b) && shown[0] == 0.0);
     }
 }

@@ -1,1 +1,32 @@
-//! formats
+//! Bytes to types and back: texture libraries, pen strokes, rendered signals, material parameters.
+//!
+//! # Conventions
+//!
+//! - A reader takes bytes and gives a value of this crate or of `shagreen-core`, checked by core's own constructors, or
+//!   one error that says what is wrong and what to do. It names the place in the file; whoever opened the file adds its path.
+//! - What is not quite as it should be and yet usable is a warning in [`imported::Imported`], not an error.
+//! - Types that end in `V1` own a wire format. Files are in the units of hands (mm/s, N, mm); values are SI.
+//! - Files are written by [`atomic`] alone: whole, or not at all.
+//!
+//! ```
+//! let library = shagreen_formats::starter::starter_library()?;
+//! let bytes = shagreen_formats::library::write_library(&library);
+//! assert_eq!(shagreen_formats::library::read_library(&bytes)?.value, library);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![forbid(unsafe_code)]
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+)]
+
+pub mod atomic;
+pub mod imported;
+pub mod library;
+pub mod materials_toml;
+pub mod picture;
+pub mod starter;
+pub mod stroke;
+pub mod stroke_csv;
+pub mod svc;
+pub mod wav;

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 
 const TILE: Tile = Tile { n_cells: 128, spacing_m: 40e-6 };
 
-fn stroke(speed_mps: f64, force_n: f64) -> Stroke {
-    Stroke { speed_mps, force_n, duration_secs: 0.5 }
+fn at(speed_mps: f64, force_n: f64) -> Contact {
+    Contact { speed: MetersPerSecond(speed_mps), force: Newtons(force_n) }
 }
 
 fn surface(material: &Material) -> Surface {
@@ -23,13 +23,13 @@ fn hertz_relations_hold_together() {
     let material = plain();
     for force_n in [0.1, 1.0, 3.0] {
         let modulus = effective_modulus_pa(&material, &PEN);
-        let patch = patch_radius_m(&material, &PEN, force_n);
+        let patch = patch_radius_m(&material, &PEN, Newtons(force_n));
         // Two closed forms of the same contact: k = 2 E* a, and the load of a patch F = 4/3 E* a³ / R.
-        let stiffness = hertz_stiffness_n_per_m(&material, &PEN, force_n);
+        let stiffness = hertz_stiffness_n_per_m(&material, &PEN, Newtons(force_n));
         assert!((stiffness / (2.0 * modulus * patch) - 1.0).abs() < 1e-12);
         let load = 4.0 / 3.0 * modulus * patch.powi(3) / PEN.tip_radius_m;
         assert!((load / force_n - 1.0).abs() < 1e-12);
-        assert!(contact_stiffness_n_per_m(&material, &PEN, force_n) < stiffness);
+        assert!(contact_stiffness_n_per_m(&material, &PEN, Newtons(force_n)) < stiffness);
     }
 }
 
@@ -48,7 +48,7 @@ fn hardness_matches_the_reference_script() {
 fn a_flat_surface_is_silent_and_a_rougher_one_louder() {
     let check = |height_rms_m: f64| {
         let material = Material { height_rms_m, friction_heterogeneity: 0.0, ..plain() };
-        rms(&simulate(&surface(&material), &stroke(0.1, 1.0), 3).expect("valid stroke"))
+        rms(&simulate(&surface(&material), at(0.1, 1.0), 0.5, 3).expect("valid stroke"))
     };
     assert_eq!(check(0.0), 0.0);
     let [one, two] = [1e-8, 2e-8].map(check);
@@ -64,9 +64,9 @@ fn power_of_a_stroke_is_the_linear_prediction() {
     let speed_mps = 0.2;
     let material = Material { height_rms_m: 2e-8, friction_heterogeneity: 0.0, hurst: 0.6, ..plain() };
     let surface = surface(&material);
-    let signal = simulate(&surface, &stroke(speed_mps, 1.0), 3).expect("valid stroke");
+    let signal = simulate(&surface, at(speed_mps, 1.0), 0.5, 3).expect("valid stroke");
 
-    let pressed = press(&surface, 1.0).expect("valid force");
+    let pressed = press(&surface, Newtons(1.0)).expect("valid force");
     let mut heights = pressed.path.heights_m.clone();
     let Springs { contact_n_per_m: stiffness, damping_n_s_per_m: damping, .. } = pressed.springs;
     let n = heights.len();
@@ -102,18 +102,19 @@ fn power_of_a_stroke_is_the_linear_prediction() {
 #[test]
 fn same_seed_same_stroke() {
     let surface = surface(&plain());
-    let once = simulate(&surface, &stroke(0.05, 0.5), 3);
-    assert_eq!(once, simulate(&surface, &stroke(0.05, 0.5), 3));
-    assert_ne!(once, simulate(&surface, &stroke(0.05, 0.5), 4));
+    let once = simulate(&surface, at(0.05, 0.5), 0.5, 3);
+    assert_eq!(once, simulate(&surface, at(0.05, 0.5), 0.5, 3));
+    assert_ne!(once, simulate(&surface, at(0.05, 0.5), 0.5, 4));
     assert_eq!(once.map(|signal| signal.len()), Ok(500));
 }
 
 #[test]
 fn what_cannot_be_stroked_is_refused() {
     let surface = surface(&plain());
-    let fails = |stroke: Stroke| simulate(&surface, &stroke, 1).expect_err("not a stroke");
-    assert_eq!(fails(stroke(0.1, 0.0)), StrokeError::NotPositive { quantity: "force in N", value: 0.0 });
-    assert!(matches!(fails(stroke(f64::NAN, 1.0)), StrokeError::NotPositive { .. }));
-    let long = Stroke { duration_secs: 3.0, ..stroke(0.1, 1.0) };
-    assert!(matches!(fails(long), StrokeError::PathTooShort { .. }));
+    let fails = |contact, secs| simulate(&surface, contact, secs, 1).expect_err("not a stroke");
+    let weightless = StrokeError::NotPositive { quantity: "force in N", value: 0.0 };
+    assert_eq!(fails(at(0.1, 0.0), 1.0), weightless);
+    assert!(matches!(fails(at(f64::NAN, 1.0), 1.0), StrokeError::NotPositive { .. }));
+    assert!(matches!(fails(at(0.1, 1.0), f64::INFINITY), StrokeError::NotPositive { .. }));
+    assert!(matches!(fails(at(0.1, 1.0), 3.0), StrokeError::PathTooShort { .. }));
 }

@@ -96,7 +96,6 @@ fn check_run(outcome: &Result<(), realfft::FftError>) {
 }
 
 #[cfg(test)]
-#[allow(clippy::expect_used, reason = "a test that cannot set itself up fails")]
 mod tests {
     use super::*;
     use crate::rng::lcg_noise;

@@ -151,7 +151,6 @@ pub(super) fn line_detail(fractal: &Fractal, n_points: usize, step_m: f64, seed:
 }
 
 #[cfg(test)]
-#[allow(clippy::expect_used, reason = "a test that cannot set itself up fails")]
 mod tests {
     use super::*;
     use crate::material::tests::plain;

@@ -27,8 +27,8 @@ pub(super) fn add(pattern: &Pattern, stretch: f64, tile: Tile, seed: u64, height
         let v = (i / n) as f64 * per_cell + pattern.jitter * bend.im;
         let shape = match pattern.kind {
             PatternKind::Ridges => ridges(&lattice, u),
-            PatternKind::PlainWeave => weave(&lattice, u, v, plain_over),
-            PatternKind::Twill => weave(&lattice, u, v, twill_over),
+            PatternKind::PlainWeave => weave(&lattice, u, v, &PLAIN),
+            PatternKind::Twill => weave(&lattice, u, v, &TWILL),
             PatternKind::Domes => domes(&lattice, u, v),
             PatternKind::Loops => loops(&lattice, u, v),
             PatternKind::Pebbles => pebbles(&lattice, u, v),
@@ -42,7 +42,8 @@ pub(super) fn add(pattern: &Pattern, stretch: f64, tile: Tile, seed: u64, height
 struct Lattice {
     n_periods: i64,
     jitter: f64,
-    seed: u64,
+    /// Three numbers uniform in -1 to 1 for each cell, row after row.
+    variations: Vec<[f64; 3]>,
 }
 
 impl Lattice {
@@ -54,20 +55,28 @@ impl Lattice {
             PatternKind::Ridges | PatternKind::Pebbles | PatternKind::Cells => 1,
         };
         let repeats = (tile.side_m() / pattern.period_m / f64::from(repeat)).round().max(1.0);
-        Self { n_periods: repeats as i64 * i64::from(repeat), jitter: pattern.jitter, seed }
+        Self::with_periods(repeats as i64 * i64::from(repeat), pattern.jitter, seed)
     }
 
-    /// Uniform in -1 to 1, the same on every lap of the torus.
-    fn variation(&self, i: i64, j: i64, purpose: u64) -> f64 {
+    fn with_periods(n_periods: i64, jitter: f64, seed: u64) -> Self {
+        let cells = (0..n_periods).flat_map(|j| (0..n_periods).map(move |i| (i, j)));
+        let variations = cells
+            .map(|(i, j)| [1, 2, 3].map(|purpose| 2.0 * lattice_uniform(seed ^ purpose, i, j) - 1.0))
+            .collect();
+        Self { n_periods, jitter, variations }
+    }
+
+    /// What is particular to a cell, the same on every lap of the torus.
+    fn variations(&self, i: i64, j: i64) -> [f64; 3] {
         let n = self.n_periods;
-        2.0 * lattice_uniform(self.seed ^ purpose, i.rem_euclid(n), j.rem_euclid(n)) - 1.0
+        self.variations[(j.rem_euclid(n) * n + i.rem_euclid(n)).cast_unsigned() as usize]
     }
 
     /// A height factor with a mean of 1 that goes smoothly from one index to the next.
     fn height_factor_along(&self, u: f64) -> f64 {
         let i = u.floor();
         let t = 0.5 - 0.5 * (PI * (u - i)).cos();
-        let [a, b] = [0, 1].map(|step| self.variation(i as i64 + step, 0, 1));
+        let [a, b] = [0, 1].map(|step| self.variations(i as i64 + step, 0)[0]);
         1.0 + self.jitter * (a + t * (b - a))
     }
 }
@@ -78,29 +87,35 @@ fn ridges(lattice: &Lattice, u: f64) -> f64 {
     lattice.height_factor_along(u) * wave / 1.2
 }
 
-/// 1 where the thread along y is on top, else -1.
-fn plain_over(i: i64, j: i64) -> f64 {
-    if (i + j).rem_euclid(2) == 0 { 1.0 } else { -1.0 }
+/// Which threads of a weave are on top, and how deep the threads along x lie.
+struct Weave {
+    /// The threads along y are below in one cell of so many, each row one cell on.
+    repeat: i64,
+    /// How much lower the threads along x lie than those along y.
+    sunk: f64,
 }
 
-fn twill_over(i: i64, j: i64) -> f64 {
-    if (i + j).rem_euclid(3) == 0 { -1.0 } else { 1.0 }
-}
+const PLAIN: Weave = Weave { repeat: 2, sunk: 0.0 };
+
+/// A warp-faced twill: its filling threads are thinner and hidden.
+const TWILL: Weave = Weave { repeat: 3, sunk: 0.7 };
 
 /// Two crossing sets of round, twisted threads; the higher of the two shows.
-fn weave(lattice: &Lattice, u: f64, v: f64, over: fn(i64, i64) -> f64) -> f64 {
+fn weave(lattice: &Lattice, u: f64, v: f64, weave: &Weave) -> f64 {
+    let over = |i: i64, j: i64| if (i + j).rem_euclid(weave.repeat) == 0 { -1.0 } else { 1.0 };
     let (i, j) = (u.floor() as i64, v.floor() as i64);
     let (across, along) = (u - u.floor() - 0.5, v - v.floor() - 0.5);
     // Half-way to the neighbor a thread is half-way between the two levels.
     let level = |offset: f64, own: f64, next: f64| own + 0.5 * (1.0 - (PI * offset).cos()) * (next - own);
-    let thickness = |i: i64, purpose: u64| 1.0 + lattice.jitter * lattice.variation(i, 0, purpose);
+    let thickness = |i: i64, axis: usize| 1.0 + lattice.jitter * lattice.variations(i, 0)[axis];
     let round = |offset: f64| (1.0 - (2.0 * offset).powi(2)).max(0.0).sqrt();
     let twist = |across: f64, along: f64| 0.09 * (TAU * (2.0 * along + 1.5 * across)).cos();
 
     let upright = CRIMP * level(along, over(i, j), over(i, j + along.signum() as i64))
-        + thickness(i, 2) * (round(across) + twist(across, along));
+        + thickness(i, 0) * (round(across) + twist(across, along));
     let lying = -CRIMP * level(across, over(i, j), over(i + across.signum() as i64, j))
-        + thickness(j, 3) * (round(along) + twist(along, across));
+        + thickness(j, 1) * (round(along) + twist(along, across))
+        - weave.sunk;
     (upright.max(lying) - 0.7) / 0.8
 }
 
@@ -125,7 +140,7 @@ fn highest_near(u: f64, v: f64, shape: impl Fn(i64, i64, f64, f64) -> f64) -> f6
 
 fn domes(lattice: &Lattice, u: f64, v: f64) -> f64 {
     highest_near(u, v, |i, j, du, dv| {
-        let height = 1.0 + lattice.jitter * lattice.variation(i, j, 1);
+        let height = 1.0 + lattice.jitter * lattice.variations(i, j)[0];
         // A stud with rounded shoulders: flat on top, half-way down at a third of a period.
         let distance = du.hypot(dv) / 0.33;
         2.0 * height / (1.0 + distance.powi(8)) - 1.0
@@ -134,11 +149,11 @@ fn domes(lattice: &Lattice, u: f64, v: f64) -> f64 {
 
 fn loops(lattice: &Lattice, u: f64, v: f64) -> f64 {
     highest_near(u, v, |i, j, du, dv| {
-        let [shift_u, shift_v, rise] = [1, 2, 3].map(|k| lattice.jitter * lattice.variation(i, j, k));
+        let [shift_u, shift_v, rise] = lattice.variations(i, j).map(|variation| lattice.jitter * variation);
         let (du, dv) = (du - 0.8 * shift_u, dv - 0.8 * shift_v);
-        let arch = 1.0 - (du / 0.52).powi(2) - (dv / 0.62).powi(2);
+        let arch = 1.0 - (du / 0.54).powi(2) - (dv / 0.66).powi(2);
         // The plies of the yarn run slanted over the arch.
-        let plies = 0.12 * (TAU * (2.2 * dv + 1.1 * du)).sin();
+        let plies = 0.13 * (TAU * (3.5 * du + 1.6 * dv)).sin().abs().sqrt() - 0.05;
         2.0 * (1.0 + rise) * (arch.max(0.0).sqrt() * (0.9 + plies)) - 1.0
     })
 }
@@ -149,8 +164,9 @@ fn nearest_two(lattice: &Lattice, u: f64, v: f64) -> (f64, f64, (i64, i64)) {
     let (mut first, mut second, mut cell) = (f64::INFINITY, f64::INFINITY, (column, row));
     for j in row - 2..=row + 2 {
         for i in column - 2..=column + 2 {
-            let du = u - i as f64 - 0.5 - 0.45 * lattice.variation(i, j, 1);
-            let dv = v - j as f64 - 0.5 - 0.45 * lattice.variation(i, j, 2);
+            let [shift_u, shift_v, _] = lattice.variations(i, j);
+            let du = u - i as f64 - 0.5 - 0.45 * shift_u;
+            let dv = v - j as f64 - 0.5 - 0.45 * shift_v;
             let distance = du.hypot(dv);
             if distance < first {
                 (first, second, cell) = (distance, first, (i, j));
@@ -165,14 +181,14 @@ fn nearest_two(lattice: &Lattice, u: f64, v: f64) -> (f64, f64, (i64, i64)) {
 fn pebbles(lattice: &Lattice, u: f64, v: f64) -> f64 {
     let (first, second, (i, j)) = nearest_two(lattice, u, v);
     let plateau = 1.0 - (-(second - first) / 0.12).exp();
-    let rise = lattice.jitter * lattice.variation(i, j, 3);
+    let rise = lattice.jitter * lattice.variations(i, j)[2];
     2.0 * plateau * (1.0 + rise) - 1.0
 }
 
 fn cells(lattice: &Lattice, u: f64, v: f64) -> f64 {
     let (first, second, (i, j)) = nearest_two(lattice, u, v);
     let wall = (-((second - first) / 0.22).powi(2)).exp();
-    let floor = lattice.jitter * lattice.variation(i, j, 3);
+    let floor = lattice.jitter * lattice.variations(i, j)[2];
     2.0 * wall.max(0.3 * floor.max(0.0)) - 1.0
 }
 
@@ -231,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_ridge_is_the_sum_of_two_sines() {
-        let lattice = Lattice { n_periods: 6, jitter: 0.0, seed: 1 };
+        let lattice = Lattice::with_periods(6, 0.0, 1);
         for (u, expected) in [(0.0, 0.3 * 0.7_f64.sin()), (0.25, 1.0 - 0.3 * 0.7_f64.sin())] {
             assert!((1.2 * ridges(&lattice, u) - expected).abs() < 1e-12);
         }

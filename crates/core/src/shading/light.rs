@@ -48,10 +48,10 @@ fn room(direction: Direction, gloss: f64) -> f64 {
     let blur = 0.03 + 0.75 * (1.0 - gloss).powi(2);
     let [x, y, z] = direction;
     // Dim below, lighter toward the top of the picture.
-    let walls = 0.35 + 0.55 * smoothstep(-0.25 - blur, 0.25 + blur, -y - 0.25 * x);
+    let walls = 0.25 + 0.65 * smoothstep(-0.25 - blur, 0.25 + blur, -y - 0.25 * x);
     // A window at the upper left, seen in perspective, two panes by two.
-    let [s, t] = [x / z.max(0.05) + 0.24, y / z.max(0.05) + 0.24];
-    let pane = |t: f64| band(t, 0.13, blur * 0.5) * (1.0 - band(t, 0.008, blur * 0.5 + 0.004));
+    let [s, t] = [x / z.max(0.05) + 0.15, y / z.max(0.05) + 0.15];
+    let pane = |t: f64| band(t, 0.085, 0.5 * blur) * (1.0 - band(t, 0.006, 0.3 * blur));
     walls + window_strength(gloss) * pane(s) * pane(t)
 }
 

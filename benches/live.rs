@@ -1,0 +1,181 @@
+//! How fast textures render and re-blend: one JSON line a measurement, CPU time per call, in the form that the peers'
+//! scripts print too (`benches/run` puts all into one rotation).
+//!
+//! `SHAGREEN_BENCH_INPUTS` names a folder with `model_ar20.txt` and `traj_60s_1kHz.f32`, the inputs of the peers; without
+//! it a texture of the starter library and a made-up stroke stand in.
+#![allow(clippy::print_stdout, clippy::expect_used, reason = "a benchmark prints its figures and stops at what is wrong")]
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+use shagreen_core::ar::power_gain;
+use shagreen_core::blend::{Mode, author};
+use shagreen_core::lsf::ar_from_lsf;
+use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::texture::{GrainNode, TextureModel};
+use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
+use shagreen_formats::starter::starter_library;
+use shagreen_synth::contact::{Contact, ContactSource};
+use shagreen_synth::renderer::{Mix, Parent, Renderer, TextureId, Textures};
+use shagreen_synth::stream::Stream;
+use shagreen_synth::texture::Texture;
+use shagreen_synth::voice::MAX_TICK;
+
+/// CPU seconds of this process, user and system.
+fn cpu_secs() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
+    stat.split_whitespace().next().and_then(|ns| ns.parse::<f64>().ok()).map_or(0.0, |ns| ns * 1e-9)
+}
+
+/// Runs `work` once to warm up and then `BENCH_REPS` times (5 without it), and prints a line for each.
+fn bench(case: &str, units: f64, unit: &str, mut work: impl FnMut()) {
+    let reps = std::env::var("BENCH_REPS").ok().and_then(|r| r.parse().ok()).unwrap_or(5);
+    work();
+    for _ in 0..reps {
+        let (cpu, wall) = (cpu_secs(), Instant::now());
+        work();
+        let (wall, cpu) = (wall.elapsed().as_secs_f64(), cpu_secs() - cpu);
+        let line = serde_json::json!({
+            "workload": "W1", "case": case, "peer": "shagreen", "wall_s": wall, "cpu_s": cpu, "user_s": cpu,
+            "units": units, "unit": unit, "threads": 1, "per_s": units / cpu,
+        });
+        println!("{line}");
+    }
+}
+
+struct Table(Vec<Prepared>);
+
+impl Textures for Table {
+    fn texture(&self, id: TextureId) -> Option<Texture<'_>> {
+        self.0.get(usize::from(id)).and_then(Prepared::view)
+    }
+}
+
+/// A stroke sampled at 1 kHz.
+struct Trajectory(Vec<Contact>);
+
+impl ContactSource for Trajectory {
+    fn contact_at(&mut self, time_secs: f64) -> Contact {
+        let last = self.0.len() - 1;
+        self.0[((time_secs * 1e3) as usize).min(last)]
+    }
+}
+
+fn trajectory(inputs: Option<&Path>) -> Trajectory {
+    let made_up = |i: u32| {
+        let t = f64::from(i) * 1e-3;
+        Contact {
+            speed_mps: (0.2 * (2.0 * t).sin().abs()) as f32,
+            force_n: (1.5 + 1.2 * (0.7 * t).sin()) as f32,
+        }
+    };
+    Trajectory(match inputs {
+        None => (0..60_000).map(made_up).collect(),
+        Some(folder) => {
+            let bytes = std::fs::read(folder.join("traj_60s_1kHz.f32")).expect("the trajectory of the peers");
+            let float = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+            let contact = |b: &[u8]| Contact { speed_mps: 1e-3 * float(&b[..4]), force_n: float(&b[4..]) };
+            bytes.chunks_exact(8).map(contact).collect()
+        }
+    })
+}
+
+/// The peers' texture of order 20: its measured models; the boundary is ours.
+fn peers_texture(folder: &Path) -> Prepared {
+    let text = std::fs::read_to_string(folder.join("model_ar20.txt")).expect("the model of the peers");
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split_whitespace().map(|w| w.parse().expect("a number")).collect()
+    };
+    let mut lines = text.lines();
+    let head = numbers(lines.next().expect("a first line"));
+    let models = lines.skip(head[1] as usize).map(numbers).filter(|m| m[0] > 0.0 && m[1] > 0.0 && m[2] > 0.0);
+    let node = |m: Vec<f64>| GrainNode {
+        speed: MetersPerSecond::from_mm_per_s(m[0]),
+        force: Newtons(m[1]),
+        level_mps2: (m[2] * power_gain(&ar_from_lsf(&m[4..]))).sqrt(),
+        lsf: m[4..].to_vec(),
+    };
+    Plane::new(&TextureModel::new(Hertz(1000.0), models.map(node).collect(), None).expect("a texture")).prepare()
+}
+
+fn main() {
+    let folder = std::env::var_os("SHAGREEN_BENCH_INPUTS").map(std::path::PathBuf::from);
+    let library = starter_library().expect("the starter library");
+    let planes: Vec<Plane> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
+    let first = folder.as_deref().map_or_else(|| planes[0].prepare(), peers_texture);
+    let mut strokes = trajectory(folder.as_deref());
+    let n = strokes.0.len();
+
+    let table = Table(vec![first]);
+    let mut renderer = Renderer::new(1000.0, 7);
+    let _ = renderer.set_mix(&Mix::solo(0));
+    let mut tick = [0.0; MAX_TICK];
+    bench("one texture, 1 kHz, coefficients every 5 ms", n as f64, "sample", || {
+        for i in 0..n / renderer.tick_len() {
+            renderer.tick(&table, strokes.0[i * 5], &mut tick);
+            black_box(&tick);
+        }
+    });
+
+    let mut stream = Stream::new(1000.0, 48_000.0, 7);
+    stream.set_mix(Mix::solo(0));
+    let mut block = [0.0; 256];
+    bench("one texture, 48 kHz, blocks of 256", 48_000.0 * 20.0, "sample", || {
+        for _ in 0..48_000 * 20 / 256 {
+            stream.process(&table, &mut strokes, &mut block);
+            black_box(&block);
+        }
+    });
+
+    let prepared = Table(planes.iter().map(Plane::prepare).collect());
+    let mut three = Mix::default();
+    for (id, parent) in three.parents.iter_mut().enumerate() {
+        *parent = Parent { id: id as TextureId, weight: 1.0 / 3.0 };
+    }
+    let mut mixed = Renderer::new(1000.0, 7);
+    let _ = mixed.set_mix(&three);
+    bench("three textures mixed, 1 kHz, coefficients every 5 ms", n as f64, "sample", || {
+        for i in 0..n / mixed.tick_len() {
+            mixed.tick(&prepared, strokes.0[i * 5], &mut tick);
+            black_box(&tick);
+        }
+    });
+
+    let mut many: Vec<Renderer> = (0..10_000_u64)
+        .map(|seed| {
+            let mut renderer = Renderer::new(1000.0, seed);
+            let _ = renderer.set_mix(&Mix::solo(0));
+            renderer
+        })
+        .collect();
+    bench("10,000 voices for one second of 1 kHz", 1.0, "second of sound", || {
+        for i in 0..200 {
+            for renderer in &mut many {
+                renderer.tick(&table, strokes.0[i * 5], &mut tick);
+                black_box(&tick);
+            }
+        }
+    });
+
+    let space = Space::new(&library.positions()).expect("the starter space");
+    let n_drags = 10_000;
+    bench("re-blend after a drag: parents, weights, mix", f64::from(n_drags), "drag", || {
+        for i in 0..n_drags {
+            let t = f64::from(i) * 1e-3;
+            let point = SpacePoint { rough_smooth: 50.0 + 45.0 * (1.9 * t).sin(), hard_soft: 50.0 + 45.0 * (3.0 * t).cos() };
+            let authored = author(&space, point, Mode::Shared).expect("a texture");
+            let mut mix = Mix::default();
+            for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents) {
+                *parent = Parent { id: *texture as TextureId, weight: *weight as f32 };
+            }
+            black_box(mix);
+        }
+    });
+    bench("preparing a texture that was not yet heard", planes.len() as f64, "texture", || {
+        for plane in &planes {
+            black_box(plane.prepare());
+        }
+    });
+}

@@ -1,0 +1,260 @@
+//! The space: textures, triangles, outline, and the point that is dragged through it.
+
+use egui::{
+    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+};
+use shagreen_core::space::SpacePoint;
+
+use crate::axes::Axes;
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::project::Edit;
+use crate::strings;
+use crate::theme::{Tokens, tokens};
+
+/// Radius of a texture's picture on the canvas, in points.
+const SITE_RADIUS: f32 = 13.0;
+/// Up to this many textures, each is shown as its picture; more are dots.
+const MAX_PICTURES: usize = 60;
+/// Step of an arrow key, in points of the axes; Shift makes it [`BIG_STEP`].
+const STEP: f64 = 1.0;
+const BIG_STEP: f64 = 5.0;
+
+/// The identity of the point's widget.
+pub fn point_id() -> egui::Id {
+    egui::Id::unique("authored point")
+}
+
+/// Draws the canvas and returns what the user asked of it.
+pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+    background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
+    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 24.0), outer.max - vec2(36.0, 48.0)) };
+    grid(ui, axes, outer, t);
+    triangles(ui, axes, panel, t);
+    if let Some(pos) = background.interact_pointer_pos()
+        && (background.dragged() || background.clicked())
+    {
+        commands.push(move_to(axes.space_from_ui(pos)));
+    }
+    commands.extend(sites_ui(ui, axes, panel, t));
+    commands.extend(point_ui(ui, axes, panel, t));
+    commands
+}
+
+fn move_to(point: SpacePoint) -> Command {
+    Command::Edit(Edit::MovePoint(point))
+}
+
+fn grid(ui: &Ui, axes: Axes, outer: Rect, t: &Tokens) {
+    let painter = ui.painter();
+    painter.rect_filled(outer, f32::from(crate::theme::RADIUS), t.background);
+    let faint = Stroke::new(1.0, t.line.gamma_multiply(0.5));
+    for i in 0..=4 {
+        let share = i as f32 / 4.0;
+        let r = axes.rect;
+        painter.vline(r.left() + share * r.width(), r.y_range(), faint);
+        painter.hline(r.x_range(), r.top() + share * r.height(), faint);
+    }
+    let font = FontId::proportional(13.0);
+    let label = |pos: Pos2, align: Align2, text: &str| {
+        painter.text(pos, align, text, font.clone(), t.text_weak);
+    };
+    let r = axes.rect;
+    label(pos2(r.left(), outer.bottom() - 6.0), Align2::LEFT_BOTTOM, strings::ROUGH);
+    label(pos2(r.right(), outer.bottom() - 6.0), Align2::RIGHT_BOTTOM, strings::SMOOTH);
+    for (text, y) in [(strings::SOFT, r.top()), (strings::HARD, r.bottom())] {
+        let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), t.text_weak);
+        let at_top = y == r.top();
+        let y = if at_top { y + galley.size().x } else { y };
+        let shape = egui::epaint::TextShape::new(pos2(outer.left() + 8.0, y), galley, t.text_weak)
+            .with_angle(-std::f32::consts::FRAC_PI_2);
+        painter.add(Shape::Text(shape));
+    }
+}
+
+fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
+    let space = panel.session.space();
+    let at = |texture: usize| space.position(texture).map(|p| axes.ui_from_space(p));
+    let painter = ui.painter();
+    let corners: Vec<usize> = panel.session.authored().map_or(Vec::new(), |a| {
+        a.location.corners.iter().map(|c| c.0).collect()
+    });
+    // Edges one by one: the joins of a thin triangle's outline would shoot far beyond its corners.
+    let thin = Stroke::new(1.0, t.line);
+    for triangle in space.triangles() {
+        let points: Vec<Pos2> = triangle.iter().filter_map(|i| at(*i)).collect();
+        let [a, b, c] = points[..] else { continue };
+        let edges = [[a, b], [b, c], [c, a]];
+        if corners.len() == 3 && triangle.iter().all(|i| corners.contains(i)) {
+            let mut fill = egui::Mesh::default();
+            for p in [a, b, c] {
+                fill.colored_vertex(p, t.accent.gamma_multiply(0.14));
+            }
+            fill.add_triangle(0, 1, 2);
+            painter.add(Shape::mesh(fill));
+            for e in edges {
+                painter.line_segment(e, Stroke::new(1.6, t.accent.gamma_multiply(0.6)));
+            }
+        } else {
+            for e in edges {
+                painter.line_segment(e, thin);
+            }
+        }
+    }
+    for [a, b] in space.hull() {
+        if let (Some(a), Some(b)) = (at(a), at(b)) {
+            painter.line_segment([a, b], Stroke::new(1.6, t.text_weak.gamma_multiply(0.55)));
+        }
+    }
+}
+
+/// The textures: a click moves the point there.
+fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let mut labels: Vec<Rect> = Vec::new();
+    let sites = panel.session.space().sites();
+    let with_pictures = sites.len() <= MAX_PICTURES;
+    let radius = if with_pictures { SITE_RADIUS } else { 3.0 };
+    // Parents last, so that they lie on top and their names are never left out.
+    let rank = |texture: usize| panel.session.parent_rank(texture);
+    let mut order: Vec<&(usize, SpacePoint)> = sites.iter().collect();
+    order.sort_by_key(|(texture, _)| rank(*texture).is_some());
+    for (texture, at) in order {
+        let pos = axes.ui_from_space(*at);
+        let entry = &panel.session.textures()[*texture];
+        let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
+        let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Go to {}", entry.name)));
+        if response.clicked() {
+            commands.push(move_to(*at));
+        }
+        site(ui, panel, *texture, pos, radius, &response, t);
+        response.on_hover_text(format!("{}\n{}", entry.name, at));
+    }
+    for (texture, at) in sites.iter().rev() {
+        if with_pictures || rank(*texture).is_some() {
+            let pos = axes.ui_from_space(*at) + vec2(0.0, radius + 2.0);
+            site_label(ui, &panel.session.textures()[*texture].name, pos, rank(*texture), &mut labels, t);
+        }
+    }
+    commands
+}
+
+fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
+    let painter = ui.painter();
+    let rank = panel.session.parent_rank(texture);
+    match panel.pictures.thumbnail(texture) {
+        Some(picture) if radius >= SITE_RADIUS => {
+            let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
+            // The middle third of the picture: at this size its grain can still be seen.
+            let uv = Rect::from_min_max(pos2(0.3, 0.3), pos2(0.7, 0.7));
+            let mesh = egui::epaint::RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv);
+            painter.add(mesh);
+        }
+        _ => {
+            painter.circle_filled(pos, radius, t.text_weak);
+        }
+    }
+    let ring = match rank {
+        Some(rank) => Stroke::new(3.0, t.parents[rank.min(2)]),
+        None if response.hovered() || response.has_focus() => Stroke::new(2.0, t.text),
+        None => Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)),
+    };
+    painter.circle_stroke(pos, radius, ring);
+}
+
+/// A name under its texture; the less important one of two that would overlap is left out.
+fn site_label(ui: &Ui, name: &str, pos: Pos2, rank: Option<usize>, taken: &mut Vec<Rect>, t: &Tokens) {
+    let (size, color) = match rank {
+        Some(rank) => (12.5, t.parents[rank.min(2)]),
+        None => (10.5, t.text_weak),
+    };
+    let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(size), color);
+    let area = Align2::CENTER_TOP.anchor_size(pos, galley.size());
+    if rank.is_none() && taken.iter().any(|r| r.expand(1.0).intersects(area)) {
+        return;
+    }
+    if rank.is_some() {
+        ui.painter().rect_filled(area.expand2(vec2(4.0, 1.0)), 3.0, t.background.gamma_multiply(0.85));
+    }
+    taken.push(area);
+    ui.painter().galley(area.min, galley, color);
+}
+
+/// The authored point, its lines to the parents, and its keys.
+fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let point = panel.project.point;
+    let pos = axes.ui_from_space(point);
+    let id = point_id();
+    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, Sense::click_and_drag());
+    response.widget_info(|| {
+        WidgetInfo::labeled(Role::Slider, true, strings::POINT)
+    });
+    let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    if response.dragged()
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        commands.push(move_to(axes.space_from_ui(pointer)));
+    }
+    if let Some(to) = nudged(ui, id, point) {
+        commands.push(move_to(to));
+    }
+    if let Some(authored) = panel.session.authored() {
+        let on = axes.ui_from_space(authored.location.at);
+        for (rank, (texture, weight)) in authored.parents.iter().enumerate() {
+            if let Some(site) = panel.session.space().position(*texture) {
+                let stroke = Stroke::new(1.0 + 4.0 * *weight as f32, t.parents[rank.min(2)].gamma_multiply(0.75));
+                let site = axes.ui_from_space(site);
+                let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
+                ui.painter().line_segment([on, start], stroke);
+            }
+        }
+        if authored.location.clamped {
+            ui.painter().extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
+            ui.painter().circle_filled(on, 4.0, t.warning);
+            let below = pos2(axes.rect.center().x, axes.rect.top() + 4.0);
+            ui.painter().text(below, Align2::CENTER_TOP, strings::CLAMPED, FontId::proportional(12.5), t.warning);
+        }
+    }
+    let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
+    ui.painter().circle_filled(pos, grown + 2.0, t.background);
+    ui.painter().circle_filled(pos, grown, t.accent);
+    ui.painter().circle_filled(pos, 3.0, t.on_accent);
+    if response.has_focus() {
+        ui.painter().circle_stroke(pos, grown + 4.0, Stroke::new(1.5, t.accent));
+    }
+    response.on_hover_text(format!("{} {}\n{}", panel.project.name, point, strings::POINT_HELP));
+    commands
+}
+
+/// Where the arrow keys want the point: while it has the focus, or nothing has.
+fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
+    let focused = ui.memory(egui::Memory::focused);
+    if focused.is_some_and(|f| f != id) {
+        return None;
+    }
+    // While the point has the focus, the arrows are its own and do not move the focus.
+    if focused == Some(id) {
+        let filter = egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+        ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
+    }
+    let (dx, dy) = ui.input(|i| {
+        let step = if i.modifiers.shift { BIG_STEP } else { STEP };
+        let count = |key: Key| f64::from(i.num_presses(key) as u32);
+        (
+            step * (count(Key::ArrowRight) - count(Key::ArrowLeft)),
+            step * (count(Key::ArrowUp) - count(Key::ArrowDown)),
+        )
+    });
+    (dx != 0.0 || dy != 0.0).then(|| SpacePoint {
+        rough_smooth: (from.rough_smooth + dx).clamp(0.0, 100.0),
+        hard_soft: (from.hard_soft + dy).clamp(0.0, 100.0),
+    })
+}

@@ -1,0 +1,118 @@
+//! The authored texture in numbers: name, sliders, blend, parents.
+
+use egui::{Label, Rect, RichText, Role, Sense, Slider, TextEdit, Ui, WidgetInfo, vec2};
+use shagreen_core::blend::Mode;
+use shagreen_core::space::SpacePoint;
+
+use crate::command::Command;
+use crate::library_panel::picture_ui;
+use crate::panel::Panel;
+use crate::project::Edit;
+use crate::strings;
+use crate::theme::{GAP, GROUP_GAP, RADIUS, tokens};
+
+/// Draws the column and returns what the user asked of it.
+pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let mut commands = Vec::new();
+    ui.add_space(GAP);
+    let mut name = panel.project.name.clone();
+    let field = ui.add(TextEdit::singleline(&mut name).font(egui::TextStyle::Heading).desired_width(f32::INFINITY));
+    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::NAME));
+    if field.changed() {
+        commands.push(Command::Edit(Edit::Rename(name)));
+    }
+    ui.add_space(GAP);
+    commands.extend(sliders(ui, panel.project.point));
+    ui.add_space(GROUP_GAP);
+    commands.extend(blend_ui(ui, panel.project.mode));
+    ui.add_space(GROUP_GAP);
+    parents_ui(ui, panel);
+    commands
+}
+
+/// The two axes, bound to the point both ways.
+fn sliders(ui: &mut Ui, point: SpacePoint) -> Option<Command> {
+    let (mut rough_smooth, mut hard_soft) = (point.rough_smooth, point.hard_soft);
+    let changed = [
+        axis_slider(ui, &mut rough_smooth, [strings::ROUGH, strings::SMOOTH], strings::ROUGH_SMOOTH, strings::ROUGH_SMOOTH_HELP),
+        axis_slider(ui, &mut hard_soft, [strings::HARD, strings::SOFT], strings::HARD_SOFT, strings::HARD_SOFT_HELP),
+    ];
+    changed
+        .contains(&true)
+        .then(|| Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })))
+}
+
+fn axis_slider(ui: &mut Ui, value: &mut f64, ends: [&str; 2], name: &str, help: &str) -> bool {
+    let t = tokens(ui.ctx());
+    ui.horizontal(|ui| {
+        ui.add(Label::new(RichText::new(ends[0]).color(t.text_weak)).selectable(false));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add(Label::new(RichText::new(ends[1]).color(t.text_weak)).selectable(false));
+        });
+    });
+    let width = ui.available_width();
+    ui.spacing_mut().slider_width = width - 66.0;
+    let slider = Slider::new(value, 0.0..=100.0).fixed_decimals(1).smart_aim(false);
+    ui.add(slider).accessible_name(name).on_hover_text(help).changed()
+}
+
+fn blend_ui(ui: &mut Ui, mode: Mode) -> Option<Command> {
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.add(Label::new(strings::BLEND).selectable(false));
+        for each in Mode::ALL {
+            if ui.selectable_label(mode == each, each.id()).on_hover_text(mode_help(each)).clicked() {
+                chosen = Some(Command::Edit(Edit::SetMode(each)));
+            }
+        }
+    });
+    chosen
+}
+
+fn mode_help(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Paper => {
+            "As printed in the paper: inverse-distance weights, independent signals. Sinks in level between textures and \
+             jumps at the edges of triangles."
+        }
+        Mode::Power => "Independent signals, with the level made up to the weighted mean of the levels.",
+        Mode::Shared => "Signals that share one excitation: closest to a measured texture that is left out.",
+    }
+}
+
+/// The neighbors, with pictures and weights.
+fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) {
+    let t = tokens(ui.ctx());
+    ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false)).on_hover_text(strings::PARENTS_HELP);
+    let Some(authored) = panel.session.authored() else { return };
+    for (rank, (texture, weight)) in authored.parents.iter().enumerate() {
+        let entry = &panel.session.textures()[*texture];
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
+        let percent = 100.0 * weight;
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{}, {percent:.1} percent", entry.name)));
+        let color = t.parents[rank.min(2)];
+        ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
+        let picture = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(42.0, 42.0));
+        picture_ui(ui, panel, *texture, picture);
+        ui.painter().rect_stroke(picture, f32::from(RADIUS) - 1.0, egui::Stroke::new(2.0, color), egui::StrokeKind::Outside);
+        let left = picture.right() + 10.0;
+        let right = area.right() - 10.0;
+        let font = egui::FontId::proportional(14.0);
+        let number = ui.painter().text(
+            egui::pos2(right, area.top() + 9.0),
+            egui::Align2::RIGHT_TOP,
+            format!("{percent:.1} %"),
+            font.clone(),
+            t.text,
+        );
+        let mut name = ui.new_child(egui::UiBuilder::new().max_rect(Rect::from_min_max(
+            egui::pos2(left, area.top() + 8.0),
+            egui::pos2(number.left() - 6.0, area.bottom()),
+        )));
+        name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
+        let bar = Rect::from_min_max(egui::pos2(left, area.bottom() - 16.0), egui::pos2(right, area.bottom() - 10.0));
+        ui.painter().rect_filled(bar, 3.0, t.control);
+        let filled = Rect::from_min_size(bar.min, vec2(bar.width() * *weight as f32, bar.height()));
+        ui.painter().rect_filled(filled, 3.0, color);
+    }
+}

@@ -1,0 +1,95 @@
+//! The textures of the library: look, search, go there.
+
+use egui::{Label, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
+
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::project::Edit;
+use crate::strings;
+use crate::theme::{GAP, tokens};
+
+/// Side of a picture in the list, in points.
+const PICTURE: f32 = 34.0;
+
+/// Draws the list and returns what the user asked of it. `search` is the panel's own state.
+pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Command> {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    ui.add_space(GAP);
+    ui.horizontal(|ui| {
+        ui.heading(strings::LIBRARY);
+        ui.label(egui::RichText::new(format!("{}", panel.session.textures().len())).color(t.text_weak));
+    });
+    let field = ui.add(TextEdit::singleline(search).hint_text(strings::SEARCH_HINT).desired_width(f32::INFINITY));
+    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::SEARCH));
+    ui.add_space(2.0);
+    let wanted = search.to_lowercase();
+    let matches = |name: &str, tags: &[String]| {
+        wanted.is_empty()
+            || name.to_lowercase().contains(&wanted)
+            || tags.iter().any(|tag| tag.to_lowercase().contains(&wanted))
+    };
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let mut found = false;
+        for (index, entry) in panel.session.textures().iter().enumerate() {
+            if matches(&entry.name, &entry.tags) {
+                found = true;
+                if row(ui, panel, index)
+                    && let Some(at) = panel.session.space().position(index)
+                {
+                    commands.push(Command::Edit(Edit::MovePoint(at)));
+                }
+            }
+        }
+        if !found {
+            ui.label(egui::RichText::new(strings::NO_MATCH).color(t.text_weak));
+        }
+    });
+    commands
+}
+
+/// One texture; returns whether it was clicked.
+fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
+    let t = tokens(ui.ctx());
+    let entry = &panel.session.textures()[index];
+    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), PICTURE + 6.0), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Texture {}", entry.name)));
+    if ui.is_rect_visible(area) {
+        if response.hovered() || response.has_focus() {
+            ui.painter().rect_filled(area, f32::from(crate::theme::RADIUS), t.raised);
+        }
+        let picture = egui::Rect::from_min_size(area.min + vec2(3.0, 3.0), vec2(PICTURE, PICTURE));
+        picture_ui(ui, panel, index, picture);
+        let mut text = ui.new_child(
+            egui::UiBuilder::new()
+                .max_rect(egui::Rect::from_min_max(picture.right_top() + vec2(8.0, 0.0), area.max))
+                .layout(egui::Layout::top_down(egui::Align::Min)),
+        );
+        text.spacing_mut().item_spacing.y = 1.0;
+        let rank = panel.session.parent_rank(index);
+        let color = rank.map_or(t.text, |r| t.parents[r.min(2)]);
+        text.add(Label::new(egui::RichText::new(&entry.name).color(color)).truncate().selectable(false));
+        let below = match panel.session.parent_weight(index) {
+            Some(weight) => format!("{:.0} % of the blend", 100.0 * weight),
+            None => entry.tags.join(", "),
+        };
+        text.add(Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false));
+    }
+    let at = panel.session.space().position(index).map_or("not placed".to_owned(), |p| p.to_string());
+    response.on_hover_text(format!("{}\n{}", entry.name, at)).clicked()
+}
+
+/// A texture's picture in `area`, or a plain square while there is none.
+pub fn picture_ui(ui: &Ui, panel: &Panel<'_>, index: usize, area: egui::Rect) {
+    let radius = f32::from(crate::theme::RADIUS) - 1.0;
+    match panel.pictures.thumbnail(index) {
+        Some(picture) => {
+            let uv = egui::Rect::from_min_max(egui::pos2(0.2, 0.2), egui::pos2(0.8, 0.8));
+            let shape = egui::epaint::RectShape::filled(area, radius, egui::Color32::WHITE);
+            ui.painter().add(shape.with_texture(picture.id(), uv));
+        }
+        None => {
+            ui.painter().rect_filled(area, radius, tokens(ui.ctx()).control);
+        }
+    }
+}

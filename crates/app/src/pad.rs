@@ -1,0 +1,161 @@
+//! The pad: a piece of the texture to stroke, with the mouse or by the automatic hand.
+
+use egui::{Align2, ComboBox, CursorIcon, FontId, Rect, Role, Sense, Slider, Stroke, Ui, WidgetInfo, pos2, vec2};
+use shagreen_device::hand::{Hand, Path};
+use shagreen_device::touch::Touch;
+
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::strings;
+use crate::theme::{GAP, RADIUS, tokens};
+
+/// Points of the screen for a millimeter of the pad.
+const POINTS_PER_MM: f32 = 3.0;
+/// Range of the hand's speed, in mm/s.
+const SPEEDS_MM_PER_S: std::ops::RangeInclusive<f32> = 5.0..=300.0;
+/// Range of forces, in N.
+const FORCES_N: std::ops::RangeInclusive<f32> = 0.05..=4.0;
+/// Length of the hand's path, in m.
+const EXTENT_M: f32 = 0.08;
+
+/// The panel's own state: what the hand does when it strokes, and how hard the mouse presses.
+#[derive(Clone, Copy, Debug)]
+pub struct PadState {
+    /// What the automatic hand does.
+    pub hand: Hand,
+}
+
+impl Default for PadState {
+    fn default() -> Self {
+        Self { hand: Hand { path: Path::Line, speed_mps: 0.1, force_n: 0.8, extent_m: EXTENT_M } }
+    }
+}
+
+/// Where the mouse is on the pad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MouseReport {
+    /// Distance from the middle, to the right, in m.
+    pub x_m: f64,
+    /// Distance from the middle, upwards, in m.
+    pub y_m: f64,
+    /// Whether the button is down.
+    pub pressed: bool,
+}
+
+/// What happened on the pad in this frame.
+#[derive(Debug, Default)]
+pub struct PadOutcome {
+    /// What the user asked for.
+    pub commands: Vec<Command>,
+    /// Where the mouse is, while it strokes, and once when it lets go.
+    pub mouse: Option<MouseReport>,
+}
+
+/// Draws the pad with the picture of the blend, whose side in mm comes along, and the controls of the hand.
+pub fn pad_ui(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    state: &mut PadState,
+    picture: Option<(egui::TextureId, f64)>,
+) -> PadOutcome {
+    let mut outcome = PadOutcome::default();
+    outcome.commands.extend(hand_ui(ui, panel, state));
+    let t = tokens(ui.ctx());
+    let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAD));
+    match picture {
+        Some((texture, side_mm)) => {
+            let shape = egui::epaint::RectShape::filled(area, f32::from(RADIUS), egui::Color32::WHITE);
+            let tile = POINTS_PER_MM * side_mm as f32;
+            let uv = Rect::from_min_size(pos2(0.0, 0.0), area.size() / tile);
+            ui.painter().add(shape.with_texture(texture, uv));
+        }
+        None => {
+            ui.painter().rect_filled(area, f32::from(RADIUS), t.background);
+        }
+    }
+    ui.painter().rect_stroke(area, f32::from(RADIUS), Stroke::new(1.0, t.line), egui::StrokeKind::Inside);
+    scale_bar(ui, area);
+    tip(ui, area, panel.session.touch());
+    if response.hovered() {
+        let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
+        let force_n = state.hand.force_n * (scrolled * 0.004).exp();
+        state.hand.force_n = force_n.clamp(*FORCES_N.start(), *FORCES_N.end());
+    }
+    let pressed = response.is_pointer_button_down_on();
+    if let Some(pos) = response.interact_pointer_pos().filter(|_| pressed || response.drag_stopped() || response.clicked())
+    {
+        let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
+        outcome.mouse =
+            Some(MouseReport { x_m: f64::from(from_middle.x), y_m: f64::from(-from_middle.y), pressed });
+    }
+    response.on_hover_cursor(CursorIcon::Crosshair);
+    outcome
+}
+
+fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Command> {
+    let mut command = None;
+    ui.horizontal(|ui| {
+        let running = panel.session.hand_is_running();
+        let text = if running { strings::HAND_STOP } else { strings::HAND_START };
+        if ui.selectable_label(running, text).on_hover_text(strings::HAND_HELP).clicked() {
+            command = Some(Command::ToggleHand);
+        }
+        let chosen = ComboBox::from_id_salt("path of the hand").width(78.0).selected_text(path_name(state.hand.path));
+        let shown = chosen.show_ui(ui, |ui| {
+            for path in [Path::Line, Path::Circle, Path::Scribble] {
+                ui.selectable_value(&mut state.hand.path, path, path_name(path));
+            }
+        });
+        shown.response.accessible_name(strings::HAND_PATH);
+        ui.spacing_mut().slider_width = ((ui.available_width() - 158.0) / 2.0).clamp(24.0, 90.0);
+        let mut mm_per_s = state.hand.speed_mps * 1e3;
+        let speed = Slider::new(&mut mm_per_s, SPEEDS_MM_PER_S).fixed_decimals(0).suffix(" mm/s").smart_aim(false);
+        ui.add(speed).accessible_name(strings::HAND_SPEED).on_hover_text(strings::HAND_SPEED);
+        state.hand.speed_mps = mm_per_s * 1e-3;
+        let force = Slider::new(&mut state.hand.force_n, FORCES_N).fixed_decimals(2).suffix(" N").smart_aim(false);
+        ui.add(force).accessible_name(strings::HAND_FORCE).on_hover_text(strings::HAND_FORCE);
+    });
+    ui.add_space(GAP / 2.0);
+    command
+}
+
+fn path_name(path: Path) -> &'static str {
+    match path {
+        Path::Line => "line",
+        Path::Circle => "circle",
+        Path::Scribble => "scribble",
+    }
+}
+
+fn scale_bar(ui: &Ui, area: Rect) {
+    let t = tokens(ui.ctx());
+    let (length, inset) = (10.0 * POINTS_PER_MM, 9.0);
+    let back = Rect::from_min_max(
+        area.right_bottom() - vec2(length + 2.0 * inset, 28.0),
+        area.right_bottom() - vec2(4.0, 4.0),
+    );
+    ui.painter().rect_filled(back, 3.0, t.background.gamma_multiply(0.75));
+    let y = back.bottom() - 6.0;
+    let x = back.center().x;
+    ui.painter().hline(x - length / 2.0..=x + length / 2.0, y, Stroke::new(2.0, t.text));
+    ui.painter().text(pos2(x, y - 3.0), Align2::CENTER_BOTTOM, "10 mm", FontId::proportional(10.5), t.text);
+}
+
+/// The tip as the callback has it: a ring that fills as it presses.
+fn tip(ui: &Ui, area: Rect, touch: Touch) {
+    if touch.contact.force_n <= 0.0 {
+        return;
+    }
+    let t = tokens(ui.ctx());
+    let pos = area.center() + vec2(touch.x_m, -touch.y_m) * (POINTS_PER_MM * 1e3);
+    let painter = ui.painter().with_clip_rect(area);
+    painter.circle_filled(pos, 7.0, t.background.gamma_multiply(0.6));
+    painter.circle_filled(pos, 2.0 + 3.0 * (touch.contact.force_n / 2.0).min(1.0), t.accent);
+    painter.circle_stroke(pos, 7.0, Stroke::new(2.0, t.accent));
+    let text = format!("{:.0} mm/s  {:.2} N", touch.contact.speed_mps * 1e3, touch.contact.force_n);
+    let galley = painter.layout_no_wrap(text, FontId::proportional(11.5), t.text);
+    let at = Rect::from_min_size(area.left_top() + vec2(6.0, 6.0), galley.size() + vec2(10.0, 4.0));
+    painter.rect_filled(at, 3.0, t.background.gamma_multiply(0.75));
+    painter.galley(at.min + vec2(5.0, 2.0), galley, t.text);
+}

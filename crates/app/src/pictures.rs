@@ -1,0 +1,101 @@
+//! Pictures of textures on the graphics card: decoded by a worker, blended for the pad.
+
+use std::sync::mpsc::{Receiver, channel};
+
+use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
+use shagreen_formats::picture::{Picture, Rgb, decode};
+
+/// Side of the blended picture in pixels.
+const BLEND_SIDE: usize = 192;
+
+/// The pictures of a library, by index; those still being decoded, or absent, are plain.
+pub struct Pictures {
+    thumbnails: Vec<Option<TextureHandle>>,
+    pixels: Vec<Option<Rgb>>,
+    millimeters: Vec<f64>,
+    incoming: Receiver<(usize, Rgb)>,
+    blended: Option<(Vec<(usize, u32)>, TextureHandle)>,
+}
+
+impl Pictures {
+    /// Starts to decode the pictures in a thread of their own; `ctx` is asked to repaint as they come in.
+    pub fn new(ctx: &Context, sources: Vec<Option<Picture>>) -> Self {
+        let (sender, incoming) = channel();
+        let (n, ctx) = (sources.len(), ctx.clone());
+        let millimeters = sources.iter().map(|p| p.as_ref().map_or(20.0, |p| p.millimeters)).collect();
+        std::thread::spawn(move || {
+            for (index, source) in sources.into_iter().enumerate() {
+                // A picture that cannot be decoded stays plain: the library's reader has warned already.
+                if let Some(Ok(image)) = source.as_ref().map(decode)
+                    && sender.send((index, image)).is_err()
+                {
+                    return;
+                }
+                ctx.request_repaint();
+            }
+        });
+        Self { thumbnails: vec![None; n], pixels: vec![None; n], millimeters, incoming, blended: None }
+    }
+
+    /// Takes in what the worker has finished.
+    pub fn collect(&mut self, ctx: &Context) {
+        while let Ok((index, image)) = self.incoming.try_recv() {
+            let color = ColorImage::from_rgb([image.width as usize, image.height as usize], &image.pixels);
+            let options = TextureOptions { mipmap_mode: Some(egui::TextureFilter::Linear), ..TextureOptions::LINEAR };
+            self.thumbnails[index] = Some(ctx.load_texture(format!("texture {index}"), color, options));
+            self.pixels[index] = Some(image);
+            self.blended = None;
+        }
+    }
+
+    /// The picture of a texture.
+    pub fn thumbnail(&self, texture: usize) -> Option<&TextureHandle> {
+        self.thumbnails.get(texture)?.as_ref()
+    }
+
+    /// The picture of a blend and the side that it shows in mm: the parents' pictures weighed like their vibrations.
+    pub fn blend(&mut self, ctx: &Context, parents: &[(usize, f64)]) -> Option<(&TextureHandle, f64)> {
+        let key: Vec<(usize, u32)> = parents.iter().map(|(i, w)| (*i, (w * 1000.0).round() as u32)).collect();
+        let side_mm = parents.iter().map(|(i, w)| w * self.millimeters[*i]).sum();
+        if self.blended.as_ref().is_none_or(|(k, _)| *k != key) {
+            let image = self.mix(parents)?;
+            match &mut self.blended {
+                Some((k, texture)) => {
+                    *k = key;
+                    texture.set(image, TextureOptions::LINEAR_MIRRORED_REPEAT);
+                }
+                None => {
+                    self.blended = Some((key, ctx.load_texture("blend", image, TextureOptions::LINEAR_MIRRORED_REPEAT)));
+                }
+            }
+        }
+        self.blended.as_ref().map(|(_, texture)| (texture, side_mm))
+    }
+
+    fn mix(&self, parents: &[(usize, f64)]) -> Option<ColorImage> {
+        let mut sum = vec![[0.0_f32; 3]; BLEND_SIDE * BLEND_SIDE];
+        for (texture, weight) in parents {
+            let image = self.pixels.get(*texture)?.as_ref()?;
+            for (i, pixel) in sum.iter_mut().enumerate() {
+                let (width, height) = (image.width as usize, image.height as usize);
+                let (x, y) = (i % BLEND_SIDE * width / BLEND_SIDE, i / BLEND_SIDE * height / BLEND_SIDE);
+                let at = 3 * (y * width + x);
+                for (channel, value) in pixel.iter_mut().zip(&image.pixels[at..at + 3]) {
+                    *channel += *weight as f32 * f32::from(*value);
+                }
+            }
+        }
+        // A mean of pictures is flatter than each of them: contrast is brought back by the loss of independent parts.
+        let kept = parents.iter().map(|(_, w)| w * w).sum::<f64>().sqrt() as f32;
+        let n = sum.len() as f32;
+        let mean: [f32; 3] = std::array::from_fn(|c| sum.iter().map(|p| p[c]).sum::<f32>() / n);
+        let pixels = sum
+            .iter()
+            .map(|p| {
+                let [r, g, b] = std::array::from_fn(|c| (mean[c] + (p[c] - mean[c]) / kept).clamp(0.0, 255.0) as u8);
+                Color32::from_rgb(r, g, b)
+            })
+            .collect();
+        Some(ColorImage::new([BLEND_SIDE, BLEND_SIDE], pixels))
+    }
+}

@@ -1,0 +1,101 @@
+//! What is played: the waveform, and its spectrum beside the spectra of the parents and of the blend.
+
+use egui::{Label, RichText, Ui};
+use egui_plot::{Legend, Line, Plot, PlotPoints};
+
+use crate::panel::Panel;
+use crate::strings;
+use crate::theme::{GAP, tokens};
+
+/// Range of the spectrum's axis, in Hz.
+const BAND_HZ: (f64, f64) = (10.0, 500.0);
+/// Lowest density that is drawn, in dB re 1 (m/s²)²/Hz.
+const FLOOR_DB: f64 = -70.0;
+/// Highest density that is drawn.
+const TOP_DB: f64 = 5.0;
+
+/// Draws both plots side by side.
+pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>) {
+    let width = ui.available_width();
+    let height = ui.available_height();
+    ui.horizontal(|ui| {
+        let left = egui::vec2(width * 0.42 - GAP, height);
+        ui.allocate_ui_with_layout(left, egui::Layout::top_down(egui::Align::Min), |ui| waveform(ui, panel));
+        let right = egui::vec2(width * 0.58, height);
+        ui.allocate_ui_with_layout(right, egui::Layout::top_down(egui::Align::Min), |ui| spectrum(ui, panel));
+    });
+}
+
+fn title(ui: &mut Ui, text: &str, unit: &str) {
+    let t = tokens(ui.ctx());
+    ui.horizontal(|ui| {
+        ui.add(Label::new(RichText::new(text).strong()).selectable(false));
+        ui.add(Label::new(RichText::new(unit).small().color(t.text_weak)).selectable(false));
+    });
+}
+
+fn waveform(ui: &mut Ui, panel: &Panel<'_>) {
+    let t = tokens(ui.ctx());
+    title(ui, strings::WAVEFORM, "m/s², last 0.25 s");
+    let scope = panel.session.scope();
+    let (rate_hz, samples) = scope.newest(0.25);
+    let n = samples.len() as f64;
+    let points: PlotPoints<'_> =
+        samples.iter().enumerate().map(|(i, y)| [(i as f64 - n) / rate_hz * 1e3, *y]).collect();
+    let range = scope.range();
+    fixed(Plot::new("waveform"), t.line)
+        .x_axis_formatter(|mark, _| format!("{:.0} ms", mark.value))
+        .y_grid_spacer(egui_plot::uniform_grid_spacer(move |_| [range, 0.5 * range, 0.5 * range]))
+        .show(ui, |plot| {
+            plot.set_plot_bounds_x(-250.0..=0.0);
+            plot.set_plot_bounds_y(-range..=range);
+            plot.line(Line::new(strings::WAVEFORM, points).color(t.accent).width(1.2));
+        });
+}
+
+fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
+    let t = tokens(ui.ctx());
+    title(ui, strings::SPECTRUM, "dB re 1 (m/s²)²/Hz");
+    let spectra = panel.session.spectra();
+    let to_points = |density: &[f64]| -> PlotPoints<'static> {
+        let pairs = spectra.frequencies.iter().zip(density);
+        pairs.map(|(f, p)| [f.0.log10(), (10.0 * p.max(1e-12).log10()).max(FLOOR_DB - 10.0)]).collect()
+    };
+    let live = panel.session.scope().density();
+    let live: PlotPoints<'_> = live
+        .iter()
+        .filter(|(f, _)| f.0 >= BAND_HZ.0 && f.0 <= BAND_HZ.1)
+        .map(|(f, p)| [f.0.log10(), (10.0 * p.max(1e-12).log10()).max(FLOOR_DB - 10.0)])
+        .collect();
+    let marks = |_: egui_plot::GridInput| {
+        [10.0_f64, 20.0, 50.0, 100.0, 200.0, 400.0]
+            .map(|f| egui_plot::GridMark { value: f.log10(), step_size: 0.3 })
+            .to_vec()
+    };
+    fixed(Plot::new("spectrum"), t.line)
+        .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
+        .x_grid_spacer(marks)
+        .x_axis_formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)))
+        .show(ui, |plot| {
+            plot.set_plot_bounds_x((0.93 * BAND_HZ.0).log10()..=(1.12 * BAND_HZ.1).log10());
+            plot.set_plot_bounds_y(FLOOR_DB..=TOP_DB);
+            plot.line(Line::new(strings::LIVE_LINE, live).color(t.text_weak.gamma_multiply(0.6)).width(1.0));
+            for (rank, (name, density)) in spectra.parents.iter().enumerate() {
+                plot.line(Line::new(name.clone(), to_points(density)).color(t.parents[rank.min(2)]).width(1.2));
+            }
+            plot.line(Line::new(strings::BLEND_LINE, to_points(&spectra.blend)).color(t.accent).width(2.5));
+        });
+}
+
+/// A plot that is looked at, not moved.
+fn fixed(plot: Plot<'_>, grid: egui::Color32) -> Plot<'_> {
+    plot.grid_color(grid)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .allow_axis_zoom_drag(false)
+        .show_background(true)
+        .set_margin_fraction(egui::vec2(0.0, 0.05))
+}

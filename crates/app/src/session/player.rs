@@ -1,0 +1,254 @@
+//! The open output: textures on their way to it, touches, and what it tells back.
+
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::Instant;
+
+use shagreen_core::blend::Authored;
+use shagreen_core::plane::Plane;
+use shagreen_core::render::synth_blend;
+use shagreen_core::space::SpacePoint;
+use shagreen_device::controls::{Drive, Input};
+use shagreen_device::engine::{ChannelMask, Handle, SLOTS};
+use shagreen_device::error::DeviceError;
+use shagreen_device::hand::Hand;
+use shagreen_device::live::LiveInput;
+use shagreen_device::output::{OpenOptions, OutputInfo, Running, list_outputs, open};
+use shagreen_device::status::Status;
+use shagreen_device::stylus::MouseStylus;
+use shagreen_device::texture::OwnedTexture;
+use shagreen_synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
+
+use crate::pad::MouseReport;
+use crate::scope_buffer::ScopeBuffer;
+
+/// Frames in a block: 5 ms at 48 kHz.
+const BLOCK_FRAMES: u32 = 256;
+/// Acceleration at full scale while no actuator has been calibrated, in m/s²: the roughest textures just reach it.
+const FULL_SCALE_MPS2: f32 = 20.0;
+/// Share of the full scale that is never exceeded.
+const CEILING: f32 = 0.9;
+/// Textures kept loaded; the least recently heard makes room.
+const KEPT: usize = SLOTS - 16;
+
+type Opened = Result<(Handle, Running), DeviceError>;
+
+/// An output and everything that is on its way to it.
+pub(super) struct Player {
+    pub(super) point: Option<SpacePoint>,
+    pub(super) mix_is_new: bool,
+    pub(super) outputs: Vec<OutputInfo>,
+    pub(super) output_id: Option<String>,
+    pub(super) message: Option<String>,
+    pub(super) status: Option<Status>,
+    pub(super) muted: bool,
+    pub(super) limited_at: Option<Instant>,
+    handle: Option<Handle>,
+    running: Option<Running>,
+    live: Option<LiveInput>,
+    opening: Option<(String, Receiver<Opened>)>,
+    listing: Option<Receiver<Vec<OutputInfo>>>,
+    /// Slot of each texture of the library, and when it was last in a mix.
+    slots: Vec<Option<(TextureId, u64)>>,
+    n_mixes: u64,
+    stylus: MouseStylus,
+    started: Instant,
+    mouse_is_down: bool,
+}
+
+impl Player {
+    pub(super) fn new(n_textures: usize) -> Self {
+        Self {
+            point: None,
+            mix_is_new: false,
+            outputs: Vec::new(),
+            output_id: None,
+            message: None,
+            status: None,
+            muted: false,
+            limited_at: None,
+            handle: None,
+            running: None,
+            live: None,
+            opening: None,
+            listing: None,
+            slots: vec![None; n_textures],
+            n_mixes: 0,
+            stylus: MouseStylus::new(1.0),
+            started: Instant::now(),
+            mouse_is_down: false,
+        }
+    }
+
+    pub(super) fn list_outputs(&mut self, ctx: egui::Context) {
+        let (sender, receiver) = channel();
+        std::thread::spawn(move || {
+            // The window may have closed meanwhile: then nobody asks any more.
+            let _ = sender.send(list_outputs());
+            ctx.request_repaint();
+        });
+        self.listing = Some(receiver);
+    }
+
+    pub(super) fn open(&mut self, id: String, model_rate_hz: f32, ctx: egui::Context) {
+        let (sender, receiver) = channel();
+        let wanted = id.clone();
+        let options = OpenOptions {
+            model_rate_hz,
+            preferred_rate_hz: None,
+            buffer_frames: Some(BLOCK_FRAMES),
+            seed: 1,
+            full_scale_mps2: FULL_SCALE_MPS2,
+            ceiling: CEILING,
+            channels: ChannelMask::FIRST_TWO,
+        };
+        std::thread::spawn(move || {
+            let _ = sender.send(open(&wanted, options));
+            ctx.request_repaint();
+        });
+        self.opening = Some((id, receiver));
+    }
+
+    /// Takes in what came back; true when an output has just been opened.
+    pub(super) fn collect(&mut self, scope: &mut ScopeBuffer) -> bool {
+        if let Some(outputs) = self.listing.as_ref().and_then(|r| r.try_recv().ok()) {
+            self.outputs = outputs;
+            self.listing = None;
+        }
+        let opened = self.take_opened(scope);
+        if let Some(handle) = &mut self.handle {
+            handle.collect();
+            let status = handle.status();
+            if self.status.is_some_and(|s| status.limited_samples > s.limited_samples) {
+                self.limited_at = Some(Instant::now());
+            }
+            self.status = Some(status);
+            if let Some(loss) = handle.loss() {
+                self.message = Some(loss.to_string());
+            }
+            let mut samples = [0.0; 4096];
+            loop {
+                let n = handle.read_scope(&mut samples);
+                scope.push(&samples[..n]);
+                if n < samples.len() {
+                    break;
+                }
+            }
+        }
+        opened
+    }
+
+    fn take_opened(&mut self, scope: &mut ScopeBuffer) -> bool {
+        let Some((id, receiver)) = &self.opening else { return false };
+        match receiver.try_recv() {
+            Err(TryRecvError::Empty) => false,
+            Err(TryRecvError::Disconnected) => {
+                self.message = Some(format!("opening the output {id} failed"));
+                self.opening = None;
+                false
+            }
+            Ok(Err(error)) => {
+                self.message = Some(error.to_string());
+                self.opening = None;
+                false
+            }
+            Ok(Ok((mut handle, running))) => {
+                *scope = ScopeBuffer::new(f64::from(handle.config().device_rate_hz));
+                self.live = handle.take_live_input();
+                handle.set_drive(Drive { muted: self.muted, ..Drive::default() });
+                self.handle = Some(handle);
+                self.running = Some(running);
+                self.output_id = self.opening.take().map(|(id, _)| id);
+                self.message = None;
+                self.slots.fill(None);
+                self.mix_is_new = true;
+                true
+            }
+        }
+    }
+
+    /// Loads what the blend needs and fades to it. Tried again in the next frame where the output is busy.
+    pub(super) fn send_mix(&mut self, authored: &Authored, planes: &[Plane]) {
+        if !self.mix_is_new || self.handle.is_none() {
+            return;
+        }
+        self.n_mixes += 1;
+        let mut mix = Mix { blend: synth_blend(authored.mode), ..Mix::default() };
+        for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
+            let Some(id) = self.slot_of(*texture, planes) else { return };
+            *parent = Parent { id, weight: *weight as f32 };
+        }
+        if let Some(handle) = &mut self.handle
+            && handle.set_mix(mix).is_ok()
+        {
+            self.mix_is_new = false;
+        }
+    }
+
+    fn slot_of(&mut self, texture: usize, planes: &[Plane]) -> Option<TextureId> {
+        let handle = self.handle.as_mut()?;
+        if let Some((id, used)) = &mut self.slots[texture] {
+            *used = self.n_mixes;
+            return Some(*id);
+        }
+        if self.slots.iter().flatten().count() >= KEPT {
+            let oldest = (0..self.slots.len()).filter(|i| self.slots[*i].is_some()).min_by_key(|i| self.slots[*i].map(|s| s.1));
+            if let Some((id, _)) = oldest.and_then(|i| self.slots[i].take()) {
+                handle.unload(id);
+            }
+        }
+        let p = planes[texture].prepare();
+        let (nodes, triangles) = (p.nodes.into_boxed_slice(), p.triangles.into_boxed_slice());
+        let owned = OwnedTexture::new(p.rate_hz, p.order, p.speed_max_mps, p.force_max_n, nodes, triangles);
+        // A model that was checked makes a texture; a full ring gives it back, and the next frame tries again.
+        let id = handle.load(owned.ok()?).ok()?;
+        self.slots[texture] = Some((id, self.n_mixes));
+        Some(id)
+    }
+
+    pub(super) fn set_hand(&mut self, hand: Option<Hand>) {
+        if let Some(handle) = &mut self.handle
+            && !self.mouse_is_down
+        {
+            handle.set_input(hand.map_or(Input::Lifted, Input::Hand));
+        }
+    }
+
+    pub(super) fn mouse(&mut self, report: MouseReport, force_n: f32, hand: Option<Hand>) {
+        let now = Instant::now();
+        let time_secs = now.duration_since(self.started).as_secs_f64();
+        self.stylus.set_force_n(f64::from(force_n));
+        let touch = self.stylus.report(time_secs, report.x_m, report.y_m, report.pressed);
+        if let Some(live) = &mut self.live {
+            // Full only when the output has stopped: then the touch has nowhere to go.
+            let _ = live.send(touch, now);
+        }
+        if report.pressed != self.mouse_is_down {
+            self.mouse_is_down = report.pressed;
+            if report.pressed {
+                if let Some(handle) = &mut self.handle {
+                    handle.set_input(Input::Live);
+                }
+            } else {
+                self.set_hand(hand);
+            }
+        }
+    }
+
+    pub(super) fn toggle_mute(&mut self) {
+        self.muted = !self.muted;
+        if let Some(handle) = &mut self.handle {
+            let drive = handle.controls().drive;
+            handle.set_drive(Drive { muted: self.muted, ..drive });
+        }
+    }
+
+    pub(super) fn reset_limiter(&mut self) {
+        if let Some(handle) = &mut self.handle {
+            handle.reset_limiter();
+        }
+    }
+
+    pub(super) fn latency_ms(&self) -> Option<f64> {
+        self.running.as_ref().map(|r| r.latency_secs() * 1e3)
+    }
+}

@@ -1,0 +1,70 @@
+//! The line at the foot of the window: what is driven, how late, and whether anything is wrong.
+
+use egui::{ComboBox, Label, RichText, Ui};
+use shagreen_device::status::LinkState;
+
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::strings;
+use crate::theme::tokens;
+
+/// Draws the line and returns what the user asked of it.
+pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    ui.horizontal_centered(|ui| {
+        let session = panel.session;
+        commands.extend(output_ui(ui, panel));
+        let status = session.status();
+        let weak = |ui: &mut Ui, text: String, help: &str| {
+            ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).selectable(false)).on_hover_text(help);
+        };
+        if let Some(message) = session.output_message() {
+            ui.add(Label::new(RichText::new(message).color(t.error)).truncate());
+        } else if let Some(status) = status {
+            let late = session.latency_ms().map_or(String::new(), |ms| format!("about {ms:.0} ms late"));
+            weak(ui, late, "From a movement of the hand to the output: control tick, filters and buffer.");
+            ui.separator();
+            weak(ui, format!("load {:.1} %", 100.0 * status.load), "Share of the time allotted to the sound that is used.");
+            ui.separator();
+            let dropouts = format!("{} dropouts", status.underruns);
+            weak(ui, dropouts, "Times that the output ran out of samples.");
+            ui.separator();
+            let level = 20.0 * f64::from(status.level_mps2.max(1e-4)).log10();
+            weak(ui, format!("{level:.0} dB re 1 m/s²"), "Level of the texture, root mean square.");
+            if status.state == LinkState::Stalled {
+                ui.colored_label(t.warning, "The output has stopped asking for sound");
+            }
+            if status.tripped {
+                ui.colored_label(t.error, strings::TRIPPED);
+                if ui.button(strings::RESET_LIMITER).clicked() {
+                    commands.push(Command::ResetLimiter);
+                }
+            } else if session.is_limiting() {
+                ui.colored_label(t.warning, "limiting");
+            }
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let source = format!("positions: {}", session.label_source());
+            weak(ui, source, "Where the places of the textures come from. Physical labels are no human ratings.");
+        });
+    });
+    commands
+}
+
+fn output_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
+    let mut chosen = None;
+    let session = panel.session;
+    let current = session.output_name().unwrap_or(strings::OPENING);
+    let combo = ComboBox::from_id_salt("output").width(210.0).truncate().selected_text(current);
+    let shown = combo.show_ui(ui, |ui| {
+        for output in session.outputs() {
+            let selected = session.output_id() == Some(output.id.as_str());
+            if ui.selectable_label(selected, &output.name).on_hover_text(&output.id).clicked() {
+                chosen = Some(Command::OpenOutput(output.id.clone()));
+            }
+        }
+    });
+    shown.response.accessible_name(strings::OUTPUT).on_hover_text(strings::OUTPUT_HELP);
+    chosen
+}

@@ -1,0 +1,91 @@
+//! Every word of the window, in one place.
+
+/// Name of the program.
+pub const APP: &str = "Shagreen";
+/// Left end of the first axis.
+pub const ROUGH: &str = "rough";
+/// Right end of the first axis.
+pub const SMOOTH: &str = "smooth";
+/// Lower end of the second axis.
+pub const HARD: &str = "hard";
+/// Upper end of the second axis.
+pub const SOFT: &str = "soft";
+/// Accessible name of the first slider.
+pub const ROUGH_SMOOTH: &str = "Rough to smooth";
+/// What the first slider does.
+pub const ROUGH_SMOOTH_HELP: &str = "0 is the roughest texture of the space, 100 the smoothest.";
+/// Accessible name of the second slider.
+pub const HARD_SOFT: &str = "Hard to soft";
+/// What the second slider does.
+pub const HARD_SOFT_HELP: &str = "0 is the hardest texture of the space, 100 the softest.";
+/// Heading of the column of textures.
+pub const LIBRARY: &str = "Textures";
+/// Accessible name of the search field.
+pub const SEARCH: &str = "Search textures";
+/// Hint in the search field.
+pub const SEARCH_HINT: &str = "Search…";
+/// Nothing matches the search.
+pub const NO_MATCH: &str = "No texture has this in its name or tags.";
+/// Heading of the parents.
+pub const PARENTS: &str = "Blended from";
+/// What the parents are.
+pub const PARENTS_HELP: &str = "The measured textures around the point, and how much each one gives.";
+/// Accessible name of the canvas.
+pub const CANVAS: &str = "Perceptual space";
+/// Accessible name of the draggable point.
+pub const POINT: &str = "Authored point";
+/// What the point does.
+pub const POINT_HELP: &str = "Drag it, or move it with the arrow keys (Shift for bigger steps).";
+/// The point lies outside the hull.
+pub const CLAMPED: &str = "Outside the measured textures: the nearest point of their outline plays.";
+/// Accessible name of the texture's name.
+pub const NAME: &str = "Name of the texture";
+/// Label of the blend modes.
+pub const BLEND: &str = "Blend";
+/// Accessible name of the pad.
+pub const PAD: &str = "Stroke pad";
+/// What the pad does.
+pub const PAD_HELP: &str = "Stroke here with the mouse to feel the texture. The wheel sets the force.";
+/// Start the automatic hand.
+pub const HAND_START: &str = "Stroke";
+/// Stop the automatic hand.
+pub const HAND_STOP: &str = "Stop";
+/// What the automatic hand does.
+pub const HAND_HELP: &str = "Strokes the pad by itself, at a set speed and force (Space).";
+/// Accessible name of the hand's speed.
+pub const HAND_SPEED: &str = "Speed of the hand";
+/// Accessible name of the hand's force.
+pub const HAND_FORCE: &str = "Force of the hand";
+/// Accessible name of the choice of paths.
+pub const HAND_PATH: &str = "Path of the hand";
+/// Heading of the waveform.
+pub const WAVEFORM: &str = "Acceleration";
+/// Heading of the spectrum.
+pub const SPECTRUM: &str = "Spectrum";
+/// The blend's line in the spectrum.
+pub const BLEND_LINE: &str = "blend (model)";
+/// The measured line in the spectrum.
+pub const LIVE_LINE: &str = "live";
+/// Accessible name of the choice of outputs.
+pub const OUTPUT: &str = "Output";
+/// What the choice of outputs does.
+pub const OUTPUT_HELP: &str =
+    "The output that drives the actuator. It is never changed behind your back: if it goes, Shagreen falls silent.";
+/// An output is being opened.
+pub const OPENING: &str = "Opening the output…";
+/// Resets the latched limiter.
+pub const RESET_LIMITER: &str = "Reset limiter";
+/// The limiter has latched silence.
+pub const TRIPPED: &str = "Silenced: a sample was not a number";
+/// Light theme.
+pub const TO_LIGHT: &str = "Light theme";
+/// Dark theme.
+pub const TO_DARK: &str = "Dark theme";
+/// Undo.
+pub const UNDO: &str = "Undo";
+/// Redo.
+pub const REDO: &str = "Redo";
+/// Mute.
+pub const MUTE: &str = "Mute";
+/// Sound again.
+pub const UNMUTE: &str = "Unmute";

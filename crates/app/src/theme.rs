@@ -1,0 +1,193 @@
+//! Design tokens: every color, size and distance of the window, in a dark and a light set.
+
+use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2};
+
+/// The colors of one theme.
+#[derive(Clone, Copy, Debug)]
+pub struct Tokens {
+    /// Behind everything.
+    pub background: Color32,
+    /// Panels.
+    pub panel: Color32,
+    /// Cards and wells within panels.
+    pub raised: Color32,
+    /// Controls at rest.
+    pub control: Color32,
+    /// Controls under the pointer.
+    pub control_hovered: Color32,
+    /// Hairlines.
+    pub line: Color32,
+    /// Text that matters.
+    pub text: Color32,
+    /// Text that helps.
+    pub text_weak: Color32,
+    /// The authored point and whatever belongs to it.
+    pub accent: Color32,
+    /// Text on the accent.
+    pub on_accent: Color32,
+    /// The three parents, told apart by readers of any color vision (after Okabe and Ito).
+    pub parents: [Color32; 3],
+    /// Something wants attention.
+    pub warning: Color32,
+    /// Something is wrong.
+    pub error: Color32,
+}
+
+/// The warm dark set.
+pub const DARK: Tokens = Tokens {
+    background: Color32::from_rgb(0x12, 0x15, 0x17),
+    panel: Color32::from_rgb(0x1A, 0x1E, 0x21),
+    raised: Color32::from_rgb(0x22, 0x27, 0x2B),
+    control: Color32::from_rgb(0x2D, 0x34, 0x39),
+    control_hovered: Color32::from_rgb(0x39, 0x42, 0x48),
+    line: Color32::from_rgb(0x33, 0x3B, 0x41),
+    text: Color32::from_rgb(0xE9, 0xEC, 0xEB),
+    text_weak: Color32::from_rgb(0xA3, 0xAE, 0xB2),
+    accent: Color32::from_rgb(0x5F, 0xC9, 0xB0),
+    on_accent: Color32::from_rgb(0x0C, 0x1F, 0x1A),
+    parents: [
+        Color32::from_rgb(0xF0, 0xA8, 0x30),
+        Color32::from_rgb(0x62, 0xB8, 0xEC),
+        Color32::from_rgb(0xDB, 0x8C, 0xB8),
+    ],
+    warning: Color32::from_rgb(0xF2, 0xC0, 0x4A),
+    error: Color32::from_rgb(0xF0, 0x7A, 0x6A),
+};
+
+/// The paper-like light set.
+pub const LIGHT: Tokens = Tokens {
+    background: Color32::from_rgb(0xE9, 0xEB, 0xE8),
+    panel: Color32::from_rgb(0xF7, 0xF8, 0xF6),
+    raised: Color32::from_rgb(0xFF, 0xFF, 0xFF),
+    control: Color32::from_rgb(0xE3, 0xE7, 0xE4),
+    control_hovered: Color32::from_rgb(0xD6, 0xDC, 0xD8),
+    line: Color32::from_rgb(0xCB, 0xD2, 0xCD),
+    text: Color32::from_rgb(0x1B, 0x21, 0x24),
+    text_weak: Color32::from_rgb(0x54, 0x60, 0x66),
+    accent: Color32::from_rgb(0x12, 0x70, 0x60),
+    on_accent: Color32::from_rgb(0xFF, 0xFF, 0xFF),
+    parents: [
+        Color32::from_rgb(0x96, 0x57, 0x00),
+        Color32::from_rgb(0x16, 0x6C, 0xAB),
+        Color32::from_rgb(0xA3, 0x3C, 0x78),
+    ],
+    warning: Color32::from_rgb(0x8A, 0x5A, 0x00),
+    error: Color32::from_rgb(0xB3, 0x2D, 0x20),
+};
+
+/// Distance between things that belong together, in points.
+pub const GAP: f32 = 6.0;
+/// Distance between groups, in points.
+pub const GROUP_GAP: f32 = 10.0;
+/// Corner radius of cards and controls, in points.
+pub const RADIUS: u8 = 5;
+/// Width of the column of textures, in points.
+pub const LIBRARY_WIDTH: f32 = 208.0;
+/// Width of the column of sliders and parents, in points.
+pub const INSPECTOR_WIDTH: f32 = 290.0;
+/// Height of the row of pad and scope, in points.
+pub const STAGE_HEIGHT: f32 = 208.0;
+
+/// The tokens of the theme that is showing.
+pub fn tokens(ctx: &egui::Context) -> &'static Tokens {
+    match ctx.theme() {
+        Theme::Dark => &DARK,
+        Theme::Light => &LIGHT,
+    }
+}
+
+/// Installs both themes.
+pub fn install(ctx: &egui::Context) {
+    ctx.set_style_of(Theme::Dark, style(&DARK, Visuals::dark()));
+    ctx.set_style_of(Theme::Light, style(&LIGHT, Visuals::light()));
+}
+
+fn style(t: &Tokens, mut visuals: Visuals) -> Style {
+    let radius = CornerRadius::same(RADIUS);
+    visuals.panel_fill = t.panel;
+    visuals.window_fill = t.raised;
+    visuals.window_stroke = Stroke::new(1.0, t.line);
+    visuals.window_corner_radius = radius;
+    visuals.menu_corner_radius = radius;
+    visuals.extreme_bg_color = t.background;
+    visuals.faint_bg_color = t.raised;
+    visuals.weak_text_color = Some(t.text_weak);
+    visuals.hyperlink_color = t.accent;
+    visuals.warn_fg_color = t.warning;
+    visuals.error_fg_color = t.error;
+    visuals.selection.bg_fill = t.accent.gamma_multiply(0.45);
+    visuals.selection.stroke = Stroke::new(1.5, t.accent);
+    visuals.slider_trailing_fill = true;
+    let widgets = &mut visuals.widgets;
+    for (widget, fill) in [
+        (&mut widgets.noninteractive, t.panel),
+        (&mut widgets.inactive, t.control),
+        (&mut widgets.hovered, t.control_hovered),
+        (&mut widgets.active, t.control_hovered),
+        (&mut widgets.open, t.control),
+    ] {
+        widget.bg_fill = fill;
+        widget.weak_bg_fill = fill;
+        widget.corner_radius = radius;
+        widget.bg_stroke = Stroke::NONE;
+        widget.fg_stroke = Stroke::new(1.0, t.text);
+        widget.expansion = 0.0;
+    }
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, t.line);
+    widgets.hovered.bg_stroke = Stroke::new(1.0, t.text_weak);
+    widgets.active.bg_stroke = Stroke::new(1.0, t.accent);
+    let mut style = Style { visuals, ..Style::default() };
+    style.text_styles = [
+        (TextStyle::Small, 11.5),
+        (TextStyle::Body, 13.5),
+        (TextStyle::Button, 13.5),
+        (TextStyle::Heading, 17.0),
+    ]
+    .map(|(text_style, size)| (text_style, FontId::new(size, FontFamily::Proportional)))
+    .into_iter()
+    .chain([(TextStyle::Monospace, FontId::new(12.5, FontFamily::Monospace))])
+    .collect();
+    style.spacing.item_spacing = vec2(GAP, GAP);
+    style.spacing.button_padding = vec2(9.0, 4.0);
+    style.spacing.interact_size.y = 24.0;
+    style.spacing.slider_rail_height = 5.0;
+    style.spacing.window_margin = Margin::same(10);
+    style.interaction.tooltip_delay = 0.4;
+    style
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DARK, LIGHT, Tokens};
+    use egui::Color32;
+
+    /// Relative luminance of WCAG 2.1.
+    fn luminance(color: Color32) -> f64 {
+        let linear = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn text_can_be_read_on_every_surface() {
+        let check = |t: &Tokens| {
+            for surface in [t.background, t.panel, t.raised] {
+                assert!(contrast(t.text, surface) >= 7.0);
+                for color in [t.text_weak, t.accent, t.warning, t.error].into_iter().chain(t.parents) {
+                    assert!(contrast(color, surface) >= 4.5, "{color:?} on {surface:?}");
+                }
+            }
+            assert!(contrast(t.on_accent, t.accent) >= 4.5);
+            assert!(contrast(t.text, t.control_hovered) >= 4.5);
+        };
+        check(&DARK);
+        check(&LIGHT);
+    }
+}

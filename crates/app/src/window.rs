@@ -1,0 +1,208 @@
+//! The window itself: lays out the panels, carries out commands, keeps the frame going.
+
+use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Role, Ui, WidgetInfo};
+use shagreen_core::units::Contact;
+use shagreen_formats::library::Library;
+
+use crate::canvas::{canvas_ui, point_id};
+use crate::command::{Command, pressed};
+use crate::history::{Gesture, History};
+use crate::inspector::inspector_ui;
+use crate::library_panel::library_ui;
+use crate::pad::{PadState, pad_ui};
+use crate::panel::Panel;
+use crate::pictures::Pictures;
+use crate::project::Project;
+use crate::scope::scope_ui;
+use crate::session::Session;
+use crate::status_bar::status_ui;
+use crate::strings;
+use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, STAGE_HEIGHT, install, tokens};
+
+/// The program with its window.
+pub struct Window {
+    project: Project,
+    history: History,
+    session: Session,
+    pictures: Pictures,
+    pad: PadState,
+    search: String,
+    gesture: u64,
+    was_holding: bool,
+}
+
+impl Window {
+    /// The window on a library, with the output of this identity (opened after the first frame).
+    ///
+    /// # Errors
+    /// The library's positions make no space.
+    pub fn new(ctx: &egui::Context, library: Library, output: Option<&str>) -> anyhow::Result<Self> {
+        install(ctx);
+        let sources = library.textures.iter().map(|t| t.picture.clone()).collect();
+        let mut session = Session::new(library)?;
+        session.list_outputs(ctx);
+        if let Some(id) = output {
+            session.open_output(id, ctx);
+        }
+        let project = Project::default();
+        session.follow(&project);
+        Ok(Self {
+            project,
+            history: History::default(),
+            session,
+            pictures: Pictures::new(ctx, sources),
+            pad: PadState::default(),
+            search: String::new(),
+            gesture: 0,
+            was_holding: false,
+        })
+    }
+
+    /// What the user makes.
+    pub fn project(&self) -> &Project {
+        &self.project
+    }
+
+    /// What is open and what sounds.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// One frame.
+    pub fn frame_ui(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        let t = tokens(&ctx);
+        self.pictures.collect(&ctx);
+        self.next_gesture(&ctx);
+        let hand = self.pad.hand;
+        self.session.update(Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n)));
+        let mut commands = pressed(&ctx, point_id());
+
+        let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
+        Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
+        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+        Side::bottom("status").exact_size(32.0).frame(bar(2)).show(ui, |ui| commands.extend(status_ui(ui, &panel)));
+        self.stage_ui(ui, &ctx, &mut commands);
+        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+        let search = &mut self.search;
+        Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
+            commands.extend(library_ui(ui, &panel, search));
+        });
+        Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
+            commands.extend(inspector_ui(ui, &panel));
+        });
+        CentralPanel::default().frame(Frame::new().fill(t.panel).inner_margin(Margin::same(6))).show(ui, |ui| {
+            commands.extend(canvas_ui(ui, &panel));
+        });
+
+        for command in commands {
+            self.carry_out(command, &ctx);
+        }
+        self.session.follow(&self.project);
+        self.keep_going(&ctx);
+    }
+
+    fn title_ui(&self, ui: &mut Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.horizontal_centered(|ui| {
+            let t = tokens(ui.ctx());
+            ui.add(egui::Label::new(RichText::new(strings::APP).heading().strong().color(t.accent)).selectable(false));
+            ui.add_space(10.0);
+            for (command, label) in [(Command::Undo, self.history.undo_label()), (Command::Redo, self.history.redo_label())] {
+                let text = label.map_or(command.text().to_owned(), |l| format!("{} {}", command.text(), l.to_lowercase()));
+                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let button = ui.add_enabled(label.is_some(), egui::Button::new(command.text()));
+                button.widget_info(|| WidgetInfo::labeled(Role::Button, label.is_some(), command.text()));
+                if button.on_hover_text(format!("{text} ({keys})")).clicked() {
+                    commands.push(command);
+                }
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let to = if ui.visuals().dark_mode { strings::TO_LIGHT } else { strings::TO_DARK };
+                if ui.button(to).clicked() {
+                    commands.push(Command::ToggleTheme);
+                }
+                let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
+                if ui.selectable_label(self.session.is_muted(), mute).clicked() {
+                    commands.push(Command::ToggleMute);
+                }
+            });
+        });
+        commands
+    }
+
+    /// The row at the foot: pad and scope.
+    fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        let parents = self.session.authored().map_or(Vec::new(), |a| a.parents.clone());
+        let picture = self.pictures.blend(ctx, &parents).map(|(texture, mm)| (texture.id(), mm));
+        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+        let pad = &mut self.pad;
+        let mut mouse = None;
+        Side::bottom("stage").exact_size(STAGE_HEIGHT).resizable(false).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                let (width, height) = (ui.available_width(), ui.available_height());
+                let top_down = egui::Layout::top_down(egui::Align::Min);
+                ui.allocate_ui_with_layout(egui::vec2(0.36 * width, height), top_down, |ui| {
+                    let outcome = pad_ui(ui, &panel, pad, picture);
+                    commands.extend(outcome.commands);
+                    mouse = outcome.mouse;
+                });
+                ui.allocate_ui_with_layout(ui.available_size(), top_down, |ui| scope_ui(ui, &panel));
+            });
+        });
+        if let Some(report) = mouse {
+            self.session.mouse(report, self.pad.hand.force_n);
+        }
+        if self.session.hand_is_running() {
+            self.session.set_hand(Some(self.pad.hand));
+        }
+    }
+
+    fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
+        match command {
+            Command::Edit(edit) => self.history.apply(&mut self.project, edit, Gesture(self.gesture)),
+            Command::Undo => {
+                self.history.undo(&mut self.project);
+            }
+            Command::Redo => {
+                self.history.redo(&mut self.project);
+            }
+            Command::ToggleHand => {
+                let hand = (!self.session.hand_is_running()).then_some(self.pad.hand);
+                self.session.set_hand(hand);
+            }
+            Command::ToggleMute => self.session.toggle_mute(),
+            Command::ToggleTheme => {
+                let dark = ctx.theme() == egui::Theme::Dark;
+                ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
+            }
+            Command::OpenOutput(id) => self.session.open_output(&id, ctx),
+            Command::ResetLimiter => self.session.reset_limiter(),
+        }
+    }
+
+    /// A gesture lasts while a button or key is held, and for the frame in which it is let go.
+    fn next_gesture(&mut self, ctx: &egui::Context) {
+        let holding = ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty());
+        if !holding && !self.was_holding {
+            self.gesture += 1;
+        }
+        self.was_holding = holding;
+    }
+
+    /// Something moves while something sounds; otherwise a few frames a second show how the output is doing.
+    fn keep_going(&self, ctx: &egui::Context) {
+        let sounding = self.session.touch().contact.force_n > 0.0 || self.session.scope().rms(0.5) > 1e-4;
+        if self.session.hand_is_running() || sounding {
+            ctx.request_repaint();
+        } else {
+            ctx.request_repaint_after(std::time::Duration::from_millis(100));
+        }
+    }
+}
+
+impl eframe::App for Window {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.frame_ui(ui);
+    }
+}

@@ -1,0 +1,247 @@
+//! The workspace Author, used as a person would: controls found by name, the point dragged, the texture heard.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+use std::time::{Duration, Instant};
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use shagreen_app::strings;
+use shagreen_app::window::Window;
+use shagreen_core::blend::Mode;
+use shagreen_formats::starter::starter_library;
+
+type Author = Harness<'static, Option<Window>>;
+
+/// The window on the starter library, playing to the silent output with a real clock.
+fn author() -> Author {
+    let mut harness = Harness::builder().with_size([1280.0, 720.0]).build_ui_state(
+        |ui, window: &mut Option<Window>| {
+            let window = window.get_or_insert_with(|| {
+                Window::new(ui.ctx(), starter_library().expect("the starter library"), Some("null")).expect("a window")
+            });
+            window.frame_ui(ui);
+        },
+        None,
+    );
+    wait(&mut harness, "the output opens", |w| w.session().status().is_some());
+    harness
+}
+
+fn window(harness: &Author) -> &Window {
+    harness.state().as_ref().expect("a window after the first frame")
+}
+
+/// Runs frames in real time until `done`, for at most ten seconds.
+#[track_caller]
+fn wait(harness: &mut Author, what: &str, done: impl Fn(&Window) -> bool) {
+    let start = Instant::now();
+    loop {
+        harness.step();
+        if harness.state().as_ref().is_some_and(&done) {
+            return;
+        }
+        assert!(start.elapsed() < Duration::from_secs(10), "waited in vain: {what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Lets the texture sound for a while.
+fn listen(harness: &mut Author, seconds: f64) {
+    let start = Instant::now();
+    while start.elapsed().as_secs_f64() < seconds {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+fn slider(harness: &Author, name: &str) -> f64 {
+    harness.get_by_role_and_label(Role::Slider, name).accesskit_node().numeric_value().expect("a slider has a value")
+}
+
+fn center(harness: &Author, name: &str) -> Pos2 {
+    harness.get_by_label(name).rect().center()
+}
+
+fn drag(harness: &mut Author, from: Pos2, to: Pos2) {
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    for i in 1..=5 {
+        harness.hover_at(from.lerp(to, i as f32 / 5.0));
+        harness.run_steps(1);
+    }
+    harness.drop_at(to);
+    harness.run_steps(2);
+}
+
+fn parents(harness: &Author) -> Vec<(String, f64)> {
+    let session = window(harness).session();
+    let authored = session.authored().expect("a blend");
+    authored.parents.iter().map(|(t, w)| (session.textures()[*t].name.clone(), *w)).collect()
+}
+
+#[test]
+fn every_control_has_a_name() {
+    let harness = author();
+    for (role, name) in [
+        (Role::Slider, strings::ROUGH_SMOOTH),
+        (Role::Slider, strings::HARD_SOFT),
+        (Role::Slider, strings::HAND_SPEED),
+        (Role::Slider, strings::HAND_FORCE),
+        (Role::Slider, strings::POINT),
+        (Role::TextInput, strings::NAME),
+        (Role::TextInput, strings::SEARCH),
+        (Role::Canvas, strings::CANVAS),
+        (Role::Canvas, strings::PAD),
+        (Role::ComboBox, strings::HAND_PATH),
+        (Role::ComboBox, strings::OUTPUT),
+    ] {
+        assert!(harness.query_by_role_and_label(role, name).is_some(), "no {role:?} is named {name}");
+    }
+    for name in [strings::UNDO, strings::REDO, strings::MUTE, strings::HAND_START, "paper", "power", "shared"] {
+        assert!(harness.query_by_label(name).is_some(), "nothing is named {name}");
+    }
+    for texture in window(&harness).session().textures() {
+        assert!(harness.query_by_label(&format!("Go to {}", texture.name)).is_some());
+    }
+}
+
+/// The main job: drag the point, and sliders, weights and sound follow.
+#[test]
+fn dragging_the_point_changes_sliders_weights_and_sound() {
+    let mut harness = author();
+    harness.get_by_label(strings::HAND_START).click();
+    harness.run_steps(2);
+    wait(&mut harness, "the hand strokes", |w| w.session().touch().contact.force_n > 0.0);
+
+    let smooth = center(&harness, "Go to Glass");
+    let from = center(&harness, strings::POINT);
+    drag(&mut harness, from, smooth);
+    assert!(slider(&harness, strings::ROUGH_SMOOTH) > 95.0 && slider(&harness, strings::HARD_SOFT) < 5.0);
+    assert!(parents(&harness)[0] .0 == "Glass" && parents(&harness)[0].1 > 0.9, "{:?}", parents(&harness));
+    assert!(harness.query_by_label_contains("Glass, ").is_some(), "the weight is shown");
+    listen(&mut harness, 1.0);
+    let quiet = window(&harness).session().scope().rms(0.6);
+
+    let (from, rough) = (center(&harness, strings::POINT), center(&harness, "Go to Brick"));
+    drag(&mut harness, from, rough);
+    assert!(slider(&harness, strings::ROUGH_SMOOTH) < 5.0);
+    assert_eq!(parents(&harness)[0].0, "Brick");
+    listen(&mut harness, 1.0);
+    let loud = window(&harness).session().scope().rms(0.6);
+    // By their models a factor of about fifty lies between the two.
+    assert!(quiet > 1e-3 && loud > 5.0 * quiet, "glass {quiet} m/s², brick {loud} m/s²");
+
+    // The picture on the pad is of the same blend, and the spectrum that is shown is that of what sounds.
+    let spectra = window(&harness).session().spectra();
+    assert_eq!(spectra.parents[0].0, "Brick");
+
+    harness.get_by_label(strings::HAND_STOP).click();
+    harness.run_steps(2);
+    listen(&mut harness, 0.8);
+    assert!(window(&harness).session().scope().rms(0.3) < 1e-3, "silence when the hand stops");
+}
+
+#[test]
+fn sliders_move_the_point_and_undo_brings_it_back() {
+    let mut harness = author();
+    let start = window(&harness).project().point;
+    let before = center(&harness, strings::POINT);
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(80.0);
+    harness.run_steps(3);
+    assert!((window(&harness).project().point.rough_smooth - 80.0).abs() < 1e-9);
+    assert!(center(&harness, strings::POINT).x > before.x + 50.0, "the point follows the slider");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project().point, start);
+    assert!((slider(&harness, strings::ROUGH_SMOOTH) - start.rough_smooth).abs() < 0.1);
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    harness.run_steps(3);
+    assert!((window(&harness).project().point.rough_smooth - 80.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_whole_drag_is_one_step_of_undo() {
+    let mut harness = author();
+    let start = window(&harness).project().point;
+    let (from, to) = (center(&harness, strings::POINT), center(&harness, "Go to Felt"));
+    drag(&mut harness, from, to);
+    assert_ne!(window(&harness).project().point, start);
+    harness.get_by_label(strings::UNDO).click();
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project().point, start);
+}
+
+#[test]
+fn the_keyboard_moves_the_point_and_starts_the_hand() {
+    let mut harness = author();
+    let start = window(&harness).project().point;
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowUp);
+    harness.run_steps(2);
+    let moved = window(&harness).project().point;
+    assert_eq!((moved.rough_smooth, moved.hard_soft), (start.rough_smooth + 1.0, start.hard_soft + 5.0));
+    harness.key_press(Key::Space);
+    harness.run_steps(2);
+    assert!(window(&harness).session().hand_is_running());
+    // While text is written, a space is a space.
+    harness.get_by_role_and_label(Role::TextInput, strings::NAME).focus();
+    harness.run_steps(2);
+    harness.key_press(Key::Space);
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(2);
+    assert!(window(&harness).session().hand_is_running());
+    assert_eq!(window(&harness).project().point, moved);
+}
+
+#[test]
+fn the_mouse_strokes_the_pad() {
+    let mut harness = author();
+    let middle = harness.get_by_role_and_label(Role::Canvas, strings::PAD).rect().center();
+    harness.hover_at(middle);
+    harness.run_steps(2);
+    harness.drag_at(middle);
+    harness.run_steps(1);
+    let mut loudest = 0.0_f64;
+    for i in 0..80 {
+        harness.hover_at(middle + egui::vec2(100.0 * (f64::from(i) * 0.15).sin() as f32, 0.0));
+        harness.step();
+        std::thread::sleep(Duration::from_millis(10));
+        loudest = loudest.max(window(&harness).session().scope().rms(0.1));
+    }
+    assert!(loudest > 0.02, "stroking sounds: {loudest}");
+    harness.drop_at(middle);
+    harness.run_steps(2);
+    listen(&mut harness, 0.8);
+    assert!(window(&harness).session().scope().rms(0.3) < 1e-3, "lifting is silence");
+}
+
+#[test]
+fn outside_the_measured_textures_the_window_says_so() {
+    let mut harness = author();
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(100.0);
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::Slider, strings::HARD_SOFT).set_value_accesskit(100.0);
+    harness.run_steps(2);
+    let authored = window(&harness).session().authored().unwrap().clone();
+    assert!(authored.location.clamped);
+    assert_eq!(window(&harness).project().point.hard_soft, 100.0, "the wish is kept");
+}
+
+#[test]
+fn the_blend_is_chosen_and_a_search_narrows_the_list() {
+    let mut harness = author();
+    harness.get_by_label("paper").click();
+    harness.run_steps(2);
+    assert_eq!(window(&harness).project().mode, Mode::Paper);
+    harness.get_by_role_and_label(Role::TextInput, strings::SEARCH).focus();
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::TextInput, strings::SEARCH).type_text("wood");
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Texture Sanded wood").is_some());
+    assert!(harness.query_by_label("Texture Glass").is_none());
+}

@@ -1,0 +1,291 @@
+//! Outputs through the system's sound.
+
+mod choose;
+
+use std::time::{Duration, Instant};
+
+use cpal::traits::{DeviceTrait as _, HostTrait as _, StreamTrait as _};
+use cpal::{
+    BufferSize, ErrorKind, FromSample, SampleFormat, SizedSample, StreamConfig, SupportedStreamConfigRange,
+};
+
+use self::choose::choose;
+use crate::edge::Edge;
+use crate::engine::Handle;
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::link::Reporter;
+use crate::output::{Made, OpenOptions, OutputCapabilities, OutputInfo, OutputKind, make_engine};
+
+/// The one id that needs no search: the search opens every card.
+const ALSA_DEFAULT: &str = "alsa:default";
+
+/// A stream of the system, open until it is dropped.
+pub(crate) struct AudioOutput {
+    _stream: cpal::Stream,
+}
+
+impl std::fmt::Debug for AudioOutput {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("AudioOutput").finish_non_exhaustive()
+    }
+}
+
+/// What came of opening.
+pub(crate) struct Opened {
+    pub(crate) output: AudioOutput,
+    pub(crate) rate_hz: u32,
+    pub(crate) channels: u16,
+    pub(crate) buffer_frames: Option<u32>,
+    pub(crate) engine_latency_secs: f64,
+}
+
+/// The outputs of every system of sound that answers. None is opened.
+pub(crate) fn list() -> Vec<OutputInfo> {
+    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Gone since.
+    hosts.flat_map(|host| list_of(&host)).collect()
+}
+
+fn list_of(host: &cpal::Host) -> Vec<OutputInfo> {
+    let default = host.default_output_device();
+    let default_id = default.as_ref().and_then(|device| device.id().ok()); // Pulled out since.
+    // The default is not among the devices of every system.
+    let found = host.devices().into_iter().flatten().filter(cpal::Device::supports_output);
+    let mut outputs: Vec<OutputInfo> = Vec::new();
+    for device in default.into_iter().chain(found) {
+        let Ok(id) = device.id() else { continue };
+        let is_default = Some(&id) == default_id.as_ref();
+        let id = id.to_string();
+        if outputs.iter().all(|output| output.id != id) {
+            outputs.push(OutputInfo { id, name: device.to_string(), kind: OutputKind::Audio, is_default });
+        }
+    }
+    outputs
+}
+
+pub(crate) fn capabilities(id: &str) -> Result<OutputCapabilities, DeviceError> {
+    let configs = configs_of(id, &find(id)?)?;
+    let none =
+        || DeviceError::new(DeviceErrorKind::Unsupported, format!("the output `{id}` names no format"));
+    Ok(OutputCapabilities {
+        max_channels: configs.iter().map(SupportedStreamConfigRange::channels).max().ok_or_else(none)?,
+        min_rate_hz: configs
+            .iter()
+            .map(SupportedStreamConfigRange::min_sample_rate)
+            .min()
+            .ok_or_else(none)?,
+        max_rate_hz: configs
+            .iter()
+            .map(SupportedStreamConfigRange::max_sample_rate)
+            .max()
+            .ok_or_else(none)?,
+    })
+}
+
+pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
+    let device = find(id)?;
+    let configs = configs_of(id, &device)?;
+    let Some((range, rate_hz)) = choose(&configs, options) else {
+        let message = format!(
+            "the output `{id}` has no channel, rate and format that would do ({} kinds of stream); \
+             choose other channels, or another output: `shagreen devices` lists them",
+            configs.len()
+        );
+        return Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
+    };
+    let asked = options.buffer_frames.map_or(BufferSize::Default, BufferSize::Fixed);
+    let config = StreamConfig { channels: range.channels(), sample_rate: rate_hz, buffer_size: asked };
+    let (handle, stream, engine_latency_secs) =
+        match build(id, &device, config, range.sample_format(), options) {
+            // The number of frames is only a wish.
+            Err(error) if error.kind() == DeviceErrorKind::Unsupported && asked != BufferSize::Default => {
+                let config = StreamConfig { buffer_size: BufferSize::Default, ..config };
+                build(id, &device, config, range.sample_format(), options)?
+            }
+            built => built?,
+        };
+    stream.play().map_err(|error| explain(id, "started", &error))?;
+    let opened = Opened {
+        rate_hz,
+        channels: range.channels(),
+        buffer_frames: stream.buffer_size().ok(), // Not every system says.
+        output: AudioOutput { _stream: stream },
+        engine_latency_secs,
+    };
+    Ok((handle, opened))
+}
+
+/// The device of exactly this id.
+fn find(id: &str) -> Result<cpal::Device, DeviceError> {
+    let not_found = || {
+        let message = format!(
+            "there is no output `{id}` on this machine; `shagreen devices` lists those that there are"
+        );
+        DeviceError::new(DeviceErrorKind::NotFound, message)
+    };
+    let device_id: cpal::DeviceId = id.parse().map_err(|_| not_found())?;
+    let host = cpal::host_from_id(device_id.host()).map_err(|error| explain(id, "found", &error))?;
+    if id == ALSA_DEFAULT {
+        // A name like any other to ALSA. Elsewhere the default device is one that is followed when it changes, and
+        // must be opened by its own id.
+        return host.default_output_device().ok_or_else(not_found);
+    }
+    host.device_by_id(&device_id).ok_or_else(not_found)
+}
+
+fn configs_of(id: &str, device: &cpal::Device) -> Result<Vec<SupportedStreamConfigRange>, DeviceError> {
+    let configs =
+        device.supported_output_configs().map_err(|error| explain(id, "asked what it can do", &error))?;
+    Ok(configs.collect())
+}
+
+type Built = (Handle, cpal::Stream, f64);
+
+fn build(
+    id: &str,
+    device: &cpal::Device,
+    config: StreamConfig,
+    format: SampleFormat,
+    options: OpenOptions,
+) -> Result<Built, DeviceError> {
+    match format {
+        SampleFormat::F64 => build_as::<f64>(id, device, config, options),
+        SampleFormat::I32 => build_as::<i32>(id, device, config, options),
+        SampleFormat::I24 => build_as::<cpal::I24>(id, device, config, options),
+        SampleFormat::I16 => build_as::<i16>(id, device, config, options),
+        SampleFormat::U16 => build_as::<u16>(id, device, config, options),
+        SampleFormat::U8 => build_as::<u8>(id, device, config, options),
+        _ => build_as::<f32>(id, device, config, options),
+    }
+}
+
+fn build_as<T: SizedSample + FromSample<f32>>(
+    id: &str,
+    device: &cpal::Device,
+    config: StreamConfig,
+    options: OpenOptions,
+) -> Result<Built, DeviceError> {
+    let Made { handle, engine, mut reporter } = make_engine(options, config.sample_rate)?;
+    let engine_latency_secs = f64::from(engine.latency_secs());
+    let mut edge = Edge::new(engine, reporter.shared.clone(), f64::from(config.sample_rate));
+    let channels = usize::from(config.channels);
+    let id_of_errors = id.to_owned();
+    let stream = device
+        .build_output_stream::<T, _, _>(
+            config,
+            move |out, _| edge.fill(out, channels),
+            move |error| note_error(&id_of_errors, &mut reporter, &error),
+            Some(Duration::from_secs(1)),
+        )
+        .map_err(|error| explain(id, "opened", &error))?;
+    Ok((handle, stream, engine_latency_secs))
+}
+
+/// What the system reports about an open stream. It may be on the callback's thread, but not in the callback: only an
+/// error that ends the stream allocates here.
+fn note_error(id: &str, reporter: &mut Reporter, error: &cpal::Error) {
+    let lost = || {
+        let message = format!(
+            "the output `{id}` is lost: {}; it stays silent until you open it again, or another that \
+             `shagreen devices` lists",
+            reason(error)
+        );
+        DeviceError::new(DeviceErrorKind::Lost, message)
+    };
+    match error.kind() {
+        ErrorKind::Xrun => reporter.note_underrun(Instant::now(), lost),
+        // A stream that the system sent elsewhere is in someone's headphones.
+        ErrorKind::DeviceNotAvailable
+        | ErrorKind::DeviceChanged
+        | ErrorKind::HostUnavailable
+        | ErrorKind::PermissionDenied
+        | ErrorKind::StreamInvalidated => reporter.lose(lost()),
+        // It plays all the same.
+        ErrorKind::RealtimeDenied => {}
+        _ => reporter.note_error(Instant::now(), lost),
+    }
+    if reporter.shared.is_lost() {
+        // Some systems report without a pause what is lost; nothing is late any more.
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// An error of the system before anything played.
+fn explain(id: &str, done: &str, error: &cpal::Error) -> DeviceError {
+    let (kind, advice) = match error.kind() {
+        ErrorKind::DeviceBusy => (DeviceErrorKind::Busy, "close the program that uses it and try again"),
+        ErrorKind::DeviceNotAvailable => {
+            (DeviceErrorKind::NotFound, "plug it in, or choose another: `shagreen devices` lists them")
+        }
+        ErrorKind::PermissionDenied => {
+            (DeviceErrorKind::Denied, "allow access to it in the system's settings")
+        }
+        ErrorKind::HostUnavailable => {
+            (DeviceErrorKind::Unavailable, "start the system's sound and try again")
+        }
+        ErrorKind::InvalidInput | ErrorKind::UnsupportedConfig | ErrorKind::UnsupportedOperation => {
+            (DeviceErrorKind::Unsupported, "ask for another rate or buffer, or choose another output")
+        }
+        _ => (DeviceErrorKind::Backend, "try again, or choose another: `shagreen devices` lists them"),
+    };
+    DeviceError::new(kind, format!("the output `{id}` cannot be {done}: {}; {advice}", reason(error)))
+}
+
+/// The system's words, to go in the middle of a sentence.
+fn reason(error: &cpal::Error) -> String {
+    error.to_string().trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Reporter, explain, note_error};
+    use crate::error::DeviceErrorKind;
+    use crate::link::{Monitor, link};
+    use crate::status::Status;
+    use cpal::{Error, ErrorKind};
+    use std::time::Instant;
+
+    fn status(monitor: &Monitor) -> Status {
+        let mut status = Status::default();
+        monitor.complete(&mut status, Instant::now());
+        status
+    }
+
+    fn reported(kind: ErrorKind) -> (Reporter, Monitor) {
+        let (mut reporter, monitor) = link();
+        note_error("alsa:this", &mut reporter, &Error::new(kind));
+        (reporter, monitor)
+    }
+
+    #[test]
+    fn what_is_gone_or_goes_elsewhere_is_lost() {
+        for kind in [ErrorKind::DeviceNotAvailable, ErrorKind::DeviceChanged, ErrorKind::StreamInvalidated] {
+            let (_reporter, mut monitor) = reported(kind);
+            let loss = monitor.loss().unwrap();
+            assert_eq!(loss.kind(), DeviceErrorKind::Lost);
+            assert!(
+                loss.message().contains("`alsa:this`") && loss.message().contains("open it again"),
+                "{loss}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_goes_on_is_counted_and_not_lost() {
+        for (kind, underruns, backend_errors) in
+            [(ErrorKind::Xrun, 1, 0), (ErrorKind::BackendError, 0, 1), (ErrorKind::RealtimeDenied, 0, 0)]
+        {
+            let (_reporter, mut monitor) = reported(kind);
+            assert!(monitor.loss().is_none());
+            let status = status(&monitor);
+            assert_eq!((status.underruns, status.backend_errors), (underruns, backend_errors), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn errors_say_what_where_and_what_to_do() {
+        let error = explain("alsa:this", "opened", &Error::new(ErrorKind::DeviceBusy));
+        assert_eq!(error.kind(), DeviceErrorKind::Busy);
+        assert!(error.message().starts_with("the output `alsa:this` cannot be opened: "), "{error}");
+        assert!(error.message().contains("close the program") && !error.message().contains(".;"), "{error}");
+    }
+}

@@ -1,0 +1,307 @@
+//! What the callback runs, and the handle by which it is told what to do.
+//!
+//! 1. [`new`] makes both halves; the [`Engine`] goes into the callback, the [`Handle`] stays.
+//! 2. [`Handle::load`] sends textures down; [`Handle::set_mix`], [`Handle::set_input`] and [`Handle::set_drive`] say
+//!    what to do with them.
+//! 3. The device calls [`Engine::process`] for every block, which never allocates, frees, locks, waits or panics.
+//! 4. [`Handle::unload`] lets a texture fade out and come back; [`Handle::collect`] frees what came back. Call it
+//!    often: every picture of a window, or every tenth of a second.
+//!
+//! An engine whose handle is gone fades out: nobody could mute it any more.
+
+mod config;
+mod handle;
+mod meter;
+mod player;
+mod slots;
+#[cfg(test)]
+mod tests;
+
+use std::time::{Duration, Instant};
+
+use rtrb::{Consumer, Producer, PushError, RingBuffer};
+use shagreen_synth::limiter::Limiter;
+use shagreen_synth::renderer::{Mix, TextureId};
+use shagreen_synth::stream::Stream;
+use triple_buffer::triple_buffer;
+
+pub use self::config::{ChannelMask, ConfigError, EngineConfig};
+pub use self::handle::{Handle, LoadError, LoadReason, MixError};
+pub use crate::link::{STALL_SECS, START_SECS};
+
+use self::meter::{Meter, Ramp};
+use self::player::Player;
+use self::slots::Slots;
+use crate::controls::Controls;
+use crate::live::{LiveInput, TimedTouch};
+use crate::status::{LinkState, Status};
+use crate::texture::OwnedTexture;
+use crate::track::Track;
+
+/// Textures that an engine can hold at once.
+pub const SLOTS: usize = 64;
+/// How long muting, a gain or a change of input takes, in seconds.
+pub const FADE_SECS: f64 = 0.02;
+/// Orders that can wait for the next block.
+const COMMANDS: usize = 128;
+/// Things that can wait to be freed.
+const RETURNED: usize = 32;
+/// Touches that can wait for the next block: a quarter of a second of a fast stylus.
+const TOUCHES: usize = 256;
+/// Samples of the scope that can wait to be drawn: more than half a second at 48 kHz.
+const SCOPE: usize = 32_768;
+/// Frames rendered at a time.
+const SCRATCH: usize = 256;
+/// The limiter is linear up to this share of its ceiling.
+const KNEE_SHARE: f32 = 0.8;
+
+/// What must arrive together and only whose newest counts.
+#[derive(Clone, Copy, Debug, Default)]
+struct Orders {
+    controls: Controls,
+    /// Counts the wishes to end the limiter's latched silence.
+    n_resets: u32,
+}
+
+/// What must not be missed.
+#[derive(Debug)]
+enum Command {
+    Load(TextureId, Box<OwnedTexture>),
+    Unload(TextureId),
+    Play(Box<Track>),
+}
+
+/// What the callback is done with and does not free.
+#[derive(Debug)]
+enum Returned {
+    Texture(TextureId, #[expect(dead_code, reason = "held to be freed with its box")] Box<OwnedTexture>),
+    Track(#[expect(dead_code, reason = "held to be freed with its box")] Box<Track>),
+}
+
+/// What the edge of a device knows and an engine does not: it has no clock.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BlockEdge {
+    /// When the block was asked for.
+    pub(crate) now: Instant,
+    /// Smoothed load up to the last block.
+    pub(crate) load: f32,
+    /// Highest load up to the last block.
+    pub(crate) load_max: f32,
+}
+
+/// The callback's half.
+#[derive(Debug)]
+pub struct Engine {
+    stream: Stream,
+    /// A stream that has not begun, to start again from after nonsense.
+    fresh_stream: Stream,
+    slots: Slots,
+    player: Player,
+    limiter: Limiter,
+    gain: Ramp,
+    meter: Meter,
+    per_mps2: f32,
+    channels: ChannelMask,
+    mix: Mix,
+    n_resets: u32,
+    edge: Option<BlockEdge>,
+    frames_played: u64,
+    leaked: u64,
+    orders: triple_buffer::Output<Orders>,
+    commands: Consumer<Command>,
+    touches: Consumer<TimedTouch>,
+    returned: Producer<Returned>,
+    scope: Producer<f32>,
+    status: triple_buffer::Input<Status>,
+}
+
+/// Both halves of a silent engine.
+///
+/// # Errors
+/// [`ConfigError`] names the setting that contradicts the rest.
+pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
+    let config = config.check()?;
+    let (orders_in, orders_out) = triple_buffer(&Orders::default());
+    let (status_in, status_out) = triple_buffer(&Status::default());
+    let (commands_in, commands_out) = RingBuffer::new(COMMANDS);
+    let (touches_in, touches_out) = RingBuffer::new(TOUCHES);
+    let (returned_in, returned_out) = RingBuffer::new(RETURNED);
+    let (scope_in, scope_out) = RingBuffer::new(SCOPE);
+    let stream = Stream::new(config.model_rate_hz, config.device_rate_hz, config.seed);
+    let engine = Engine {
+        fresh_stream: stream.clone(),
+        stream,
+        slots: Slots::new(),
+        player: Player::new(),
+        limiter: Limiter::new(config.ceiling, KNEE_SHARE),
+        gain: Ramp::new((FADE_SECS * f64::from(config.device_rate_hz)) as u32),
+        meter: Meter::new(config.device_rate_hz),
+        per_mps2: config.full_scale_mps2.recip(),
+        channels: config.channels,
+        mix: Mix::default(),
+        n_resets: 0,
+        edge: None,
+        frames_played: 0,
+        leaked: 0,
+        orders: orders_out,
+        commands: commands_out,
+        touches: touches_out,
+        returned: returned_in,
+        scope: scope_in,
+        status: status_in,
+    };
+    let live = LiveInput { touches: touches_in };
+    Ok((Handle::new(config, orders_in, commands_in, live, returned_out, scope_out, status_out), engine))
+}
+
+impl Engine {
+    /// Fills `out`, interleaved frames of `channels` samples each, with the next of the signal, -1..1.
+    ///
+    /// Never allocates, frees, locks, waits or panics. Cost: that of [`Stream::process`] for the frames, and of at
+    /// most a ring full of orders.
+    pub fn process(&mut self, out: &mut [f32], channels: usize) {
+        // Orders first: whatever they name was put into the rings before they were given.
+        let orders = *self.orders.read();
+        self.take_commands();
+        self.take_touches();
+        self.follow(orders);
+        let mut scratch = [0.0; SCRATCH];
+        let n_channels = channels.max(1);
+        for block in out.chunks_mut(SCRATCH * n_channels) {
+            let frames = block.len() / n_channels;
+            let mono = &mut scratch[..frames];
+            self.render(mono);
+            let mut frames = block.chunks_exact_mut(n_channels);
+            for (frame, &sample) in frames.by_ref().zip(mono.iter()) {
+                for (channel_idx, out) in frame.iter_mut().enumerate() {
+                    *out = if self.channels.contains(channel_idx) { sample } else { 0.0 };
+                }
+            }
+            frames.into_remainder().fill(0.0);
+        }
+        self.give_back();
+        self.publish();
+    }
+
+    /// From a change of the contact to its middle in the output, in seconds, not counting the device's own buffers.
+    pub fn latency_secs(&self) -> f32 {
+        self.stream.latency_secs()
+    }
+
+    /// Tells what only the edge knows, before a block.
+    pub(crate) fn begin_block(&mut self, edge: BlockEdge) {
+        self.edge = Some(edge);
+    }
+
+    fn take_commands(&mut self) {
+        // As many as the ring holds: a sender that never rests cannot keep the callback.
+        for _ in 0..COMMANDS {
+            match self.commands.pop() {
+                Ok(Command::Load(id, texture)) => {
+                    // The handle loads only into slots that it knows to be empty.
+                    if let Some(displaced) = self.slots.put(id, texture) {
+                        self.return_or_leak(Returned::Texture(id, displaced));
+                    }
+                }
+                Ok(Command::Unload(id)) => self.slots.retire(id),
+                Ok(Command::Play(track)) => {
+                    if let Some(replaced) = self.player.play(track) {
+                        self.return_or_leak(Returned::Track(replaced));
+                    }
+                }
+                Err(_) => break,
+            }
+        }
+    }
+
+    fn take_touches(&mut self) {
+        for _ in 0..TOUCHES {
+            let Ok(TimedTouch { touch, time }) = self.touches.pop() else { break };
+            let age = self.edge.map_or(Duration::ZERO, |edge| edge.now.saturating_duration_since(time));
+            self.player.report(touch, age.as_secs_f64());
+        }
+    }
+
+    fn follow(&mut self, orders: Orders) {
+        if orders.n_resets != self.n_resets {
+            self.n_resets = orders.n_resets;
+            self.start_again();
+        }
+        // A mix that was given twice would begin its fade anew.
+        if orders.controls.mix != self.mix {
+            self.mix = orders.controls.mix;
+            self.stream.set_mix(self.mix);
+        }
+        self.player.set_input(orders.controls.input);
+        // Without a handle nobody can mute.
+        let is_in_hand = !self.commands.is_abandoned();
+        self.gain.aim(if is_in_hand { orders.controls.drive.target() } else { 0.0 });
+    }
+
+    /// Ends the limiter's latched silence. What was not finite came from the stream, which would never forget it.
+    fn start_again(&mut self) {
+        if self.limiter.is_tripped() {
+            self.limiter.reset();
+            self.stream = self.fresh_stream.clone();
+            self.stream.set_mix(self.mix);
+            self.player.restart_clock();
+            self.meter.reset();
+        }
+    }
+
+    /// Renders frames from the textures to what the device gets.
+    fn render(&mut self, mono: &mut [f32]) {
+        self.stream.process(&self.slots, &mut self.player, mono);
+        // What does not fit is not drawn: the scope is a picture, not a recording.
+        let _ = self.scope.push_partial_slice(mono);
+        self.meter.note_signal(mono);
+        for sample in mono.iter_mut() {
+            *sample = self.limiter.limit(*sample * self.per_mps2 * self.gain.next());
+        }
+        self.meter.note_output(mono);
+        self.frames_played += mono.len() as u64;
+    }
+
+    /// Sends textures that nothing sounds of any more to be freed. One that does not fit waits in its slot.
+    fn give_back(&mut self) {
+        let Self { slots, stream, returned, .. } = self;
+        for id in 0..SLOTS as TextureId {
+            if !slots.is_retired(id) || stream.is_using(id) || returned.is_full() {
+                continue;
+            }
+            if let Some(texture) = slots.take(id)
+                && let Err(PushError::Full(texture)) = returned.push(Returned::Texture(id, texture))
+            {
+                std::mem::forget(texture);
+                self.leaked += 1;
+            }
+        }
+    }
+
+    /// Sends something to be freed that there is no place to keep in.
+    fn return_or_leak(&mut self, thing: Returned) {
+        if let Err(PushError::Full(thing)) = self.returned.push(thing) {
+            std::mem::forget(thing);
+            self.leaked += 1;
+        }
+    }
+
+    fn publish(&mut self) {
+        let (load, load_max) = self.edge.map_or((0.0, 0.0), |edge| (edge.load, edge.load_max));
+        self.status.write(Status {
+            state: LinkState::Running,
+            load,
+            load_max,
+            underruns: 0,
+            backend_errors: 0,
+            limited_samples: self.limiter.limited_samples(),
+            tripped: self.limiter.is_tripped(),
+            touch: self.player.touch(),
+            level_mps2: self.meter.level(),
+            peak: self.meter.peak(),
+            frames_played: self.frames_played,
+            input_secs: self.player.input_secs(),
+            leaked: self.leaked,
+        });
+    }
+}

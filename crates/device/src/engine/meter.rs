@@ -1,0 +1,134 @@
+//! Ramps, and what is shown of the signal.
+
+/// A gain that takes a set number of frames to any new value.
+#[derive(Clone, Debug)]
+pub(super) struct Ramp {
+    n_frames: u32,
+    value: f32,
+    target: f32,
+    step: f32,
+    n_left: u32,
+}
+
+impl Ramp {
+    /// A ramp at zero.
+    pub(super) fn new(n_frames: u32) -> Self {
+        Self { n_frames: n_frames.max(1), value: 0.0, target: 0.0, step: 0.0, n_left: 0 }
+    }
+
+    /// Starts towards `target`, unless it already is on its way there.
+    pub(super) fn aim(&mut self, target: f32) {
+        if target != self.target {
+            self.target = target;
+            self.n_left = self.n_frames;
+            self.step = (target - self.value) / self.n_frames as f32;
+        }
+    }
+
+    /// The value at the next frame.
+    pub(super) fn next(&mut self) -> f32 {
+        if self.n_left > 0 {
+            self.n_left -= 1;
+            // The last step lands on the target, whatever rounding did before.
+            self.value = if self.n_left == 0 { self.target } else { self.value + self.step };
+        }
+        self.value
+    }
+}
+
+/// Time constant of the level, in seconds.
+const LEVEL_SECS: f32 = 0.05;
+/// Time constant of the fall of the peak, in seconds.
+const PEAK_SECS: f32 = 0.3;
+
+/// Level of the signal and peak of the output.
+#[derive(Clone, Debug)]
+pub(super) struct Meter {
+    rate_hz: f32,
+    mean_square: f32,
+    peak: f32,
+}
+
+impl Meter {
+    pub(super) fn new(rate_hz: f32) -> Self {
+        Self { rate_hz, mean_square: 0.0, peak: 0.0 }
+    }
+
+    /// Takes a stretch of the signal in m/s².
+    pub(super) fn note_signal(&mut self, samples: &[f32]) {
+        let share = 1.0 - self.left_after(samples.len(), LEVEL_SECS);
+        let mean = samples.iter().map(|x| x * x).sum::<f32>() / samples.len().max(1) as f32;
+        self.mean_square += share * (mean - self.mean_square);
+        // Nothing below can be felt, and numbers that small are slow.
+        if self.mean_square < 1e-20 {
+            self.mean_square = 0.0;
+        }
+    }
+
+    /// Takes the same stretch as the device gets it.
+    pub(super) fn note_output(&mut self, samples: &[f32]) {
+        let highest = samples.iter().fold(0.0_f32, |highest, x| highest.max(x.abs()));
+        let fallen = self.peak * self.left_after(samples.len(), PEAK_SECS);
+        self.peak = if fallen < 1e-9 { highest } else { fallen.max(highest) };
+    }
+
+    /// Root mean square in m/s².
+    pub(super) fn level(&self) -> f32 {
+        self.mean_square.sqrt()
+    }
+
+    /// Share of the full scale.
+    pub(super) fn peak(&self) -> f32 {
+        self.peak
+    }
+
+    /// Forgets what was not a number.
+    pub(super) fn reset(&mut self) {
+        (self.mean_square, self.peak) = (0.0, 0.0);
+    }
+
+    fn left_after(&self, n_frames: usize, time_constant_secs: f32) -> f32 {
+        (-(n_frames as f32) / (self.rate_hz * time_constant_secs)).exp()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Meter, Ramp};
+
+    #[test]
+    fn a_ramp_is_straight_and_arrives() {
+        let mut ramp = Ramp::new(4);
+        ramp.aim(1.0);
+        assert_eq!([ramp.next(), ramp.next()], [0.25, 0.5]);
+        // The same aim again does not start it anew.
+        ramp.aim(1.0);
+        assert_eq!([ramp.next(), ramp.next(), ramp.next()], [0.75, 1.0, 1.0]);
+        ramp.aim(0.0);
+        let _ = ramp.next();
+        ramp.aim(0.35);
+        assert_eq!(ramp.next(), 0.65);
+        assert_eq!([ramp.next(), ramp.next(), ramp.next(), ramp.next()][2..], [0.35, 0.35]);
+    }
+
+    #[test]
+    fn level_and_peak_of_a_square_wave_in_any_blocks() {
+        for block in [1, 7, 256] {
+            let mut meter = Meter::new(48_000.0);
+            let mut n = 0;
+            while n < 48_000 {
+                meter.note_signal(&vec![-2.0; block]);
+                meter.note_output(&vec![-0.5; block]);
+                n += block;
+            }
+            assert!((meter.level() - 2.0).abs() < 1e-4, "{}", meter.level());
+            assert_eq!(meter.peak(), 0.5);
+            for _ in 0..48_000 / block {
+                meter.note_signal(&vec![0.0; block]);
+                meter.note_output(&vec![0.0; block]);
+            }
+            // A second later: exp(-10) of the level, exp(-3.3) of the peak.
+            assert!(meter.level() < 1e-3 && (meter.peak() - 0.5 * (-1.0_f32 / 0.3).exp()).abs() < 1e-3);
+        }
+    }
+}

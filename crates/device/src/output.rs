@@ -1,0 +1,263 @@
+//! Outputs to an actuator: which there are, and how to open one.
+//!
+//! An output is opened by its id and stays that one. If it goes, there is silence and [`Handle::loss`] says why; no
+//! other ever takes its place, since actuator drive does not belong in someone's headphones.
+
+use crate::audio::AudioOutput;
+use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle};
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::link::{Reporter, link};
+use crate::null_output::NullOutput;
+
+/// The id of the output that plays to nobody.
+pub const NULL_ID: &str = "null";
+/// Rate of an output whose rate nobody prefers, in Hz.
+pub const USUAL_RATE_HZ: u32 = 48_000;
+
+/// What sort of output it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum OutputKind {
+    /// Silent, by a real clock.
+    Null,
+    /// A device of the system's sound.
+    Audio,
+}
+
+/// One output of this machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutputInfo {
+    /// Name by which it is opened, the same every time.
+    pub id: String,
+    /// Name to show.
+    pub name: String,
+    /// What sort it is.
+    pub kind: OutputKind,
+    /// Whether the system names it as the default.
+    pub is_default: bool,
+}
+
+/// What an output can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutputCapabilities {
+    /// Most channels.
+    pub max_channels: u16,
+    /// Lowest rate, in Hz.
+    pub min_rate_hz: u32,
+    /// Highest rate, in Hz.
+    pub max_rate_hz: u32,
+}
+
+/// How to open an output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenOptions {
+    /// Rate of the textures that will be played, in Hz.
+    pub model_rate_hz: f32,
+    /// Rate to ask the device for, in Hz; without it [`USUAL_RATE_HZ`]. The nearest that it has is taken.
+    pub preferred_rate_hz: Option<u32>,
+    /// Frames a block to ask the device for; it may take another number, or change it from block to block.
+    pub buffer_frames: Option<u32>,
+    /// What the noise depends on: same seed, same samples.
+    pub seed: u64,
+    /// Acceleration at which the device is at full scale, in m/s².
+    pub full_scale_mps2: f32,
+    /// Share of the full scale that is never exceeded, 0..1.
+    pub ceiling: f32,
+    /// The channels that get the signal; the others are silent.
+    pub channels: ChannelMask,
+}
+
+/// An open output: it plays until it is dropped.
+#[derive(Debug)]
+pub struct Running {
+    id: String,
+    rate_hz: u32,
+    channels: u16,
+    buffer_frames: Option<u32>,
+    latency_secs: f64,
+    #[expect(dead_code, reason = "held to be dropped")]
+    device: Device,
+}
+
+#[derive(Debug)]
+#[expect(dead_code, reason = "held to be dropped")]
+enum Device {
+    Audio(AudioOutput),
+    Null(NullOutput),
+}
+
+impl Running {
+    /// Id of the output.
+    pub fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Rate of the device, in Hz.
+    pub fn rate_hz(&self) -> u32 {
+        self.rate_hz
+    }
+
+    /// Channels of the device.
+    pub fn channels(&self) -> u16 {
+        self.channels
+    }
+
+    /// Frames in a block, as far as the device says.
+    pub fn buffer_frames(&self) -> Option<u32> {
+        self.buffer_frames
+    }
+
+    /// From a change of the contact to the actuator's terminals, in seconds: the renderer's own delay and two blocks of
+    /// the device. A sound server behind the device may add to it.
+    pub fn latency_secs(&self) -> f64 {
+        self.latency_secs
+    }
+}
+
+/// The outputs of this machine: the silent one first. Nothing is opened to find them.
+pub fn list_outputs() -> Vec<OutputInfo> {
+    let null = OutputInfo {
+        id: NULL_ID.into(),
+        name: "No output (silent, real clock)".into(),
+        kind: OutputKind::Null,
+        is_default: false,
+    };
+    std::iter::once(null).chain(crate::audio::list()).collect()
+}
+
+/// What output `id` can do. This may open an audio device for a moment; the system may print about it.
+///
+/// # Errors
+/// - [`DeviceErrorKind::NotFound`] where there is no such output.
+/// - [`DeviceErrorKind::Busy`], [`DeviceErrorKind::Denied`], [`DeviceErrorKind::Unavailable`] or
+///   [`DeviceErrorKind::Backend`] where it does not say.
+pub fn output_capabilities(id: &str) -> Result<OutputCapabilities, DeviceError> {
+    if id == NULL_ID {
+        return Ok(crate::null_output::CAPABILITIES);
+    }
+    crate::audio::capabilities(id)
+}
+
+/// Opens output `id`, silent until its handle is told otherwise.
+///
+/// # Errors
+/// - [`DeviceErrorKind::NotFound`] where there is no such output.
+/// - [`DeviceErrorKind::Busy`] where another program holds it.
+/// - [`DeviceErrorKind::Denied`] where the system refuses it.
+/// - [`DeviceErrorKind::Unsupported`] where it has no rate, format or channel that would do.
+/// - [`DeviceErrorKind::Config`] where the options contradict themselves.
+/// - [`DeviceErrorKind::Unavailable`] or [`DeviceErrorKind::Backend`] where the system fails.
+pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
+    if id == NULL_ID {
+        return open_null_with_tap(options, |_| {});
+    }
+    let (handle, opened) = crate::audio::open(id, options)?;
+    let buffer_frames = opened.buffer_frames;
+    let running = Running {
+        id: id.into(),
+        rate_hz: opened.rate_hz,
+        channels: opened.channels,
+        buffer_frames,
+        latency_secs: opened.engine_latency_secs
+            + 2.0 * f64::from(buffer_frames.unwrap_or(0)) / f64::from(opened.rate_hz),
+        device: Device::Audio(opened.output),
+    };
+    Ok((handle, running))
+}
+
+/// Opens the silent output; `tap` gets every block that it plays, two channels interleaved, on the output's thread.
+///
+/// # Errors
+/// - [`DeviceErrorKind::Config`] where the options contradict themselves.
+/// - [`DeviceErrorKind::Backend`] where the system gives no thread.
+pub fn open_null_with_tap(
+    options: OpenOptions,
+    tap: impl FnMut(&[f32]) + Send + 'static,
+) -> Result<(Handle, Running), DeviceError> {
+    let rate_hz = options.preferred_rate_hz.unwrap_or(USUAL_RATE_HZ);
+    let frames = options.buffer_frames.unwrap_or(crate::null_output::USUAL_BUFFER_FRAMES).max(1);
+    let made = make_engine(options, rate_hz)?;
+    let latency_secs = f64::from(made.engine.latency_secs()) + f64::from(frames) / f64::from(rate_hz);
+    let output = NullOutput::start(made.engine, &made.reporter, rate_hz, frames, tap)?;
+    let running = Running {
+        id: NULL_ID.into(),
+        rate_hz,
+        channels: crate::null_output::CAPABILITIES.max_channels,
+        buffer_frames: Some(frames),
+        latency_secs,
+        device: Device::Null(output),
+    };
+    Ok((made.handle, running))
+}
+
+/// An engine at the rate that the device turned out to have, and the line between the two.
+pub(crate) struct Made {
+    pub(crate) handle: Handle,
+    pub(crate) engine: Engine,
+    pub(crate) reporter: Reporter,
+}
+
+pub(crate) fn make_engine(options: OpenOptions, rate_hz: u32) -> Result<Made, DeviceError> {
+    let config = EngineConfig {
+        model_rate_hz: options.model_rate_hz,
+        device_rate_hz: rate_hz as f32,
+        seed: options.seed,
+        full_scale_mps2: options.full_scale_mps2,
+        ceiling: options.ceiling,
+        channels: options.channels,
+    };
+    let refuse = |error: ConfigError| {
+        DeviceError::new(DeviceErrorKind::Config, format!("the output cannot be opened like that: {error}"))
+    };
+    let (mut handle, engine) = engine::new(config).map_err(refuse)?;
+    let (reporter, monitor) = link();
+    handle.watch(monitor);
+    Ok(Made { handle, engine, reporter })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        ChannelMask, DeviceErrorKind, NULL_ID, OpenOptions, list_outputs, open, output_capabilities,
+    };
+
+    const OPTIONS: OpenOptions = OpenOptions {
+        model_rate_hz: 1000.0,
+        preferred_rate_hz: None,
+        buffer_frames: None,
+        seed: 0,
+        full_scale_mps2: 10.0,
+        ceiling: 0.9,
+        channels: ChannelMask::FIRST_TWO,
+    };
+
+    #[test]
+    fn the_null_output_is_always_there_and_ids_are_unique() {
+        let outputs = list_outputs();
+        assert_eq!((outputs[0].id.as_str(), outputs[0].is_default), (NULL_ID, false));
+        let mut ids: Vec<_> = outputs.iter().map(|output| &output.id).collect();
+        ids.sort();
+        assert!(ids.windows(2).all(|w| w[0] != w[1]), "{ids:?}");
+        assert_eq!(output_capabilities(NULL_ID).unwrap().max_channels, 2);
+    }
+
+    #[test]
+    fn outputs_that_do_not_exist_are_named_with_what_to_do() {
+        for id in ["", "nonsense", "alsa:no_such_pcm", "nohost:default"] {
+            let error = open(id, OPTIONS).unwrap_err();
+            assert_eq!(error.kind(), DeviceErrorKind::NotFound, "{error}");
+            let text = error.to_string();
+            assert!(text.contains(&format!("`{id}`")) && text.contains("shagreen devices"), "{text}");
+            assert_eq!(output_capabilities(id).unwrap_err().kind(), DeviceErrorKind::NotFound);
+        }
+    }
+
+    #[test]
+    fn contradicting_options_are_refused() {
+        let error = open(NULL_ID, OpenOptions { full_scale_mps2: 0.0, ..OPTIONS }).unwrap_err();
+        assert_eq!(error.kind(), DeviceErrorKind::Config);
+        assert!(error.message().contains("0 m/s²"), "{error}");
+        let error = open(NULL_ID, OpenOptions { preferred_rate_hz: Some(0), ..OPTIONS }).unwrap_err();
+        assert_eq!(error.kind(), DeviceErrorKind::Config);
+    }
+}

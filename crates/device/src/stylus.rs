@@ -1,0 +1,129 @@
+//! What a hand holds. The mouse is always there; it has no pressure, so it presses with a set force.
+
+use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
+use crate::touch::Touch;
+use shagreen_synth::contact::Contact;
+
+/// What sort of stylus it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StylusKind {
+    /// The mouse, with a set force.
+    Mouse,
+}
+
+/// One stylus of this machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StylusInfo {
+    /// Name by which it is chosen.
+    pub id: String,
+    /// Name to show.
+    pub name: String,
+    /// What sort it is.
+    pub kind: StylusKind,
+    /// Whether it measures how hard it is pressed.
+    pub has_pressure: bool,
+}
+
+/// The styluses of this machine: the mouse.
+pub fn list_styluses() -> Vec<StylusInfo> {
+    vec![StylusInfo {
+        id: "mouse".into(),
+        name: "Mouse (set force)".into(),
+        kind: StylusKind::Mouse,
+        has_pressure: false,
+    }]
+}
+
+/// The mouse as a stylus: pressed with a set force while its button is down.
+#[derive(Clone, Debug)]
+pub struct MouseStylus {
+    force_n: f64,
+    estimator: SpeedEstimator,
+    touch: Touch,
+    last_secs: f64,
+}
+
+impl MouseStylus {
+    /// A lifted stylus that will press with `force_n` newtons.
+    pub fn new(force_n: f64) -> Self {
+        let estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
+        Self { force_n, estimator, touch: Touch::default(), last_secs: 0.0 }
+    }
+
+    /// Presses with `force_n` newtons from the next report on.
+    pub fn set_force_n(&mut self, force_n: f64) {
+        self.force_n = force_n;
+    }
+
+    /// The touch after the pointer was reported at a place (m from the middle of the pad, seconds on any clock that
+    /// does not go back) with its button down or up.
+    pub fn report(&mut self, time_secs: f64, x_m: f64, y_m: f64, pressed: bool) -> Touch {
+        let contact = if pressed {
+            let speed_mps = self.estimator.report(time_secs, x_m, y_m) as f32;
+            Contact { speed_mps, force_n: self.force_n as f32 }
+        } else {
+            self.estimator.lift();
+            Contact::LIFTED
+        };
+        self.touch = Touch { x_m: x_m as f32, y_m: y_m as f32, contact }.sanitized();
+        self.last_secs = time_secs;
+        self.touch
+    }
+
+    /// The touch at `time_secs`, when the last report has aged: its speed is held, then decays.
+    pub fn touch_at(&self, time_secs: f64) -> Touch {
+        let mut touch = self.touch;
+        touch.contact.speed_mps =
+            held_speed(f64::from(touch.contact.speed_mps), time_secs - self.last_secs) as f32;
+        touch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MouseStylus, list_styluses};
+    use shagreen_synth::contact::Contact;
+
+    #[test]
+    fn the_mouse_is_there() {
+        let styluses = list_styluses();
+        assert_eq!(styluses[0].id, "mouse");
+        assert!(!styluses[0].has_pressure);
+    }
+
+    #[test]
+    fn presses_with_the_set_force_and_measures_speed() {
+        let mut mouse = MouseStylus::new(0.5);
+        let mut touch = mouse.report(0.0, 0.0, 0.0, false);
+        assert_eq!(touch.contact, Contact::LIFTED);
+        for i in 1..200 {
+            let t = f64::from(i) * 0.008;
+            touch = mouse.report(t, 0.0, 0.1 * t, true);
+        }
+        assert!((touch.contact.speed_mps - 0.1).abs() < 1e-6 && touch.contact.force_n == 0.5);
+        assert_eq!(touch.x_m, 0.0);
+        mouse.set_force_n(0.8);
+        assert_eq!(mouse.report(1.6, 0.0, 0.16, true).contact.force_n, 0.8);
+    }
+
+    #[test]
+    fn a_mouse_that_rests_falls_silent_and_a_new_stroke_starts_at_rest() {
+        let mut mouse = MouseStylus::new(0.5);
+        for i in 0..100 {
+            mouse.report(f64::from(i) * 0.008, f64::from(i) * 0.001, 0.0, true);
+        }
+        let moving = mouse.touch_at(0.8).contact.speed_mps;
+        assert!(moving > 0.1);
+        assert!(mouse.touch_at(1.2).contact.speed_mps < 1e-6 * moving);
+        mouse.report(2.0, 0.5, 0.5, false);
+        assert_eq!(mouse.report(2.008, 0.0, 0.0, true).contact.speed_mps, 0.0);
+    }
+
+    #[test]
+    fn nonsense_places_are_no_speed() {
+        let mut mouse = MouseStylus::new(f64::NAN);
+        let touch = mouse.report(0.0, f64::NAN, f64::INFINITY, true);
+        assert_eq!((touch.x_m, touch.y_m, touch.contact), (0.0, 0.0, Contact::LIFTED));
+    }
+}

@@ -1,0 +1,346 @@
+//! A recorded stroke, made ready to be replayed.
+
+use shagreen_synth::contact::Contact;
+
+use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
+use crate::touch::{Touch, mix_contacts};
+
+/// Points of a track a second, in Hz.
+pub const TRACK_RATE_HZ: f64 = 1000.0;
+/// Reports further apart than this are two strokes, in seconds.
+pub const LIFT_GAP_SECS: f64 = 0.050;
+/// Longest track, in seconds: what is longer is more likely a wrong unit.
+pub const MAX_TRACK_SECS: f64 = 3600.0;
+
+/// One report of a pen.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PenSample {
+    /// When, in seconds on any clock.
+    pub time_secs: f64,
+    /// Position to the right of the middle of the pad, in m.
+    pub x_m: f64,
+    /// Position above the middle of the pad, in m.
+    pub y_m: f64,
+    /// Force in N; counts for nothing while the tip is off.
+    pub force_n: f64,
+    /// Whether the tip touches.
+    pub touching: bool,
+}
+
+/// Why samples do not make a track.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrackError {
+    /// There is no sample.
+    #[error("a stroke needs at least one sample, got none")]
+    Empty,
+    /// A number is not finite.
+    #[error("sample {index} of the stroke holds a number that is not finite")]
+    NotFinite {
+        /// Which sample, from zero.
+        index: usize,
+    },
+    /// A force is negative.
+    #[error("sample {index} of the stroke has a force of {force_n} N; it must be at least zero")]
+    NegativeForce {
+        /// Which sample, from zero.
+        index: usize,
+        /// Its force, in N.
+        force_n: f64,
+    },
+    /// Time goes back.
+    #[error("sample {index} of the stroke is at {time_secs} s, before the sample at {previous_secs} s")]
+    TimeGoesBack {
+        /// Which sample, from zero.
+        index: usize,
+        /// Its time, in seconds.
+        time_secs: f64,
+        /// The time before it, in seconds.
+        previous_secs: f64,
+    },
+    /// The stroke is longer than [`MAX_TRACK_SECS`].
+    #[error("the stroke lasts {duration_secs} s, more than {MAX_TRACK_SECS} s: are its times in seconds?")]
+    TooLong {
+        /// How long it lasts, in seconds.
+        duration_secs: f64,
+    },
+}
+
+/// What was not quite as it should be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TrackWarnings {
+    /// Samples left out because the next had the same time.
+    pub n_equal_timestamps: usize,
+}
+
+/// A stroke on a uniform grid of [`TRACK_RATE_HZ`].
+///
+/// Each pen-down stretch has its speed from the Kalman filter on the real times of the reports. Between two reports
+/// place, speed and force go in straight lines; towards a lift they stay, as they do for a live pen, until the lift.
+/// Where reports end without a lift, speed is held and decays and the tip is off [`LIFT_GAP_SECS`] later.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    touches: Box<[Touch]>,
+    duration_secs: f64,
+    /// What was not quite as it should be.
+    pub warnings: TrackWarnings,
+}
+
+impl Track {
+    /// The track of the samples, which starts at the first of them.
+    ///
+    /// # Errors
+    /// [`TrackError`] names the first sample that is not usable.
+    pub fn new(samples: &[PenSample]) -> Result<Self, TrackError> {
+        check(samples)?;
+        let (reports, warnings) = reports_of(samples);
+        let (Some(first), Some(last)) = (reports.first(), reports.last()) else {
+            return Err(TrackError::Empty);
+        };
+        let start_secs = first.time_secs;
+        let duration_secs = last.time_secs - start_secs;
+        if duration_secs > MAX_TRACK_SECS {
+            return Err(TrackError::TooLong { duration_secs });
+        }
+        // Up to the last report: a millionth of a point is rounding of the times, not one more point.
+        let n_touches = (duration_secs * TRACK_RATE_HZ - 1e-6).ceil().max(0.0) as usize + 1;
+        let mut next = 0;
+        let touches = (0..n_touches).map(|i| {
+            let time_secs = start_secs + i as f64 / TRACK_RATE_HZ;
+            while next < reports.len() && reports[next].time_secs <= time_secs {
+                next += 1;
+            }
+            // The first report is at the first point of the grid, so there is one before.
+            touch_between(&reports[next.saturating_sub(1)], reports.get(next), time_secs)
+        });
+        Ok(Self { touches: touches.collect(), duration_secs, warnings })
+    }
+
+    /// From the first sample to the last, in seconds.
+    pub fn duration_secs(&self) -> f64 {
+        self.duration_secs
+    }
+
+    /// The touch `time_secs` after the start, in a straight line between points of the grid; lifted outside the track.
+    /// Costs two look-ups.
+    pub fn touch_at(&self, time_secs: f64) -> Touch {
+        let inside = time_secs >= 0.0 && time_secs <= self.duration_secs;
+        let position = if inside { time_secs * TRACK_RATE_HZ } else { 0.0 };
+        let index = position as usize;
+        let edge = if time_secs > 0.0 { self.touches.last() } else { self.touches.first() };
+        let Some(&edge) = edge else { return Touch::default() };
+        if !inside {
+            return edge.lifted();
+        }
+        let from = self.touches.get(index).copied().unwrap_or(edge);
+        let to = self.touches.get(index + 1).copied().unwrap_or(from);
+        let share = (position - index as f64) as f32;
+        Touch {
+            x_m: from.x_m + share * (to.x_m - from.x_m),
+            y_m: from.y_m + share * (to.y_m - from.y_m),
+            contact: mix_contacts(from.contact, to.contact, share),
+        }
+    }
+}
+
+fn check(samples: &[PenSample]) -> Result<(), TrackError> {
+    let mut previous_secs = f64::NEG_INFINITY;
+    for (index, sample) in samples.iter().enumerate() {
+        let PenSample { time_secs, x_m, y_m, force_n, .. } = *sample;
+        if ![time_secs, x_m, y_m, force_n].iter().all(|x| x.is_finite()) {
+            return Err(TrackError::NotFinite { index });
+        }
+        if sample.touching && force_n < 0.0 {
+            return Err(TrackError::NegativeForce { index, force_n });
+        }
+        if time_secs < previous_secs {
+            return Err(TrackError::TimeGoesBack { index, time_secs, previous_secs });
+        }
+        previous_secs = time_secs;
+    }
+    Ok(())
+}
+
+/// A sample with the speed of its stroke.
+struct Report {
+    time_secs: f64,
+    touch: Touch,
+    touching: bool,
+}
+
+/// One report a time, with speeds.
+fn reports_of(samples: &[PenSample]) -> (Vec<Report>, TrackWarnings) {
+    let mut reports: Vec<Report> = Vec::with_capacity(samples.len());
+    let mut warnings = TrackWarnings::default();
+    let mut estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
+    for (index, sample) in samples.iter().enumerate() {
+        if samples.get(index + 1).is_some_and(|next| next.time_secs == sample.time_secs) {
+            warnings.n_equal_timestamps += 1;
+            continue;
+        }
+        let is_new_stroke = reports.last().is_none_or(|previous| {
+            !previous.touching || sample.time_secs - previous.time_secs > LIFT_GAP_SECS
+        });
+        if is_new_stroke {
+            estimator.lift();
+        }
+        let contact = if sample.touching {
+            let speed_mps = estimator.report(sample.time_secs, sample.x_m, sample.y_m) as f32;
+            Contact { speed_mps, force_n: sample.force_n as f32 }
+        } else {
+            Contact::LIFTED
+        };
+        let touch = Touch { x_m: sample.x_m as f32, y_m: sample.y_m as f32, contact };
+        reports.push(Report { time_secs: sample.time_secs, touch, touching: sample.touching });
+    }
+    (reports, warnings)
+}
+
+/// The touch at a time from `from` on and before `to`.
+fn touch_between(from: &Report, to: Option<&Report>, time_secs: f64) -> Touch {
+    let age_secs = time_secs - from.time_secs;
+    let near = to.filter(|to| to.time_secs - from.time_secs <= LIFT_GAP_SECS);
+    let mut touch = from.touch;
+    if let Some(to) = near {
+        let share = (age_secs / (to.time_secs - from.time_secs)) as f32;
+        touch.x_m += share * (to.touch.x_m - touch.x_m);
+        touch.y_m += share * (to.touch.y_m - touch.y_m);
+        if from.touching && to.touching {
+            touch.contact = mix_contacts(from.touch.contact, to.touch.contact, share);
+            return touch;
+        }
+    } else if age_secs >= LIFT_GAP_SECS {
+        return touch.lifted();
+    }
+    touch.contact.speed_mps = held_speed(f64::from(touch.contact.speed_mps), age_secs) as f32;
+    touch
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Contact, PenSample, Touch, Track, TrackError};
+    use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
+
+    fn sample(time_secs: f64, x_m: f64) -> PenSample {
+        PenSample { time_secs, x_m, y_m: 0.0, force_n: 0.5, touching: true }
+    }
+
+    fn close(a: f32, b: f64) {
+        assert!((f64::from(a) - b).abs() < 1e-6, "{a} for {b}");
+    }
+
+    #[test]
+    fn replays_reports_at_their_times_and_lines_between() {
+        let samples: Vec<_> =
+            (0..50).map(|i| sample(10.0 + 0.008 * f64::from(i), 1e-4 * f64::from(i * i))).collect();
+        let track = Track::new(&samples).unwrap();
+        close(track.duration_secs() as f32, 0.392);
+        let mut estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
+        let speeds: Vec<f64> = samples.iter().map(|s| estimator.report(s.time_secs, s.x_m, s.y_m)).collect();
+        for (i, speed) in speeds.iter().enumerate() {
+            let touch = track.touch_at((0.008 * i as f64).min(track.duration_secs()));
+            close(touch.x_m, samples[i].x_m);
+            close(touch.contact.speed_mps, *speed);
+            close(touch.contact.force_n, 0.5);
+            if i + 1 < speeds.len() {
+                let middle = track.touch_at(0.008 * i as f64 + 0.004);
+                close(middle.contact.speed_mps, 0.5 * (speed + speeds[i + 1]));
+                close(middle.x_m, 0.5 * (samples[i].x_m + samples[i + 1].x_m));
+            }
+        }
+    }
+
+    #[test]
+    fn lifted_outside_and_for_nonsense() {
+        let track = Track::new(&[sample(0.0, 0.01), sample(0.01, 0.02)]).unwrap();
+        for time_secs in [-1.0, 0.011, 1e9, f64::INFINITY, f64::NAN] {
+            assert_eq!(track.touch_at(time_secs).contact, Contact::LIFTED, "at {time_secs}");
+        }
+        close(track.touch_at(5.0).x_m, 0.02);
+        close(track.touch_at(-5.0).x_m, 0.01);
+        let point = Track::new(&[sample(3.0, 0.01)]).unwrap();
+        assert_eq!(point.duration_secs(), 0.0);
+        close(point.touch_at(0.0).contact.force_n, 0.5);
+    }
+
+    #[test]
+    fn a_lift_is_force_zero_at_its_report() {
+        let lift = PenSample { touching: false, force_n: 9.0, ..sample(0.020, 0.003) };
+        let track =
+            Track::new(&[sample(0.0, 0.0), sample(0.010, 0.002), lift, sample(0.030, 0.003)]).unwrap();
+        let before = track.touch_at(0.019);
+        close(before.contact.force_n, 0.5);
+        assert!(before.contact.speed_mps > 0.05);
+        assert_eq!(track.touch_at(0.020).contact, Contact::LIFTED);
+        assert_eq!(track.touch_at(0.029).contact, Contact::LIFTED);
+        // The next stroke begins at rest, wherever the last one ended.
+        assert_eq!(track.touch_at(0.030).contact, Contact { speed_mps: 0.0, force_n: 0.5 });
+    }
+
+    #[test]
+    fn a_long_gap_is_held_decays_and_lifts() {
+        let mut samples: Vec<_> =
+            (0..20).map(|i| sample(0.01 * f64::from(i), 0.001 * f64::from(i))).collect();
+        samples.push(sample(0.5, 0.3));
+        let track = Track::new(&samples).unwrap();
+        let last = f64::from(track.touch_at(0.19).contact.speed_mps);
+        assert!(last > 0.09);
+        for age in [0.005, 0.020, 0.030, 0.045, 0.049] {
+            let touch = track.touch_at(0.19 + age);
+            close(touch.contact.speed_mps, held_speed(last, age));
+            close(touch.contact.force_n, 0.5);
+        }
+        for time_secs in [0.241, 0.3, 0.499] {
+            assert_eq!(track.touch_at(time_secs).contact, Contact::LIFTED, "at {time_secs}");
+        }
+        // No speed from the jump across the gap.
+        assert_eq!(track.touch_at(0.5).contact.speed_mps, 0.0);
+    }
+
+    #[test]
+    fn equal_times_keep_the_last() {
+        let samples = [
+            sample(0.0, 0.0),
+            sample(0.01, 5.0),
+            sample(0.01, 6.0),
+            sample(0.01, 0.001),
+            sample(0.02, 0.002),
+        ];
+        let track = Track::new(&samples).unwrap();
+        assert_eq!(track.warnings.n_equal_timestamps, 2);
+        let clean = Track::new(&[samples[0], samples[3], samples[4]]).unwrap();
+        assert_eq!(track.touches, clean.touches);
+    }
+
+    #[test]
+    fn bad_samples_are_named() {
+        let good = sample(1.0, 0.0);
+        let error = |samples: &[PenSample]| Track::new(samples).unwrap_err();
+        assert_eq!(error(&[]), TrackError::Empty);
+        assert_eq!(error(&[good, PenSample { x_m: f64::NAN, ..good }]), TrackError::NotFinite { index: 1 });
+        assert_eq!(
+            error(&[good, good, sample(0.5, 0.0)]),
+            TrackError::TimeGoesBack { index: 2, time_secs: 0.5, previous_secs: 1.0 }
+        );
+        assert_eq!(
+            error(&[PenSample { force_n: -0.1, ..good }]),
+            TrackError::NegativeForce { index: 0, force_n: -0.1 }
+        );
+        // Milliseconds taken for seconds.
+        assert_eq!(
+            error(&[sample(0.0, 0.0), sample(8000.0, 0.0)]),
+            TrackError::TooLong { duration_secs: 8000.0 }
+        );
+        assert!(error(&[good, sample(0.5, 0.0)]).to_string().contains("sample 1"));
+    }
+
+    #[test]
+    fn a_tip_that_never_touches_is_a_track_of_silence() {
+        let off = PenSample { touching: false, ..sample(0.0, 0.0) };
+        let track = Track::new(&[off, PenSample { time_secs: 0.1, x_m: 0.1, ..off }]).unwrap();
+        for i in 0..=100 {
+            let touch = track.touch_at(f64::from(i) * 1e-3);
+            assert_eq!(touch, Touch { x_m: touch.x_m, ..Touch::default() });
+        }
+    }
+}

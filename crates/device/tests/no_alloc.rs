@@ -1,0 +1,217 @@
+//! The callback neither allocates nor frees, whatever it is told.
+//!
+//! The gate is the global allocator of this test program; it counts what happens inside `assert_no_alloc`.
+
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use std::time::Instant;
+
+use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use shagreen_device::controls::{Drive, Input};
+use shagreen_device::engine::{self, ChannelMask, Engine, EngineConfig, Handle, SLOTS};
+use shagreen_device::hand::{Hand, Path};
+use shagreen_device::synth::contact::Contact;
+use shagreen_device::synth::renderer::{Blend, Mix, Parent};
+use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Triangle};
+use shagreen_device::texture::OwnedTexture;
+use shagreen_device::touch::Touch;
+use shagreen_device::track::{PenSample, Track};
+
+#[global_allocator]
+static GATE: AllocDisabler = AllocDisabler;
+
+const HAND: Hand = Hand { path: Path::Line, speed_mps: 0.5, force_n: 0.5, extent_m: 0.06 };
+
+fn texture(level_mps2: f32) -> OwnedTexture {
+    let mut lsf = [0.0; MAX_ORDER];
+    (lsf[0], lsf[1]) = (1.0, 2.0);
+    let node = |level_mps2| Node { level_mps2, lsf };
+    let triangle = Triangle {
+        nodes: [0, 1, 2],
+        neighbors: [NO_NEIGHBOR; 3],
+        weights: [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0],
+        ln_gain: [0.0; 6],
+    };
+    let nodes = [node(0.0), node(level_mps2), node(level_mps2)];
+    OwnedTexture::new(1000.0, 2, 1.0, 1.0, nodes.into(), [triangle].into()).unwrap()
+}
+
+fn track() -> Track {
+    let sample = |i: u32| PenSample {
+        time_secs: f64::from(i) * 0.008,
+        x_m: f64::from(i) * 1e-3,
+        y_m: 0.0,
+        force_n: 0.4,
+        touching: i % 5 != 4,
+    };
+    Track::new(&(0..20).map(sample).collect::<Vec<_>>()).unwrap()
+}
+
+fn engine() -> (Handle, Engine) {
+    let config = EngineConfig {
+        model_rate_hz: 1000.0,
+        device_rate_hz: 48_000.0,
+        seed: 1,
+        full_scale_mps2: 5.0,
+        ceiling: 0.9,
+        channels: ChannelMask::FIRST_TWO,
+    };
+    engine::new(config).unwrap()
+}
+
+/// Plays blocks under the gate; every sample must have been written. Returns the highest.
+fn play(engine: &mut Engine, n_blocks: usize) -> f32 {
+    let mut highest = 0.0_f32;
+    let mut out = [f32::NAN; 512];
+    for _ in 0..n_blocks {
+        out.fill(f32::NAN);
+        reset_violation_count();
+        assert_no_alloc(|| engine.process(&mut out, 2));
+        assert_eq!(violation_count(), 0, "the callback allocated or freed");
+        assert!(out.iter().all(|x| x.abs() <= 0.9));
+        highest = out.iter().fold(highest, |highest, x| highest.max(x.abs()));
+    }
+    highest
+}
+
+#[test]
+fn the_gate_sees_an_allocation_and_a_release() {
+    reset_violation_count();
+    let boxed = assert_no_alloc(|| Box::new(7_u64));
+    assert_eq!(violation_count(), 1);
+    assert_no_alloc(|| drop(boxed));
+    assert_eq!(violation_count(), 2);
+}
+
+#[test]
+fn the_gate_sees_a_texture_that_is_freed_with_its_engine() {
+    let (mut handle, mut engine) = engine();
+    handle.load(texture(1.0)).unwrap();
+    play(&mut engine, 1);
+    reset_violation_count();
+    assert_no_alloc(|| drop(engine));
+    assert!(violation_count() > 0);
+}
+
+#[test]
+fn loads_mixes_swaps_and_unloads() {
+    let (mut handle, mut engine) = engine();
+    assert_eq!(play(&mut engine, 3), 0.0);
+    handle.set_input(Input::Hand(HAND));
+    for round in 0..200_u16 {
+        let id = handle.load(texture(1.0 + f32::from(round % 7))).unwrap();
+        let mut mix = Mix {
+            blend: [Blend::Paper, Blend::Power, Blend::Shared][usize::from(round % 3)],
+            ..Mix::solo(id)
+        };
+        let other = (id + 1) % 5;
+        if handle.is_loaded(other) {
+            mix.parents[0].weight = 0.5;
+            mix.parents[1] = Parent { id: other, weight: 0.5 };
+        }
+        handle.set_mix(mix).unwrap();
+        let highest = play(&mut engine, 1 + usize::from(round % 11));
+        assert!(round < 20 || highest > 0.0);
+        // Sometimes while it sounds, sometimes an old one; collected only now and then.
+        if round % 2 == 0 {
+            handle.unload(id);
+        } else {
+            handle.unload(round % 5);
+        }
+        if round % 8 == 0 {
+            handle.collect();
+        }
+    }
+    assert_eq!(handle.status().leaked, 0);
+}
+
+#[test]
+fn changes_of_input_and_nonsense_touches() {
+    let (mut handle, mut engine) = engine();
+    let id = handle.load(texture(1.0)).unwrap();
+    handle.set_mix(Mix::solo(id)).unwrap();
+    let mut live = handle.take_live_input().unwrap();
+    let nonsense = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e38, 0.0, f32::from_bits(1)];
+    let inputs = [
+        Input::Live,
+        Input::Hand(HAND),
+        Input::Hand(Hand { path: Path::Circle, speed_mps: 0.2, ..HAND }),
+        Input::Hand(Hand { path: Path::Scribble, speed_mps: f32::NAN, ..HAND }),
+        Input::Hand(Hand { extent_m: 0.0, force_n: f32::INFINITY, ..HAND }),
+        Input::Track,
+        Input::Lifted,
+    ];
+    for round in 0..210 {
+        let x = nonsense[round % nonsense.len()];
+        let y = nonsense[round / 7 % nonsense.len()];
+        for _ in 0..round % 3 {
+            live.send(
+                Touch { x_m: x, y_m: y, contact: Contact { speed_mps: y, force_n: x } },
+                Instant::now(),
+            )
+            .unwrap();
+        }
+        handle.set_input(inputs[round / 3 % inputs.len()]);
+        handle
+            .set_drive(Drive { muted: round % 10 == 9, gain: nonsense[round / 2 % nonsense.len()].min(2.0) });
+        if round % 9 == 0 {
+            handle.play_track(track()).unwrap();
+        }
+        play(&mut engine, 1 + round % 5);
+        handle.collect();
+        handle.read_scope(&mut [0.0; 2048]);
+        assert!(!handle.status().tripped);
+    }
+}
+
+#[test]
+fn a_full_way_back_leaks_and_never_frees() {
+    let (mut handle, mut engine) = engine();
+    for _ in 0..SLOTS {
+        handle.load(texture(1.0)).unwrap();
+    }
+    play(&mut engine, 1);
+    for id in 0..SLOTS as u16 {
+        handle.unload(id);
+    }
+    play(&mut engine, 2);
+    for _ in 0..10 {
+        handle.play_track(track()).unwrap();
+        play(&mut engine, 1);
+    }
+    assert_eq!(handle.status().leaked, 9);
+    // Nobody draws the scope and nobody collects, for ten seconds.
+    play(&mut engine, 1900);
+    assert!(handle.collect() > 0);
+    play(&mut engine, 1);
+}
+
+#[test]
+fn tripping_and_starting_again() {
+    let (mut handle, mut engine) = engine();
+    let loud = handle.load(texture(f32::MAX)).unwrap();
+    handle.set_mix(Mix::solo(loud)).unwrap();
+    handle.set_input(Input::Hand(HAND));
+    play(&mut engine, 100);
+    assert!(handle.status().tripped);
+    let good = handle.load(texture(1.0)).unwrap();
+    handle.set_mix(Mix::solo(good)).unwrap();
+    handle.unload(loud);
+    handle.reset_limiter();
+    assert!(play(&mut engine, 100) > 0.0);
+    assert!(!handle.status().tripped && handle.collect() == 1);
+}
+
+#[test]
+fn the_handle_may_go_first() {
+    let (mut handle, mut engine) = engine();
+    let id = handle.load(texture(1.0)).unwrap();
+    handle.set_mix(Mix::solo(id)).unwrap();
+    handle.set_input(Input::Hand(HAND));
+    handle.play_track(track()).unwrap();
+    let live = handle.take_live_input();
+    drop(handle);
+    drop(live);
+    play(&mut engine, 100);
+    assert_eq!(play(&mut engine, 10), 0.0);
+}

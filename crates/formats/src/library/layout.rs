@@ -1,0 +1,100 @@
+//! How the JSON of a library is laid out: a line for each field and each anchor, so that a person can read it and a
+//! comparison of two versions shows what changed.
+
+use std::io;
+
+use serde::Serialize;
+use serde_json::ser::{Formatter, Serializer};
+
+/// Objects and arrays nested deeper than this stand on one line: library, textures, texture, anchors.
+const OPEN_DEPTH: usize = 4;
+
+/// The JSON of `value`, with a line feed at its end.
+pub(super) fn to_bytes(value: &impl Serialize) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let written = value.serialize(&mut Serializer::with_formatter(&mut bytes, Layout { depth: 0 }));
+    // Memory takes all bytes, keys are strings, and non-finite numbers are written as null.
+    assert!(written.is_ok(), "a library is always JSON: {written:?}");
+    bytes.push(b'\n');
+    bytes
+}
+
+struct Layout {
+    depth: usize,
+}
+
+impl Layout {
+    fn is_open(&self) -> bool {
+        self.depth <= OPEN_DEPTH
+    }
+
+    fn new_line<W: ?Sized + io::Write>(&self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b"\n")?;
+        (0..self.depth).try_for_each(|_| writer.write_all(b" "))
+    }
+
+    fn begin<W: ?Sized + io::Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        self.depth += 1;
+        writer.write_all(bracket)
+    }
+
+    fn end<W: ?Sized + io::Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        let was_open = self.is_open();
+        self.depth -= 1;
+        if was_open {
+            self.new_line(writer)?;
+        }
+        writer.write_all(bracket)
+    }
+
+    fn item<W: ?Sized + io::Write>(&self, writer: &mut W, first: bool) -> io::Result<()> {
+        if !first {
+            writer.write_all(b",")?;
+        }
+        if self.is_open() { self.new_line(writer) } else { Ok(()) }
+    }
+}
+
+impl Formatter for Layout {
+    fn begin_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.begin(writer, b"[")
+    }
+
+    fn end_array<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.end(writer, b"]")
+    }
+
+    fn begin_array_value<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        self.item(writer, first)
+    }
+
+    fn begin_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.begin(writer, b"{")
+    }
+
+    fn end_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.end(writer, b"}")
+    }
+
+    fn begin_object_key<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        self.item(writer, first)
+    }
+
+    fn begin_object_value<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(if self.is_open() { b": " } else { b":" })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::to_bytes;
+    use serde_json::json;
+
+    #[test]
+    fn deep_values_stand_on_one_line() {
+        let value = json!({"a": [{"b": [{"c": [1.5, 2], "d": 3}], "e": "x"}], "f": {}});
+        let expected = "{\n \"a\": [\n  {\n   \"b\": [\n    {\"c\":[1.5,2],\"d\":3}\n   ],\n   \"e\": \"x\"\n  }\n ],\n \"f\": {\n }\n}\n";
+        assert_eq!(String::from_utf8(to_bytes(&value)).unwrap(), expected);
+        assert_eq!(serde_json::from_slice::<serde_json::Value>(&to_bytes(&value)).unwrap(), value);
+    }
+}

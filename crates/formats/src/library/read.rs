@@ -1,0 +1,176 @@
+//! From bytes to a library.
+
+use std::collections::HashSet;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Map, Value};
+use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::texture::{GrainNode, TextureModel};
+use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
+
+use crate::imported::Imported;
+use crate::library::v1::{AnchorV1, Header, LibraryV1, PictureV1, SpaceV1, TextureV1, UnitsV1};
+use crate::library::write::UNITS;
+use crate::library::{
+    FORMAT, Library, LibraryError, PhysicalLabels, Place, TextureEntry, Unknown, UnknownOfLibrary,
+    VERSION_MAJOR, VERSION_MINOR,
+};
+use crate::picture::{MAX_SIDE, Picture, PictureFormat};
+
+/// Reads a library.
+///
+/// Pictures are unpacked only when they are shown, by [`crate::picture::decode`].
+///
+/// # Errors
+/// See [`LibraryError`]; every number is checked.
+pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
+    let mut warnings = Vec::new();
+    let header: Header = serde_json::from_slice(bytes).map_err(|error| damaged(&error, bytes))?;
+    if header.format != FORMAT {
+        return Err(LibraryError::Format { found: shown(&header.format) });
+    }
+    let (major, minor) =
+        version(&header.version).ok_or_else(|| LibraryError::Version { found: shown(&header.version) })?;
+    if major != VERSION_MAJOR {
+        return Err(LibraryError::Major { found: format!("{major}.{minor}") });
+    }
+    if minor > VERSION_MINOR {
+        warnings.push(format!(
+            "the library has version {major}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}: what is new in it is kept but has no effect"
+        ));
+    }
+    let wire: LibraryV1 = serde_json::from_slice(bytes).map_err(|error| damaged(&error, bytes))?;
+    check_units(&wire.units)?;
+    let mut ids = HashSet::new();
+    for (index, texture) in wire.textures.iter().enumerate() {
+        let id = &texture.id;
+        if id.is_empty() || id.contains(|c: char| c.is_whitespace() || c.is_control()) {
+            return Err(LibraryError::Id { number: index + 1, id: id.clone() });
+        }
+        if !ids.insert(id.clone()) {
+            return Err(LibraryError::Duplicate { id: id.clone() });
+        }
+    }
+    if wire.textures.is_empty() {
+        warnings.push("the library has no textures".to_owned());
+    }
+    let library = Library {
+        name: wire.name,
+        description: wire.description,
+        origin: wire.origin,
+        license: wire.licence,
+        created_by: wire.created_by,
+        seed: wire.seed,
+        textures: wire.textures.into_iter().map(texture).collect::<Result<_, _>>()?,
+        unknown: UnknownOfLibrary { library: wire.unknown, units: wire.units.unknown },
+    };
+    Ok(Imported { value: library, warnings })
+}
+
+/// `major.minor` as numbers.
+fn version(value: &Value) -> Option<(u32, u32)> {
+    let (major, minor) = value.as_str()?.split_once('.')?;
+    // Not a number is not a version: the caller says so.
+    Some((major.parse().ok()?, minor.parse().ok()?))
+}
+
+/// A value for a message: short, whatever stood there.
+fn shown(value: &Value) -> String {
+    if value.is_null() {
+        return "missing".to_owned();
+    }
+    let text = value.to_string();
+    if text.chars().count() > 40 { text.chars().take(40).chain(['…']).collect() } else { text }
+}
+
+/// The error of the parser, with the texture in which it arose where the rest is sound enough to tell.
+fn damaged(error: &serde_json::Error, bytes: &[u8]) -> LibraryError {
+    let texture = serde_json::from_slice::<Value>(bytes).ok().and_then(|value| {
+        // Not JSON at all: the parser's line and column must do.
+        let textures = value.get("textures")?.as_array()?;
+        let bad = textures.iter().find(|t| serde_json::from_value::<TextureV1>((*t).clone()).is_err())?;
+        Some(bad.get("id")?.as_str()?.to_owned())
+    });
+    LibraryError::Damaged { reason: error.to_string(), texture }
+}
+
+fn check_units(units: &UnitsV1) -> Result<(), LibraryError> {
+    let found = [&units.speed, &units.force, &units.acceleration, &units.rate, &units.lsf, &units.length];
+    for (found, (quantity, expected)) in found.into_iter().zip(UNITS) {
+        if found != expected {
+            return Err(LibraryError::Unit { quantity, found: found.clone(), expected });
+        }
+    }
+    Ok(())
+}
+
+fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
+    let id = wire.id;
+    let mut unknown = Unknown { texture: wire.unknown, ..Unknown::default() };
+    let place = wire.space.map(|space| place(&id, space, &mut unknown)).transpose()?;
+    let picture = wire.picture.map(|wire| picture(&id, wire, &mut unknown)).transpose()?;
+    let physical = wire.physical.map(|wire| {
+        unknown.physical = wire.unknown;
+        PhysicalLabels {
+            roughness_log10_mps2: wire.roughness_log10_mps2,
+            hardness_log10_n_per_m: wire.hardness_log10_n_per_m,
+        }
+    });
+    let (nodes, anchors): (Vec<_>, Vec<_>) = wire.anchors.into_iter().map(anchor).unzip();
+    if anchors.iter().any(|fields| !fields.is_empty()) {
+        unknown.anchors = anchors;
+    }
+    let model = TextureModel::new(Hertz(wire.rate_hz), nodes, wire.mu)
+        .map_err(|source| LibraryError::Model { id: id.clone(), source })?;
+    Ok(TextureEntry {
+        id,
+        name: wire.name,
+        tags: wire.tags,
+        license: wire.licence,
+        origin: wire.origin,
+        description: wire.description,
+        place,
+        physical,
+        model,
+        picture,
+        unknown,
+    })
+}
+
+fn anchor(wire: AnchorV1) -> (GrainNode, Map<String, Value>) {
+    let node = GrainNode {
+        speed: MetersPerSecond::from_mm_per_s(wire.speed_mm_per_s),
+        force: Newtons(wire.force_n),
+        lsf: wire.lsf,
+        level_mps2: wire.level_mps2,
+    };
+    (node, wire.unknown)
+}
+
+fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Place, LibraryError> {
+    unknown.space = wire.unknown;
+    let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
+        .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
+    let source = LabelSource::from_id(&wire.label_source)
+        .ok_or_else(|| LibraryError::LabelSource { id: id.to_owned(), found: wire.label_source })?;
+    Ok(Place { at, source })
+}
+
+fn picture(id: &str, wire: PictureV1, unknown: &mut Unknown) -> Result<Picture, LibraryError> {
+    let failed = |reason: String| LibraryError::Picture { id: id.to_owned(), reason };
+    let format = PictureFormat::from_media_type(&wire.media_type).ok_or_else(|| {
+        failed(format!("its media type is {}, not image/jpeg or image/png", wire.media_type))
+    })?;
+    let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
+    if !(fits(wire.width) && fits(wire.height)) {
+        return Err(failed(format!("{} x {} pixels are not 1 to {MAX_SIDE} each", wire.width, wire.height)));
+    }
+    if wire.millimeters <= 0.0 {
+        return Err(failed(format!("it covers {} mm", wire.millimeters)));
+    }
+    let bytes =
+        STANDARD.decode(&wire.base64).map_err(|error| failed(format!("its base64 is damaged ({error})")))?;
+    unknown.picture = wire.unknown;
+    Ok(Picture { width: wire.width, height: wire.height, millimeters: wire.millimeters, format, bytes })
+}

@@ -1,0 +1,190 @@
+use super::{Library, LibraryError, PhysicalLabels, Place, TextureEntry, read_library, write_library};
+use crate::picture::{Rgb, encode_jpeg};
+use serde_json::{Value, json};
+use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::texture::{GrainNode, TextureModel};
+use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
+
+fn small() -> Library {
+    let node = |mm_per_s: f64| GrainNode {
+        speed: MetersPerSecond::from_mm_per_s(mm_per_s),
+        force: Newtons(0.15),
+        lsf: vec![0.5, 1.25, 3.0],
+        level_mps2: 0.0625,
+    };
+    let model = TextureModel::new(Hertz(1000.0), vec![node(30.0), node(70.0)], Some(0.3)).unwrap();
+    let cork = TextureEntry {
+        tags: vec!["soft".into()],
+        place: Some(Place { at: SpacePoint::new(30.25, 70.0).unwrap(), source: LabelSource::PhysicalLabels }),
+        physical: Some(PhysicalLabels { roughness_log10_mps2: -0.5, hardness_log10_n_per_m: 4.25 }),
+        picture: Some(encode_jpeg(&Rgb { width: 2, height: 1, pixels: vec![9; 6] }, 20.0).unwrap()),
+        ..TextureEntry::new("cork", "Cork", model.clone())
+    };
+    let bare = TextureEntry::new("bare", "Bare", model);
+    Library {
+        name: "Small".into(),
+        license: "CC0-1.0".into(),
+        seed: Some(7),
+        textures: vec![cork, bare],
+        ..Library::default()
+    }
+}
+
+fn wire() -> Value {
+    serde_json::from_slice(&write_library(&small())).unwrap()
+}
+
+/// Reads the small library after a change to its JSON.
+fn read_changed(change: impl FnOnce(&mut Value)) -> Result<Library, LibraryError> {
+    let mut value = wire();
+    change(&mut value);
+    read_library(&serde_json::to_vec(&value).unwrap()).map(|imported| imported.value)
+}
+
+#[track_caller]
+fn check_error(change: impl FnOnce(&mut Value), expected: &[&str]) {
+    let message = read_changed(change).unwrap_err().to_string();
+    for part in expected {
+        assert!(message.contains(part), "{part:?} is not in {message:?}");
+    }
+}
+
+#[test]
+fn round_trip_is_exact_and_deterministic() {
+    let bytes = write_library(&small());
+    let imported = read_library(&bytes).unwrap();
+    assert!(imported.warnings.is_empty());
+    assert_eq!(imported.value, small());
+    assert_eq!(write_library(&imported.value), bytes);
+}
+
+#[test]
+fn the_file_says_what_it_holds() {
+    let value = wire();
+    assert_eq!((&value["format"], &value["version"]), (&json!("shagreen-library"), &json!("1.0")));
+    assert_eq!(value["units"]["acceleration"], "m/s^2");
+    let texture = &value["textures"][0];
+    assert_eq!(texture["space"]["label_source"], "physical");
+    assert_eq!(texture["mu"], 0.3);
+    assert_eq!(texture["rate_hz"], 1000.0);
+    let anchor =
+        json!({"speed_mm_per_s": 30.0, "force_n": 0.15, "level_mps2": 0.0625, "lsf": [0.5, 1.25, 3.0]});
+    assert_eq!(texture["anchors"][0], anchor);
+}
+
+#[test]
+fn long_numbers_are_shortened_and_stay_close() {
+    let mut library = small();
+    let model = &library.textures[0].model;
+    let mut nodes = model.nodes().to_vec();
+    nodes[0].lsf[0] = 0.123_456_789;
+    nodes[0].level_mps2 = 1.0 / 3.0;
+    library.textures[0].model = TextureModel::new(model.rate(), nodes, None).unwrap();
+    let back = read_library(&write_library(&library)).unwrap().value;
+    let node = &back.textures[0].model.nodes()[0];
+    assert_eq!((node.lsf[0], node.level_mps2), (0.123_457, 0.333_333));
+}
+
+#[test]
+fn unknown_fields_survive() {
+    let mut value = wire();
+    value["mood"] = json!({"a": [1, 2.5, "x"]});
+    value["units"]["temperature"] = json!("K");
+    let texture = &mut value["textures"][0];
+    texture["tap"] = json!([1, 2]);
+    texture["space"]["raters"] = json!(12);
+    texture["physical"]["method"] = json!("x");
+    texture["picture"]["camera"] = json!("none");
+    texture["anchors"][1]["ma_lsf"] = json!([0.5]);
+    let read = read_library(&serde_json::to_vec(&value).unwrap()).unwrap().value;
+    assert_eq!(serde_json::from_slice::<Value>(&write_library(&read)).unwrap(), value);
+}
+
+#[test]
+fn unknown_fields_of_anchors_are_not_given_to_others() {
+    let read = read_changed(|v| v["textures"][0]["anchors"][1]["extra"] = json!(1)).unwrap();
+    let mut library = read;
+    let model = &library.textures[0].model;
+    library.textures[0].model =
+        TextureModel::new(model.rate(), model.nodes()[..1].to_vec(), model.friction()).unwrap();
+    assert!(!String::from_utf8(write_library(&library)).unwrap().contains("extra"));
+}
+
+#[test]
+fn other_kinds_and_versions_are_refused_with_the_reason() {
+    check_error(|v| v["format"] = json!("other"), &["not a texture library", "other"]);
+    check_error(|v| v["format"] = Value::Null, &["not a texture library", "missing"]);
+    check_error(|v| v["version"] = json!("2.0"), &["version 2.0", "reads 1.x"]);
+    check_error(|v| v["version"] = json!("0.9"), &["version 0.9"]);
+    check_error(|v| v["version"] = json!(1.0), &["not of the form"]);
+    check_error(|v| v["units"]["speed"] = json!("m/s"), &["speed in m/s", "reads mm/s"]);
+    // A higher major version may look different everywhere else, and is still refused for its version.
+    let alien = br#"{"format": "shagreen-library", "version": "7.1", "textures": 5}"#;
+    assert!(matches!(read_library(alien), Err(LibraryError::Major { .. })));
+}
+
+#[test]
+fn a_higher_minor_version_is_read_with_a_warning() {
+    let mut value = wire();
+    value["version"] = json!("1.3");
+    let imported = read_library(&serde_json::to_vec(&value).unwrap()).unwrap();
+    assert_eq!(imported.value.textures.len(), 2);
+    assert!(imported.warnings[0].contains("1.3"), "{:?}", imported.warnings);
+}
+
+#[test]
+fn wrong_values_name_the_texture() {
+    let anchor = |v: &mut Value, field: &str, to: Value| v["textures"][0]["anchors"][1][field] = to;
+    check_error(|v| anchor(v, "lsf", json!([1.25, 0.5, 3.0])), &["\"cork\"", "node 1", "ascend"]);
+    check_error(|v| anchor(v, "lsf", json!([0.5, 1.25])), &["\"cork\"", "node 1"]);
+    check_error(|v| anchor(v, "level_mps2", json!(-1.0)), &["\"cork\"", "level"]);
+    check_error(|v| anchor(v, "speed_mm_per_s", json!(0)), &["\"cork\"", "speed"]);
+    check_error(|v| anchor(v, "force_n", Value::Null), &["\"cork\"", "line"]);
+    check_error(|v| v["textures"][1]["anchors"] = json!([]), &["\"bare\""]);
+    check_error(|v| v["textures"][1]["id"] = json!("cork"), &["two textures", "\"cork\""]);
+    check_error(|v| v["textures"][1]["id"] = json!(""), &["number 2"]);
+    check_error(|v| v["textures"][0]["space"]["hard_soft"] = json!(101), &["\"cork\"", "hard-soft is 101"]);
+    check_error(|v| v["textures"][0]["space"]["label_source"] = json!("guess"), &["\"cork\"", "guess"]);
+    check_error(|v| v["textures"][0]["rate_hz"] = json!(44100), &["\"cork\"", "44100"]);
+    check_error(|v| v["textures"][0]["mu"] = json!(-0.1), &["\"cork\"", "friction"]);
+    check_error(|v| v["textures"][0]["picture"]["base64"] = json!("!"), &["\"cork\"", "base64"]);
+    check_error(|v| v["textures"][0]["picture"]["width"] = json!(0), &["\"cork\"", "pixels"]);
+    check_error(|v| v["textures"][0]["picture"]["media_type"] = json!("image/gif"), &["\"cork\"", "gif"]);
+}
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    let text = String::from_utf8(write_library(&small())).unwrap();
+    for nonsense in ["NaN", "Infinity", "1e999", "-", "\"0.0625\""] {
+        let bytes = text.replacen("0.0625", nonsense, 1).into_bytes();
+        assert!(matches!(read_library(&bytes), Err(LibraryError::Damaged { .. })), "{nonsense}");
+    }
+}
+
+#[test]
+fn every_truncation_is_an_error() {
+    let bytes = write_library(&small());
+    // Without the line feed at its end the file is still whole.
+    for end in 0..bytes.len() - 1 {
+        assert!(read_library(&bytes[..end]).is_err(), "cut at {end} of {}", bytes.len());
+    }
+    assert!(read_library(&bytes[..bytes.len() - 1]).is_ok());
+}
+
+#[test]
+fn an_empty_library_is_odd_but_usable() {
+    let imported = read_library(&write_library(&Library::default())).unwrap();
+    assert_eq!(imported.warnings.len(), 1);
+    assert_eq!(imported.value.label_source(), None);
+}
+
+#[test]
+fn mixed_label_sources_are_no_single_source() {
+    let mut library = small();
+    assert_eq!(library.label_source(), Some(LabelSource::PhysicalLabels));
+    let at = SpacePoint::new(1.0, 2.0).unwrap();
+    library.textures[1].place = Some(Place { at, source: LabelSource::HumanRatings });
+    assert_eq!(library.label_source(), None);
+    assert_eq!(library.index_of("bare"), Some(1));
+    assert_eq!(library.license_of(&library.textures[0]), "CC0-1.0");
+}

@@ -1,0 +1,111 @@
+//! The wire format of a library, version 1.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// Enough of any file to tell whether it is ours.
+#[derive(Deserialize)]
+pub(super) struct Header {
+    #[serde(default)]
+    pub(super) format: Value,
+    #[serde(default)]
+    pub(super) version: Value,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct LibraryV1 {
+    pub(super) format: String,
+    pub(super) version: String,
+    pub(super) units: UnitsV1,
+    pub(super) name: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) description: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) origin: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) licence: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) created_by: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) seed: Option<u64>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+    // Last, so that what is said about the library stands before the long part.
+    pub(super) textures: Vec<TextureV1>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct UnitsV1 {
+    pub(super) speed: String,
+    pub(super) force: String,
+    pub(super) acceleration: String,
+    pub(super) rate: String,
+    pub(super) lsf: String,
+    pub(super) length: String,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct TextureV1 {
+    pub(super) id: String,
+    pub(super) name: String,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) tags: Vec<String>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) licence: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) origin: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) description: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) space: Option<SpaceV1>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) physical: Option<PhysicalV1>,
+    pub(super) rate_hz: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) mu: Option<f64>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+    pub(super) anchors: Vec<AnchorV1>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) picture: Option<PictureV1>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct SpaceV1 {
+    pub(super) rough_smooth: f64,
+    pub(super) hard_soft: f64,
+    pub(super) label_source: String,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct PhysicalV1 {
+    pub(super) roughness_log10_mps2: f64,
+    pub(super) hardness_log10_n_per_m: f64,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct AnchorV1 {
+    pub(super) speed_mm_per_s: f64,
+    pub(super) force_n: f64,
+    pub(super) level_mps2: f64,
+    pub(super) lsf: Vec<f64>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct PictureV1 {
+    pub(super) media_type: String,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) millimeters: f64,
+    pub(super) base64: String,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}

@@ -1,0 +1,142 @@
+//! From a library to bytes, always the same for the same library.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::Map;
+use shagreen_core::texture::GrainNode;
+
+use crate::library::layout;
+use crate::library::v1::{AnchorV1, LibraryV1, PhysicalV1, PictureV1, SpaceV1, TextureV1, UnitsV1};
+use crate::library::{FORMAT, Library, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
+
+/// Quantities of the format and their units, in the order of [`UnitsV1`].
+pub(super) const UNITS: [(&str, &str); 6] = [
+    ("speed", "mm/s"),
+    ("force", "N"),
+    ("acceleration", "m/s^2"),
+    ("rate", "Hz"),
+    ("lsf", "rad"),
+    ("length", "mm"),
+];
+
+/// Decimals of line spectral frequencies and positions in a file.
+const DECIMALS: usize = 6;
+/// Significant digits of levels and labels in a file: far finer than anyone can measure.
+const DIGITS: usize = 6;
+/// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
+const CONVERSION_DIGITS: usize = 12;
+
+/// Writes a library, with numbers as long as they mean something: line spectral frequencies to six decimals, levels to
+/// six digits. Reading it back and writing it again gives the same bytes.
+pub fn write_library(library: &Library) -> Vec<u8> {
+    let units = UNITS.map(|(_, unit)| unit.to_owned());
+    let [speed, force, acceleration, rate, lsf, length] = units;
+    layout::to_bytes(&LibraryV1 {
+        format: FORMAT.to_owned(),
+        version: format!("{VERSION_MAJOR}.{VERSION_MINOR}"),
+        units: UnitsV1 {
+            speed,
+            force,
+            acceleration,
+            rate,
+            lsf,
+            length,
+            unknown: library.unknown.units.clone(),
+        },
+        name: library.name.clone(),
+        description: library.description.clone(),
+        origin: library.origin.clone(),
+        licence: library.license.clone(),
+        created_by: library.created_by.clone(),
+        seed: library.seed,
+        unknown: library.unknown.library.clone(),
+        textures: library.textures.iter().map(texture).collect(),
+    })
+}
+
+fn texture(entry: &TextureEntry) -> TextureV1 {
+    let unknown = &entry.unknown;
+    TextureV1 {
+        id: entry.id.clone(),
+        name: entry.name.clone(),
+        tags: entry.tags.clone(),
+        licence: entry.license.clone(),
+        origin: entry.origin.clone(),
+        description: entry.description.clone(),
+        space: entry.place.map(|place| SpaceV1 {
+            rough_smooth: decimals(place.at.rough_smooth),
+            hard_soft: decimals(place.at.hard_soft),
+            label_source: place.source.id().to_owned(),
+            unknown: unknown.space.clone(),
+        }),
+        physical: entry.physical.map(|labels| PhysicalV1 {
+            roughness_log10_mps2: digits(labels.roughness_log10_mps2, DIGITS),
+            hardness_log10_n_per_m: digits(labels.hardness_log10_n_per_m, DIGITS),
+            unknown: unknown.physical.clone(),
+        }),
+        rate_hz: digits(entry.model.rate().0, CONVERSION_DIGITS),
+        mu: entry.model.friction().map(|mu| digits(mu, DIGITS)),
+        unknown: unknown.texture.clone(),
+        anchors: entry.model.nodes().iter().enumerate().map(|(i, node)| anchor(entry, i, node)).collect(),
+        picture: entry.picture.as_ref().map(|picture| PictureV1 {
+            media_type: picture.format.media_type().to_owned(),
+            width: picture.width,
+            height: picture.height,
+            millimeters: digits(picture.millimeters, CONVERSION_DIGITS),
+            base64: STANDARD.encode(&picture.bytes),
+            unknown: unknown.picture.clone(),
+        }),
+    }
+}
+
+fn anchor(entry: &TextureEntry, index: usize, node: &GrainNode) -> AnchorV1 {
+    // Where nodes were added or taken away, nobody knows which unknown fields belong to which.
+    let same_nodes = entry.unknown.anchors.len() == entry.model.nodes().len();
+    let unknown = if same_nodes { entry.unknown.anchors[index].clone() } else { Map::new() };
+    AnchorV1 {
+        speed_mm_per_s: digits(node.speed.mm_per_s(), CONVERSION_DIGITS),
+        force_n: digits(node.force.0, CONVERSION_DIGITS),
+        level_mps2: digits(node.level_mps2, DIGITS),
+        lsf: frequencies(&node.lsf),
+        unknown,
+    }
+}
+
+/// Frequencies to [`DECIMALS`], but in full where rounding would make two of them equal or push one out of (0, π).
+fn frequencies(lsf: &[f64]) -> Vec<f64> {
+    let rounded: Vec<f64> = lsf.iter().map(|w| decimals(*w)).collect();
+    let inside = |w: &f64| *w > 0.0 && *w < std::f64::consts::PI;
+    let ascending = rounded.windows(2).all(|pair| pair[0] < pair[1]);
+    if ascending && rounded.iter().all(inside) { rounded } else { lsf.to_vec() }
+}
+
+/// The nearest number of [`DECIMALS`] decimals; decimal text is the rounding that prints short.
+fn decimals(value: f64) -> f64 {
+    format!("{value:.DECIMALS$}").parse().unwrap_or(value)
+}
+
+/// The nearest number of so many significant digits.
+fn digits(value: f64, n: usize) -> f64 {
+    let after_point = n - 1;
+    format!("{value:.after_point$e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DIGITS, decimals, digits, frequencies};
+
+    #[test]
+    fn rounds_as_text_does() {
+        assert_eq!(decimals(0.123_456_49), 0.123_456);
+        assert_eq!(digits(0.000_123_456_789, DIGITS), 0.000_123_457);
+        assert_eq!(digits(0.0, DIGITS), 0.0);
+        assert_eq!(digits(30.000_000_000_000_004, 12), 30.0);
+    }
+
+    #[test]
+    fn close_frequencies_stay_apart() {
+        let close = [1e-8, 0.5, 0.5 + 1e-8, 3.0];
+        assert_eq!(frequencies(&close), close);
+        assert_eq!(frequencies(&[0.500_000_04, 0.6]), [0.5, 0.6]);
+    }
+}

@@ -1,0 +1,263 @@
+//! The parameters of physical materials, from a TOML file: what a starter library is made of.
+//!
+//! The keys are the fields of [`Material`], all in SI units; kinds of pattern are written in `kebab-case`. A key that is
+//! not known is an error, for it would be a parameter without effect.
+
+use std::collections::HashSet;
+
+use serde::Deserialize;
+use shagreen_core::material::{Bumps, Material, MaterialError, Pattern, PatternKind, validate};
+
+/// The materials of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Materials {
+    /// Seed of all that is random in what is made of them.
+    pub seed: u64,
+    /// At least one; identifiers are unique.
+    pub materials: Vec<Material>,
+}
+
+/// Why bytes are no materials.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MaterialsError {
+    /// Not UTF-8.
+    #[error("the materials are not UTF-8 text from byte {at} on; save the file as UTF-8")]
+    NotText {
+        /// The first byte that is not.
+        at: usize,
+    },
+    /// Not TOML, or a key is missing, unknown or of the wrong kind.
+    #[error("the materials cannot be read: {reason}; correct the file")]
+    Damaged {
+        /// What the parser says, with the line, on one line.
+        reason: String,
+    },
+    /// A material's numbers have no meaning.
+    #[error("{0}; correct the material")]
+    Material(#[from] MaterialError),
+    /// Two materials have the same identifier.
+    #[error("two materials have the id \"{id}\"; rename one of them")]
+    Duplicate {
+        /// The identifier.
+        id: String,
+    },
+    /// The list is empty.
+    #[error("the file has no materials; add a [[material]]")]
+    Empty,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialsV1 {
+    seed: u64,
+    #[serde(default)]
+    material: Vec<MaterialV1>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialV1 {
+    id: String,
+    name: String,
+    #[serde(default)]
+    tags: Vec<String>,
+    youngs_modulus_pa: f64,
+    height_rms_m: f64,
+    hurst: f64,
+    roll_off_m: f64,
+    stretch: f64,
+    pattern: Option<PatternV1>,
+    #[serde(default)]
+    bumps: Vec<BumpsV1>,
+    friction_coefficient: f64,
+    friction_heterogeneity: f64,
+    patch_share: f64,
+    contact_damping_ratio: f64,
+    load_exponent: f64,
+    valley_srgb: [u8; 3],
+    peak_srgb: [u8; 3],
+    gloss: f64,
+    metallic: f64,
+    mottle: f64,
+    mottle_scale_m: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PatternV1 {
+    kind: PatternKindV1,
+    period_m: f64,
+    amplitude_m: f64,
+    jitter: f64,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum PatternKindV1 {
+    Ridges,
+    PlainWeave,
+    Twill,
+    Domes,
+    Loops,
+    Pebbles,
+    Cells,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BumpsV1 {
+    height_m: f64,
+    radius_m: f64,
+    elongation: f64,
+    spread_rad: f64,
+    density_per_m2: f64,
+}
+
+/// Reads materials.
+///
+/// # Errors
+/// See [`MaterialsError`]; every number is checked by [`validate`].
+pub fn read_materials(bytes: &[u8]) -> Result<Materials, MaterialsError> {
+    let text =
+        std::str::from_utf8(bytes).map_err(|error| MaterialsError::NotText { at: error.valid_up_to() })?;
+    let wire: MaterialsV1 = toml::from_str(text).map_err(|error| damaged(&error, text))?;
+    let materials: Vec<Material> = wire.material.into_iter().map(material).collect();
+    if materials.is_empty() {
+        return Err(MaterialsError::Empty);
+    }
+    let mut ids = HashSet::new();
+    for material in &materials {
+        validate(material)?;
+        if !ids.insert(&material.id) {
+            return Err(MaterialsError::Duplicate { id: material.id.clone() });
+        }
+    }
+    Ok(Materials { seed: wire.seed, materials })
+}
+
+/// The parser's message on one line, with the line of the file.
+fn damaged(error: &toml::de::Error, text: &str) -> MaterialsError {
+    let message = error.message().replace('\n', " ");
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let reason = match before {
+        Some(before) => format!("{message} at line {}", before.matches('\n').count() + 1),
+        None => message,
+    };
+    MaterialsError::Damaged { reason }
+}
+
+fn material(wire: MaterialV1) -> Material {
+    Material {
+        id: wire.id,
+        name: wire.name,
+        tags: wire.tags,
+        youngs_modulus_pa: wire.youngs_modulus_pa,
+        height_rms_m: wire.height_rms_m,
+        hurst: wire.hurst,
+        roll_off_m: wire.roll_off_m,
+        stretch: wire.stretch,
+        pattern: wire.pattern.as_ref().map(pattern),
+        bumps: wire.bumps.iter().map(bumps).collect(),
+        friction_coefficient: wire.friction_coefficient,
+        friction_heterogeneity: wire.friction_heterogeneity,
+        patch_share: wire.patch_share,
+        contact_damping_ratio: wire.contact_damping_ratio,
+        load_exponent: wire.load_exponent,
+        valley_srgb: wire.valley_srgb,
+        peak_srgb: wire.peak_srgb,
+        gloss: wire.gloss,
+        metallic: wire.metallic,
+        mottle: wire.mottle,
+        mottle_scale_m: wire.mottle_scale_m,
+    }
+}
+
+fn pattern(wire: &PatternV1) -> Pattern {
+    let kind = match wire.kind {
+        PatternKindV1::Ridges => PatternKind::Ridges,
+        PatternKindV1::PlainWeave => PatternKind::PlainWeave,
+        PatternKindV1::Twill => PatternKind::Twill,
+        PatternKindV1::Domes => PatternKind::Domes,
+        PatternKindV1::Loops => PatternKind::Loops,
+        PatternKindV1::Pebbles => PatternKind::Pebbles,
+        PatternKindV1::Cells => PatternKind::Cells,
+    };
+    Pattern { kind, period_m: wire.period_m, amplitude_m: wire.amplitude_m, jitter: wire.jitter }
+}
+
+fn bumps(wire: &BumpsV1) -> Bumps {
+    Bumps {
+        height_m: wire.height_m,
+        radius_m: wire.radius_m,
+        elongation: wire.elongation,
+        spread_rad: wire.spread_rad,
+        density_per_m2: wire.density_per_m2,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::read_materials;
+    use shagreen_core::material::PatternKind;
+
+    const STARTER: &str = include_str!("../../../assets/starter/materials.toml");
+
+    /// A file of one material.
+    const SMALL: &str = r#"
+seed = 1
+[[material]]
+id = "glass"
+name = "Glass"
+youngs_modulus_pa = 6e10
+height_rms_m = 1e-7
+hurst = 0.8
+roll_off_m = 3e-3
+stretch = 1.0
+pattern = { kind = "plain-weave", period_m = 1e-3, amplitude_m = 1e-6, jitter = 0.1 }
+bumps = [{ height_m = 1e-6, radius_m = 1e-4, elongation = 1.0, spread_rad = 0.0, density_per_m2 = 1e5 }]
+friction_coefficient = 0.15
+friction_heterogeneity = 0.1
+patch_share = 1.0
+contact_damping_ratio = 0.15
+load_exponent = 0.05
+valley_srgb = [1, 2, 3]
+peak_srgb = [4, 5, 6]
+gloss = 1.0
+metallic = 0.0
+mottle = 0.0
+mottle_scale_m = 5e-3
+"#;
+
+    #[track_caller]
+    fn check_error(text: &str, expected: &str) {
+        let message = read_materials(text.as_bytes()).unwrap_err().to_string();
+        assert!(message.contains(expected) && !message.contains('\n'), "{message}");
+    }
+
+    #[test]
+    fn the_starter_has_twenty_five_materials() {
+        assert_eq!(read_materials(STARTER.as_bytes()).unwrap().materials.len(), 25);
+    }
+
+    #[test]
+    fn every_key_is_read() {
+        let read = read_materials(SMALL.as_bytes()).unwrap();
+        assert_eq!(read.seed, 1);
+        let glass = &read.materials[0];
+        assert_eq!((glass.id.as_str(), glass.youngs_modulus_pa, glass.peak_srgb), ("glass", 6e10, [4, 5, 6]));
+        assert_eq!(glass.pattern.unwrap().kind, PatternKind::PlainWeave);
+        assert_eq!(glass.bumps[0].density_per_m2, 1e5);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_place() {
+        check_error(&SMALL.replace("gloss = ", "glos = "), "glos");
+        check_error(&SMALL.replace("hurst = 0.8", "hurst = nan"), "hurst of glass is NaN");
+        check_error(&format!("{SMALL}{}", &SMALL[SMALL.find("[[").unwrap()..]), "two materials");
+        check_error("seed = 1", "no materials");
+        check_error("seed = 1\n[[material]]\nid = 5", "line 3");
+        check_error(&SMALL.replace("plain-weave", "knit"), "line 11");
+        assert!(read_materials(b"seed = \xff").unwrap_err().to_string().contains("byte 7"));
+    }
+}

@@ -1,0 +1,167 @@
+//! Pictures of surfaces: pixels to compressed bytes and back.
+
+use std::io::Cursor;
+
+use image::codecs::jpeg::JpegEncoder;
+use image::{ExtendedColorType, ImageFormat, ImageReader};
+
+/// Quality of the JPEG pictures in a library, 1..100.
+pub const JPEG_QUALITY: u8 = 85;
+
+/// Longest side of a picture that is read, in pixels.
+pub const MAX_SIDE: u32 = 4096;
+
+/// How the bytes of a picture are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// JPEG.
+    Jpeg,
+    /// PNG.
+    Png,
+}
+
+impl PictureFormat {
+    /// The media type that stands in files.
+    pub fn media_type(self) -> &'static str {
+        match self {
+            Self::Jpeg => "image/jpeg",
+            Self::Png => "image/png",
+        }
+    }
+
+    /// The format that has this [`PictureFormat::media_type`].
+    pub fn from_media_type(media_type: &str) -> Option<Self> {
+        [Self::Jpeg, Self::Png].into_iter().find(|format| format.media_type() == media_type)
+    }
+}
+
+/// A compressed picture of a piece of surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels in a row, 1 to [`MAX_SIDE`].
+    pub width: u32,
+    /// Rows, 1 to [`MAX_SIDE`].
+    pub height: u32,
+    /// Length of surface that the width covers, in mm.
+    pub millimeters: f64,
+    /// How `bytes` are compressed.
+    pub format: PictureFormat,
+    /// The compressed picture.
+    pub bytes: Vec<u8>,
+}
+
+/// Pixels: red, green and blue (sRGB) of each, row after row from the upper left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rgb {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Three bytes a pixel.
+    pub pixels: Vec<u8>,
+}
+
+/// Why a picture cannot be packed or unpacked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PictureError {
+    /// The number of bytes does not fit the size, or the size is outside 1 to [`MAX_SIDE`].
+    #[error("a picture of {width} x {height} pixels cannot have {n_bytes} bytes of color")]
+    Size {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Bytes given.
+        n_bytes: usize,
+    },
+    /// The compressed bytes have another size than the file says.
+    #[error("the picture is {found_width} x {found_height} pixels, the library says {width} x {height}")]
+    Mismatch {
+        /// Pixels in a row, by the library.
+        width: u32,
+        /// Rows, by the library.
+        height: u32,
+        /// Pixels in a row, by the picture.
+        found_width: u32,
+        /// Rows, by the picture.
+        found_height: u32,
+    },
+    /// The compressed bytes are damaged.
+    #[error("the picture is damaged")]
+    Codec(#[from] image::ImageError),
+}
+
+/// Packs pixels as JPEG at [`JPEG_QUALITY`]; `millimeters` is the length of surface that the width covers.
+///
+/// # Errors
+/// [`PictureError::Size`] where pixels and size do not fit.
+pub fn encode_jpeg(rgb: &Rgb, millimeters: f64) -> Result<Picture, PictureError> {
+    let Rgb { width, height, ref pixels } = *rgb;
+    let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
+    if !(fits(width) && fits(height) && pixels.len() == 3 * width as usize * height as usize) {
+        return Err(PictureError::Size { width, height, n_bytes: pixels.len() });
+    }
+    let mut bytes = Vec::new();
+    let mut encoder = JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY);
+    encoder.encode(pixels, width, height, ExtendedColorType::Rgb8)?;
+    Ok(Picture { width, height, millimeters, format: PictureFormat::Jpeg, bytes })
+}
+
+/// Unpacks a picture.
+///
+/// # Errors
+/// [`PictureError::Codec`] where the bytes are damaged, [`PictureError::Mismatch`] where they are of another size.
+pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
+    let format = match picture.format {
+        PictureFormat::Jpeg => ImageFormat::Jpeg,
+        PictureFormat::Png => ImageFormat::Png,
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(&picture.bytes), format);
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    reader.limits(limits);
+    let rgb = reader.decode()?.into_rgb8();
+    let (found_width, found_height) = rgb.dimensions();
+    let Picture { width, height, .. } = *picture;
+    if (found_width, found_height) != (width, height) {
+        return Err(PictureError::Mismatch { width, height, found_width, found_height });
+    }
+    Ok(Rgb { width, height, pixels: rgb.into_raw() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PictureError, PictureFormat, Rgb, decode, encode_jpeg};
+
+    fn gradient() -> Rgb {
+        let pixels = (0..32 * 24).flat_map(|i| [(i % 32) * 8, (i / 32) * 10, 128]).map(|v| v as u8).collect();
+        Rgb { width: 32, height: 24, pixels }
+    }
+
+    #[test]
+    fn comes_back_nearly_the_same() {
+        let picture = encode_jpeg(&gradient(), 20.0).unwrap();
+        let back = decode(&picture).unwrap();
+        let error: f64 =
+            back.pixels.iter().zip(gradient().pixels).map(|(a, b)| f64::from(a.abs_diff(b))).sum();
+        // At quality 85 a smooth gradient is off by about one step of 255.
+        assert!(error / (back.pixels.len() as f64) < 3.0, "{error}");
+    }
+
+    #[test]
+    fn damage_and_wrong_sizes_are_named() {
+        let picture = encode_jpeg(&gradient(), 20.0).unwrap();
+        for end in 0..picture.bytes.len().min(200) {
+            let mut cut = picture.clone();
+            cut.bytes.truncate(end);
+            assert!(decode(&cut).is_err());
+        }
+        let wider = super::Picture { width: 33, ..picture.clone() };
+        assert!(matches!(decode(&wider), Err(PictureError::Mismatch { found_width: 32, .. })));
+        assert!(decode(&super::Picture { format: PictureFormat::Png, ..picture }).is_err());
+        let short = Rgb { width: 100, ..gradient() };
+        assert!(matches!(encode_jpeg(&short, 1.0), Err(PictureError::Size { width: 100, .. })));
+    }
+}

@@ -1,0 +1,315 @@
+//! Strokes as tables: CSV parted by commas, semicolons or tabs, with or without a header.
+//!
+//! With a header, columns are found by name: `t` or `time` (with `ms` or `s`), then either `x` and `y` in mm with
+//! `pressure` (0..1) or `force` in N, or `speed` in mm/s with `force` in N. `touching` (0 or 1) may say when the tip is
+//! off; else it is off where it is not pressed. Without a header, three columns are time, speed and force, and four are
+//! time, x, y and force. A decimal comma is understood where commas do not part the columns.
+
+mod columns;
+
+use crate::imported::Imported;
+use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
+use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
+
+/// Longest stroke, in seconds, whose time column is taken for seconds where it does not say its unit.
+pub const LONGEST_IN_SECONDS: f64 = 60.0;
+
+/// Why bytes are no stroke.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StrokeCsvError {
+    /// No rows.
+    #[error(
+        "the table has no rows of numbers; give time, speed and force, or time, x, y and force or pressure"
+    )]
+    Empty,
+    /// Columns are missing or not known.
+    #[error("{problem}; name the columns t, x, y, force or t, speed, force in a first line")]
+    Header {
+        /// What is wrong.
+        problem: String,
+    },
+    /// A row has too few or too many values.
+    #[error("line {line} has {found} values, the table has {expected} columns; correct the line")]
+    Columns {
+        /// The line, from one.
+        line: u64,
+        /// The values found.
+        found: usize,
+        /// The columns of the table.
+        expected: usize,
+    },
+    /// A value is not a finite number.
+    #[error("{column} in line {line} is \"{found}\", not a finite number; correct the line")]
+    Number {
+        /// The line, from one.
+        line: u64,
+        /// The column.
+        column: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// A value is outside the range that has a meaning.
+    #[error("{column} in line {line} is {value}, needs {needs}; correct the line")]
+    Range {
+        /// The line, from one.
+        line: u64,
+        /// The column.
+        column: &'static str,
+        /// The value.
+        value: f64,
+        /// What it must be.
+        needs: &'static str,
+    },
+    /// Time does not go on.
+    #[error(
+        "time does not go on in line {line}, from {before} to {time}; put the lines in the order of time, each time once"
+    )]
+    TimeGoesBack {
+        /// The line, from one.
+        line: u64,
+        /// Time of the line ahead.
+        before: f64,
+        /// Time of this line.
+        time: f64,
+    },
+}
+
+/// A row of numbers, in the order of [`Columns`].
+struct Row {
+    line: u64,
+    time: f64,
+    values: [f64; 3],
+    touching: Option<bool>,
+}
+
+/// Reads a stroke. What had to be assumed, for want of a header or a unit, is a warning.
+///
+/// # Errors
+/// See [`StrokeCsvError`].
+pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError> {
+    let text = String::from_utf8_lossy(bytes);
+    let text = text.trim_start_matches('\u{feff}');
+    let delimiter = delimiter_of(text);
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let mut records =
+        reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
+    let first = records.next().ok_or(StrokeCsvError::Empty)?;
+    let mut warnings = Vec::new();
+    let is_header =
+        first.iter().all(|field| number(field, delimiter).is_none() && !is_nonsense_number(field));
+    let columns = if is_header { Columns::from_header(&first)? } else { Columns::by_count(first.len())? };
+    if !is_header {
+        warnings.push(format!("no header; the columns are taken for {}", columns.in_words()));
+    }
+    let first_row = (!is_header).then_some(first);
+    let rows = first_row
+        .into_iter()
+        .chain(records)
+        .map(|record| parse_row(&columns, &record, delimiter))
+        .collect::<Result<Vec<_>, _>>()?;
+    let secs_per_unit = secs_per_unit(&columns, &rows, &mut warnings)?;
+    let start = rows.first().map_or(0.0, |row| row.time);
+    let time_secs = |row: &Row| (row.time - start) * secs_per_unit;
+    let stroke = match columns.kind {
+        Kind::Contacts => Stroke::Contacts(
+            rows.iter()
+                .map(|row| TimedContact {
+                    time_secs: time_secs(row),
+                    speed_mps: 1e-3 * row.values[0],
+                    force_n: if row.touching == Some(false) { 0.0 } else { row.values[1] },
+                })
+                .collect(),
+        ),
+        Kind::Pen(press_unit) => {
+            let sample = |row: &Row| PenSample {
+                time_secs: time_secs(row),
+                x_m: 1e-3 * row.values[0],
+                y_m: 1e-3 * row.values[1],
+                press: row.values[2],
+                touching: row.touching.unwrap_or(row.values[2] > 0.0),
+            };
+            Stroke::Pen { samples: rows.iter().map(sample).collect(), press_unit }
+        }
+    };
+    Ok(Imported { value: stroke, warnings })
+}
+
+/// The delimiter of the first line that has any: a semicolon or tab is never part of a number.
+fn delimiter_of(text: &str) -> u8 {
+    let line = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
+    if line.contains(';') {
+        b';'
+    } else if line.contains('\t') {
+        b'\t'
+    } else {
+        b','
+    }
+}
+
+/// The number in a field, if it is a finite one.
+fn number(field: &str, delimiter: u8) -> Option<f64> {
+    let parsed = if delimiter == b',' { field.parse() } else { field.replace(',', ".").parse() };
+    // What is no number is the caller's to name.
+    parsed.ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Whether a field is NaN or infinity spelled out, which is no column name.
+fn is_nonsense_number(field: &str) -> bool {
+    field.parse::<f64>().is_ok()
+}
+
+fn parse_row(columns: &Columns, record: &csv::StringRecord, delimiter: u8) -> Result<Row, StrokeCsvError> {
+    let line = record.position().map_or(0, csv::Position::line);
+    if record.len() != columns.n {
+        return Err(StrokeCsvError::Columns { line, found: record.len(), expected: columns.n });
+    }
+    let value_of = |column: &'static str, index: usize| {
+        let field = record.get(index).unwrap_or("");
+        let found = || field.chars().take(40).collect();
+        number(field, delimiter).ok_or_else(|| StrokeCsvError::Number { line, column, found: found() })
+    };
+    let time = value_of("time", columns.time)?;
+    let mut values = [0.0; 3];
+    for (value, (column, index)) in values.iter_mut().zip(columns.named_values()) {
+        *value = value_of(column, index)?;
+        let needs = match column {
+            "speed" | "force" if *value < 0.0 => Some("at least 0"),
+            "pressure" if !(0.0..=1.0).contains(value) => Some("0 to 1"),
+            _ => None,
+        };
+        if let Some(needs) = needs {
+            return Err(StrokeCsvError::Range { line, column, value: *value, needs });
+        }
+    }
+    let touching = columns.touching.map(|index| value_of("touching", index)).transpose()?;
+    Ok(Row { line, time, values, touching: touching.map(|value| value != 0.0) })
+}
+
+/// The length of a unit of time, once time is known to go on.
+fn secs_per_unit(columns: &Columns, rows: &[Row], warnings: &mut Vec<String>) -> Result<f64, StrokeCsvError> {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return Err(StrokeCsvError::Empty) };
+    for pair in rows.windows(2) {
+        if pair[1].time <= pair[0].time {
+            let (before, time) = (pair[0].time, pair[1].time);
+            return Err(StrokeCsvError::TimeGoesBack { line: pair[1].line, before, time });
+        }
+    }
+    Ok(match columns.time_unit {
+        Some(TimeUnit::Seconds) => 1.0,
+        Some(TimeUnit::Milliseconds) => 1e-3,
+        None if last.time - first.time <= LONGEST_IN_SECONDS => {
+            warnings.push(
+                "the unit of time is not stated; taken for seconds (name the column t_s or t_ms)".to_owned(),
+            );
+            1.0
+        }
+        None => {
+            warnings.push(
+                "the unit of time is not stated; taken for milliseconds, since in seconds the stroke would last over a minute (name the column t_s or t_ms)"
+                    .to_owned(),
+            );
+            1e-3
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{StrokeCsvError, read_stroke_csv};
+    use crate::stroke::{PressUnit, Stroke, TimedContact};
+    use proptest::prelude::{any, prop, proptest};
+
+    fn contacts(text: &str) -> Vec<TimedContact> {
+        match read_stroke_csv(text.as_bytes()).unwrap().value {
+            Stroke::Contacts(contacts) => contacts,
+            Stroke::Pen { .. } => panic!("a pen"),
+        }
+    }
+
+    #[track_caller]
+    fn check_error(text: &str, words: &str) {
+        let message = read_stroke_csv(text.as_bytes()).unwrap_err().to_string();
+        assert!(message.contains(words), "{message}");
+    }
+
+    #[test]
+    fn the_same_stroke_in_every_dialect() {
+        let expected = contacts("t_s,speed,force\n0,50,0.5\n0.5,100,1\n");
+        assert_eq!(expected[1], TimedContact { time_secs: 0.5, speed_mps: 0.1, force_n: 1.0 });
+        for text in [
+            "0,50,0.5\n0.5,100,1",
+            "\u{feff}Time (ms); Speed (mm/s); Force (N)\r\n0;50;0,5\r\n500;100;1\r\n",
+            "t\tforce_n\tspeed_mm_per_s\n10\t0.5\t50\n10.5\t1\t100\n\n",
+            "v,f,t_ms,note_touching\n".replace("note_touching", "touching").as_str(),
+        ] {
+            if text.starts_with("v,") {
+                let with_rows = format!("{text}50,0.5,0,1\n100,1,500,1\n");
+                assert_eq!(contacts(&with_rows), expected);
+            } else {
+                assert_eq!(contacts(text), expected, "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn pen_positions_with_pressure_or_force() {
+        let pen = |text: &str| match read_stroke_csv(text.as_bytes()).unwrap().value {
+            Stroke::Pen { samples, press_unit } => (samples, press_unit),
+            Stroke::Contacts(_) => panic!("contacts"),
+        };
+        let (samples, unit) = pen("t_ms,x,y,pressure\n0,10,20,0.5\n8,11,20,0\n");
+        assert_eq!(unit, PressUnit::FullScale);
+        assert_eq!((samples[1].time_secs, samples[1].x_m, samples[1].touching), (0.008, 0.011, false));
+        let (samples, unit) = pen("0,10,20,1.5\n0.008,11,20,2\n");
+        assert_eq!((unit, samples[0].press, samples[0].touching), (PressUnit::Newtons, 1.5, true));
+        let (samples, _) = pen("t_s,x_mm,y_mm,force,touching\n0,10,20,1.5,0\n");
+        assert!(!samples[0].touching);
+    }
+
+    #[test]
+    fn what_was_assumed_is_said() {
+        let warnings = |text: &str| read_stroke_csv(text.as_bytes()).unwrap().warnings;
+        assert!(warnings("t_s,speed,force\n0,50,1\n").is_empty());
+        let guessed = warnings("0,50,1\n1,50,1\n");
+        assert!(guessed[0].contains("time, speed in mm/s, force in N") && guessed[1].contains("seconds"));
+        assert!(warnings("t,speed,force\n0,50,1\n1000,50,1\n")[0].contains("milliseconds"));
+    }
+
+    #[test]
+    fn damage_is_named_with_its_line() {
+        check_error("", "no rows");
+        check_error("t,speed,force\n", "no rows");
+        check_error("t,speed\n0,1\n", "no column");
+        check_error("t,banana,force\n0,1,1\n", "banana");
+        check_error("1,2\n", "2 columns");
+        check_error("t,speed,force\n0,50,1\n1,50\n", "line 3 has 2 values");
+        check_error("t,speed,force\n0,50,1\n1,NaN,1\n", "speed in line 3 is \"NaN\"");
+        check_error("NaN,50,1\n", "time in line 1 is \"NaN\"");
+        check_error("t,speed,force\n0,50,inf\n", "force in line 2");
+        check_error("t,speed,force\n0,-50,1\n", "speed in line 2 is -50");
+        check_error("t,x,y,pressure\n0,1,1,512\n", "needs 0 to 1");
+        check_error("t,speed,force\n1,50,1\n1,50,1\n", "line 3");
+        let back = read_stroke_csv(b"t,speed,force\n1,50,1\n0,50,1\n").unwrap_err();
+        assert_eq!(back, StrokeCsvError::TimeGoesBack { line: 3, before: 1.0, time: 0.0 });
+    }
+
+    proptest! {
+        #[test]
+        fn mutated_bytes_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..20)) {
+            for text in ["t_ms,x,y,pressure\n0,10,20,0.5\n8,11,20,0\n", "0;50;0,5\r\n500;100;1\r\n"] {
+                let mut bytes = text.as_bytes().to_vec();
+                for (at, byte) in &edits {
+                    let at = at.index(bytes.len());
+                    bytes[at] = *byte;
+                }
+                let _ = read_stroke_csv(&bytes);
+            }
+        }
+    }
+}

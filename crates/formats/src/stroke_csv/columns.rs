@@ -1,0 +1,145 @@
+//! Which column of a table is what.
+
+use crate::stroke::PressUnit;
+use crate::stroke_csv::StrokeCsvError;
+
+/// What a table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Speed and force.
+    Contacts,
+    /// Positions, and pressure or force.
+    Pen(PressUnit),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TimeUnit {
+    Seconds,
+    Milliseconds,
+}
+
+/// Places of the columns in a row of `n`.
+#[derive(Clone, Debug)]
+pub(super) struct Columns {
+    pub(super) n: usize,
+    pub(super) kind: Kind,
+    pub(super) time: usize,
+    pub(super) time_unit: Option<TimeUnit>,
+    pub(super) touching: Option<usize>,
+    /// Speed and force, or x, y and pressure or force.
+    values: Vec<usize>,
+}
+
+/// What a header can name.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Name {
+    Time,
+    X,
+    Y,
+    Speed,
+    Force,
+    Pressure,
+    Touching,
+}
+
+impl Columns {
+    /// The columns that a header names.
+    pub(super) fn from_header(header: &csv::StringRecord) -> Result<Self, StrokeCsvError> {
+        let mut names = Vec::new();
+        for field in header {
+            let (name, unit) = name_of(field).ok_or_else(|| StrokeCsvError::Header {
+                problem: format!(
+                    "the column \"{}\" is not known",
+                    field.chars().take(40).collect::<String>()
+                ),
+            })?;
+            names.push((name, unit));
+        }
+        let place = |name: Name| names.iter().position(|(n, _)| *n == name);
+        let needed = |name: Name, word: &str| {
+            place(name)
+                .ok_or_else(|| StrokeCsvError::Header { problem: format!("there is no column for {word}") })
+        };
+        let time = needed(Name::Time, "time")?;
+        let (kind, values) = if let Some(speed) = place(Name::Speed) {
+            (Kind::Contacts, vec![speed, needed(Name::Force, "force")?])
+        } else {
+            let (x, y) = (needed(Name::X, "speed or x")?, needed(Name::Y, "y")?);
+            match place(Name::Force) {
+                Some(force) => (Kind::Pen(PressUnit::Newtons), vec![x, y, force]),
+                None => (
+                    Kind::Pen(PressUnit::FullScale),
+                    vec![x, y, needed(Name::Pressure, "force or pressure")?],
+                ),
+            }
+        };
+        Ok(Self {
+            n: names.len(),
+            kind,
+            time,
+            time_unit: names[time].1,
+            touching: place(Name::Touching),
+            values,
+        })
+    }
+
+    /// The columns of a table without a header.
+    pub(super) fn by_count(n: usize) -> Result<Self, StrokeCsvError> {
+        let (kind, values) = match n {
+            3 => (Kind::Contacts, vec![1, 2]),
+            4 => (Kind::Pen(PressUnit::Newtons), vec![1, 2, 3]),
+            _ => {
+                let problem = format!("a table of {n} columns needs a header");
+                return Err(StrokeCsvError::Header { problem });
+            }
+        };
+        Ok(Self { n, kind, time: 0, time_unit: None, touching: None, values })
+    }
+
+    /// Names and places of the values that a row has beside its time.
+    pub(super) fn named_values(&self) -> impl Iterator<Item = (&'static str, usize)> + '_ {
+        let names: &[&'static str] = match self.kind {
+            Kind::Contacts => &["speed", "force"],
+            Kind::Pen(PressUnit::FullScale) => &["x", "y", "pressure"],
+            Kind::Pen(PressUnit::Newtons) => &["x", "y", "force"],
+        };
+        names.iter().copied().zip(self.values.iter().copied())
+    }
+
+    /// The columns in the order of a table without a header.
+    pub(super) fn in_words(&self) -> &'static str {
+        match self.kind {
+            Kind::Contacts => "time, speed in mm/s, force in N",
+            Kind::Pen(_) => "time, x and y in mm, force in N",
+        }
+    }
+}
+
+/// The meaning of a column name such as `t`, `Time (ms)`, `x_mm` or `force_n`.
+fn name_of(field: &str) -> Option<(Name, Option<TimeUnit>)> {
+    let lower = field.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let name = match words.next()? {
+        "t" | "time" | "timestamp" => Name::Time,
+        "x" => Name::X,
+        "y" => Name::Y,
+        "v" | "speed" | "velocity" => Name::Speed,
+        "f" | "force" => Name::Force,
+        "p" | "pressure" => Name::Pressure,
+        "touching" | "touch" | "tip" | "on" => Name::Touching,
+        _ => return None,
+    };
+    // A unit other than the one that is read would be silently wrong by a factor.
+    let units: Vec<&str> = words.collect();
+    let unit = units.concat();
+    match (name, unit.as_str()) {
+        (Name::Time, "s" | "sec" | "secs" | "seconds") => Some((name, Some(TimeUnit::Seconds))),
+        (Name::Time, "ms" | "msec" | "milliseconds") => Some((name, Some(TimeUnit::Milliseconds))),
+        (Name::Touching, "surface")
+        | (Name::X | Name::Y, "mm")
+        | (Name::Speed, "mms" | "mmpers")
+        | (Name::Force, "n")
+        | (_, "") => Some((name, None)),
+        _ => None,
+    }
+}

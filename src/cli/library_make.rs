@@ -1,0 +1,133 @@
+//! `shagreen library make`: a library from the parameters of physical materials.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use anyhow::Context as _;
+use serde_json::json;
+use shagreen_core::material::Material;
+use shagreen_core::space::LabelSource;
+use shagreen_core::starter::{self, StarterTexture};
+use shagreen_formats::library::{Library, PhysicalLabels, Place, TextureEntry, write_library};
+use shagreen_formats::materials_toml::{Materials, read_materials};
+use shagreen_formats::{atomic, picture};
+
+use crate::cli::output::{self, Progress};
+
+/// What the starter library says about itself.
+const ORIGIN: &str = "Simulated from physical parameters by Shagreen: no surface was recorded and nobody rated one.";
+
+/// Makes a library of simulated textures from the physical parameters of materials.
+///
+/// Each material is stroked by a simulated pen at five speeds and five forces, and its picture is taken from the same
+/// relief. Positions are physical labels, not ratings.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// TOML file with a `seed` and a list of [[material]].
+    materials: PathBuf,
+    /// Library file to write.
+    #[arg(long, value_name = "L")]
+    out: PathBuf,
+    /// Name of the library.
+    #[arg(long, default_value = "Starter")]
+    name: String,
+    /// Terms under which it may be used, for example an SPDX expression.
+    #[arg(long, default_value = "", hide_default_value = true)]
+    licence: String,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let bytes = output::read_file(&args.materials)?;
+    let materials = read_materials(&bytes).with_context(|| output::in_file(&args.materials))?;
+    let progress = Progress::new("materials", materials.materials.len());
+    let mut library = make_library(&materials, &|| progress.step())?;
+    progress.finish();
+    library.name.clone_from(&args.name);
+    library.license.clone_from(&args.licence);
+    let bytes = write_library(&library);
+    atomic::write(&args.out, &bytes)?;
+    let n_textures = library.textures.len();
+    output::print(
+        args.json,
+        &json!({"out": args.out.display().to_string(), "textures": n_textures, "bytes": bytes.len(), "seed": materials.seed}),
+        || format!("Made {n_textures} textures, {} kB: {}", bytes.len() / 1000, args.out.display()),
+    );
+    Ok(())
+}
+
+/// The library of the materials, in their order; `step` is called after each.
+fn make_library(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Result<Library> {
+    let made = make_textures(materials, step)?;
+    let labels: Vec<starter::Labels> = made.iter().map(|texture| texture.labels).collect();
+    let places = starter::places(&labels);
+    let textures = materials
+        .materials
+        .iter()
+        .zip(made)
+        .zip(places)
+        .map(|((material, made), at)| entry(material, made, Place { at, source: LabelSource::PhysicalLabels }))
+        .collect::<anyhow::Result<_>>()?;
+    Ok(Library {
+        description: "Everyday surfaces under the plastic ball of a 40 g pen.".to_owned(),
+        origin: ORIGIN.to_owned(),
+        created_by: output::CREATED_BY.to_owned(),
+        seed: Some(materials.seed),
+        textures,
+        ..Library::default()
+    })
+}
+
+/// The textures in the order of the materials, on all processors: which thread makes which does not matter.
+fn make_textures(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Result<Vec<StarterTexture>> {
+    let list = &materials.materials;
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut made = Vec::new();
+        while let Some((index, material)) = {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            list.get(index).map(|material| (index, material))
+        } {
+            made.push((index, starter::make(material, materials.seed)));
+            step();
+        }
+        made
+    };
+    let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(list.len());
+    let mut made: Vec<_> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..n_threads).map(|_| scope.spawn(work)).collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    });
+    made.sort_by_key(|(index, _)| *index);
+    made.into_iter()
+        .map(|(index, texture)| {
+            texture.with_context(|| format!("the material \"{}\" makes no texture; correct it", list[index].id))
+        })
+        .collect()
+}
+
+fn entry(material: &Material, made: StarterTexture, place: Place) -> anyhow::Result<TextureEntry> {
+    let side = |pixels: usize| u32::try_from(pixels).unwrap_or(u32::MAX);
+    let rgb = picture::Rgb {
+        width: side(made.picture.width),
+        height: side(made.picture.height),
+        pixels: made.picture.rgb,
+    };
+    let picture = picture::encode_jpeg(&rgb, made.picture.millimeters)
+        .with_context(|| format!("the picture of \"{}\" cannot be packed", material.id))?;
+    Ok(TextureEntry {
+        tags: material.tags.clone(),
+        place: Some(place),
+        physical: Some(PhysicalLabels {
+            roughness_log10_mps2: made.labels.roughness_log10_mps2,
+            hardness_log10_n_per_m: made.labels.hardness_log10_n_per_m,
+        }),
+        picture: Some(picture),
+        ..TextureEntry::new(&material.id, &material.name, made.model)
+    })
+}

@@ -1,0 +1,104 @@
+//! What the command line prints and reads: one JSON object or some lines on standard output, all else on standard error.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command line speaks through these two")]
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::Value;
+
+/// The program and its version, for the files that it writes.
+pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION"));
+
+/// Prints the result: as JSON for a script, else as text for a person.
+pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String) {
+    if as_json { println!("{result}") } else { println!("{}", text()) }
+}
+
+/// Says what is not quite as asked.
+pub(crate) fn warn(message: &str) {
+    eprintln!("warning: {message}");
+}
+
+/// Says what the person would like to know.
+pub(crate) fn note(message: &str) {
+    eprintln!("note: {message}");
+}
+
+/// Says why the command could not be done, on one line, with all its causes.
+pub(crate) fn error(error: &anyhow::Error) {
+    eprintln!("error: {}", one_line(error));
+}
+
+/// The chain of causes, the path last: contexts that only name a file are moved to the end.
+fn one_line(error: &anyhow::Error) -> String {
+    let (files, causes): (Vec<_>, Vec<_>) =
+        error.chain().map(ToString::to_string).partition(|cause| cause.starts_with(IN_FILE));
+    let mut parts: Vec<String> = Vec::new();
+    for cause in causes {
+        // Some errors repeat their source in their own words.
+        if !parts.iter().any(|part| part.contains(&cause)) {
+            parts.push(cause);
+        }
+    }
+    let paths = files.iter().map(|file| file.trim_start_matches(IN_FILE).to_owned());
+    let line: Vec<String> = parts.into_iter().chain(paths).collect();
+    line.join(": ").replace(['\n', '\r'], " ")
+}
+
+/// Marks a context that only names a file.
+const IN_FILE: &str = "file ";
+
+/// The context for an error inside a file: [`error`] shows it last.
+pub(crate) fn in_file(path: &Path) -> String {
+    format!("{IN_FILE}{}", path.display())
+}
+
+/// The bytes of a file.
+pub(crate) fn read_file(path: &Path) -> anyhow::Result<Vec<u8>> {
+    std::fs::read(path)
+        .context("cannot read the file; check its name and your rights")
+        .with_context(|| in_file(path))
+}
+
+/// A bar on standard error, where that is a terminal.
+pub(crate) struct Progress(ProgressBar);
+
+impl Progress {
+    /// A bar of `n` steps of `what`.
+    pub(crate) fn new(what: &'static str, n: usize) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(n as u64), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}") {
+            bar.set_style(style);
+        }
+        bar.set_message(what);
+        Self(bar)
+    }
+
+    /// One more step is done.
+    pub(crate) fn step(&self) {
+        self.0.inc(1);
+    }
+
+    /// So many steps are done.
+    pub(crate) fn set(&self, n: usize) {
+        self.0.set_position(n as u64);
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(&self) {
+        self.0.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{in_file, one_line};
+    use std::path::Path;
+
+    #[test]
+    fn the_path_comes_last_on_one_line() {
+        let error = anyhow::anyhow!("line 3 is\nshort").context("the stroke is damaged").context(in_file(Path::new("a/b.svc")));
+        assert_eq!(one_line(&error), "the stroke is damaged: line 3 is short: a/b.svc");
+    }
+}
