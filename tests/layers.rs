@@ -1,5 +1,7 @@
 //! Who may use whom, as ARCHITECTURE.md draws it. A crate that depends upwards fails here, before anybody gets used to it.
 
+#![allow(clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -18,7 +20,9 @@ fn broken_rules(manifest: &str) -> Vec<String> {
     let manifest: toml::Table = toml::from_str(manifest).expect("a manifest is TOML");
     let name = manifest["package"]["name"].as_str().expect("a package has a name").to_owned();
     let Some((_, allowed)) = MAY_USE.iter().find(|(n, _)| *n == name) else {
-        return vec![format!("{name} is not a crate of the house: add it to ARCHITECTURE.md and to this test")];
+        return vec![format!(
+            "{name} is not a crate of the house: add it to ARCHITECTURE.md and to this test"
+        )];
     };
     let ours = |table: &str| -> Vec<String> {
         let dependencies = manifest.get(table).and_then(|d| d.as_table()).cloned().unwrap_or_default();
@@ -26,7 +30,10 @@ fn broken_rules(manifest: &str) -> Vec<String> {
     };
     let mut used = ours("dependencies");
     used.extend(ours("build-dependencies"));
-    used.iter().filter(|d| !allowed.contains(&d.as_str())).map(|d| format!("{name} must not depend on {d}")).collect()
+    used.iter()
+        .filter(|d| !allowed.contains(&d.as_str()))
+        .map(|d| format!("{name} must not depend on {d}"))
+        .collect()
 }
 
 fn manifests() -> BTreeMap<PathBuf, String> {

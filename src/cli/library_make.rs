@@ -15,7 +15,8 @@ use shagreen_formats::{atomic, picture};
 use crate::cli::output::{self, Progress};
 
 /// What the starter library says about itself.
-const ORIGIN: &str = "Simulated from physical parameters by Shagreen: no surface was recorded and nobody rated one.";
+const ORIGIN: &str =
+    "Simulated from physical parameters by Shagreen: no surface was recorded and nobody rated one.";
 
 /// Makes a library of simulated textures from the physical parameters of materials.
 ///
@@ -23,7 +24,7 @@ const ORIGIN: &str = "Simulated from physical parameters by Shagreen: no surface
 /// relief. Positions are physical labels, not ratings.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// TOML file with a `seed` and a list of [[material]].
+    /// TOML file with a `seed` and a list of `material` tables.
     materials: PathBuf,
     /// Library file to write.
     #[arg(long, value_name = "L")]
@@ -68,7 +69,9 @@ fn make_library(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Resu
         .iter()
         .zip(made)
         .zip(places)
-        .map(|((material, made), at)| entry(material, made, Place { at, source: LabelSource::PhysicalLabels }))
+        .map(|((material, made), at)| {
+            entry(material, made, Place { at, source: LabelSource::PhysicalLabels })
+        })
         .collect::<anyhow::Result<_>>()?;
     Ok(Library {
         description: "Everyday surfaces under the plastic ball of a 40 g pen.".to_owned(),
@@ -106,7 +109,8 @@ fn make_textures(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Res
     made.sort_by_key(|(index, _)| *index);
     made.into_iter()
         .map(|(index, texture)| {
-            texture.with_context(|| format!("the material \"{}\" makes no texture; correct it", list[index].id))
+            texture
+                .with_context(|| format!("the material \"{}\" makes no texture; correct it", list[index].id))
         })
         .collect()
 }

@@ -1,7 +1,9 @@
 //! What the command line prints and reads: one JSON object or some lines on standard output, all else on standard error.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command line speaks through these two")]
 
+use std::io::Write as _;
 use std::path::Path;
+use std::process::ExitCode;
 
 use anyhow::Context as _;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -12,7 +14,9 @@ pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION
 
 /// Prints the result: as JSON for a script, else as text for a person.
 pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String) {
-    if as_json { println!("{result}") } else { println!("{}", text()) }
+    let text = if as_json { result.to_string() } else { text() };
+    // Whoever closed the pipe has read enough.
+    let _ = writeln!(std::io::stdout(), "{text}");
 }
 
 /// Says what is not quite as asked.
@@ -25,10 +29,43 @@ pub(crate) fn note(message: &str) {
     eprintln!("note: {message}");
 }
 
-/// Says why the command could not be done, on one line, with all its causes.
-pub(crate) fn error(error: &anyhow::Error) {
-    eprintln!("error: {}", one_line(error));
+/// That the arguments do not fit together: wrong usage, not a failure.
+#[derive(Debug)]
+pub(crate) struct Usage(pub(crate) String);
+
+impl std::fmt::Display for Usage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}; see --help", self.0)
+    }
 }
+
+impl std::error::Error for Usage {}
+
+/// Says why the command could not be done, on one line, with all its causes.
+pub(crate) fn failure(error: &anyhow::Error) -> ExitCode {
+    eprintln!("error: {}", one_line(error));
+    if error.is::<Usage>() { ExitCode::from(WRONG_USAGE) } else { ExitCode::FAILURE }
+}
+
+/// Says what is wrong with the arguments, on one line; help and version, which come the same way, are printed whole.
+pub(crate) fn usage(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        print!("{error}");
+        return ExitCode::SUCCESS;
+    }
+    eprintln!("{}", usage_line(&error.to_string()));
+    ExitCode::from(WRONG_USAGE)
+}
+
+/// The sentences of a message of the argument parser, without the usage that follows them.
+fn usage_line(message: &str) -> String {
+    let is_closing = |line: &&str| !line.starts_with("Usage:") && !line.starts_with("For more information");
+    let lines = message.lines().map(str::trim).take_while(is_closing).filter(|line| !line.is_empty());
+    format!("{}; see --help", lines.collect::<Vec<_>>().join(" "))
+}
+
+/// Exit status for wrong usage.
+const WRONG_USAGE: u8 = 2;
 
 /// The chain of causes, the path last: contexts that only name a file are moved to the end.
 fn one_line(error: &anyhow::Error) -> String {
@@ -49,7 +86,7 @@ fn one_line(error: &anyhow::Error) -> String {
 /// Marks a context that only names a file.
 const IN_FILE: &str = "file ";
 
-/// The context for an error inside a file: [`error`] shows it last.
+/// The context for an error inside a file: [`failure`] shows it last.
 pub(crate) fn in_file(path: &Path) -> String {
     format!("{IN_FILE}{}", path.display())
 }
@@ -93,12 +130,24 @@ impl Progress {
 
 #[cfg(test)]
 mod tests {
-    use super::{in_file, one_line};
+    use super::{in_file, one_line, usage_line};
+
     use std::path::Path;
 
     #[test]
     fn the_path_comes_last_on_one_line() {
-        let error = anyhow::anyhow!("line 3 is\nshort").context("the stroke is damaged").context(in_file(Path::new("a/b.svc")));
+        let error = anyhow::anyhow!("line 3 is\nshort")
+            .context("the stroke is damaged")
+            .context(in_file(Path::new("a/b.svc")));
         assert_eq!(one_line(&error), "the stroke is damaged: line 3 is short: a/b.svc");
+    }
+
+    #[test]
+    fn wrong_usage_is_one_line() {
+        let message = "error: unexpected argument '--foo' found\n\n  tip: try '--force'\n\nUsage: shagreen render\n\nFor more information, try '--help'.\n";
+        assert_eq!(
+            usage_line(message),
+            "error: unexpected argument '--foo' found tip: try '--force'; see --help"
+        );
     }
 }

@@ -21,7 +21,8 @@ impl Axes {
 
     /// The point of the square nearest to a place on the screen.
     pub fn space_from_ui(self, pos: Pos2) -> SpacePoint {
-        let share = |x: f32, from: f32, to: f32| f64::from(100.0 * (x - from) / (to - from)).clamp(0.0, 100.0);
+        let share =
+            |x: f32, from: f32, to: f32| f64::from(100.0 * (x - from) / (to - from)).clamp(0.0, 100.0);
         SpacePoint {
             rough_smooth: share(pos.x, self.rect.left(), self.rect.right()),
             hard_soft: share(pos.y, self.rect.bottom(), self.rect.top()),

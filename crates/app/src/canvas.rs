@@ -1,7 +1,8 @@
 //! The space: textures, triangles, outline, and the point that is dragged through it.
 
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 use shagreen_core::space::SpacePoint;
 
@@ -79,9 +80,8 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
     let space = panel.session.space();
     let at = |texture: usize| space.position(texture).map(|p| axes.ui_from_space(p));
     let painter = ui.painter();
-    let corners: Vec<usize> = panel.session.authored().map_or(Vec::new(), |a| {
-        a.location.corners.iter().map(|c| c.0).collect()
-    });
+    let corners: Vec<usize> =
+        panel.session.authored().map_or(Vec::new(), |a| a.location.corners.iter().map(|c| c.0).collect());
     // Edges one by one: the joins of a thin triangle's outline would shoot far beyond its corners.
     let thin = Stroke::new(1.0, t.line);
     for triangle in space.triangles() {
@@ -151,7 +151,8 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
             let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
             // The middle third of the picture: at this size its grain can still be seen.
             let uv = Rect::from_min_max(pos2(0.3, 0.3), pos2(0.7, 0.7));
-            let mesh = egui::epaint::RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv);
+            let mesh =
+                egui::epaint::RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv);
             painter.add(mesh);
         }
         _ => {
@@ -191,9 +192,7 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
     let pos = axes.ui_from_space(point);
     let id = point_id();
     let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, Sense::click_and_drag());
-    response.widget_info(|| {
-        WidgetInfo::labeled(Role::Slider, true, strings::POINT)
-    });
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, strings::POINT));
     let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);
     if response.clicked() || response.drag_started() {
         response.request_focus();
@@ -210,7 +209,8 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
         let on = axes.ui_from_space(authored.location.at);
         for (rank, (texture, weight)) in authored.parents.iter().enumerate() {
             if let Some(site) = panel.session.space().position(*texture) {
-                let stroke = Stroke::new(1.0 + 4.0 * *weight as f32, t.parents[rank.min(2)].gamma_multiply(0.75));
+                let stroke =
+                    Stroke::new(1.0 + 4.0 * *weight as f32, t.parents[rank.min(2)].gamma_multiply(0.75));
                 let site = axes.ui_from_space(site);
                 let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
                 ui.painter().line_segment([on, start], stroke);
@@ -220,7 +220,13 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
             ui.painter().extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
             ui.painter().circle_filled(on, 4.0, t.warning);
             let below = pos2(axes.rect.center().x, axes.rect.top() + 4.0);
-            ui.painter().text(below, Align2::CENTER_TOP, strings::CLAMPED, FontId::proportional(12.5), t.warning);
+            ui.painter().text(
+                below,
+                Align2::CENTER_TOP,
+                strings::CLAMPED,
+                FontId::proportional(12.5),
+                t.warning,
+            );
         }
     }
     let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
@@ -242,7 +248,8 @@ fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
     }
     // While the point has the focus, the arrows are its own and do not move the focus.
     if focused == Some(id) {
-        let filter = egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+        let filter =
+            egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
         ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
     }
     let (dx, dy) = ui.input(|i| {

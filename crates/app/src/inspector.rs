@@ -16,7 +16,8 @@ pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.add_space(GAP);
     let mut name = panel.project.name.clone();
-    let field = ui.add(TextEdit::singleline(&mut name).font(egui::TextStyle::Heading).desired_width(f32::INFINITY));
+    let field =
+        ui.add(TextEdit::singleline(&mut name).font(egui::TextStyle::Heading).desired_width(f32::INFINITY));
     field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::NAME));
     if field.changed() {
         commands.push(Command::Edit(Edit::Rename(name)));
@@ -34,12 +35,22 @@ pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 fn sliders(ui: &mut Ui, point: SpacePoint) -> Option<Command> {
     let (mut rough_smooth, mut hard_soft) = (point.rough_smooth, point.hard_soft);
     let changed = [
-        axis_slider(ui, &mut rough_smooth, [strings::ROUGH, strings::SMOOTH], strings::ROUGH_SMOOTH, strings::ROUGH_SMOOTH_HELP),
-        axis_slider(ui, &mut hard_soft, [strings::HARD, strings::SOFT], strings::HARD_SOFT, strings::HARD_SOFT_HELP),
+        axis_slider(
+            ui,
+            &mut rough_smooth,
+            [strings::ROUGH, strings::SMOOTH],
+            strings::ROUGH_SMOOTH,
+            strings::ROUGH_SMOOTH_HELP,
+        ),
+        axis_slider(
+            ui,
+            &mut hard_soft,
+            [strings::HARD, strings::SOFT],
+            strings::HARD_SOFT,
+            strings::HARD_SOFT_HELP,
+        ),
     ];
-    changed
-        .contains(&true)
-        .then(|| Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })))
+    changed.contains(&true).then_some(Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })))
 }
 
 fn axis_slider(ui: &mut Ui, value: &mut f64, ends: [&str; 2], name: &str, help: &str) -> bool {
@@ -83,18 +94,26 @@ fn mode_help(mode: Mode) -> &'static str {
 /// The neighbors, with pictures and weights.
 fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) {
     let t = tokens(ui.ctx());
-    ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false)).on_hover_text(strings::PARENTS_HELP);
+    ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
+        .on_hover_text(strings::PARENTS_HELP);
     let Some(authored) = panel.session.authored() else { return };
     for (rank, (texture, weight)) in authored.parents.iter().enumerate() {
         let entry = &panel.session.textures()[*texture];
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
         let percent = 100.0 * weight;
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{}, {percent:.1} percent", entry.name)));
+        response.widget_info(|| {
+            WidgetInfo::labeled(Role::Label, true, format!("{}, {percent:.1} percent", entry.name))
+        });
         let color = t.parents[rank.min(2)];
         ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
         let picture = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(42.0, 42.0));
         picture_ui(ui, panel, *texture, picture);
-        ui.painter().rect_stroke(picture, f32::from(RADIUS) - 1.0, egui::Stroke::new(2.0, color), egui::StrokeKind::Outside);
+        ui.painter().rect_stroke(
+            picture,
+            f32::from(RADIUS) - 1.0,
+            egui::Stroke::new(2.0, color),
+            egui::StrokeKind::Outside,
+        );
         let left = picture.right() + 10.0;
         let right = area.right() - 10.0;
         let font = egui::FontId::proportional(14.0);
@@ -110,7 +129,10 @@ fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) {
             egui::pos2(number.left() - 6.0, area.bottom()),
         )));
         name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
-        let bar = Rect::from_min_max(egui::pos2(left, area.bottom() - 16.0), egui::pos2(right, area.bottom() - 10.0));
+        let bar = Rect::from_min_max(
+            egui::pos2(left, area.bottom() - 16.0),
+            egui::pos2(right, area.bottom() - 10.0),
+        );
         ui.painter().rect_filled(bar, 3.0, t.control);
         let filled = Rect::from_min_size(bar.min, vec2(bar.width() * *weight as f32, bar.height()));
         ui.painter().rect_filled(filled, 3.0, color);

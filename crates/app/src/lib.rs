@@ -7,10 +7,19 @@
 //! - A place says its space: `pos_in_space` or a [`shagreen_core::space::SpacePoint`] against `Pos2` of the screen.
 //! - Every control has an accessible name; every word stands in [`strings`]; every color in [`theme`].
 #![forbid(unsafe_code)]
-#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect"))]
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+)]
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::Instant;
 
 use anyhow::anyhow;
 use shagreen_formats::library::Library;
+
+use crate::session::OutputChoice;
 
 pub mod axes;
 pub mod canvas;
@@ -26,6 +35,7 @@ pub mod scope;
 pub mod scope_buffer;
 pub mod session;
 pub mod status_bar;
+mod stopwatch;
 pub mod strings;
 pub mod theme;
 pub mod window;
@@ -35,30 +45,47 @@ pub mod window;
 pub struct Start {
     /// The textures to author from.
     pub library: Library,
-    /// Identity of the output to open; `None` opens none.
-    pub output: Option<String>,
+    /// The output to open.
+    pub output: OutputChoice,
+    /// Measure this many frames with the hand stroking and the scope running, then close; `None` stays open.
+    pub measured_frames: Option<usize>,
+    /// When the program started: what the first frame is timed from.
+    pub started: Instant,
+}
+
+/// How fast the window was, where it was asked to measure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WindowTimes {
+    /// From the start of the program until the first frame has been handed to the screen, in seconds.
+    pub first_frame_secs: f64,
+    /// Time that each later frame took to lay out, in seconds; painting comes on top.
+    pub frame_secs: Vec<f64>,
+    /// Time from each later frame to the next, in seconds.
+    pub interval_secs: Vec<f64>,
 }
 
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
 /// There is no display, the graphics cannot be started, or the library makes no space.
-pub fn run(start: Start) -> anyhow::Result<()> {
+pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
     let viewport = egui::ViewportBuilder::default()
         .with_title(strings::APP)
         .with_app_id("shagreen")
         .with_inner_size([1280.0, 720.0])
-        .with_min_inner_size([960.0, 600.0])
-        .with_position([0.0, 0.0]);
+        .with_min_inner_size([960.0, 600.0]);
     let options =
         eframe::NativeOptions { viewport, system_font_fallback: false, ..eframe::NativeOptions::default() };
+    let times = Rc::new(RefCell::new(WindowTimes::default()));
+    let measured = Rc::clone(&times);
     eframe::run_native(
         strings::APP,
         options,
         Box::new(move |creation| {
-            let window = window::Window::new(&creation.egui_ctx, start.library, start.output.as_deref())?;
-            Ok(Box::new(window))
+            let window = window::Window::new(&creation.egui_ctx, start.library, start.output)?;
+            Ok(Box::new(stopwatch::Stopwatch::new(window, start.started, start.measured_frames, measured)))
         }),
     )
-    .map_err(|error| anyhow!("the window could not be opened: {error}"))
+    .map_err(|error| anyhow!("the window could not be opened: {error}"))?;
+    Ok(times.take())
 }

@@ -20,7 +20,8 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
         ui.heading(strings::LIBRARY);
         ui.label(egui::RichText::new(format!("{}", panel.session.textures().len())).color(t.text_weak));
     });
-    let field = ui.add(TextEdit::singleline(search).hint_text(strings::SEARCH_HINT).desired_width(f32::INFINITY));
+    let field =
+        ui.add(TextEdit::singleline(search).hint_text(strings::SEARCH_HINT).desired_width(f32::INFINITY));
     field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::SEARCH));
     ui.add_space(2.0);
     let wanted = search.to_lowercase();
@@ -73,7 +74,9 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
             Some(weight) => format!("{:.0} % of the blend", 100.0 * weight),
             None => entry.tags.join(", "),
         };
-        text.add(Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false));
+        text.add(
+            Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false),
+        );
     }
     let at = panel.session.space().position(index).map_or("not placed".to_owned(), |p| p.to_string());
     response.on_hover_text(format!("{}\n{}", entry.name, at)).clicked()

@@ -1,6 +1,8 @@
 //! The pad: a piece of the texture to stroke, with the mouse or by the automatic hand.
 
-use egui::{Align2, ComboBox, CursorIcon, FontId, Rect, Role, Sense, Slider, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, ComboBox, CursorIcon, FontId, Rect, Role, Sense, Slider, Stroke, Ui, WidgetInfo, pos2, vec2,
+};
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::touch::Touch;
 
@@ -83,7 +85,8 @@ pub fn pad_ui(
         state.hand.force_n = force_n.clamp(*FORCES_N.start(), *FORCES_N.end());
     }
     let pressed = response.is_pointer_button_down_on();
-    if let Some(pos) = response.interact_pointer_pos().filter(|_| pressed || response.drag_stopped() || response.clicked())
+    if let Some(pos) =
+        response.interact_pointer_pos().filter(|_| pressed || response.drag_stopped() || response.clicked())
     {
         let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
         outcome.mouse =
@@ -101,7 +104,8 @@ fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Comma
         if ui.selectable_label(running, text).on_hover_text(strings::HAND_HELP).clicked() {
             command = Some(Command::ToggleHand);
         }
-        let chosen = ComboBox::from_id_salt("path of the hand").width(78.0).selected_text(path_name(state.hand.path));
+        let chosen =
+            ComboBox::from_id_salt("path of the hand").width(78.0).selected_text(path_name(state.hand.path));
         let shown = chosen.show_ui(ui, |ui| {
             for path in [Path::Line, Path::Circle, Path::Scribble] {
                 ui.selectable_value(&mut state.hand.path, path, path_name(path));
@@ -110,10 +114,12 @@ fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Comma
         shown.response.accessible_name(strings::HAND_PATH);
         ui.spacing_mut().slider_width = ((ui.available_width() - 158.0) / 2.0).clamp(24.0, 90.0);
         let mut mm_per_s = state.hand.speed_mps * 1e3;
-        let speed = Slider::new(&mut mm_per_s, SPEEDS_MM_PER_S).fixed_decimals(0).suffix(" mm/s").smart_aim(false);
+        let speed =
+            Slider::new(&mut mm_per_s, SPEEDS_MM_PER_S).fixed_decimals(0).suffix(" mm/s").smart_aim(false);
         ui.add(speed).accessible_name(strings::HAND_SPEED).on_hover_text(strings::HAND_SPEED);
         state.hand.speed_mps = mm_per_s * 1e-3;
-        let force = Slider::new(&mut state.hand.force_n, FORCES_N).fixed_decimals(2).suffix(" N").smart_aim(false);
+        let force =
+            Slider::new(&mut state.hand.force_n, FORCES_N).fixed_decimals(2).suffix(" N").smart_aim(false);
         ui.add(force).accessible_name(strings::HAND_FORCE).on_hover_text(strings::HAND_FORCE);
     });
     ui.add_space(GAP / 2.0);

@@ -41,7 +41,8 @@ impl Pictures {
     pub fn collect(&mut self, ctx: &Context) {
         while let Ok((index, image)) = self.incoming.try_recv() {
             let color = ColorImage::from_rgb([image.width as usize, image.height as usize], &image.pixels);
-            let options = TextureOptions { mipmap_mode: Some(egui::TextureFilter::Linear), ..TextureOptions::LINEAR };
+            let options =
+                TextureOptions { mipmap_mode: Some(egui::TextureFilter::Linear), ..TextureOptions::LINEAR };
             self.thumbnails[index] = Some(ctx.load_texture(format!("texture {index}"), color, options));
             self.pixels[index] = Some(image);
             self.blended = None;
@@ -65,7 +66,8 @@ impl Pictures {
                     texture.set(image, TextureOptions::LINEAR_MIRRORED_REPEAT);
                 }
                 None => {
-                    self.blended = Some((key, ctx.load_texture("blend", image, TextureOptions::LINEAR_MIRRORED_REPEAT)));
+                    self.blended =
+                        Some((key, ctx.load_texture("blend", image, TextureOptions::LINEAR_MIRRORED_REPEAT)));
                 }
             }
         }
@@ -92,7 +94,8 @@ impl Pictures {
         let pixels = sum
             .iter()
             .map(|p| {
-                let [r, g, b] = std::array::from_fn(|c| (mean[c] + (p[c] - mean[c]) / kept).clamp(0.0, 255.0) as u8);
+                let [r, g, b] =
+                    std::array::from_fn(|c| (mean[c] + (p[c] - mean[c]) / kept).clamp(0.0, 255.0) as u8);
                 Color32::from_rgb(r, g, b)
             })
             .collect();

@@ -81,7 +81,9 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
             plot.set_plot_bounds_y(FLOOR_DB..=TOP_DB);
             plot.line(Line::new(strings::LIVE_LINE, live).color(t.text_weak.gamma_multiply(0.6)).width(1.0));
             for (rank, (name, density)) in spectra.parents.iter().enumerate() {
-                plot.line(Line::new(name.clone(), to_points(density)).color(t.parents[rank.min(2)]).width(1.2));
+                plot.line(
+                    Line::new(name.clone(), to_points(density)).color(t.parents[rank.min(2)]).width(1.2),
+                );
             }
             plot.line(Line::new(strings::BLEND_LINE, to_points(&spectra.blend)).color(t.accent).width(2.5));
         });

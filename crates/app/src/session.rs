@@ -20,6 +20,8 @@ use crate::pad::MouseReport;
 use crate::project::Project;
 use crate::scope_buffer::ScopeBuffer;
 
+pub use self::player::OutputChoice;
+
 use self::player::Player;
 
 /// Frequencies at which spectra are drawn.
@@ -55,7 +57,7 @@ impl Session {
     /// The positions cannot be triangulated.
     pub fn new(library: Library) -> anyhow::Result<Self> {
         let planes = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
-                let (low, high) = (10.0_f64, 500.0_f64);
+        let (low, high) = (10.0_f64, 500.0_f64);
         let frequency = |i: usize| low * (high / low).powf(i as f64 / (N_FREQUENCIES - 1) as f64);
         let frequencies = (0..N_FREQUENCIES).map(|i| Hertz(frequency(i).min(499.0))).collect();
         Ok(Self {
@@ -140,7 +142,8 @@ impl Session {
             contact
         };
         let Some(authored) = &self.authored else { return };
-        let parents: Vec<(&Plane, f64)> = authored.parents.iter().map(|(t, w)| (&self.planes[*t], *w)).collect();
+        let parents: Vec<(&Plane, f64)> =
+            authored.parents.iter().map(|(t, w)| (&self.planes[*t], *w)).collect();
         self.spectra.blend = mixture_psd(&parents, authored.mode, contact, &self.spectra.frequencies);
         self.spectra.parents = authored
             .parents
@@ -181,9 +184,9 @@ impl Session {
     }
 
     /// Opens an output in the background; the one that is open closes when the new one is there.
-    pub fn open_output(&mut self, id: &str, ctx: &egui::Context) {
+    pub fn open_output(&mut self, choice: OutputChoice, ctx: &egui::Context) {
         let rate_hz = self.library.textures.first().map_or(1000.0, |t| t.model.rate().0 as f32);
-        self.player.open(id.to_owned(), rate_hz, ctx.clone());
+        self.player.open(choice, rate_hz, ctx.clone());
     }
 
     /// Ends the latched silence of the limiter.

@@ -17,7 +17,8 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         commands.extend(output_ui(ui, panel));
         let status = session.status();
         let weak = |ui: &mut Ui, text: String, help: &str| {
-            ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).selectable(false)).on_hover_text(help);
+            ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).selectable(false))
+                .on_hover_text(help);
         };
         if let Some(message) = session.output_message() {
             ui.add(Label::new(RichText::new(message).color(t.error)).truncate());
@@ -25,7 +26,11 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             let late = session.latency_ms().map_or(String::new(), |ms| format!("about {ms:.0} ms late"));
             weak(ui, late, "From a movement of the hand to the output: control tick, filters and buffer.");
             ui.separator();
-            weak(ui, format!("load {:.1} %", 100.0 * status.load), "Share of the time allotted to the sound that is used.");
+            weak(
+                ui,
+                format!("load {:.1} %", 100.0 * status.load),
+                "Share of the time allotted to the sound that is used.",
+            );
             ui.separator();
             let dropouts = format!("{} dropouts", status.underruns);
             weak(ui, dropouts, "Times that the output ran out of samples.");
@@ -46,7 +51,11 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let source = format!("positions: {}", session.label_source());
-            weak(ui, source, "Where the places of the textures come from. Physical labels are no human ratings.");
+            weak(
+                ui,
+                source,
+                "Where the places of the textures come from. Physical labels are no human ratings.",
+            );
         });
     });
     commands

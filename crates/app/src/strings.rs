@@ -69,8 +69,7 @@ pub const LIVE_LINE: &str = "live";
 /// Accessible name of the choice of outputs.
 pub const OUTPUT: &str = "Output";
 /// What the choice of outputs does.
-pub const OUTPUT_HELP: &str =
-    "The output that drives the actuator. It is never changed behind your back: if it goes, Shagreen falls silent.";
+pub const OUTPUT_HELP: &str = "The output that drives the actuator. It is never changed behind your back: if it goes, Shagreen falls silent.";
 /// An output is being opened.
 pub const OPENING: &str = "Opening the output…";
 /// Resets the latched limiter.
@@ -89,3 +88,7 @@ pub const REDO: &str = "Redo";
 pub const MUTE: &str = "Mute";
 /// Sound again.
 pub const UNMUTE: &str = "Unmute";
+/// There is no sound output; the silent one stands in.
+pub const NO_SOUND: &str = "No sound: the silent output is used";
+/// Opening an output broke off.
+pub const OPENING_FAILED: &str = "Opening the output failed; choose it again, or another";

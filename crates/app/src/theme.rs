@@ -1,6 +1,8 @@
 //! Design tokens: every color, size and distance of the window, in a dark and a light set.
 
-use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2};
+use egui::{
+    Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2,
+};
 
 /// The colors of one theme.
 #[derive(Clone, Copy, Debug)]

@@ -14,7 +14,7 @@ use crate::panel::Panel;
 use crate::pictures::Pictures;
 use crate::project::Project;
 use crate::scope::scope_ui;
-use crate::session::Session;
+use crate::session::{OutputChoice, Session};
 use crate::status_bar::status_ui;
 use crate::strings;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, STAGE_HEIGHT, install, tokens};
@@ -32,18 +32,16 @@ pub struct Window {
 }
 
 impl Window {
-    /// The window on a library, with the output of this identity (opened after the first frame).
+    /// The window on a library; the output is opened in the background.
     ///
     /// # Errors
     /// The library's positions make no space.
-    pub fn new(ctx: &egui::Context, library: Library, output: Option<&str>) -> anyhow::Result<Self> {
+    pub fn new(ctx: &egui::Context, library: Library, output: OutputChoice) -> anyhow::Result<Self> {
         install(ctx);
         let sources = library.textures.iter().map(|t| t.picture.clone()).collect();
         let mut session = Session::new(library)?;
         session.list_outputs(ctx);
-        if let Some(id) = output {
-            session.open_output(id, ctx);
-        }
+        session.open_output(output, ctx);
         let project = Project::default();
         session.follow(&project);
         Ok(Self {
@@ -75,13 +73,17 @@ impl Window {
         self.pictures.collect(&ctx);
         self.next_gesture(&ctx);
         let hand = self.pad.hand;
-        self.session.update(Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n)));
+        self.session
+            .update(Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n)));
         let mut commands = pressed(&ctx, point_id());
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
         Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
         let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
-        Side::bottom("status").exact_size(32.0).frame(bar(2)).show(ui, |ui| commands.extend(status_ui(ui, &panel)));
+        Side::bottom("status")
+            .exact_size(32.0)
+            .frame(bar(2))
+            .show(ui, |ui| commands.extend(status_ui(ui, &panel)));
         self.stage_ui(ui, &ctx, &mut commands);
         let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
         let search = &mut self.search;
@@ -91,9 +93,12 @@ impl Window {
         Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
             commands.extend(inspector_ui(ui, &panel));
         });
-        CentralPanel::default().frame(Frame::new().fill(t.panel).inner_margin(Margin::same(6))).show(ui, |ui| {
-            commands.extend(canvas_ui(ui, &panel));
-        });
+        CentralPanel::default().frame(Frame::new().fill(t.panel).inner_margin(Margin::same(6))).show(
+            ui,
+            |ui| {
+                commands.extend(canvas_ui(ui, &panel));
+            },
+        );
 
         for command in commands {
             self.carry_out(command, &ctx);
@@ -106,10 +111,17 @@ impl Window {
         let mut commands = Vec::new();
         ui.horizontal_centered(|ui| {
             let t = tokens(ui.ctx());
-            ui.add(egui::Label::new(RichText::new(strings::APP).heading().strong().color(t.accent)).selectable(false));
+            ui.add(
+                egui::Label::new(RichText::new(strings::APP).heading().strong().color(t.accent))
+                    .selectable(false),
+            );
             ui.add_space(10.0);
-            for (command, label) in [(Command::Undo, self.history.undo_label()), (Command::Redo, self.history.redo_label())] {
-                let text = label.map_or(command.text().to_owned(), |l| format!("{} {}", command.text(), l.to_lowercase()));
+            for (command, label) in
+                [(Command::Undo, self.history.undo_label()), (Command::Redo, self.history.redo_label())]
+            {
+                let text = label.map_or(command.text().to_owned(), |l| {
+                    format!("{} {}", command.text(), l.to_lowercase())
+                });
                 let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
                 let button = ui.add_enabled(label.is_some(), egui::Button::new(command.text()));
                 button.widget_info(|| WidgetInfo::labeled(Role::Button, label.is_some(), command.text()));
@@ -158,7 +170,8 @@ impl Window {
         }
     }
 
-    fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
+    /// Does what was asked for.
+    pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
         match command {
             Command::Edit(edit) => self.history.apply(&mut self.project, edit, Gesture(self.gesture)),
             Command::Undo => {
@@ -176,7 +189,7 @@ impl Window {
                 let dark = ctx.theme() == egui::Theme::Dark;
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
-            Command::OpenOutput(id) => self.session.open_output(&id, ctx),
+            Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
             Command::ResetLimiter => self.session.reset_limiter(),
         }
     }
@@ -198,11 +211,5 @@ impl Window {
         } else {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
-    }
-}
-
-impl eframe::App for Window {
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        self.frame_ui(ui);
     }
 }

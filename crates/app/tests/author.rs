@@ -7,6 +7,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use shagreen_app::session::OutputChoice;
 use shagreen_app::strings;
 use shagreen_app::window::Window;
 use shagreen_core::blend::Mode;
@@ -19,7 +20,12 @@ fn author() -> Author {
     let mut harness = Harness::builder().with_size([1280.0, 720.0]).build_ui_state(
         |ui, window: &mut Option<Window>| {
             let window = window.get_or_insert_with(|| {
-                Window::new(ui.ctx(), starter_library().expect("the starter library"), Some("null")).expect("a window")
+                Window::new(
+                    ui.ctx(),
+                    starter_library().expect("the starter library"),
+                    OutputChoice::Id("null".to_owned()),
+                )
+                .expect("a window")
             });
             window.frame_ui(ui);
         },
@@ -57,7 +63,11 @@ fn listen(harness: &mut Author, seconds: f64) {
 }
 
 fn slider(harness: &Author, name: &str) -> f64 {
-    harness.get_by_role_and_label(Role::Slider, name).accesskit_node().numeric_value().expect("a slider has a value")
+    harness
+        .get_by_role_and_label(Role::Slider, name)
+        .accesskit_node()
+        .numeric_value()
+        .expect("a slider has a value")
 }
 
 fn center(harness: &Author, name: &str) -> Pos2 {
@@ -101,7 +111,8 @@ fn every_control_has_a_name() {
     ] {
         assert!(harness.query_by_role_and_label(role, name).is_some(), "no {role:?} is named {name}");
     }
-    for name in [strings::UNDO, strings::REDO, strings::MUTE, strings::HAND_START, "paper", "power", "shared"] {
+    for name in [strings::UNDO, strings::REDO, strings::MUTE, strings::HAND_START, "paper", "power", "shared"]
+    {
         assert!(harness.query_by_label(name).is_some(), "nothing is named {name}");
     }
     for texture in window(&harness).session().textures() {
@@ -121,7 +132,7 @@ fn dragging_the_point_changes_sliders_weights_and_sound() {
     let from = center(&harness, strings::POINT);
     drag(&mut harness, from, smooth);
     assert!(slider(&harness, strings::ROUGH_SMOOTH) > 95.0 && slider(&harness, strings::HARD_SOFT) < 5.0);
-    assert!(parents(&harness)[0] .0 == "Glass" && parents(&harness)[0].1 > 0.9, "{:?}", parents(&harness));
+    assert!(parents(&harness)[0].0 == "Glass" && parents(&harness)[0].1 > 0.9, "{:?}", parents(&harness));
     assert!(harness.query_by_label_contains("Glass, ").is_some(), "the weight is shown");
     listen(&mut harness, 1.0);
     let quiet = window(&harness).session().scope().rms(0.6);

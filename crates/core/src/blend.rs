@@ -168,7 +168,7 @@ mod tests {
         fn barycentric_weights_are_continuous(
             points in prop::collection::vec((0.0_f64..100.0, 0.0_f64..100.0), 3..20),
             at in (0.0_f64..100.0, 0.0_f64..100.0),
-            angle in 0.0_f64..6.28,
+            angle in 0.0_f64..std::f64::consts::TAU,
         ) {
             // Textures at least two points apart: a sliver's weights may change as fast as it is thin.
             let mut apart: Vec<SpacePoint> = Vec::new();

@@ -175,19 +175,17 @@ pub fn drag(
     seed: u64,
 ) -> Result<Vec<f64>, StrokeError> {
     let speed_mps = speed.0;
-
     require_positive("speed in m/s", speed_mps)?;
     require_positive("duration in s", duration_secs)?;
-    let n_samples = (duration_secs * STROKE_RATE.0).round() as usize;
-    let n_margin = (MARGIN_SECS * STROKE_RATE.0).round() as usize;
-    let n_steps = (n_samples + 2 * n_margin) * OVERSAMPLING;
-    let rate_hz = STROKE_RATE.0 * OVERSAMPLING as f64;
-
-    let needed_m = n_steps as f64 / rate_hz * speed_mps;
+    let needed_m = (duration_secs + 2.0 * MARGIN_SECS) * speed_mps;
     let available_m = pressed.path.length_m() - 2.0 * PATH_END_M;
     if needed_m > available_m {
         return Err(StrokeError::PathTooShort { needed_m, available_m: available_m.max(0.0) });
     }
+    let n_samples = (duration_secs * STROKE_RATE.0).round() as usize;
+    let n_margin = (MARGIN_SECS * STROKE_RATE.0).round() as usize;
+    let n_steps = (n_samples + 2 * n_margin) * OVERSAMPLING;
+    let rate_hz = STROKE_RATE.0 * OVERSAMPLING as f64;
     let start_m = PATH_END_M + Random::new(seed).uniform() * (available_m - needed_m);
 
     let [normal, lateral] = dynamics::accelerations_mps2(

@@ -21,7 +21,7 @@ pub fn lsf_from_ar(ar: &[f64]) -> Option<Vec<f64>> {
     // P(z) = A - z^-(p+1) A(1/z) and Q(z) = A + z^-(p+1) A(1/z), both of degree p + 1.
     let mut p: Vec<f64> = (0..=order + 1).map(|i| a_at(i) - a_at(order + 1 - i)).collect();
     let mut q: Vec<f64> = (0..=order + 1).map(|i| a_at(i) + a_at(order + 1 - i)).collect();
-    if order % 2 == 0 {
+    if order.is_multiple_of(2) {
         divide_by_first_order(&mut p, 1.0);
         divide_by_first_order(&mut q, -1.0);
     } else {
@@ -96,7 +96,7 @@ pub fn ar_from_lsf(lsf: &[f64]) -> Vec<f64> {
         }
         convolve(&poly, ends)
     };
-    let (q, p) = if lsf.len() % 2 == 0 {
+    let (q, p) = if lsf.len().is_multiple_of(2) {
         (build(0, &[1.0, 1.0]), build(1, &[1.0, -1.0]))
     } else {
         (build(0, &[1.0]), build(1, &[1.0, 0.0, -1.0]))

@@ -200,10 +200,10 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// The texture lent to a renderer; `None` where the numbers cannot be rendered, which a model that was checked
-    /// never gives.
-    pub fn view(&self) -> Option<synth::Texture<'_>> {
-        synth::Texture::new(
+    /// The texture lent to a renderer.
+    pub fn view(&self) -> synth::Texture<'_> {
+        // A model that was checked makes slices that would be accepted; a test holds it.
+        synth::Texture::checked_before(
             self.rate_hz,
             self.order,
             self.speed_max_mps,
@@ -211,7 +211,6 @@ impl Prepared {
             &self.nodes,
             &self.triangles,
         )
-        .ok()
     }
 }
 
@@ -224,7 +223,7 @@ fn steps(max: f64, first: f64, step: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::Plane;
+    use super::{Plane, Prepared, synth};
     use crate::ar::from_resonances;
     use crate::lsf::lsf_from_ar;
     use crate::texture::{GrainNode, TextureModel};
@@ -252,6 +251,11 @@ mod tests {
         TextureModel::new(Hertz(1000.0), nodes, Some(0.3)).unwrap()
     }
 
+    fn is_accepted(p: &Prepared) -> bool {
+        let range = (p.speed_max_mps, p.force_max_n);
+        synth::Texture::new(p.rate_hz, p.order, range.0, range.1, &p.nodes, &p.triangles).is_ok()
+    }
+
     fn grid() -> TextureModel {
         texture(&[0.03, 0.07, 0.12, 0.18, 0.25], &[0.15, 0.4, 0.8, 1.5, 3.0])
     }
@@ -273,7 +277,7 @@ mod tests {
     #[test]
     fn one_node_alone_still_covers_the_plane() {
         let plane = Plane::new(&texture(&[0.1], &[1.0]));
-        assert!(plane.prepare().view().is_some());
+        assert!(is_accepted(&plane.prepare()));
         assert!((plane.at(Contact::from_mm_per_s_and_n(500.0, 9.0)).level_mps2 - 1.0).abs() < 1e-9);
         // The copy at 40 mm/s is the slowest on the edge of full force; from there the level sinks to silence.
         let half = plane.at(Contact::from_mm_per_s_and_n(20.0, 1.0)).level_mps2;
@@ -286,7 +290,8 @@ mod tests {
         fn prepared_texture_is_the_model(mm_per_s in 1.0_f64..260.0, force in 0.02_f64..3.2) {
             let plane = Plane::new(&grid());
             let prepared = plane.prepare();
-            let view = prepared.view().unwrap();
+            prop_assert!(is_accepted(&prepared));
+            let view = prepared.view();
             let mut hint = 0;
             let got = view.evaluate(SynthContact { speed_mps: (mm_per_s * 1e-3) as f32, force_n: force as f32 }, &mut hint);
             let grain = plane.at(Contact::from_mm_per_s_and_n(mm_per_s, force));

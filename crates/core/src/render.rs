@@ -79,7 +79,7 @@ struct Lent<'a>(&'a [(&'a Prepared, f64)]);
 
 impl Textures for Lent<'_> {
     fn texture(&self, id: TextureId) -> Option<Texture<'_>> {
-        self.0.get(usize::from(id)).and_then(|(prepared, _)| prepared.view())
+        self.0.get(usize::from(id)).map(|(prepared, _)| prepared.view())
     }
 }
 

@@ -36,7 +36,7 @@ pub fn welch(signal: &[f64], rate: Hertz, window: usize) -> Vec<(Hertz, f64)> {
     }
     let last = sum.len() - 1;
     let density = |(i, s): (usize, f64)| {
-        let both_sides = if i == 0 || (i == last && window % 2 == 0) { 1.0 } else { 2.0 };
+        let both_sides = if i == 0 || (i == last && window.is_multiple_of(2)) { 1.0 } else { 2.0 };
         (Hertz(i as f64 * rate.0 / window as f64), both_sides * s / (n_windows * power * rate.0))
     };
     sum.into_iter().enumerate().map(density).collect()

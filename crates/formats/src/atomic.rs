@@ -7,7 +7,7 @@ use tempfile::NamedTempFile;
 
 /// Why a file was not written. What was there before is untouched.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write the file; check that its folder exists, is writable and has room: {}", path.display())]
+#[error("cannot write the file ({source}); check that its folder exists, is writable and has room: {}", path.display())]
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
@@ -64,7 +64,9 @@ fn stage(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, WriteError> {
         use std::os::unix::fs::PermissionsExt as _;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    let mut file = builder.prefix(".shagreen-").tempfile_in(folder).map_err(failed)?;
+    // The system's own words would name a file that nobody asked for.
+    let unnamed = |error: io::Error| failed(io::Error::from(error.kind()));
+    let mut file = builder.prefix(".shagreen-").tempfile_in(folder).map_err(unnamed)?;
     file.write_all(bytes).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
     Ok(file)

@@ -8,10 +8,3 @@ pub struct Imported<T> {
     /// Sentences for people, one for each thing that was odd but usable.
     pub warnings: Vec<String>,
 }
-
-impl<T> Imported<T> {
-    /// A value about which there is nothing to tell.
-    pub fn clean(value: T) -> Self {
-        Self { value, warnings: Vec::new() }
-    }
-}

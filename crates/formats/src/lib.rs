@@ -22,6 +22,7 @@
 
 pub mod atomic;
 pub mod imported;
+mod layout;
 pub mod library;
 pub mod materials_toml;
 pub mod picture;

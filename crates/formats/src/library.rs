@@ -20,7 +20,6 @@
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
 //! refused.
 
-mod layout;
 mod read;
 mod v1;
 mod write;

@@ -8,7 +8,7 @@
 mod columns;
 
 use crate::imported::Imported;
-use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
+use crate::stroke::{PenSample, Stroke, TimedContact};
 use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
 
 /// Longest stroke, in seconds, whose time column is taken for seconds where it does not say its unit.
@@ -97,6 +97,7 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
         .flexible(true)
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
+    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
     let mut records =
         reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
     let first = records.next().ok_or(StrokeCsvError::Empty)?;
@@ -220,96 +221,4 @@ fn secs_per_unit(columns: &Columns, rows: &[Row], warnings: &mut Vec<String>) ->
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{StrokeCsvError, read_stroke_csv};
-    use crate::stroke::{PressUnit, Stroke, TimedContact};
-    use proptest::prelude::{any, prop, proptest};
-
-    fn contacts(text: &str) -> Vec<TimedContact> {
-        match read_stroke_csv(text.as_bytes()).unwrap().value {
-            Stroke::Contacts(contacts) => contacts,
-            Stroke::Pen { .. } => panic!("a pen"),
-        }
-    }
-
-    #[track_caller]
-    fn check_error(text: &str, words: &str) {
-        let message = read_stroke_csv(text.as_bytes()).unwrap_err().to_string();
-        assert!(message.contains(words), "{message}");
-    }
-
-    #[test]
-    fn the_same_stroke_in_every_dialect() {
-        let expected = contacts("t_s,speed,force\n0,50,0.5\n0.5,100,1\n");
-        assert_eq!(expected[1], TimedContact { time_secs: 0.5, speed_mps: 0.1, force_n: 1.0 });
-        for text in [
-            "0,50,0.5\n0.5,100,1",
-            "\u{feff}Time (ms); Speed (mm/s); Force (N)\r\n0;50;0,5\r\n500;100;1\r\n",
-            "t\tforce_n\tspeed_mm_per_s\n10\t0.5\t50\n10.5\t1\t100\n\n",
-            "v,f,t_ms,note_touching\n".replace("note_touching", "touching").as_str(),
-        ] {
-            if text.starts_with("v,") {
-                let with_rows = format!("{text}50,0.5,0,1\n100,1,500,1\n");
-                assert_eq!(contacts(&with_rows), expected);
-            } else {
-                assert_eq!(contacts(text), expected, "{text}");
-            }
-        }
-    }
-
-    #[test]
-    fn pen_positions_with_pressure_or_force() {
-        let pen = |text: &str| match read_stroke_csv(text.as_bytes()).unwrap().value {
-            Stroke::Pen { samples, press_unit } => (samples, press_unit),
-            Stroke::Contacts(_) => panic!("contacts"),
-        };
-        let (samples, unit) = pen("t_ms,x,y,pressure\n0,10,20,0.5\n8,11,20,0\n");
-        assert_eq!(unit, PressUnit::FullScale);
-        assert_eq!((samples[1].time_secs, samples[1].x_m, samples[1].touching), (0.008, 0.011, false));
-        let (samples, unit) = pen("0,10,20,1.5\n0.008,11,20,2\n");
-        assert_eq!((unit, samples[0].press, samples[0].touching), (PressUnit::Newtons, 1.5, true));
-        let (samples, _) = pen("t_s,x_mm,y_mm,force,touching\n0,10,20,1.5,0\n");
-        assert!(!samples[0].touching);
-    }
-
-    #[test]
-    fn what_was_assumed_is_said() {
-        let warnings = |text: &str| read_stroke_csv(text.as_bytes()).unwrap().warnings;
-        assert!(warnings("t_s,speed,force\n0,50,1\n").is_empty());
-        let guessed = warnings("0,50,1\n1,50,1\n");
-        assert!(guessed[0].contains("time, speed in mm/s, force in N") && guessed[1].contains("seconds"));
-        assert!(warnings("t,speed,force\n0,50,1\n1000,50,1\n")[0].contains("milliseconds"));
-    }
-
-    #[test]
-    fn damage_is_named_with_its_line() {
-        check_error("", "no rows");
-        check_error("t,speed,force\n", "no rows");
-        check_error("t,speed\n0,1\n", "no column");
-        check_error("t,banana,force\n0,1,1\n", "banana");
-        check_error("1,2\n", "2 columns");
-        check_error("t,speed,force\n0,50,1\n1,50\n", "line 3 has 2 values");
-        check_error("t,speed,force\n0,50,1\n1,NaN,1\n", "speed in line 3 is \"NaN\"");
-        check_error("NaN,50,1\n", "time in line 1 is \"NaN\"");
-        check_error("t,speed,force\n0,50,inf\n", "force in line 2");
-        check_error("t,speed,force\n0,-50,1\n", "speed in line 2 is -50");
-        check_error("t,x,y,pressure\n0,1,1,512\n", "needs 0 to 1");
-        check_error("t,speed,force\n1,50,1\n1,50,1\n", "line 3");
-        let back = read_stroke_csv(b"t,speed,force\n1,50,1\n0,50,1\n").unwrap_err();
-        assert_eq!(back, StrokeCsvError::TimeGoesBack { line: 3, before: 1.0, time: 0.0 });
-    }
-
-    proptest! {
-        #[test]
-        fn mutated_bytes_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..20)) {
-            for text in ["t_ms,x,y,pressure\n0,10,20,0.5\n8,11,20,0\n", "0;50;0,5\r\n500;100;1\r\n"] {
-                let mut bytes = text.as_bytes().to_vec();
-                for (at, byte) in &edits {
-                    let at = at.index(bytes.len());
-                    bytes[at] = *byte;
-                }
-                let _ = read_stroke_csv(&bytes);
-            }
-        }
-    }
-}
+mod tests;

@@ -9,6 +9,7 @@ use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use serde::{Deserialize, Serialize};
 
 use crate::atomic::{self, WriteError};
+use crate::layout;
 
 /// What the field `format` of a sidecar holds.
 pub const FORMAT: &str = "shagreen-signal";
@@ -50,7 +51,7 @@ pub struct SidecarV1 {
     pub label_source: Option<String>,
     /// Seed of the noise.
     pub seed: u64,
-    /// The file of the stroke, where there was one.
+    /// Name of the stroke's file, where there was one.
     pub stroke: Option<String>,
     /// Speed and force over time.
     pub trace: TraceV1,
@@ -143,10 +144,9 @@ pub fn write_wav(path: &Path, samples: &[f32], sidecar: &SidecarV1) -> Result<()
         return Err(WavWriteError::Name { path: path.to_path_buf() });
     }
     let wav = pack(samples, sidecar.rate_hz)?;
-    let mut json =
-        serde_json::to_vec_pretty(sidecar).map_err(std::io::Error::from).map_err(hound::Error::IoError)?;
-    json.push(b'\n');
-    atomic::write_all(&[(&beside, &json), (path, &wav)])?;
+    // A line for each field, and one for each row of the trace.
+    let json = layout::to_bytes(sidecar, 2);
+    atomic::write_all(&[(path, &wav), (&beside, &json)])?;
     Ok(())
 }
 

@@ -29,6 +29,10 @@
 //! ```
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+)]
 
 pub mod contact;
 pub mod limiter;

@@ -54,7 +54,7 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
     }
     let q_at = |i: usize| if i <= q_factors { half[i][0] } else { half[2 * q_factors - i][0] };
     let p_at = |i: usize| if i <= p_factors { p_half[i][1] } else { p_half[2 * p_factors - i][1] };
-    if order % 2 == 0 {
+    if order.is_multiple_of(2) {
         // Q also has the root z = -1 and P the root z = 1.
         let (mut q_last, mut p_last) = (1.0, 1.0);
         for (i, a) in (1..).zip(ar[..order].iter_mut()) {
@@ -118,7 +118,7 @@ mod tests {
             let factor = [1.0, -2.0 * w.cos(), 1.0];
             if i % 2 == 0 { q = convolve(&q, &factor) } else { p = convolve(&p, &factor) }
         }
-        if lsf.len() % 2 == 0 {
+        if lsf.len().is_multiple_of(2) {
             q = convolve(&q, &[1.0, 1.0]);
             p = convolve(&p, &[1.0, -1.0]);
         } else {

@@ -276,7 +276,9 @@ pub(crate) mod tests {
                             (node.lsf[0], node.lsf[1]) =
                                 (core::f32::consts::PI / 3.0, core::f32::consts::PI * 2.0 / 3.0);
                         }
-                        triangles.iter_mut().for_each(|t| t.ln_gain = [0.0; 6]);
+                        for triangle in &mut triangles {
+                            triangle.ln_gain = [0.0; 6];
+                        }
                         (nodes, triangles)
                     })
                     .collect(),

@@ -13,16 +13,40 @@ use libm::{fabs, sin, sqrt};
 /// Second-order sections `b0 b1 b2 a1 a2` of `ellip(10, 0.05 dB, 70 dB, 0.462)`; derived in `vectors/n_resample`.
 const DOUBLER: [[f64; 5]; 5] = [
     [
-        0.011103254476361459,
-        0.020134642477861203,
-        0.01110325447636146,
-        -0.8399728830853902,
-        0.23214103338388387,
+        0.011_103_254_476_361_459,
+        0.020_134_642_477_861_203,
+        0.011_103_254_476_361_46,
+        -0.839_972_883_085_390_2,
+        0.232_141_033_383_883_87,
     ],
-    [1.0, 0.9534087229374454, 0.9999999999999999, -0.6189392748827732, 0.4710494623865239],
-    [1.0, 0.3661030978255672, 0.9999999999999998, -0.39399487509282916, 0.7178953838050277],
-    [1.0, 0.10156271045774035, 1.0000000000000002, -0.26115534183005734, 0.874333826295479],
-    [1.0, 0.004882751314197504, 0.9999999999999998, -0.20790875410666426, 0.9648019760480819],
+    [
+        1.0,
+        0.953_408_722_937_445_4,
+        0.999_999_999_999_999_9,
+        -0.618_939_274_882_773_2,
+        0.471_049_462_386_523_9,
+    ],
+    [
+        1.0,
+        0.366_103_097_825_567_2,
+        0.999_999_999_999_999_8,
+        -0.393_994_875_092_829_16,
+        0.717_895_383_805_027_7,
+    ],
+    [
+        1.0,
+        0.101_562_710_457_740_35,
+        1.000_000_000_000_000_2,
+        -0.261_155_341_830_057_34,
+        0.874_333_826_295_479,
+    ],
+    [
+        1.0,
+        0.004_882_751_314_197_504,
+        0.999_999_999_999_999_8,
+        -0.207_908_754_106_664_26,
+        0.964_801_976_048_081_9,
+    ],
 ];
 /// Delay of the doubler at low frequencies, in samples of the doubled rate; derived in `vectors/n_resample`.
 pub const DOUBLER_DELAY: f32 = 3.154;
@@ -84,14 +108,13 @@ impl Resampler {
         // At most two rounds: the step is at most two doubled samples.
         while self.phase >= ONE {
             self.phase -= ONE;
-            let doubled = match self.pending.take() {
-                Some(sample) => sample,
-                None => {
-                    // Zero-stuffing halves the level, hence the two.
-                    let first = self.double(2.0 * f64::from(pull()));
-                    self.pending = Some(self.double(0.0));
-                    first
-                }
+            let doubled = if let Some(sample) = self.pending.take() {
+                sample
+            } else {
+                // Zero-stuffing halves the level, hence the two.
+                let first = self.double(2.0 * f64::from(pull()));
+                self.pending = Some(self.double(0.0));
+                first
             };
             self.history.copy_within(1.., 0);
             self.history[TAPS - 1] = doubled;

@@ -117,6 +117,19 @@ impl<'a> Texture<'a> {
         Ok(Self { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles })
     }
 
+    /// A texture over slices that [`Texture::new`] has accepted before: free, for an owner who lends them at every tick.
+    /// Slices that would not have been accepted are silent or not finite, never out of bounds.
+    pub fn checked_before(
+        rate_hz: f32,
+        order: usize,
+        speed_max_mps: f32,
+        force_max_n: f32,
+        nodes: &'a [Node],
+        triangles: &'a [Triangle],
+    ) -> Self {
+        Self { rate_hz, order: order.min(MAX_ORDER), speed_max_mps, force_max_n, nodes, triangles }
+    }
+
     /// Samples a second of the model, in Hz.
     pub fn rate_hz(&self) -> f32 {
         self.rate_hz
@@ -135,10 +148,12 @@ impl<'a> Texture<'a> {
         let contact = contact.sanitized();
         let x = (contact.speed_mps / self.speed_max_mps).min(1.0);
         let y = (contact.force_n / self.force_max_n).min(1.0);
-        let (triangle, weights) = self.locate(x, y, hint);
-        let [a, b, c] = triangle.nodes.map(|n| &self.nodes[usize::from(n)]);
-        let [u, v, w] = weights;
         let mut lsf = [0.0; MAX_ORDER];
+        let silent = Evaluated { lsf, level_mps2: 0.0, sigma_mps2: 0.0 };
+        let Some((triangle, [u, v, w])) = self.locate(x, y, hint) else { return silent };
+        let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.nodes.get(usize::from(n))) else {
+            return silent;
+        };
         for (i, out) in lsf[..self.order].iter_mut().enumerate() {
             *out = u * a.lsf[i] + v * b.lsf[i] + w * c.lsf[i];
         }
@@ -152,14 +167,14 @@ impl<'a> Texture<'a> {
     }
 
     /// The triangle that holds a normalized contact, and its three weights, each at least zero, that sum to one.
-    fn locate(&self, x: f32, y: f32, hint: &mut u16) -> (&Triangle, [f32; 3]) {
-        let mut current = usize::from(*hint);
-        if current >= self.triangles.len() {
-            current = 0;
-        }
+    fn locate(&self, x: f32, y: f32, hint: &mut u16) -> Option<(&Triangle, [f32; 3])> {
+        let mut triangle = self.triangles.get(usize::from(*hint)).or_else(|| {
+            *hint = 0;
+            self.triangles.first()
+        })?;
         let mut weights = [0.0; 3];
         for _ in 0..=self.triangles.len() {
-            let m = &self.triangles[current].weights;
+            let m = &triangle.weights;
             let u = m[0] * x + m[1] * y + m[2];
             let v = m[3] * x + m[4] * y + m[5];
             weights = [u, v, 1.0 - u - v];
@@ -169,17 +184,17 @@ impl<'a> Texture<'a> {
                     lowest = i;
                 }
             }
-            let next = self.triangles[current].neighbors[lowest];
+            let next = triangle.neighbors[lowest];
             if weights[lowest] >= -1e-6 || next == NO_NEIGHBOR {
                 break;
             }
-            current = usize::from(next);
+            triangle = self.triangles.get(usize::from(next))?;
+            *hint = next;
         }
-        *hint = current as u16;
         // A contact a rounding error outside: all three weights are clamped and sum to one again.
         let clamped = weights.map(|w| w.max(0.0));
         let sum = clamped[0] + clamped[1] + clamped[2];
-        (&self.triangles[current], if sum > 0.0 { clamped.map(|w| w / sum) } else { [1.0, 0.0, 0.0] })
+        Some((triangle, if sum > 0.0 { clamped.map(|w| w / sum) } else { [1.0, 0.0, 0.0] }))
     }
 }
 
@@ -248,6 +263,19 @@ pub(crate) mod tests {
         for x in [f32::NAN, f32::INFINITY, -3.0] {
             let mut hint = u16::MAX;
             assert_eq!(texture.evaluate(Contact { speed_mps: x, force_n: x }, &mut hint).level_mps2, 0.0);
+        }
+    }
+
+    #[test]
+    fn slices_that_were_never_checked_are_silent_not_fatal() {
+        let (nodes, triangles) = square();
+        let full = Contact { speed_mps: 1.0, force_n: 1.0 };
+        for (nodes, triangles) in
+            [(&nodes[..1], &triangles[..]), (&nodes[..], &triangles[..0]), (&nodes[..], &triangles[1..])]
+        {
+            let texture = Texture::checked_before(1000.0, 99, 1.0, 1.0, nodes, triangles);
+            let at = texture.evaluate(full, &mut 7);
+            assert!(at.level_mps2 == 0.0 || triangles.len() == 1);
         }
     }
 

@@ -12,14 +12,15 @@ use shagreen_device::engine::{ChannelMask, Handle, SLOTS};
 use shagreen_device::error::DeviceError;
 use shagreen_device::hand::Hand;
 use shagreen_device::live::LiveInput;
-use shagreen_device::output::{OpenOptions, OutputInfo, Running, list_outputs, open};
+use shagreen_device::output::{NULL_ID, OpenOptions, OutputInfo, Running, list_outputs, open};
 use shagreen_device::status::Status;
 use shagreen_device::stylus::MouseStylus;
+use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
 use shagreen_device::texture::OwnedTexture;
-use shagreen_synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
 
 use crate::pad::MouseReport;
 use crate::scope_buffer::ScopeBuffer;
+use crate::strings;
 
 /// Frames in a block: 5 ms at 48 kHz.
 const BLOCK_FRAMES: u32 = 256;
@@ -30,7 +31,34 @@ const CEILING: f32 = 0.9;
 /// Textures kept loaded; the least recently heard makes room.
 const KEPT: usize = SLOTS - 16;
 
-type Opened = Result<(Handle, Running), DeviceError>;
+/// What came of opening an output, and why it is not the one that was meant.
+type Opened = (Result<(Handle, Running), DeviceError>, Option<String>);
+
+/// Which output to open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum OutputChoice {
+    /// The one that the system calls its default now, held by its identity from then on; without sound, the silent one.
+    SystemDefault,
+    /// The one with this identity, or none.
+    Id(String),
+}
+
+impl OutputChoice {
+    fn open(&self, options: OpenOptions) -> Opened {
+        match self {
+            Self::Id(id) => (open(id, options), None),
+            Self::SystemDefault => {
+                let Some(found) = list_outputs().into_iter().find(|o| o.is_default && o.id != NULL_ID) else {
+                    return (open(NULL_ID, options), Some(strings::NO_SOUND.to_owned()));
+                };
+                match open(&found.id, options) {
+                    Err(error) => (open(NULL_ID, options), Some(format!("{}: {error}", strings::NO_SOUND))),
+                    opened => (opened, None),
+                }
+            }
+        }
+    }
+}
 
 /// An output and everything that is on its way to it.
 pub(super) struct Player {
@@ -45,7 +73,7 @@ pub(super) struct Player {
     handle: Option<Handle>,
     running: Option<Running>,
     live: Option<LiveInput>,
-    opening: Option<(String, Receiver<Opened>)>,
+    opening: Option<Receiver<Opened>>,
     listing: Option<Receiver<Vec<OutputInfo>>>,
     /// Slot of each texture of the library, and when it was last in a mix.
     slots: Vec<Option<(TextureId, u64)>>,
@@ -89,9 +117,8 @@ impl Player {
         self.listing = Some(receiver);
     }
 
-    pub(super) fn open(&mut self, id: String, model_rate_hz: f32, ctx: egui::Context) {
+    pub(super) fn open(&mut self, choice: OutputChoice, model_rate_hz: f32, ctx: egui::Context) {
         let (sender, receiver) = channel();
-        let wanted = id.clone();
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
@@ -102,10 +129,10 @@ impl Player {
             channels: ChannelMask::FIRST_TWO,
         };
         std::thread::spawn(move || {
-            let _ = sender.send(open(&wanted, options));
+            let _ = sender.send(choice.open(options));
             ctx.request_repaint();
         });
-        self.opening = Some((id, receiver));
+        self.opening = Some(receiver);
     }
 
     /// Takes in what came back; true when an output has just been opened.
@@ -138,27 +165,29 @@ impl Player {
     }
 
     fn take_opened(&mut self, scope: &mut ScopeBuffer) -> bool {
-        let Some((id, receiver)) = &self.opening else { return false };
-        match receiver.try_recv() {
-            Err(TryRecvError::Empty) => false,
-            Err(TryRecvError::Disconnected) => {
-                self.message = Some(format!("opening the output {id} failed"));
-                self.opening = None;
+        let Some(receiver) = &self.opening else { return false };
+        let opened = match receiver.try_recv() {
+            Err(TryRecvError::Empty) => return false,
+            Err(TryRecvError::Disconnected) => Err(strings::OPENING_FAILED.to_owned()),
+            Ok((opened, warning)) => {
+                self.message = warning;
+                opened.map_err(|error| error.to_string())
+            }
+        };
+        self.opening = None;
+        match opened {
+            Err(message) => {
+                self.message = Some(message);
                 false
             }
-            Ok(Err(error)) => {
-                self.message = Some(error.to_string());
-                self.opening = None;
-                false
-            }
-            Ok(Ok((mut handle, running))) => {
+            Ok((mut handle, running)) => {
                 *scope = ScopeBuffer::new(f64::from(handle.config().device_rate_hz));
                 self.live = handle.take_live_input();
                 handle.set_drive(Drive { muted: self.muted, ..Drive::default() });
+                self.output_id = Some(running.id().to_owned());
+                // The old output falls silent only now that the new one stands.
                 self.handle = Some(handle);
                 self.running = Some(running);
-                self.output_id = self.opening.take().map(|(id, _)| id);
-                self.message = None;
                 self.slots.fill(None);
                 self.mix_is_new = true;
                 true
@@ -191,7 +220,9 @@ impl Player {
             return Some(*id);
         }
         if self.slots.iter().flatten().count() >= KEPT {
-            let oldest = (0..self.slots.len()).filter(|i| self.slots[*i].is_some()).min_by_key(|i| self.slots[*i].map(|s| s.1));
+            let oldest = (0..self.slots.len())
+                .filter(|i| self.slots[*i].is_some())
+                .min_by_key(|i| self.slots[*i].map(|s| s.1));
             if let Some((id, _)) = oldest.and_then(|i| self.slots[i].take()) {
                 handle.unload(id);
             }

@@ -53,7 +53,7 @@ impl Slots {
 
 impl Textures for Slots {
     fn texture(&self, id: TextureId) -> Option<Texture<'_>> {
-        self.textures.get(usize::from(id))?.as_ref()?.view()
+        Some(self.textures.get(usize::from(id))?.as_ref()?.view())
     }
 }
 

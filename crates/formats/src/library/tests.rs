@@ -1,5 +1,6 @@
 use super::{Library, LibraryError, PhysicalLabels, Place, TextureEntry, read_library, write_library};
 use crate::picture::{Rgb, encode_jpeg};
+use proptest::prelude::{any, prop, proptest};
 use serde_json::{Value, json};
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::{GrainNode, TextureModel};
@@ -187,4 +188,19 @@ fn mixed_label_sources_are_no_single_source() {
     assert_eq!(library.label_source(), None);
     assert_eq!(library.index_of("bare"), Some(1));
     assert_eq!(library.license_of(&library.textures[0]), "CC0-1.0");
+}
+
+proptest! {
+    #[test]
+    fn mutated_bytes_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)) {
+        let mut bytes = write_library(&small());
+        for (at, byte) in &edits {
+            let at = at.index(bytes.len());
+            bytes[at] = *byte;
+        }
+        if let Ok(imported) = read_library(&bytes) {
+            // Whatever was read can be written and read again.
+            assert!(read_library(&write_library(&imported.value)).is_ok());
+        }
+    }
 }

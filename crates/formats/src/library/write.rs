@@ -5,7 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::Map;
 use shagreen_core::texture::GrainNode;
 
-use crate::library::layout;
+use crate::layout;
 use crate::library::v1::{AnchorV1, LibraryV1, PhysicalV1, PictureV1, SpaceV1, TextureV1, UnitsV1};
 use crate::library::{FORMAT, Library, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
 
@@ -19,6 +19,9 @@ pub(super) const UNITS: [(&str, &str); 6] = [
     ("length", "mm"),
 ];
 
+/// An anchor stands on one line: it lies in library, textures, texture, anchors.
+const OPEN_DEPTH: usize = 4;
+
 /// Decimals of line spectral frequencies and positions in a file.
 const DECIMALS: usize = 6;
 /// Significant digits of levels and labels in a file: far finer than anyone can measure.
@@ -31,7 +34,7 @@ const CONVERSION_DIGITS: usize = 12;
 pub fn write_library(library: &Library) -> Vec<u8> {
     let units = UNITS.map(|(_, unit)| unit.to_owned());
     let [speed, force, acceleration, rate, lsf, length] = units;
-    layout::to_bytes(&LibraryV1 {
+    let wire = LibraryV1 {
         format: FORMAT.to_owned(),
         version: format!("{VERSION_MAJOR}.{VERSION_MINOR}"),
         units: UnitsV1 {
@@ -51,7 +54,8 @@ pub fn write_library(library: &Library) -> Vec<u8> {
         seed: library.seed,
         unknown: library.unknown.library.clone(),
         textures: library.textures.iter().map(texture).collect(),
-    })
+    };
+    layout::to_bytes(&wire, OPEN_DEPTH)
 }
 
 fn texture(entry: &TextureEntry) -> TextureV1 {

@@ -1,31 +1,31 @@
-//! How the JSON of a library is laid out: a line for each field and each anchor, so that a person can read it and a
-//! comparison of two versions shows what changed.
+//! How the JSON of a file is laid out: a line for each thing that a person looks for, so that a comparison of two
+//! versions shows what changed, and long rows of numbers on one.
 
 use std::io;
 
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 
-/// Objects and arrays nested deeper than this stand on one line: library, textures, texture, anchors.
-const OPEN_DEPTH: usize = 4;
-
-/// The JSON of `value`, with a line feed at its end.
-pub(super) fn to_bytes(value: &impl Serialize) -> Vec<u8> {
+/// The JSON of `value`, with a line feed at its end. Objects and arrays nested deeper than `open_depth` stand on one
+/// line.
+pub(crate) fn to_bytes(value: &impl Serialize, open_depth: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let written = value.serialize(&mut Serializer::with_formatter(&mut bytes, Layout { depth: 0 }));
+    let written =
+        value.serialize(&mut Serializer::with_formatter(&mut bytes, Layout { depth: 0, open_depth }));
     // Memory takes all bytes, keys are strings, and non-finite numbers are written as null.
-    assert!(written.is_ok(), "a library is always JSON: {written:?}");
+    assert!(written.is_ok(), "our types are always JSON: {written:?}");
     bytes.push(b'\n');
     bytes
 }
 
 struct Layout {
     depth: usize,
+    open_depth: usize,
 }
 
 impl Layout {
     fn is_open(&self) -> bool {
-        self.depth <= OPEN_DEPTH
+        self.depth <= self.open_depth
     }
 
     fn new_line<W: ?Sized + io::Write>(&self, writer: &mut W) -> io::Result<()> {
@@ -94,7 +94,7 @@ mod tests {
     fn deep_values_stand_on_one_line() {
         let value = json!({"a": [{"b": [{"c": [1.5, 2], "d": 3}], "e": "x"}], "f": {}});
         let expected = "{\n \"a\": [\n  {\n   \"b\": [\n    {\"c\":[1.5,2],\"d\":3}\n   ],\n   \"e\": \"x\"\n  }\n ],\n \"f\": {\n }\n}\n";
-        assert_eq!(String::from_utf8(to_bytes(&value)).unwrap(), expected);
-        assert_eq!(serde_json::from_slice::<serde_json::Value>(&to_bytes(&value)).unwrap(), value);
+        assert_eq!(String::from_utf8(to_bytes(&value, 4)).unwrap(), expected);
+        assert_eq!(serde_json::from_slice::<serde_json::Value>(&to_bytes(&value, 4)).unwrap(), value);
     }
 }

@@ -1,0 +1,97 @@
+//! The command line: what a hand can do in the window, without it.
+//!
+//! Results go to standard output, as text or as one JSON object; progress, notes, warnings and errors go to standard
+//! error. Exit status 0 is done, 1 could not, 2 wrong usage.
+
+mod devices;
+mod library_list;
+mod library_make;
+mod library_source;
+mod motion;
+mod output;
+mod play;
+mod render;
+mod stroke;
+mod target;
+mod texture_psd;
+mod window;
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Parser as _;
+
+/// An authoring tool for haptic textures. Without a command it opens the window.
+#[derive(clap::Parser)]
+#[command(name = "shagreen", version, args_conflicts_with_subcommands = true)]
+struct Cli {
+    #[command(flatten)]
+    window: window::Args,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(clap::Subcommand)]
+enum Command {
+    /// Libraries of textures.
+    #[command(subcommand)]
+    Library(LibraryCommand),
+    /// Renders a texture as a stylus would feel it, as float WAV in m/s².
+    Render(render::Args),
+    /// Questions about one texture.
+    #[command(subcommand)]
+    Texture(TextureCommand),
+    /// Lists styluses, outputs and serial ports.
+    Devices(devices::Args),
+    /// Drives an actuator with a texture.
+    Play(play::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum LibraryCommand {
+    /// Lists the textures of a library.
+    List(library_list::Args),
+    Make(library_make::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum TextureCommand {
+    /// The power spectral density of a texture's model.
+    Psd(texture_psd::Args),
+}
+
+/// Does what the arguments of the program say.
+pub(crate) fn run() -> ExitCode {
+    let started = Instant::now();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return output::usage(&error),
+    };
+    let done = match &cli.command {
+        None => window::run(&cli.window, started),
+        Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
+        Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
+        Some(Command::Render(args)) => render::run(args),
+        Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
+        Some(Command::Devices(args)) => {
+            devices::run(args);
+            Ok(())
+        }
+        Some(Command::Play(args)) => play::run(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => output::failure(&error),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cli;
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn the_arguments_do_not_contradict_each_other() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,60 @@
+//! `shagreen library list`: what is in a library.
+
+use serde_json::{Value, json};
+use shagreen_core::space::LabelSource;
+use shagreen_formats::library::{Library, TextureEntry};
+
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::output;
+
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let library = load(&args.library)?;
+    let textures: Vec<Value> = library.textures.iter().map(|texture| describe(&library, texture)).collect();
+    output::print(args.json, &json!({"library": library.name, "textures": textures}), || table(&library));
+    Ok(())
+}
+
+fn describe(library: &Library, texture: &TextureEntry) -> Value {
+    json!({
+        "id": texture.id,
+        "name": texture.name,
+        "tags": texture.tags,
+        "at": texture.at().map(|at| [at.rough_smooth, at.hard_soft]),
+        "label_source": texture.label_source().map(LabelSource::id),
+        "nodes": texture.model.nodes().len(),
+        "order": texture.model.order(),
+        "rate_hz": texture.model.rate().0,
+        "licence": library.license_of(texture),
+    })
+}
+
+fn table(library: &Library) -> String {
+    let widest = library.textures.iter().map(|texture| texture.id.chars().count()).max().unwrap_or(0);
+    let line = |texture: &TextureEntry| {
+        let place = texture.place.map_or_else(
+            || "not placed".to_owned(),
+            |place| format!("at {} ({})", place.at, place.source.label()),
+        );
+        let model = &texture.model;
+        format!(
+            "{:widest$}  {}, {place}, {} nodes of order {} at {}",
+            texture.id,
+            texture.name,
+            model.nodes().len(),
+            model.order(),
+            model.rate()
+        )
+    };
+    let mut lines = vec![format!("{}: {} textures", library.name, library.textures.len())];
+    lines.extend(library.textures.iter().map(line));
+    lines.join("\n")
+}

@@ -1,0 +1,84 @@
+//! Where textures come from: a library file, a folder of them, or the starter library built into the program.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use shagreen_formats::library::{Library, LibraryError, TextureEntry, read_library};
+use shagreen_formats::starter::starter_library;
+
+use crate::cli::output;
+
+#[derive(clap::Args)]
+pub(crate) struct LibraryArgs {
+    /// Library file, or a folder of them; without it the starter library.
+    #[arg(long, value_name = "L")]
+    library: Option<PathBuf>,
+}
+
+impl LibraryArgs {
+    /// As if `path` had been given.
+    pub(crate) fn at(path: Option<PathBuf>) -> Self {
+        Self { library: path }
+    }
+}
+
+/// The library that the arguments name; what is odd about it is said.
+pub(crate) fn load(args: &LibraryArgs) -> anyhow::Result<Library> {
+    match &args.library {
+        None => Ok(starter_library()?),
+        Some(path) if path.is_dir() => load_folder(path),
+        Some(path) => load_file(path)?.with_context(|| output::in_file(path)),
+    }
+}
+
+/// A library file; the inner error is for bytes that are none, and still lacks the path.
+fn load_file(path: &Path) -> anyhow::Result<Result<Library, LibraryError>> {
+    let bytes = output::read_file(path)?;
+    Ok(read_library(&bytes).map(|imported| {
+        for warning in &imported.warnings {
+            output::warn(&format!("{warning}: {}", path.display()));
+        }
+        imported.value
+    }))
+}
+
+/// All library files of a folder as one; other files are left alone.
+fn load_folder(folder: &Path) -> anyhow::Result<Library> {
+    let list = || -> std::io::Result<Vec<PathBuf>> {
+        std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
+    };
+    let mut paths = list()
+        .context("cannot read the folder; check your rights")
+        .with_context(|| output::in_file(folder))?;
+    paths.retain(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "json"));
+    paths.sort();
+    let mut merged = Library { name: folder.display().to_string(), ..Library::default() };
+    let mut homes: HashMap<String, PathBuf> = HashMap::new();
+    let mut n_libraries = 0;
+    for path in paths {
+        let library = match load_file(&path)? {
+            Ok(library) => library,
+            // The sidecar of a signal, for example.
+            Err(LibraryError::Format { .. }) => continue,
+            Err(error) => return Err(error).with_context(|| output::in_file(&path)),
+        };
+        n_libraries += 1;
+        for texture in &library.textures {
+            if let Some(other) = homes.insert(texture.id.clone(), path.clone()) {
+                bail!(
+                    "two libraries have a texture \"{}\"; rename one of them: {} and {}",
+                    texture.id,
+                    other.display(),
+                    path.display()
+                );
+            }
+            let license = library.license_of(texture).to_owned();
+            merged.textures.push(TextureEntry { license, ..texture.clone() });
+        }
+    }
+    if n_libraries == 0 {
+        bail!("the folder holds no texture library (.json); name another: {}", folder.display());
+    }
+    Ok(merged)
+}

@@ -1,0 +1,146 @@
+//! `shagreen render`: a texture, as a stylus would feel it.
+
+use std::path::PathBuf;
+
+use anyhow::{Context as _, bail};
+use serde_json::json;
+use shagreen_core::plane::Prepared;
+use shagreen_core::render::{RenderPlan, render};
+use shagreen_core::space::LabelSource;
+use shagreen_core::units::Hertz;
+use shagreen_formats::library::Library;
+use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav};
+
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::motion::{Motion, MotionArgs, motion};
+use crate::cli::output;
+use crate::cli::target::{BlendArgs, Chosen, TargetArgs, choose};
+
+/// Renders a texture as a stylus would feel it: mono float WAV in m/s², with a sidecar that says what it is.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    target: TargetArgs,
+    #[command(flatten)]
+    library: LibraryArgs,
+    #[command(flatten)]
+    blend: BlendArgs,
+    /// Rate of the output, in Hz; without it that of the texture's model.
+    #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..))]
+    rate: Option<u32>,
+    /// Seed of the noise: the same gives the same samples.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// WAV file to write; its sidecar has the same name with .json.
+    #[arg(short, long, value_name = "OUT.wav")]
+    out: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    motion: MotionArgs,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let motion = motion(&args.motion, None)?;
+    let library = load(&args.library)?;
+    let chosen = choose(&library, &args.target, &args.blend)?;
+    let rate_hz = match args.rate {
+        Some(rate_hz) => rate_hz,
+        None => whole(chosen.rate(&library)?)?,
+    };
+    let samples = samples(args, &library, &chosen, &motion, rate_hz)?;
+    let sidecar = sidecar(args, &library, &chosen, &motion, rate_hz);
+    let seconds = samples.len() as f64 / f64::from(rate_hz);
+    let wide = samples.iter().map(|sample| f64::from(*sample));
+    let peak = wide.clone().fold(0.0, |peak: f64, sample| peak.max(sample.abs()));
+    let rms = (wide.map(|sample| sample * sample).sum::<f64>() / samples.len().max(1) as f64).sqrt();
+    write_wav(&args.out, &samples, &sidecar)?;
+    let beside = sidecar_path(&args.out);
+    output::print(
+        args.json,
+        &json!({
+            "out": args.out.display().to_string(),
+            "sidecar": beside.display().to_string(),
+            "rms": rms,
+            "peak": peak,
+            "rate_hz": rate_hz,
+            "seconds": seconds,
+            "parents": chosen.parents_json(&library),
+            "at": chosen.at_json(),
+            "clamped": chosen.clamped,
+            "blend": chosen.mode.id(),
+            "seed": args.seed,
+        }),
+        || {
+            format!(
+                "Rendered {seconds:.3} s at {rate_hz} Hz of {}: rms {rms:.4} m/s², peak {peak:.4} m/s²\n{}\n{}",
+                chosen.parents_text(&library),
+                args.out.display(),
+                beside.display()
+            )
+        },
+    );
+    Ok(())
+}
+
+/// A rate as WAV files have it.
+fn whole(rate: Hertz) -> anyhow::Result<u32> {
+    if rate.0.fract() == 0.0 {
+        Ok(rate.0 as u32)
+    } else {
+        bail!("the model's rate of {rate} is not a whole number; choose a rate with --rate")
+    }
+}
+
+fn samples(
+    args: &Args,
+    library: &Library,
+    chosen: &Chosen,
+    motion: &Motion,
+    rate_hz: u32,
+) -> anyhow::Result<Vec<f32>> {
+    let prepared: Vec<(Prepared, f64)> =
+        chosen.planes(library).iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect();
+    let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
+    let plan = RenderPlan {
+        parents: &parents,
+        mode: chosen.mode,
+        rate: Hertz(f64::from(rate_hz)),
+        seconds: motion.seconds(),
+        seed: args.seed,
+    };
+    render(&plan, &mut |time_secs| motion.contact_at(time_secs))
+        .context("the texture cannot be rendered like that")
+}
+
+fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rate_hz: u32) -> SidecarV1 {
+    let parent = |(index, weight): &(usize, f64)| {
+        let texture = &library.textures[*index];
+        ParentV1 { id: texture.id.clone(), weight: *weight, licence: library.license_of(texture).to_owned() }
+    };
+    SidecarV1 {
+        format: wav::FORMAT.to_owned(),
+        version: wav::VERSION.to_owned(),
+        units: wav::UNITS.to_owned(),
+        full_scale: 1.0,
+        channels: vec!["acceleration of the tip, all directions combined into one (as by DFT321)".to_owned()],
+        rate_hz,
+        seconds: motion.seconds(),
+        texture: chosen.texture.clone(),
+        at: chosen.at_json(),
+        clamped: chosen.clamped,
+        blend: chosen.mode.id().to_owned(),
+        parents: chosen.parents.iter().map(parent).collect(),
+        library: library.name.clone(),
+        label_source: library.label_source().map(|source| LabelSource::id(source).to_owned()),
+        seed: args.seed,
+        // Its name only: a file that is passed on need not tell how someone's folders are called.
+        stroke: motion
+            .stroke_path()
+            .and_then(|path| path.file_name())
+            .map(|name| name.to_string_lossy().into_owned()),
+        trace: motion.trace(),
+        created_by: output::CREATED_BY.to_owned(),
+    }
+}

@@ -1,0 +1,233 @@
+//! A recorded stroke as speed and force over time.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
+use shagreen_device::pressure::PressureMap;
+use shagreen_device::track::{PenSample as TrackSample, Track};
+use shagreen_formats::stroke::{PenSample, PressUnit, Stroke, TimedContact};
+use shagreen_formats::stroke_csv::read_stroke_csv;
+use shagreen_formats::svc::{PenMapping, pen_samples, read_svc};
+
+use crate::cli::motion::quantity;
+use crate::cli::output;
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "How a stroke is read")]
+pub(crate) struct StrokeArgs {
+    /// Length of one unit of x and y of a .svc file, in mm. The file does not state it: 0.005 (5080 lines an inch) is
+    /// assumed for whole numbers, 1 for fractions.
+    #[arg(long, value_name = "MM", value_parser = quantity, allow_negative_numbers = true)]
+    mm_per_count: Option<f64>,
+    /// Length of one unit of time of a .svc file, in ms. The file does not state it: 1 is assumed for whole numbers,
+    /// 1000 for fractions.
+    #[arg(long, value_name = "MS", value_parser = quantity, allow_negative_numbers = true)]
+    ms_per_tick: Option<f64>,
+    /// The number that stands for full pressure in a .svc file. The file does not state it: 32767 (15 bits) is assumed
+    /// for whole numbers, 1 for fractions.
+    #[arg(long, value_name = "P", value_parser = quantity, allow_negative_numbers = true)]
+    pressure_max: Option<f64>,
+    /// Force at the lowest pressure, in N.
+    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.activation_n)]
+    force_min: f64,
+    /// Force at full pressure, in N.
+    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.full_n)]
+    force_max: f64,
+    /// Bend of the curve from pressure to force: 0 is a straight line, more is steeper towards full pressure.
+    #[arg(long, value_name = "C", value_parser = bend, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.bend)]
+    pressure_curve: f64,
+}
+
+/// Speed and force over time.
+pub(crate) enum StrokeContacts {
+    /// Estimated from where a pen was.
+    Track(Track),
+    /// As they were given, in straight lines between.
+    Given(Vec<TimedContact>),
+}
+
+fn bend(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.abs() <= 20.0 => Ok(value),
+        _ => Err("it must be a number from -20 to 20".to_owned()),
+    }
+}
+
+/// Reads the stroke of a file; what was assumed is said.
+pub(crate) fn load(path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
+    if args.force_max <= args.force_min {
+        let (low, high) = (args.force_min, args.force_max);
+        return Err(output::Usage(format!("--force-max {high} must be above --force-min {low}")).into());
+    }
+    let bytes = output::read_file(path)?;
+    contacts(&bytes, path, args).with_context(|| output::in_file(path))
+}
+
+fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
+    let (samples, press_unit) = if is_svc(bytes, path) {
+        (read_pen(bytes, args)?, PressUnit::FullScale)
+    } else {
+        let imported = read_stroke_csv(bytes)?;
+        imported.warnings.iter().for_each(|warning| output::warn(warning));
+        match imported.value {
+            Stroke::Contacts(contacts) => return Ok(StrokeContacts::Given(contacts)),
+            Stroke::Pen { samples, press_unit } => (samples, press_unit),
+        }
+    };
+    let map = PressureMap { activation_n: args.force_min, full_n: args.force_max, bend: args.pressure_curve };
+    let sample = |sample: &PenSample| TrackSample {
+        time_secs: sample.time_secs,
+        x_m: sample.x_m,
+        y_m: sample.y_m,
+        force_n: match press_unit {
+            PressUnit::FullScale => map.force_n(sample.press, sample.touching),
+            PressUnit::Newtons if sample.touching => sample.press,
+            PressUnit::Newtons => 0.0,
+        },
+        touching: sample.touching,
+    };
+    if !samples.iter().any(|sample| sample.touching) {
+        output::warn("the tip never touches in this stroke: it is silent");
+    }
+    let track = Track::new(&samples.iter().map(sample).collect::<Vec<_>>())
+        .context("the stroke cannot be replayed; correct it, or how it is read")?;
+    let n_equal = track.warnings.n_equal_timestamps;
+    if n_equal > 0 {
+        output::warn(&format!("{n_equal} samples have the time of the next one and were left out"));
+    }
+    Ok(StrokeContacts::Track(track))
+}
+
+/// Whether bytes are a pen recording: by the name of the file, or by a first line that is nothing but a count.
+fn is_svc(bytes: &[u8], path: &Path) -> bool {
+    let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let is_count = !first.trim_ascii().is_empty() && first.trim_ascii().iter().all(u8::is_ascii_digit);
+    is_count || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svc"))
+}
+
+fn read_pen(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<PenSample>> {
+    let recording = read_svc(bytes)?;
+    recording.warnings.iter().for_each(|warning| output::warn(warning));
+    let recording = recording.value;
+    let assumed = PenMapping::of(recording.flavor);
+    let mapping = PenMapping {
+        mm_per_unit: args.mm_per_count.unwrap_or(assumed.mm_per_unit),
+        secs_per_unit: args.ms_per_tick.map_or(assumed.secs_per_unit, |ms| 1e-3 * ms),
+        pressure_full_scale: args.pressure_max.unwrap_or(assumed.pressure_full_scale),
+    };
+    let options = "--mm-per-count, --ms-per-tick and --pressure-max";
+    output::note(&format!(
+        "the recording states no units; it holds {}, taken for {mapping} (change that with {options})",
+        recording.flavor
+    ));
+    let samples = pen_samples(&recording, &mapping).with_context(|| format!("see {options}"))?;
+    samples.warnings.iter().for_each(|warning| output::warn(&format!("{warning} (--pressure-max)")));
+    Ok(samples.value)
+}
+
+impl StrokeContacts {
+    /// From the first sample to the last, in seconds.
+    pub(crate) fn duration_secs(&self) -> f64 {
+        match self {
+            Self::Track(track) => track.duration_secs(),
+            Self::Given(contacts) => contacts.last().map_or(0.0, |last| last.time_secs),
+        }
+    }
+
+    /// Speed and force `time_secs` after the start; lifted outside.
+    pub(crate) fn contact_at(&self, time_secs: f64) -> Contact {
+        match self {
+            Self::Track(track) => {
+                let contact = track.touch_at(time_secs).contact;
+                Contact {
+                    speed: MetersPerSecond(f64::from(contact.speed_mps)),
+                    force: Newtons(f64::from(contact.force_n)),
+                }
+            }
+            Self::Given(contacts) => given_at(contacts, time_secs),
+        }
+    }
+
+    /// The stroke for an output, which replays positions: given speeds are walked along a line.
+    pub(crate) fn into_track(self) -> anyhow::Result<Track> {
+        let duration_secs = self.duration_secs();
+        match self {
+            Self::Track(track) => Ok(track),
+            Self::Given(contacts) => {
+                let n_steps = (duration_secs / WALK_STEP_SECS).ceil() as usize;
+                let mut x_m = 0.0;
+                let samples: Vec<TrackSample> = (0..=n_steps)
+                    .map(|i| {
+                        let time_secs = (i as f64 * WALK_STEP_SECS).min(duration_secs);
+                        let contact = given_at(&contacts, time_secs);
+                        let force_n = contact.force.0;
+                        let sample =
+                            TrackSample { time_secs, x_m, y_m: 0.0, force_n, touching: force_n > 0.0 };
+                        x_m += given_at(&contacts, time_secs + 0.5 * WALK_STEP_SECS).speed.0 * WALK_STEP_SECS;
+                        sample
+                    })
+                    .collect();
+                Track::new(&samples).context("the stroke cannot be played; correct it")
+            }
+        }
+    }
+}
+
+/// Distance of the points at which given speeds are walked, in seconds.
+const WALK_STEP_SECS: f64 = 0.002;
+
+/// Speed and force between given ones, in straight lines.
+fn given_at(contacts: &[TimedContact], time_secs: f64) -> Contact {
+    let after = contacts.partition_point(|contact| contact.time_secs <= time_secs);
+    let contact = |c: &TimedContact| (c.speed_mps, c.force_n);
+    let (speed_mps, force_n) = match (after.checked_sub(1).and_then(|i| contacts.get(i)), contacts.get(after))
+    {
+        (Some(from), Some(to)) => {
+            let share = (time_secs - from.time_secs) / (to.time_secs - from.time_secs);
+            let mix = |a: f64, b: f64| a + share * (b - a);
+            (mix(from.speed_mps, to.speed_mps), mix(from.force_n, to.force_n))
+        }
+        (Some(last), None) if last.time_secs == time_secs => contact(last),
+        _ => (0.0, 0.0),
+    };
+    Contact { speed: MetersPerSecond(speed_mps), force: Newtons(force_n) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{StrokeContacts, given_at};
+    use shagreen_formats::stroke::TimedContact;
+
+    fn given() -> Vec<TimedContact> {
+        let contact = |time_secs, speed_mps, force_n| TimedContact { time_secs, speed_mps, force_n };
+        vec![contact(0.0, 0.1, 1.0), contact(1.0, 0.3, 0.5), contact(1.5, 0.0, 0.5)]
+    }
+
+    #[test]
+    fn between_given_contacts_lie_straight_lines() {
+        for (time_secs, speed_mps, force_n) in [
+            (0.0, 0.1, 1.0),
+            (0.5, 0.2, 0.75),
+            (1.0, 0.3, 0.5),
+            (1.5, 0.0, 0.5),
+            (1.6, 0.0, 0.0),
+            (-1.0, 0.0, 0.0),
+        ] {
+            let contact = given_at(&given(), time_secs);
+            assert!((contact.speed.0 - speed_mps).abs() < 1e-12 && (contact.force.0 - force_n).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn given_speeds_are_played_as_they_are() {
+        let track = StrokeContacts::Given(given()).into_track().unwrap();
+        assert!((track.duration_secs() - 1.5).abs() < 1e-9);
+        for i in 10..140 {
+            let time_secs = f64::from(i) * 0.01;
+            let played = f64::from(track.touch_at(time_secs).contact.speed_mps);
+            // The filter follows a ramp of 0.6 m/s² a few milliseconds late.
+            assert!((played - given_at(&given(), time_secs).speed.0).abs() < 0.005, "{time_secs}: {played}");
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Which texture: one of the library, or the one authored at a point of the space.
+
+use anyhow::{Context as _, bail};
+use serde_json::{Value, json};
+use shagreen_core::blend::{Mode, author};
+use shagreen_core::plane::Plane;
+use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::units::Hertz;
+use shagreen_formats::library::Library;
+
+use crate::cli::output;
+
+#[derive(clap::Args)]
+#[group(required = true, multiple = false)]
+pub(crate) struct TargetArgs {
+    /// Point of the space: rough-smooth and hard-soft, 0 to 100 each, 0 = roughest, 0 = hardest.
+    #[arg(long, value_name = "RS,HS", value_parser = parse_point, allow_hyphen_values = true)]
+    at: Option<SpacePoint>,
+    /// Texture of the library, by its id.
+    #[arg(long, value_name = "ID")]
+    texture: Option<String>,
+}
+
+#[derive(clap::Args)]
+pub(crate) struct BlendArgs {
+    /// How the textures around a point become one.
+    #[arg(long = "blend", value_name = "MODE", value_parser = blend_parser(), default_value = Mode::default().id())]
+    pub(crate) mode: Mode,
+}
+
+/// What sounds: parents by their index in the library, largest weight first, at least one.
+pub(crate) struct Chosen {
+    /// Parents and weights.
+    pub(crate) parents: Vec<(usize, f64)>,
+    /// How they are mixed.
+    pub(crate) mode: Mode,
+    /// The texture named, where one was.
+    pub(crate) texture: Option<String>,
+    /// The point authored, where one was: the one asked for, or the nearest of the hull.
+    pub(crate) at: Option<SpacePoint>,
+    /// Whether the point asked for lies outside the hull.
+    pub(crate) clamped: bool,
+}
+
+fn parse_point(text: &str) -> Result<SpacePoint, String> {
+    let number = |part: &str| {
+        part.trim()
+            .parse::<f64>()
+            .map_err(|_| format!("\"{}\" is not a number; write RS,HS as in 30,70", part.trim()))
+    };
+    let (rough_smooth, hard_soft) = text.split_once(',').ok_or("write RS,HS as in 30,70")?;
+    SpacePoint::new(number(rough_smooth)?, number(hard_soft)?).map_err(|error| error.to_string())
+}
+
+fn blend_parser() -> impl clap::builder::TypedValueParser<Value = Mode> {
+    use clap::builder::TypedValueParser as _;
+    clap::builder::PossibleValuesParser::new(Mode::ALL.map(Mode::id))
+        .map(|id| Mode::from_id(&id).unwrap_or_default())
+}
+
+/// Finds what the arguments name.
+pub(crate) fn choose(library: &Library, target: &TargetArgs, blend: &BlendArgs) -> anyhow::Result<Chosen> {
+    if let Some(id) = &target.texture {
+        let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
+        let parents = vec![(index, 1.0)];
+        return Ok(Chosen { parents, mode: blend.mode, texture: Some(id.clone()), at: None, clamped: false });
+    }
+    let Some(point) = target.at else { bail!(output::Usage("say --at RS,HS or --texture ID".to_owned())) };
+    let space = Space::new(&library.positions()).context("the textures cannot be placed")?;
+    let authored = author(&space, point, blend.mode)
+        .context("no texture of the library has a place; use --texture, or place the textures first")?;
+    let location = authored.location;
+    if location.clamped {
+        output::warn(&format!(
+            "{point} lies outside the textures of the library; the nearest point among them, {}, is used",
+            location.at
+        ));
+    }
+    let (at, clamped) = (Some(location.at), location.clamped);
+    Ok(Chosen { parents: authored.parents, mode: blend.mode, texture: None, at, clamped })
+}
+
+impl Chosen {
+    /// The planes of the parents, in their order, and the weights.
+    pub(crate) fn planes(&self, library: &Library) -> Vec<(Plane, f64)> {
+        self.parents.iter().map(|(index, w)| (Plane::new(&library.textures[*index].model), *w)).collect()
+    }
+
+    /// The rate of the parents; they must share one.
+    pub(crate) fn rate(&self, library: &Library) -> anyhow::Result<Hertz> {
+        let mut rates = self.parents.iter().map(|(index, _)| library.textures[*index].model.rate());
+        let first = rates.next().context("there is nothing to render; choose another point")?;
+        match rates.find(|rate| *rate != first) {
+            Some(other) => bail!(
+                "the textures around this point have different rates, {first} and {other}; choose another point"
+            ),
+            None => Ok(first),
+        }
+    }
+
+    /// The parents as they stand in results.
+    pub(crate) fn parents_json(&self, library: &Library) -> Value {
+        let parent =
+            |(index, weight): &(usize, f64)| json!({"id": library.textures[*index].id, "weight": weight});
+        self.parents.iter().map(parent).collect()
+    }
+
+    /// The parents in words.
+    pub(crate) fn parents_text(&self, library: &Library) -> String {
+        let parent = |(index, weight): &(usize, f64)| {
+            format!("{} {:.0} %", library.textures[*index].id, 100.0 * weight)
+        };
+        self.parents.iter().map(parent).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The point as it stands in results.
+    pub(crate) fn at_json(&self) -> Option<[f64; 2]> {
+        self.at.map(|at| [at.rough_smooth, at.hard_soft])
+    }
+}
+
+/// That there is no such texture, and which have a name like it.
+pub(crate) fn unknown_texture(library: &Library, id: &str) -> String {
+    let near = near_ids(library, id);
+    let hint = if near.is_empty() {
+        "`shagreen library list` shows what there is".to_owned()
+    } else {
+        format!("did you mean {}?", near.join(", "))
+    };
+    format!("the library has no texture \"{id}\"; {hint}")
+}
+
+/// Up to three identifiers like `id`, the nearest first.
+fn near_ids<'a>(library: &'a Library, id: &str) -> Vec<&'a str> {
+    let wanted = id.to_lowercase();
+    let mut near: Vec<(usize, &str)> = library
+        .textures
+        .iter()
+        .filter_map(|texture| {
+            let distance = edits(&wanted, &texture.id.to_lowercase());
+            let is_part = wanted.len() > 2 && texture.id.contains(&wanted);
+            let is_near = distance <= 1 + wanted.chars().count() / 3;
+            (is_part || is_near).then_some((if is_part { 0 } else { distance }, texture.id.as_str()))
+        })
+        .collect();
+    near.sort_unstable();
+    near.into_iter().take(3).map(|(_, id)| id).collect()
+}
+
+/// Letters to insert, delete or replace to make one word of the other (Levenshtein).
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, to) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(from != *to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{edits, parse_point};
+
+    #[test]
+    fn edits_are_counted() {
+        for (a, b, n) in
+            [("", "", 0), ("cork", "cork", 0), ("crok", "cork", 2), ("", "abc", 3), ("kitten", "sitting", 3)]
+        {
+            assert_eq!((edits(a, b), edits(b, a)), (n, n), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn points_say_what_is_wrong() {
+        assert_eq!(parse_point("30, 70.5").unwrap().hard_soft, 70.5);
+        for (text, words) in [
+            ("30", "RS,HS"),
+            ("a,70", "\"a\""),
+            ("130,70", "rough-smooth is 130"),
+            ("30,-1", "hard-soft is -1"),
+            ("NaN,1", "rough-smooth is NaN"),
+        ] {
+            let error = parse_point(text).unwrap_err();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+}

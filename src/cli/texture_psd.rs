@@ -1,0 +1,110 @@
+//! `shagreen texture psd`: the spectrum that a texture's model has at one speed and force.
+
+use anyhow::Context as _;
+use serde_json::json;
+use shagreen_core::ar::comparison_frequencies;
+use shagreen_core::blend::{Mode, mixture_psd};
+use shagreen_core::plane::Plane;
+use shagreen_core::units::{Contact, Hertz};
+
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::motion::quantity;
+use crate::cli::output;
+use crate::cli::target::{BlendArgs, TargetArgs, choose, unknown_texture};
+
+/// The one-sided power spectral density of a texture's model, in (m/s²)²/Hz, from 5 Hz to just below half its rate.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    target: TargetArgs,
+    #[command(flatten)]
+    library: LibraryArgs,
+    #[command(flatten)]
+    blend: BlendArgs,
+    /// Speed of the tip, in mm/s.
+    #[arg(long, value_name = "V", value_parser = quantity, allow_negative_numbers = true)]
+    speed: f64,
+    /// Normal force of the tip, in N.
+    #[arg(long, value_name = "F", value_parser = quantity, allow_negative_numbers = true)]
+    force: f64,
+    /// Number of frequencies.
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(2..=65_536))]
+    bins: u32,
+    /// Leave this texture out of the library first: what is authored at its place without it?
+    #[arg(long, value_name = "ID")]
+    without: Option<String>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let mut library = load(&args.library)?;
+    if let Some(id) = &args.without {
+        let index = library.index_of(id).with_context(|| unknown_texture(&library, id))?;
+        library.textures.remove(index);
+    }
+    let chosen = choose(&library, &args.target, &args.blend)?;
+    let rate = chosen.rate(&library)?;
+    let contact = Contact::from_mm_per_s_and_n(args.speed, args.force);
+    let planes = chosen.planes(&library);
+    let parents: Vec<(&Plane, f64)> = planes.iter().map(|(plane, weight)| (plane, *weight)).collect();
+    let frequencies = comparison_frequencies(rate, args.bins as usize);
+    let psd = mixture_psd(&parents, chosen.mode, contact, &frequencies);
+    let rms = rms(&parents, chosen.mode, contact, rate);
+    let hz: Vec<f64> = frequencies.iter().map(|frequency| frequency.0).collect();
+    output::print(
+        args.json,
+        &json!({
+            "hz": hz,
+            "psd": psd,
+            "rms": rms,
+            "rate_hz": rate.0,
+            "parents": chosen.parents_json(&library),
+            "at": chosen.at_json(),
+            "clamped": chosen.clamped,
+            "blend": chosen.mode.id(),
+        }),
+        || {
+            let lines = hz.iter().zip(&psd).map(|(hz, psd)| format!("{hz:.2}\t{psd:.6e}\n"));
+            let parents = chosen.parents_text(&library);
+            format!(
+                "# {parents}: rms {rms:.4} m/s²\n# Hz\t(m/s²)²/Hz\n{}",
+                lines.collect::<String>().trim_end()
+            )
+        },
+    );
+    Ok(())
+}
+
+/// Steps of the integral over the density: on a full turn of the unit circle the rule of trapezoids leaves only what
+/// the process still remembers after twice as many samples, which is nothing.
+const N_STEPS: usize = 8192;
+
+/// Level of a mixture, root mean square in m/s²: the integral of its density from zero to half the rate.
+fn rms(parents: &[(&Plane, f64)], mode: Mode, contact: Contact, rate: Hertz) -> f64 {
+    let step_hz = 0.5 * rate.0 / N_STEPS as f64;
+    let frequencies: Vec<Hertz> = (0..=N_STEPS).map(|i| Hertz(i as f64 * step_hz)).collect();
+    let psd = mixture_psd(parents, mode, contact, &frequencies);
+    let ends = 0.5 * (psd[0] + psd[N_STEPS]);
+    (step_hz * (psd.iter().sum::<f64>() - ends)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Contact, Hertz, Mode, Plane, rms};
+    use shagreen_formats::starter::starter_library;
+
+    #[test]
+    fn the_level_of_one_texture_is_that_of_its_model() {
+        for texture in &starter_library().unwrap().textures {
+            let plane = Plane::new(&texture.model);
+            let contact = Contact::from_mm_per_s_and_n(95.0, 0.7);
+            for mode in Mode::ALL {
+                let level = plane.at(contact).level_mps2;
+                let integral = rms(&[(&plane, 1.0)], mode, contact, Hertz(1000.0));
+                assert!((integral / level - 1.0).abs() < 1e-9, "{}: {integral} for {level}", texture.id);
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! What the program really sends to a sound server: recorded from the monitor of a null sink and compared with the
+//! spectrum of the model.
+#![cfg(target_os = "linux")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a test may stop and speak"
+)]
+
+#[path = "support/guard.rs"]
+mod guard;
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use guard::{Guard, have};
+use shagreen_core::spectrum::{rms, third_octave_centers, welch};
+use shagreen_core::units::Hertz;
+
+const RATE_HZ: f64 = 48_000.0;
+/// Acceleration at full scale, asked for on the command line.
+const FULL_SCALE_MPS2: f64 = 20.0;
+
+/// A sound server of the test's own, with a null sink.
+struct SoundServer {
+    folder: tempfile::TempDir,
+    _daemon: Guard,
+}
+
+impl SoundServer {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let d = folder.path();
+        for name in ["run", "state"] {
+            std::fs::create_dir(d.join(name)).unwrap();
+        }
+        let write = |name: &str, text: String| std::fs::write(d.join(name), text).unwrap();
+        write(
+            "daemon.conf",
+            "default-sample-format = float32le\ndefault-sample-rate = 48000\navoid-resampling = yes\n\
+             flat-volumes = no\nenable-shm = no\n"
+                .to_owned(),
+        );
+        // Without norewinds the null sink runs up to two seconds ahead and every stream stalls at its start.
+        write(
+            "pulse.pa",
+            format!(
+                ".fail\nload-module module-null-sink sink_name=ci rate=48000 channels=2 format=float32le norewinds=1\n\
+                 load-module module-native-protocol-unix auth-anonymous=1 socket={}/native\n\
+                 set-default-sink ci\nset-default-source ci.monitor\n",
+                d.display()
+            ),
+        );
+        write(
+            "asound.conf",
+            "</usr/share/alsa/alsa.conf>\npcm.!default { type pulse }\nctl.!default { type pulse }\n\
+             pcm.pulse { type pulse }\n"
+                .to_owned(),
+        );
+        let daemon = with_server(Command::new("pulseaudio"), d)
+            .args(["-n", "-F"])
+            .arg(d.join("pulse.pa"))
+            .args(["--daemonize=no", "--exit-idle-time=-1", "--disallow-exit", "--use-pid-file=no"])
+            .args(["--log-target=stderr", "--high-priority=no", "--realtime=no"])
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let server = Self { folder, _daemon: Guard(daemon) };
+        let start = Instant::now();
+        while !server.command("pactl").arg("info").output().unwrap().status.success() {
+            assert!(start.elapsed() < Duration::from_secs(20), "the sound server does not answer");
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        server
+    }
+
+    fn command(&self, program: &str) -> Command {
+        with_server(Command::new(program), self.folder.path())
+    }
+
+    /// Both channels of what the sink gets while `during` runs, as the device's samples, -1..1.
+    fn record(&self, during: impl FnOnce(&Self)) -> Vec<[f64; 2]> {
+        let path = self.folder.path().join("out.raw");
+        let recorder = self
+            .command("parec")
+            .args(["-d", "ci.monitor", "--format=float32le", "--rate=48000", "--channels=2", "--raw"])
+            .arg("--latency-msec=20")
+            .stdout(std::fs::File::create(&path).unwrap())
+            .spawn()
+            .unwrap();
+        let recorder = Guard(recorder);
+        std::thread::sleep(Duration::from_millis(700));
+        during(self);
+        std::thread::sleep(Duration::from_millis(700));
+        drop(recorder);
+        let bytes = std::fs::read(&path).unwrap();
+        let float = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+        bytes.chunks_exact(8).map(|b| [float(&b[..4]), float(&b[4..])]).collect()
+    }
+}
+
+fn with_server(mut command: Command, d: &Path) -> Command {
+    command
+        .env("XDG_RUNTIME_DIR", d.join("run"))
+        .env("PULSE_RUNTIME_PATH", d.join("run/pulse"))
+        .env("PULSE_STATE_PATH", d.join("state"))
+        .env("PULSE_COOKIE", d.join("cookie"))
+        .env("PULSE_SERVER", format!("unix:{}/native", d.display()))
+        .env("PULSE_CONFIG", d.join("daemon.conf"))
+        .env("ALSA_CONFIG_PATH", d.join("asound.conf"));
+    command
+}
+
+fn shagreen(server: &SoundServer, words: &[&str]) -> serde_json::Value {
+    let output = server.command(env!("CARGO_BIN_EXE_shagreen")).args(words).arg("--json").output().unwrap();
+    assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Power in the third of an octave around `center`, from densities on evenly spaced frequencies.
+fn band_power(density: &[(f64, f64)], center: Hertz) -> f64 {
+    let (low, high) = (center.0 * 2.0_f64.powf(-1.0 / 6.0), center.0 * 2.0_f64.powf(1.0 / 6.0));
+    let step = density[1].0 - density[0].0;
+    // A bin counts by the share of it that lies within the band.
+    let share = |f: f64| ((f + step / 2.0).min(high) - (f - step / 2.0).max(low)).clamp(0.0, step);
+    density.iter().map(|(f, p)| p * share(*f)).sum()
+}
+
+/// Every third of an octave from 30 to 400 Hz within 1.5 dB, or what differs.
+fn compare(recorded_mps2: &[f64], model: &[(f64, f64)]) -> Result<(), String> {
+    // The signal ends at 500 Hz, its images are 65 dB down: every 24th sample holds all of it.
+    let thinned: Vec<f64> = recorded_mps2.iter().step_by(24).copied().collect();
+    let density: Vec<(f64, f64)> =
+        welch(&thinned, Hertz(RATE_HZ / 24.0), 2048).into_iter().map(|(f, p)| (f.0, p)).collect();
+    for center in third_octave_centers(Hertz(30.0), Hertz(400.0)) {
+        let error_db = 10.0 * (band_power(&density, center) / band_power(model, center)).log10();
+        println!("{:6.1} Hz: {error_db:+.2} dB", center.0);
+        if error_db.abs() > 1.5 {
+            return Err(format!("{:.1} Hz is off by {error_db:.2} dB", center.0));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_sink_gets_the_spectrum_of_the_model() {
+    if !have(&["pulseaudio", "pactl", "parec"]) {
+        return;
+    }
+    let server = SoundServer::new();
+    let condition = ["--at", "40,60", "--speed", "100", "--force", "1"];
+    let mut played = serde_json::Value::Null;
+    let recorded = server.record(|server| {
+        let rest = ["--seconds", "24", "--output", "alsa:default", "--full-scale", "20"];
+        played = shagreen(server, &[&["play"], &condition[..], &rest[..]].concat());
+    });
+    println!("{played}");
+    assert_eq!(played["limited"], 0, "the limiter would bend the spectrum");
+    assert!(recorded.iter().all(|f| f[0] == f[1]), "both channels carry the signal");
+
+    // From the first to the last sample that sounds, less half a second at either end.
+    let sounds = |f: &[f64; 2]| f[0].abs() > 1e-4;
+    let (first, last) =
+        (recorded.iter().position(sounds).unwrap(), recorded.iter().rposition(sounds).unwrap());
+    let margin = RATE_HZ as usize / 2;
+    let signal: Vec<f64> =
+        recorded[first + margin..last - margin].iter().map(|f| f[0] * FULL_SCALE_MPS2).collect();
+    let seconds = signal.len() as f64 / RATE_HZ;
+    assert!(seconds > 21.0, "only {seconds} s were heard");
+    // After the stroke there is silence to the last bit.
+    assert!(recorded[last + 1..].iter().all(|f| *f == [0.0; 2] || f[0].abs() <= 1e-4));
+
+    let psd = shagreen(&server, &[&["texture", "psd"], &condition[..], &["--bins", "2000"]].concat());
+    let list = |name: &str| -> Vec<f64> {
+        psd[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let model: Vec<(f64, f64)> = list("hz").into_iter().zip(list("psd")).collect();
+    compare(&signal, &model).unwrap();
+    let level_db = 20.0 * (rms(&signal) / psd["rms"].as_f64().unwrap()).log10();
+    assert!(level_db.abs() < 1.0, "level off by {level_db} dB");
+
+    // The negative control: the gate hears one band 3 dB too loud.
+    let wrong: Vec<(f64, f64)> =
+        model.iter().map(|(f, p)| (*f, if (110.0..142.0).contains(f) { p / 2.0 } else { *p })).collect();
+    assert!(compare(&signal, &wrong).is_err());
+}

@@ -1,0 +1,140 @@
+//! What cannot be done is said in one line, with the right status, and leaves nothing behind.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use support::{Bench, strokes};
+
+const STEADY: &str = "--speed 100 --force 1 --seconds 0.2";
+
+#[test]
+fn wrong_usage_is_two() {
+    let bench = Bench::new();
+    for (arguments, words) in [
+        (
+            "render --at 130,70 --speed 1 --force 1 --seconds 1 -o o.wav",
+            &["rough-smooth is 130", "0 and 100"][..],
+        ),
+        ("render --at 30,-1 --speed 1 --force 1 --seconds 1 -o o.wav", &["hard-soft is -1"]),
+        ("render --at NaN,1 --speed 1 --force 1 --seconds 1 -o o.wav", &["rough-smooth is NaN"]),
+        ("render --at 30 --speed 1 --force 1 --seconds 1 -o o.wav", &["RS,HS"]),
+        ("render --at 30,70 --texture cork --speed 1 --force 1 --seconds 1 -o o.wav", &["--texture"]),
+        ("render --speed 1 --force 1 --seconds 1 -o o.wav", &["--at", "--texture"]),
+        ("render --at 30,70 -o o.wav", &["--speed", "--stroke"]),
+        ("render --at 30,70 --speed 1 --force 1 -o o.wav", &["--seconds"]),
+        ("render --at 30,70 --speed -1 --force 1 --seconds 1 -o o.wav", &["--speed", "from 0 up"]),
+        ("render --at 30,70 --speed 1 --force NaN --seconds 1 -o o.wav", &["--force"]),
+        ("render --at 30,70 --speed 1 --force 1 --seconds 1", &["--out"]),
+        ("render --at 30,70 --blend loud --speed 1 --force 1 --seconds 1 -o o.wav", &["loud", "paper"]),
+        ("render --at 30,70 --stroke s.svc --force-min 2 --force-max 1 -o o.wav", &["--force-max"]),
+        ("render --nonsense", &["--nonsense"]),
+        ("texture psd --at 30,70 --speed 100", &["--force"]),
+        ("texture psd --at 30,70 --speed 100 --force 1 --bins 1", &["--bins"]),
+    ] {
+        bench.fails(arguments, 2, words);
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_one() {
+    let bench = Bench::new();
+    for (arguments, words) in [
+        (
+            format!("render --texture crok {STEADY} -o o.wav"),
+            &["no texture \"crok\"", "did you mean cork"][..],
+        ),
+        (format!("render --texture xyzzy {STEADY} -o o.wav"), &["xyzzy", "library list"]),
+        (format!("render --texture cork {STEADY} -o none/o.wav"), &["none/o.wav", "folder"]),
+        (format!("render --texture cork {STEADY} -o o.json"), &["o.json", ".wav"]),
+        (format!("render --texture cork {STEADY} --rate 500 -o o.wav"), &["1000 Hz", "500"]),
+        ("render --texture cork --speed 1 --force 1 --seconds 9999 -o o.wav".to_owned(), &["3600"]),
+        ("render --texture cork --stroke none.svc -o o.wav".to_owned(), &["cannot read", "none.svc"]),
+        ("library list --library none.json".to_owned(), &["cannot read", "none.json"]),
+        ("library make none.toml --out l.json".to_owned(), &["none.toml"]),
+        (
+            "texture psd --texture cork --without cork --speed 1 --force 1".to_owned(),
+            &["no texture \"cork\""],
+        ),
+        ("texture psd --at 3,4 --without crok --speed 1 --force 1".to_owned(), &["did you mean cork"]),
+        ("play --texture cork --output nosuch --seconds 0.1".to_owned(), &["nosuch", "shagreen devices"]),
+    ] {
+        bench.fails(&arguments, 1, words);
+    }
+}
+
+#[test]
+fn damaged_strokes_are_named_with_their_line() {
+    let bench = Bench::new();
+    let whole = strokes::synthetic();
+    let lines: Vec<&str> = whole.lines().collect();
+    let cases: [(&str, String, &[&str]); 8] = [
+        ("cut.svc", lines[..200].join("\n"), &["damaged", "199 are there"]),
+        ("torn.svc", whole[..whole.len() - 9].to_owned(), &["line", "values"]),
+        ("nan.svc", whole.replacen(" 1190 ", " NaN ", 1), &["azimuth in line 2", "NaN"]),
+        (
+            "back.svc",
+            whole.replacen("354642407", "354642399", 1).replacen("354642408", "354642399", 1),
+            &["time goes back in line 3"],
+        ),
+        ("empty.svc", String::new(), &["first line"]),
+        ("text.csv", "hello, world\n".to_owned(), &["hello"]),
+        ("nan.csv", "t_s,speed,force\n0,100,NaN\n".to_owned(), &["force in line 2", "NaN"]),
+        ("back.csv", "t_s,speed,force\n1,100,1\n0,100,1\n".to_owned(), &["time", "line 3"]),
+    ];
+    for (name, text, words) in &cases {
+        bench.write(name, text);
+        let mut words = words.to_vec();
+        words.push(name);
+        bench.fails(&format!("render --at 30,70 --stroke {name} -o out.wav"), 1, &words);
+    }
+    let binary: Vec<u8> = (0..=255).cycle().take(4000).collect();
+    bench.write("binary.svc", binary);
+    bench.fails("render --at 30,70 --stroke binary.svc -o out.wav", 1, &["binary.svc"]);
+}
+
+#[test]
+fn pressures_beyond_the_full_scale_are_refused() {
+    let bench = Bench::new();
+    bench.write("stroke.svc", strokes::synthetic());
+    let words = ["pressure in line 2 is 12000", "8191", "--pressure-max", "stroke.svc"];
+    bench.fails("render --at 30,70 --stroke stroke.svc --pressure-max 8191 -o out.wav", 1, &words);
+    bench.fails("render --at 30,70 --stroke stroke.svc --mm-per-count 0 -o out.wav", 1, &["mm", "positive"]);
+}
+
+#[test]
+fn damaged_libraries_name_the_texture_and_the_file() {
+    let bench = Bench::new();
+    let starter = include_str!("../assets/starter/starter.json");
+    let start = starter.find("\"lsf\":[").unwrap();
+    let (before, after) = starter.split_at(start + "\"lsf\":[".len());
+    let cases: [(&str, String, &[&str]); 5] = [
+        ("cut.json", starter[..starter.len() / 2].to_owned(), &["damaged", "line"]),
+        ("nan.json", format!("{before}NaN,{after}"), &["damaged", "line"]),
+        (
+            "order.json",
+            format!("{before}3.0,{}", &after[after.find(',').unwrap() + 1..]),
+            &["\"glass\"", "ascend"],
+        ),
+        ("newer.json", starter.replacen("\"version\": \"1.0\"", "\"version\": \"2.0\"", 1), &["version 2.0"]),
+        ("other.json", "{\"format\": \"other\"}".to_owned(), &["not a texture library"]),
+    ];
+    for (name, text, words) in &cases {
+        bench.write(name, text);
+        let mut words = words.to_vec();
+        words.push(name);
+        bench.fails(&format!("render --at 30,70 {STEADY} --library {name} -o out.wav"), 1, &words);
+        bench.fails(&format!("library list --json --library {name}"), 1, &words);
+    }
+}
+
+#[test]
+fn a_failure_leaves_an_existing_file_as_it_was() {
+    let bench = Bench::new();
+    bench.write("out.wav", "mine");
+    bench.write("cut.svc", "5\n1 2 3 1 5 6 7\n");
+    bench.fails("render --at 30,70 --stroke cut.svc -o out.wav", 1, &["damaged"]);
+    assert_eq!(std::fs::read(bench.path("out.wav")).unwrap(), b"mine");
+    std::fs::create_dir(bench.path("out.json")).unwrap();
+    bench.fails(&format!("render --at 30,70 {STEADY} -o out.wav"), 1, &["out.json"]);
+    assert_eq!(std::fs::read(bench.path("out.wav")).unwrap(), b"mine");
+}

@@ -1,0 +1,42 @@
+//! `shagreen play` on the silent output, and `shagreen devices`.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use support::Bench;
+
+#[test]
+fn devices_are_listed() {
+    let devices = Bench::new().json("devices");
+    let ids = |list: &str| -> Vec<String> {
+        devices[list].as_array().unwrap().iter().map(|d| d["id"].as_str().unwrap().to_owned()).collect()
+    };
+    assert!(ids("styluses").contains(&"mouse".to_owned()));
+    assert!(ids("outputs").contains(&"null".to_owned()));
+    assert!(devices["serial"].is_array());
+}
+
+#[test]
+fn a_steady_contact_and_a_stroke_are_played_in_real_time() {
+    let bench = Bench::new();
+    bench.write("stroke.csv", "t_s,speed,force\n0,100,1\n0.4,100,1\n");
+    for what in ["--texture cork --speed 100 --force 1 --seconds 0.4", "--at 30,70 --stroke stroke.csv"] {
+        let started = std::time::Instant::now();
+        let played = bench.json(&format!("play {what} --output null"));
+        assert!(started.elapsed().as_secs_f64() >= 0.4);
+        assert_eq!(played["underruns"], 0);
+        assert_eq!(played["limited"], 0);
+        assert!(
+            played["latency_ms"].as_f64().unwrap() > 0.0 && played["latency_ms"].as_f64().unwrap() < 30.0
+        );
+        assert!(played["callback_load_max"].as_f64().unwrap() > 0.0);
+    }
+}
+
+/// The negative control of `limited`: a full scale far too small for the texture.
+#[test]
+fn what_is_limited_is_counted() {
+    let played =
+        Bench::new().json("play --texture brick --speed 200 --force 2 --seconds 0.4 --full-scale 0.1");
+    assert!(played["limited"].as_u64().unwrap() > 1000, "{played}");
+}

@@ -1,0 +1,204 @@
+//! `shagreen render` and `shagreen texture psd`: what comes out is what a stylus would feel.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
+
+mod support;
+
+use shagreen_core::spectrum::welch;
+use shagreen_core::units::Hertz;
+use support::strokes::{self, Sample, rank_correlation, windows};
+use support::{Bench, rms, shared_data};
+
+/// Sound while the tip moves on the surface, silence while it is lifted, and louder the faster it moves.
+fn check_stroke(bench: &Bench, samples: &[Sample], least_correlation: f64) {
+    let (signal, rate_hz) = bench.wav("out.wav");
+    assert_eq!(rate_hz, 1000.0);
+    let seconds = samples[samples.len() - 1].time_secs;
+    assert!((signal.len() as f64 / rate_hz - seconds).abs() < 0.002);
+    let down = windows(samples, &signal, rate_hz, 0.1, true);
+    let up = windows(samples, &signal, rate_hz, 0.1, false);
+    let moving: Vec<f64> = down.iter().filter(|w| w.speed_mm_per_s > 15.0).map(|w| w.rms).collect();
+    assert!(moving.len() > 5 && !up.is_empty(), "{} windows down, {} up", moving.len(), up.len());
+    assert!(moving.iter().all(|rms| *rms > 0.02), "{moving:?}");
+    for window in &up {
+        // The last tick before the lift rings on for some hundredths of a second at most.
+        assert!(window.rms < 0.01 * rms(&moving), "{window:?} against {}", rms(&moving));
+    }
+    let correlation = rank_correlation(&down);
+    println!(
+        "{} windows down, {} up, rank correlation of level and speed {correlation:.3}",
+        down.len(),
+        up.len()
+    );
+    assert!(correlation > least_correlation, "{correlation}");
+}
+
+#[test]
+fn a_made_up_stroke_sounds_where_it_touches_and_rises_with_speed() {
+    let bench = Bench::new();
+    let text = strokes::synthetic();
+    bench.write("stroke.svc", &text);
+    let result = bench.json("render --at 30,70 --stroke stroke.svc -o out.wav");
+    assert_eq!(bench.files(), ["out.json", "out.wav", "stroke.svc"]);
+    // Force is steady here, so speed alone decides.
+    check_stroke(&bench, &strokes::read(&text, 0.005, 0.001), 0.9);
+    let (signal, _) = bench.wav("out.wav");
+    assert!((result["rms"].as_f64().unwrap() - rms(&signal)).abs() < 1e-9);
+    assert!((result["seconds"].as_f64().unwrap() - strokes::SYNTHETIC_SECS).abs() < 0.01);
+    let weights = result["parents"].as_array().unwrap().iter().map(|p| p["weight"].as_f64().unwrap());
+    assert!((weights.sum::<f64>() - 1.0).abs() < 1e-9);
+    assert_eq!((&result["clamped"], &result["rate_hz"]), (&false.into(), &1000.into()));
+}
+
+#[test]
+fn real_strokes_sound_where_they_touch_and_rise_with_speed() {
+    let bench = Bench::new();
+    for (name, mm_per_unit, secs_per_unit) in [("raw", 0.005, 0.001), ("normalised", 1.0, 1.0)] {
+        let Some(path) = shared_data(&format!("pen-strokes/stroke-{name}.svc")) else { return };
+        bench.json(&format!("render --at 30,70 --stroke {} -o out.wav", path.display()));
+        let text = std::fs::read_to_string(path).unwrap();
+        // A writing hand presses harder and softer as it likes, which also counts.
+        check_stroke(&bench, &strokes::read(&text, mm_per_unit, secs_per_unit), 0.5);
+    }
+}
+
+#[test]
+fn the_sidecar_says_what_the_numbers_are() {
+    let bench = Bench::new();
+    bench.write("stroke.svc", strokes::synthetic());
+    bench.json("render --at 30,70 --stroke stroke.svc --seed 9 --blend power -o out.wav");
+    let sidecar: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(bench.path("out.json")).unwrap()).unwrap();
+    assert_eq!((&sidecar["units"], &sidecar["full_scale"]), (&"m/s^2".into(), &1.0.into()));
+    assert_eq!((&sidecar["seed"], &sidecar["blend"]), (&9.into(), &"power".into()));
+    assert_eq!((&sidecar["stroke"], &sidecar["label_source"]), (&"stroke.svc".into(), &"physical".into()));
+    assert_eq!(sidecar["at"], serde_json::json!([30.0, 70.0]));
+    assert!(
+        sidecar["parents"].as_array().unwrap().iter().all(|p| !p["licence"].as_str().unwrap().is_empty())
+    );
+    let column = |name: &str| -> Vec<f64> {
+        sidecar["trace"][name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let (times, speeds, forces) = (column("time_s"), column("speed_mm_per_s"), column("force_n"));
+    assert_eq!((times.len(), times.len()), (speeds.len(), forces.len()));
+    for ((time_secs, speed), force) in times.iter().zip(speeds).zip(forces) {
+        if (4.05..4.95).contains(time_secs) {
+            assert_eq!(force, 0.0, "lifted at {time_secs}");
+        } else if (1.0..3.9).contains(time_secs) {
+            let expected = 120.0 - 100.0 * (std::f64::consts::TAU * time_secs / 3.0).cos();
+            assert!((speed - expected).abs() < 20.0 && force > 0.1, "{speed} for {expected} at {time_secs}");
+        }
+    }
+}
+
+#[test]
+fn the_mapping_of_a_stroke_can_be_changed() {
+    let bench = Bench::new();
+    bench.write("stroke.svc", strokes::synthetic());
+    let level = |options: &str| {
+        bench.json(&format!("render --texture cork --stroke stroke.svc {options} -o out.wav"))["rms"]
+            .as_f64()
+            .unwrap()
+    };
+    let usual = level("");
+    // Half the size in the same time is half the speed; twice as long per tick too, and lasts twice as long.
+    assert!(level("--mm-per-count 0.0025") < 0.8 * usual);
+    assert!(level("--ms-per-tick 2") < 0.8 * usual);
+    let seconds =
+        bench.json("render --texture cork --stroke stroke.svc --ms-per-tick 2 -o out.wav")["seconds"].clone();
+    assert!((seconds.as_f64().unwrap() - 2.0 * strokes::SYNTHETIC_SECS).abs() < 0.02);
+    assert!(level("--force-max 0.5") < usual);
+    assert!(level("--pressure-max 65535") < usual);
+}
+
+#[test]
+fn strokes_can_be_tables() {
+    let bench = Bench::new();
+    bench.write("steady.csv", "t_s,speed,force\n0,100,1\n4,100,1\n");
+    bench.write(
+        "pen.csv",
+        (0..400).fold("t_ms;x;y;force\n".to_owned(), |t, i| t + &format!("{};{};0;1\n", i * 10, i)),
+    );
+    let level =
+        |name: &str| bench.json(&format!("render --texture cork --stroke {name} -o out.wav"))["rms"].clone();
+    let steady =
+        bench.json("render --texture cork --speed 100 --force 1 --seconds 4 -o out.wav")["rms"].clone();
+    assert_eq!(level("steady.csv"), steady);
+    // 1 mm every 10 ms is 100 mm/s, but for the start.
+    let ratio = level("pen.csv").as_f64().unwrap() / steady.as_f64().unwrap();
+    assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_file() {
+    let bench = Bench::new();
+    let render = |name: &str, seed: u32| {
+        bench.json(&format!(
+            "render --at 55,40 --speed 90 --force 0.7 --seconds 2 --rate 8000 --seed {seed} -o {name}"
+        ));
+        std::fs::read(bench.path(name)).unwrap()
+    };
+    let (a, b, c) = (render("a.wav", 3), render("b.wav", 3), render("c.wav", 4));
+    assert!(a == b && a != c);
+    assert_eq!(bench.wav("a.wav").1, 8000.0);
+    assert_eq!(bench.wav("a.wav").0.len(), 16_000);
+}
+
+/// The rendered signal has the spectrum and the level that the model's density says, which integrates to its level.
+#[test]
+fn render_agrees_with_psd_and_psd_with_its_level() {
+    let bench = Bench::new();
+    for target in [
+        "--texture cork",
+        "--at 35,60 --blend paper",
+        "--at 35,60 --blend power",
+        "--at 35,60 --blend shared",
+    ] {
+        let psd = bench.json(&format!("texture psd {target} --speed 110 --force 0.9 --bins 1024"));
+        let column = |name: &str| -> Vec<f64> {
+            psd[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+        };
+        let (hz, density, level) = (column("hz"), column("psd"), psd["rms"].as_f64().unwrap());
+        assert_eq!((hz.len(), hz[0]), (1024, 5.0));
+        let power: f64 = density.iter().sum::<f64>() * (hz[1] - hz[0]);
+        // Below 5 Hz, where the grid begins, there is next to nothing.
+        assert!((power.sqrt() / level - 1.0).abs() < 0.02, "{target}: {} for {level}", power.sqrt());
+        bench.json(&format!("render {target} --speed 110 --force 0.9 --seconds 120 -o out.wav"));
+        let (signal, rate_hz) = bench.wav("out.wav");
+        // 120 s of a signal some tens of Hz wide: a standard error of 1 %.
+        assert!((rms(&signal) / level - 1.0).abs() < 0.04, "{target}: {} for {level}", rms(&signal));
+        let estimate = welch(&signal, Hertz(rate_hz), 512);
+        for (low, high) in [(20.0, 50.0), (50.0, 100.0), (100.0, 200.0), (200.0, 400.0)] {
+            let inside = |f: f64| f >= low && f < high;
+            let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len() as f64;
+            let rendered = mean(estimate.iter().filter(|(f, _)| inside(f.0)).map(|(_, p)| *p).collect());
+            let model = mean(hz.iter().zip(&density).filter(|(f, _)| inside(**f)).map(|(_, p)| *p).collect());
+            let error_db = 10.0 * (rendered / model).log10();
+            // Standard error 0.07 dB in 30 Hz; the window leaks from strong into weak bands.
+            assert!(error_db.abs() < 0.6, "{target}: {low}..{high} Hz off by {error_db} dB");
+        }
+    }
+}
+
+#[test]
+fn psd_without_a_texture_is_made_of_others() {
+    let bench = Bench::new();
+    let list = bench.json("library list");
+    let cork = list["textures"].as_array().unwrap().iter().find(|t| t["id"] == "cork").unwrap();
+    let at = format!("{},{}", cork["at"][0], cork["at"][1]);
+    let parents = |options: &str| -> Vec<String> {
+        let psd = bench.json(&format!("texture psd --at {at} --speed 100 --force 1 --bins 16 {options}"));
+        psd["parents"].as_array().unwrap().iter().map(|p| p["id"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(parents("")[0], "cork");
+    assert!(!parents("--without cork").contains(&"cork".to_owned()));
+}
+
+#[test]
+fn outside_the_textures_the_nearest_point_is_taken_and_said() {
+    let bench = Bench::new();
+    let said = bench.run("render --at 100,100 --speed 100 --force 1 --seconds 0.1 -o out.wav --json");
+    assert_eq!(said.code, 0);
+    let result: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
+    assert_eq!(result["clamped"], true);
+    assert!(said.stderr.contains("warning: 100.0, 100.0 lies outside"), "{}", said.stderr);
+}

@@ -1,0 +1,156 @@
+//! The real program in a real window of a virtual display, with a real pointer; keeps screenshots in
+//! `target/screenshots`.
+#![cfg(target_os = "linux")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a test may stop and speak"
+)]
+
+#[path = "support/guard.rs"]
+mod guard;
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use guard::{Guard, have};
+use image::RgbImage;
+
+/// The authored point's color in the dark theme: `shagreen_app::theme::DARK.accent`.
+const ACCENT: [u8; 3] = [0x5F, 0xC9, 0xB0];
+
+struct Display {
+    name: String,
+    runtime: tempfile::TempDir,
+    shots: PathBuf,
+    _server: Guard,
+}
+
+impl Display {
+    fn new() -> Self {
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x720x24", "-nolisten", "tcp", "+extension", "GLX"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut number = String::new();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        let shots = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/screenshots");
+        std::fs::create_dir_all(&shots).unwrap();
+        let name = format!(":{}", number.trim());
+        Self { name, runtime: tempfile::tempdir().unwrap(), shots, _server: Guard(server) }
+    }
+
+    fn command(&self, program: &str) -> Command {
+        let mut command = Command::new(program);
+        command
+            .env("DISPLAY", &self.name)
+            .env("XDG_RUNTIME_DIR", self.runtime.path())
+            .env_remove("WAYLAND_DISPLAY");
+        command
+    }
+
+    fn xdotool(&self, words: &[&str]) {
+        assert!(self.command("xdotool").args(words).status().unwrap().success(), "xdotool {words:?}");
+    }
+
+    fn shot(&self, name: &str) -> RgbImage {
+        let path = self.shots.join(format!("{name}.png"));
+        assert!(self.command("import").args(["-window", "root"]).arg(&path).status().unwrap().success());
+        image::open(&path).unwrap().to_rgb8()
+    }
+
+    /// Takes screenshots until one is as it should be.
+    #[track_caller]
+    fn wait_for(&self, name: &str, what: &str, is_right: impl Fn(&RgbImage) -> bool) -> RgbImage {
+        let start = Instant::now();
+        loop {
+            let shot = self.shot(name);
+            if is_right(&shot) {
+                return shot;
+            }
+            assert!(start.elapsed() < Duration::from_secs(30), "waited in vain: {what}; see {name}.png");
+            std::thread::sleep(Duration::from_millis(200));
+        }
+    }
+
+    fn drag(&self, from: (u32, u32), to: (u32, u32)) {
+        let at = |share: f64, a: u32, b: u32| (f64::from(a) + share * (f64::from(b) - f64::from(a))) as i64;
+        self.xdotool(&["mousemove", &from.0.to_string(), &from.1.to_string(), "mousedown", "1"]);
+        for i in 1..=10 {
+            let share = f64::from(i) / 10.0;
+            let (x, y) = (at(share, from.0, to.0), at(share, from.1, to.1));
+            self.xdotool(&["mousemove", &x.to_string(), &y.to_string()]);
+            std::thread::sleep(Duration::from_millis(30));
+        }
+        self.xdotool(&["mouseup", "1", "mousemove", "1278", "470"]);
+    }
+}
+
+fn is_accent(pixel: image::Rgb<u8>) -> bool {
+    pixel.0.iter().zip(ACCENT).all(|(a, b)| a.abs_diff(b) < 12)
+}
+
+/// Where the authored point is: the middle of the accent's pixels between the columns of textures and sliders, above
+/// the pad.
+fn point(shot: &RgbImage) -> Option<(u32, u32)> {
+    let inside = |x: u32, y: u32| (220..980).contains(&x) && (45..470).contains(&y);
+    let found: Vec<(u32, u32)> = shot
+        .enumerate_pixels()
+        .filter(|(x, y, p)| inside(*x, *y) && is_accent(**p))
+        .map(|(x, y, _)| (x, y))
+        .collect();
+    let n = found.len() as u32;
+    (n > 100)
+        .then(|| (found.iter().map(|p| p.0).sum::<u32>() / n, found.iter().map(|p| p.1).sum::<u32>() / n))
+}
+
+/// Rows of the waveform that the accent's color reaches.
+fn waveform_height(shot: &RgbImage) -> usize {
+    (510..670).filter(|y| (486..795).any(|x| is_accent(*shot.get_pixel(x, *y)))).count()
+}
+
+#[test]
+fn the_program_opens_and_its_point_follows_a_real_pointer() {
+    if !have(&["Xvfb", "xdotool", "import"]) {
+        return;
+    }
+    let display = Display::new();
+    let program = display
+        .command(env!("CARGO_BIN_EXE_shagreen"))
+        .args(["--output", "null"])
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let _program = Guard(program);
+    let opened = display.wait_for("author-opened", "the window", |shot| point(shot).is_some());
+    let from = point(&opened).unwrap();
+    assert!(waveform_height(&opened) < 10, "nothing sounds yet");
+
+    // Drag the point a good way towards rough and soft.
+    let to = (from.0 - 150, from.1 - 60);
+    display.drag(from, to);
+    let near = |a: (u32, u32)| a.0.abs_diff(to.0) < 12 && a.1.abs_diff(to.1) < 12;
+    display.wait_for("author-dragged", "the point follows", |shot| point(shot).is_some_and(near));
+
+    // Start the automatic hand with a click on its button.
+    display.xdotool(&["mousemove", "36", "495", "click", "1", "mousemove", "1278", "470"]);
+    display.wait_for("author-stroking", "the waveform moves", |shot| waveform_height(shot) > 30);
+}
+
+#[test]
+fn without_a_display_it_says_so_and_names_the_commands() {
+    let output = Command::new(env!("CARGO_BIN_EXE_shagreen"))
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(message.contains("no display") && message.contains("--help"), "{message}");
+    assert_eq!(message.trim().lines().count(), 1);
+}
