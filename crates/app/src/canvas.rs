@@ -1,11 +1,14 @@
 //! The space: textures, triangles, outline, and the point that is dragged through it.
 
+mod site_labels;
+
 use egui::{
     Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
     WidgetInfo, pos2, vec2,
 };
 use shagreen_core::space::SpacePoint;
 
+use self::site_labels::site_labels;
 use crate::axes::Axes;
 use crate::command::Command;
 use crate::panel::Panel;
@@ -114,7 +117,6 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
 /// The textures: a click moves the point there.
 fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Command> {
     let mut commands = Vec::new();
-    let mut labels: Vec<Rect> = Vec::new();
     let sites = panel.session.space().sites();
     let with_pictures = sites.len() <= MAX_PICTURES;
     let radius = if with_pictures { SITE_RADIUS } else { 3.0 };
@@ -134,12 +136,12 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
         site(ui, panel, *texture, pos, radius, &response, t);
         response.on_hover_text(format!("{}\n{}", entry.name, at));
     }
-    for (texture, at) in sites.iter().rev() {
-        if with_pictures || rank(*texture).is_some() {
-            let pos = axes.ui_from_space(*at) + vec2(0.0, radius + 2.0);
-            site_label(ui, &panel.session.textures()[*texture].name, pos, rank(*texture), &mut labels, t);
-        }
-    }
+    let named: Vec<(usize, Pos2)> = sites
+        .iter()
+        .filter(|(texture, _)| with_pictures || rank(*texture).is_some())
+        .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
+        .collect();
+    site_labels(ui, panel, &named, radius, t);
     commands
 }
 
@@ -165,24 +167,6 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
         None => Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)),
     };
     painter.circle_stroke(pos, radius, ring);
-}
-
-/// A name under its texture; the less important one of two that would overlap is left out.
-fn site_label(ui: &Ui, name: &str, pos: Pos2, rank: Option<usize>, taken: &mut Vec<Rect>, t: &Tokens) {
-    let (size, color) = match rank {
-        Some(rank) => (12.5, t.parents[rank.min(2)]),
-        None => (10.5, t.text_weak),
-    };
-    let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(size), color);
-    let area = Align2::CENTER_TOP.anchor_size(pos, galley.size());
-    if rank.is_none() && taken.iter().any(|r| r.expand(1.0).intersects(area)) {
-        return;
-    }
-    if rank.is_some() {
-        ui.painter().rect_filled(area.expand2(vec2(4.0, 1.0)), 3.0, t.background.gamma_multiply(0.85));
-    }
-    taken.push(area);
-    ui.painter().galley(area.min, galley, color);
 }
 
 /// The authored point, its lines to the parents, and its keys.
@@ -219,10 +203,10 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
         if authored.location.clamped {
             ui.painter().extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
             ui.painter().circle_filled(on, 4.0, t.warning);
-            let below = pos2(axes.rect.center().x, axes.rect.top() + 4.0);
+            let below = pos2(axes.rect.center().x, axes.rect.bottom() + 42.0);
             ui.painter().text(
                 below,
-                Align2::CENTER_TOP,
+                Align2::CENTER_BOTTOM,
                 strings::CLAMPED,
                 FontId::proportional(12.5),
                 t.warning,

@@ -97,7 +97,9 @@ fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) {
     ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
         .on_hover_text(strings::PARENTS_HELP);
     let Some(authored) = panel.session.authored() else { return };
-    for (rank, (texture, weight)) in authored.parents.iter().enumerate() {
+    // A weight that would read 0.0 % is not worth a card.
+    let heard = authored.parents.iter().enumerate().filter(|(_, (_, weight))| *weight >= 5e-4);
+    for (rank, (texture, weight)) in heard {
         let entry = &panel.session.textures()[*texture];
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
         let percent = 100.0 * weight;

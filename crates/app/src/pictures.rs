@@ -7,6 +7,10 @@ use shagreen_formats::picture::{Picture, Rgb, decode};
 
 /// Side of the blended picture in pixels.
 const BLEND_SIDE: usize = 192;
+/// Half the width of what counts as light rather than grain, in pixels: about 3 mm.
+const BLUR: usize = 28;
+/// Most that grain may differ from the mean, of 255.
+const MAX_GRAIN: f32 = 70.0;
 
 /// The pictures of a library, by index; those still being decoded, or absent, are plain.
 pub struct Pictures {
@@ -88,17 +92,43 @@ impl Pictures {
             }
         }
         // A mean of pictures is flatter than each of them: contrast is brought back by the loss of independent parts.
+        // Light that falls on a whole picture would repeat with every tile, so what is broader than the grain goes.
         let kept = parents.iter().map(|(_, w)| w * w).sum::<f64>().sqrt() as f32;
         let n = sum.len() as f32;
         let mean: [f32; 3] = std::array::from_fn(|c| sum.iter().map(|p| p[c]).sum::<f32>() / n);
+        let light = blurred(&sum);
+        let channel = |c: usize, p: &[f32; 3], light: &[f32; 3]| {
+            let grain = ((p[c] - light[c]) / kept).clamp(-MAX_GRAIN, MAX_GRAIN);
+            (mean[c] + grain).clamp(0.0, 255.0) as u8
+        };
         let pixels = sum
             .iter()
-            .map(|p| {
-                let [r, g, b] =
-                    std::array::from_fn(|c| (mean[c] + (p[c] - mean[c]) / kept).clamp(0.0, 255.0) as u8);
-                Color32::from_rgb(r, g, b)
-            })
+            .zip(&light)
+            .map(|(p, l)| Color32::from_rgb(channel(0, p, l), channel(1, p, l), channel(2, p, l)))
             .collect();
         Some(ColorImage::new([BLEND_SIDE, BLEND_SIDE], pixels))
     }
+}
+
+/// The mean over [`BLUR`] pixels to every side, around the edges as on a torus.
+fn blurred(pixels: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let along = |source: &[[f32; 3]], at: &dyn Fn(usize, usize) -> usize| {
+        let mut out = vec![[0.0; 3]; source.len()];
+        for line in 0..BLEND_SIDE {
+            let mut window = [0.0_f32; 3];
+            let add = |window: &mut [f32; 3], i: usize, sign: f32| {
+                let pixel = source[at(line, i % BLEND_SIDE)];
+                window.iter_mut().zip(pixel).for_each(|(w, p)| *w += sign * p);
+            };
+            (0..2 * BLUR).for_each(|i| add(&mut window, BLEND_SIDE - BLUR + i, 1.0));
+            for i in 0..BLEND_SIDE {
+                add(&mut window, i + BLUR, 1.0);
+                out[at(line, i)] = window.map(|w| w / (2 * BLUR + 1) as f32);
+                add(&mut window, BLEND_SIDE + i - BLUR, -1.0);
+            }
+        }
+        out
+    };
+    let rows = along(pixels, &|line, i| line * BLEND_SIDE + i);
+    along(&rows, &|line, i| i * BLEND_SIDE + line)
 }
