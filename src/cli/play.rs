@@ -8,7 +8,7 @@ use shagreen_core::render::synth_blend;
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{ChannelMask, FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
-use shagreen_device::output::{NULL_ID, OpenOptions, open};
+use shagreen_device::output::{NULL_ID, OpenOptions, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open};
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::synth::renderer::{Mix, Parent};
 use shagreen_device::texture::OwnedTexture;
@@ -33,7 +33,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "ID", default_value = NULL_ID)]
     output: String,
     /// Acceleration at which the output is at full scale, in m/s².
-    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = 20.0)]
+    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2))]
     full_scale: f64,
     /// Frames a block to ask the output for: fewer are faster and harder to keep up with.
     #[arg(long, value_name = "N")]
@@ -50,8 +50,6 @@ pub(crate) struct Args {
 
 /// Speed in mm/s, force in N and length in seconds where none are given.
 const DEFAULT_MOTION: (f64, f64, f64) = (100.0, 1.0, 3.0);
-/// Share of full scale that the limiter never exceeds.
-const CEILING: f32 = 0.95;
 /// Width of the path of a steady contact: it says nothing about what is felt.
 const EXTENT_M: f32 = 0.06;
 /// How often the output is asked how it is doing.
@@ -69,7 +67,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         buffer_frames: args.buffer,
         seed: args.seed,
         full_scale_mps2: args.full_scale as f32,
-        ceiling: CEILING,
+        ceiling: USUAL_CEILING,
         channels: ChannelMask::FIRST_TWO,
     };
     let (mut handle, running) = open(&args.output, options).context("cannot play")?;

@@ -176,7 +176,10 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
     let pos = axes.ui_from_space(point);
     let id = point_id();
     let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, strings::POINT));
+    response.widget_info(|| WidgetInfo {
+        current_text_value: Some(strings::place_in_words(point)),
+        ..WidgetInfo::labeled(Role::Slider, true, strings::POINT)
+    });
     let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);
     if response.clicked() || response.drag_started() {
         response.request_focus();

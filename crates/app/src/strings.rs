@@ -1,5 +1,7 @@
 //! Every word of the window, in one place.
 
+use shagreen_core::space::SpacePoint;
+
 /// Name of the program.
 pub const APP: &str = "Shagreen";
 /// Left end of the first axis.
@@ -92,3 +94,8 @@ pub const UNMUTE: &str = "Unmute";
 pub const NO_SOUND: &str = "No sound: the silent output is used";
 /// Opening an output broke off.
 pub const OPENING_FAILED: &str = "Opening the output failed; choose it again, or another";
+
+/// A place in the space, as a screen reader says it.
+pub fn place_in_words(point: SpacePoint) -> String {
+    format!("{ROUGH_SMOOTH} {:.0}, {HARD_SOFT} {:.0}", point.rough_smooth, point.hard_soft)
+}

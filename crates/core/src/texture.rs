@@ -5,6 +5,9 @@ use crate::units::{Hertz, MetersPerSecond, Newtons};
 /// Highest order of a predictor that can be rendered.
 pub const MAX_ORDER: usize = shagreen_synth::texture::MAX_ORDER;
 
+/// Most nodes of a texture: with its boundary, twice as many triangles still have 16-bit numbers in the renderer.
+pub const MAX_NODES: usize = 20_000;
+
 /// The stochastic vibration at one speed and force, as an autoregressive process.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrainNode {
@@ -35,6 +38,12 @@ pub enum TextureModelError {
     Rate {
         /// The rate given.
         rate_hz: f64,
+    },
+    /// More nodes than a renderer can tell apart.
+    #[error("a texture may have up to {max} measured speeds and forces, got {n}", max = MAX_NODES)]
+    TooMany {
+        /// The number given.
+        n: usize,
     },
     /// There are no nodes.
     #[error("a texture needs at least one measured speed and force, got none")]
@@ -79,6 +88,9 @@ impl TextureModel {
     pub fn new(rate: Hertz, nodes: Vec<GrainNode>, friction: Option<f64>) -> Result<Self, TextureModelError> {
         if !(200.0..=4000.0).contains(&rate.0) {
             return Err(TextureModelError::Rate { rate_hz: rate.0 });
+        }
+        if nodes.len() > MAX_NODES {
+            return Err(TextureModelError::TooMany { n: nodes.len() });
         }
         let Some(first) = nodes.first() else { return Err(TextureModelError::Empty) };
         let order = first.lsf.len();
@@ -152,6 +164,8 @@ mod tests {
             |rate: f64, nodes: Vec<GrainNode>| TextureModel::new(Hertz(rate), nodes, None).unwrap_err();
         assert_eq!(make(1000.0, vec![]), TextureModelError::Empty);
         assert_eq!(make(100.0, vec![node(0.1, &[1.0])]), TextureModelError::Rate { rate_hz: 100.0 });
+        let many = vec![node(0.1, &[1.0]); 20_001];
+        assert_eq!(make(1000.0, many), TextureModelError::TooMany { n: 20_001 });
         let orders = vec![node(0.1, &[1.0]), node(0.2, &[1.0, 2.0])];
         assert_eq!(make(1000.0, orders), TextureModelError::Order { index: 1, order: 2 });
         assert_eq!(make(1000.0, vec![node(0.1, &[2.0, 1.0])]), TextureModelError::Frequencies { index: 0 });

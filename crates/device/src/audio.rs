@@ -39,6 +39,18 @@ pub(crate) struct Opened {
     pub(crate) engine_latency_secs: f64,
 }
 
+/// Names under which ALSA lists its plugins: they convert for another output, or are none. Who means one opens it by id.
+const ALSA_CONVERTERS: [&str; 8] = [
+    "alsa:null",
+    "alsa:lavrate",
+    "alsa:samplerate",
+    "alsa:speexrate",
+    "alsa:speex",
+    "alsa:upmix",
+    "alsa:vdownmix",
+    "alsa:oss",
+];
+
 /// The outputs of every system of sound that answers. None is opened.
 pub(crate) fn list() -> Vec<OutputInfo> {
     let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Gone since.
@@ -55,7 +67,8 @@ fn list_of(host: &cpal::Host) -> Vec<OutputInfo> {
         let Ok(id) = device.id() else { continue };
         let is_default = Some(&id) == default_id.as_ref();
         let id = id.to_string();
-        if outputs.iter().all(|output| output.id != id) {
+        let is_device = !ALSA_CONVERTERS.contains(&id.as_str());
+        if is_device && outputs.iter().all(|output| output.id != id) {
             outputs.push(OutputInfo { id, name: device.to_string(), kind: OutputKind::Audio, is_default });
         }
     }

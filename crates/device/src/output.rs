@@ -14,6 +14,11 @@ pub const NULL_ID: &str = "null";
 /// Rate of an output whose rate nobody prefers, in Hz.
 pub const USUAL_RATE_HZ: u32 = 48_000;
 
+/// Acceleration at full scale while no actuator has been calibrated, in m/s²: the roughest real surfaces just reach it.
+pub const UNCALIBRATED_FULL_SCALE_MPS2: f32 = 20.0;
+/// Share of the full scale that the limiter never exceeds, where nothing else is asked for.
+pub const USUAL_CEILING: f32 = 0.9;
+
 /// What sort of output it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

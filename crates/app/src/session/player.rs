@@ -12,7 +12,10 @@ use shagreen_device::engine::{ChannelMask, Handle, SLOTS};
 use shagreen_device::error::DeviceError;
 use shagreen_device::hand::Hand;
 use shagreen_device::live::LiveInput;
-use shagreen_device::output::{NULL_ID, OpenOptions, OutputInfo, Running, list_outputs, open};
+use shagreen_device::output::{
+    NULL_ID, OpenOptions, OutputInfo, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, list_outputs,
+    open,
+};
 use shagreen_device::status::Status;
 use shagreen_device::stylus::MouseStylus;
 use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
@@ -24,10 +27,6 @@ use crate::strings;
 
 /// Frames in a block: 5 ms at 48 kHz.
 const BLOCK_FRAMES: u32 = 256;
-/// Acceleration at full scale while no actuator has been calibrated, in m/s²: the roughest textures just reach it.
-const FULL_SCALE_MPS2: f32 = 20.0;
-/// Share of the full scale that is never exceeded.
-const CEILING: f32 = 0.9;
 /// Textures kept loaded; the least recently heard makes room.
 const KEPT: usize = SLOTS - 16;
 
@@ -124,8 +123,8 @@ impl Player {
             preferred_rate_hz: None,
             buffer_frames: Some(BLOCK_FRAMES),
             seed: 1,
-            full_scale_mps2: FULL_SCALE_MPS2,
-            ceiling: CEILING,
+            full_scale_mps2: UNCALIBRATED_FULL_SCALE_MPS2,
+            ceiling: USUAL_CEILING,
             channels: ChannelMask::FIRST_TWO,
         };
         std::thread::spawn(move || {
