@@ -129,7 +129,7 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
         let entry = &panel.session.textures()[*texture];
         let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Go to {}", entry.name)));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
         if response.clicked() {
             commands.push(move_to(*at));
         }

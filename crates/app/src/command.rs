@@ -1,9 +1,8 @@
-//! What a user can ask for: its text, its help and its keys in one place, for buttons and keyboard alike.
+//! What a user can ask for, and the keys that ask for it.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::project::Edit;
-use crate::strings;
 
 /// A request of the user, carried out after the frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +19,8 @@ pub enum Command {
     ToggleMute,
     /// Change between the dark and the light theme.
     ToggleTheme,
+    /// Look for outputs again.
+    ListOutputs,
     /// Open the output with this identity.
     OpenOutput(String),
     /// End the latched silence of the limiter.
@@ -31,20 +32,6 @@ pub const WITH_KEYS: [Command; 5] =
     [Command::Undo, Command::Redo, Command::ToggleHand, Command::ToggleMute, Command::ToggleTheme];
 
 impl Command {
-    /// The words on its button.
-    pub fn text(&self) -> &'static str {
-        match self {
-            Self::Edit(edit) => edit.label(),
-            Self::Undo => strings::UNDO,
-            Self::Redo => strings::REDO,
-            Self::ToggleHand => strings::HAND_START,
-            Self::ToggleMute => strings::MUTE,
-            Self::ToggleTheme => strings::TO_LIGHT,
-            Self::OpenOutput(_) => strings::OUTPUT,
-            Self::ResetLimiter => strings::RESET_LIMITER,
-        }
-    }
-
     /// The keys that ask for it.
     pub fn shortcut(&self) -> Option<KeyboardShortcut> {
         let (modifiers, key) = match self {

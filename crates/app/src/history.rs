@@ -34,8 +34,11 @@ impl History {
         if after == *project {
             return;
         }
-        let continues = self.past.last().is_some_and(|s| s.gesture == gesture && s.label == label);
-        if !continues {
+        let continued = self.past.last().filter(|s| s.gesture == gesture && s.label == label);
+        if continued.is_some_and(|s| s.project == after) {
+            // A drag that comes back to where it began has done nothing.
+            self.past.pop();
+        } else if continued.is_none() {
             self.past.push(Step { label, project: project.clone(), gesture });
             if self.past.len() > MAX_STEPS {
                 self.past.remove(0);
@@ -99,6 +102,16 @@ mod tests {
         assert!(!history.undo(&mut project));
         assert!(history.redo(&mut project) && history.redo(&mut project) && !history.redo(&mut project));
         assert_eq!(project, start.edited(point(9.0)));
+    }
+
+    #[test]
+    fn a_drag_that_comes_back_is_no_step() {
+        let (mut history, mut project) = (History::default(), Project::default());
+        let start = project.point;
+        for edit in [point(1.0), point(2.0), Edit::MovePoint(start)] {
+            history.apply(&mut project, edit, Gesture(1));
+        }
+        assert_eq!(history.undo_label(), None);
     }
 
     #[test]

@@ -82,12 +82,9 @@ fn blend_ui(ui: &mut Ui, mode: Mode) -> Option<Command> {
 
 fn mode_help(mode: Mode) -> &'static str {
     match mode {
-        Mode::Paper => {
-            "As printed in the paper: inverse-distance weights, independent signals. Sinks in level between textures and \
-             jumps at the edges of triangles."
-        }
-        Mode::Power => "Independent signals, with the level made up to the weighted mean of the levels.",
-        Mode::Shared => "Signals that share one excitation: closest to a measured texture that is left out.",
+        Mode::Paper => strings::PAPER_HELP,
+        Mode::Power => strings::POWER_HELP,
+        Mode::Shared => strings::SHARED_HELP,
     }
 }
 
@@ -103,9 +100,8 @@ fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) {
         let entry = &panel.session.textures()[*texture];
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
         let percent = 100.0 * weight;
-        response.widget_info(|| {
-            WidgetInfo::labeled(Role::Label, true, format!("{}, {percent:.1} percent", entry.name))
-        });
+        response
+            .widget_info(|| WidgetInfo::labeled(Role::Label, true, strings::parent(&entry.name, percent)));
         let color = t.parents[rank.min(2)];
         ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
         let picture = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(42.0, 42.0));

@@ -54,7 +54,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
     let t = tokens(ui.ctx());
     let entry = &panel.session.textures()[index];
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), PICTURE + 6.0), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Texture {}", entry.name)));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::texture(&entry.name)));
     if ui.is_rect_visible(area) {
         if response.hovered() || response.has_focus() {
             ui.painter().rect_filled(area, f32::from(crate::theme::RADIUS), t.raised);
@@ -71,14 +71,14 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
         let color = rank.map_or(t.text, |r| t.parents[r.min(2)]);
         text.add(Label::new(egui::RichText::new(&entry.name).color(color)).truncate().selectable(false));
         let below = match panel.session.parent_weight(index) {
-            Some(weight) => format!("{:.0} % of the blend", 100.0 * weight),
+            Some(weight) => strings::of_the_blend(100.0 * weight),
             None => entry.tags.join(", "),
         };
         text.add(
             Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false),
         );
     }
-    let at = panel.session.space().position(index).map_or("not placed".to_owned(), |p| p.to_string());
+    let at = panel.session.space().position(index).map_or(strings::NOT_PLACED.to_owned(), |p| p.to_string());
     response.on_hover_text(format!("{}\n{}", entry.name, at)).clicked()
 }
 

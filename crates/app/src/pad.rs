@@ -92,7 +92,10 @@ pub fn pad_ui(
         outcome.mouse =
             Some(MouseReport { x_m: f64::from(from_middle.x), y_m: f64::from(-from_middle.y), pressed });
     }
-    response.on_hover_cursor(CursorIcon::Crosshair);
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    if panel.session.touch().contact.force_n <= 0.0 {
+        response.on_hover_text(strings::PAD_HELP);
+    }
     outcome
 }
 
@@ -128,9 +131,9 @@ fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Comma
 
 fn path_name(path: Path) -> &'static str {
     match path {
-        Path::Line => "line",
-        Path::Circle => "circle",
-        Path::Scribble => "scribble",
+        Path::Line => strings::LINE,
+        Path::Circle => strings::CIRCLE,
+        Path::Scribble => strings::SCRIBBLE,
     }
 }
 
@@ -145,7 +148,13 @@ fn scale_bar(ui: &Ui, area: Rect) {
     let y = back.bottom() - 6.0;
     let x = back.center().x;
     ui.painter().hline(x - length / 2.0..=x + length / 2.0, y, Stroke::new(2.0, t.text));
-    ui.painter().text(pos2(x, y - 3.0), Align2::CENTER_BOTTOM, "10 mm", FontId::proportional(10.5), t.text);
+    ui.painter().text(
+        pos2(x, y - 3.0),
+        Align2::CENTER_BOTTOM,
+        strings::TEN_MM,
+        FontId::proportional(10.5),
+        t.text,
+    );
 }
 
 /// The tip as the callback has it: a ring that fills as it presses.

@@ -132,3 +132,31 @@ fn blurred(pixels: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let rows = along(pixels, &|line, i| line * BLEND_SIDE + i);
     along(&rows, &|line, i| i * BLEND_SIDE + line)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{BLEND_SIDE, BLUR, blurred};
+
+    #[test]
+    fn the_light_is_the_mean_around_each_pixel() {
+        let pixels: Vec<[f32; 3]> = (0..BLEND_SIDE * BLEND_SIDE)
+            .map(|i| [(i * 7919 % 251) as f32, (i % BLEND_SIDE) as f32, 9.0])
+            .collect();
+        let light = blurred(&pixels);
+        let at = |x: usize, y: usize| y % BLEND_SIDE * BLEND_SIDE + x % BLEND_SIDE;
+        for (x, y) in [(0, 0), (5, 190), (100, 17), (191, 191)] {
+            let mut mean = [0.0_f64; 3];
+            for dy in 0..=2 * BLUR {
+                for dx in 0..=2 * BLUR {
+                    let pixel = pixels[at(x + BLEND_SIDE + dx - BLUR, y + BLEND_SIDE + dy - BLUR)];
+                    mean.iter_mut().zip(pixel).for_each(|(m, p)| *m += f64::from(p));
+                }
+            }
+            let n = ((2 * BLUR + 1) * (2 * BLUR + 1)) as f64;
+            for (m, l) in mean.iter().zip(light[at(x, y)]) {
+                // Running sums in f32 over 192 pixels of up to 255.
+                assert!((m / n - f64::from(l)).abs() < 0.01, "at {x}, {y}: {l} for {}", m / n);
+            }
+        }
+    }
+}

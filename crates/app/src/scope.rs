@@ -36,7 +36,7 @@ fn title(ui: &mut Ui, text: &str, unit: &str) {
 
 fn waveform(ui: &mut Ui, panel: &Panel<'_>) {
     let t = tokens(ui.ctx());
-    title(ui, strings::WAVEFORM, "m/s², last 0.25 s");
+    title(ui, strings::WAVEFORM, strings::WAVEFORM_UNIT);
     let scope = panel.session.scope();
     let (rate_hz, samples) = scope.newest(0.25);
     let n = samples.len() as f64;
@@ -55,18 +55,17 @@ fn waveform(ui: &mut Ui, panel: &Panel<'_>) {
 
 fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
     let t = tokens(ui.ctx());
-    title(ui, strings::SPECTRUM, "dB re 1 (m/s²)²/Hz");
+    title(ui, strings::SPECTRUM, strings::SPECTRUM_UNIT);
     let spectra = panel.session.spectra();
-    let to_points = |density: &[f64]| -> PlotPoints<'static> {
-        let pairs = spectra.frequencies.iter().zip(density);
-        pairs.map(|(f, p)| [f.0.log10(), (10.0 * p.max(1e-12).log10()).max(FLOOR_DB - 10.0)]).collect()
+    // Parents carry their colors everywhere in the window, so the legend names only what is not theirs.
+    let line = |name: &str, points: PlotPoints<'static>| Line::new(name.to_owned(), points);
+    let to_points = |pairs: &mut dyn Iterator<Item = (f64, f64)>| -> PlotPoints<'static> {
+        let in_band = pairs.filter(|(f, _)| (BAND_HZ.0..=BAND_HZ.1).contains(f));
+        in_band.map(|(f, p)| [f.log10(), (10.0 * p.max(1e-12).log10()).max(FLOOR_DB - 10.0)]).collect()
     };
-    let live = panel.session.scope().density();
-    let live: PlotPoints<'_> = live
-        .iter()
-        .filter(|(f, _)| f.0 >= BAND_HZ.0 && f.0 <= BAND_HZ.1)
-        .map(|(f, p)| [f.0.log10(), (10.0 * p.max(1e-12).log10()).max(FLOOR_DB - 10.0)])
-        .collect();
+    let modeled =
+        |density: &[f64]| to_points(&mut spectra.frequencies.iter().zip(density).map(|(f, p)| (f.0, *p)));
+    let live = to_points(&mut panel.session.scope().density().iter().map(|(f, p)| (f.0, *p)));
     let marks = |_: egui_plot::GridInput| {
         [10.0_f64, 20.0, 50.0, 100.0, 200.0, 400.0]
             .map(|f| egui_plot::GridMark { value: f.log10(), step_size: 0.3 })
@@ -79,13 +78,11 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
         .show(ui, |plot| {
             plot.set_plot_bounds_x((0.93 * BAND_HZ.0).log10()..=(1.12 * BAND_HZ.1).log10());
             plot.set_plot_bounds_y(FLOOR_DB..=TOP_DB);
-            plot.line(Line::new(strings::LIVE_LINE, live).color(t.text_weak.gamma_multiply(0.6)).width(1.0));
-            for (rank, (name, density)) in spectra.parents.iter().enumerate() {
-                plot.line(
-                    Line::new(name.clone(), to_points(density)).color(t.parents[rank.min(2)]).width(1.2),
-                );
+            plot.line(line(strings::LIVE_LINE, live).color(t.text_weak.gamma_multiply(0.6)).width(1.0));
+            for (rank, density) in spectra.parents.iter().enumerate() {
+                plot.line(line("", modeled(density)).color(t.parents[rank.min(2)]).width(1.2));
             }
-            plot.line(Line::new(strings::BLEND_LINE, to_points(&spectra.blend)).color(t.accent).width(2.5));
+            plot.line(line(strings::BLEND_LINE, modeled(&spectra.blend)).color(t.accent).width(2.5));
         });
 }
 

@@ -7,8 +7,8 @@ use shagreen_core::units::Hertz;
 
 /// How much is kept, in seconds.
 const KEPT_SECS: f64 = 2.0;
-/// The signal ends at 500 Hz; this rate draws it well.
-const DRAWN_RATE_HZ: f64 = 2000.0;
+/// Rate that is drawn, over that of the model: the signal ends at half the model's rate.
+const DRAWN_SHARE: f64 = 2.0;
 /// Window of the live spectrum, in samples of the drawn rate: 3.9 Hz apart.
 const WINDOW: usize = 512;
 /// Share of a new spectrum in the one that is shown.
@@ -26,10 +26,10 @@ pub struct ScopeBuffer {
 }
 
 impl ScopeBuffer {
-    /// An empty buffer for a device of this rate.
-    pub fn new(device_rate_hz: f64) -> Self {
-        // The resampler leaves nothing above 500 Hz that could fold back, so samples are simply left out.
-        let every = (device_rate_hz / DRAWN_RATE_HZ).round().max(1.0) as usize;
+    /// An empty buffer for a device and a model of these rates, in Hz.
+    pub fn new(device_rate_hz: f64, model_rate_hz: f64) -> Self {
+        // The resampler leaves nothing above half the model's rate that could fold back: samples are simply left out.
+        let every = (device_rate_hz / (DRAWN_SHARE * model_rate_hz)).floor().max(1.0) as usize;
         Self {
             rate_hz: device_rate_hz / every as f64,
             every,
@@ -44,7 +44,8 @@ impl ScopeBuffer {
     pub fn push(&mut self, samples: &[f32]) {
         for sample in samples {
             if self.skipped == 0 {
-                self.samples.push_back(f64::from(*sample));
+                // What is no number has silenced the output already; here it would blind the spectrum for good.
+                self.samples.push_back(if sample.is_finite() { f64::from(*sample) } else { 0.0 });
             }
             self.skipped = (self.skipped + 1) % self.every;
         }
@@ -108,7 +109,7 @@ mod tests {
 
     #[test]
     fn keeps_the_newest_and_finds_a_tone() {
-        let mut scope = ScopeBuffer::new(48_000.0);
+        let mut scope = ScopeBuffer::new(48_000.0, 1000.0);
         let tone: Vec<f32> =
             (0..48_000 * 4).map(|i| (std::f32::consts::TAU * 100.0 * i as f32 / 48_000.0).sin()).collect();
         for block in tone.chunks(700) {
@@ -120,6 +121,22 @@ mod tests {
         let loudest = scope.density().iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
         assert!((loudest.0.0 - 100.0).abs() < 4.0);
         assert_eq!(scope.range(), 1.0);
+    }
+
+    #[test]
+    fn a_sample_that_is_no_number_does_not_blind_it() {
+        let mut scope = ScopeBuffer::new(48_000.0, 1000.0);
+        for sample in [f32::NAN, 1.0, f32::INFINITY] {
+            scope.push(&[sample; 48_000]);
+            scope.update();
+        }
+        assert!(scope.density().iter().all(|(_, p)| p.is_finite()) && scope.range().is_finite());
+    }
+
+    #[test]
+    fn a_model_of_a_higher_rate_is_drawn_at_a_higher_rate() {
+        assert_eq!(ScopeBuffer::new(48_000.0, 4000.0).newest(1.0).0, 8000.0);
+        assert_eq!(ScopeBuffer::new(44_100.0, 1000.0).newest(1.0).0, 2004.545_454_545_454_5);
     }
 
     #[test]

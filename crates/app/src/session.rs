@@ -6,6 +6,7 @@ mod player;
 
 use std::time::Instant;
 
+use anyhow::bail;
 use shagreen_core::blend::{Authored, author, mixture_psd};
 use shagreen_core::plane::Plane;
 use shagreen_core::space::Space;
@@ -19,6 +20,7 @@ use shagreen_formats::library::{Library, TextureEntry};
 use crate::pad::MouseReport;
 use crate::project::Project;
 use crate::scope_buffer::ScopeBuffer;
+use crate::strings;
 
 pub use self::player::OutputChoice;
 
@@ -32,8 +34,8 @@ const N_FREQUENCIES: usize = 160;
 pub struct Spectra {
     /// Where they are evaluated, evenly spaced on a logarithmic axis.
     pub frequencies: Vec<Hertz>,
-    /// Name and density of each parent, in the order of the weights.
-    pub parents: Vec<(String, Vec<f64>)>,
+    /// Density of each parent, in the order of the weights.
+    pub parents: Vec<Vec<f64>>,
     /// Density of the blend.
     pub blend: Vec<f64>,
 }
@@ -48,18 +50,21 @@ pub struct Session {
     player: Player,
     hand: Option<Hand>,
     scope: ScopeBuffer,
+    rate_hz: f64,
 }
 
 impl Session {
     /// A session with a library; no output is open yet.
     ///
     /// # Errors
-    /// The positions cannot be triangulated.
+    /// The positions cannot be triangulated, or the textures have different rates.
     pub fn new(library: Library) -> anyhow::Result<Self> {
         let planes = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
-        let (low, high) = (10.0_f64, 500.0_f64);
+        let rate_hz = common_rate_hz(&library)?;
+        // Beyond half the rate a model only repeats itself.
+        let (low, high) = (10.0_f64, 500.0_f64.min(0.4995 * rate_hz));
         let frequency = |i: usize| low * (high / low).powf(i as f64 / (N_FREQUENCIES - 1) as f64);
-        let frequencies = (0..N_FREQUENCIES).map(|i| Hertz(frequency(i).min(499.0))).collect();
+        let frequencies = (0..N_FREQUENCIES).map(|i| Hertz(frequency(i))).collect();
         Ok(Self {
             space: Space::new(&library.positions())?,
             planes,
@@ -68,7 +73,8 @@ impl Session {
             authored: None,
             spectra: Spectra { frequencies, ..Spectra::default() },
             hand: None,
-            scope: ScopeBuffer::new(48_000.0),
+            scope: ScopeBuffer::new(48_000.0, rate_hz),
+            rate_hz,
         })
     }
 
@@ -84,7 +90,11 @@ impl Session {
 
     /// In words, where the positions come from.
     pub fn label_source(&self) -> &'static str {
-        self.library.label_source().map_or("not stated", shagreen_core::space::LabelSource::label)
+        match self.library.label_source() {
+            Some(source) => source.label(),
+            None if self.space.sites().is_empty() => strings::NO_SOURCE,
+            None => strings::MIXED_SOURCES,
+        }
     }
 
     /// The blend at the point.
@@ -145,14 +155,8 @@ impl Session {
         let parents: Vec<(&Plane, f64)> =
             authored.parents.iter().map(|(t, w)| (&self.planes[*t], *w)).collect();
         self.spectra.blend = mixture_psd(&parents, authored.mode, contact, &self.spectra.frequencies);
-        self.spectra.parents = authored
-            .parents
-            .iter()
-            .map(|(t, _)| {
-                let density = self.planes[*t].at(contact).psd(&self.spectra.frequencies);
-                (self.library.textures[*t].name.clone(), density)
-            })
-            .collect();
+        self.spectra.parents =
+            parents.iter().map(|(plane, _)| plane.at(contact).psd(&self.spectra.frequencies)).collect();
     }
 
     /// Whether the automatic hand strokes.
@@ -185,8 +189,7 @@ impl Session {
 
     /// Opens an output in the background; the one that is open closes when the new one is there.
     pub fn open_output(&mut self, choice: OutputChoice, ctx: &egui::Context) {
-        let rate_hz = self.library.textures.first().map_or(1000.0, |t| t.model.rate().0 as f32);
-        self.player.open(choice, rate_hz, ctx.clone());
+        self.player.open(choice, self.rate_hz as f32, ctx.clone());
     }
 
     /// Ends the latched silence of the limiter.
@@ -238,5 +241,20 @@ impl Session {
     /// Whether the limiter has bent samples within the last half second.
     pub fn is_limiting(&self) -> bool {
         self.player.limited_at.is_some_and(|t: Instant| t.elapsed().as_secs_f32() < 0.5)
+    }
+}
+
+/// The rate that all textures of a library share, in Hz: voices of different rates cannot be mixed.
+fn common_rate_hz(library: &Library) -> anyhow::Result<f64> {
+    let Some(first) = library.textures.first() else { return Ok(1000.0) };
+    let rate = first.model.rate();
+    match library.textures.iter().find(|t| t.model.rate() != rate) {
+        None => Ok(rate.0),
+        Some(other) => bail!(
+            "\"{}\" has a rate of {rate} and \"{}\" of {}; textures of one space need the same: keep them in two libraries",
+            first.id,
+            other.id,
+            other.model.rate()
+        ),
     }
 }

@@ -15,47 +15,39 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     ui.horizontal_centered(|ui| {
         let session = panel.session;
         commands.extend(output_ui(ui, panel));
-        let status = session.status();
         let weak = |ui: &mut Ui, text: String, help: &str| {
             ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).selectable(false))
                 .on_hover_text(help);
         };
-        if let Some(message) = session.output_message() {
-            ui.add(Label::new(RichText::new(message).color(t.error)).truncate());
-        } else if let Some(status) = status {
-            let late = session.latency_ms().map_or(String::new(), |ms| format!("about {ms:.0} ms late"));
-            weak(ui, late, "From a movement of the hand to the output: control tick, filters and buffer.");
-            ui.separator();
-            weak(
-                ui,
-                format!("load {:.1} %", 100.0 * status.load),
-                "Share of the time allotted to the sound that is used.",
-            );
-            ui.separator();
-            let dropouts = format!("{} dropouts", status.underruns);
-            weak(ui, dropouts, "Times that the output ran out of samples.");
-            ui.separator();
-            let level = 20.0 * f64::from(status.level_mps2.max(1e-4)).log10();
-            weak(ui, format!("{level:.0} dB re 1 m/s²"), "Level of the texture, root mean square.");
-            if status.state == LinkState::Stalled {
-                ui.colored_label(t.warning, "The output has stopped asking for sound");
-            }
+        if let Some(status) = session.status() {
+            // What must not be missed comes first.
             if status.tripped {
                 ui.colored_label(t.error, strings::TRIPPED);
                 if ui.button(strings::RESET_LIMITER).clicked() {
                     commands.push(Command::ResetLimiter);
                 }
             } else if session.is_limiting() {
-                ui.colored_label(t.warning, "limiting");
+                ui.colored_label(t.warning, strings::LIMITING);
             }
+            if status.state == LinkState::Stalled {
+                ui.colored_label(t.warning, strings::STALLED);
+            }
+            let late = session.latency_ms().map_or(String::new(), |ms| format!("about {ms:.0} ms late"));
+            weak(ui, late, strings::LATENCY_HELP);
+            ui.separator();
+            weak(ui, format!("load {:.1} %", 100.0 * status.load), strings::LOAD_HELP);
+            ui.separator();
+            weak(ui, format!("{} dropouts", status.underruns), strings::DROPOUTS_HELP);
+            ui.separator();
+            let level = 20.0 * f64::from(status.level_mps2.max(1e-4)).log10();
+            weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let source = format!("positions: {}", session.label_source());
-            weak(
-                ui,
-                source,
-                "Where the places of the textures come from. Physical labels are no human ratings.",
-            );
+            weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
+            if let Some(message) = session.output_message() {
+                let label = Label::new(RichText::new(message).color(t.error)).truncate();
+                ui.add(label).on_hover_text(message);
+            }
         });
     });
     commands
@@ -74,6 +66,10 @@ fn output_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
             }
         }
     });
+    if shown.response.clicked() {
+        // Looked for again: something may have been plugged in since.
+        chosen = Some(Command::ListOutputs);
+    }
     shown.response.accessible_name(strings::OUTPUT).on_hover_text(strings::OUTPUT_HELP);
     chosen
 }

@@ -31,15 +31,15 @@ pub const NO_MATCH: &str = "No texture has this in its name or tags.";
 /// Heading of the parents.
 pub const PARENTS: &str = "Blended from";
 /// What the parents are.
-pub const PARENTS_HELP: &str = "The measured textures around the point, and how much each one gives.";
+pub const PARENTS_HELP: &str = "The textures around the point, and how much each one gives.";
 /// Accessible name of the canvas.
-pub const CANVAS: &str = "Perceptual space";
+pub const CANVAS: &str = "Space of textures";
 /// Accessible name of the draggable point.
 pub const POINT: &str = "Authored point";
 /// What the point does.
 pub const POINT_HELP: &str = "Drag it, or move it with the arrow keys (Shift for bigger steps).";
 /// The point lies outside the hull.
-pub const CLAMPED: &str = "Outside the measured textures: the nearest point of their outline plays.";
+pub const CLAMPED: &str = "Outside the textures of this space: the nearest point of their outline plays.";
 /// Accessible name of the texture's name.
 pub const NAME: &str = "Name of the texture";
 /// Label of the blend modes.
@@ -94,8 +94,73 @@ pub const UNMUTE: &str = "Unmute";
 pub const NO_SOUND: &str = "No sound: the silent output is used";
 /// Opening an output broke off.
 pub const OPENING_FAILED: &str = "Opening the output failed; choose it again, or another";
+/// What the blend `paper` is.
+pub const PAPER_HELP: &str = "As printed in the paper: inverse-distance weights, independent signals. Sinks in level \
+                              between textures and jumps at the edges of triangles.";
+/// What the blend `power` is.
+pub const POWER_HELP: &str =
+    "Independent signals, with the level made up to the weighted mean of the levels.";
+/// What the blend `shared` is.
+pub const SHARED_HELP: &str =
+    "Signals that share one excitation, so that their spectra blend without a loss of level.";
+/// What the latency is.
+pub const LATENCY_HELP: &str = "From a movement of the hand to the output: control tick, filters and two blocks. The mouse \
+                                adds a frame of the window, a sound server its own buffer.";
+/// What the load is.
+pub const LOAD_HELP: &str = "Share of the time allotted to the sound that is used.";
+/// What dropouts are.
+pub const DROPOUTS_HELP: &str = "Times that the output ran out of samples.";
+/// What the level is.
+pub const LEVEL_HELP: &str = "Level of the texture, root mean square.";
+/// The output no longer asks for samples.
+pub const STALLED: &str = "The output has stopped asking for sound";
+/// The limiter bends the signal.
+pub const LIMITING: &str = "limiting";
+/// Where positions come from.
+pub const SOURCE_HELP: &str =
+    "Where the places of the textures come from. Physical labels and simulated raters are no human ratings.";
+/// Positions come from several sources.
+pub const MIXED_SOURCES: &str = "mixed: never compare them";
+/// Nothing says where positions come from.
+pub const NO_SOURCE: &str = "not stated";
+/// Unit of the waveform.
+pub const WAVEFORM_UNIT: &str = "m/s², last 0.25 s";
+/// Unit of the spectrum.
+pub const SPECTRUM_UNIT: &str = "dB re 1 (m/s²)²/Hz";
+/// The scale bar of the pad.
+pub const TEN_MM: &str = "10 mm";
+/// A texture without a place in the space.
+pub const NOT_PLACED: &str = "not placed";
+/// Pictures that could not be read.
+pub const DAMAGED_PICTURE: &str = "The picture cannot be read";
+/// The straight path of the hand.
+pub const LINE: &str = "line";
+/// The round path of the hand.
+pub const CIRCLE: &str = "circle";
+/// The path of the hand that covers the pad.
+pub const SCRIBBLE: &str = "scribble";
 
 /// A place in the space, as a screen reader says it.
 pub fn place_in_words(point: SpacePoint) -> String {
     format!("{ROUGH_SMOOTH} {:.0}, {HARD_SOFT} {:.0}", point.rough_smooth, point.hard_soft)
+}
+
+/// Accessible name of a texture on the canvas: a click moves the point there.
+pub fn go_to(texture: &str) -> String {
+    format!("Go to {texture}")
+}
+
+/// Accessible name of a texture in the list.
+pub fn texture(name: &str) -> String {
+    format!("Texture {name}")
+}
+
+/// Accessible name of a parent and its weight in percent.
+pub fn parent(name: &str, percent: f64) -> String {
+    format!("{name}, {percent:.1} percent")
+}
+
+/// A weight in the list of textures, in percent.
+pub fn of_the_blend(percent: f64) -> String {
+    format!("{percent:.0} % of the blend")
 }

@@ -1,6 +1,6 @@
 //! The window itself: lays out the panels, carries out commands, keeps the frame going.
 
-use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Role, Ui, WidgetInfo};
+use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::library::Library;
 
@@ -116,16 +116,14 @@ impl Window {
                     .selectable(false),
             );
             ui.add_space(10.0);
-            for (command, label) in
-                [(Command::Undo, self.history.undo_label()), (Command::Redo, self.history.redo_label())]
-            {
-                let text = label.map_or(command.text().to_owned(), |l| {
-                    format!("{} {}", command.text(), l.to_lowercase())
-                });
+            for (command, name, label) in [
+                (Command::Undo, strings::UNDO, self.history.undo_label()),
+                (Command::Redo, strings::REDO, self.history.redo_label()),
+            ] {
+                let what = label.map_or(name.to_owned(), |l| format!("{name} {}", l.to_lowercase()));
                 let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
-                let button = ui.add_enabled(label.is_some(), egui::Button::new(command.text()));
-                button.widget_info(|| WidgetInfo::labeled(Role::Button, label.is_some(), command.text()));
-                if button.on_hover_text(format!("{text} ({keys})")).clicked() {
+                let button = ui.add_enabled(label.is_some(), egui::Button::new(name));
+                if button.on_hover_text(format!("{what} ({keys})")).clicked() {
                     commands.push(command);
                 }
             }
@@ -189,6 +187,7 @@ impl Window {
                 let dark = ctx.theme() == egui::Theme::Dark;
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
+            Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
             Command::ResetLimiter => self.session.reset_limiter(),
         }

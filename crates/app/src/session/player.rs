@@ -16,7 +16,7 @@ use shagreen_device::output::{
     NULL_ID, OpenOptions, OutputInfo, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, list_outputs,
     open,
 };
-use shagreen_device::status::Status;
+use shagreen_device::status::{LinkState, Status};
 use shagreen_device::stylus::MouseStylus;
 use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
 use shagreen_device::texture::OwnedTexture;
@@ -117,6 +117,11 @@ impl Player {
     }
 
     pub(super) fn open(&mut self, choice: OutputChoice, model_rate_hz: f32, ctx: egui::Context) {
+        let is_same = matches!(&choice, OutputChoice::Id(id) if self.output_id.as_ref() == Some(id));
+        if is_same || self.status.is_some_and(|s| s.state == LinkState::Lost) {
+            // Some devices can be held only once: let go before asking again.
+            (self.handle, self.running, self.live) = (None, None, None);
+        }
         let (sender, receiver) = channel();
         let options = OpenOptions {
             model_rate_hz,
@@ -180,7 +185,8 @@ impl Player {
                 false
             }
             Ok((mut handle, running)) => {
-                *scope = ScopeBuffer::new(f64::from(handle.config().device_rate_hz));
+                let config = handle.config();
+                *scope = ScopeBuffer::new(f64::from(config.device_rate_hz), f64::from(config.model_rate_hz));
                 self.live = handle.take_live_input();
                 handle.set_drive(Drive { muted: self.muted, ..Drive::default() });
                 self.output_id = Some(running.id().to_owned());
