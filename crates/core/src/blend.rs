@@ -13,7 +13,7 @@ pub enum Mode {
     Paper,
     /// Barycentric weights, independent signals, level made up to the weighted mean of the levels.
     Power,
-    /// Barycentric weights, signals that share one excitation: nearest to a texture left out of the three.
+    /// Barycentric weights, signals that share one excitation: no loss of level, no makeup.
     #[default]
     Shared,
 }
