@@ -26,7 +26,7 @@ use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_library;
 use shagreen_synth::contact::{Contact, ContactSource};
 use shagreen_synth::noise::{Gaussian, Noise};
-use shagreen_synth::renderer::{Mix, Parent, Renderer, TextureId, Textures};
+use shagreen_synth::renderer::{Blend, Mix, Parent, Renderer, TextureId, Textures};
 use shagreen_synth::stream::Stream;
 use shagreen_synth::texture::Texture;
 use shagreen_synth::voice::{MAX_TICK, Voice};
@@ -121,10 +121,7 @@ fn peers_texture(folder: &Path) -> Prepared {
 
 /// A texture as an output takes it.
 fn owned(plane: &Plane) -> OwnedTexture {
-    let p = plane.prepare();
-    let (nodes, triangles) = (p.nodes.into_boxed_slice(), p.triangles.into_boxed_slice());
-    OwnedTexture::new(p.rate_hz, p.order, p.speed_max_mps, p.force_max_n, nodes, triangles)
-        .expect("a texture")
+    OwnedTexture::new(plane.prepare().parts()).expect("a texture")
 }
 
 fn main() {
@@ -157,7 +154,7 @@ fn main() {
     });
 
     let prepared = Table(planes.iter().map(Plane::prepare).collect());
-    let mut three = Mix::default();
+    let mut three = Mix::silent(Blend::Power);
     for (id, parent) in three.parents.iter_mut().enumerate() {
         *parent = Parent { id: id as TextureId, weight: 1.0 / 3.0 };
     }
@@ -206,7 +203,7 @@ fn reblending(library: &Library, planes: &[Plane]) {
                 hard_soft: 50.0 + 45.0 * (3.0 * t).cos(),
             };
             let authored = author(&space, point, Mode::Shared).expect("a texture");
-            let mut mix = Mix::default();
+            let mut mix = Mix::silent(Blend::Power);
             for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents) {
                 *parent = Parent { id: *texture as TextureId, weight: *weight as f32 };
             }

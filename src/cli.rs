@@ -4,6 +4,7 @@
 //! error. Exit status 0 is done, 1 could not, 2 wrong usage.
 
 mod devices;
+mod guard;
 mod library_list;
 mod library_make;
 mod library_source;

@@ -28,6 +28,8 @@ fn wrong_usage_is_two() {
         ("render --at 30,70 --blend loud --speed 1 --force 1 --seconds 1 -o o.wav", &["loud", "paper"]),
         ("render --at 30,70 --stroke s.svc --force-min 2 --force-max 1 -o o.wav", &["--force-max"]),
         ("render --nonsense", &["--nonsense"]),
+        ("play --texture cork --buffer 4294967295", &["--buffer", "65536"]),
+        ("play --texture cork --buffer 15", &["--buffer", "16"]),
         ("texture psd --at 30,70 --speed 100", &["--force"]),
         ("texture psd --at 30,70 --speed 100 --force 1 --bins 1", &["--bins"]),
     ] {
@@ -48,6 +50,11 @@ fn what_cannot_be_done_is_one() {
         (format!("render --texture cork {STEADY} -o o.json"), &["o.json", ".wav"]),
         (format!("render --texture cork {STEADY} --rate 500 -o o.wav"), &["1000 Hz", "500"]),
         ("render --texture cork --speed 1 --force 1 --seconds 9999 -o o.wav".to_owned(), &["3600"]),
+        ("play --texture cork --speed 1 --force 1 --seconds 1e20".to_owned(), &["3600"]),
+        (
+            "render --texture cork --speed 1 --force 1 --seconds 3600 --rate 768000 -o o.wav".to_owned(),
+            &["at most 1073741806 samples", "lower its rate"],
+        ),
         ("render --texture cork --stroke none.svc -o o.wav".to_owned(), &["cannot read", "none.svc"]),
         ("library list --library none.json".to_owned(), &["cannot read", "none.json"]),
         ("library make none.toml --out l.json".to_owned(), &["none.toml"]),
@@ -90,6 +97,39 @@ fn damaged_strokes_are_named_with_their_line() {
     let binary: Vec<u8> = (0..=255).cycle().take(4000).collect();
     bench.write("binary.svc", binary);
     bench.fails("render --at 30,70 --stroke binary.svc -o out.wav", 1, &["binary.svc"]);
+}
+
+#[test]
+fn a_stroke_of_ages_is_refused() {
+    let bench = Bench::new();
+    bench.write("ages.csv", "t_s,speed,force\n0,100,1\n1e12,100,1\n");
+    let words = ["lasts 1000000000000 s", "in seconds?", "ages.csv"];
+    bench.fails("play --texture cork --stroke ages.csv", 1, &words);
+    bench.fails("render --texture cork --stroke ages.csv -o out.wav", 1, &words);
+}
+
+/// A reader that has gone, as `head` does, is no reason to panic.
+#[test]
+fn closed_pipes_are_no_failure() {
+    let bench = Bench::new();
+    let closed = || {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        writer
+    };
+    for (arguments, code) in [
+        ("--help", 0),
+        ("--version", 0),
+        ("library list", 0),
+        ("devices --json", 0),
+        ("render --nonsense", 2),
+    ] {
+        let output = bench.command(arguments).stdout(closed()).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(code) && !said.contains("panic"), "{arguments}: {said}");
+        let status = bench.command(arguments).stdout(closed()).stderr(closed()).status().unwrap();
+        assert_eq!(status.code(), Some(code), "{arguments}");
+    }
 }
 
 #[test]
@@ -137,4 +177,44 @@ fn a_failure_leaves_an_existing_file_as_it_was() {
     std::fs::create_dir(bench.path("out.json")).unwrap();
     bench.fails(&format!("render --at 30,70 {STEADY} -o out.wav"), 1, &["out.json"]);
     assert_eq!(std::fs::read(bench.path("out.wav")).unwrap(), b"mine");
+}
+
+#[test]
+fn what_is_read_is_not_written_over() {
+    let bench = Bench::new();
+    let starter = shagreen_formats::starter::starter_bytes();
+    std::fs::write(bench.path("mine.json"), starter).unwrap();
+    // The sidecar of mine.wav would be mine.json.
+    bench.fails(
+        &format!("render --texture cork {STEADY} --library mine.json -o mine.wav"),
+        1,
+        &["mine.json"],
+    );
+    assert_eq!(std::fs::read(bench.path("mine.json")).unwrap(), starter);
+    // Nor is somebody's file beside the signal a sidecar.
+    bench.write("notes.json", "{\"mine\": true}");
+    bench.fails(&format!("render --texture cork {STEADY} -o notes.wav"), 1, &["no sidecar", "notes.json"]);
+    assert!(!bench.path("notes.wav").exists());
+    bench.write("stroke.csv", "t,speed,force\n0,100,1\n1,100,1\n");
+    bench.fails("render --texture cork --stroke stroke.csv -o stroke.csv", 1, &["stroke.csv"]);
+    bench.write("materials.toml", "seed = 1\n");
+    bench.fails("library make materials.toml --out materials.toml", 1, &["materials.toml"]);
+    assert_eq!(std::fs::read_to_string(bench.path("materials.toml")).unwrap(), "seed = 1\n");
+}
+
+#[test]
+fn a_render_without_a_sample_is_no_success() {
+    let bench = Bench::new();
+    bench.fails("render --texture cork --speed 100 --force 1 --seconds 0 -o out.wav", 1, &["no sample"]);
+    assert!(!bench.path("out.wav").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_not_replaced() {
+    use std::os::unix::fs::FileTypeExt as _;
+    let bench = Bench::new();
+    let _bound = std::os::unix::net::UnixListener::bind(bench.path("socket")).unwrap();
+    bench.fails(&format!("render --texture cork {STEADY} -o socket"), 1, &["device or a pipe", "socket"]);
+    assert!(std::fs::metadata(bench.path("socket")).unwrap().file_type().is_socket());
 }

@@ -53,6 +53,10 @@ fn a_folder_is_one_library_and_clashes_are_named() {
     bench.write("lib/b.json", only(1));
     bench.write("lib/signal.json", "{\"format\": \"shagreen-signal\"}");
     bench.write("lib/notes.txt", "not a library");
+    // JSON of other programs need not even be an object.
+    bench.write("lib/numbers.json", "[1, 2, 3]");
+    bench.write("lib/text.json", "\"text\"");
+    bench.write("lib/none.json", "{}");
     let list = bench.json("library list --library lib");
     assert_eq!(list["textures"].as_array().unwrap().len(), 2);
     assert_ne!(list["textures"][0]["licence"], "");
@@ -62,6 +66,40 @@ fn a_folder_is_one_library_and_clashes_are_named() {
     bench.fails("library list --library lib", 1, &["damaged", "c.json"]);
     std::fs::create_dir(bench.path("empty")).unwrap();
     bench.fails("library list --library empty", 1, &["no texture library", "empty"]);
+}
+
+#[test]
+fn label_sources_are_never_mixed_up() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path("lib")).unwrap();
+    bench.write("lib/a.json", only(0));
+    bench.write("lib/b.json", only(1));
+    assert_eq!(bench.run("library list --library lib").stderr, "");
+    let mut rated: Value = serde_json::from_str(&only(2)).unwrap();
+    rated["textures"][0]["space"]["label_source"] = "human".into();
+    bench.write("lib/c.json", rated.to_string());
+    let said = bench.run("library list --library lib --json");
+    assert!(said.stderr.starts_with("warning: the positions come from different sources"), "{}", said.stderr);
+    assert!(said.stderr.contains("physical labels, human ratings"), "{}", said.stderr);
+    let list: Value = serde_json::from_str(&said.stdout).unwrap();
+    let sources: Vec<&Value> =
+        list["textures"].as_array().unwrap().iter().map(|texture| &texture["label_source"]).collect();
+    assert_eq!(sources, ["physical", "physical", "human"]);
+    bench.json("render --library lib --texture glass --speed 90 --force 1 --seconds 0.1 -o o.wav");
+    let sidecar: Value = serde_json::from_slice(&std::fs::read(bench.path("o.json")).unwrap()).unwrap();
+    assert_eq!(sidecar["label_source"], Value::Null);
+}
+
+#[test]
+fn a_damaged_picture_is_warned_of() {
+    let bench = Bench::new();
+    let mut library: Value = serde_json::from_str(&only(0)).unwrap();
+    library["textures"][0]["picture"]["base64"] = "AAAA".into();
+    bench.write("l.json", library.to_string());
+    let said = bench.run("library list --library l.json");
+    assert_eq!(said.code, 0);
+    assert!(said.stderr.contains("warning: the picture of texture \"glass\""), "{}", said.stderr);
+    assert!(said.stderr.trim_end().ends_with("l.json"), "{}", said.stderr);
 }
 
 #[test]

@@ -39,7 +39,8 @@ fn a_made_up_stroke_sounds_where_it_touches_and_rises_with_speed() {
     bench.write("stroke.svc", &text);
     let result = bench.json("render --at 30,70 --stroke stroke.svc -o out.wav");
     assert_eq!(bench.files(), ["out.json", "out.wav", "stroke.svc"]);
-    // Force is steady here, so speed alone decides.
+    // Force is steady here, so speed alone decides: 0.99 was measured. What is missing to 1 are windows of 0.1 s, whose
+    // level scatters by a tenth or two, among speeds that differ by less.
     check_stroke(&bench, &strokes::read(&text, 0.005, 0.001), 0.9);
     let (signal, _) = bench.wav("out.wav");
     assert!((result["rms"].as_f64().unwrap() - rms(&signal)).abs() < 1e-9);
@@ -56,7 +57,8 @@ fn real_strokes_sound_where_they_touch_and_rise_with_speed() {
         let Some(path) = shared_data(&format!("pen-strokes/stroke-{name}.svc")) else { return };
         bench.json(&format!("render --at 30,70 --stroke {} -o out.wav", path.display()));
         let text = std::fs::read_to_string(path).unwrap();
-        // A writing hand presses harder and softer as it likes, which also counts.
+        // A writing hand presses harder and softer as it likes, which also counts: 0.91 and 0.94 were measured. Level
+        // and speed that have nothing to do with one another stay below 0.5 in 999 of 1000 draws of 34 windows.
         check_stroke(&bench, &strokes::read(&text, mm_per_unit, secs_per_unit), 0.5);
     }
 }

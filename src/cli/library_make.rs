@@ -12,6 +12,7 @@ use shagreen_formats::library::{Library, PhysicalLabels, Place, TextureEntry, wr
 use shagreen_formats::materials_toml::{Materials, read_materials};
 use shagreen_formats::{atomic, picture};
 
+use crate::cli::guard::refuse_inputs;
 use crate::cli::output::{self, Progress};
 
 /// What the starter library says about itself.
@@ -41,6 +42,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    refuse_inputs(&[&args.out], &[Some(&args.materials)])?;
     let bytes = output::read_file(&args.materials)?;
     let materials = read_materials(&bytes).with_context(|| output::in_file(&args.materials))?;
     let progress = Progress::new("materials", materials.materials.len());

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
+use shagreen_core::space::LabelSource;
 use shagreen_formats::library::{Library, LibraryError, TextureEntry, read_library};
 use shagreen_formats::starter::starter_library;
 
@@ -17,6 +18,11 @@ pub(crate) struct LibraryArgs {
 }
 
 impl LibraryArgs {
+    /// The file or folder that was named.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.library.as_deref()
+    }
+
     /// As if `path` had been given.
     pub(crate) fn at(path: Option<PathBuf>) -> Self {
         Self { library: path }
@@ -25,11 +31,20 @@ impl LibraryArgs {
 
 /// The library that the arguments name; what is odd about it is said.
 pub(crate) fn load(args: &LibraryArgs) -> anyhow::Result<Library> {
-    match &args.library {
-        None => Ok(starter_library()?),
-        Some(path) if path.is_dir() => load_folder(path),
-        Some(path) => load_file(path)?.with_context(|| output::in_file(path)),
+    let library = match &args.library {
+        None => starter_library()?,
+        Some(path) if path.is_dir() => load_folder(path)?,
+        Some(path) => load_file(path)?.with_context(|| output::in_file(path))?,
+    };
+    let sources: Vec<&str> = library.label_sources().into_iter().map(LabelSource::label).collect();
+    if sources.len() > 1 {
+        output::warn(&format!(
+            "the positions come from different sources ({}): what lies between textures of two sources means little; \
+             `shagreen library list` says which is which",
+            sources.join(", ")
+        ));
     }
+    Ok(library)
 }
 
 /// A library file; the inner error is for bytes that are none, and still lacks the path.
@@ -59,7 +74,7 @@ fn load_folder(folder: &Path) -> anyhow::Result<Library> {
     for path in paths {
         let library = match load_file(&path)? {
             Ok(library) => library,
-            // The sidecar of a signal, for example.
+            // The sidecar of a signal, or JSON of any other program.
             Err(LibraryError::Format { .. }) => continue,
             Err(error) => return Err(error).with_context(|| output::in_file(&path)),
         };

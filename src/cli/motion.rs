@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use shagreen_core::units::Contact;
+use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav::TraceV1;
 
 use crate::cli::output;
@@ -27,7 +28,10 @@ pub(crate) struct MotionArgs {
     reading: StrokeArgs,
 }
 
-/// What the tip does, and for how long.
+/// Longest steady contact that is rendered or played, in seconds: as long as a stroke may be.
+const MAX_SECS: f64 = MAX_TRACK_SECS;
+
+/// What the tip does, and for how long: [`MAX_SECS`] at most.
 pub(crate) enum Motion {
     /// The same all the time.
     Steady {
@@ -65,6 +69,9 @@ pub(crate) fn motion(args: &MotionArgs, default: Option<(f64, f64, f64)>) -> any
         }
         _ => bail!(output::Usage("say --speed V --force F --seconds S, or --stroke FILE".to_owned())),
     };
+    if seconds > MAX_SECS {
+        bail!("--seconds must be from 0 to {MAX_SECS}, got {seconds}; choose a shorter time");
+    }
     Ok(Motion::Steady { contact: Contact::from_mm_per_s_and_n(speed, force), seconds })
 }
 

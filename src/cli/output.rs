@@ -1,6 +1,6 @@
 //! What the command line prints and reads: one JSON object or some lines on standard output, all else on standard error.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command line speaks through these two")]
 
+use std::fmt::Display;
 use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
@@ -19,21 +19,27 @@ pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
+/// A line on standard error.
+fn say(line: impl Display) {
+    // Whoever closed it does not want to know.
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
 /// Says what is not quite as asked.
 pub(crate) fn warn(message: &str) {
-    eprintln!("warning: {message}");
+    say(format_args!("warning: {message}"));
 }
 
 /// Says what the person would like to know.
 pub(crate) fn note(message: &str) {
-    eprintln!("note: {message}");
+    say(format_args!("note: {message}"));
 }
 
 /// That the arguments do not fit together: wrong usage, not a failure.
 #[derive(Debug)]
 pub(crate) struct Usage(pub(crate) String);
 
-impl std::fmt::Display for Usage {
+impl Display for Usage {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}; see --help", self.0)
     }
@@ -43,17 +49,18 @@ impl std::error::Error for Usage {}
 
 /// Says why the command could not be done, on one line, with all its causes.
 pub(crate) fn failure(error: &anyhow::Error) -> ExitCode {
-    eprintln!("error: {}", one_line(error));
+    say(format_args!("error: {}", one_line(error)));
     if error.is::<Usage>() { ExitCode::from(WRONG_USAGE) } else { ExitCode::FAILURE }
 }
 
 /// Says what is wrong with the arguments, on one line; help and version, which come the same way, are printed whole.
 pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        print!("{error}");
+        // As with results.
+        let _ = write!(std::io::stdout(), "{error}");
         return ExitCode::SUCCESS;
     }
-    eprintln!("{}", usage_line(&error.to_string()));
+    say(usage_line(&error.to_string()));
     ExitCode::from(WRONG_USAGE)
 }
 
@@ -117,15 +124,20 @@ impl Progress {
         self.0.inc(1);
     }
 
-    /// So many steps are done.
-    pub(crate) fn set(&self, n: usize) {
-        self.0.set_position(n as u64);
+    /// So many seconds are played or rendered; [`in_ms`] is the number of steps for a bar of them.
+    pub(crate) fn set_secs(&self, secs: f64) {
+        self.0.set_position(in_ms(secs) as u64);
     }
 
-    /// Takes the bar away.
+    /// Takes the bar away, which dropping it does too.
     pub(crate) fn finish(&self) {
         self.0.finish_and_clear();
     }
+}
+
+/// Whole milliseconds.
+pub(crate) fn in_ms(secs: f64) -> usize {
+    (1e3 * secs) as usize
 }
 
 #[cfg(test)]

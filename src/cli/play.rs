@@ -14,20 +14,15 @@ use shagreen_device::synth::renderer::{Mix, Parent};
 use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
 
-use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::motion::{Motion, MotionArgs, motion, quantity};
 use crate::cli::output::{self, Progress};
-use crate::cli::target::{BlendArgs, Chosen, TargetArgs, choose};
+use crate::cli::target::{Chosen, SoundArgs};
 
 /// Drives an actuator with a texture, in real time: a steady contact, or a recorded stroke.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
-    target: TargetArgs,
-    #[command(flatten)]
-    library: LibraryArgs,
-    #[command(flatten)]
-    blend: BlendArgs,
+    sound: SoundArgs,
     /// Output to play on, by its id; `shagreen devices` lists them. Without it the silent one: no output is ever
     /// guessed, since actuator drive does not belong in someone's headphones.
     #[arg(long, value_name = "ID", default_value = NULL_ID)]
@@ -36,7 +31,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2))]
     full_scale: f64,
     /// Frames a block to ask the output for: fewer are faster and harder to keep up with.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65_536))]
     buffer: Option<u32>,
     /// Seed of the noise.
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -54,13 +49,14 @@ const DEFAULT_MOTION: (f64, f64, f64) = (100.0, 1.0, 3.0);
 const EXTENT_M: f32 = 0.06;
 /// How often the output is asked how it is doing.
 const POLL: Duration = Duration::from_millis(20);
+/// How often until it has begun.
+const FIRST_POLL: Duration = Duration::from_millis(1);
 /// How much longer than the stroke playing may take.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let motion = motion(&args.motion, Some(DEFAULT_MOTION))?;
-    let library = load(&args.library)?;
-    let chosen = choose(&library, &args.target, &args.blend)?;
+    let (library, chosen) = args.sound.load()?;
     let options = OpenOptions {
         model_rate_hz: chosen.rate(&library)?.0 as f32,
         preferred_rate_hz: None,
@@ -71,6 +67,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         channels: ChannelMask::FIRST_TWO,
     };
     let (mut handle, running) = open(&args.output, options).context("cannot play")?;
+    chosen.note_limits(&library, &motion);
     load_textures(&mut handle, &library, &chosen)?;
     let seconds = motion.seconds();
     start(&mut handle, motion)?;
@@ -105,21 +102,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             )
         },
     );
+    check(&status)
+}
+
+/// Whether all of it was played: where the limiter has tripped, the rest was silence.
+fn check(status: &Status) -> anyhow::Result<()> {
+    if status.tripped {
+        bail!(
+            "a sample was not a finite number, and the output was silenced: not all was played; \
+             try another --full-scale or texture, and report it"
+        );
+    }
     Ok(())
 }
 
 fn load_textures(handle: &mut Handle, library: &Library, chosen: &Chosen) -> anyhow::Result<()> {
-    let mut mix = Mix { blend: synth_blend(chosen.mode), ..Mix::default() };
+    let mut mix = Mix::silent(synth_blend(chosen.mode));
     for (parent, (plane, weight)) in mix.parents.iter_mut().zip(chosen.planes(library)) {
-        let p = plane.prepare();
-        let texture = OwnedTexture::new(
-            p.rate_hz,
-            p.order,
-            p.speed_max_mps,
-            p.force_max_n,
-            p.nodes.into(),
-            p.triangles.into(),
-        )?;
+        let texture = OwnedTexture::new(plane.prepare().parts())?;
         let id = handle.load(texture).context("the output takes no texture; try again")?;
         *parent = Parent { id, weight: weight as f32 };
     }
@@ -147,14 +147,15 @@ fn start(handle: &mut Handle, motion: Motion) -> anyhow::Result<()> {
 
 /// Waits until so much has been played, then lifts the tip and lets it fade.
 fn wait(handle: &mut Handle, seconds: f64) -> anyhow::Result<Status> {
-    let progress = Progress::new("ms played", (1e3 * seconds) as usize);
+    let progress = Progress::new("ms played", output::in_ms(seconds));
+    let mut beginning = Beginning { frames_played: handle.status().frames_played, n_changes: 0 };
     let started = Instant::now();
     let deadline = Duration::from_secs_f64(seconds) + PATIENCE;
     loop {
-        std::thread::sleep(POLL);
+        std::thread::sleep(if beginning.is_over() { POLL } else { FIRST_POLL });
         handle.collect();
         let status = handle.status();
-        progress.set((1e3 * status.input_secs.min(seconds)) as usize);
+        beginning.note(status.frames_played);
         if status.state == LinkState::Lost {
             progress.finish();
             return Err(match handle.loss() {
@@ -162,8 +163,12 @@ fn wait(handle: &mut Handle, seconds: f64) -> anyhow::Result<Status> {
                 None => anyhow::anyhow!("the output was lost; look for it with `shagreen devices`"),
             });
         }
-        if status.input_secs >= seconds && status.frames_played > 0 {
-            break;
+        // Before it has begun, the input's clock is that of the tip in the air.
+        if beginning.is_over() {
+            progress.set_secs(status.input_secs.min(seconds));
+            if status.input_secs >= seconds {
+                break;
+            }
         }
         if started.elapsed() > deadline {
             progress.finish();
@@ -174,4 +179,84 @@ fn wait(handle: &mut Handle, seconds: f64) -> anyhow::Result<Status> {
     std::thread::sleep(Duration::from_secs_f64(3.0 * FADE_SECS));
     progress.finish();
     Ok(handle.status())
+}
+
+/// Whether the output has surely begun with the input that it was given before this was made.
+///
+/// The block that was being rendered then may still be of the input before; the next one is not.
+struct Beginning {
+    frames_played: u64,
+    n_changes: u32,
+}
+
+impl Beginning {
+    /// Takes what the output says now.
+    fn note(&mut self, frames_played: u64) {
+        if frames_played != self.frames_played {
+            self.frames_played = frames_played;
+            self.n_changes += 1;
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.n_changes >= 2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Beginning, ChannelMask, EXTENT_M, Hand, Input, Path, Status, check, wait};
+    use shagreen_device::engine::{self, EngineConfig};
+    use std::time::Duration;
+
+    #[test]
+    fn it_has_begun_when_a_second_block_has_been_played() {
+        let mut beginning = Beginning { frames_played: 512, n_changes: 0 };
+        for (frames_played, is_over) in
+            [(512, false), (768, false), (768, false), (1024, true), (1024, true), (1280, true)]
+        {
+            beginning.note(frames_played);
+            assert_eq!(beginning.is_over(), is_over, "{frames_played} frames");
+        }
+    }
+
+    /// A device that has played a second of a tip in the air, and asks for its next block late.
+    #[test]
+    fn the_time_before_the_input_does_not_count() {
+        let (mut handle, mut engine) = engine::new(EngineConfig {
+            model_rate_hz: 1000.0,
+            device_rate_hz: 48_000.0,
+            seed: 1,
+            full_scale_mps2: 20.0,
+            ceiling: 0.9,
+            channels: ChannelMask::FIRST_TWO,
+        })
+        .unwrap();
+        engine.process(&mut vec![0.0; 48_000], 1);
+        assert!(handle.status().input_secs > 0.5);
+        handle.set_input(Input::Hand(Hand {
+            path: Path::Circle,
+            speed_mps: 0.1,
+            force_n: 1.0,
+            extent_m: EXTENT_M,
+        }));
+        let device = std::thread::spawn(move || {
+            for _ in 0..4 {
+                std::thread::sleep(Duration::from_millis(200));
+                engine.process(&mut vec![0.0; 4800], 1);
+            }
+        });
+        let status = wait(&mut handle, 0.15).unwrap();
+        // Two blocks of a tenth of a second at the least.
+        assert!(status.frames_played >= 48_000 + 2 * 4800, "{status:?}");
+        drop(handle);
+        device.join().unwrap();
+    }
+
+    #[test]
+    fn a_tripped_limiter_is_a_failure() {
+        assert!(check(&Status { limited_samples: 9, ..Status::default() }).is_ok());
+        let error = check(&Status { tripped: true, ..Status::default() }).unwrap_err().to_string();
+        assert!(error.contains("silenced") && !error.contains('\n'), "{error}");
+    }
 }

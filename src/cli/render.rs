@@ -11,20 +11,16 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav};
 
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::guard::{refuse_foreign_sidecar, refuse_inputs};
 use crate::cli::motion::{Motion, MotionArgs, motion};
-use crate::cli::output;
-use crate::cli::target::{BlendArgs, Chosen, TargetArgs, choose};
+use crate::cli::output::{self, Progress};
+use crate::cli::target::{Chosen, SoundArgs};
 
 /// Renders a texture as a stylus would feel it: mono float WAV in m/s², with a sidecar that says what it is.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
-    target: TargetArgs,
-    #[command(flatten)]
-    library: LibraryArgs,
-    #[command(flatten)]
-    blend: BlendArgs,
+    sound: SoundArgs,
     /// Rate of the output, in Hz; without it that of the texture's model.
     #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..))]
     rate: Option<u32>,
@@ -43,20 +39,27 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let motion = motion(&args.motion, None)?;
-    let library = load(&args.library)?;
-    let chosen = choose(&library, &args.target, &args.blend)?;
+    let (library, chosen) = args.sound.load()?;
     let rate_hz = match args.rate {
         Some(rate_hz) => rate_hz,
         None => whole(chosen.rate(&library)?)?,
     };
+    let beside = sidecar_path(&args.out);
+    refuse_inputs(&[&args.out, &beside], &[motion.stroke_path(), args.sound.library_path()])?;
+    refuse_foreign_sidecar(&beside)?;
+    wav::check_length((motion.seconds() * f64::from(rate_hz)).round() as u64)?;
+    chosen.note_limits(&library, &motion);
     let samples = samples(args, &library, &chosen, &motion, rate_hz)?;
+    if samples.is_empty() {
+        bail!("{} s at {rate_hz} Hz are no sample; make it longer", motion.seconds());
+    }
     let sidecar = sidecar(args, &library, &chosen, &motion, rate_hz);
     let seconds = samples.len() as f64 / f64::from(rate_hz);
+    // Summed here, since a copy of an hour in f64 would take gigabytes.
     let wide = samples.iter().map(|sample| f64::from(*sample));
     let peak = wide.clone().fold(0.0, |peak: f64, sample| peak.max(sample.abs()));
     let rms = (wide.map(|sample| sample * sample).sum::<f64>() / samples.len().max(1) as f64).sqrt();
     write_wav(&args.out, &samples, &sidecar)?;
-    let beside = sidecar_path(&args.out);
     output::print(
         args.json,
         &json!({
@@ -110,8 +113,12 @@ fn samples(
         seconds: motion.seconds(),
         seed: args.seed,
     };
-    render(&plan, &mut |time_secs| motion.contact_at(time_secs))
-        .context("the texture cannot be rendered like that")
+    let progress = Progress::new("ms rendered", output::in_ms(plan.seconds));
+    let mut contact_at = |time_secs| {
+        progress.set_secs(time_secs);
+        motion.contact_at(time_secs)
+    };
+    render(&plan, &mut contact_at).context("the texture cannot be rendered like that")
 }
 
 fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rate_hz: u32) -> SidecarV1 {

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
 use shagreen_device::pressure::PressureMap;
-use shagreen_device::track::{PenSample as TrackSample, Track};
+use shagreen_device::track::{MAX_TRACK_SECS, PenSample as TrackSample, Track, TrackError};
 use shagreen_formats::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use shagreen_formats::stroke_csv::read_stroke_csv;
 use shagreen_formats::svc::{PenMapping, pen_samples, read_svc};
@@ -39,13 +39,16 @@ pub(crate) struct StrokeArgs {
     pressure_curve: f64,
 }
 
-/// Speed and force over time.
+/// Speed and force over time, for at most [`MAX_TRACK_SECS`].
 pub(crate) enum StrokeContacts {
     /// Estimated from where a pen was.
     Track(Track),
     /// As they were given, in straight lines between.
     Given(Vec<TimedContact>),
 }
+
+/// What to do about a stroke that makes no track.
+const CORRECT: &str = "the stroke cannot be replayed; correct it, or how it is read";
 
 fn bend(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -71,7 +74,7 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
         let imported = read_stroke_csv(bytes)?;
         imported.warnings.iter().for_each(|warning| output::warn(warning));
         match imported.value {
-            Stroke::Contacts(contacts) => return Ok(StrokeContacts::Given(contacts)),
+            Stroke::Contacts(contacts) => return StrokeContacts::given(contacts),
             Stroke::Pen { samples, press_unit } => (samples, press_unit),
         }
     };
@@ -90,8 +93,7 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
     if !samples.iter().any(|sample| sample.touching) {
         output::warn("the tip never touches in this stroke: it is silent");
     }
-    let track = Track::new(&samples.iter().map(sample).collect::<Vec<_>>())
-        .context("the stroke cannot be replayed; correct it, or how it is read")?;
+    let track = Track::new(&samples.iter().map(sample).collect::<Vec<_>>()).context(CORRECT)?;
     let n_equal = track.warnings.n_equal_timestamps;
     if n_equal > 0 {
         output::warn(&format!("{n_equal} samples have the time of the next one and were left out"));
@@ -127,6 +129,16 @@ fn read_pen(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<PenSample>> {
 }
 
 impl StrokeContacts {
+    /// Speed and force as they were given; what is longer than a [`Track`] may be is refused as it refuses it.
+    fn given(contacts: Vec<TimedContact>) -> anyhow::Result<Self> {
+        let given = Self::Given(contacts);
+        let duration_secs = given.duration_secs();
+        if duration_secs > MAX_TRACK_SECS {
+            return Err(TrackError::TooLong { duration_secs }).context(CORRECT);
+        }
+        Ok(given)
+    }
+
     /// From the first sample to the last, in seconds.
     pub(crate) fn duration_secs(&self) -> f64 {
         match self {
@@ -216,6 +228,18 @@ mod tests {
         ] {
             let contact = given_at(&given(), time_secs);
             assert!((contact.speed.0 - speed_mps).abs() < 1e-12 && (contact.force.0 - force_n).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_stroke_of_ages_is_refused_before_it_is_walked() {
+        let lasting = |time_secs| {
+            let contact = |time_secs| TimedContact { time_secs, speed_mps: 0.1, force_n: 1.0 };
+            StrokeContacts::given(vec![contact(0.0), contact(time_secs)])
+        };
+        assert!(lasting(3600.0).is_ok());
+        for time_secs in [3600.1, 1e12, 1e300] {
+            assert!(lasting(time_secs).is_err(), "{time_secs} s");
         }
     }
 

@@ -1,5 +1,7 @@
 //! Which texture: one of the library, or the one authored at a point of the space.
 
+use std::path::Path;
+
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::blend::{Mode, author};
@@ -8,24 +10,31 @@ use shagreen_core::space::{Space, SpacePoint};
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::Library;
 
+use crate::cli::library_source::{self, LibraryArgs};
+use crate::cli::motion::Motion;
 use crate::cli::output;
+
+/// What sounds.
+#[derive(clap::Args)]
+pub(crate) struct SoundArgs {
+    #[command(flatten)]
+    target: TargetArgs,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// How the textures around a point become one.
+    #[arg(long, value_name = "MODE", value_parser = blend_parser(), default_value = Mode::default().id())]
+    blend: Mode,
+}
 
 #[derive(clap::Args)]
 #[group(required = true, multiple = false)]
-pub(crate) struct TargetArgs {
+struct TargetArgs {
     /// Point of the space: rough-smooth and hard-soft, 0 to 100 each, 0 = roughest, 0 = hardest.
     #[arg(long, value_name = "RS,HS", value_parser = parse_point, allow_hyphen_values = true)]
     at: Option<SpacePoint>,
     /// Texture of the library, by its id.
     #[arg(long, value_name = "ID")]
     texture: Option<String>,
-}
-
-#[derive(clap::Args)]
-pub(crate) struct BlendArgs {
-    /// How the textures around a point become one.
-    #[arg(long = "blend", value_name = "MODE", value_parser = blend_parser(), default_value = Mode::default().id())]
-    pub(crate) mode: Mode,
 }
 
 /// What sounds: parents by their index in the library, largest weight first, at least one.
@@ -58,16 +67,39 @@ fn blend_parser() -> impl clap::builder::TypedValueParser<Value = Mode> {
         .map(|id| Mode::from_id(&id).unwrap_or_default())
 }
 
-/// Finds what the arguments name.
-pub(crate) fn choose(library: &Library, target: &TargetArgs, blend: &BlendArgs) -> anyhow::Result<Chosen> {
+impl SoundArgs {
+    /// The library that the arguments name, and what they choose of it.
+    pub(crate) fn load(&self) -> anyhow::Result<(Library, Chosen)> {
+        let library = self.load_library()?;
+        let chosen = self.choose(&library)?;
+        Ok((library, chosen))
+    }
+
+    /// The library that the arguments name.
+    pub(crate) fn load_library(&self) -> anyhow::Result<Library> {
+        library_source::load(&self.library)
+    }
+
+    /// The library file or folder that was named.
+    pub(crate) fn library_path(&self) -> Option<&Path> {
+        self.library.path()
+    }
+
+    /// What the arguments choose of a library.
+    pub(crate) fn choose(&self, library: &Library) -> anyhow::Result<Chosen> {
+        choose(library, &self.target, self.blend)
+    }
+}
+
+fn choose(library: &Library, target: &TargetArgs, mode: Mode) -> anyhow::Result<Chosen> {
     if let Some(id) = &target.texture {
         let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
         let parents = vec![(index, 1.0)];
-        return Ok(Chosen { parents, mode: blend.mode, texture: Some(id.clone()), at: None, clamped: false });
+        return Ok(Chosen { parents, mode, texture: Some(id.clone()), at: None, clamped: false });
     }
     let Some(point) = target.at else { bail!(output::Usage("say --at RS,HS or --texture ID".to_owned())) };
     let space = Space::new(&library.positions()).context("the textures cannot be placed")?;
-    let authored = author(&space, point, blend.mode)
+    let authored = author(&space, point, mode)
         .context("no texture of the library has a place; use --texture, or place the textures first")?;
     let location = authored.location;
     if location.clamped {
@@ -77,7 +109,7 @@ pub(crate) fn choose(library: &Library, target: &TargetArgs, blend: &BlendArgs) 
         ));
     }
     let (at, clamped) = (Some(location.at), location.clamped);
-    Ok(Chosen { parents: authored.parents, mode: blend.mode, texture: None, at, clamped })
+    Ok(Chosen { parents: authored.parents, mode, texture: None, at, clamped })
 }
 
 impl Chosen {
@@ -95,6 +127,20 @@ impl Chosen {
                 "the textures around this point have different rates, {first} and {other}; choose another point"
             ),
             None => Ok(first),
+        }
+    }
+
+    /// Says where the hand leaves what the parents know: beyond it they stay as they are at its edge.
+    pub(crate) fn note_limits(&self, library: &Library, motion: &Motion) {
+        let models = || self.parents.iter().map(|(index, _)| &library.textures[*index].model);
+        let known_mm_per_s = models().map(|m| m.speed_max().mm_per_s()).fold(f64::INFINITY, f64::min);
+        let known_n = models().map(|m| m.force_max().0).fold(f64::INFINITY, f64::min);
+        let trace = motion.trace();
+        let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        if highest(&trace.speed_mm_per_s) > known_mm_per_s || highest(&trace.force_n) > known_n {
+            output::note(&format!(
+                "the texture is known up to {known_mm_per_s:.0} mm/s and {known_n:.1} N; beyond that it stays as it is there"
+            ));
         }
     }
 

@@ -7,20 +7,15 @@ use shagreen_core::blend::{Mode, mixture_psd};
 use shagreen_core::plane::Plane;
 use shagreen_core::units::{Contact, Hertz};
 
-use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::motion::quantity;
 use crate::cli::output;
-use crate::cli::target::{BlendArgs, TargetArgs, choose, unknown_texture};
+use crate::cli::target::{SoundArgs, unknown_texture};
 
 /// The one-sided power spectral density of a texture's model, in (m/s²)²/Hz, from 5 Hz to just below half its rate.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
-    target: TargetArgs,
-    #[command(flatten)]
-    library: LibraryArgs,
-    #[command(flatten)]
-    blend: BlendArgs,
+    sound: SoundArgs,
     /// Speed of the tip, in mm/s.
     #[arg(long, value_name = "V", value_parser = quantity, allow_negative_numbers = true)]
     speed: f64,
@@ -39,12 +34,12 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let mut library = load(&args.library)?;
+    let mut library = args.sound.load_library()?;
     if let Some(id) = &args.without {
         let index = library.index_of(id).with_context(|| unknown_texture(&library, id))?;
         library.textures.remove(index);
     }
-    let chosen = choose(&library, &args.target, &args.blend)?;
+    let chosen = args.sound.choose(&library)?;
     let rate = chosen.rate(&library)?;
     let contact = Contact::from_mm_per_s_and_n(args.speed, args.force);
     let planes = chosen.planes(&library);

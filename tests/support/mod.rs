@@ -43,13 +43,16 @@ impl Bench {
         names
     }
 
+    /// The program, to be run in the folder, with arguments parted by spaces.
+    pub(crate) fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_shagreen"));
+        command.args(arguments.split_whitespace()).current_dir(self.folder.path());
+        command
+    }
+
     /// Runs the program in the folder, with arguments parted by spaces.
     pub(crate) fn run(&self, arguments: &str) -> Said {
-        let output = Command::new(env!("CARGO_BIN_EXE_shagreen"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.folder.path())
-            .output()
-            .unwrap();
+        let output = self.command(arguments).output().unwrap();
         Said {
             code: output.status.code().unwrap_or(-1),
             stdout: String::from_utf8(output.stdout).unwrap(),

@@ -39,11 +39,17 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     grid(ui, axes, outer, t);
     triangles(ui, axes, panel, t);
     if let Some(pos) = background.interact_pointer_pos()
-        && (background.dragged() || background.clicked())
+        && (background.dragged() || background.drag_stopped() || background.clicked())
     {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
     commands.extend(sites_ui(ui, axes, panel, t));
+    if panel.session.space().sites().is_empty() {
+        let font = FontId::proportional(15.0);
+        let message =
+            if panel.session.textures().is_empty() { strings::NO_TEXTURES } else { strings::NO_PLACES };
+        ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
+    }
     commands.extend(point_ui(ui, axes, panel, t));
     commands
 }

@@ -13,6 +13,11 @@ use crate::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 
 /// Draws the column and returns what the user asked of it.
 pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let area = egui::ScrollArea::vertical().auto_shrink(false);
+    area.show(ui, |ui| content_ui(ui, panel)).inner
+}
+
+fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.add_space(GAP);
     let mut name = panel.project.name.clone();
@@ -63,7 +68,9 @@ fn axis_slider(ui: &mut Ui, value: &mut f64, ends: [&str; 2], name: &str, help: 
     });
     let width = ui.available_width();
     ui.spacing_mut().slider_width = width - 66.0;
-    let slider = Slider::new(value, 0.0..=100.0).fixed_decimals(1).smart_aim(false);
+    // Shown with one decimal, not rounded to it: a slider that rounds would edit the project by itself.
+    let one_decimal = |value: f64, _| format!("{value:.1}");
+    let slider = Slider::new(value, 0.0..=100.0).custom_formatter(one_decimal).smart_aim(false);
     ui.add(slider).accessible_name(name).on_hover_text(help).changed()
 }
 

@@ -24,11 +24,11 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
         ui.add(TextEdit::singleline(search).hint_text(strings::SEARCH_HINT).desired_width(f32::INFINITY));
     field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::SEARCH));
     ui.add_space(2.0);
-    let wanted = search.to_lowercase();
+    let wanted: Vec<String> = search.to_lowercase().split_whitespace().map(str::to_owned).collect();
+    // Every word must be found, each in the name or in a tag.
     let matches = |name: &str, tags: &[String]| {
-        wanted.is_empty()
-            || name.to_lowercase().contains(&wanted)
-            || tags.iter().any(|tag| tag.to_lowercase().contains(&wanted))
+        let is_in = |text: &str, word: &String| text.to_lowercase().contains(word);
+        wanted.iter().all(|word| is_in(name, word) || tags.iter().any(|tag| is_in(tag, word)))
     };
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let mut found = false;
@@ -42,7 +42,9 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
                 }
             }
         }
-        if !found {
+        if panel.session.textures().is_empty() {
+            ui.label(egui::RichText::new(strings::NO_TEXTURES).color(t.text_weak));
+        } else if !found {
             ui.label(egui::RichText::new(strings::NO_MATCH).color(t.text_weak));
         }
     });
@@ -55,6 +57,9 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
     let entry = &panel.session.textures()[index];
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), PICTURE + 6.0), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::texture(&entry.name)));
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
     if ui.is_rect_visible(area) {
         if response.hovered() || response.has_focus() {
             ui.painter().rect_filled(area, f32::from(crate::theme::RADIUS), t.raised);

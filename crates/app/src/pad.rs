@@ -81,7 +81,7 @@ pub fn pad_ui(
     tip(ui, area, panel.session.touch());
     if response.hovered() {
         let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
-        let force_n = state.hand.force_n * (scrolled * 0.004).exp();
+        let force_n = state.hand.force_n * (scrolled * 0.0015).exp();
         state.hand.force_n = force_n.clamp(*FORCES_N.start(), *FORCES_N.end());
     }
     let pressed = response.is_pointer_button_down_on();
@@ -104,7 +104,8 @@ fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Comma
     ui.horizontal(|ui| {
         let running = panel.session.hand_is_running();
         let text = if running { strings::HAND_STOP } else { strings::HAND_START };
-        if ui.selectable_label(running, text).on_hover_text(strings::HAND_HELP).clicked() {
+        let button = egui::Button::new(text).selected(running).min_size(vec2(58.0, 0.0));
+        if ui.add(button).on_hover_text(strings::HAND_HELP).clicked() {
             command = Some(Command::ToggleHand);
         }
         let chosen =
@@ -117,12 +118,18 @@ fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Comma
         shown.response.accessible_name(strings::HAND_PATH);
         ui.spacing_mut().slider_width = ((ui.available_width() - 158.0) / 2.0).clamp(24.0, 90.0);
         let mut mm_per_s = state.hand.speed_mps * 1e3;
-        let speed =
-            Slider::new(&mut mm_per_s, SPEEDS_MM_PER_S).fixed_decimals(0).suffix(" mm/s").smart_aim(false);
+        let whole = |value: f64, _| format!("{value:.0}");
+        let speed = Slider::new(&mut mm_per_s, SPEEDS_MM_PER_S)
+            .custom_formatter(whole)
+            .suffix(" mm/s")
+            .smart_aim(false);
         ui.add(speed).accessible_name(strings::HAND_SPEED).on_hover_text(strings::HAND_SPEED);
         state.hand.speed_mps = mm_per_s * 1e-3;
-        let force =
-            Slider::new(&mut state.hand.force_n, FORCES_N).fixed_decimals(2).suffix(" N").smart_aim(false);
+        let hundredths = |value: f64, _| format!("{value:.2}");
+        let force = Slider::new(&mut state.hand.force_n, FORCES_N)
+            .custom_formatter(hundredths)
+            .suffix(" N")
+            .smart_aim(false);
         ui.add(force).accessible_name(strings::HAND_FORCE).on_hover_text(strings::HAND_FORCE);
     });
     ui.add_space(GAP / 2.0);

@@ -45,6 +45,7 @@ fn waveform(ui: &mut Ui, panel: &Panel<'_>) {
     let range = scope.range();
     fixed(Plot::new("waveform"), t.line)
         .x_axis_formatter(|mark, _| format!("{:.0} ms", mark.value))
+        .y_axis_formatter(|mark, _| format!("{}", mark.value + 0.0))
         .y_grid_spacer(egui_plot::uniform_grid_spacer(move |_| [range, 0.5 * range, 0.5 * range]))
         .show(ui, |plot| {
             plot.set_plot_bounds_x(-250.0..=0.0);

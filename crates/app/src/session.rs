@@ -218,6 +218,11 @@ impl Session {
         Some(self.outputs().iter().find(|o| o.id == id).map_or(id, |o| o.name.as_str()))
     }
 
+    /// Whether an output is being opened.
+    pub fn is_opening(&self) -> bool {
+        self.player.is_opening()
+    }
+
     /// What is wrong with the output, if anything is.
     pub fn output_message(&self) -> Option<&str> {
         self.player.message.as_deref()

@@ -39,7 +39,8 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             ui.separator();
             weak(ui, format!("{} dropouts", status.underruns), strings::DROPOUTS_HELP);
             ui.separator();
-            let level = 20.0 * f64::from(status.level_mps2.max(1e-4)).log10();
+            // Rounded first, so that nothing reads "-0 dB".
+            let level = (20.0 * f64::from(status.level_mps2.max(1e-4)).log10()).round() + 0.0;
             weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -56,7 +57,11 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 fn output_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
     let mut chosen = None;
     let session = panel.session;
-    let current = session.output_name().unwrap_or(strings::OPENING);
+    let current = session.output_name().unwrap_or(if session.is_opening() {
+        strings::OPENING
+    } else {
+        strings::NO_OUTPUT
+    });
     let combo = ComboBox::from_id_salt("output").width(210.0).truncate().selected_text(current);
     let shown = combo.show_ui(ui, |ui| {
         for output in session.outputs() {

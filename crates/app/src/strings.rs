@@ -94,6 +94,13 @@ pub const UNMUTE: &str = "Unmute";
 pub const NO_SOUND: &str = "No sound: the silent output is used";
 /// Opening an output broke off.
 pub const OPENING_FAILED: &str = "Opening the output failed; choose it again, or another";
+/// The library is empty.
+pub const NO_TEXTURES: &str = "This library has no textures.";
+/// No texture of the library lies in the space.
+pub const NO_PLACES: &str =
+    "No texture of this library has a place in the space, so there is nothing to blend.";
+/// No output is open.
+pub const NO_OUTPUT: &str = "Choose an output";
 /// What the blend `paper` is.
 pub const PAPER_HELP: &str = "As printed in the paper: inverse-distance weights, independent signals. Sinks in level \
                               between textures and jumps at the edges of triangles.";

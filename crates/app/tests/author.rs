@@ -225,6 +225,23 @@ fn a_whole_drag_is_one_step_of_undo() {
     assert_eq!(window(&harness).project().point, start);
 }
 
+/// A click on a texture is that texture, wholly, and undo takes it back: the sliders that show the place do not round it.
+#[test]
+fn a_click_on_a_texture_is_that_texture_and_can_be_undone() {
+    for name in ["Cardboard", "Felt", "Glass", "Brick"] {
+        let mut harness = author();
+        let start = window(&harness).project().point;
+        harness.get_by_label(&strings::go_to(name)).click();
+        listen(&mut harness, 0.3);
+        let authored = window(&harness).session().authored().unwrap().clone();
+        assert!(!authored.location.clamped, "{name} is said to lie outside");
+        assert_eq!(parents(&harness), [(name.to_owned(), 1.0)]);
+        harness.get_by_label(strings::UNDO).click();
+        listen(&mut harness, 0.3);
+        assert_eq!(window(&harness).project().point, start, "undo after a click on {name}");
+    }
+}
+
 #[test]
 fn the_keyboard_moves_the_point_and_starts_the_hand() {
     let mut harness = author();

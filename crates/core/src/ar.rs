@@ -3,7 +3,7 @@
 //! `A(z) = 1 + Σ a_k z^-k`, `x[n] = -Σ a_k x[n-k] + e[n]`, `e ~ N(0, σ²)`. Coefficient slices leave the leading one out:
 //! `ar[0]` is `a_1`.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use crate::units::Hertz;
 
@@ -175,27 +175,24 @@ pub fn comparison_frequencies(rate: Hertz, n: usize) -> Vec<Hertz> {
     (0..n).map(|i| Hertz(low + step * i as f64)).collect()
 }
 
-/// The predictor with poles at `radius e^{±j 2π f / rate}` for each (frequency, radius): for tests and examples.
-pub fn from_resonances(rate: Hertz, resonances: &[(Hertz, f64)]) -> Vec<f64> {
-    let mut poly = vec![1.0];
-    for (f, r) in resonances {
-        let factor = [1.0, -2.0 * r * (2.0 * PI * f.0 / rate.0).cos(), r * r];
-        let mut next = vec![0.0; poly.len() + 2];
-        for (i, p) in poly.iter().enumerate() {
-            for (j, q) in factor.iter().enumerate() {
-                next[i + j] += p * q;
-            }
-        }
-        poly = next;
+/// Predictors that tests know the answer for.
+#[cfg(test)]
+pub(crate) mod test_signals {
+    use crate::lsf::convolve;
+    use crate::units::Hertz;
+    use std::f64::consts::TAU;
+
+    /// The predictor with poles at `radius e^{±j 2π f / rate}` for each (frequency, radius).
+    pub(crate) fn from_resonances(rate: Hertz, resonances: &[(Hertz, f64)]) -> Vec<f64> {
+        let factor = |(f, r): &(Hertz, f64)| [1.0, -2.0 * r * (TAU * f.0 / rate.0).cos(), r * r];
+        resonances.iter().map(factor).fold(vec![1.0], |poly, f| convolve(&poly, &f)).split_off(1)
     }
-    poly.split_off(1)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        ArError, burg, comparison_frequencies, from_resonances, order_by_bic, power_gain, psd, yule_walker,
-    };
+    use super::test_signals::from_resonances;
+    use super::{ArError, burg, comparison_frequencies, order_by_bic, power_gain, psd, yule_walker};
     use crate::rng::lcg_noise;
     use crate::units::Hertz;
     use serde_json::Value;

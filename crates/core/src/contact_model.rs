@@ -23,6 +23,7 @@ use crate::filter::{butterworth_high_pass, decimate, filter_zero_phase};
 use crate::height_field::{HeightField, PROFILE_STEP_M, profile};
 use crate::material::Material;
 use crate::rng::{Random, derive_seed};
+use crate::spectrum::rms;
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 /// Sampling rate of a simulated stroke.
@@ -222,8 +223,7 @@ pub fn simulate(
 pub fn roughness(surface: &Surface, seed: u64) -> Result<f64, StrokeError> {
     let signal = simulate(surface, REFERENCE_CONTACT, 1.0, seed)?;
 
-    let power = signal.iter().map(|value| value * value).sum::<f64>() / signal.len() as f64;
-    Ok(0.5 * power.log10())
+    Ok(rms(&signal).log10())
 }
 
 /// Physical label of hardness: log₁₀ of [`hertz_stiffness_n_per_m`] at the force of [`REFERENCE_CONTACT`].

@@ -77,13 +77,14 @@ fn unit_phase(value: Complex<f64>, floor: f64) -> Complex<f64> {
     if norm > floor { value / norm } else { Complex::new(1.0, 0.0) }
 }
 
-fn check_run(outcome: &Result<(), realfft::FftError>) {
+/// Stops at what cannot happen: a transform refuses only buffers of another length.
+pub(crate) fn check_run(outcome: &Result<(), realfft::FftError>) {
     assert!(outcome.is_ok(), "the transform's buffers come from its own plan: {outcome:?}");
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Dft321Error, dft321};
     use crate::rng::lcg_noise;
     use proptest::prelude::{Strategy as _, any, proptest};
     use std::f64::consts::TAU;

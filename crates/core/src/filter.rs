@@ -1,5 +1,7 @@
 //! Small digital filters for offline use: Butterworth high-pass sections and an anti-aliased decimator.
 
+use shagreen_synth::resampler::bessel_i0;
+
 use crate::units::Hertz;
 use std::f64::consts::PI;
 
@@ -113,22 +115,13 @@ fn decimation_taps(factor: usize) -> Vec<f64> {
     taps
 }
 
-/// Modified Bessel function of the first kind and order zero, by its power series.
-fn bessel_i0(x: f64) -> f64 {
-    let quarter = 0.25 * x * x;
-    let mut term = 1.0;
-    let mut sum = 1.0;
-    for k in 1..60 {
-        term *= quarter / f64::from(k * k);
-        sum += term;
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{
+        Biquad, Hertz, PI, butterworth_high_pass, decimate, decimation_taps, filter, filter_zero_phase,
+    };
     use crate::rng::lcg_noise;
+    use crate::spectrum::rms;
 
     fn sine(frequency_hz: f64, rate_hz: f64, n: usize) -> Vec<f64> {
         (0..n).map(|i| (2.0 * PI * frequency_hz * i as f64 / rate_hz).sin()).collect()
@@ -141,10 +134,6 @@ mod tests {
             (c0 + c1 * w.cos() + c2 * (2.0 * w).cos()).hypot(c1 * w.sin() + c2 * (2.0 * w).sin())
         };
         sections.iter().map(|s| norm(s.b[0], s.b[1], s.b[2]) / norm(1.0, s.a[0], s.a[1])).product()
-    }
-
-    fn rms(signal: &[f64]) -> f64 {
-        (signal.iter().map(|v| v * v).sum::<f64>() / signal.len() as f64).sqrt()
     }
 
     #[test]

@@ -132,7 +132,7 @@ fn cubic_taps(position: f64, n_cells: usize) -> ([usize; 4], [f64; 4]) {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Fractal, HeightField, PROFILE_SLOPE, PROFILE_STEP_M, Tile, height_m, profile, synthesize};
     use crate::material::tests::plain;
     use crate::material::{Bumps, Pattern, PatternKind};
     use std::f64::consts::{FRAC_PI_2, TAU};

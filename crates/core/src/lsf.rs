@@ -104,7 +104,8 @@ pub fn ar_from_lsf(lsf: &[f64]) -> Vec<f64> {
     (1..=lsf.len()).map(|i| 0.5 * (q[i] + p[i])).collect()
 }
 
-fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
+/// The product of two polynomials.
+pub(crate) fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {
@@ -134,7 +135,8 @@ pub fn repair(lsf: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::{MIN_GAP, ar_from_lsf, lsf_from_ar, repair};
-    use crate::ar::{burg, from_resonances};
+    use crate::ar::burg;
+    use crate::ar::test_signals::from_resonances;
     use crate::rng::lcg_noise;
     use crate::units::Hertz;
     use proptest::prelude::{prop, prop_assert, proptest};

@@ -121,7 +121,7 @@ pub enum MaterialError {
     OutOfRange {
         /// The material.
         id: String,
-        /// The parameter, as its field is called.
+        /// The parameter, as its field is called, or the product of several.
         field: &'static str,
         /// What was given.
         value: f64,
@@ -135,7 +135,23 @@ pub enum MaterialError {
 /// Smallest length or stiffness that counts as above zero.
 const TINY: f64 = 1e-9;
 
-/// Checks that every parameter has a meaning and that no length would ask for unbounded work.
+/// Shortest period of a pattern: a tile holds a cell of numbers for each, and finer than its points nothing shows.
+const SHORTEST_PERIOD_M: f64 = 1e-4;
+
+/// Width of a bump below which it is no less work: about that of a point of a tile.
+const POINT_M: f64 = 40e-6;
+
+/// Most that a scatter may cover a surface: at this it lies thirty deep.
+const MOST_COVER: f64 = 10.0;
+
+/// Share of a surface that a scatter covers, by length and width of one standard deviation.
+///
+/// The time that a scatter takes grows as this: it is spent on the points under each bump.
+fn cover(bumps: &Bumps) -> f64 {
+    bumps.density_per_m2 * bumps.radius_m * bumps.elongation * bumps.radius_m.max(POINT_M)
+}
+
+/// Checks that every parameter has a meaning, and that none, nor several together, ask for unbounded work or memory.
 ///
 /// # Errors
 /// [`MaterialError::Id`], or [`MaterialError::OutOfRange`] for the first parameter found wrong; NaN is always wrong.
@@ -172,7 +188,7 @@ pub fn validate(material: &Material) -> Result<(), MaterialError> {
     ];
     numbers.into_iter().try_for_each(check)?;
     if let Some(pattern) = &material.pattern {
-        check(("pattern.period_m", pattern.period_m, 1e-5, 1.0))?;
+        check(("pattern.period_m", pattern.period_m, SHORTEST_PERIOD_M, 1.0))?;
         check(("pattern.amplitude_m", pattern.amplitude_m, 0.0, 1e-2))?;
         check(("pattern.jitter", pattern.jitter, 0.0, 1.0))?;
     }
@@ -182,6 +198,7 @@ pub fn validate(material: &Material) -> Result<(), MaterialError> {
         check(("bumps.elongation", bumps.elongation, 1.0, 1e3))?;
         check(("bumps.spread_rad", bumps.spread_rad, 0.0, FRAC_PI_2))?;
         check(("bumps.density_per_m2", bumps.density_per_m2, 0.0, 1e10))?;
+        check(("bumps.density_per_m2 x radius_m² x elongation", cover(bumps), 0.0, MOST_COVER))?;
     }
     Ok(())
 }
@@ -243,5 +260,28 @@ pub(crate) mod tests {
         let bumps =
             Bumps { height_m: 1e-6, radius_m: 1e-4, elongation: 0.5, spread_rad: 0.0, density_per_m2: 1e6 };
         check(|m| m.bumps.push(bumps), Some("bumps.elongation"));
+    }
+
+    #[test]
+    fn what_would_take_for_ever_is_refused() {
+        let lattice =
+            |period_m| Pattern { kind: PatternKind::Cells, period_m, amplitude_m: 1e-6, jitter: 0.1 };
+        check(|m| m.pattern = Some(lattice(1e-5)), Some("pattern.period_m"));
+        check(|m| m.pattern = Some(lattice(SHORTEST_PERIOD_M)), None);
+        let bumps = |density_per_m2, radius_m, elongation| Bumps {
+            height_m: 1e-6,
+            radius_m,
+            elongation,
+            spread_rad: 0.0,
+            density_per_m2,
+        };
+        let too_much = Some("bumps.density_per_m2 x radius_m² x elongation");
+        // Each number alone has a meaning.
+        check(|m| m.bumps.push(bumps(1e10, 1e-2, 1.0)), too_much);
+        check(|m| m.bumps.push(bumps(1e10, 1e-6, 1e3)), too_much);
+        check(|m| m.bumps.push(bumps(1e6, 1e-3, 1e3)), too_much);
+        check(|m| m.bumps.push(bumps(1e10, 1e-6, 1.0)), None);
+        check(|m| m.bumps.push(bumps(1e3, 1e-2, 1.0)), None);
+        check(|m| m.bumps.push(bumps(40e6, 0.05e-3, 1.0)), None);
     }
 }

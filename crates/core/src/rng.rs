@@ -98,7 +98,7 @@ fn box_muller(u1: f64, u2: f64) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Random, derive_seed, lattice_uniform, lcg_noise};
 
     #[test]
     fn lcg_noise_matches_the_reference_script() {

@@ -208,7 +208,7 @@ fn box_mean(values: &[f64], n: usize, radius: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Framing, Material, Picture, box_mean, display_slope, light, shade};
     use crate::height_field::{Tile, synthesize};
     use crate::material::tests::plain;
     use crate::rng::lcg_noise;

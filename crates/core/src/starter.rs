@@ -176,9 +176,10 @@ mod tests {
     use super::{
         FORCES_N, Labels, MAX_ORDER, MIN_ORDER, SPEEDS_MM_PER_S, StarterError, Stroked, fit, make, places,
     };
-    use crate::ar::from_resonances;
+    use crate::ar::test_signals::from_resonances;
     use crate::material::tests::plain;
     use crate::rng::lcg_noise;
+    use crate::spectrum::rms;
     use crate::units::Hertz;
 
     fn stroked(resonances: &[(Hertz, f64)], level: f64, seed: u64) -> Stroked {
@@ -188,7 +189,8 @@ mod tests {
             x[n] -= (1..=ar.len().min(n)).map(|k| ar[k - 1] * x[n - k]).sum::<f64>();
         }
         let accel_mps2 = x.split_off(1000).into_iter().map(|v| level * v).collect();
-        Stroked { speed_mm_per_s: 100.0, force_n: 1.0, accel_mps2 }
+        // Two measurements at one place would be refused.
+        Stroked { speed_mm_per_s: 100.0 + seed as f64, force_n: 1.0, accel_mps2 }
     }
 
     #[test]
@@ -205,7 +207,7 @@ mod tests {
     #[test]
     fn level_is_that_of_the_signal() {
         let stroke = stroked(&[(Hertz(100.0), 0.9)], 0.25, 3);
-        let rms = (stroke.accel_mps2.iter().map(|v| v * v).sum::<f64>() / 1000.0).sqrt();
+        let rms = rms(&stroke.accel_mps2);
         let model = fit(&[stroke], 0.3).unwrap();
         assert!((model.nodes()[0].level_mps2 - rms).abs() < 1e-12);
         assert_eq!(model.friction(), Some(0.3));

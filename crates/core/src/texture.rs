@@ -1,5 +1,9 @@
 //! A texture: what a surface does to a tip at every speed and force.
 
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
 /// Highest order of a predictor that can be rendered.
@@ -7,6 +11,23 @@ pub const MAX_ORDER: usize = shagreen_synth::texture::MAX_ORDER;
 
 /// Most nodes of a texture: with its boundary, twice as many triangles still have 16-bit numbers in the renderer.
 pub const MAX_NODES: usize = 20_000;
+
+/// Speeds that a node may have, in m/s: wide enough for any hand, and usable numbers in the renderer's `f32`.
+pub const SPEEDS_MPS: RangeInclusive<f64> = 1e-6..=100.0;
+
+/// Forces that a node may have, in N.
+pub const FORCES_N: RangeInclusive<f64> = 1e-6..=1e4;
+
+/// Levels that a node may have, in m/s².
+pub const LEVELS_MPS2: RangeInclusive<f64> = 0.0..=1e6;
+
+/// Smallest distance between neighboring line spectral frequencies, and from 0 and π, in radians: 40 times the spacing
+/// of `f32` near π, so that they are still apart in the renderer.
+pub const MIN_LSF_GAP: f64 = 1e-5;
+
+/// Smallest distance of nodes from each other, and from zero speed and force, as a share of the highest speed and
+/// force: the triangles between are flatter the nearer nodes are, and `f32` must still tell their insides apart.
+pub const MIN_NODE_DISTANCE: f64 = 1e-4;
 
 /// The stochastic vibration at one speed and force, as an autoregressive process.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,21 +77,33 @@ pub enum TextureModelError {
         /// Its order.
         order: usize,
     },
-    /// Frequencies are not ascending within (0, π).
-    #[error("line spectral frequencies of node {index} do not ascend within 0 to pi")]
+    /// Frequencies are not ascending within (0, π) by at least [`MIN_LSF_GAP`].
+    #[error("line spectral frequencies of node {index} do not ascend within 0 to pi by at least {gap} rad each", gap = MIN_LSF_GAP)]
     Frequencies {
         /// Index of the node.
         index: usize,
     },
-    /// A speed, force, level or friction is not a finite, non-negative number, or speed or force is zero.
-    #[error("{what} of node {index} is {value}; it must be a positive number")]
+    /// A speed, force or level is not a number from the lowest to the highest that can be rendered.
+    #[error("{what} of node {index} is {value}; it must lie between {low} and {high}")]
     Value {
-        /// What is wrong.
+        /// What is wrong, with its unit.
         what: &'static str,
         /// Index of the node.
         index: usize,
         /// Its value.
         value: f64,
+        /// Lowest that is possible beside the other nodes.
+        low: f64,
+        /// Highest that is possible.
+        high: f64,
+    },
+    /// Two nodes are at the same speed and force, or nearer than [`MIN_NODE_DISTANCE`].
+    #[error("nodes {first} and {second} are at the same speed and force, to within {share} of the highest; keep one of them", share = MIN_NODE_DISTANCE)]
+    SamePlace {
+        /// Index of the one.
+        first: usize,
+        /// Index of the other.
+        second: usize,
     },
     /// The friction coefficient is not a finite, non-negative number.
     #[error("the friction coefficient is {value}; it must not be negative")]
@@ -98,20 +131,14 @@ impl TextureModel {
             if node.lsf.len() != order || order == 0 || order > MAX_ORDER {
                 return Err(TextureModelError::Order { index, order: node.lsf.len() });
             }
-            let inside = |w: &f64| *w > 0.0 && *w < std::f64::consts::PI;
-            if !node.lsf.iter().all(inside) || !node.lsf.windows(2).all(|w| w[0] < w[1]) {
+            if !are_apart(&node.lsf) {
                 return Err(TextureModelError::Frequencies { index });
             }
-            let values = [("speed", node.speed.0), ("force", node.force.0)];
-            for (what, value) in values {
-                if !(value.is_finite() && value > 0.0) {
-                    return Err(TextureModelError::Value { what, index, value });
-                }
-            }
-            if !(node.level_mps2.is_finite() && node.level_mps2 >= 0.0) {
-                return Err(TextureModelError::Value { what: "level", index, value: node.level_mps2 });
-            }
+            check_range("speed in m/s", index, node.speed.0, &SPEEDS_MPS)?;
+            check_range("force in N", index, node.force.0, &FORCES_N)?;
+            check_range("level in m/s²", index, node.level_mps2, &LEVELS_MPS2)?;
         }
+        check_places(&nodes)?;
         if let Some(value) = friction.filter(|f| !(f.is_finite() && *f >= 0.0)) {
             return Err(TextureModelError::Friction { value });
         }
@@ -149,9 +176,54 @@ impl TextureModel {
     }
 }
 
+fn are_apart(lsf: &[f64]) -> bool {
+    // Not written as a comparison of gaps with a bound: what is not a number must be refused.
+    let ends = [0.0, PI];
+    let above = ends[..1].iter().chain(lsf).zip(lsf.iter().chain(&ends[1..]));
+    above.into_iter().all(|(low, high)| high - low >= MIN_LSF_GAP)
+}
+
+fn check_range(
+    what: &'static str,
+    index: usize,
+    value: f64,
+    range: &RangeInclusive<f64>,
+) -> Result<(), TextureModelError> {
+    let (low, high) = (*range.start(), *range.end());
+    if range.contains(&value) {
+        Ok(())
+    } else {
+        Err(TextureModelError::Value { what, index, value, low, high })
+    }
+}
+
+/// Whether nodes lie far enough from zero speed and force, where others join them, and from each other.
+fn check_places(nodes: &[GrainNode]) -> Result<(), TextureModelError> {
+    let highest = |value: &dyn Fn(&GrainNode) -> f64| nodes.iter().map(value).fold(0.0, f64::max);
+    let (speed_max, force_max) = (highest(&|n| n.speed.0), highest(&|n| n.force.0));
+    // Cells as wide as the smallest distance: whoever is too near is in the same cell or in one around it.
+    let mut in_cell = BTreeMap::new();
+    for (index, node) in nodes.iter().enumerate() {
+        check_range("speed in m/s", index, node.speed.0, &(MIN_NODE_DISTANCE * speed_max..=speed_max))?;
+        check_range("force in N", index, node.force.0, &(MIN_NODE_DISTANCE * force_max..=force_max))?;
+        let at = [node.speed.0 / speed_max, node.force.0 / force_max].map(|c| c / MIN_NODE_DISTANCE);
+        let cell = at.map(|c| c as i64);
+        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
+            if let Some((first, other)) = in_cell.get(&[cell[0] + dx, cell[1] + dy]) {
+                let other: &[f64; 2] = other;
+                if (at[0] - other[0]).abs().max((at[1] - other[1]).abs()) < 1.0 {
+                    return Err(TextureModelError::SamePlace { first: *first, second: index });
+                }
+            }
+        }
+        in_cell.insert(cell, (index, at));
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{GrainNode, TextureModel, TextureModelError};
+    use super::{GrainNode, LEVELS_MPS2, TextureModel, TextureModelError};
     use crate::units::{Hertz, MetersPerSecond, Newtons};
 
     fn node(speed: f64, lsf: &[f64]) -> GrainNode {
@@ -170,7 +242,44 @@ mod tests {
         assert_eq!(make(1000.0, orders), TextureModelError::Order { index: 1, order: 2 });
         assert_eq!(make(1000.0, vec![node(0.1, &[2.0, 1.0])]), TextureModelError::Frequencies { index: 0 });
         assert_eq!(make(1000.0, vec![node(0.1, &[f64::NAN])]), TextureModelError::Frequencies { index: 0 });
-        let zero = TextureModelError::Value { what: "speed", index: 0, value: 0.0 };
-        assert_eq!(make(1000.0, vec![node(0.0, &[1.0])]), zero);
+        // One ulp of f32 apart, and as near to the ends.
+        for lsf in [[1.0, 1.0 + 1e-7], [1e-7, 1.0], [1.0, std::f64::consts::PI - 1e-7]] {
+            assert_eq!(make(1000.0, vec![node(0.1, &lsf)]), TextureModelError::Frequencies { index: 0 });
+        }
+    }
+
+    #[test]
+    fn numbers_that_cannot_be_rendered_are_refused_with_their_range() {
+        let error = |node: GrainNode| TextureModel::new(Hertz(1000.0), vec![node], None).unwrap_err();
+        for bad in [0.0, -1.0, 1e-300, 1e300, f64::NAN, f64::INFINITY] {
+            let text = error(node(bad, &[1.0])).to_string();
+            assert!(text.starts_with("speed in m/s of node 0") && text.ends_with("and 100"), "{text}");
+            let text = error(GrainNode { force: Newtons(bad), ..node(0.1, &[1.0]) }).to_string();
+            assert!(text.starts_with("force in N of node 0") && text.ends_with("and 10000"), "{text}");
+        }
+        for bad in [-1.0, 1e300, f64::NAN, f64::INFINITY] {
+            let error = error(GrainNode { level_mps2: bad, ..node(0.1, &[1.0]) });
+            let TextureModelError::Value { what, low, high, .. } = error else { panic!("{error}") };
+            assert_eq!((what, low..=high), ("level in m/s²", LEVELS_MPS2));
+        }
+    }
+
+    #[test]
+    fn nodes_at_one_place_are_refused_and_neighbors_are_not() {
+        let make = |places: &[[f64; 2]]| {
+            let at = |[speed, force]: &[f64; 2]| GrainNode { force: Newtons(*force), ..node(*speed, &[1.0]) };
+            TextureModel::new(Hertz(1000.0), places.iter().map(at).collect(), None).err()
+        };
+        let far = [0.2, 2.0];
+        let same = Some(TextureModelError::SamePlace { first: 1, second: 2 });
+        assert_eq!(make(&[far, [0.1, 1.0], [0.1, 1.0]]), same);
+        // A hundredth of a percent of 0.2 m/s and of 2 N, just less and just more, across the border of a cell too.
+        for speed in [0.1, 0.10001, 0.100_019] {
+            assert_eq!(make(&[far, [speed, 1.0], [speed + 1.9e-5, 1.0 - 1.9e-4]]), same);
+            assert_eq!(make(&[far, [speed, 1.0], [speed + 2.1e-5, 1.0]]), None);
+            assert_eq!(make(&[far, [speed, 1.0], [speed, 1.0 + 2.1e-4]]), None);
+        }
+        // So near to zero speed that silence lies at the same place.
+        assert!(matches!(make(&[far, [1e-5, 1.0]]), Some(TextureModelError::Value { index: 1, .. })));
     }
 }

@@ -14,7 +14,7 @@ use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Reporter;
-use crate::output::{Made, OpenOptions, OutputCapabilities, OutputInfo, OutputKind, make_engine};
+use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, make_engine};
 
 /// The one id that needs no search: the search opens every card.
 const ALSA_DEFAULT: &str = "alsa:default";
@@ -51,6 +51,16 @@ const ALSA_CONVERTERS: [&str; 8] = [
     "alsa:oss",
 ];
 
+/// Whether an id names a card by its number (`alsa:hw:CARD=0,DEV=0`, `alsa:plughw:1,0`): after replugging, the number may
+/// be another card's. Names of cards never begin with a digit.
+fn is_by_number(id: &str) -> bool {
+    let Some((_, arguments)) = id.strip_prefix("alsa:").and_then(|pcm| pcm.split_once(':')) else {
+        return false;
+    };
+    let card = arguments.split(',').find_map(|a| a.strip_prefix("CARD=")).unwrap_or(arguments);
+    card.starts_with(|c: char| c.is_ascii_digit())
+}
+
 /// The outputs of every system of sound that answers. None is opened.
 pub(crate) fn list() -> Vec<OutputInfo> {
     let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Gone since.
@@ -67,31 +77,12 @@ fn list_of(host: &cpal::Host) -> Vec<OutputInfo> {
         let Ok(id) = device.id() else { continue };
         let is_default = Some(&id) == default_id.as_ref();
         let id = id.to_string();
-        let is_device = !ALSA_CONVERTERS.contains(&id.as_str());
+        let is_device = !ALSA_CONVERTERS.contains(&id.as_str()) && !is_by_number(&id);
         if is_device && outputs.iter().all(|output| output.id != id) {
             outputs.push(OutputInfo { id, name: device.to_string(), kind: OutputKind::Audio, is_default });
         }
     }
     outputs
-}
-
-pub(crate) fn capabilities(id: &str) -> Result<OutputCapabilities, DeviceError> {
-    let configs = configs_of(id, &find(id)?)?;
-    let none =
-        || DeviceError::new(DeviceErrorKind::Unsupported, format!("the output `{id}` names no format"));
-    Ok(OutputCapabilities {
-        max_channels: configs.iter().map(SupportedStreamConfigRange::channels).max().ok_or_else(none)?,
-        min_rate_hz: configs
-            .iter()
-            .map(SupportedStreamConfigRange::min_sample_rate)
-            .min()
-            .ok_or_else(none)?,
-        max_rate_hz: configs
-            .iter()
-            .map(SupportedStreamConfigRange::max_sample_rate)
-            .max()
-            .ok_or_else(none)?,
-    })
 }
 
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
@@ -135,6 +126,13 @@ fn find(id: &str) -> Result<cpal::Device, DeviceError> {
         );
         DeviceError::new(DeviceErrorKind::NotFound, message)
     };
+    if is_by_number(id) {
+        let message = format!(
+            "the output `{id}` names a card by its number, which may be another card's tomorrow; `shagreen devices` lists \
+             it by its name"
+        );
+        return Err(DeviceError::new(DeviceErrorKind::NotFound, message));
+    }
     let device_id: cpal::DeviceId = id.parse().map_err(|_| not_found())?;
     let host = cpal::host_from_id(device_id.host()).map_err(|error| explain(id, "found", &error))?;
     if id == ALSA_DEFAULT {
@@ -249,56 +247,4 @@ fn reason(error: &cpal::Error) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Reporter, explain, note_error};
-    use crate::error::DeviceErrorKind;
-    use crate::link::{Monitor, link};
-    use crate::status::Status;
-    use cpal::{Error, ErrorKind};
-    use std::time::Instant;
-
-    fn status(monitor: &Monitor) -> Status {
-        let mut status = Status::default();
-        monitor.complete(&mut status, Instant::now());
-        status
-    }
-
-    fn reported(kind: ErrorKind) -> (Reporter, Monitor) {
-        let (mut reporter, monitor) = link();
-        note_error("alsa:this", &mut reporter, &Error::new(kind));
-        (reporter, monitor)
-    }
-
-    #[test]
-    fn what_is_gone_or_goes_elsewhere_is_lost() {
-        for kind in [ErrorKind::DeviceNotAvailable, ErrorKind::DeviceChanged, ErrorKind::StreamInvalidated] {
-            let (_reporter, mut monitor) = reported(kind);
-            let loss = monitor.loss().unwrap();
-            assert_eq!(loss.kind(), DeviceErrorKind::Lost);
-            assert!(
-                loss.message().contains("`alsa:this`") && loss.message().contains("open it again"),
-                "{loss}"
-            );
-        }
-    }
-
-    #[test]
-    fn what_goes_on_is_counted_and_not_lost() {
-        for (kind, underruns, backend_errors) in
-            [(ErrorKind::Xrun, 1, 0), (ErrorKind::BackendError, 0, 1), (ErrorKind::RealtimeDenied, 0, 0)]
-        {
-            let (_reporter, mut monitor) = reported(kind);
-            assert!(monitor.loss().is_none());
-            let status = status(&monitor);
-            assert_eq!((status.underruns, status.backend_errors), (underruns, backend_errors), "{kind:?}");
-        }
-    }
-
-    #[test]
-    fn errors_say_what_where_and_what_to_do() {
-        let error = explain("alsa:this", "opened", &Error::new(ErrorKind::DeviceBusy));
-        assert_eq!(error.kind(), DeviceErrorKind::Busy);
-        assert!(error.message().starts_with("the output `alsa:this` cannot be opened: "), "{error}");
-        assert!(error.message().contains("close the program") && !error.message().contains(".;"), "{error}");
-    }
-}
+mod tests;

@@ -1,6 +1,6 @@
 //! What the callback is told, all at once: a `Copy` struct, since its parts must agree.
 
-use shagreen_synth::renderer::Mix;
+use shagreen_synth::renderer::{Blend, Mix};
 
 use crate::hand::Hand;
 
@@ -43,7 +43,7 @@ impl Drive {
 }
 
 /// All that an engine can be told at once.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controls {
     /// Which textures sound, and how they are blended.
     pub mix: Mix,
@@ -51,6 +51,13 @@ pub struct Controls {
     pub drive: Drive,
     /// What moves over them.
     pub input: Input,
+}
+
+impl Default for Controls {
+    /// Nothing sounds, so that how it would be blended does not matter, and nothing moves.
+    fn default() -> Self {
+        Self { mix: Mix::silent(Blend::Power), drive: Drive::default(), input: Input::default() }
+    }
 }
 
 #[cfg(test)]

@@ -138,7 +138,7 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
         meter: Meter::new(config.device_rate_hz),
         per_mps2: config.full_scale_mps2.recip(),
         channels: config.channels,
-        mix: Mix::default(),
+        mix: Controls::default().mix,
         n_resets: 0,
         edge: None,
         frames_played: 0,

@@ -66,11 +66,6 @@ impl Hand {
         }
         .sanitized()
     }
-
-    /// How long the turn at an end of a line takes, in seconds: from the set speed through zero to the set speed.
-    pub fn turn_secs(self) -> f64 {
-        PI * TURN_SHARE * f64::from(self.extent_m) / f64::from(self.speed_mps)
-    }
 }
 
 /// Position and speed on a line of extent 1 at distance `u`.
@@ -105,7 +100,7 @@ fn scribble(u: f64) -> (f64, f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Hand, PI, Path, SCRIBBLE_SPREAD, Touch};
+    use super::{Hand, PI, Path, SCRIBBLE_SPREAD, TURN_SHARE, Touch};
 
     const PATHS: [Path; 3] = [Path::Line, Path::Circle, Path::Scribble];
 
@@ -165,10 +160,12 @@ mod tests {
     fn a_line_passes_through_rest_in_the_stated_time() {
         let hand = hand(Path::Line);
         let end_of_straight = 0.95 * 0.06 / 0.15;
-        let slowest = hand.touch_at(end_of_straight + 0.5 * hand.turn_secs());
+        // Half a circle of a fortieth of the extent, walked at the set speed.
+        let turn_secs = PI * TURN_SHARE * 0.06 / 0.15;
+        let slowest = hand.touch_at(end_of_straight + 0.5 * turn_secs);
         assert!(slowest.contact.speed_mps < 1e-6);
         assert!((slowest.x_m - 0.03).abs() < 1e-7);
-        let back = hand.touch_at(end_of_straight + hand.turn_secs());
+        let back = hand.touch_at(end_of_straight + turn_secs);
         assert!((back.contact.speed_mps - 0.15).abs() < 1e-6 && (back.x_m - 0.95 * 0.03).abs() < 1e-6);
     }
 

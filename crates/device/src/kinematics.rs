@@ -17,7 +17,7 @@ pub enum SpeedFilter {
     /// A Kalman filter of constant velocity on each axis.
     Kalman {
         /// Power spectral density of the white acceleration that changes the velocity, in m²/s³.
-        acceleration_density: f64,
+        acceleration_density_m2ps3: f64,
         /// Standard deviation of a reported position, in m.
         position_noise_m: f64,
     },
@@ -35,7 +35,7 @@ pub enum SpeedFilter {
 
 impl SpeedFilter {
     /// The default: q = 1e5 mm²/s³ and r = (0.02 mm)².
-    pub const KALMAN: Self = Self::Kalman { acceleration_density: 0.1, position_noise_m: 2e-5 };
+    pub const KALMAN: Self = Self::Kalman { acceleration_density_m2ps3: 0.1, position_noise_m: 2e-5 };
     /// A one-euro filter with its derivative cut off at 15 Hz.
     pub const ONE_EURO: Self = Self::OneEuro { cutoff_hz: 15.0 };
     /// The low-pass that goes with the published texture models.
@@ -71,7 +71,7 @@ impl Axis {
         let difference_mps = (measured_m - self.last_m) / step_secs;
         self.last_m = measured_m;
         match filter {
-            SpeedFilter::Kalman { acceleration_density: q, position_noise_m } => {
+            SpeedFilter::Kalman { acceleration_density_m2ps3: q, position_noise_m } => {
                 let (t, r) = (step_secs, position_noise_m * position_noise_m);
                 let [pp, pv, vv] = self.covariance;
                 let predicted_m = self.position_m + t * self.velocity_mps;

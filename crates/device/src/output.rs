@@ -3,6 +3,8 @@
 //! An output is opened by its id and stays that one. If it goes, there is silence and [`Handle::loss`] says why; no
 //! other ever takes its place, since actuator drive does not belong in someone's headphones.
 
+use std::ops::RangeInclusive;
+
 use crate::audio::AudioOutput;
 use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
@@ -18,6 +20,9 @@ pub const USUAL_RATE_HZ: u32 = 48_000;
 pub const UNCALIBRATED_FULL_SCALE_MPS2: f32 = 20.0;
 /// Share of the full scale that the limiter never exceeds, where nothing else is asked for.
 pub const USUAL_CEILING: f32 = 0.9;
+
+/// Frames a block that can be asked for: fewer no system keeps up with, more are over a second late.
+pub const BUFFER_FRAMES: RangeInclusive<u32> = 16..=65_536;
 
 /// What sort of output it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,17 +47,6 @@ pub struct OutputInfo {
     pub is_default: bool,
 }
 
-/// What an output can do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OutputCapabilities {
-    /// Most channels.
-    pub max_channels: u16,
-    /// Lowest rate, in Hz.
-    pub min_rate_hz: u32,
-    /// Highest rate, in Hz.
-    pub max_rate_hz: u32,
-}
-
 /// How to open an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OpenOptions {
@@ -60,7 +54,8 @@ pub struct OpenOptions {
     pub model_rate_hz: f32,
     /// Rate to ask the device for, in Hz; without it [`USUAL_RATE_HZ`]. The nearest that it has is taken.
     pub preferred_rate_hz: Option<u32>,
-    /// Frames a block to ask the device for; it may take another number, or change it from block to block.
+    /// Frames a block to ask the device for, one of [`BUFFER_FRAMES`]; it may take another number, or change it from block
+    /// to block.
     pub buffer_frames: Option<u32>,
     /// What the noise depends on: same seed, same samples.
     pub seed: u64,
@@ -130,19 +125,6 @@ pub fn list_outputs() -> Vec<OutputInfo> {
     std::iter::once(null).chain(crate::audio::list()).collect()
 }
 
-/// What output `id` can do. This may open an audio device for a moment; the system may print about it.
-///
-/// # Errors
-/// - [`DeviceErrorKind::NotFound`] where there is no such output.
-/// - [`DeviceErrorKind::Busy`], [`DeviceErrorKind::Denied`], [`DeviceErrorKind::Unavailable`] or
-///   [`DeviceErrorKind::Backend`] where it does not say.
-pub fn output_capabilities(id: &str) -> Result<OutputCapabilities, DeviceError> {
-    if id == NULL_ID {
-        return Ok(crate::null_output::CAPABILITIES);
-    }
-    crate::audio::capabilities(id)
-}
-
 /// Opens output `id`, silent until its handle is told otherwise.
 ///
 /// # Errors
@@ -156,6 +138,7 @@ pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceE
     if id == NULL_ID {
         return open_null_with_tap(options, |_| {});
     }
+    check_buffer(options)?;
     let (handle, opened) = crate::audio::open(id, options)?;
     let buffer_frames = opened.buffer_frames;
     let running = Running {
@@ -179,20 +162,30 @@ pub fn open_null_with_tap(
     options: OpenOptions,
     tap: impl FnMut(&[f32]) + Send + 'static,
 ) -> Result<(Handle, Running), DeviceError> {
+    check_buffer(options)?;
     let rate_hz = options.preferred_rate_hz.unwrap_or(USUAL_RATE_HZ);
-    let frames = options.buffer_frames.unwrap_or(crate::null_output::USUAL_BUFFER_FRAMES).max(1);
+    let frames = options.buffer_frames.unwrap_or(crate::null_output::USUAL_BUFFER_FRAMES);
     let made = make_engine(options, rate_hz)?;
     let latency_secs = f64::from(made.engine.latency_secs()) + f64::from(frames) / f64::from(rate_hz);
     let output = NullOutput::start(made.engine, &made.reporter, rate_hz, frames, tap)?;
     let running = Running {
         id: NULL_ID.into(),
         rate_hz,
-        channels: crate::null_output::CAPABILITIES.max_channels,
+        channels: crate::null_output::CHANNELS,
         buffer_frames: Some(frames),
         latency_secs,
         device: Device::Null(output),
     };
     Ok((made.handle, running))
+}
+
+fn check_buffer(options: OpenOptions) -> Result<(), DeviceError> {
+    let Some(frames) = options.buffer_frames.filter(|frames| !BUFFER_FRAMES.contains(frames)) else {
+        return Ok(());
+    };
+    let (least, most) = (BUFFER_FRAMES.start(), BUFFER_FRAMES.end());
+    let message = format!("a block may have {least} to {most} frames, not {frames}; ask for another number");
+    Err(DeviceError::new(DeviceErrorKind::Config, message))
 }
 
 /// An engine at the rate that the device turned out to have, and the line between the two.
@@ -222,9 +215,7 @@ pub(crate) fn make_engine(options: OpenOptions, rate_hz: u32) -> Result<Made, De
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        ChannelMask, DeviceErrorKind, NULL_ID, OpenOptions, list_outputs, open, output_capabilities,
-    };
+    use super::{BUFFER_FRAMES, ChannelMask, DeviceErrorKind, NULL_ID, OpenOptions, list_outputs, open};
 
     const OPTIONS: OpenOptions = OpenOptions {
         model_rate_hz: 1000.0,
@@ -243,7 +234,6 @@ mod tests {
         let mut ids: Vec<_> = outputs.iter().map(|output| &output.id).collect();
         ids.sort();
         assert!(ids.windows(2).all(|w| w[0] != w[1]), "{ids:?}");
-        assert_eq!(output_capabilities(NULL_ID).unwrap().max_channels, 2);
     }
 
     #[test]
@@ -253,7 +243,22 @@ mod tests {
             assert_eq!(error.kind(), DeviceErrorKind::NotFound, "{error}");
             let text = error.to_string();
             assert!(text.contains(&format!("`{id}`")) && text.contains("shagreen devices"), "{text}");
-            assert_eq!(output_capabilities(id).unwrap_err().kind(), DeviceErrorKind::NotFound);
+        }
+    }
+
+    #[test]
+    fn blocks_that_no_output_could_play_are_refused_by_every_output() {
+        for frames in [0, 15, 65_537, u32::MAX] {
+            for id in [NULL_ID, "alsa:no_such_pcm"] {
+                let error = open(id, OpenOptions { buffer_frames: Some(frames), ..OPTIONS }).unwrap_err();
+                assert_eq!(error.kind(), DeviceErrorKind::Config);
+                assert!(error.message().contains("16 to 65536 frames"), "{error}");
+            }
+        }
+        for frames in [*BUFFER_FRAMES.start(), *BUFFER_FRAMES.end()] {
+            let (_handle, running) =
+                open(NULL_ID, OpenOptions { buffer_frames: Some(frames), ..OPTIONS }).unwrap();
+            assert_eq!(running.buffer_frames(), Some(frames));
         }
     }
 

@@ -1,6 +1,6 @@
 //! A prepared texture that owns its numbers and lends them to the callback.
 
-use shagreen_synth::texture::{self, Node, Texture, Triangle};
+use shagreen_synth::texture::{self, Node, Parts, Texture, Triangle};
 
 /// Why numbers do not make a texture.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -43,28 +43,21 @@ pub struct OwnedTexture {
 }
 
 impl OwnedTexture {
-    /// A texture at `rate_hz` with predictors of `order`, measured up to `speed_max_mps` and `force_max_n`.
+    /// A copy of what was prepared.
     ///
     /// # Errors
     /// [`TextureError`] where the renderer would refuse it.
-    pub fn new(
-        rate_hz: f32,
-        order: usize,
-        speed_max_mps: f32,
-        force_max_n: f32,
-        nodes: Box<[Node]>,
-        triangles: Box<[Triangle]>,
-    ) -> Result<Self, TextureError> {
-        match Texture::new(rate_hz, order, speed_max_mps, force_max_n, &nodes, &triangles) {
-            Ok(_) => Ok(Self { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles }),
-            Err(reason) => Err(TextureError {
-                reason,
-                order,
-                rate_hz,
-                n_nodes: nodes.len(),
-                n_triangles: triangles.len(),
-            }),
-        }
+    pub fn new(parts: Parts<'_>) -> Result<Self, TextureError> {
+        let Parts { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles } = parts;
+        Texture::new(parts).map_err(|reason| TextureError {
+            reason,
+            order,
+            rate_hz,
+            n_nodes: nodes.len(),
+            n_triangles: triangles.len(),
+        })?;
+        let (nodes, triangles) = (nodes.into(), triangles.into());
+        Ok(Self { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles })
     }
 
     /// Samples a second of the model, in Hz.
@@ -74,14 +67,8 @@ impl OwnedTexture {
 
     /// The texture as the renderer sees it: checked when it was made, and unchanged since.
     pub fn view(&self) -> Texture<'_> {
-        Texture::checked_before(
-            self.rate_hz,
-            self.order,
-            self.speed_max_mps,
-            self.force_max_n,
-            &self.nodes,
-            &self.triangles,
-        )
+        let Self { rate_hz, order, speed_max_mps, force_max_n, ref nodes, ref triangles } = *self;
+        Texture::checked_before(Parts { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles })
     }
 }
 
@@ -89,7 +76,7 @@ impl OwnedTexture {
 pub(crate) mod tests {
     use super::OwnedTexture;
     use shagreen_synth::contact::Contact;
-    use shagreen_synth::texture::{self, MAX_ORDER, NO_NEIGHBOR, Node, Triangle};
+    use shagreen_synth::texture::{self, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 
     /// White noise of `level_mps2` at 1 m/s and 1 N, in proportion to the smaller of speed and force below that.
     pub(crate) fn white(level_mps2: f32) -> OwnedTexture {
@@ -107,7 +94,8 @@ pub(crate) mod tests {
             triangle([0, 1, 2], [NO_NEIGHBOR, 1, NO_NEIGHBOR], [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0]),
             triangle([0, 2, 3], [NO_NEIGHBOR, NO_NEIGHBOR, 0], [0.0, -1.0, 1.0, 1.0, 0.0, 0.0]),
         ];
-        OwnedTexture::new(rate_hz, 2, 1.0, 1.0, nodes.into(), triangles.into())
+        let (nodes, triangles) = (&nodes, &triangles);
+        OwnedTexture::new(Parts { rate_hz, order: 2, speed_max_mps: 1.0, force_max_n: 1.0, nodes, triangles })
     }
 
     #[test]

@@ -12,7 +12,7 @@ use shagreen_device::engine::{self, ChannelMask, Engine, EngineConfig, Handle, S
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::synth::contact::Contact;
 use shagreen_device::synth::renderer::{Blend, Mix, Parent};
-use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Triangle};
+use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 use shagreen_device::texture::OwnedTexture;
 use shagreen_device::touch::Touch;
 use shagreen_device::track::{PenSample, Track};
@@ -33,7 +33,16 @@ fn texture(level_mps2: f32) -> OwnedTexture {
         ln_gain: [0.0; 6],
     };
     let nodes = [node(0.0), node(level_mps2), node(level_mps2)];
-    OwnedTexture::new(1000.0, 2, 1.0, 1.0, nodes.into(), [triangle].into()).unwrap()
+    let (nodes, triangles) = (&nodes, &[triangle]);
+    OwnedTexture::new(Parts {
+        rate_hz: 1000.0,
+        order: 2,
+        speed_max_mps: 1.0,
+        force_max_n: 1.0,
+        nodes,
+        triangles,
+    })
+    .unwrap()
 }
 
 fn track() -> Track {

@@ -1,9 +1,10 @@
 //! Writing files whole or not at all: to a new file in the same folder, to the disk, then by renaming.
 
+use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 /// Why a file was not written. What was there before is untouched.
 #[derive(Debug, thiserror::Error)]
@@ -29,62 +30,152 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// All of them are on the disk under other names before the first takes its place. Where a later one cannot take its
 /// place, the earlier ones are put back as they were.
 ///
+/// A link is followed: what it points to is replaced, and the link stays. What is there and is no file (a folder, a
+/// device, a pipe) is left alone.
+///
 /// # Errors
 /// [`WriteError`] for the first file that could not be written; then all files are as they were.
 pub fn write_all(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
-    let staged: Vec<NamedTempFile> =
-        files.iter().map(|(path, bytes)| stage(path, bytes)).collect::<Result<_, _>>()?;
-    let mut before: Vec<(&Path, Option<Vec<u8>>)> = Vec::new();
-    for (file, (path, _)) in staged.into_iter().zip(files) {
-        // A single file needs no copy of what it replaces: nothing can fail after it.
-        let old = if files.len() > 1 { std::fs::read(path).ok() } else { None }; // Not readable: not there before.
-        if let Err(error) = file.persist(path) {
-            put_back(before);
-            return Err(WriteError { path: path.to_path_buf(), source: error.error });
+    let mut staged: Vec<Staged<'_>> = Vec::with_capacity(files.len());
+    for (path, bytes) in files {
+        let file = stage(path, bytes).map_err(|source| WriteError { path: path.to_path_buf(), source })?;
+        if let Some(twin) = staged.iter().find(|other| other.target == file.target) {
+            let reason = format!("it is the same file as {}", twin.path.display());
+            let source = io::Error::new(io::ErrorKind::InvalidInput, reason);
+            return Err(WriteError { path: path.to_path_buf(), source });
         }
-        before.push((path, old));
+        staged.push(file);
     }
-    Ok(())
+    replace(staged)
 }
 
-/// The bytes on the disk, in the folder of `path`, under another name that goes away unless it is persisted.
-fn stage(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, WriteError> {
-    let failed = |source| WriteError { path: path.to_path_buf(), source };
-    if path.is_dir() {
-        return Err(failed(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")));
-    }
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+/// A file that is on the disk under another name, in the folder where it belongs.
+struct Staged<'a> {
+    /// What was asked for.
+    path: &'a Path,
+    /// What that is behind all links: the file to replace.
+    target: PathBuf,
+    /// The new bytes; they go away unless they take their place.
+    file: NamedTempFile,
+}
+
+/// The bytes on the disk, in the folder of what `path` means.
+fn stage<'a>(path: &'a Path, bytes: &[u8]) -> io::Result<Staged<'a>> {
+    let target = behind_links(path)?;
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
         // A file like any other, as the person's umask has it; the default is for secrets.
         use std::os::unix::fs::PermissionsExt as _;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    // The system's own words would name a file that nobody asked for.
-    let unnamed = |error: io::Error| failed(io::Error::from(error.kind()));
-    let mut file = builder.prefix(".shagreen-").tempfile_in(folder).map_err(unnamed)?;
-    file.write_all(bytes).map_err(failed)?;
-    file.as_file().sync_all().map_err(failed)?;
-    Ok(file)
+    let mut file = builder.prefix(PREFIX).tempfile_in(folder_of(&target)).map_err(|error| unnamed(&error))?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    Ok(Staged { path, target, file })
 }
 
-fn put_back(before: Vec<(&Path, Option<Vec<u8>>)>) {
-    for (path, old) in before {
+/// What the names of files begin with that are not in their place yet.
+const PREFIX: &str = ".shagreen-";
+/// Most links that are followed: as many as Linux follows.
+const MAX_LINKS: usize = 40;
+
+/// The file that a path means: one that is there, or one that is not there yet.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..MAX_LINKS {
+        match fs::metadata(&path) {
+            Ok(found) if found.is_file() => return fs::canonicalize(&path),
+            Ok(found) if found.is_dir() => {
+                return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+            }
+            Ok(_) => {
+                let reason = "it is a device or a pipe, which no file replaces";
+                return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
+        }
+        // Not there, or a link to what is not there.
+        match fs::read_link(&path) {
+            Ok(next) => path = folder_of(&path).join(next),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::new(io::ErrorKind::InvalidInput, "it is a link that leads to too many others"))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// The system's own words would name a file that nobody asked for.
+fn unnamed(error: &io::Error) -> io::Error {
+    io::Error::from(error.kind())
+}
+
+/// Lets staged files take their places.
+fn replace(staged: Vec<Staged<'_>>) -> Result<(), WriteError> {
+    let failed = |path: &Path, source| WriteError { path: path.to_path_buf(), source };
+    // The last file needs no copy of what it replaces: nothing can fail after it.
+    let n_kept = staged.len().saturating_sub(1);
+    let mut before = Vec::with_capacity(n_kept);
+    for staged in &staged[..n_kept] {
+        let old = keep(&staged.target).map_err(|source| failed(staged.path, source))?;
+        before.push((staged.target.clone(), old));
+    }
+    for (n_replaced, Staged { path, target, file }) in staged.into_iter().enumerate() {
+        if let Err(error) = file.persist(&target) {
+            before.truncate(n_replaced);
+            put_back(before);
+            return Err(failed(path, unnamed(&error.error)));
+        }
+        sync_folder(&target);
+    }
+    Ok(())
+}
+
+/// What is at `target` under a second name, which goes away unless it is put back; nothing where nothing is.
+fn keep(target: &Path) -> io::Result<Option<TempPath>> {
+    let under = |name: &Path| match fs::hard_link(target, name) {
+        // A file system without second names, or a file of someone else: a copy does too, where it can be read.
+        Err(error) if !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::AlreadyExists) => {
+            fs::copy(target, name).map(|_| ())
+        }
+        done => done,
+    };
+    match tempfile::Builder::new().prefix(PREFIX).make_in(folder_of(target), under) {
+        Ok(kept) => Ok(Some(kept.into_temp_path())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(unnamed(&error)),
+    }
+}
+
+fn put_back(before: Vec<(PathBuf, Option<TempPath>)>) {
+    for (target, old) in before {
         // The error that led here is the one to report; this is the best that can be done about it.
         let _ = match old {
-            Some(bytes) => stage(path, &bytes).is_ok_and(|file| file.persist(path).is_ok()),
-            None => std::fs::remove_file(path).is_ok(),
+            Some(kept) => kept.persist(&target).is_ok(),
+            None => fs::remove_file(&target).is_ok(),
         };
     }
 }
 
+/// Makes the new name of a file last through a loss of power.
+fn sync_folder(target: &Path) {
+    // The file is in its place by now, and some file systems cannot do this: that is no failure to write it.
+    #[cfg(unix)]
+    let _ = fs::File::open(folder_of(target)).and_then(|folder| folder.sync_all());
+    #[cfg(not(unix))]
+    let _ = target;
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{write, write_all};
+    use super::{replace, stage, write, write_all};
     use std::fs;
 
     fn names(folder: &std::path::Path) -> Vec<String> {
@@ -121,15 +212,86 @@ mod tests {
         }
     }
 
+    /// Three staged files of which the last cannot take its place, for a folder has come there meanwhile.
+    fn fail_late(folder: &std::path::Path) {
+        let [old, fresh, taken] = ["old", "fresh", "taken"].map(|name| folder.join(name));
+        let staged = [&old, &fresh, &taken].map(|path| stage(path, b"now").unwrap());
+        fs::create_dir(&taken).unwrap();
+        assert_eq!(replace(staged.into()).unwrap_err().path, taken);
+        assert_eq!(names(folder), ["old", "taken"]);
+    }
+
     #[test]
     fn files_that_took_their_place_are_put_back() {
         let folder = tempfile::tempdir().unwrap();
-        let (old, fresh) = (folder.path().join("old"), folder.path().join("fresh"));
-        fs::write(&old, b"now").unwrap();
-        fs::write(&fresh, b"now").unwrap();
-        super::put_back(vec![(&old, Some(b"before".to_vec())), (&fresh, None)]);
-        assert_eq!(fs::read(&old).unwrap(), b"before");
-        assert_eq!(names(folder.path()), ["old"]);
+        fs::write(folder.path().join("old"), b"before").unwrap();
+        fail_late(folder.path());
+        assert_eq!(fs::read(folder.path().join("old")).unwrap(), b"before");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_that_cannot_be_read_is_put_back_too() {
+        use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _};
+        let folder = tempfile::tempdir().unwrap();
+        let old = folder.path().join("old");
+        fs::write(&old, b"before").unwrap();
+        fs::set_permissions(&old, fs::Permissions::from_mode(0o000)).unwrap();
+        let before = fs::metadata(&old).unwrap();
+        fail_late(folder.path());
+        // The very same file, with its rights and its owner.
+        let after = fs::metadata(&old).unwrap();
+        assert_eq!((after.ino(), after.mode()), (before.ino(), before.mode()));
+    }
+
+    #[test]
+    fn two_names_of_one_file_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let [a, b] = ["a", "./a"].map(|name| folder.path().join(name));
+        fs::write(&a, b"old").unwrap();
+        let error = write_all(&[(&a, b"new"), (&b, b"other")]).unwrap_err();
+        assert!(error.to_string().contains("same file"), "{error}");
+        assert_eq!(fs::read(&a).unwrap(), b"old");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("there")).unwrap();
+        fs::write(at("there/file"), b"old").unwrap();
+        for (to, link) in [("there/file", "link"), ("link", "second"), ("there/none", "dangling")] {
+            std::os::unix::fs::symlink(to, at(link)).unwrap();
+        }
+        write(&at("second"), b"new").unwrap();
+        write(&at("dangling"), b"fresh").unwrap();
+        assert_eq!(fs::read(at("there/file")).unwrap(), b"new");
+        assert_eq!(fs::read(at("there/none")).unwrap(), b"fresh");
+        for link in ["link", "second", "dangling"] {
+            assert!(fs::symlink_metadata(at(link)).unwrap().is_symlink(), "{link}");
+        }
+        assert_eq!(names(folder.path()), ["dangling", "link", "second", "there"]);
+        assert_eq!(names(&at("there")), ["file", "none"]);
+        std::os::unix::fs::symlink("round", at("round")).unwrap();
+        assert!(write(&at("round"), b"x").is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_left_alone() {
+        use std::os::unix::fs::FileTypeExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let socket = folder.path().join("socket");
+        let _bound = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink("socket", &link).unwrap();
+        for path in [&socket, &link] {
+            let error = write(path, b"x").unwrap_err();
+            assert!(error.to_string().contains("device or a pipe"), "{error}");
+        }
+        assert!(fs::metadata(&socket).unwrap().file_type().is_socket());
+        assert_eq!(names(folder.path()), ["link", "socket"]);
     }
 
     #[cfg(unix)]

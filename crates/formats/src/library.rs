@@ -164,11 +164,25 @@ impl Library {
         self.textures.iter().map(TextureEntry::at).collect()
     }
 
-    /// What the positions were derived from; `None` where there are none or they are of several kinds.
+    /// All that the positions were derived from, each once, in the order of the textures. Where there are several, no
+    /// one word stands for the library, and distances between textures of different sources mean little.
+    pub fn label_sources(&self) -> Vec<LabelSource> {
+        let mut sources = Vec::new();
+        for source in self.textures.iter().filter_map(TextureEntry::label_source) {
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        sources
+    }
+
+    /// What the positions were derived from; `None` where there are none or they are of several kinds, which
+    /// [`Library::label_sources`] tells apart.
     pub fn label_source(&self) -> Option<LabelSource> {
-        let mut sources = self.textures.iter().filter_map(TextureEntry::label_source);
-        let first = sources.next()?;
-        sources.all(|source| source == first).then_some(first)
+        match self.label_sources()[..] {
+            [source] => Some(source),
+            _ => None,
+        }
     }
 
     /// Terms of a texture: its own, or those of the library.

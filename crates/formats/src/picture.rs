@@ -113,27 +113,45 @@ pub fn encode_jpeg(rgb: &Rgb, millimeters: f64) -> Result<Picture, PictureError>
 /// # Errors
 /// [`PictureError::Codec`] where the bytes are damaged, [`PictureError::Mismatch`] where they are of another size.
 pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
+    let rgb = reader(picture).decode()?.into_rgb8();
+    check_size(picture, rgb.dimensions())?;
+    Ok(Rgb { width: picture.width, height: picture.height, pixels: rgb.into_raw() })
+}
+
+/// Looks at the head of a picture, in microseconds: whether it is one, of the size that it should have. Damage further
+/// in shows only in [`decode`].
+///
+/// # Errors
+/// As [`decode`].
+pub fn check(picture: &Picture) -> Result<(), PictureError> {
+    check_size(picture, reader(picture).into_dimensions()?)
+}
+
+fn reader(picture: &Picture) -> ImageReader<Cursor<&[u8]>> {
     let format = match picture.format {
         PictureFormat::Jpeg => ImageFormat::Jpeg,
         PictureFormat::Png => ImageFormat::Png,
     };
-    let mut reader = ImageReader::with_format(Cursor::new(&picture.bytes), format);
+    let mut reader = ImageReader::with_format(Cursor::new(picture.bytes.as_slice()), format);
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     reader.limits(limits);
-    let rgb = reader.decode()?.into_rgb8();
-    let (found_width, found_height) = rgb.dimensions();
-    let Picture { width, height, .. } = *picture;
-    if (found_width, found_height) != (width, height) {
-        return Err(PictureError::Mismatch { width, height, found_width, found_height });
+    reader
+}
+
+fn check_size(picture: &Picture, found: (u32, u32)) -> Result<(), PictureError> {
+    let (&Picture { width, height, .. }, (found_width, found_height)) = (picture, found);
+    if (found_width, found_height) == (width, height) {
+        Ok(())
+    } else {
+        Err(PictureError::Mismatch { width, height, found_width, found_height })
     }
-    Ok(Rgb { width, height, pixels: rgb.into_raw() })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{PictureError, PictureFormat, Rgb, decode, encode_jpeg};
+    use super::{PictureError, PictureFormat, Rgb, check, decode, encode_jpeg};
 
     fn gradient() -> Rgb {
         let pixels = (0..32 * 24).flat_map(|i| [(i % 32) * 8, (i / 32) * 10, 128]).map(|v| v as u8).collect();
@@ -153,14 +171,19 @@ mod tests {
     #[test]
     fn damage_and_wrong_sizes_are_named() {
         let picture = encode_jpeg(&gradient(), 20.0).unwrap();
+        check(&picture).unwrap();
         for end in 0..picture.bytes.len().min(200) {
             let mut cut = picture.clone();
             cut.bytes.truncate(end);
             assert!(decode(&cut).is_err());
+            // The head of a JPEG ends with its tables, which take more than this.
+            assert!(check(&cut).is_err() || end > 100, "{end}");
         }
         let wider = super::Picture { width: 33, ..picture.clone() };
         assert!(matches!(decode(&wider), Err(PictureError::Mismatch { found_width: 32, .. })));
-        assert!(decode(&super::Picture { format: PictureFormat::Png, ..picture }).is_err());
+        assert!(matches!(check(&wider), Err(PictureError::Mismatch { found_width: 32, .. })));
+        let other = super::Picture { format: PictureFormat::Png, ..picture };
+        assert!(decode(&other).is_err() && check(&other).is_err());
         let short = Rgb { width: 100, ..gradient() };
         assert!(matches!(encode_jpeg(&short, 1.0), Err(PictureError::Size { width: 100, .. })));
     }

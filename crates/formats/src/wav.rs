@@ -5,7 +5,7 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
+use hound::{SampleFormat, WavSpec, WavWriter};
 use serde::{Deserialize, Serialize};
 
 use crate::atomic::{self, WriteError};
@@ -17,6 +17,11 @@ pub const FORMAT: &str = "shagreen-signal";
 pub const VERSION: &str = "1.0";
 /// What the field `units` of a sidecar holds.
 pub const UNITS: &str = "m/s^2";
+
+/// Bytes of a WAV file before its first sample.
+const HEADER_BYTES: u32 = 68;
+/// Most samples that fit a WAV file: it counts its bytes in 32 bits.
+pub const MAX_SAMPLES: u64 = ((u32::MAX - HEADER_BYTES) / 4) as u64;
 
 /// What the samples of a WAV file are and how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,15 +86,6 @@ pub struct TraceV1 {
     pub force_n: Vec<f64>,
 }
 
-/// A signal of one channel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Signal {
-    /// Samples a second, in Hz.
-    pub rate_hz: u32,
-    /// Samples, in units of the file's full scale.
-    pub samples: Vec<f32>,
-}
-
 /// Why a signal was not written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -100,38 +96,33 @@ pub enum WavWriteError {
         /// The file asked for.
         path: PathBuf,
     },
-    /// The samples do not fit a WAV file.
-    #[error("the signal cannot be packed as WAV; make it shorter or lower its rate")]
+    /// There are more samples than [`MAX_SAMPLES`].
+    #[error(
+        "a WAV file holds at most {MAX_SAMPLES} samples, the signal has {n_samples}; make it shorter or lower its rate"
+    )]
+    TooLong {
+        /// Samples of the signal.
+        n_samples: u64,
+    },
+    /// The samples cannot be packed.
+    #[error("the signal cannot be packed as WAV; choose another rate")]
     Pack(#[from] hound::Error),
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
-/// Why bytes are no signal.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum WavReadError {
-    /// Not WAV, or cut off.
-    #[error("the WAV file is damaged or of an unknown kind; get a complete copy")]
-    Damaged(#[from] hound::Error),
-    /// More than one channel.
-    #[error("the WAV file has {channels} channels, needs one; split it first")]
-    Channels {
-        /// Channels of the file.
-        channels: u16,
-    },
-    /// A sample is not finite.
-    #[error("sample {index} of the WAV file is not a finite number; repair the file")]
-    NotFinite {
-        /// Its index.
-        index: usize,
-    },
-}
-
 /// The sidecar of a WAV file: the same name with `.json`.
 pub fn sidecar_path(wav: &Path) -> PathBuf {
     wav.with_extension("json")
+}
+
+/// Says whether so many samples fit a WAV file, before anybody works them out.
+///
+/// # Errors
+/// [`WavWriteError::TooLong`].
+pub fn check_length(n_samples: u64) -> Result<(), WavWriteError> {
+    if n_samples > MAX_SAMPLES { Err(WavWriteError::TooLong { n_samples }) } else { Ok(()) }
 }
 
 /// Writes samples and their sidecar, both or neither.
@@ -151,14 +142,15 @@ pub fn write_wav(path: &Path, samples: &[f32], sidecar: &SidecarV1) -> Result<()
 }
 
 /// Samples as the bytes of a WAV file of 32-bit floats.
-fn pack(samples: &[f32], rate_hz: u32) -> Result<Vec<u8>, hound::Error> {
+fn pack(samples: &[f32], rate_hz: u32) -> Result<Vec<u8>, WavWriteError> {
+    check_length(samples.len() as u64)?;
     let spec = WavSpec {
         channels: 1,
         sample_rate: rate_hz,
         bits_per_sample: 32,
         sample_format: SampleFormat::Float,
     };
-    let mut bytes = Cursor::new(Vec::new());
+    let mut bytes = Cursor::new(Vec::with_capacity(HEADER_BYTES as usize + size_of_val(samples)));
     let mut writer = WavWriter::new(&mut bytes, spec)?;
     for sample in samples {
         writer.write_sample(*sample)?;
@@ -167,35 +159,11 @@ fn pack(samples: &[f32], rate_hz: u32) -> Result<Vec<u8>, hound::Error> {
     Ok(bytes.into_inner())
 }
 
-/// Reads a WAV file of one channel: floats as they are, whole numbers as shares of their full scale.
-///
-/// # Errors
-/// See [`WavReadError`].
-pub fn read_wav(bytes: &[u8]) -> Result<Signal, WavReadError> {
-    let mut reader = WavReader::new(bytes)?;
-    let spec = reader.spec();
-    if spec.channels != 1 {
-        return Err(WavReadError::Channels { channels: spec.channels });
-    }
-    let samples: Vec<f32> = match spec.sample_format {
-        SampleFormat::Float => reader.samples::<f32>().collect::<Result<_, _>>()?,
-        SampleFormat::Int => {
-            let full_scale = 2.0_f64.powi(i32::from(spec.bits_per_sample) - 1);
-            let share = |sample: i32| (f64::from(sample) / full_scale) as f32;
-            reader.samples::<i32>().map(|sample| sample.map(share)).collect::<Result<_, _>>()?
-        }
-    };
-    match samples.iter().position(|sample| !sample.is_finite()) {
-        Some(index) => Err(WavReadError::NotFinite { index }),
-        None => Ok(Signal { rate_hz: spec.sample_rate, samples }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::{
-        FORMAT, ParentV1, SidecarV1, TraceV1, UNITS, VERSION, WavReadError, pack, read_wav, sidecar_path,
-        write_wav,
+        FORMAT, HEADER_BYTES, MAX_SAMPLES, ParentV1, SidecarV1, TraceV1, UNITS, VERSION, WavWriteError,
+        check_length, pack, sidecar_path, write_wav,
     };
     use std::fs;
 
@@ -228,8 +196,10 @@ mod tests {
         let path = folder.path().join("out.wav");
         // Levels above one are kept: the unit is m/s², not a share of anything.
         write_wav(&path, &[0.25, -7.5, 1e-9], &sidecar()).unwrap();
-        let signal = read_wav(&fs::read(&path).unwrap()).unwrap();
-        assert_eq!((signal.rate_hz, signal.samples), (1000, vec![0.25, -7.5, 1e-9]));
+        let mut reader = hound::WavReader::open(&path).unwrap();
+        assert_eq!((reader.spec().channels, reader.spec().sample_rate), (1, 1000));
+        let samples: Vec<f32> = reader.samples().map(Result::unwrap).collect();
+        assert_eq!(samples, [0.25, -7.5, 1e-9]);
         let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
         assert_eq!(beside, sidecar());
     }
@@ -246,39 +216,13 @@ mod tests {
     }
 
     #[test]
-    fn damage_is_named() {
-        let wav = pack(&[0.0; 10], 1000).unwrap();
-        for end in 0..wav.len() {
-            assert!(read_wav(&wav[..end]).is_err(), "cut at {end}");
-        }
-        let nan = pack(&[0.0, f32::NAN], 1000).unwrap();
-        assert!(matches!(read_wav(&nan), Err(WavReadError::NotFinite { index: 1 })));
-        let mut stereo = std::io::Cursor::new(Vec::new());
-        let spec = hound::WavSpec {
-            channels: 2,
-            sample_rate: 8000,
-            bits_per_sample: 16,
-            sample_format: hound::SampleFormat::Int,
-        };
-        let mut writer = hound::WavWriter::new(&mut stereo, spec).unwrap();
-        writer.write_sample(1_i16).unwrap();
-        writer.write_sample(1_i16).unwrap();
-        writer.finalize().unwrap();
-        assert!(matches!(read_wav(stereo.get_ref()), Err(WavReadError::Channels { channels: 2 })));
-    }
-
-    #[test]
-    fn whole_numbers_are_shares_of_their_full_scale() {
-        let spec = hound::WavSpec {
-            channels: 1,
-            sample_rate: 8000,
-            bits_per_sample: 16,
-            sample_format: hound::SampleFormat::Int,
-        };
-        let mut bytes = std::io::Cursor::new(Vec::new());
-        let mut writer = hound::WavWriter::new(&mut bytes, spec).unwrap();
-        writer.write_sample(-16384_i16).unwrap();
-        writer.finalize().unwrap();
-        assert_eq!(read_wav(bytes.get_ref()).unwrap().samples, [-0.5]);
+    fn what_32_bits_cannot_count_is_refused() {
+        let header = pack(&[], 1000).unwrap();
+        assert_eq!(header.len(), HEADER_BYTES as usize);
+        assert!(check_length(MAX_SAMPLES).is_ok());
+        let fits = |n_samples: u64| u32::try_from(4 * n_samples + u64::from(HEADER_BYTES)).is_ok();
+        assert!(fits(MAX_SAMPLES) && !fits(MAX_SAMPLES + 1));
+        let error = check_length(MAX_SAMPLES + 1).unwrap_err();
+        assert!(matches!(error, WavWriteError::TooLong { n_samples } if n_samples == MAX_SAMPLES + 1));
     }
 }

@@ -16,7 +16,7 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// A stream that depends on `seed` alone; neighbouring seeds give unrelated streams.
+    /// A stream that depends on `seed` alone; neighboring seeds give unrelated streams.
     pub fn new(seed: u64) -> Self {
         let mut counter = seed;
         let mut next = || {

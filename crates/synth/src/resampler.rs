@@ -1,10 +1,10 @@
-//! From the model's rate to the device's: images at least 60 dB down, a few milliseconds late.
+//! From the model's rate to the device's: images at least 70 dB down, a few milliseconds late.
 //!
 //! Two stages. The first doubles the rate with an elliptic low-pass: flat to 0.92 of the model's Nyquist frequency and
 //! 70 dB down from the Nyquist frequency on, so that *no* image of the model's band survives. A linear-phase filter as
 //! steep would be 20 ms late, this one is 1.6 ms at low frequencies. The second interpolates between the doubled
 //! samples with a short windowed sinc, for any ratio of rates; its images lie above three times the model's Nyquist
-//! frequency and are 75 dB down.
+//! frequency and are as far down.
 
 use core::f64::consts::PI;
 
@@ -53,7 +53,7 @@ pub const DOUBLER_DELAY: f32 = 3.154;
 
 const TAPS: usize = 10;
 const PHASES: usize = 128;
-/// Kaiser window for 75 dB.
+/// Kaiser window for 75 dB: a margin over the first stage's 70.
 const KAISER_BETA: f64 = 0.1102 * (75.0 - 8.7);
 
 /// A stateful interpolator from one rate to a higher one.
@@ -149,7 +149,7 @@ impl Resampler {
 }
 
 /// Modified Bessel function of the first kind, order zero, by its power series (relative error below 1e-15 here).
-fn bessel_i0(x: f64) -> f64 {
+pub fn bessel_i0(x: f64) -> f64 {
     let (mut term, mut sum) = (1.0, 1.0);
     for k in 1..60 {
         let half = x / (2.0 * f64::from(k));
@@ -211,8 +211,9 @@ mod tests {
                     .filter(|(k, _)| (*k as f64 * bin - tone).abs() > 5.0 * bin)
                     .fold(0.0_f64, |m, (_, v)| m.max(*v));
                 let rejection = -20.0 * (elsewhere / peak).log10();
+                // What the documentation claims; the worst of these tones has 70.6.
                 assert!(
-                    rejection > 65.0,
+                    rejection > 70.0,
                     "image of {tone} Hz, {model_hz} to {device_hz}: {rejection} dB down"
                 );
             }
@@ -235,7 +236,9 @@ mod tests {
             }
         }
         let delay = f64::from(Resampler::delay_model_samples());
-        assert!((crossing.unwrap() - delay).abs() < 0.6, "{crossing:?} for {delay}");
+        // The delay is that of low frequencies, and a step has all: through a filter without linear phase it crosses one
+        // half 0.39 model samples earlier (measured). Half a sample forgotten in either stage would be more than the rest.
+        assert!((crossing.unwrap() - delay).abs() < 0.45, "{crossing:?} for {delay}");
     }
 
     #[test]

@@ -47,16 +47,26 @@ pub enum TextureError {
     Number,
 }
 
+/// What a prepared texture is made of, as its owner lends it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parts<'a> {
+    /// Samples a second of the model, in Hz.
+    pub rate_hz: f32,
+    /// Order of the predictor, the same at every node.
+    pub order: usize,
+    /// Speed at which the texture saturates, in m/s.
+    pub speed_max_mps: f32,
+    /// Force at which the texture saturates, in N.
+    pub force_max_n: f32,
+    /// Nodes of the plane.
+    pub nodes: &'a [Node],
+    /// Triangles over the nodes.
+    pub triangles: &'a [Triangle],
+}
+
 /// A prepared texture, lent to the renderer. Checked once by [`Texture::new`], so that everything after is total.
 #[derive(Clone, Copy, Debug)]
-pub struct Texture<'a> {
-    rate_hz: f32,
-    order: usize,
-    speed_max_mps: f32,
-    force_max_n: f32,
-    nodes: &'a [Node],
-    triangles: &'a [Triangle],
-}
+pub struct Texture<'a>(Parts<'a>);
 
 /// The model at one contact.
 #[derive(Clone, Copy, Debug)]
@@ -74,14 +84,8 @@ impl<'a> Texture<'a> {
     ///
     /// # Errors
     /// [`TextureError`] names the first rule that a slice breaks.
-    pub fn new(
-        rate_hz: f32,
-        order: usize,
-        speed_max_mps: f32,
-        force_max_n: f32,
-        nodes: &'a [Node],
-        triangles: &'a [Triangle],
-    ) -> Result<Self, TextureError> {
+    pub fn new(parts: Parts<'a>) -> Result<Self, TextureError> {
+        let Parts { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles } = parts;
         let positive = |x: f32| x.is_finite() && x > 0.0;
         if order == 0 || order > MAX_ORDER {
             return Err(TextureError::Order);
@@ -114,30 +118,23 @@ impl<'a> Texture<'a> {
                 return Err(TextureError::Number);
             }
         }
-        Ok(Self { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles })
+        Ok(Self(parts))
     }
 
     /// A texture over slices that [`Texture::new`] has accepted before: free, for an owner who lends them at every tick.
     /// Slices that would not have been accepted are silent or not finite, never out of bounds.
-    pub fn checked_before(
-        rate_hz: f32,
-        order: usize,
-        speed_max_mps: f32,
-        force_max_n: f32,
-        nodes: &'a [Node],
-        triangles: &'a [Triangle],
-    ) -> Self {
-        Self { rate_hz, order: order.min(MAX_ORDER), speed_max_mps, force_max_n, nodes, triangles }
+    pub fn checked_before(parts: Parts<'a>) -> Self {
+        Self(Parts { order: parts.order.min(MAX_ORDER), ..parts })
     }
 
     /// Samples a second of the model, in Hz.
     pub fn rate_hz(&self) -> f32 {
-        self.rate_hz
+        self.0.rate_hz
     }
 
     /// Order of the predictor, the same at every node.
     pub fn order(&self) -> usize {
-        self.order
+        self.0.order
     }
 
     /// The model at `contact`, clamped to the measured range.
@@ -146,15 +143,15 @@ impl<'a> Texture<'a> {
     /// walk is a step or two. It never takes more steps than there are triangles.
     pub fn evaluate(&self, contact: Contact, hint: &mut u16) -> Evaluated {
         let contact = contact.sanitized();
-        let x = (contact.speed_mps / self.speed_max_mps).min(1.0);
-        let y = (contact.force_n / self.force_max_n).min(1.0);
+        let x = (contact.speed_mps / self.0.speed_max_mps).min(1.0);
+        let y = (contact.force_n / self.0.force_max_n).min(1.0);
         let mut lsf = [0.0; MAX_ORDER];
         let silent = Evaluated { lsf, level_mps2: 0.0, sigma_mps2: 0.0 };
         let Some((triangle, [u, v, w])) = self.locate(x, y, hint) else { return silent };
-        let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.nodes.get(usize::from(n))) else {
+        let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.0.nodes.get(usize::from(n))) else {
             return silent;
         };
-        for (i, out) in lsf[..self.order].iter_mut().enumerate() {
+        for (i, out) in lsf[..self.0.order].iter_mut().enumerate() {
             *out = u * a.lsf[i] + v * b.lsf[i] + w * c.lsf[i];
         }
         let level_mps2 = (u * a.level_mps2 + v * b.level_mps2 + w * c.level_mps2).max(0.0);
@@ -168,12 +165,12 @@ impl<'a> Texture<'a> {
 
     /// The triangle that holds a normalized contact, and its three weights, each at least zero, that sum to one.
     fn locate(&self, x: f32, y: f32, hint: &mut u16) -> Option<(&Triangle, [f32; 3])> {
-        let mut triangle = self.triangles.get(usize::from(*hint)).or_else(|| {
+        let mut triangle = self.0.triangles.get(usize::from(*hint)).or_else(|| {
             *hint = 0;
-            self.triangles.first()
+            self.0.triangles.first()
         })?;
         let mut weights = [0.0; 3];
-        for _ in 0..=self.triangles.len() {
+        for _ in 0..=self.0.triangles.len() {
             let m = &triangle.weights;
             let u = m[0] * x + m[1] * y + m[2];
             let v = m[3] * x + m[4] * y + m[5];
@@ -188,7 +185,7 @@ impl<'a> Texture<'a> {
             if weights[lowest] >= -1e-6 || next == NO_NEIGHBOR {
                 break;
             }
-            triangle = self.triangles.get(usize::from(next))?;
+            triangle = self.0.triangles.get(usize::from(next))?;
             *hint = next;
         }
         // A contact a rounding error outside: all three weights are clamped and sum to one again.
@@ -199,102 +196,4 @@ impl<'a> Texture<'a> {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
-    extern crate std;
-    use super::{MAX_ORDER, NO_NEIGHBOR, Node, Texture, TextureError, Triangle};
-    use crate::contact::Contact;
-
-    /// Order 2 on the unit square of 1 m/s and 1 N: silent but at the corner of full speed and force.
-    pub(crate) fn square() -> ([Node; 4], [Triangle; 2]) {
-        let node = |level_mps2: f32, low: f32| {
-            let mut lsf = [0.0; MAX_ORDER];
-            (lsf[0], lsf[1]) = (low, low + 0.2);
-            Node { level_mps2, lsf }
-        };
-        let nodes = [node(0.0, 0.5), node(0.0, 0.7), node(1.0, 0.9), node(0.0, 0.6)];
-        let ln_gain = [1.0; 6];
-        let triangles = [
-            // (0,0) (1,0) (1,1): weights 1 - x, x - y, y.
-            Triangle {
-                nodes: [0, 1, 2],
-                neighbors: [NO_NEIGHBOR, 1, NO_NEIGHBOR],
-                weights: [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0],
-                ln_gain,
-            },
-            // (0,0) (1,1) (0,1): weights 1 - y, x, y - x.
-            Triangle {
-                nodes: [0, 2, 3],
-                neighbors: [NO_NEIGHBOR, NO_NEIGHBOR, 0],
-                weights: [0.0, -1.0, 1.0, 1.0, 0.0, 0.0],
-                ln_gain,
-            },
-        ];
-        (nodes, triangles)
-    }
-
-    #[test]
-    fn evaluates_and_walks_between_triangles() {
-        let (nodes, triangles) = square();
-        let texture = Texture::new(1000.0, 2, 1.0, 1.0, &nodes, &triangles).unwrap();
-        let mut hint = 0;
-        for (speed_mps, force_n, level, low, triangle) in [
-            (1.0, 1.0, 1.0, 0.9, 0),
-            (0.5, 0.25, 0.25, 0.5 * 0.5 + 0.25 * 0.7 + 0.25 * 0.9, 0),
-            (0.25, 0.5, 0.25, 0.5 * 0.5 + 0.25 * 0.9 + 0.25 * 0.6, 1),
-            (9.0, 9.0, 1.0, 0.9, 1),
-            (0.5, 0.0, 0.0, 0.6, 0),
-        ] {
-            let at = texture.evaluate(Contact { speed_mps, force_n }, &mut hint);
-            assert!(
-                (at.level_mps2 - level).abs() < 1e-6,
-                "level at {speed_mps} {force_n}: {}",
-                at.level_mps2
-            );
-            assert!((at.lsf[0] - low).abs() < 1e-6);
-            assert!((at.sigma_mps2 - level * (-0.5_f32).exp()).abs() < 1e-6);
-            assert_eq!(hint, triangle);
-        }
-    }
-
-    #[test]
-    fn nonsense_contacts_and_hints_are_silent_not_fatal() {
-        let (nodes, triangles) = square();
-        let texture = Texture::new(1000.0, 2, 1.0, 1.0, &nodes, &triangles).unwrap();
-        for x in [f32::NAN, f32::INFINITY, -3.0] {
-            let mut hint = u16::MAX;
-            assert_eq!(texture.evaluate(Contact { speed_mps: x, force_n: x }, &mut hint).level_mps2, 0.0);
-        }
-    }
-
-    #[test]
-    fn slices_that_were_never_checked_are_silent_not_fatal() {
-        let (nodes, triangles) = square();
-        let full = Contact { speed_mps: 1.0, force_n: 1.0 };
-        for (nodes, triangles) in
-            [(&nodes[..1], &triangles[..]), (&nodes[..], &triangles[..0]), (&nodes[..], &triangles[1..])]
-        {
-            let texture = Texture::checked_before(1000.0, 99, 1.0, 1.0, nodes, triangles);
-            let at = texture.evaluate(full, &mut 7);
-            assert!(at.level_mps2 == 0.0 || triangles.len() == 1);
-        }
-    }
-
-    #[test]
-    fn broken_slices_are_refused() {
-        let (nodes, triangles) = square();
-        let error = |rate, order, nodes: &[Node], triangles: &[Triangle]| {
-            Texture::new(rate, order, 1.0, 1.0, nodes, triangles).err()
-        };
-        assert_eq!(error(1000.0, 0, &nodes, &triangles), Some(TextureError::Order));
-        assert_eq!(error(1000.0, 33, &nodes, &triangles), Some(TextureError::Order));
-        assert_eq!(error(f32::NAN, 2, &nodes, &triangles), Some(TextureError::Range));
-        assert_eq!(error(1000.0, 2, &nodes, &[]), Some(TextureError::Triangle));
-        assert_eq!(error(1000.0, 2, &nodes[..2], &triangles), Some(TextureError::Triangle));
-        let mut bad = nodes;
-        bad[1].lsf[1] = 0.1;
-        assert_eq!(error(1000.0, 2, &bad, &triangles), Some(TextureError::Number));
-        bad = nodes;
-        bad[1].level_mps2 = f32::NAN;
-        assert_eq!(error(1000.0, 2, &bad, &triangles), Some(TextureError::Number));
-    }
-}
+pub(crate) mod tests;

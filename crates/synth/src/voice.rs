@@ -8,6 +8,8 @@ const RECENT: usize = 4;
 /// Coefficients are taken four at a time, so that four multiplications are one instruction.
 const LANES: usize = 4;
 const MAX_CHUNKS: usize = (MAX_ORDER - RECENT) / LANES;
+/// Below this an excitation or a memory is silence.
+const TINY_MPS2: f32 = 1e-20;
 /// Longest tick in model samples: 5 ms at 4 kHz.
 pub const MAX_TICK: usize = 20;
 
@@ -55,7 +57,7 @@ impl Voice {
             *chunk = [a[3], a[2], a[1], a[0]];
         }
         self.sigma = self.sigma_next;
-        self.sigma_next = at.sigma_mps2;
+        self.sigma_next = if at.sigma_mps2 < TINY_MPS2 { 0.0 } else { at.sigma_mps2 };
     }
 
     /// Adds the voice's output to `out` (at most [`MAX_TICK`] samples), times a weight that goes from `weights.0`
@@ -110,10 +112,14 @@ impl Voice {
         self.settle();
     }
 
-    /// A memory that has all but rung out becomes exactly zero: numbers below 1e-30 slow a processor by hundreds of
-    /// cycles each, and nothing below 1e-20 m/s² can be felt or measured.
+    /// A memory that has all but rung out becomes exactly zero: numbers below 1e-38 slow a processor by hundreds of
+    /// cycles each, and nothing below [`TINY_MPS2`] can be felt or measured.
+    ///
+    /// With the excitation's own flush in [`Voice::aim`] this is enough: an excitation that is not zero is at least
+    /// `TINY_MPS2` and keeps the memory about as large, far above 1e-38; without one the memory falls, and is zero
+    /// as soon as all of it is below `TINY_MPS2`. What a fast decay leaves in between are a few ticks of small numbers.
     fn settle(&mut self) {
-        if self.sigma_next == 0.0 && self.memory[..MAX_ORDER].iter().all(|y| y.abs() < 1e-20) {
+        if self.sigma_next == 0.0 && self.memory[..MAX_ORDER].iter().all(|y| y.abs() < TINY_MPS2) {
             self.memory[..MAX_ORDER].fill(0.0);
         }
     }
@@ -127,7 +133,7 @@ impl Voice {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::{MAX_TICK, Voice};
+    use super::{MAX_TICK, TINY_MPS2, Voice};
     use crate::lsf::ar_from_lsf;
     use crate::noise::{Gaussian, Noise};
     use crate::texture::{Evaluated, MAX_ORDER};
@@ -204,5 +210,20 @@ mod tests {
             voice.add_tick(&[0.5; 20], (1.0, 1.0), &mut [0.0; 20]);
         }
         assert!(voice.memory.iter().all(|&y| y == 0.0));
+    }
+
+    #[test]
+    fn an_excitation_too_small_to_feel_rings_out_to_exactly_zero_too() {
+        // From the smallest number there is to just below what is kept.
+        for sigma_mps2 in [f32::from_bits(1), 1e-38, 1e-30, 0.99 * TINY_MPS2] {
+            let mut voice = Voice::new();
+            voice.aim(8, &evaluated(8, 1.0));
+            voice.add_tick(&[1.0; 20], (1.0, 1.0), &mut [0.0; 20]);
+            for _ in 0..2000 {
+                voice.aim(8, &evaluated(8, sigma_mps2));
+                voice.add_tick(&[0.5; 20], (1.0, 1.0), &mut [0.0; 20]);
+            }
+            assert!(voice.memory.iter().all(|&y| y == 0.0), "excited by {sigma_mps2}");
+        }
     }
 }

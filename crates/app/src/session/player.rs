@@ -206,7 +206,7 @@ impl Player {
             return;
         }
         self.n_mixes += 1;
-        let mut mix = Mix { blend: synth_blend(authored.mode), ..Mix::default() };
+        let mut mix = Mix::silent(synth_blend(authored.mode));
         for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
             let Some(id) = self.slot_of(*texture, planes) else { return };
             *parent = Parent { id, weight: *weight as f32 };
@@ -232,9 +232,7 @@ impl Player {
                 handle.unload(id);
             }
         }
-        let p = planes[texture].prepare();
-        let (nodes, triangles) = (p.nodes.into_boxed_slice(), p.triangles.into_boxed_slice());
-        let owned = OwnedTexture::new(p.rate_hz, p.order, p.speed_max_mps, p.force_max_n, nodes, triangles);
+        let owned = OwnedTexture::new(planes[texture].prepare().parts());
         // A model that was checked makes a texture; a full ring gives it back, and the next frame tries again.
         let id = handle.load(owned.ok()?).ok()?;
         self.slots[texture] = Some((id, self.n_mixes));
@@ -268,6 +266,10 @@ impl Player {
                 self.set_hand(hand);
             }
         }
+    }
+
+    pub(super) fn is_opening(&self) -> bool {
+        self.opening.is_some()
     }
 
     pub(super) fn toggle_mute(&mut self) {

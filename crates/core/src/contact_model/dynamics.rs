@@ -100,7 +100,7 @@ pub(super) fn accelerations_mps2(path: &Path, springs: &Springs, force_n: f64, r
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Path, Run, Springs, TAU, accelerations_mps2};
     use crate::contact_model::PEN;
     use rustfft::num_complex::Complex;
 

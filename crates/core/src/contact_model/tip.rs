@@ -1,6 +1,8 @@
 //! What the ball and its patch of contact make of a profile.
 
+use crate::dft321::check_run;
 use crate::rng::Random;
+use crate::spectrum::rms;
 use realfft::RealFftPlanner;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -75,7 +77,7 @@ pub(super) fn friction_process(n_points: usize, step_m: f64, seed: u64) -> Vec<f
     }
     let mut process = inverse.make_output_vec();
     check_run(&inverse.process(&mut spectrum, &mut process));
-    let rms = (process.iter().map(|value| value * value).sum::<f64>() / n as f64).sqrt();
+    let rms = rms(&process);
     process.truncate(n_points);
     for value in &mut process {
         *value /= rms;
@@ -91,13 +93,11 @@ fn patch_gain(ka: f64) -> f64 {
     3.0 * (ka.sin() - ka * ka.cos()) / ka.powi(3)
 }
 
-fn check_run(outcome: &Result<(), realfft::FftError>) {
-    assert!(outcome.is_ok(), "the transform's buffers come from its own plan: {outcome:?}");
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{
+        Complex, FRICTION_HURST, RealFftPlanner, TAU, dilate, friction_process, patch_gain, patch_low_pass,
+    };
     use crate::rng::lcg_noise;
 
     const STEP_M: f64 = 10e-6;

@@ -60,7 +60,7 @@ fn stamp(layer: &mut [f64], n: usize, center: [f64; 2], radii: [f64; 2], angle: 
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Bumps, Tile, add, stamp};
 
     /// Oracle: every cell, by the definition, over the nine copies of the torus.
     #[test]

@@ -152,7 +152,7 @@ pub(super) fn line_detail(fractal: &Fractal, n_points: usize, step_m: f64, seed:
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Fractal, PI, RealFftPlanner, Tile, tile_heights};
     use crate::material::tests::plain;
 
     const TILE: Tile = Tile { n_cells: 256, spacing_m: 40e-6 };

@@ -81,7 +81,7 @@ impl Lattice {
     }
 }
 
-/// A sine sharpened by its second harmonic, as in the line model of the reference synthesis.
+/// A sine sharpened by its second harmonic.
 fn ridges(lattice: &Lattice, u: f64) -> f64 {
     let wave = (TAU * u).sin() + 0.3 * (2.0 * TAU * u + 0.7).sin();
     lattice.height_factor_along(u) * wave / 1.2
@@ -194,7 +194,7 @@ fn cells(lattice: &Lattice, u: f64, v: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Lattice, Pattern, PatternKind, Tile, add, ridges};
 
     const TILE: Tile = Tile { n_cells: 120, spacing_m: 50e-6 };
 

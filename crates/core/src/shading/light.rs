@@ -105,7 +105,7 @@ pub(super) fn srgb_byte(linear: f64) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{linear, room, srgb_byte, unit};
 
     #[test]
     fn srgb_round_trips_below_the_highlights() {

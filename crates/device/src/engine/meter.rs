@@ -38,6 +38,8 @@ impl Ramp {
 
 /// Time constant of the level, in seconds.
 const LEVEL_SECS: f32 = 0.05;
+/// Highest mean square that is told, in (m/s²)²: far above anything real, and far enough below the largest number.
+const HIGHEST_SQUARE: f32 = 1e36;
 /// Time constant of the fall of the peak, in seconds.
 const PEAK_SECS: f32 = 0.3;
 
@@ -58,7 +60,8 @@ impl Meter {
     pub(super) fn note_signal(&mut self, samples: &[f32]) {
         let share = 1.0 - self.left_after(samples.len(), LEVEL_SECS);
         let mean = samples.iter().map(|x| x * x).sum::<f32>() / samples.len().max(1) as f32;
-        self.mean_square += share * (mean - self.mean_square);
+        // Squares of samples that can still be limited may overflow: the level stands at its highest, and comes down again.
+        self.mean_square += share * (mean.min(HIGHEST_SQUARE) - self.mean_square);
         // Nothing below can be felt, and numbers that small are slow.
         if self.mean_square < 1e-20 {
             self.mean_square = 0.0;
@@ -109,6 +112,21 @@ mod tests {
         ramp.aim(0.35);
         assert_eq!(ramp.next(), 0.65);
         assert_eq!([ramp.next(), ramp.next(), ramp.next(), ramp.next()][2..], [0.35, 0.35]);
+    }
+
+    #[test]
+    fn a_level_whose_square_overflows_is_high_and_comes_down_again() {
+        let mut meter = Meter::new(48_000.0);
+        for sample in [f32::MAX, -f32::MAX, 2e19, f32::NAN, f32::INFINITY] {
+            for _ in 0..1000 {
+                meter.note_signal(&[sample; 256]);
+            }
+            assert!((meter.level() / 1e18 - 1.0).abs() < 1e-3, "{} after {sample}", meter.level());
+        }
+        for _ in 0..2000 {
+            meter.note_signal(&[0.0; 256]);
+        }
+        assert_eq!(meter.level(), 0.0);
     }
 
     #[test]

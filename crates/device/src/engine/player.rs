@@ -188,6 +188,7 @@ mod tests {
                 player.set_input(Input::Hand(Hand { path, speed_mps, force_n: 0.5 + i as f32, ..HAND }));
                 for (_, touch) in run(&mut player, 37) {
                     if player.clock_secs > 0.0 && i > 0 {
+                        // The way in a tick, and 3 %: the scribble's spread of 2 %, and `f32` positions of micrometers.
                         assert!(
                             distance(last, touch) <= 1.03 * speed_mps * TICK as f32,
                             "{path:?} at {speed_mps}"

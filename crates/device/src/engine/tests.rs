@@ -59,7 +59,7 @@ fn peak(samples: &[f32]) -> f32 {
 fn output_does_not_depend_on_the_size_of_blocks() {
     let run = |block, input: Input| {
         let (mut handle, mut engine) = stroking(CONFIG, 1.0);
-        let mut mix = Mix { blend: Blend::Power, ..Mix::default() };
+        let mut mix = Mix::silent(Blend::Power);
         for (id, level) in [(1, 2.0), (2, 3.0)] {
             assert_eq!(handle.load(white(level)).unwrap(), id);
         }
@@ -244,7 +244,7 @@ fn refuses_textures_of_another_rate_and_mixes_that_are_none() {
         assert!(matches!(handle.set_mix(mix), Err(MixError::Weight { id: 0, .. })), "{weight}");
     }
     assert_eq!(handle.controls(), before);
-    handle.set_mix(Mix::default()).unwrap();
+    handle.set_mix(Mix::silent(Blend::Power)).unwrap();
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use serde::de::IgnoredAny;
 use serde_json::{Map, Value};
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::{GrainNode, TextureModel};
@@ -16,17 +17,18 @@ use crate::library::{
     FORMAT, Library, LibraryError, PhysicalLabels, Place, TextureEntry, Unknown, UnknownOfLibrary,
     VERSION_MAJOR, VERSION_MINOR,
 };
-use crate::picture::{MAX_SIDE, Picture, PictureFormat};
+use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 
 /// Reads a library.
 ///
-/// Pictures are unpacked only when they are shown, by [`crate::picture::decode`].
+/// Pictures are unpacked only when they are shown, by [`picture::decode`]; one whose head is damaged is kept, and warned
+/// of.
 ///
 /// # Errors
 /// See [`LibraryError`]; every number is checked.
 pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
     let mut warnings = Vec::new();
-    let header: Header = serde_json::from_slice(bytes).map_err(|error| damaged(&error, bytes))?;
+    let header = header(bytes)?;
     if header.format != FORMAT {
         return Err(LibraryError::Format { found: shown(&header.format) });
     }
@@ -55,6 +57,12 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
     if wire.textures.is_empty() {
         warnings.push("the library has no textures".to_owned());
     }
+    let textures: Vec<TextureEntry> = wire.textures.into_iter().map(texture).collect::<Result<_, _>>()?;
+    for TextureEntry { id, picture, .. } in &textures {
+        if let Some(Err(error)) = picture.as_ref().map(picture::check) {
+            warnings.push(format!("the picture of texture \"{id}\" cannot be shown: {error}"));
+        }
+    }
     let library = Library {
         name: wire.name,
         description: wire.description,
@@ -62,10 +70,21 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
         license: wire.licence,
         created_by: wire.created_by,
         seed: wire.seed,
-        textures: wire.textures.into_iter().map(texture).collect::<Result<_, _>>()?,
+        textures,
         unknown: UnknownOfLibrary { library: wire.unknown, units: wire.units.unknown },
     };
     Ok(Imported { value: library, warnings })
+}
+
+/// What kind of file it is. JSON that is no object is of another kind, whatever it holds.
+fn header(bytes: &[u8]) -> Result<Header, LibraryError> {
+    if bytes.trim_ascii_start().first() == Some(&b'{') {
+        return serde_json::from_slice(bytes).map_err(|error| damaged(&error, bytes));
+    }
+    match serde_json::from_slice::<IgnoredAny>(bytes) {
+        Ok(_) => Err(LibraryError::Format { found: shown(&Value::Null) }),
+        Err(error) => Err(damaged(&error, bytes)),
+    }
 }
 
 /// `major.minor` as numbers.

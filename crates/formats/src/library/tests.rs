@@ -115,6 +115,9 @@ fn unknown_fields_of_anchors_are_not_given_to_others() {
 fn other_kinds_and_versions_are_refused_with_the_reason() {
     check_error(|v| v["format"] = json!("other"), &["not a texture library", "other"]);
     check_error(|v| v["format"] = Value::Null, &["not a texture library", "missing"]);
+    for none in ["[1, 2]", "[]", " [\"shagreen-library\", \"1.0\"]", "5", "null", "\"text\"", "{}"] {
+        assert!(matches!(read_library(none.as_bytes()), Err(LibraryError::Format { .. })), "{none}");
+    }
     check_error(|v| v["version"] = json!("2.0"), &["version 2.0", "reads 1.x"]);
     check_error(|v| v["version"] = json!("0.9"), &["version 0.9"]);
     check_error(|v| v["version"] = json!(1.0), &["not of the form"]);
@@ -177,6 +180,7 @@ fn an_empty_library_is_odd_but_usable() {
     let imported = read_library(&write_library(&Library::default())).unwrap();
     assert_eq!(imported.warnings.len(), 1);
     assert_eq!(imported.value.label_source(), None);
+    assert_eq!(imported.value.label_sources(), []);
 }
 
 #[test]
@@ -186,8 +190,28 @@ fn mixed_label_sources_are_no_single_source() {
     let at = SpacePoint::new(1.0, 2.0).unwrap();
     library.textures[1].place = Some(Place { at, source: LabelSource::HumanRatings });
     assert_eq!(library.label_source(), None);
+    assert_eq!(library.label_sources(), [LabelSource::PhysicalLabels, LabelSource::HumanRatings]);
     assert_eq!(library.index_of("bare"), Some(1));
     assert_eq!(library.license_of(&library.textures[0]), "CC0-1.0");
+}
+
+#[test]
+fn a_damaged_picture_is_warned_of_and_kept() {
+    let mut library = small();
+    let picture = library.textures[0].picture.as_mut().unwrap();
+    picture.bytes[0] = 0;
+    let imported = read_library(&write_library(&library)).unwrap();
+    assert_eq!(imported.warnings.len(), 1);
+    assert!(
+        imported.warnings[0].contains("\"cork\"") && imported.warnings[0].contains("damaged"),
+        "{:?}",
+        imported.warnings
+    );
+    assert_eq!(imported.value, library);
+    let mut wider = wire();
+    wider["textures"][0]["picture"]["width"] = json!(3);
+    let imported = read_library(&serde_json::to_vec(&wider).unwrap()).unwrap();
+    assert!(imported.warnings[0].contains("2 x 1 pixels"), "{:?}", imported.warnings);
 }
 
 proptest! {

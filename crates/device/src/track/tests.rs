@@ -1,0 +1,118 @@
+use super::{Contact, PenSample, Touch, Track, TrackError};
+use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
+
+fn sample(time_secs: f64, x_m: f64) -> PenSample {
+    PenSample { time_secs, x_m, y_m: 0.0, force_n: 0.5, touching: true }
+}
+
+fn close(a: f32, b: f64) {
+    assert!((f64::from(a) - b).abs() < 1e-6, "{a} for {b}");
+}
+
+#[test]
+fn replays_reports_at_their_times_and_lines_between() {
+    let samples: Vec<_> =
+        (0..50).map(|i| sample(10.0 + 0.008 * f64::from(i), 1e-4 * f64::from(i * i))).collect();
+    let track = Track::new(&samples).unwrap();
+    close(track.duration_secs() as f32, 0.392);
+    let mut estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
+    let speeds: Vec<f64> = samples.iter().map(|s| estimator.report(s.time_secs, s.x_m, s.y_m)).collect();
+    for (i, speed) in speeds.iter().enumerate() {
+        let touch = track.touch_at((0.008 * i as f64).min(track.duration_secs()));
+        close(touch.x_m, samples[i].x_m);
+        close(touch.contact.speed_mps, *speed);
+        close(touch.contact.force_n, 0.5);
+        if i + 1 < speeds.len() {
+            let middle = track.touch_at(0.008 * i as f64 + 0.004);
+            close(middle.contact.speed_mps, 0.5 * (speed + speeds[i + 1]));
+            close(middle.x_m, 0.5 * (samples[i].x_m + samples[i + 1].x_m));
+        }
+    }
+}
+
+#[test]
+fn lifted_outside_and_for_nonsense() {
+    let track = Track::new(&[sample(0.0, 0.01), sample(0.01, 0.02)]).unwrap();
+    for time_secs in [-1.0, 0.011, 1e9, f64::INFINITY, f64::NAN] {
+        assert_eq!(track.touch_at(time_secs).contact, Contact::LIFTED, "at {time_secs}");
+    }
+    close(track.touch_at(5.0).x_m, 0.02);
+    close(track.touch_at(-5.0).x_m, 0.01);
+    let point = Track::new(&[sample(3.0, 0.01)]).unwrap();
+    assert_eq!(point.duration_secs(), 0.0);
+    close(point.touch_at(0.0).contact.force_n, 0.5);
+}
+
+#[test]
+fn a_lift_is_force_zero_at_its_report() {
+    let lift = PenSample { touching: false, force_n: 9.0, ..sample(0.020, 0.003) };
+    let track = Track::new(&[sample(0.0, 0.0), sample(0.010, 0.002), lift, sample(0.030, 0.003)]).unwrap();
+    let before = track.touch_at(0.019);
+    close(before.contact.force_n, 0.5);
+    assert!(before.contact.speed_mps > 0.05);
+    assert_eq!(track.touch_at(0.020).contact, Contact::LIFTED);
+    assert_eq!(track.touch_at(0.029).contact, Contact::LIFTED);
+    // The next stroke begins at rest, wherever the last one ended.
+    assert_eq!(track.touch_at(0.030).contact, Contact { speed_mps: 0.0, force_n: 0.5 });
+}
+
+#[test]
+fn a_long_gap_is_held_decays_and_lifts() {
+    let mut samples: Vec<_> = (0..20).map(|i| sample(0.01 * f64::from(i), 0.001 * f64::from(i))).collect();
+    samples.push(sample(0.5, 0.3));
+    let track = Track::new(&samples).unwrap();
+    let last = f64::from(track.touch_at(0.19).contact.speed_mps);
+    assert!(last > 0.09);
+    for age in [0.005, 0.020, 0.030, 0.045, 0.049] {
+        let touch = track.touch_at(0.19 + age);
+        close(touch.contact.speed_mps, held_speed(last, age));
+        close(touch.contact.force_n, 0.5);
+    }
+    for time_secs in [0.241, 0.3, 0.499] {
+        assert_eq!(track.touch_at(time_secs).contact, Contact::LIFTED, "at {time_secs}");
+    }
+    // No speed from the jump across the gap.
+    assert_eq!(track.touch_at(0.5).contact.speed_mps, 0.0);
+}
+
+#[test]
+fn equal_times_keep_the_last() {
+    let samples =
+        [sample(0.0, 0.0), sample(0.01, 5.0), sample(0.01, 6.0), sample(0.01, 0.001), sample(0.02, 0.002)];
+    let track = Track::new(&samples).unwrap();
+    assert_eq!(track.warnings.n_equal_timestamps, 2);
+    let clean = Track::new(&[samples[0], samples[3], samples[4]]).unwrap();
+    assert_eq!(track.touches, clean.touches);
+}
+
+#[test]
+fn bad_samples_are_named() {
+    let good = sample(1.0, 0.0);
+    let error = |samples: &[PenSample]| Track::new(samples).unwrap_err();
+    assert_eq!(error(&[]), TrackError::Empty);
+    assert_eq!(error(&[good, PenSample { x_m: f64::NAN, ..good }]), TrackError::NotFinite { index: 1 });
+    assert_eq!(
+        error(&[good, good, sample(0.5, 0.0)]),
+        TrackError::TimeGoesBack { index: 2, time_secs: 0.5, previous_secs: 1.0 }
+    );
+    assert_eq!(
+        error(&[PenSample { force_n: -0.1, ..good }]),
+        TrackError::NegativeForce { index: 0, force_n: -0.1 }
+    );
+    // Milliseconds taken for seconds.
+    assert_eq!(
+        error(&[sample(0.0, 0.0), sample(8000.0, 0.0)]),
+        TrackError::TooLong { duration_secs: 8000.0 }
+    );
+    assert!(error(&[good, sample(0.5, 0.0)]).to_string().contains("sample 1"));
+}
+
+#[test]
+fn a_tip_that_never_touches_is_a_track_of_silence() {
+    let off = PenSample { touching: false, ..sample(0.0, 0.0) };
+    let track = Track::new(&[off, PenSample { time_secs: 0.1, x_m: 0.1, ..off }]).unwrap();
+    for i in 0..=100 {
+        let touch = track.touch_at(f64::from(i) * 1e-3);
+        assert_eq!(touch, Touch { x_m: touch.x_m, ..Touch::default() });
+    }
+}
