@@ -4,11 +4,13 @@
 
 mod player;
 
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Instant;
 
 use anyhow::bail;
 use shagreen_core::blend::{Authored, author, mixture_psd};
-use shagreen_core::plane::Plane;
+use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::space::Space;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
@@ -43,7 +45,10 @@ pub struct Spectra {
 /// Everything that is not undone.
 pub struct Session {
     library: Library,
-    planes: Vec<Plane>,
+    planes: Arc<[Plane]>,
+    /// What the output takes, worked out ahead by a worker: a drag into textures not yet heard must not wait for it.
+    prepared: Vec<Option<Prepared>>,
+    incoming: Receiver<(usize, Prepared)>,
     space: Space,
     authored: Option<Authored>,
     spectra: Spectra,
@@ -59,7 +64,8 @@ impl Session {
     /// # Errors
     /// The positions cannot be triangulated, or the textures have different rates.
     pub fn new(library: Library) -> anyhow::Result<Self> {
-        let planes = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
+        let planes: Arc<[Plane]> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
+        let incoming = prepare_ahead(Arc::clone(&planes));
         let rate_hz = common_rate_hz(&library)?;
         // Beyond half the rate a model only repeats itself.
         let (low, high) = (10.0_f64, 500.0_f64.min(0.4995 * rate_hz));
@@ -67,6 +73,8 @@ impl Session {
         let frequencies = (0..N_FREQUENCIES).map(|i| Hertz(frequency(i))).collect();
         Ok(Self {
             space: Space::new(&library.positions())?,
+            prepared: vec![None; planes.len()],
+            incoming,
             planes,
             player: Player::new(library.textures.len()),
             library,
@@ -131,13 +139,16 @@ impl Session {
             self.player.mix_is_new = true;
         }
         if let Some(authored) = &self.authored {
-            self.player.send_mix(authored, &self.planes);
+            self.player.send_mix(authored, &self.planes, &self.prepared);
         }
     }
 
     /// Once a frame: takes in what the output says, and works out what is shown. `contact` is what the spectra are
     /// drawn for while nothing touches.
     pub fn update(&mut self, contact: Contact) {
+        while let Ok((texture, prepared)) = self.incoming.try_recv() {
+            self.prepared[texture] = Some(prepared);
+        }
         if self.player.collect(&mut self.scope) {
             self.player.set_hand(self.hand);
         }
@@ -262,4 +273,17 @@ fn common_rate_hz(library: &Library) -> anyhow::Result<f64> {
             other.model.rate()
         ),
     }
+}
+
+/// Prepares all textures in a thread of its own, which ends with them or with the session.
+fn prepare_ahead(planes: Arc<[Plane]>) -> Receiver<(usize, Prepared)> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        for (texture, plane) in planes.iter().enumerate() {
+            if sender.send((texture, plane.prepare())).is_err() {
+                return;
+            }
+        }
+    });
+    receiver
 }

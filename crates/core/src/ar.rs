@@ -137,10 +137,11 @@ pub fn power_gain(ar: &[f64]) -> f64 {
             return f64::INFINITY;
         }
         gain /= left;
+        // In place, from both ends: each pair needs only itself.
         let n = a.len();
-        let before = a.clone();
-        for (j, c) in a.iter_mut().enumerate() {
-            *c = (*c - k * before[n - 1 - j]) / left;
+        for j in 0..n.div_ceil(2) {
+            let (x, y) = (a[j], a[n - 1 - j]);
+            (a[j], a[n - 1 - j]) = ((x - k * y) / left, (y - k * x) / left);
         }
     }
     gain

@@ -92,7 +92,13 @@ pub fn ar_from_lsf(lsf: &[f64]) -> Vec<f64> {
     let build = |start: usize, ends: &[f64]| {
         let mut poly = vec![1.0];
         for w in lsf.iter().skip(start).step_by(2) {
-            poly = convolve(&poly, &[1.0, -2.0 * w.cos(), 1.0]);
+            // Times 1 - 2 cos(w) z + z², in place from the highest coefficient down.
+            let middle = -2.0 * w.cos();
+            poly.extend([0.0; 2]);
+            for i in (2..poly.len()).rev() {
+                poly[i] += poly[i - 2] + middle * poly[i - 1];
+            }
+            poly[1] += middle * poly[0];
         }
         convolve(&poly, ends)
     };

@@ -1,6 +1,11 @@
 //! The texture of the callback has the levels of the model, over the whole plane of every texture that comes with the
 //! program.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a test may stop at what it did not expect"
+)]
 
 use serde_json::Value;
 use shagreen_core::ar::power_gain;
@@ -31,7 +36,7 @@ fn models() -> Vec<(String, TextureModel)> {
     textures.iter().map(model).collect()
 }
 
-/// Levels in decibels at `at` of the predictor and the excitation that the callback would run, against the model.
+/// The level of the very predictor and excitation that the callback would run, against the model.
 #[test]
 fn levels_of_the_starter_textures_are_those_of_their_models() {
     let models = models();
@@ -69,6 +74,5 @@ fn levels_of_the_starter_textures_are_those_of_their_models() {
             }
         }
     }
-    println!("worst {worst:?}");
     assert!(worst.0.abs() < 0.1, "{} dB: {}", worst.0, worst.1);
 }

@@ -4,11 +4,11 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Instant;
 
 use shagreen_core::blend::Authored;
-use shagreen_core::plane::Plane;
+use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
 use shagreen_device::controls::{Drive, Input};
-use shagreen_device::engine::{ChannelMask, Handle, SLOTS};
+use shagreen_device::engine::{ChannelMask, Handle, LoadError, LoadReason, SLOTS};
 use shagreen_device::error::DeviceError;
 use shagreen_device::hand::Hand;
 use shagreen_device::live::LiveInput;
@@ -201,14 +201,14 @@ impl Player {
     }
 
     /// Loads what the blend needs and fades to it. Tried again in the next frame where the output is busy.
-    pub(super) fn send_mix(&mut self, authored: &Authored, planes: &[Plane]) {
+    pub(super) fn send_mix(&mut self, authored: &Authored, planes: &[Plane], ahead: &[Option<Prepared>]) {
         if !self.mix_is_new || self.handle.is_none() {
             return;
         }
         self.n_mixes += 1;
         let mut mix = Mix::silent(synth_blend(authored.mode));
         for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
-            let Some(id) = self.slot_of(*texture, planes) else { return };
+            let Some(id) = self.slot_of(*texture, planes, ahead) else { return };
             *parent = Parent { id, weight: *weight as f32 };
         }
         if let Some(handle) = &mut self.handle
@@ -218,7 +218,7 @@ impl Player {
         }
     }
 
-    fn slot_of(&mut self, texture: usize, planes: &[Plane]) -> Option<TextureId> {
+    fn slot_of(&mut self, texture: usize, planes: &[Plane], ahead: &[Option<Prepared>]) -> Option<TextureId> {
         let handle = self.handle.as_mut()?;
         if let Some((id, used)) = &mut self.slots[texture] {
             *used = self.n_mixes;
@@ -232,11 +232,24 @@ impl Player {
                 handle.unload(id);
             }
         }
-        let owned = OwnedTexture::new(planes[texture].prepare().parts());
-        // A model that was checked makes a texture; a full ring gives it back, and the next frame tries again.
-        let id = handle.load(owned.ok()?).ok()?;
-        self.slots[texture] = Some((id, self.n_mixes));
-        Some(id)
+        let owned = match &ahead[texture] {
+            Some(prepared) => OwnedTexture::new(prepared.parts()),
+            None => OwnedTexture::new(planes[texture].prepare().parts()),
+        };
+        let refusal = match owned {
+            Ok(owned) => match handle.load(owned) {
+                Ok(id) => {
+                    self.slots[texture] = Some((id, self.n_mixes));
+                    return Some(id);
+                }
+                // The next frame tries again.
+                Err(LoadError { reason: LoadReason::RingFull, .. }) => return None,
+                Err(error) => error.to_string(),
+            },
+            Err(error) => error.to_string(),
+        };
+        self.message = Some(refusal);
+        None
     }
 
     pub(super) fn set_hand(&mut self, hand: Option<Hand>) {
