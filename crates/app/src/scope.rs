@@ -4,11 +4,10 @@ use egui::{Label, RichText, Ui};
 use egui_plot::{Legend, Line, Plot, PlotPoints};
 
 use crate::panel::Panel;
+use crate::session::BAND_HZ;
 use crate::strings;
 use crate::theme::{GAP, tokens};
 
-/// Range of the spectrum's axis, in Hz.
-const BAND_HZ: (f64, f64) = (10.0, 500.0);
 /// Lowest density that is drawn, in dB re 1 (m/s²)²/Hz.
 const FLOOR_DB: f64 = -70.0;
 /// Highest density that is drawn.

@@ -28,6 +28,8 @@ pub use self::player::OutputChoice;
 
 use self::player::Player;
 
+/// Range of frequencies over which spectra are drawn, in Hz.
+pub const BAND_HZ: (f64, f64) = (10.0, 500.0);
 /// Frequencies at which spectra are drawn.
 const N_FREQUENCIES: usize = 160;
 
@@ -64,17 +66,16 @@ impl Session {
     /// # Errors
     /// The positions cannot be triangulated, or the textures have different rates.
     pub fn new(library: Library) -> anyhow::Result<Self> {
-        let planes: Arc<[Plane]> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
-        let incoming = prepare_ahead(Arc::clone(&planes));
         let rate_hz = common_rate_hz(&library)?;
+        let planes: Arc<[Plane]> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
         // Beyond half the rate a model only repeats itself.
-        let (low, high) = (10.0_f64, 500.0_f64.min(0.4995 * rate_hz));
+        let (low, high) = (BAND_HZ.0, BAND_HZ.1.min(0.4995 * rate_hz));
         let frequency = |i: usize| low * (high / low).powf(i as f64 / (N_FREQUENCIES - 1) as f64);
         let frequencies = (0..N_FREQUENCIES).map(|i| Hertz(frequency(i))).collect();
         Ok(Self {
             space: Space::new(&library.positions())?,
             prepared: vec![None; planes.len()],
-            incoming,
+            incoming: prepare_ahead(Arc::clone(&planes)),
             planes,
             player: Player::new(library.textures.len()),
             library,

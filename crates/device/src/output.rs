@@ -214,10 +214,11 @@ pub(crate) fn make_engine(options: OpenOptions, rate_hz: u32) -> Result<Made, De
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::{BUFFER_FRAMES, ChannelMask, DeviceErrorKind, NULL_ID, OpenOptions, list_outputs, open};
 
-    const OPTIONS: OpenOptions = OpenOptions {
+    /// What nothing in a test depends on.
+    pub(crate) const OPTIONS: OpenOptions = OpenOptions {
         model_rate_hz: 1000.0,
         preferred_rate_hz: None,
         buffer_frames: None,

@@ -53,17 +53,8 @@ fn rank_of(format: SampleFormat) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::{ChannelMask, OpenOptions, SampleFormat, SupportedStreamConfigRange, choose};
+    use crate::output::tests::OPTIONS;
     use cpal::SupportedBufferSize;
-
-    const OPTIONS: OpenOptions = OpenOptions {
-        model_rate_hz: 1000.0,
-        preferred_rate_hz: None,
-        buffer_frames: None,
-        seed: 0,
-        full_scale_mps2: 10.0,
-        ceiling: 0.9,
-        channels: ChannelMask::FIRST_TWO,
-    };
 
     fn range(channels: u16, low_hz: u32, high_hz: u32, format: SampleFormat) -> SupportedStreamConfigRange {
         SupportedStreamConfigRange::new(channels, low_hz, high_hz, SupportedBufferSize::Unknown, format)
