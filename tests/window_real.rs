@@ -22,6 +22,9 @@ use image::RgbImage;
 /// The authored point's color in the dark theme: `shagreen_app::theme::DARK.accent`.
 const ACCENT: [u8; 3] = [0x5F, 0xC9, 0xB0];
 
+/// Between one act of the pointer and the next.
+const PAUSE: Duration = Duration::from_millis(400);
+
 struct Display {
     name: String,
     runtime: tempfile::TempDir,
@@ -73,21 +76,36 @@ impl Display {
             if is_right(&shot) {
                 return shot;
             }
-            assert!(start.elapsed() < Duration::from_secs(30), "waited in vain: {what}; see {name}.png");
+            assert!(start.elapsed() < Duration::from_secs(60), "waited in vain: {what}; see {name}.png");
             std::thread::sleep(Duration::from_millis(200));
         }
     }
 
+    /// Presses, moves and lets go with pauses: a window of a few frames a second has to see each of them.
     fn drag(&self, from: (u32, u32), to: (u32, u32)) {
         let at = |share: f64, a: u32, b: u32| (f64::from(a) + share * (f64::from(b) - f64::from(a))) as i64;
-        self.xdotool(&["mousemove", &from.0.to_string(), &from.1.to_string(), "mousedown", "1"]);
+        self.xdotool(&["mousemove", &from.0.to_string(), &from.1.to_string()]);
+        std::thread::sleep(PAUSE);
+        self.xdotool(&["mousedown", "1"]);
+        std::thread::sleep(PAUSE);
         for i in 1..=10 {
             let share = f64::from(i) / 10.0;
             let (x, y) = (at(share, from.0, to.0), at(share, from.1, to.1));
             self.xdotool(&["mousemove", &x.to_string(), &y.to_string()]);
             std::thread::sleep(Duration::from_millis(30));
         }
-        self.xdotool(&["mouseup", "1", "mousemove", "1278", "470"]);
+        std::thread::sleep(PAUSE);
+        self.xdotool(&["mouseup", "1"]);
+        std::thread::sleep(PAUSE);
+        self.xdotool(&["mousemove", "1278", "470"]);
+    }
+
+    fn click(&self, at: (u32, u32)) {
+        self.xdotool(&["mousemove", &at.0.to_string(), &at.1.to_string()]);
+        std::thread::sleep(PAUSE);
+        self.xdotool(&["click", "1"]);
+        std::thread::sleep(PAUSE);
+        self.xdotool(&["mousemove", "1278", "470"]);
     }
 }
 
@@ -138,7 +156,7 @@ fn the_program_opens_and_its_point_follows_a_real_pointer() {
     display.wait_for("author-dragged", "the point follows", |shot| point(shot).is_some_and(near));
 
     // Start the automatic hand with a click on its button.
-    display.xdotool(&["mousemove", "36", "495", "click", "1", "mousemove", "1278", "470"]);
+    display.click((36, 495));
     display.wait_for("author-stroking", "the waveform moves", |shot| waveform_height(shot) > 30);
 }
 

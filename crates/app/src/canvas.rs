@@ -11,6 +11,7 @@ use shagreen_core::space::SpacePoint;
 use self::site_labels::site_labels;
 use crate::axes::Axes;
 use crate::command::Command;
+use crate::drag::dragged_to;
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
@@ -38,9 +39,8 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 24.0), outer.max - vec2(36.0, 48.0)) };
     grid(ui, axes, outer, t);
     triangles(ui, axes, panel, t);
-    if let Some(pos) = background.interact_pointer_pos()
-        && (background.dragged() || background.drag_stopped() || background.clicked())
-    {
+    let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
+    if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
     commands.extend(sites_ui(ui, axes, panel, t));
@@ -190,9 +190,7 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
-    if response.dragged()
-        && let Some(pointer) = response.interact_pointer_pos()
-    {
+    if let Some(pointer) = dragged_to(ui, &response) {
         commands.push(move_to(axes.space_from_ui(pointer)));
     }
     if let Some(to) = nudged(ui, id, point) {

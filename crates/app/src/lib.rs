@@ -24,6 +24,7 @@ use crate::session::OutputChoice;
 pub mod axes;
 pub mod canvas;
 pub mod command;
+mod drag;
 pub mod history;
 pub mod inspector;
 pub mod library_panel;

@@ -7,6 +7,7 @@ use shagreen_device::hand::{Hand, Path};
 use shagreen_device::touch::Touch;
 
 use crate::command::Command;
+use crate::drag::dragged_to;
 use crate::panel::Panel;
 use crate::strings;
 use crate::theme::{GAP, RADIUS, tokens};
@@ -85,9 +86,8 @@ pub fn pad_ui(
         state.hand.force_n = force_n.clamp(*FORCES_N.start(), *FORCES_N.end());
     }
     let pressed = response.is_pointer_button_down_on();
-    if let Some(pos) =
-        response.interact_pointer_pos().filter(|_| pressed || response.drag_stopped() || response.clicked())
-    {
+    let held_at = response.interact_pointer_pos().filter(|_| pressed || response.clicked());
+    if let Some(pos) = dragged_to(ui, &response).or(held_at) {
         let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
         outcome.mouse =
             Some(MouseReport { x_m: f64::from(from_middle.x), y_m: f64::from(-from_middle.y), pressed });

@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, Pos2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::session::OutputChoice;
@@ -223,6 +223,41 @@ fn a_whole_drag_is_one_step_of_undo() {
     harness.get_by_label(strings::UNDO).click();
     harness.run_steps(3);
     assert_eq!(window(&harness).project().point, start);
+}
+
+/// A slow window gets the end of a drag, the release and the way to the next thing in one frame: the release counts.
+#[test]
+fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
+    let mut harness = author();
+    let start = window(&harness).project().point;
+    let (from, to) = (center(&harness, strings::POINT), center(&harness, "Go to Felt"));
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(from.lerp(to, 0.3));
+    harness.step();
+    let release = Event::PointerButton {
+        pos: to,
+        button: PointerButton::Primary,
+        pressed: false,
+        modifiers: Modifiers::NONE,
+    };
+    let away = from.lerp(to, 0.6);
+    harness.input_mut().events.extend([Event::PointerMoved(to), release, Event::PointerMoved(away)]);
+    harness.run_steps(3);
+    let point = window(&harness).project().point;
+    let nearest = window(&harness)
+        .session()
+        .space()
+        .sites()
+        .iter()
+        .map(|(_, at)| at.distance(point))
+        .fold(100.0, f64::min);
+    assert!(nearest < 1.0, "let go at {point}, {nearest} from the nearest texture");
+    harness.get_by_label(strings::UNDO).click();
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project().point, start, "one step of undo");
 }
 
 /// A click on a texture is that texture, wholly, and undo takes it back: the sliders that show the place do not round it.
