@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
+use crate::tap::Tap;
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
 /// Highest order of a predictor that can be rendered.
@@ -42,12 +43,27 @@ pub struct GrainNode {
     pub level_mps2: f64,
 }
 
+/// How grain is interpolated between the speeds and forces that were measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Linear in the Delaunay triangles of the measured nodes; levels are interpolated as levels.
+    #[default]
+    Barycentric,
+    /// A linear radial basis function through all nodes, over line spectral frequencies and the logarithm of the level.
+    RadialBasis,
+    /// As the published renderer of the Penn Haptic Texture Toolkit does it: nodes that include the boundary, frequencies,
+    /// variance and gain each linear in the triangles.
+    Published,
+}
+
 /// A texture model: grain over (speed, force), and friction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureModel {
     rate: Hertz,
     nodes: Vec<GrainNode>,
     friction: Option<f64>,
+    interpolation: Interpolation,
+    tap: Option<Tap>,
 }
 
 /// Why numbers do not make a texture.
@@ -142,7 +158,7 @@ impl TextureModel {
         if let Some(value) = friction.filter(|f| !(f.is_finite() && *f >= 0.0)) {
             return Err(TextureModelError::Friction { value });
         }
-        Ok(Self { rate, nodes, friction })
+        Ok(Self { rate, nodes, friction, interpolation: Interpolation::default(), tap: None })
     }
 
     /// Samples a second of the model.
@@ -163,6 +179,23 @@ impl TextureModel {
     /// Kinetic friction coefficient, where it is known.
     pub fn friction(&self) -> Option<f64> {
         self.friction
+    }
+
+    /// How grain is interpolated between nodes.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
+    /// The transient of a landing, where it was measured.
+    pub fn tap(&self) -> Option<Tap> {
+        self.tap
+    }
+
+    /// The same texture with a landing.
+    #[must_use]
+    pub fn with_tap(mut self, tap: Option<Tap>) -> Self {
+        self.tap = tap;
+        self
     }
 
     /// The highest speed measured: above it the texture stays as it is there.
