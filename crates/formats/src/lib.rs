@@ -21,6 +21,7 @@
 )]
 
 pub mod atomic;
+pub mod fit_report;
 pub mod imported;
 mod layout;
 pub mod library;

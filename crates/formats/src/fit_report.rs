@@ -1,0 +1,291 @@
+//! What a fit was like, for people: a page of plots (SVG) and a table of its segments (CSV).
+
+use plotters::coord::Shift;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::{
+    ChartBuilder, Circle, DrawingArea, IntoDrawingArea as _, IntoFont as _, IntoLogRange as _, LineSeries,
+    RGBColor, SVGBackend, TextStyle,
+};
+use plotters::style::Color as _;
+use shagreen_core::fit::{FitReport, Segment};
+
+/// Size of the page in pixels.
+const SIZE: (u32, u32) = (1200, 820);
+/// Height of the lines above the plots.
+const TITLE_HEIGHT: u32 = 76;
+/// Segments whose spectra are shown.
+const SPECTRA: usize = 4;
+
+const INK: RGBColor = RGBColor(0x22, 0x2B, 0x2F);
+const FAINT: RGBColor = RGBColor(0xDD, 0xE2, 0xE4);
+const MEASURED: RGBColor = RGBColor(0x8A, 0x96, 0x9C);
+const MODEL: RGBColor = RGBColor(0x0B, 0x7A, 0x63);
+const BAD: RGBColor = RGBColor(0xC0, 0x4A, 0x1B);
+
+/// Goodness of fit below which a segment is drawn as bad: the usual gate for models of textures.
+const GOOD_GFC: f64 = 0.9;
+
+type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+/// The page of plots: the segments on the plane of speed and force, their goodness of fit and level errors, and the
+/// spectra of four of them from the faintest to the loudest.
+pub fn fit_report_svg(name: &str, report: &FitReport) -> String {
+    let mut svg = String::new();
+    let drawn = draw(&mut svg, name, report);
+    // Memory takes all text, and every range below is made of finite numbers that differ.
+    assert!(drawn.is_ok(), "a report can always be drawn: {drawn:?}");
+    svg
+}
+
+/// The table: one segment a line, in the units of hands.
+pub fn fit_report_csv(report: &FitReport) -> Vec<u8> {
+    let mut text = String::from(
+        "recording,start_s,seconds,speed_mm_per_s,force_n,level_mps2,gfc,level_error_db,held_out\n",
+    );
+    for s in &report.segments {
+        let line = format!(
+            "{},{:.3},{:.3},{:.2},{:.4},{:.5},{:.4},{:.3},{}\n",
+            s.recording,
+            s.start_secs,
+            s.seconds,
+            s.speed.mm_per_s(),
+            s.force.0,
+            s.level_mps2,
+            s.comparison.gfc,
+            s.comparison.level_error_db,
+            report.held_out
+        );
+        text.push_str(&line);
+    }
+    text.into_bytes()
+}
+
+fn draw(svg: &mut String, name: &str, report: &FitReport) -> Drawn {
+    let page = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    page.fill(&plotters::style::WHITE)?;
+    let (head, rest) = page.split_vertically(TITLE_HEIGHT);
+    head.draw_text(name, &text(26.0), (28, 16))?;
+    head.draw_text(&summary(report), &text(14.0), (28, 48))?;
+    let (top, bottom) = rest.split_vertically((SIZE.1 - TITLE_HEIGHT) / 2);
+    let panels = top.split_evenly((1, 3));
+    plane(&panels[0], report)?;
+    by_segment(&panels[1], report, "goodness of fit (GFC) by segment", &|s| s.comparison.gfc, (0.5, 1.0))?;
+    by_segment(
+        &panels[2],
+        report,
+        "level error by segment, dB",
+        &|s| s.comparison.level_error_db,
+        (-3.0, 3.0),
+    )?;
+    for (panel, segment) in bottom.split_evenly((1, SPECTRA)).iter().zip(chosen(report)) {
+        spectrum(panel, report, segment)?;
+    }
+    page.present()
+}
+
+/// The figures in a sentence.
+fn summary(report: &FitReport) -> String {
+    let tap = report.tap.as_ref().map_or_else(String::new, |t| {
+        format!(
+            " · tap {:.0} Hz, decay {:.0} 1/s, from {} landings",
+            t.tap.frequency.0, t.tap.decay_per_sec, t.n_landings
+        )
+    });
+    format!(
+        "{} segments · model at {:.0} Hz, order {} · {:.0} % of the speed-force plane · {}: median GFC {:.3}, level error {:.2} dB (measured on signals){tap}",
+        report.segments.len(),
+        report.rate.0,
+        report.order,
+        100.0 * report.coverage,
+        if report.held_out { "held-out segments" } else { "the model's own segments, none was held out" },
+        report.gfc_median(),
+        report.level_error_db_median(),
+    )
+}
+
+fn text(size: f64) -> TextStyle<'static> {
+    ("sans-serif", size).into_font().color(&INK)
+}
+
+fn color(segment: &Segment) -> RGBColor {
+    if segment.comparison.gfc >= GOOD_GFC { MODEL } else { BAD }
+}
+
+/// Segments over speed and force, larger where they are longer.
+fn plane(panel: &Page<'_>, report: &FitReport) -> Drawn {
+    let highest =
+        |value: &dyn Fn(&Segment) -> f64| 1.05 * report.segments.iter().map(value).fold(1e-3, f64::max);
+    let speeds = 0.0..highest(&|s| s.speed.mm_per_s());
+    let mut chart = ChartBuilder::on(panel)
+        .margin(14)
+        .caption("segments: speed, mm/s, and force, N", text(15.0))
+        .x_label_area_size(28)
+        .y_label_area_size(44)
+        .build_cartesian_2d(speeds, 0.0..highest(&|s| s.force.0))?;
+    chart
+        .configure_mesh()
+        .light_line_style(plotters::style::WHITE)
+        .bold_line_style(FAINT)
+        .axis_style(MEASURED)
+        .label_style(text(12.0))
+        .x_labels(6)
+        .y_labels(6)
+        .draw()?;
+    let size = |s: &Segment| (3.0 + 4.0 * s.seconds.min(1.0)) as i32;
+    chart.draw_series(
+        report.segments.iter().map(|s| Circle::new((s.speed.mm_per_s(), s.force.0), size(s), color(s))),
+    )?;
+    Ok(())
+}
+
+/// A figure of every segment, in their order.
+fn by_segment(
+    panel: &Page<'_>,
+    report: &FitReport,
+    caption: &str,
+    value: &dyn Fn(&Segment) -> f64,
+    (low, high): (f64, f64),
+) -> Drawn {
+    let last = report.segments.len().max(2) as f64;
+    let mut chart = ChartBuilder::on(panel)
+        .margin(14)
+        .caption(caption, text(15.0))
+        .x_label_area_size(28)
+        .y_label_area_size(44)
+        .build_cartesian_2d(0.0..last, low..high)?;
+    chart
+        .configure_mesh()
+        .light_line_style(plotters::style::WHITE)
+        .bold_line_style(FAINT)
+        .axis_style(MEASURED)
+        .label_style(text(12.0))
+        .x_labels(6)
+        .y_labels(6)
+        .draw()?;
+    // What is off the scale is drawn at its end, not left out.
+    let dot =
+        |(i, s): (usize, &Segment)| Circle::new((i as f64 + 0.5, value(s).clamp(low, high)), 3, color(s));
+    chart.draw_series(report.segments.iter().enumerate().map(dot))?;
+    Ok(())
+}
+
+/// Segments from the faintest to the loudest, evenly.
+fn chosen(report: &FitReport) -> Vec<&Segment> {
+    let mut by_level: Vec<&Segment> = report.segments.iter().collect();
+    by_level.sort_by(|a, b| a.level_mps2.total_cmp(&b.level_mps2));
+    let n = by_level.len();
+    if n <= SPECTRA {
+        by_level
+    } else {
+        (0..SPECTRA).map(|i| by_level[i * (n - 1) / (SPECTRA - 1)]).collect()
+    }
+}
+
+/// Measured spectrum and the model's, in dB re 1 (m/s²)²/Hz.
+fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
+    let db = |psd: &[f64]| -> Vec<(f64, f64)> {
+        let points = report.frequencies.iter().zip(psd).filter(|(f, p)| f.0 >= 5.0 && **p > 0.0);
+        points.map(|(f, p)| (f.0, 10.0 * p.log10())).collect()
+    };
+    let (measured, model) = (db(&segment.comparison.measured_psd), db(&segment.comparison.model_psd));
+    let top = measured.iter().chain(&model).map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
+    let top = if top.is_finite() { (top / 10.0).ceil() * 10.0 } else { 0.0 };
+    let last = report.frequencies.last().map_or(500.0, |f| f.0.max(20.0));
+    let caption = format!(
+        "{:.0} mm/s, {:.2} N · GFC {:.3}, {:+.1} dB",
+        segment.speed.mm_per_s(),
+        segment.force.0,
+        segment.comparison.gfc,
+        segment.comparison.level_error_db
+    );
+    let mut chart = ChartBuilder::on(panel)
+        .margin(14)
+        .caption(caption, text(14.0))
+        .x_label_area_size(44)
+        .y_label_area_size(44)
+        .build_cartesian_2d((10.0..last).log_scale(), top - 60.0..top)?;
+    chart
+        .configure_mesh()
+        .light_line_style(plotters::style::WHITE)
+        .bold_line_style(FAINT)
+        .axis_style(MEASURED)
+        .label_style(text(12.0))
+        .x_desc("Hz; dB re 1 (m/s²)²/Hz; gray measured, green model")
+        .x_label_formatter(&|f| format!("{f:.0}"))
+        .y_labels(7)
+        .draw()?;
+    let inside = |(f, p): (f64, f64)| (f >= 10.0).then_some((f, p.clamp(top - 60.0, top)));
+    chart.draw_series(LineSeries::new(measured.into_iter().filter_map(inside), MEASURED.stroke_width(1)))?;
+    chart.draw_series(LineSeries::new(model.into_iter().filter_map(inside), MODEL.stroke_width(2)))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{fit_report_csv, fit_report_svg};
+    use shagreen_core::fit::{Comparison, FitReport, Segment};
+    use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
+
+    fn report(n: usize) -> FitReport {
+        let frequencies: Vec<Hertz> = (0..129).map(|i| Hertz(500.0 / 128.0 * f64::from(i))).collect();
+        let psd =
+            |gain: f64| frequencies.iter().map(|f| gain / (1.0 + (f.0 / 80.0).powi(4))).collect::<Vec<f64>>();
+        let segment = |i: usize| Segment {
+            recording: 0,
+            start_secs: i as f64,
+            seconds: 0.5,
+            speed: MetersPerSecond::from_mm_per_s(40.0 + 20.0 * i as f64),
+            force: Newtons(0.3 + 0.2 * (i % 5) as f64),
+            level_mps2: 0.5 + 0.1 * i as f64,
+            comparison: Comparison {
+                measured_psd: psd(1e-2),
+                model_psd: psd(1.2e-2),
+                gfc: if i == 3 { 0.4 } else { 0.97 },
+                level_error_db: 0.8 - 0.2 * i as f64,
+            },
+        };
+        FitReport {
+            segments: (0..n).map(segment).collect(),
+            rate: Hertz(1000.0),
+            order: 14,
+            coverage: 0.61,
+            frequencies: frequencies.clone(),
+            tap: None,
+            held_out: true,
+            notes: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_page_shows_every_segment_and_says_what_it_compares() {
+        let svg = fit_report_svg("Cork <1>", &report(9));
+        // A segment is a dot in three plots.
+        assert_eq!(svg.matches("<circle").count(), 3 * 9);
+        assert!(svg.contains("held-out segments") && svg.contains("Cork &lt;1&gt;"), "{svg}");
+        let of_itself = fit_report_svg("x", &FitReport { held_out: false, ..report(9) });
+        assert!(of_itself.contains("none was held out"));
+    }
+
+    /// Few segments, silent ones and figures that are no numbers make a page too.
+    #[test]
+    fn a_poor_report_is_drawn() {
+        for n in [0, 1, 2] {
+            let mut poor = report(n);
+            for segment in &mut poor.segments {
+                segment.comparison.measured_psd.fill(0.0);
+                segment.comparison.model_psd.fill(f64::NAN);
+                segment.comparison.gfc = f64::NAN;
+                segment.level_mps2 = 0.0;
+            }
+            assert!(fit_report_svg("poor", &poor).ends_with("</svg>\n"));
+        }
+    }
+
+    #[test]
+    fn the_table_has_a_line_a_segment() {
+        let csv = String::from_utf8(fit_report_csv(&report(2))).unwrap();
+        assert_eq!(csv.lines().nth(2), Some("0,1.000,0.500,60.00,0.5000,0.60000,0.9700,0.600,true"));
+        assert_eq!(csv.lines().count(), 3);
+    }
+}
