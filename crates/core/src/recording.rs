@@ -1,10 +1,12 @@
 //! What a stylus felt, measured: acceleration, speed and force on one clock.
 
+mod fault;
 mod finding;
 mod raw;
 
 use std::ops::Range;
 
+pub use crate::recording::fault::{Fault, MAX_RATE_HZ, MIN_RATE_HZ, MIN_USABLE_SECS, RecordingError};
 pub use crate::recording::finding::{Finding, Where};
 pub use crate::recording::raw::{RawClock, RawMotion, RawRecording, RawTrack};
 
@@ -27,6 +29,15 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// The recording on one regular clock, and what was not as it should be in it.
+    ///
+    /// # Errors
+    /// [`RecordingError`] with everything that keeps it from being used.
+    pub fn from_raw(raw: RawRecording) -> Result<(Self, Vec<Finding>), RecordingError> {
+        let n_rows = raw.acceleration_mps2.first().map_or(0, Vec::len);
+        Err(RecordingError { faults: vec![Fault::TooFewRows { n_rows }], findings: Vec::new() })
+    }
+
     /// Length in seconds.
     pub fn seconds(&self) -> f64 {
         self.acceleration_mps2.len() as f64 / self.rate.0

@@ -1,0 +1,202 @@
+//! What a file does not say of itself, and how it is answered.
+
+use std::fmt;
+
+use shagreen_core::units::{MetersPerSecond, Newtons};
+
+use crate::recording::column_map::{Channel, Column, ColumnMap, Separator};
+use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit};
+
+/// What is asked. Its name is the key of the map that answers it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Ask {
+    /// What parts the columns.
+    Separator,
+    /// Whether numbers have a decimal comma.
+    DecimalComma,
+    /// Whether the first row names the columns.
+    Header,
+    /// Which column is time.
+    Time,
+    /// The unit of time.
+    TimeUnit,
+    /// The rate in Hz.
+    RateHz,
+    /// Which columns are acceleration.
+    Acceleration,
+    /// The unit of acceleration.
+    AccelerationUnit,
+    /// The acceleration of a WAV sample of 1.0.
+    FullScale,
+    /// Which column is speed, or the constant speed, or the positions that it follows from.
+    Speed,
+    /// The unit of speed.
+    SpeedUnit,
+    /// The speed of a WAV sample of 1.0.
+    SpeedFullScale,
+    /// Which columns are positions.
+    Positions,
+    /// The unit of positions.
+    PositionUnit,
+    /// Which column is the normal force, or the constant force.
+    Force,
+    /// The unit of force.
+    ForceUnit,
+    /// The force of a WAV sample of 1.0.
+    ForceFullScale,
+    /// Whether pressing makes the force more negative.
+    PressingIsNegative,
+    /// What the channels of a WAV file are.
+    Channels,
+}
+
+/// Something that a file does not say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// What is asked.
+    pub what: Ask,
+    /// What the reader went on with, in the words of [`ColumnMap::answer`]; without one it could not go on.
+    pub guess: Option<String>,
+    /// Answers that make sense, in the words of [`ColumnMap::answer`]; where there are none, a number is asked for.
+    pub choices: Vec<String>,
+    /// The question as a sentence, with why the guess was made.
+    pub text: String,
+}
+
+/// An answer that is none.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{key} cannot be {answer:?}; give {needs}")]
+pub struct AnswerError {
+    /// The key of the map.
+    pub key: &'static str,
+    /// What was said.
+    pub answer: String,
+    /// What is needed.
+    pub needs: String,
+}
+
+impl Ask {
+    /// The key of the map that answers it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Separator => "separator",
+            Self::DecimalComma => "decimal_comma",
+            Self::Header => "header",
+            Self::Time => "time",
+            Self::TimeUnit => "time_unit",
+            Self::RateHz => "rate_hz",
+            Self::Acceleration => "acceleration",
+            Self::AccelerationUnit => "acceleration_unit",
+            Self::FullScale => "full_scale",
+            Self::Speed => "speed",
+            Self::SpeedUnit => "speed_unit",
+            Self::SpeedFullScale => "speed_full_scale",
+            Self::Positions => "positions",
+            Self::PositionUnit => "position_unit",
+            Self::Force => "force",
+            Self::ForceUnit => "force_unit",
+            Self::ForceFullScale => "force_full_scale",
+            Self::PressingIsNegative => "pressing_is_negative",
+            Self::Channels => "channels",
+        }
+    }
+}
+
+impl ColumnMap {
+    /// Puts the answer to a question into the map. Lists are parted by commas; a column is its name or its place from 1;
+    /// a speed or force may also be a number with its unit, such as `100 mm/s` or `1 N`, for a constant.
+    ///
+    /// # Errors
+    /// [`AnswerError`]; the map is then as it was.
+    pub fn answer(&mut self, what: Ask, answer: &str) -> Result<(), AnswerError> {
+        let answer = answer.trim();
+        let error = |needs: String| AnswerError { key: what.key(), answer: answer.to_owned(), needs };
+        let one_of = |names: &[&str]| error(format!("one of {}", names.join(", ")));
+        macro_rules! named {
+            ($type:ty) => {
+                Some(
+                    <$type>::parse(answer).ok_or_else(|| {
+                        one_of(&<$type>::ALL.iter().map(|one| one.name()).collect::<Vec<_>>())
+                    })?,
+                )
+            };
+        }
+        let flag = || match answer {
+            "yes" | "true" => Ok(Some(true)),
+            "no" | "false" => Ok(Some(false)),
+            _ => Err(one_of(&["yes", "no"])),
+        };
+        let above_zero = || match answer.parse::<f64>() {
+            Ok(number) if number.is_finite() && number > 0.0 => Ok(Some(number)),
+            _ => Err(error("a number above 0".to_owned())),
+        };
+        let column = || {
+            if answer.is_empty() {
+                Err(error("the name of a column or its place from 1".to_owned()))
+            } else {
+                Ok(Some(Column::parse(answer)))
+            }
+        };
+        let columns = || {
+            let columns: Vec<Column> = answer.split(',').map(Column::parse).collect();
+            if (1..=3).contains(&columns.len()) && !answer.is_empty() {
+                Ok(Some(columns))
+            } else {
+                Err(error("one to three columns, parted by commas".to_owned()))
+            }
+        };
+        match what {
+            Ask::Separator => self.separator = named!(Separator),
+            Ask::DecimalComma => self.decimal_comma = flag()?,
+            Ask::Header => self.header = flag()?,
+            Ask::Time => self.time = column()?,
+            Ask::TimeUnit => self.time_unit = named!(TimeUnit),
+            Ask::RateHz => self.rate_hz = above_zero()?,
+            Ask::Acceleration => self.acceleration = columns()?,
+            Ask::AccelerationUnit => self.acceleration_unit = named!(AccelerationUnit),
+            Ask::FullScale => self.full_scale = above_zero()?,
+            Ask::Speed => match quantity(answer, |unit| SpeedUnit::parse(unit).map(SpeedUnit::si)) {
+                Some(speed_mps) => self.constant_speed = Some(MetersPerSecond(speed_mps)),
+                None => self.speed = column()?,
+            },
+            Ask::SpeedUnit => self.speed_unit = named!(SpeedUnit),
+            Ask::SpeedFullScale => self.speed_full_scale = above_zero()?,
+            Ask::Positions => self.positions = columns()?,
+            Ask::PositionUnit => self.position_unit = named!(PositionUnit),
+            Ask::Force => match quantity(answer, |unit| ForceUnit::parse(unit).map(ForceUnit::si)) {
+                Some(force_n) => self.constant_force = Some(Newtons(force_n)),
+                None => self.force = column()?,
+            },
+            Ask::ForceUnit => self.force_unit = named!(ForceUnit),
+            Ask::ForceFullScale => self.force_full_scale = above_zero()?,
+            Ask::PressingIsNegative => self.pressing_is_negative = flag()?,
+            Ask::Channels => {
+                let channels: Option<Vec<Channel>> =
+                    answer.split(',').map(|name| Channel::parse(name.trim())).collect();
+                let names: Vec<&str> = Channel::ALL.iter().map(|channel| channel.name()).collect();
+                self.channels = Some(channels.ok_or_else(|| one_of(&names))?);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A number from 0 up with its unit, in the SI unit.
+fn quantity(text: &str, si: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+    let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    let number: f64 = number.parse().ok()?;
+    Some(number * si(unit)?).filter(|value| value.is_finite())
+}
+
+impl fmt::Display for Question {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.what.key(), self.text)?;
+        match &self.guess {
+            Some(guess) => write!(f, "; taken as {guess}"),
+            None if self.choices.is_empty() => Ok(()),
+            None => write!(f, " ({})", self.choices.join(" | ")),
+        }
+    }
+}
