@@ -20,6 +20,7 @@
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
 //! refused.
 
+mod id;
 mod read;
 mod v1;
 mod write;
@@ -30,6 +31,7 @@ use shagreen_core::texture::{TextureModel, TextureModelError};
 
 use crate::picture::Picture;
 
+pub use crate::library::id::id_from_name;
 pub use crate::library::read::read_library;
 pub use crate::library::write::write_library;
 

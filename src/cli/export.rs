@@ -1,0 +1,58 @@
+//! `shagreen export`: a texture for other programs.
+
+use std::path::PathBuf;
+
+use anyhow::{Context as _, bail};
+use serde_json::json;
+use shagreen_formats::atomic;
+use shagreen_formats::hatt::write_hatt;
+use shagreen_formats::library::{Provenance, RESTRICTED_WARNING};
+
+use crate::cli::guard::refuse_inputs;
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::output;
+use crate::cli::target::unknown_texture;
+
+/// Writes a texture in the format of another program, and says what that format cannot hold.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Texture of the library, by its id.
+    #[arg(long, value_name = "ID")]
+    texture: String,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Format: hatt is the XML of the Penn Haptic Texture Toolkit.
+    #[arg(long, value_parser = ["hatt"])]
+    format: String,
+    /// File to write.
+    #[arg(short = 'o', long = "out", value_name = "OUT")]
+    out: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    refuse_inputs(&[&args.out], &[args.library.path()])?;
+    let library = load(&args.library)?;
+    let Some(index) = library.index_of(&args.texture) else { bail!(unknown_texture(&library, &args.texture)) };
+    let texture = &library.textures[index];
+    let mut warnings = Vec::new();
+    if texture.provenance == Provenance::Restricted {
+        output::warn(RESTRICTED_WARNING);
+        warnings.push(RESTRICTED_WARNING);
+    }
+    let written = write_hatt(texture, output::CREATED_BY)
+        .with_context(|| format!("\"{}\" cannot be written as {}", args.texture, args.format))?;
+    atomic::write(&args.out, &written.value)?;
+    for lost in &written.warnings {
+        output::note(&format!("not in the file: {lost}"));
+    }
+    let file = args.out.display().to_string();
+    output::print(
+        args.json,
+        &json!({"files": [file], "lost": written.warnings, "warnings": warnings, "licence": library.license_of(texture)}),
+        || format!("Wrote \"{}\" as {}: {file}", texture.name, args.format),
+    );
+    Ok(())
+}

@@ -1,0 +1,86 @@
+//! `shagreen import hatt`: models in the XML of the Penn Haptic Texture Toolkit.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use serde_json::json;
+use shagreen_formats::hatt::read_hatt;
+use shagreen_formats::library::{Provenance, RESTRICTED_WARNING, id_from_name};
+
+use crate::cli::import::{Destination, Outcome};
+use crate::cli::output::{self, Progress};
+
+/// Imports texture models in the XML of the Penn Haptic Texture Toolkit (HaTT).
+///
+/// The published models are for non-profit research and may not be passed on: their textures are marked as restricted,
+/// and exporting or packing them warns.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Model files, or folders of them.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    destination: Destination,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let files = model_files(&args.files)?;
+    args.destination.check(&files)?;
+    let mut outcome = Outcome::default();
+    let mut restricted = false;
+    let progress = Progress::new("models", files.len());
+    for file in &files {
+        let read = output::read_file(file).map_err(|error| format!("{error:#}"));
+        match read.and_then(|bytes| read_hatt(&bytes).map_err(|error| error.to_string())) {
+            Err(reason) => outcome.failed(file, reason),
+            Ok(read) => {
+                for warning in &read.warnings {
+                    outcome.warn(file, warning);
+                }
+                let texture = read.value;
+                restricted |= texture.provenance == Provenance::Restricted;
+                let name = if texture.name.is_empty() { stem(file) } else { texture.name.clone() };
+                let figures = json!({
+                    "file": file.display().to_string(),
+                    "nodes": texture.model.n_nodes(),
+                    "order": texture.model.order(),
+                    "ma_order": texture.model.ma_order(),
+                    "rate_hz": texture.model.rate().0,
+                    "restricted": texture.provenance == Provenance::Restricted,
+                });
+                let mut entry = texture.into_entry(id_from_name(&name));
+                entry.name = name;
+                outcome.imported(entry, figures);
+            }
+        }
+        progress.step();
+    }
+    progress.finish();
+    if restricted {
+        outcome.warn_all(RESTRICTED_WARNING);
+    }
+    outcome.finish(&args.destination, json!({}))
+}
+
+/// The files named, and the `.xml` files of the folders named, in the order of their names.
+fn model_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let entries = std::fs::read_dir(path)
+            .context("cannot list the folder; check its name and your rights")
+            .with_context(|| output::in_file(path))?;
+        let is_xml = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"));
+        let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(is_xml).collect();
+        found.sort();
+        files.extend(found);
+    }
+    Ok(files)
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "texture".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}

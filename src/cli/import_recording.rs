@@ -1,0 +1,246 @@
+//! `shagreen import recording`: recorded strokes, fitted to texture models.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use serde_json::{Value, json};
+use shagreen_core::fit::{self, FitOptions, Fitted};
+use shagreen_core::recording::Recording;
+use shagreen_core::texture::{Interpolation, MAX_ORDER};
+use shagreen_core::units::Hertz;
+use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg};
+use shagreen_formats::library::{TextureEntry, id_from_name};
+use shagreen_formats::map_toml::read_map;
+use shagreen_formats::recording::{Ask, ColumnMap, Question, RecordingFileError, read_recording};
+use shagreen_formats::{atomic, wav};
+
+use crate::cli::import::{Destination, Outcome};
+use crate::cli::output::{self, Progress};
+
+/// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as a table.
+///
+/// What a file does not say, such as the unit of acceleration, is a question. Where the numbers give the answer it is
+/// guessed and said; else the file is refused until --map or --set answers. No number is ever made up.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Recordings: .wav, or tables such as .csv and .txt. Each becomes a texture.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    destination: Destination,
+    /// What the columns are and in which units, as a TOML file.
+    #[arg(long, value_name = "MAP.toml")]
+    map: Option<PathBuf>,
+    /// Answers one question, as in acceleration_unit=g or speed=\"100 mm/s\"; overrules the map.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer)]
+    answers: Vec<(Ask, String)>,
+    /// All files are strokes of one texture, which gets this name.
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Rate of the model in Hz; without it, what the bandwidth of the recording supports.
+    #[arg(long, value_name = "HZ", value_parser = parse_rate)]
+    rate: Option<f64>,
+    /// Order of the predictor; without it, what the Bayesian information criterion says.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=MAX_ORDER as i64))]
+    order: Option<u8>,
+    /// How the model is interpolated between the speeds and forces that were measured.
+    #[arg(long, value_name = "MODE", value_parser = ["barycentric", "radial-basis"], default_value = "barycentric")]
+    interpolation: String,
+    /// Terms of the textures, for example an SPDX expression.
+    #[arg(long, default_value = "", hide_default_value = true)]
+    licence: String,
+    /// Folder for a page of plots (SVG) and a table of segments (CSV) for each texture.
+    #[arg(long, value_name = "FOLDER")]
+    report: Option<PathBuf>,
+}
+
+/// What a texture is made of.
+struct Job<'a> {
+    name: String,
+    files: &'a [PathBuf],
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    args.destination.check(&args.files)?;
+    let map = map(args)?;
+    if let Some(folder) = &args.report {
+        std::fs::create_dir_all(folder)
+            .context("cannot make the folder of reports; check its name and your rights")
+            .with_context(|| output::in_file(folder))?;
+    }
+    let jobs: Vec<Job<'_>> = match &args.name {
+        Some(name) => vec![Job { name: name.clone(), files: &args.files }],
+        None => args.files.chunks(1).map(|files| Job { name: stem(&files[0]), files }).collect(),
+    };
+    let mut outcome = Outcome::default();
+    let mut questions = Vec::new();
+    let progress = Progress::new("recordings", jobs.len());
+    for job in &jobs {
+        import(args, &map, job, &mut outcome, &mut questions)?;
+        progress.step();
+    }
+    progress.finish();
+    outcome.finish(&args.destination, json!({"questions": questions}))
+}
+
+/// Fits the texture of a job, or says why not.
+fn import(
+    args: &Args,
+    map: &ColumnMap,
+    job: &Job<'_>,
+    outcome: &mut Outcome,
+    questions: &mut Vec<Value>,
+) -> anyhow::Result<()> {
+    let mut recordings = Vec::new();
+    for file in job.files {
+        match read(file, map, outcome, questions) {
+            Ok(recording) => recordings.push(recording),
+            Err(reason) => outcome.failed(file, reason),
+        }
+    }
+    if recordings.is_empty() {
+        return Ok(());
+    }
+    let options = FitOptions {
+        rate: args.rate.map(Hertz),
+        order: args.order.map(usize::from),
+        interpolation: match args.interpolation.as_str() {
+            "radial-basis" => Interpolation::RadialBasis,
+            _ => Interpolation::Barycentric,
+        },
+    };
+    let fitted = match fit::fit(&recordings, &options) {
+        Ok(fitted) => fitted,
+        Err(error) => {
+            job.files.iter().for_each(|file| outcome.failed(file, error.to_string()));
+            return Ok(());
+        }
+    };
+    for note in &fitted.report.notes {
+        outcome.warn(&job.files[0], note);
+    }
+    let figures = figures(job, &fitted);
+    let id = id_from_name(&job.name);
+    if let Some(folder) = &args.report {
+        let write = |extension: &str, bytes: &[u8]| atomic::write(&folder.join(format!("{id}.{extension}")), bytes);
+        write("svg", fit_report_svg(&job.name, &fitted.report).as_bytes())?;
+        write("csv", &fit_report_csv(&fitted.report))?;
+    }
+    let names: Vec<String> = job.files.iter().map(|file| file_name(file)).collect();
+    let texture = TextureEntry {
+        license: args.licence.clone(),
+        origin: format!("Fitted to recordings: {}", names.join(", ")),
+        ..TextureEntry::new(id, &job.name, fitted.model)
+    };
+    outcome.imported(texture, figures);
+    Ok(())
+}
+
+/// The recording in a file, or why there is none.
+fn read(
+    file: &Path,
+    map: &ColumnMap,
+    outcome: &mut Outcome,
+    questions: &mut Vec<Value>,
+) -> Result<Recording, String> {
+    let bytes = output::read_file(file).map_err(|error| format!("{error:#}"))?;
+    let sidecar = std::fs::read(wav::sidecar_path(file)).ok(); // Most recordings have none.
+    let mut ask = |list: &[Question]| {
+        questions.extend(list.iter().map(|question| {
+            json!({
+                "file": file.display().to_string(),
+                "key": question.what.key(),
+                "text": question.text,
+                "guess": question.guess,
+                "choices": question.choices,
+            })
+        }));
+    };
+    let read = read_recording(&file_name(file), &bytes, sidecar.as_deref(), map).map_err(|error| {
+        if let RecordingFileError::NeedsAnswers(needed) = &error {
+            ask(&needed.questions);
+            for warning in &needed.warnings {
+                outcome.warn(file, warning);
+            }
+        }
+        error.to_string()
+    })?;
+    ask(&read.questions);
+    for question in &read.questions {
+        outcome.warn(file, &format!("guessed {question}"));
+    }
+    for warning in &read.warnings {
+        outcome.warn(file, warning);
+    }
+    let (recording, findings) = Recording::from_raw(read.raw).map_err(|error| {
+        for finding in &error.findings {
+            outcome.warn(file, &finding.to_string());
+        }
+        error.to_string()
+    })?;
+    for finding in &findings {
+        outcome.warn(file, &finding.to_string());
+    }
+    Ok(recording)
+}
+
+fn figures(job: &Job<'_>, fitted: &Fitted) -> Value {
+    let report = &fitted.report;
+    let files: Vec<String> = job.files.iter().map(|file| file.display().to_string()).collect();
+    json!({
+        "files": files,
+        "segments": report.segments.len(),
+        "nodes": fitted.model.n_nodes(),
+        "order": report.order,
+        "rate_hz": report.rate.0,
+        "coverage": report.coverage,
+        "gfc_median": report.gfc_median(),
+        "level_error_db_median": report.level_error_db_median(),
+        "held_out": report.held_out,
+        "tap": report.tap.as_ref().map(|t| json!({
+            "frequency_hz": t.tap.frequency.0,
+            "decay_per_s": t.tap.decay_per_sec,
+            "amplitude_mps2": t.tap.amplitude_mps2,
+            "landings": t.n_landings,
+            "explained": t.explained,
+        })),
+    })
+}
+
+/// The map of the arguments.
+fn map(args: &Args) -> anyhow::Result<ColumnMap> {
+    let mut map = match &args.map {
+        None => ColumnMap::default(),
+        Some(path) => read_map(&output::read_file(path)?).with_context(|| output::in_file(path))?,
+    };
+    for (what, answer) in &args.answers {
+        map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
+    }
+    Ok(map)
+}
+
+fn parse_answer(text: &str) -> Result<(Ask, String), String> {
+    let (key, value) = text.split_once('=').ok_or("write KEY=VALUE as in acceleration_unit=g")?;
+    let what = Ask::from_key(key.trim()).ok_or_else(|| {
+        let keys: Vec<&str> = Ask::ALL.iter().map(|ask| ask.key()).collect();
+        format!("there is no question \"{}\"; the keys are {}", key.trim(), keys.join(", "))
+    })?;
+    Ok((what, value.trim().to_owned()))
+}
+
+fn parse_rate(text: &str) -> Result<f64, String> {
+    match text {
+        "1000" => Ok(1000.0),
+        "2000" => Ok(2000.0),
+        "4000" => Ok(4000.0),
+        _ => Err("a model has 1000, 2000 or 4000 Hz".to_owned()),
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "texture".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
