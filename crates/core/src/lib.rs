@@ -38,6 +38,7 @@ pub mod plane;
 pub mod recording;
 pub mod render;
 pub mod rng;
+pub mod segment;
 pub mod shading;
 pub mod space;
 pub mod spectrum;
