@@ -5,6 +5,8 @@
 
 mod devices;
 mod guard;
+mod import;
+mod import_recording;
 mod library_list;
 mod library_make;
 mod library_source;
@@ -37,6 +39,9 @@ enum Command {
     /// Libraries of textures.
     #[command(subcommand)]
     Library(LibraryCommand),
+    /// Brings models and recordings of other programs into a library.
+    #[command(subcommand)]
+    Import(ImportCommand),
     /// Renders a texture as a stylus would feel it, as float WAV in m/s².
     Render(render::Args),
     /// Questions about one texture.
@@ -56,6 +61,11 @@ enum LibraryCommand {
 }
 
 #[derive(clap::Subcommand)]
+enum ImportCommand {
+    Recording(import_recording::Args),
+}
+
+#[derive(clap::Subcommand)]
 enum TextureCommand {
     /// The power spectral density of a texture's model.
     Psd(texture_psd::Args),
@@ -72,6 +82,7 @@ pub(crate) fn run() -> ExitCode {
         None => window::run(&cli.window, started),
         Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
         Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
+        Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Devices(args)) => {

@@ -84,7 +84,8 @@ fn own_models_leave_as_hatt_and_come_back() {
     assert_eq!(back["textures"][0]["restricted"], false, "{back}");
     for (speed, force) in [(50, 0.5), (100, 1.0), (250, 3.0)] {
         let psd = |library: &str| {
-            let psd = bench.json(&format!("texture psd {library} --texture cork --speed {speed} --force {force}"));
+            let psd =
+                bench.json(&format!("texture psd {library} --texture cork --speed {speed} --force {force}"));
             floats(&psd["psd"])
         };
         for (ours, theirs) in psd("").iter().zip(psd("--library cork.json")) {
@@ -105,7 +106,10 @@ fn one_bad_model_does_not_keep_the_others_out() {
     let done = bench.json("import hatt models --out all.json");
     assert_eq!((&done["imported"], done["failed"].as_array().unwrap().len()), (&1.into(), 2), "{done}");
     let other = &done["failed"][1];
-    assert!(other["file"].as_str().unwrap().ends_with("other.xml") && !other["reason"].as_str().unwrap().is_empty());
+    assert!(
+        other["file"].as_str().unwrap().ends_with("other.xml")
+            && !other["reason"].as_str().unwrap().is_empty()
+    );
     bench.fails("import hatt models/other.xml --out none.json", 1, &["nothing was imported"]);
     assert!(!bench.path("none.json").exists());
     bench.fails("import hatt models/good.xml --out models/good.xml", 1, &["write over"]);
@@ -131,10 +135,15 @@ fn hand() -> String {
 /// A table of a recorded stroke: the signal that `render` makes of a texture, with the speed and force it was made at.
 fn table(bench: &Bench, texture: &str) -> String {
     bench.write("hand.csv", hand());
-    bench.json(&format!("render --texture {texture} --stroke hand.csv --rate 1000 --seed 5 -o {texture}.wav"));
-    let samples: Vec<f32> =
-        hound::WavReader::open(bench.path(&format!("{texture}.wav"))).unwrap().samples().map(Result::unwrap).collect();
-    let trace: Value = serde_json::from_slice(&std::fs::read(bench.path(&format!("{texture}.json"))).unwrap()).unwrap();
+    bench
+        .json(&format!("render --texture {texture} --stroke hand.csv --rate 1000 --seed 5 -o {texture}.wav"));
+    let samples: Vec<f32> = hound::WavReader::open(bench.path(&format!("{texture}.wav")))
+        .unwrap()
+        .samples()
+        .map(Result::unwrap)
+        .collect();
+    let trace: Value =
+        serde_json::from_slice(&std::fs::read(bench.path(&format!("{texture}.json"))).unwrap()).unwrap();
     let column = |name: &str| floats(&trace["trace"][name]);
     let (times, speeds, forces) = (column("time_s"), column("speed_mm_per_s"), column("force_n"));
     let at = |values: &[f64], t: f64| {
@@ -172,7 +181,8 @@ fn a_recorded_stroke_becomes_the_texture_it_was_made_of() {
     assert!(bench.path("report/stroke.svg").exists() && bench.path("report/stroke.csv").exists());
     // Against the model that the stroke was rendered from.
     for (speed, force) in [(80, 0.8), (120, 1.2), (160, 1.6)] {
-        let psd = |options: &str| bench.json(&format!("texture psd {options} --speed {speed} --force {force}"));
+        let psd =
+            |options: &str| bench.json(&format!("texture psd {options} --speed {speed} --force {force}"));
         let (truth, fitted) = (psd("--texture cork"), psd("--library cork.json --texture stroke"));
         let level = 20.0 * (fitted["rms"].as_f64().unwrap() / truth["rms"].as_f64().unwrap()).log10();
         assert!(level.abs() < 1.0, "{level} dB at {speed} mm/s");
@@ -203,11 +213,19 @@ fn real_recordings_that_cannot_be_modelled_say_why() {
     let bench = Bench::new();
     for (files, words) in [
         (
-            ["hapmat/Fabric.csv", "hapmat/Leather.csv", "hapmat/Metal.csv", "hapmat/Paper.csv", "hapmat/Wood.csv"].as_slice(),
+            [
+                "hapmat/Fabric.csv",
+                "hapmat/Leather.csv",
+                "hapmat/Metal.csv",
+                "hapmat/Paper.csv",
+                "hapmat/Wood.csv",
+            ]
+            .as_slice(),
             ["acceleration_unit", "speed", "force", "100", "500"].as_slice(),
         ),
         (
-            ["force-press-slide/Material_Metal_raw_1.csv", "force-press-slide/Material_Wood_raw_1.csv"].as_slice(),
+            ["force-press-slide/Material_Metal_raw_1.csv", "force-press-slide/Material_Wood_raw_1.csv"]
+                .as_slice(),
             ["no acceleration", "timestamps"].as_slice(),
         ),
     ] {

@@ -89,8 +89,11 @@ impl Outcome {
         if n_imported > 0 {
             atomic::write(&destination.out, &write_library(&library))?;
         }
-        let failed: Vec<Value> =
-            self.failed.iter().map(|(file, reason)| json!({"file": file.display().to_string(), "reason": reason})).collect();
+        let failed: Vec<Value> = self
+            .failed
+            .iter()
+            .map(|(file, reason)| json!({"file": file.display().to_string(), "reason": reason}))
+            .collect();
         let mut result = json!({
             "out": destination.out.display().to_string(),
             "imported": n_imported,

@@ -122,7 +122,8 @@ fn import(
     let figures = figures(job, &fitted);
     let id = id_from_name(&job.name);
     if let Some(folder) = &args.report {
-        let write = |extension: &str, bytes: &[u8]| atomic::write(&folder.join(format!("{id}.{extension}")), bytes);
+        let write =
+            |extension: &str, bytes: &[u8]| atomic::write(&folder.join(format!("{id}.{extension}")), bytes);
         write("svg", fit_report_svg(&job.name, &fitted.report).as_bytes())?;
         write("csv", &fit_report_csv(&fitted.report))?;
     }
