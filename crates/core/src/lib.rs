@@ -28,6 +28,7 @@
 pub mod ar;
 pub mod arma;
 pub mod blend;
+pub mod boundary;
 pub mod contact_model;
 pub mod dft321;
 pub mod filter;

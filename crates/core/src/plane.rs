@@ -1,6 +1,5 @@
 //! A texture's speed-force plane: measured nodes, the boundary around them, and what lies between.
 
-mod boundary;
 mod prepared;
 mod radial;
 mod refined;
@@ -9,8 +8,8 @@ mod values;
 pub use crate::plane::prepared::Prepared;
 
 use crate::arma;
+use crate::boundary::{BoundaryModel, boundary};
 use crate::lsf::ar_from_lsf;
-use crate::plane::boundary::boundary;
 use crate::plane::radial::RadialGrain;
 use crate::plane::values::{Strength, Values};
 use crate::texture::{self, GrainNode, Interpolation, MIN_NODE_DISTANCE, PublishedNode, TextureModel};
@@ -81,7 +80,8 @@ impl Grain {
 impl Plane {
     /// The plane of a texture.
     pub fn new(texture: &TextureModel) -> Self {
-        let (speed_max_mps, force_max_n) = (texture.speed_max().0, texture.force_max().0);
+        let highest = Contact { speed: texture.speed_max(), force: texture.force_max() };
+        let (speed_max_mps, force_max_n) = (highest.speed.0, highest.force.0);
         // A rounding error off an edge would make a triangle that is as thin. Measured nodes may be as near to zero.
         let is_published = matches!(texture.grain(), texture::Grain::Published { .. });
         let snapped = |share: f64| match share {
@@ -99,7 +99,7 @@ impl Plane {
                 };
                 let points = match &radial {
                     Some(radial) => radial.corners().into_iter().map(|at| (at, radial.at(at))).collect(),
-                    None => closed(nodes, &places, speed_max_mps, force_max_n),
+                    None => closed(nodes, &places, highest),
                 };
                 (points, radial)
             }
@@ -147,10 +147,15 @@ impl Plane {
 }
 
 /// Measured nodes and the boundary around them.
-fn closed(nodes: &[GrainNode], places: &[Xy], speed_max_mps: f64, force_max_n: f64) -> Vec<(Xy, Values)> {
+fn closed(nodes: &[GrainNode], places: &[Xy], highest: Contact) -> Vec<(Xy, Values)> {
     let measured = nodes.iter().map(|n| Values::measured(n.lsf.clone(), n.level_mps2));
     let mut points: Vec<(Xy, Values)> = places.iter().copied().zip(measured).collect();
-    points.extend(boundary(nodes, places, speed_max_mps, force_max_n));
+    let contacts: Vec<Contact> = nodes.iter().map(|n| Contact { speed: n.speed, force: n.force }).collect();
+    for BoundaryModel { at, copy_of, silent } in boundary(&contacts, highest) {
+        let node = &nodes[copy_of];
+        let place = [at.speed.0 / highest.speed.0, at.force.0 / highest.force.0];
+        points.push((place, Values::measured(node.lsf.clone(), if silent { 0.0 } else { node.level_mps2 })));
+    }
     points
 }
 

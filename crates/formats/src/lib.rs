@@ -22,6 +22,7 @@
 
 pub mod atomic;
 pub mod fit_report;
+pub mod hatt;
 pub mod imported;
 mod layout;
 pub mod library;
