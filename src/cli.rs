@@ -4,8 +4,10 @@
 //! error. Exit status 0 is done, 1 could not, 2 wrong usage.
 
 mod devices;
+mod export;
 mod guard;
 mod import;
+mod import_hatt;
 mod import_recording;
 mod library_list;
 mod library_make;
@@ -47,6 +49,7 @@ enum Command {
     /// Questions about one texture.
     #[command(subcommand)]
     Texture(TextureCommand),
+    Export(export::Args),
     /// Lists styluses, outputs and serial ports.
     Devices(devices::Args),
     /// Drives an actuator with a texture.
@@ -62,6 +65,7 @@ enum LibraryCommand {
 
 #[derive(clap::Subcommand)]
 enum ImportCommand {
+    Hatt(import_hatt::Args),
     Recording(import_recording::Args),
 }
 
@@ -82,6 +86,8 @@ pub(crate) fn run() -> ExitCode {
         None => window::run(&cli.window, started),
         Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
         Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
+        Some(Command::Export(args)) => export::run(args),
+        Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
         Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),

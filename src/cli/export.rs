@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use serde_json::json;
 use shagreen_formats::atomic;
-use shagreen_formats::hatt::write_hatt;
-use shagreen_formats::library::{Provenance, RESTRICTED_WARNING};
+use shagreen_formats::hatt::{lost_in_hatt, write_hatt};
+use shagreen_formats::library::Provenance;
 
 use crate::cli::guard::refuse_inputs;
 use crate::cli::library_source::{LibraryArgs, load};
@@ -37,21 +37,21 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let library = load(&args.library)?;
     let Some(index) = library.index_of(&args.texture) else { bail!(unknown_texture(&library, &args.texture)) };
     let texture = &library.textures[index];
-    let mut warnings = Vec::new();
-    if texture.provenance == Provenance::Restricted {
-        output::warn(RESTRICTED_WARNING);
-        warnings.push(RESTRICTED_WARNING);
+    let restricted = (texture.provenance == Provenance::Restricted).then_some(texture.name.as_str());
+    let warning = Provenance::warning(&restricted.into_iter().collect::<Vec<_>>());
+    if let Some(warning) = &warning {
+        output::warn(warning);
     }
-    let written = write_hatt(texture, output::CREATED_BY)
-        .with_context(|| format!("\"{}\" cannot be written as {}", args.texture, args.format))?;
-    atomic::write(&args.out, &written.value)?;
-    for lost in &written.warnings {
+    let bytes = write_hatt(texture, output::CREATED_BY)?;
+    atomic::write(&args.out, &bytes)?;
+    let lost = lost_in_hatt(texture);
+    for lost in &lost {
         output::note(&format!("not in the file: {lost}"));
     }
     let file = args.out.display().to_string();
     output::print(
         args.json,
-        &json!({"files": [file], "lost": written.warnings, "warnings": warnings, "licence": library.license_of(texture)}),
+        &json!({"files": [file], "lost": lost, "warnings": warning.into_iter().collect::<Vec<_>>(), "licence": library.license_of(texture)}),
         || format!("Wrote \"{}\" as {}: {file}", texture.name, args.format),
     );
     Ok(())

@@ -54,7 +54,11 @@ impl Outcome {
 
     /// Something about a file is odd but usable.
     pub(crate) fn warn(&mut self, file: &Path, message: &str) {
-        let message = format!("{}: {message}", file.display());
+        self.warn_of_all(format!("{}: {message}", file.display()));
+    }
+
+    /// Something is to be known that concerns no single file.
+    pub(crate) fn warn_of_all(&mut self, message: String) {
         output::warn(&message);
         self.warnings.push(message);
     }
@@ -76,8 +80,7 @@ impl Outcome {
                             "the library already has \"{}\": this one became \"{free}\"; --replace puts it in its place",
                             texture.id
                         );
-                        output::warn(&message);
-                        self.warnings.push(message);
+                        self.warn_of_all(message);
                         texture.id = free;
                     }
                     library.textures.push(texture.clone());

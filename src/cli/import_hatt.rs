@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use serde_json::json;
 use shagreen_formats::hatt::read_hatt;
-use shagreen_formats::library::{Provenance, RESTRICTED_WARNING, id_from_name};
+use shagreen_formats::library::{Provenance, id_from_name};
 
 use crate::cli::import::{Destination, Outcome};
 use crate::cli::output::{self, Progress};
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let files = model_files(&args.files)?;
     args.destination.check(&files)?;
     let mut outcome = Outcome::default();
-    let mut restricted = false;
+    let mut restricted = Vec::new();
     let progress = Progress::new("models", files.len());
     for file in &files {
         let read = output::read_file(file).map_err(|error| format!("{error:#}"));
@@ -38,15 +38,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                     outcome.warn(file, warning);
                 }
                 let texture = read.value;
-                restricted |= texture.provenance == Provenance::Restricted;
                 let name = if texture.name.is_empty() { stem(file) } else { texture.name.clone() };
+                let is_restricted = texture.provenance == Provenance::Restricted;
+                if is_restricted {
+                    restricted.push(name.clone());
+                }
                 let figures = json!({
                     "file": file.display().to_string(),
                     "nodes": texture.model.n_nodes(),
                     "order": texture.model.order(),
                     "ma_order": texture.model.ma_order(),
                     "rate_hz": texture.model.rate().0,
-                    "restricted": texture.provenance == Provenance::Restricted,
+                    "restricted": is_restricted,
                 });
                 let mut entry = texture.into_entry(id_from_name(&name));
                 entry.name = name;
@@ -56,8 +59,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         progress.step();
     }
     progress.finish();
-    if restricted {
-        outcome.warn_all(RESTRICTED_WARNING);
+    let names: Vec<&str> = restricted.iter().map(String::as_str).collect();
+    if let Some(warning) = Provenance::warning(&names) {
+        outcome.warn_of_all(format!("{warning}; HaTT models are for non-profit research"));
     }
     outcome.finish(&args.destination, json!({}))
 }

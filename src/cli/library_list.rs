@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
-use shagreen_formats::library::{Library, TextureEntry};
+use shagreen_formats::library::{Library, Provenance, TextureEntry};
 
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output;
@@ -33,6 +33,7 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
         "nodes": texture.model.n_nodes(),
         "order": texture.model.order(),
         "rate_hz": texture.model.rate().0,
+        "restricted": texture.provenance == Provenance::Restricted,
         "licence": library.license_of(texture),
     })
 }
