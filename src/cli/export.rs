@@ -35,7 +35,9 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[args.library.path()])?;
     let library = load(&args.library)?;
-    let Some(index) = library.index_of(&args.texture) else { bail!(unknown_texture(&library, &args.texture)) };
+    let Some(index) = library.index_of(&args.texture) else {
+        bail!(unknown_texture(&library, &args.texture))
+    };
     let texture = &library.textures[index];
     let restricted = (texture.provenance == Provenance::Restricted).then_some(texture.name.as_str());
     let warning = Provenance::warning(&restricted.into_iter().collect::<Vec<_>>());

@@ -26,7 +26,7 @@ use shagreen_core::texture::{TextureModel, TextureModelError};
 use crate::library::{Provenance, TextureEntry};
 
 pub use crate::hatt::read::read_hatt;
-pub use crate::hatt::write::{HattWriteError, write_hatt};
+pub use crate::hatt::write::{HattWriteError, lost_in_hatt, write_hatt};
 
 /// The element by which a file says that it is not one of the published ones.
 const CREATED_BY: &str = "createdBy";

@@ -4,27 +4,19 @@ use std::fmt::Write as _;
 
 use shagreen_core::ar::power_gain;
 use shagreen_core::lsf::ar_from_lsf;
-use shagreen_core::texture::{Grain, GrainNode, PublishedNode, TextureModel};
+use shagreen_core::texture::{Grain, GrainNode, Interpolation, PublishedNode, TextureModel};
 use shagreen_core::triangulation::{Triangulation, TriangulationError};
 use shagreen_core::units::Contact;
 
-use crate::hatt::CREATED_BY;
 use crate::hatt::boundary::close;
 use crate::hatt::read::neutral_moving_average;
+use crate::hatt::{CREATED_BY, RESTRICTED_TERMS};
 use crate::library::{Provenance, TextureEntry, frequencies};
 
 /// Why a texture is not written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HattWriteError {
-    /// The texture may not be passed on.
-    #[error(
-        "texture \"{id}\" is made from restricted data, which may not be passed on; export a texture of your own"
-    )]
-    Restricted {
-        /// Identifier of the texture.
-        id: String,
-    },
     /// The nodes have no triangles.
     #[error("the speeds and forces of texture \"{id}\" have no triangles ({source}); correct its nodes")]
     Triangles {
@@ -35,8 +27,9 @@ pub enum HattWriteError {
     },
 }
 
-/// Writes a texture of a person's own; `created_by` is the program with its version, by which a reader knows that the
-/// file is none of the published ones.
+/// Writes a texture; `created_by` is the program with its version, by which a reader knows that the file is none of the
+/// published ones. A restricted texture gets its terms in a comment and no such mark: it stays restricted when it is read
+/// again.
 ///
 /// A measured texture becomes what the published renderer expects: a moving average two orders below the predictor,
 /// which changes nothing (`B(z) = 1`), gain 1, the variance of the excitation, and the models of the boundary. Spectra and
@@ -49,9 +42,6 @@ pub enum HattWriteError {
 /// # Errors
 /// See [`HattWriteError`].
 pub fn write_hatt(entry: &TextureEntry, created_by: &str) -> Result<Vec<u8>, HattWriteError> {
-    if entry.provenance == Provenance::Restricted {
-        return Err(HattWriteError::Restricted { id: entry.id.clone() });
-    }
     let model = &entry.model;
     let highest = Contact { speed: model.speed_max(), force: model.force_max() };
     let nodes = match model.grain() {
@@ -69,12 +59,39 @@ pub fn write_hatt(entry: &TextureEntry, created_by: &str) -> Result<Vec<u8>, Hat
     let mut out = Lines::new();
     head(&mut out, entry, created_by, &nodes, triangulation.triangles().len());
     for triangle in triangulation.triangles() {
-        out.line("tri", triangle.iter().map(|index| (index + 1).to_string()));
+        out.list("tri", triangle.iter().map(|index| (index + 1).to_string()));
     }
     for (index, node) in nodes.iter().enumerate() {
         write_model(&mut out, index + 1, node);
     }
     Ok(out.finish())
+}
+
+/// Sentences on what of a texture [`write_hatt`] cannot keep.
+pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
+    let mut lost = Vec::new();
+    if let Some(interpolation) = entry.model.interpolation() {
+        let between = match interpolation {
+            Interpolation::Barycentric => "levels",
+            Interpolation::RadialBasis => "a radial basis",
+        };
+        lost.push(format!(
+            "how {between} are interpolated between nodes: the format interpolates variances, which is up to some dB louder there"
+        ));
+    }
+    if entry.model.tap().is_some() {
+        lost.push("the tap of a landing".to_owned());
+    }
+    if entry.place.is_some() {
+        lost.push("the place in the space".to_owned());
+    }
+    if entry.picture.is_some() {
+        lost.push("the picture".to_owned());
+    }
+    if !(entry.tags.is_empty() && entry.description.is_empty() && entry.license.is_empty()) {
+        lost.push("tags, description and licence".to_owned());
+    }
+    lost
 }
 
 fn published(node: &GrainNode) -> PublishedNode {
@@ -105,7 +122,10 @@ fn head(
     let one = |text: &str| [escaped(text)];
     let count = |n: usize| [n.to_string()];
     out.line("material", one(&entry.name));
-    out.line(CREATED_BY, one(created_by));
+    match entry.provenance {
+        Provenance::Free => out.line(CREATED_BY, one(created_by)),
+        Provenance::Restricted => out.comment(RESTRICTED_TERMS),
+    }
     out.line("AccelUnits", one("m/s^2"));
     out.line("SpeedUnits", one("mm/s"));
     out.line("ForceUnits", one("N"));
@@ -115,8 +135,8 @@ fn head(
     out.line("numTri", count(n_triangles));
     out.line("maxSpeed", [model.speed_max().mm_per_s().to_string()]);
     out.line("maxForce", [model.force_max().0.to_string()]);
-    out.line("speedList", nodes.iter().map(|node| node.speed.mm_per_s().to_string()));
-    out.line("forceList", nodes.iter().map(|node| node.force.0.to_string()));
+    out.list("speedList", nodes.iter().map(|node| node.speed.mm_per_s().to_string()));
+    out.list("forceList", nodes.iter().map(|node| node.force.0.to_string()));
     out.line("numARCoeff", count(model.order()));
     out.line("numMACoeff", count(nodes.first().map_or(0, |node| node.ma_lsf.len())));
 }
@@ -127,8 +147,8 @@ fn write_model(out: &mut Lines, number: usize, node: &PublishedNode) {
     for (name, lsf) in [("AR", &node.ar_lsf), ("MA", &node.ma_lsf)] {
         let lsf = frequencies(lsf);
         let coefficients = [1.0].into_iter().chain(ar_from_lsf(&lsf));
-        out.line(&format!("{name}coeff"), coefficients.map(|c| format!("{c:.20}")));
-        out.line(&format!("{name}lsf"), lsf.iter().map(f64::to_string));
+        out.list(&format!("{name}coeff"), coefficients.map(|c| format!("{c:.20}")));
+        out.list(&format!("{name}lsf"), lsf.iter().map(f64::to_string));
     }
     out.line("var", [node.variance.to_string()]);
     out.line("gain", [node.gain.to_string()]);
@@ -147,12 +167,23 @@ impl Lines {
         Self { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<modelSet>\n".to_owned() }
     }
 
-    fn line(&mut self, element: &str, words: impl IntoIterator<Item = String>) {
-        let words: Vec<String> = words.into_iter().collect();
-        if !words.is_empty() {
+    /// An element with text, or none where there is no text.
+    fn line(&mut self, element: &str, text: impl IntoIterator<Item = String>) {
+        for text in text {
             // Memory takes all text.
-            let _ = writeln!(self.text, "<{element}>{}</{element}>", words.join(" "));
+            let _ = writeln!(self.text, "<{element}>{text}</{element}>");
         }
+    }
+
+    /// A list of numbers: one element `value` each, as published files have it.
+    fn list(&mut self, element: &str, numbers: impl IntoIterator<Item = String>) {
+        let values: String = numbers.into_iter().map(|number| format!("<value>{number}</value>")).collect();
+        let _ = writeln!(self.text, "<{element}>{values}</{element}>");
+    }
+
+    /// `text` has no two hyphens in a row.
+    fn comment(&mut self, text: &str) {
+        let _ = writeln!(self.text, "<!-- {text} -->");
     }
 
     fn open(&mut self, element: &str) {
