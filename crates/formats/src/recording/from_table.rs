@@ -136,9 +136,8 @@ impl Reading {
         let Some(place) = named.or(meant.first().copied()) else {
             if !self.table.header && self.table.names.len() > 1 && goes_on(&self.table.columns[0]) {
                 let text = "which column is time is not stated; column 1 goes on evenly".to_owned();
-                let column = self.inquiry.guess(Ask::Time, "1", &[], text);
-                if column {
-                    return self.times(0).map(Some);
+                if self.inquiry.guess(Ask::Time, "1", &[], text) {
+                    return Ok(Some(self.times(0)));
                 }
             }
             let text = "there is no time column, and the rate is not stated; give the rate in Hz".to_owned();
@@ -146,10 +145,10 @@ impl Reading {
             return Ok(None);
         };
         self.inquiry.map.time = Some(self.column(place));
-        self.times(place).map(Some)
+        Ok(Some(self.times(place)))
     }
 
-    fn times(&mut self, place: usize) -> Result<RawClock, RecordingFileError> {
+    fn times(&mut self, place: usize) -> RawClock {
         let by_name = match self.meanings[place] {
             Some(Meaning::Time(unit)) => unit,
             _ => None,
@@ -172,7 +171,7 @@ impl Reading {
         let start = self.table.columns[place].iter().copied().find(|time| time.is_finite()).unwrap_or(0.0);
         // Taken from the start, times of an epoch keep their digits.
         self.used.push(place);
-        Ok(RawClock::Times(self.table.columns[place].iter().map(|time| (time - start) * si).collect()))
+        RawClock::Times(self.table.columns[place].iter().map(|time| (time - start) * si).collect())
     }
 
     /// The columns of acceleration; none where that is asked, no column where there cannot be one.

@@ -31,9 +31,12 @@ pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
     (1..=words.len()).rev().find_map(|n| meaning(&words[..n].concat(), &words[n..].concat()))
 }
 
-/// `None` inside where the name has no unit, nothing where it has a wrong one.
-fn unit<T>(text: &str, parse: impl Fn(&str) -> Option<T>) -> Option<Option<T>> {
-    if text.is_empty() { Some(None) } else { parse(text).map(Some) }
+/// A name has a unit that is none of its quantity.
+struct WrongUnit;
+
+/// The unit of a name, where it has one.
+fn unit<T>(text: &str, parse: impl Fn(&str) -> Option<T>) -> Result<Option<T>, WrongUnit> {
+    if text.is_empty() { Ok(None) } else { parse(text).map(Some).ok_or(WrongUnit) }
 }
 
 fn meaning(word: &str, text: &str) -> Option<Meaning> {
@@ -60,17 +63,17 @@ fn meaning(word: &str, text: &str) -> Option<Meaning> {
         "millis" if text.is_empty() => return Some(Meaning::Time(Some(TimeUnit::Milliseconds))),
         "micros" if text.is_empty() => return Some(Meaning::Time(Some(TimeUnit::Microseconds))),
         "seconds" | "secs" if text.is_empty() => return Some(Meaning::Time(Some(TimeUnit::Seconds))),
-        "t" | "time" | "timestamp" | "timestamps" | "ts" | "elapsed" | "elapsedtime" => {
-            return unit(text, TimeUnit::parse).map(Meaning::Time);
+        "t" | "time" | "timestamp" | "timestamps" | "elapsed" | "elapsedtime" => {
+            return unit(text, TimeUnit::parse).map(Meaning::Time).ok();
         }
         "v" | "vel" | "speed" | "velocity" | "tangentialspeed" | "tangentialvelocity" | "scanspeed"
         | "scanningspeed" | "toolspeed" | "tipspeed" => {
-            return unit(text, SpeedUnit::parse).map(Meaning::Speed);
+            return unit(text, SpeedUnit::parse).map(Meaning::Speed).ok();
         }
         "f" | "fn" | "force" | "normalforce" | "forcenormal" | "fnormal" | "load" | "normalload" => {
-            return unit(text, ForceUnit::parse).map(Meaning::Force);
+            return unit(text, ForceUnit::parse).map(Meaning::Force).ok();
         }
-        "fz" | "forcez" | "zforce" => return unit(text, ForceUnit::parse).map(Meaning::ForceZ),
+        "fz" | "forcez" | "zforce" => return unit(text, ForceUnit::parse).map(Meaning::ForceZ).ok(),
         "x" | "y" | "z" => {
             return match (AccelerationUnit::parse(text), PositionUnit::parse(text)) {
                 (Some(unit), _) => Some(Meaning::Acceleration(Some(unit))),
@@ -81,10 +84,10 @@ fn meaning(word: &str, text: &str) -> Option<Meaning> {
         _ => {}
     }
     if axis(&["p", "pos", "position"], &["x", "y", "z"]) {
-        return unit(text, PositionUnit::parse).map(Meaning::Position);
+        return unit(text, PositionUnit::parse).map(Meaning::Position).ok();
     }
     if axis(&accelerations, &["", "x", "y", "z", "0", "1", "2", "3"]) {
-        return unit(text, AccelerationUnit::parse).map(Meaning::Acceleration);
+        return unit(text, AccelerationUnit::parse).map(Meaning::Acceleration).ok();
     }
     None
 }
@@ -101,6 +104,7 @@ mod tests {
         for (name, expected) in [
             ("t", Some(Meaning::Time(None))),
             ("Time (ms)", Some(Meaning::Time(Some(TimeUnit::Milliseconds)))),
+            ("t_s", Some(Meaning::Time(Some(TimeUnit::Seconds)))),
             ("time_us", Some(Meaning::Time(Some(TimeUnit::Microseconds)))),
             ("timestamp [s]", Some(Meaning::Time(Some(TimeUnit::Seconds)))),
             ("acc_x [g]", Some(Meaning::Acceleration(g))),

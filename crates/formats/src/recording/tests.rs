@@ -7,7 +7,9 @@ use std::path::Path;
 
 fn map(answers: &[(Ask, &str)]) -> ColumnMap {
     let mut map = ColumnMap::default();
-    answers.iter().for_each(|(what, answer)| map.answer(*what, answer).unwrap());
+    for (what, answer) in answers {
+        map.answer(*what, answer).unwrap();
+    }
     map
 }
 
@@ -47,7 +49,9 @@ fn the_same_recording_in_every_dialect() {
     ] {
         let mut raw = read(text, &[]).raw;
         if let RawClock::Times(times) = &mut raw.clock {
-            times.iter_mut().for_each(|time| *time = (*time * 1e9).round() * 1e-9);
+            for time in times {
+                *time = (*time * 1e9).round() * 1e-9;
+            }
         }
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(near(&raw.acceleration_mps2[0], &[1.5, -2.5]), "{text}");
