@@ -101,6 +101,11 @@ impl<'a> Surface<'a> {
         [speed_mps / self.speed_max_mps, force_n / self.force_max_n]
     }
 
+    /// What the power law through all pieces has at the speed and force of one, in no particular unit.
+    pub(super) fn usual_mean_square(&self, piece: &Piece) -> f64 {
+        self.trend.mean_square(piece.speed_mps, piece.force_n)
+    }
+
     /// Places of all pieces.
     pub(super) fn shares(&self) -> Vec<[f64; 2]> {
         self.pieces.iter().map(|p| self.share(p.speed_mps, p.force_n)).collect()
