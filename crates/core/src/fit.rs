@@ -254,7 +254,7 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
     if recordings.is_empty() {
         return Err(FitError::Empty);
     }
-    let pieces::Pieces { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
+    let pieces::Cut { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
     let highest = pieces::highest_order(rate);
     if let Some(order) = options.order.filter(|order| *order == 0 || *order > highest) {
         return Err(FitError::OrderAsked { order, highest: highest.min(MAX_ORDER) });
