@@ -3,7 +3,11 @@
 //! The strokes are simulated: the renderer under a hand that goes back and forth, on the 25 textures of the starter
 //! library. Some stretches of time are kept from the fit; there the fitted model is held against the strokes and against
 //! the texture that they were made of.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test may stop at what it did not expect, and shows its figures when asked to"
+)]
 
 use std::f64::consts::TAU;
 
