@@ -51,6 +51,11 @@ pub fn yule_walker(signal: &[f64], order: usize) -> Result<ArFit, ArError> {
     let r: Vec<f64> = (0..=order)
         .map(|k| x[..n - k].iter().zip(&x[k..]).map(|(a, b)| a * b).sum::<f64>() / n as f64)
         .collect();
+    Ok(levinson(&r, order))
+}
+
+/// The predictor of order `order` of an autocorrelation from lag 0 to at least that order, by Levinson's recursion.
+pub fn levinson(r: &[f64], order: usize) -> ArFit {
     let mut ar: Vec<f64> = Vec::with_capacity(order);
     let mut variance = r[0];
     let mut variance_by_order = vec![variance];
@@ -61,7 +66,7 @@ pub fn yule_walker(signal: &[f64], order: usize) -> Result<ArFit, ArError> {
         variance *= 1.0 - reflection * reflection;
         variance_by_order.push(variance);
     }
-    Ok(ArFit { ar, variance, variance_by_order })
+    ArFit { ar, variance, variance_by_order }
 }
 
 /// The predictor of order `order` by Burg's method: stable, and truer than Yule-Walker on short segments.
