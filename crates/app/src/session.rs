@@ -8,9 +8,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Instant;
 
-use anyhow::bail;
+use anyhow::Context as _;
 use shagreen_core::blend::{Authored, author, mixture_psd};
 use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::Space;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
@@ -64,10 +65,12 @@ impl Session {
     /// A session with a library; no output is open yet.
     ///
     /// # Errors
-    /// The positions cannot be triangulated, or the textures have different rates.
+    /// The positions cannot be triangulated, or a texture cannot be had at the highest rate of them.
     pub fn new(library: Library) -> anyhow::Result<Self> {
-        let rate_hz = common_rate_hz(&library)?;
-        let planes: Arc<[Plane]> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
+        let rate = highest_rate(library.textures.iter().map(|t| &t.model)).unwrap_or(Hertz(1000.0));
+        let rate_hz = rate.0;
+        let planes =
+            library.textures.iter().map(|t| plane_at(t, rate)).collect::<anyhow::Result<Arc<[Plane]>>>()?;
         // Beyond half the rate a model only repeats itself.
         let (low, high) = (BAND_HZ.0, BAND_HZ.1.min(0.4995 * rate_hz));
         let frequency = |i: usize| low * (high / low).powf(i as f64 / (N_FREQUENCIES - 1) as f64);
@@ -261,19 +264,11 @@ impl Session {
     }
 }
 
-/// The rate that all textures of a library share, in Hz: voices of different rates cannot be mixed.
-fn common_rate_hz(library: &Library) -> anyhow::Result<f64> {
-    let Some(first) = library.textures.first() else { return Ok(1000.0) };
-    let rate = first.model.rate();
-    match library.textures.iter().find(|t| t.model.rate() != rate) {
-        None => Ok(rate.0),
-        Some(other) => bail!(
-            "\"{}\" has a rate of {rate} and \"{}\" of {}; textures of one space need the same: keep them in two libraries",
-            first.id,
-            other.id,
-            other.model.rate()
-        ),
-    }
+/// The plane of a texture at the rate of the whole library: voices of different rates cannot be mixed.
+fn plane_at(texture: &TextureEntry, rate: Hertz) -> anyhow::Result<Plane> {
+    let converted = at_rate(&texture.model, rate)
+        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
+    Ok(Plane::new(&converted.model))
 }
 
 /// Prepares all textures in a thread of its own, which ends with them or with the session.
