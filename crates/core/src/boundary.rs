@@ -71,11 +71,16 @@ fn nearest(contacts: &[Contact], to: Contact) -> Option<usize> {
     (0..contacts.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
-/// `first, first + step, …` below `max` by more than a hundredth of a step, and `max` itself.
+/// Most steps along an axis: more than any hand needs, and a plane of few triangles for numbers that no hand makes.
+const MAX_STEPS: u32 = 100;
+
+/// `first, first + step, …` below `max` by more than a hundredth of a step, and `max` itself; wider steps where there
+/// would be more than [`MAX_STEPS`].
 fn steps(max: f64, first: f64, step: f64) -> Vec<f64> {
+    let step = step.max(max / f64::from(MAX_STEPS));
     let below = max - 0.01 * step;
     let mut out: Vec<f64> =
-        (0..1000).map(|i| first + step * f64::from(i)).take_while(|x| *x < below).collect();
+        (0..MAX_STEPS).map(|i| first + step * f64::from(i)).take_while(|x| *x < below).collect();
     out.push(max);
     out
 }
@@ -113,5 +118,10 @@ mod tests {
         let models = boundary(&[at(90.0, 1.0), at(50.0, 2.0), at(90.0, 2.0)], at(90.0, 2.0));
         assert_eq!(places(&models, false), []);
         assert_eq!(boundary(&[], at(90.0, 2.0)), []);
+    }
+
+    #[test]
+    fn no_speed_makes_it_long() {
+        assert!(boundary(&[at(50.0, 1.0)], at(1e8, 1e4)).len() <= 410);
     }
 }

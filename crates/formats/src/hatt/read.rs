@@ -103,7 +103,9 @@ fn drop_neutral_moving_average(models: &mut [HattModel]) {
         model.ma_lsf.iter().zip(neutral).all(|(w, n)| (w - n).abs() <= SIX_DECIMALS)
     };
     if models.iter().all(is_neutral) {
-        models.iter_mut().for_each(|model| model.ma_lsf.clear());
+        for model in models {
+            model.ma_lsf.clear();
+        }
     }
 }
 

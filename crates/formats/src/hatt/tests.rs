@@ -37,7 +37,7 @@ impl Spelling {
     fn list(self, element: &str, numbers: &[String]) -> String {
         let joined = |between: &str| format!("<{element}>{}</{element}>\n", numbers.join(between));
         let each = |open: &str, close: &str| -> String {
-            numbers.iter().map(|number| format!("{open}{number}{close}\n")).collect()
+            numbers.iter().flat_map(|number| [open, number, close, "\n"]).collect()
         };
         match self {
             Self::Spaces => joined(" "),

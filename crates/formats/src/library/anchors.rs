@@ -33,11 +33,11 @@ impl UncheckedGrain {
 /// The nodes of a texture; `unknown` becomes the unknown fields of each, or stays empty where there are none.
 pub(super) fn grain(
     id: &str,
-    interpolation: Option<String>,
+    interpolation: Option<&str>,
     anchors: Vec<AnchorV1>,
     unknown: &mut Vec<Map<String, Value>>,
 ) -> Result<UncheckedGrain, LibraryError> {
-    let interpolation = match interpolation.as_deref() {
+    let interpolation = match interpolation {
         None | Some(BARYCENTRIC) => Some(Interpolation::Barycentric),
         Some(RADIAL_BASIS) => Some(Interpolation::RadialBasis),
         Some(PUBLISHED) => None,
@@ -56,33 +56,30 @@ pub(super) fn grain(
     };
     let place =
         |anchor: &AnchorV1| (MetersPerSecond::from_mm_per_s(anchor.speed_mm_per_s), Newtons(anchor.force_n));
-    let grain = match interpolation {
-        Some(interpolation) => {
-            let mut nodes = Vec::with_capacity(anchors.len());
-            for (index, mut anchor) in anchors.into_iter().enumerate() {
-                let (speed, force) = place(&anchor);
-                let level_mps2 = needed(anchor.level_mps2.take(), index, "level_mps2")?;
-                nodes.push(GrainNode { speed, force, lsf: std::mem::take(&mut anchor.lsf), level_mps2 });
-                rest.push(without_meaning(anchor));
-            }
-            Grain::Measured { nodes, interpolation }
+    let grain = if let Some(interpolation) = interpolation {
+        let mut nodes = Vec::with_capacity(anchors.len());
+        for (index, mut anchor) in anchors.into_iter().enumerate() {
+            let (speed, force) = place(&anchor);
+            let level_mps2 = needed(anchor.level_mps2.take(), index, "level_mps2")?;
+            nodes.push(GrainNode { speed, force, lsf: std::mem::take(&mut anchor.lsf), level_mps2 });
+            rest.push(without_meaning(anchor));
         }
-        None => {
-            let mut nodes = Vec::with_capacity(anchors.len());
-            for (index, mut anchor) in anchors.into_iter().enumerate() {
-                let (speed, force) = place(&anchor);
-                nodes.push(PublishedNode {
-                    speed,
-                    force,
-                    variance: needed(anchor.variance.take(), index, "variance")?,
-                    gain: needed(anchor.gain.take(), index, "gain")?,
-                    ar_lsf: std::mem::take(&mut anchor.lsf),
-                    ma_lsf: anchor.ma_lsf.take().unwrap_or_default(),
-                });
-                rest.push(without_meaning(anchor));
-            }
-            Grain::Published { nodes }
+        Grain::Measured { nodes, interpolation }
+    } else {
+        let mut nodes = Vec::with_capacity(anchors.len());
+        for (index, mut anchor) in anchors.into_iter().enumerate() {
+            let (speed, force) = place(&anchor);
+            nodes.push(PublishedNode {
+                speed,
+                force,
+                variance: needed(anchor.variance.take(), index, "variance")?,
+                gain: needed(anchor.gain.take(), index, "gain")?,
+                ar_lsf: std::mem::take(&mut anchor.lsf),
+                ma_lsf: anchor.ma_lsf.take().unwrap_or_default(),
+            });
+            rest.push(without_meaning(anchor));
         }
+        Grain::Published { nodes }
     };
     if rest.iter().any(|fields| !fields.is_empty()) {
         *unknown = rest;

@@ -158,7 +158,7 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
     });
     let provenance = wire.provenance.map(|word| provenance(&id, word)).transpose()?.unwrap_or_default();
     let tap = wire.tap.map(|wire| tap(&id, wire, &mut unknown)).transpose()?;
-    let model = grain(&id, wire.interpolation, wire.anchors, &mut unknown.anchors)?
+    let model = grain(&id, wire.interpolation.as_deref(), wire.anchors, &mut unknown.anchors)?
         .model(Hertz(wire.rate_hz), wire.mu)
         .map_err(|source| LibraryError::Model { id: id.clone(), source })?
         .with_tap(tap);
