@@ -19,37 +19,27 @@ const DECAYS_PER_SEC: [f64; 10] = [5.0, 15.0, 30.0, 50.0, 80.0, 120.0, 180.0, 26
 /// Times the steps of the search are halved after the first grid: to a ten-thousandth of a step.
 const N_HALVINGS: usize = 14;
 
-/// Coherent sums of the transients, aligned at their onsets; `A` and the moment of landing within a sample are free for
-/// each frequency and decay, which makes it a sine and a cosine of free amplitudes.
+/// Most samples by which a transient was begun too early: one of caution, and what the sampling of its rise costs.
+const MAX_EARLY: usize = 3;
+
+/// The oscillation through transients, by least squares: `A` and the phase are free for each of them, which makes it a
+/// sine and a cosine, and frequency and decay are searched, coarse to fine.
 pub(super) fn ring(transients: &[Transient]) -> Option<Landed> {
-    let lowest_hz = transients.iter().map(|t| t.rate.0).min_by(f64::total_cmp)?;
-    let frequencies = std::iter::successors(Some(FIRST_HZ), |f| Some(f * FREQUENCY_STEP))
-        .take_while(|f| *f <= HIGHEST_SHARE * lowest_hz);
-    let explained = |f: f64, b: f64| transients.iter().map(|t| projection(t, f, b).energy).sum::<f64>();
-    let (mut f, mut b) = frequencies
-        .flat_map(|f| DECAYS_PER_SEC.map(|b| (f, b)))
-        .max_by(|x, y| explained(x.0, x.1).total_cmp(&explained(y.0, y.1)))?;
-    let mut best = explained(f, b);
-    let (mut step_f, mut step_b) = (FREQUENCY_STEP, 1.5);
-    for _ in 0..N_HALVINGS {
-        loop {
-            let around = [(f * step_f, b), (f / step_f, b), (f, b * step_b), (f, b / step_b)];
-            let inside = around.into_iter().filter(|(f, _)| *f <= 0.5 * lowest_hz);
-            let Some((energy, next)) =
-                inside.map(|(f, b)| (explained(f, b), (f, b))).max_by(|x, y| x.0.total_cmp(&y.0))
-            else {
-                break;
-            };
-            if energy <= best {
-                break;
-            }
-            best = energy;
-            (f, b) = next;
-        }
-        (step_f, step_b) = (step_f.sqrt(), step_b.sqrt());
-    }
     let total: f64 = transients.iter().flat_map(|t| &t.signal).map(|x| x * x).sum();
-    let amplitude: f64 = transients.iter().map(|t| projection(t, f, b).amplitude).sum();
+    let whole: Vec<_> = transients.iter().map(|t| (t.rate, t.signal.as_slice())).collect();
+    let (f, b, _) = search(&whole)?;
+    // Once more, with every transient from the sample on from which the oscillation explains most.
+    let trimmed: Vec<_> = whole
+        .into_iter()
+        .map(|(rate, signal)| {
+            let from = |skip: usize| (rate, signal.get(skip..).unwrap_or_default());
+            let explained = |skip: &usize| projection(from(*skip), f, b).energy;
+            let skip = (0..=MAX_EARLY).max_by(|x, y| explained(x).total_cmp(&explained(y))).unwrap_or(0);
+            from(skip)
+        })
+        .collect();
+    let (f, b, explained) = search(&trimmed)?;
+    let amplitude: f64 = trimmed.iter().map(|t| projection(*t, f, b).amplitude).sum();
     Some(Landed {
         tap: Tap {
             frequency: Hertz(f),
@@ -57,8 +47,33 @@ pub(super) fn ring(transients: &[Transient]) -> Option<Landed> {
             amplitude_mps2: amplitude / transients.len() as f64,
         },
         n_landings: transients.len(),
-        explained: if total > 0.0 { (best / total).min(1.0) } else { 0.0 },
+        explained: if total > 0.0 { (explained / total).min(1.0) } else { 0.0 },
     })
+}
+
+/// The frequency and decay that explain most of some transients, and how much energy they explain.
+fn search(transients: &[(Hertz, &[f64])]) -> Option<(f64, f64, f64)> {
+    let lowest_hz = transients.iter().map(|t| t.0.0).min_by(f64::total_cmp)?;
+    let frequencies = std::iter::successors(Some(FIRST_HZ), |f| Some(f * FREQUENCY_STEP))
+        .take_while(|f| *f <= HIGHEST_SHARE * lowest_hz);
+    let explained = |f: f64, b: f64| transients.iter().map(|t| projection(*t, f, b).energy).sum::<f64>();
+    let grid = frequencies.flat_map(|f| DECAYS_PER_SEC.map(|b| (f, b)));
+    let (mut best, (mut f, mut b)) =
+        grid.map(|(f, b)| (explained(f, b), (f, b))).max_by(|x, y| x.0.total_cmp(&y.0))?;
+    let (mut step_f, mut step_b) = (FREQUENCY_STEP, 1.5);
+    for _ in 0..N_HALVINGS {
+        loop {
+            let around = [(f * step_f, b), (f / step_f, b), (f, b * step_b), (f, b / step_b)];
+            let inside = around.into_iter().filter(|(f, _)| *f <= HIGHEST_SHARE * lowest_hz);
+            let tried = inside.map(|(f, b)| (explained(f, b), (f, b)));
+            match tried.max_by(|x, y| x.0.total_cmp(&y.0)) {
+                Some((energy, next)) if energy > best => (best, (f, b)) = (energy, next),
+                _ => break,
+            }
+        }
+        (step_f, step_b) = (step_f.sqrt(), step_b.sqrt());
+    }
+    Some((f, b, best))
 }
 
 /// A transient on `e^{-bt} sin` and `e^{-bt} cos`.
@@ -69,13 +84,13 @@ struct Projection {
     amplitude: f64,
 }
 
-fn projection(transient: &Transient, frequency_hz: f64, decay_per_sec: f64) -> Projection {
-    let step_secs = 1.0 / transient.rate.0;
+fn projection((rate, signal): (Hertz, &[f64]), frequency_hz: f64, decay_per_sec: f64) -> Projection {
+    let step_secs = 1.0 / rate.0;
     let (turn_sin, turn_cos) = (TAU * frequency_hz * step_secs).sin_cos();
     let shrink = (-decay_per_sec * step_secs).exp();
     let (mut c, mut s) = (1.0, 0.0);
     let [mut cc, mut cs, mut ss, mut cx, mut sx] = [0.0; 5];
-    for x in &transient.signal {
+    for x in signal {
         cc += c * c;
         cs += c * s;
         ss += s * s;
@@ -92,6 +107,6 @@ fn projection(transient: &Transient, frequency_hz: f64, decay_per_sec: f64) -> P
     // The oscillation began where its sine was zero, before the first sample: A is its envelope there.
     let phase = along_c.atan2(along_s).rem_euclid(std::f64::consts::PI);
     let before_secs = phase / (TAU * frequency_hz);
-    let early = if before_secs <= 2.0 * step_secs { (decay_per_sec * before_secs).exp() } else { 1.0 };
+    let early = if before_secs <= 1.5 * step_secs { (decay_per_sec * before_secs).exp() } else { 1.0 };
     Projection { energy: along_c * cx + along_s * sx, amplitude: along_c.hypot(along_s) * early }
 }
