@@ -20,6 +20,18 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
         ui.heading(strings::LIBRARY);
         ui.label(egui::RichText::new(format!("{}", panel.session.textures().len())).color(t.text_weak));
     });
+    ui.horizontal(|ui| {
+        let width = 0.5 * (ui.available_width() - GAP);
+        for (command, name, help) in [
+            (Command::OpenImport, strings::IMPORT, strings::IMPORT_HELP),
+            (Command::OpenSave, strings::SAVE_LIBRARY, strings::SAVE_LIBRARY_HELP),
+        ] {
+            let button = egui::Button::new(name).min_size(vec2(width, 0.0));
+            if ui.add(button).on_hover_text(help).clicked() {
+                commands.push(command);
+            }
+        }
+    });
     let field =
         ui.add(TextEdit::singleline(search).hint_text(strings::SEARCH_HINT).desired_width(f32::INFINITY));
     field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::SEARCH));
@@ -35,10 +47,9 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
         for (index, entry) in panel.session.textures().iter().enumerate() {
             if matches(&entry.name, &entry.tags) {
                 found = true;
-                if row(ui, panel, index)
-                    && let Some(at) = panel.session.space().position(index)
-                {
-                    commands.push(Command::Edit(Edit::MovePoint(at)));
+                if row(ui, panel, index) {
+                    let place = panel.session.space().position(index);
+                    commands.push(Command::Edit(place.map_or(Edit::Solo(index), Edit::MovePoint)));
                 }
             }
         }
@@ -75,15 +86,19 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
         let rank = panel.session.parent_rank(index);
         let color = rank.map_or(t.text, |r| t.parents[r.min(2)]);
         text.add(Label::new(egui::RichText::new(&entry.name).color(color)).truncate().selectable(false));
+        let is_placed = panel.session.space().position(index).is_some();
         let below = match panel.session.parent_weight(index) {
+            Some(_) if panel.project.solo.is_some() => strings::HEARD_ALONE.to_owned(),
             Some(weight) => strings::of_the_blend(100.0 * weight),
+            None if !is_placed => strings::NOT_PLACED_YET.to_owned(),
             None => entry.tags.join(", "),
         };
         text.add(
             Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false),
         );
     }
-    let at = panel.session.space().position(index).map_or(strings::NOT_PLACED.to_owned(), |p| p.to_string());
+    let at =
+        panel.session.space().position(index).map_or(strings::NOT_PLACED_HELP.to_owned(), |p| p.to_string());
     response.on_hover_text(format!("{}\n{}", entry.name, at)).clicked()
 }
 

@@ -136,8 +136,12 @@ pub const WAVEFORM_UNIT: &str = "m/s², last 0.25 s";
 pub const SPECTRUM_UNIT: &str = "dB re 1 (m/s²)²/Hz";
 /// The scale bar of the pad.
 pub const TEN_MM: &str = "10 mm";
-/// A texture without a place in the space.
-pub const NOT_PLACED: &str = "not placed";
+/// A texture without a place in the space, in the list.
+pub const NOT_PLACED_YET: &str = "not placed yet";
+/// What clicking on a texture without a place does.
+pub const NOT_PLACED_HELP: &str = "Not placed in the space yet: a click plays it alone.";
+/// The one texture that is heard, in the list.
+pub const HEARD_ALONE: &str = "heard alone";
 /// Pictures that could not be read.
 pub const DAMAGED_PICTURE: &str = "The picture cannot be read";
 /// The straight path of the hand.

@@ -43,7 +43,7 @@ impl Window {
         session.list_outputs(ctx);
         session.open_output(output, ctx);
         let project = Project::default();
-        session.follow(&project);
+        session.follow(&project, ctx);
         Ok(Self {
             project,
             history: History::default(),
@@ -103,7 +103,8 @@ impl Window {
         for command in commands {
             self.carry_out(command, &ctx);
         }
-        self.session.follow(&self.project);
+        self.session.follow(&self.project, &ctx);
+        self.pictures.follow(&ctx, &self.project.added);
         self.keep_going(&ctx);
     }
 

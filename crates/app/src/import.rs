@@ -1,0 +1,18 @@
+//! Import: files that were dropped or named become textures of the library.
+//!
+//! Files are read and textures fitted by a [`worker::Worker`]; the sheet shows a [`batch::Batch`] of them and asks what
+//! they do not say. Nothing joins the library before the user accepts it.
+
+pub mod batch;
+mod draft_ui;
+mod draft;
+mod files_ui;
+mod model_ui;
+mod plane_plot;
+mod questions_ui;
+pub mod sheet;
+pub mod source;
+mod spectrum_plot;
+mod trace;
+mod trace_plot;
+mod worker;
