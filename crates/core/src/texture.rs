@@ -1,17 +1,23 @@
 //! A texture: what a surface does to a tip at every speed and force.
 
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
+mod check;
+mod error;
+
 use std::ops::RangeInclusive;
 
 use crate::tap::Tap;
-use crate::units::{Hertz, MetersPerSecond, Newtons};
+use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
+
+pub use crate::texture::error::TextureModelError;
 
 /// Highest order of a predictor that can be rendered.
 pub const MAX_ORDER: usize = shagreen_synth::texture::MAX_ORDER;
 
 /// Most nodes of a texture: with its boundary, twice as many triangles still have 16-bit numbers in the renderer.
 pub const MAX_NODES: usize = 20_000;
+
+/// Most nodes of a texture with a radial basis, whose system of equations takes as many cubed multiplications.
+pub const MAX_RADIAL_NODES: usize = 500;
 
 /// Speeds that a node may have, in m/s: wide enough for any hand, and usable numbers in the renderer's `f32`.
 pub const SPEEDS_MPS: RangeInclusive<f64> = 1e-6..=100.0;
@@ -22,9 +28,19 @@ pub const FORCES_N: RangeInclusive<f64> = 1e-6..=1e4;
 /// Levels that a node may have, in m/s².
 pub const LEVELS_MPS2: RangeInclusive<f64> = 0.0..=1e6;
 
+/// Variances that a published node may have, in (m/s²)².
+pub const VARIANCES: RangeInclusive<f64> = 0.0..=1e12;
+
+/// Gains that a published node may have.
+pub const GAINS: RangeInclusive<f64> = 0.0..=1e6;
+
 /// Smallest distance between neighboring line spectral frequencies, and from 0 and π, in radians: 40 times the spacing
 /// of `f32` near π, so that they are still apart in the renderer.
 pub const MIN_LSF_GAP: f64 = 1e-5;
+
+/// The same between frequencies of a published texture: half of the last of the six decimals that are published, and
+/// still twice the spacing of `f32` near π.
+pub const MIN_PUBLISHED_LSF_GAP: f64 = 5e-7;
 
 /// Smallest distance of nodes from each other, and from zero speed and force, as a share of the highest speed and
 /// force: the triangles between are flatter the nearer nodes are, and `f32` must still tell their insides apart.
@@ -43,6 +59,26 @@ pub struct GrainNode {
     pub level_mps2: f64,
 }
 
+/// The stochastic vibration at one speed and force as the Penn Haptic Texture Toolkit publishes it:
+/// `y[t] = -Σ a_i y[t-i] + gain (e[t] + Σ b_j e[t-j])` with white `e` (H. Culbertson, J. Lopez Delgado and
+/// K. Kuchenbecker, "One hundred data-driven haptic texture models and open-source methods for rendering on 3D objects",
+/// 2014).
+#[derive(Clone, Debug, PartialEq)]
+pub struct PublishedNode {
+    /// Speed; zero on the boundary.
+    pub speed: MetersPerSecond,
+    /// Normal force; zero on the boundary.
+    pub force: Newtons,
+    /// Line spectral frequencies of the predictor `a` in radians (0, π), ascending.
+    pub ar_lsf: Vec<f64>,
+    /// Line spectral frequencies of the moving average `b` in radians (0, π), ascending; none where there is none.
+    pub ma_lsf: Vec<f64>,
+    /// Variance of `e` in (m/s²)²; zero is usual on the axes of zero speed and force.
+    pub variance: f64,
+    /// `gain`, without a unit.
+    pub gain: f64,
+}
+
 /// How grain is interpolated between the speeds and forces that were measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
@@ -51,144 +87,76 @@ pub enum Interpolation {
     Barycentric,
     /// A linear radial basis function through all nodes, over line spectral frequencies and the logarithm of the level.
     RadialBasis,
-    /// As the published renderer of the Penn Haptic Texture Toolkit does it: nodes that include the boundary, frequencies,
-    /// variance and gain each linear in the triangles.
-    Published,
+}
+
+/// What is known of a texture's grain, and what lies between follows from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Grain {
+    /// Measured speeds and forces; the boundary around them is added where the texture is rendered.
+    Measured {
+        /// At least one.
+        nodes: Vec<GrainNode>,
+        /// How to find what lies between.
+        interpolation: Interpolation,
+    },
+    /// Published nodes, which include the boundary and cover the plane from zero to the highest speed and force:
+    /// frequencies, variance and gain are each linear in their Delaunay triangles.
+    Published {
+        /// At least the four corners.
+        nodes: Vec<PublishedNode>,
+    },
 }
 
 /// A texture model: grain over (speed, force), and friction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureModel {
     rate: Hertz,
-    nodes: Vec<GrainNode>,
+    grain: Grain,
     friction: Option<f64>,
-    interpolation: Interpolation,
     tap: Option<Tap>,
 }
 
-/// Why numbers do not make a texture.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TextureModelError {
-    /// The rate is outside 200 to 4000 Hz.
-    #[error("a model rate must lie between 200 and 4000 Hz, got {rate_hz}")]
-    Rate {
-        /// The rate given.
-        rate_hz: f64,
-    },
-    /// More nodes than a renderer can tell apart.
-    #[error("a texture may have up to {max} measured speeds and forces, got {n}", max = MAX_NODES)]
-    TooMany {
-        /// The number given.
-        n: usize,
-    },
-    /// There are no nodes.
-    #[error("a texture needs at least one measured speed and force, got none")]
-    Empty,
-    /// Nodes differ in order, or the order cannot be rendered.
-    #[error("node {index} has {order} line spectral frequencies; every node needs the same number, 1 to {max}", max = MAX_ORDER)]
-    Order {
-        /// Index of the node.
-        index: usize,
-        /// Its order.
-        order: usize,
-    },
-    /// Frequencies are not ascending within (0, π) by at least [`MIN_LSF_GAP`].
-    #[error("line spectral frequencies of node {index} do not ascend within 0 to pi by at least {gap} rad each", gap = MIN_LSF_GAP)]
-    Frequencies {
-        /// Index of the node.
-        index: usize,
-    },
-    /// A speed, force or level is not a number from the lowest to the highest that can be rendered.
-    #[error("{what} of node {index} is {value}; it must lie between {low} and {high}")]
-    Value {
-        /// What is wrong, with its unit.
-        what: &'static str,
-        /// Index of the node.
-        index: usize,
-        /// Its value.
-        value: f64,
-        /// Lowest that is possible beside the other nodes.
-        low: f64,
-        /// Highest that is possible.
-        high: f64,
-    },
-    /// Two nodes are at the same speed and force, or nearer than [`MIN_NODE_DISTANCE`].
-    #[error("nodes {first} and {second} are at the same speed and force, to within {share} of the highest; keep one of them", share = MIN_NODE_DISTANCE)]
-    SamePlace {
-        /// Index of the one.
-        first: usize,
-        /// Index of the other.
-        second: usize,
-    },
-    /// The friction coefficient is not a finite, non-negative number.
-    #[error("the friction coefficient is {value}; it must not be negative")]
-    Friction {
-        /// The value given.
-        value: f64,
-    },
-}
-
 impl TextureModel {
-    /// A texture from its measured nodes; silent and saturated boundaries are added where it is rendered, not here.
+    /// A texture from its measured nodes, interpolated in triangles; silent and saturated boundaries are added where it
+    /// is rendered, not here.
     ///
     /// # Errors
     /// See [`TextureModelError`].
     pub fn new(rate: Hertz, nodes: Vec<GrainNode>, friction: Option<f64>) -> Result<Self, TextureModelError> {
-        if !(200.0..=4000.0).contains(&rate.0) {
-            return Err(TextureModelError::Rate { rate_hz: rate.0 });
+        check::frame(rate, nodes.len(), friction)?;
+        check::measured(&nodes)?;
+        let grain = Grain::Measured { nodes, interpolation: Interpolation::Barycentric };
+        Ok(Self { rate, grain, friction, tap: None })
+    }
+
+    /// A texture from published nodes, which include the boundary: one at each corner of the rectangle from zero to the
+    /// highest speed and force, to within [`MIN_NODE_DISTANCE`].
+    ///
+    /// # Errors
+    /// See [`TextureModelError`].
+    pub fn published(
+        rate: Hertz,
+        nodes: Vec<PublishedNode>,
+        friction: Option<f64>,
+    ) -> Result<Self, TextureModelError> {
+        check::frame(rate, nodes.len(), friction)?;
+        check::published(&nodes)?;
+        Ok(Self { rate, grain: Grain::Published { nodes }, friction, tap: None })
+    }
+
+    /// The same measured nodes, interpolated in this way.
+    ///
+    /// # Errors
+    /// [`TextureModelError::Published`], and [`TextureModelError::TooManyForRadialBasis`] above [`MAX_RADIAL_NODES`].
+    pub fn with_interpolation(mut self, wanted: Interpolation) -> Result<Self, TextureModelError> {
+        let Grain::Measured { nodes, interpolation } = &mut self.grain else {
+            return Err(TextureModelError::Published);
+        };
+        if wanted == Interpolation::RadialBasis && nodes.len() > MAX_RADIAL_NODES {
+            return Err(TextureModelError::TooManyForRadialBasis { n: nodes.len() });
         }
-        if nodes.len() > MAX_NODES {
-            return Err(TextureModelError::TooMany { n: nodes.len() });
-        }
-        let Some(first) = nodes.first() else { return Err(TextureModelError::Empty) };
-        let order = first.lsf.len();
-        for (index, node) in nodes.iter().enumerate() {
-            if node.lsf.len() != order || order == 0 || order > MAX_ORDER {
-                return Err(TextureModelError::Order { index, order: node.lsf.len() });
-            }
-            if !are_apart(&node.lsf) {
-                return Err(TextureModelError::Frequencies { index });
-            }
-            check_range("speed in m/s", index, node.speed.0, &SPEEDS_MPS)?;
-            check_range("force in N", index, node.force.0, &FORCES_N)?;
-            check_range("level in m/s²", index, node.level_mps2, &LEVELS_MPS2)?;
-        }
-        check_places(&nodes)?;
-        if let Some(value) = friction.filter(|f| !(f.is_finite() && *f >= 0.0)) {
-            return Err(TextureModelError::Friction { value });
-        }
-        Ok(Self { rate, nodes, friction, interpolation: Interpolation::default(), tap: None })
-    }
-
-    /// Samples a second of the model.
-    pub fn rate(&self) -> Hertz {
-        self.rate
-    }
-
-    /// Order of the predictor, the same at every node.
-    pub fn order(&self) -> usize {
-        self.nodes[0].lsf.len()
-    }
-
-    /// The measured nodes, at least one.
-    pub fn nodes(&self) -> &[GrainNode] {
-        &self.nodes
-    }
-
-    /// Kinetic friction coefficient, where it is known.
-    pub fn friction(&self) -> Option<f64> {
-        self.friction
-    }
-
-    /// How grain is interpolated between nodes.
-    pub fn interpolation(&self) -> Interpolation {
-        self.interpolation
-    }
-
-    /// The transient of a landing, where it was measured.
-    pub fn tap(&self) -> Option<Tap> {
-        self.tap
+        *interpolation = wanted;
+        Ok(self)
     }
 
     /// The same texture with a landing.
@@ -198,121 +166,84 @@ impl TextureModel {
         self
     }
 
-    /// The highest speed measured: above it the texture stays as it is there.
-    pub fn speed_max(&self) -> MetersPerSecond {
-        MetersPerSecond(self.nodes.iter().map(|n| n.speed.0).fold(0.0, f64::max))
+    /// Samples a second of the model.
+    pub fn rate(&self) -> Hertz {
+        self.rate
     }
 
-    /// The highest force measured: above it the texture stays as it is there.
-    pub fn force_max(&self) -> Newtons {
-        Newtons(self.nodes.iter().map(|n| n.force.0).fold(0.0, f64::max))
+    /// What is known of the grain.
+    pub fn grain(&self) -> &Grain {
+        &self.grain
     }
-}
 
-fn are_apart(lsf: &[f64]) -> bool {
-    // Not written as a comparison of gaps with a bound: what is not a number must be refused.
-    let ends = [0.0, PI];
-    let above = ends[..1].iter().chain(lsf).zip(lsf.iter().chain(&ends[1..]));
-    above.into_iter().all(|(low, high)| high - low >= MIN_LSF_GAP)
-}
-
-fn check_range(
-    what: &'static str,
-    index: usize,
-    value: f64,
-    range: &RangeInclusive<f64>,
-) -> Result<(), TextureModelError> {
-    let (low, high) = (*range.start(), *range.end());
-    if range.contains(&value) {
-        Ok(())
-    } else {
-        Err(TextureModelError::Value { what, index, value, low, high })
-    }
-}
-
-/// Whether nodes lie far enough from zero speed and force, where others join them, and from each other.
-fn check_places(nodes: &[GrainNode]) -> Result<(), TextureModelError> {
-    let highest = |value: &dyn Fn(&GrainNode) -> f64| nodes.iter().map(value).fold(0.0, f64::max);
-    let (speed_max, force_max) = (highest(&|n| n.speed.0), highest(&|n| n.force.0));
-    // Cells as wide as the smallest distance: whoever is too near is in the same cell or in one around it.
-    let mut in_cell = BTreeMap::new();
-    for (index, node) in nodes.iter().enumerate() {
-        check_range("speed in m/s", index, node.speed.0, &(MIN_NODE_DISTANCE * speed_max..=speed_max))?;
-        check_range("force in N", index, node.force.0, &(MIN_NODE_DISTANCE * force_max..=force_max))?;
-        let at = [node.speed.0 / speed_max, node.force.0 / force_max].map(|c| c / MIN_NODE_DISTANCE);
-        let cell = at.map(|c| c as i64);
-        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-            if let Some((first, other)) = in_cell.get(&[cell[0] + dx, cell[1] + dy]) {
-                let other: &[f64; 2] = other;
-                if (at[0] - other[0]).abs().max((at[1] - other[1]).abs()) < 1.0 {
-                    return Err(TextureModelError::SamePlace { first: *first, second: index });
-                }
-            }
+    /// The measured nodes, at least one; none where the texture is published.
+    pub fn nodes(&self) -> &[GrainNode] {
+        match &self.grain {
+            Grain::Measured { nodes, .. } => nodes,
+            Grain::Published { .. } => &[],
         }
-        in_cell.insert(cell, (index, at));
     }
-    Ok(())
+
+    /// The published nodes with their boundary; none where the texture is measured.
+    pub fn published_nodes(&self) -> &[PublishedNode] {
+        match &self.grain {
+            Grain::Measured { .. } => &[],
+            Grain::Published { nodes } => nodes,
+        }
+    }
+
+    /// Speed and force of every node, measured or published.
+    pub fn contacts(&self) -> impl Iterator<Item = Contact> + Clone + '_ {
+        let measured = self.nodes().iter().map(|n| Contact { speed: n.speed, force: n.force });
+        measured.chain(self.published_nodes().iter().map(|n| Contact { speed: n.speed, force: n.force }))
+    }
+
+    /// How many nodes there are, measured or published.
+    pub fn n_nodes(&self) -> usize {
+        self.nodes().len() + self.published_nodes().len()
+    }
+
+    /// Order of the predictor, the same at every node.
+    pub fn order(&self) -> usize {
+        match &self.grain {
+            Grain::Measured { nodes, .. } => nodes[0].lsf.len(),
+            Grain::Published { nodes } => nodes[0].ar_lsf.len(),
+        }
+    }
+
+    /// Order of the moving average, the same at every node; zero where there is none, as in everything measured.
+    pub fn ma_order(&self) -> usize {
+        self.published_nodes().first().map_or(0, |node| node.ma_lsf.len())
+    }
+
+    /// Kinetic friction coefficient, where it is known.
+    pub fn friction(&self) -> Option<f64> {
+        self.friction
+    }
+
+    /// How grain is interpolated between measured nodes; `None` where the texture is published.
+    pub fn interpolation(&self) -> Option<Interpolation> {
+        match self.grain {
+            Grain::Measured { interpolation, .. } => Some(interpolation),
+            Grain::Published { .. } => None,
+        }
+    }
+
+    /// The transient of a landing, where it was measured.
+    pub fn tap(&self) -> Option<Tap> {
+        self.tap
+    }
+
+    /// The highest speed of a node: above it the texture stays as it is there.
+    pub fn speed_max(&self) -> MetersPerSecond {
+        MetersPerSecond(self.contacts().map(|c| c.speed.0).fold(0.0, f64::max))
+    }
+
+    /// The highest force of a node: above it the texture stays as it is there.
+    pub fn force_max(&self) -> Newtons {
+        Newtons(self.contacts().map(|c| c.force.0).fold(0.0, f64::max))
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{GrainNode, LEVELS_MPS2, TextureModel, TextureModelError};
-    use crate::units::{Hertz, MetersPerSecond, Newtons};
-
-    fn node(speed: f64, lsf: &[f64]) -> GrainNode {
-        GrainNode { speed: MetersPerSecond(speed), force: Newtons(1.0), lsf: lsf.to_vec(), level_mps2: 1.0 }
-    }
-
-    #[test]
-    fn bad_numbers_are_named() {
-        let make =
-            |rate: f64, nodes: Vec<GrainNode>| TextureModel::new(Hertz(rate), nodes, None).unwrap_err();
-        assert_eq!(make(1000.0, vec![]), TextureModelError::Empty);
-        assert_eq!(make(100.0, vec![node(0.1, &[1.0])]), TextureModelError::Rate { rate_hz: 100.0 });
-        let many = vec![node(0.1, &[1.0]); 20_001];
-        assert_eq!(make(1000.0, many), TextureModelError::TooMany { n: 20_001 });
-        let orders = vec![node(0.1, &[1.0]), node(0.2, &[1.0, 2.0])];
-        assert_eq!(make(1000.0, orders), TextureModelError::Order { index: 1, order: 2 });
-        assert_eq!(make(1000.0, vec![node(0.1, &[2.0, 1.0])]), TextureModelError::Frequencies { index: 0 });
-        assert_eq!(make(1000.0, vec![node(0.1, &[f64::NAN])]), TextureModelError::Frequencies { index: 0 });
-        // One ulp of f32 apart, and as near to the ends.
-        for lsf in [[1.0, 1.0 + 1e-7], [1e-7, 1.0], [1.0, std::f64::consts::PI - 1e-7]] {
-            assert_eq!(make(1000.0, vec![node(0.1, &lsf)]), TextureModelError::Frequencies { index: 0 });
-        }
-    }
-
-    #[test]
-    fn numbers_that_cannot_be_rendered_are_refused_with_their_range() {
-        let error = |node: GrainNode| TextureModel::new(Hertz(1000.0), vec![node], None).unwrap_err();
-        for bad in [0.0, -1.0, 1e-300, 1e300, f64::NAN, f64::INFINITY] {
-            let text = error(node(bad, &[1.0])).to_string();
-            assert!(text.starts_with("speed in m/s of node 0") && text.ends_with("and 100"), "{text}");
-            let text = error(GrainNode { force: Newtons(bad), ..node(0.1, &[1.0]) }).to_string();
-            assert!(text.starts_with("force in N of node 0") && text.ends_with("and 10000"), "{text}");
-        }
-        for bad in [-1.0, 1e300, f64::NAN, f64::INFINITY] {
-            let error = error(GrainNode { level_mps2: bad, ..node(0.1, &[1.0]) });
-            let TextureModelError::Value { what, low, high, .. } = error else { panic!("{error}") };
-            assert_eq!((what, low..=high), ("level in m/s²", LEVELS_MPS2));
-        }
-    }
-
-    #[test]
-    fn nodes_at_one_place_are_refused_and_neighbors_are_not() {
-        let make = |places: &[[f64; 2]]| {
-            let at = |[speed, force]: &[f64; 2]| GrainNode { force: Newtons(*force), ..node(*speed, &[1.0]) };
-            TextureModel::new(Hertz(1000.0), places.iter().map(at).collect(), None).err()
-        };
-        let far = [0.2, 2.0];
-        let same = Some(TextureModelError::SamePlace { first: 1, second: 2 });
-        assert_eq!(make(&[far, [0.1, 1.0], [0.1, 1.0]]), same);
-        // A hundredth of a percent of 0.2 m/s and of 2 N, just less and just more, across the border of a cell too.
-        for speed in [0.1, 0.10001, 0.100_019] {
-            assert_eq!(make(&[far, [speed, 1.0], [speed + 1.9e-5, 1.0 - 1.9e-4]]), same);
-            assert_eq!(make(&[far, [speed, 1.0], [speed + 2.1e-5, 1.0]]), None);
-            assert_eq!(make(&[far, [speed, 1.0], [speed, 1.0 + 2.1e-4]]), None);
-        }
-        // So near to zero speed that silence lies at the same place.
-        assert!(matches!(make(&[far, [1e-5, 1.0]]), Some(TextureModelError::Value { index: 1, .. })));
-    }
-}
+mod tests;

@@ -30,6 +30,9 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// All of them are on the disk under other names before the first takes its place. Where a later one cannot take its
 /// place, the earlier ones are put back as they were.
 ///
+/// A writer that is killed in the middle leaves every file whole, old or new, and what it was at under a hidden name
+/// beside it.
+///
 /// A link is followed: what it points to is replaced, and the link stays. What is there and is no file (a folder, a
 /// device, a pipe) is left alone.
 ///
