@@ -3,8 +3,14 @@
 //! `A(z) = 1 + Σ a_k z^-k`, `x[n] = -Σ a_k x[n-k] + e[n]`, `e ~ N(0, σ²)`. Coefficient slices leave the leading one out:
 //! `ar[0]` is `a_1`.
 
+mod burg;
+mod lags;
+
 use std::f64::consts::TAU;
 
+pub use crate::ar::burg::{BurgSums, burg, burg_of_many};
+
+use crate::ar::lags::{lag_sums, sum_of};
 use crate::units::Hertz;
 
 /// A predictor fitted to a signal.
@@ -46,17 +52,16 @@ pub enum ArError {
 /// # Errors
 /// See [`ArError`].
 pub fn yule_walker(signal: &[f64], order: usize) -> Result<ArFit, ArError> {
-    let x = centered(signal, order)?;
-    let n = x.len();
-    let r: Vec<f64> = (0..=order)
-        .map(|k| x[..n - k].iter().zip(&x[k..]).map(|(a, b)| a * b).sum::<f64>() / n as f64)
-        .collect();
+    let (x, energy) = centered(signal, order)?;
+    let lags = lag_sums(&x, energy, order);
+    let n = x.len() as f64;
     let mut ar: Vec<f64> = Vec::with_capacity(order);
-    let mut variance = r[0];
-    let mut variance_by_order = vec![variance];
+    let mut variance = energy / n;
+    let mut variance_by_order = Vec::with_capacity(order + 1);
+    variance_by_order.push(variance);
     for i in 1..=order {
-        let sum = r[i] + ar.iter().enumerate().map(|(j, a)| a * r[i - 1 - j]).sum::<f64>();
-        let reflection = -sum / variance;
+        let sum = lags[i] + ar.iter().zip(lags[1..i].iter().rev()).map(|(a, r)| a * r).sum::<f64>();
+        let reflection = -sum / (n * variance);
         step_up(&mut ar, reflection);
         variance *= 1.0 - reflection * reflection;
         variance_by_order.push(variance);
@@ -64,56 +69,30 @@ pub fn yule_walker(signal: &[f64], order: usize) -> Result<ArFit, ArError> {
     Ok(ArFit { ar, variance, variance_by_order })
 }
 
-/// The predictor of order `order` by Burg's method: stable, and truer than Yule-Walker on short segments.
-///
-/// # Errors
-/// See [`ArError`].
-pub fn burg(signal: &[f64], order: usize) -> Result<ArFit, ArError> {
-    let mut forward = centered(signal, order)?;
-    let mut backward = forward.clone();
-    let n = forward.len();
-    let mut ar: Vec<f64> = Vec::with_capacity(order);
-    let mut variance = forward.iter().map(|v| v * v).sum::<f64>() / n as f64;
-    let mut variance_by_order = vec![variance];
-    for m in 1..=order {
-        // f[i] meets b[i-1] for i in m..n; both are updated in place.
-        let (mut cross, mut energy) = (0.0, 0.0);
-        for i in m..n {
-            cross += forward[i] * backward[i - 1];
-            energy += forward[i] * forward[i] + backward[i - 1] * backward[i - 1];
-        }
-        let reflection = if energy > 0.0 { -2.0 * cross / energy } else { 0.0 };
-        for i in (m..n).rev() {
-            let (f, b) = (forward[i], backward[i - 1]);
-            forward[i] = f + reflection * b;
-            backward[i] = b + reflection * f;
-        }
-        step_up(&mut ar, reflection);
-        variance *= 1.0 - reflection * reflection;
-        variance_by_order.push(variance);
-    }
-    Ok(ArFit { ar, variance, variance_by_order })
-}
-
-/// The signal without its mean.
-fn centered(signal: &[f64], order: usize) -> Result<Vec<f64>, ArError> {
+/// The signal without its mean, and the sum of its squares.
+fn centered(signal: &[f64], order: usize) -> Result<(Vec<f64>, f64), ArError> {
     if signal.len() <= order {
         return Err(ArError::TooShort { order, len: signal.len() });
     }
-    if let Some(index) = signal.iter().position(|v| !v.is_finite()) {
+    let mean = sum_of(signal, |v| v) / signal.len() as f64;
+    // A sum that is finite has only finite terms.
+    if !mean.is_finite()
+        && let Some(index) = signal.iter().position(|v| !v.is_finite())
+    {
         return Err(ArError::NotFinite { index });
     }
-    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
     let x: Vec<f64> = signal.iter().map(|v| v - mean).collect();
-    if x.iter().all(|v| *v == 0.0) { Err(ArError::Constant) } else { Ok(x) }
+    let energy = sum_of(&x, |v| v * v);
+    if energy == 0.0 { Err(ArError::Constant) } else { Ok((x, energy)) }
 }
 
 /// Levinson's update: a predictor of one order more from its last reflection coefficient.
 fn step_up(ar: &mut Vec<f64>, reflection: f64) {
+    // In place, from both ends: each pair needs only itself.
     let n = ar.len();
-    let before = ar.clone();
-    for (j, a) in ar.iter_mut().enumerate() {
-        *a += reflection * before[n - 1 - j];
+    for j in 0..n.div_ceil(2) {
+        let (x, y) = (ar[j], ar[n - 1 - j]);
+        (ar[j], ar[n - 1 - j]) = (x + reflection * y, y + reflection * x);
     }
     ar.push(reflection);
 }
@@ -191,94 +170,4 @@ pub(crate) mod test_signals {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::test_signals::from_resonances;
-    use super::{ArError, burg, comparison_frequencies, order_by_bic, power_gain, psd, yule_walker};
-    use crate::rng::lcg_noise;
-    use crate::units::Hertz;
-    use serde_json::Value;
-
-    fn vectors() -> Value {
-        serde_json::from_str(include_str!("../../../vectors/a_ar/ar_vectors.json")).unwrap()
-    }
-
-    fn floats(value: &Value) -> Vec<f64> {
-        value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
-    }
-
-    #[track_caller]
-    fn check(actual: &[f64], expected: &[f64], tolerance: f64) {
-        assert_eq!(actual.len(), expected.len());
-        for (i, (a, e)) in actual.iter().zip(expected).enumerate() {
-            assert!((a - e).abs() < tolerance, "[{i}] {a} for {e}");
-        }
-    }
-
-    /// The realization that the vectors were computed on.
-    fn realization() -> Vec<f64> {
-        let a = from_resonances(Hertz(1000.0), &[(Hertz(110.0), 0.95), (Hertz(260.0), 0.90)]);
-        let e: Vec<f64> = lcg_noise(7000, 12345).iter().map(|v| v * 0.25_f64.sqrt()).collect();
-        let mut x = vec![0.0; e.len()];
-        for n in 0..e.len() {
-            x[n] = e[n] - (1..=4.min(n)).map(|k| a[k - 1] * x[n - k]).sum::<f64>();
-        }
-        x.split_off(2000)
-    }
-
-    #[test]
-    fn golden_true_model() {
-        let v = &vectors()["true"];
-        let a = from_resonances(Hertz(1000.0), &[(Hertz(110.0), 0.95), (Hertz(260.0), 0.90)]);
-        check(&a, &floats(&v["a"])[1..], 1e-12);
-        check(&[0.25 * power_gain(&a)], &[v["power"].as_f64().unwrap()], 1e-12);
-    }
-
-    #[test]
-    fn golden_fits() {
-        let (v, x) = (vectors(), realization());
-        check(&x[..8], &floats(&v["x_first8"]), 1e-12);
-        for (name, fit) in [("yule_walker", yule_walker as fn(&[f64], usize) -> _), ("burg", burg)] {
-            // Sums of 5000 products round differently by about 1e-13; conditioning at order 20 costs two digits.
-            let four = fit(&x, 4).unwrap();
-            check(&four.ar, &floats(&v[format!("{name}_p4")]["a"])[1..], 1e-11);
-            check(&[four.variance], &[v[format!("{name}_p4")]["s2"].as_f64().unwrap()], 1e-12);
-            let twenty = fit(&x, 20).unwrap();
-            let golden = &v[format!("{name}_p20")];
-            check(&[twenty.variance], &[golden["s2"].as_f64().unwrap()], 1e-11);
-            check(&[twenty.variance * power_gain(&twenty.ar)], &[golden["power"].as_f64().unwrap()], 1e-9);
-        }
-        let fit = yule_walker(&x, 30).unwrap();
-        assert_eq!(order_by_bic(&fit, x.len(), 0..=30), 4);
-    }
-
-    #[test]
-    fn density_integrates_to_the_power() {
-        let ar =
-            from_resonances(Hertz(1000.0), &[(Hertz(60.0), 0.97), (Hertz(180.0), 0.93), (Hertz(400.0), 0.8)]);
-        let n = 20_000;
-        let f: Vec<Hertz> = (0..n).map(|i| Hertz((f64::from(i) + 0.5) * 500.0 / f64::from(n))).collect();
-        let integral = psd(&ar, 0.7, Hertz(1000.0), &f).iter().sum::<f64>() * 500.0 / f64::from(n);
-        check(&[integral / (0.7 * power_gain(&ar))], &[1.0], 1e-9);
-    }
-
-    #[test]
-    fn first_order_in_closed_form() {
-        check(&[power_gain(&[-0.6])], &[1.0 / (1.0 - 0.36)], 1e-15);
-        assert_eq!(power_gain(&[1.0]), f64::INFINITY);
-        assert_eq!(power_gain(&[]), 1.0);
-    }
-
-    #[test]
-    fn bad_signals_are_named() {
-        assert_eq!(burg(&[1.0, 2.0], 2), Err(ArError::TooShort { order: 2, len: 2 }));
-        assert_eq!(yule_walker(&[1.0, f64::NAN, 2.0], 1), Err(ArError::NotFinite { index: 1 }));
-        assert_eq!(burg(&[3.0; 50], 2), Err(ArError::Constant));
-    }
-
-    #[test]
-    fn frequencies_run_from_five_hertz_to_just_below_nyquist() {
-        let f = comparison_frequencies(Hertz(1000.0), 256);
-        assert_eq!((f.len(), f[0]), (256, Hertz(5.0)));
-        check(&[f[255].0], &[499.5], 1e-9);
-    }
-}
+mod tests;

@@ -1,0 +1,93 @@
+//! A lower rate at any ratio.
+
+use crate::filter::{LowPass, decimate};
+use crate::units::Hertz;
+
+/// Entries of the kernel's table for a sample of the output: read linearly between, it is wrong by at most
+/// `(π / 1024)² / 8`, a millionth.
+const TABLE_STEPS: usize = 1024;
+
+/// `signal` at the rate `to`, which is `from` or lower: flat and quiet as [`decimate`] is, which does the work where the
+/// ratio is a whole number.
+///
+/// Sample `i` of the result belongs to the time `i / to` from the first sample; the signal counts as zero beyond its ends.
+pub fn resample_down(signal: &[f64], from: Hertz, to: Hertz) -> Vec<f64> {
+    assert!(to.0 > 0.0 && to.0 <= from.0, "a lower rate than {from} was meant, got {to}");
+    let factor = from.0 / to.0;
+    let whole = factor.round();
+    // Clocks that agree to a millionth stay together to a thousandth of a sample for a second's worth of samples.
+    if (factor - whole).abs() < 1e-6 * factor {
+        return decimate(signal, whole as usize);
+    }
+    let kernel = LowPass::new(factor);
+    let step = factor / TABLE_STEPS as f64;
+    let n_table = (kernel.half / step).ceil() as usize + 2;
+    let table: Vec<f64> = (0..n_table).map(|i| kernel.at(i as f64 * step)).collect();
+    let n_out = (signal.len() as f64 / factor).ceil() as usize;
+    (0..n_out)
+        .map(|i| {
+            let center = i as f64 * factor;
+            let first = (center - kernel.half).ceil().max(0.0) as usize;
+            let last = ((center + kernel.half) as usize).min(signal.len() - 1);
+            let (mut sum, mut gain) = (0.0, 0.0);
+            for (j, value) in signal.iter().enumerate().take(last + 1).skip(first) {
+                let at = (j as f64 - center).abs() / step;
+                let entry = at as usize;
+                let share = at - entry as f64;
+                let tap = table[entry] + share * (table[entry + 1] - table[entry]);
+                sum += tap * value;
+                gain += tap;
+            }
+            // Where the whole kernel has samples its sum is one, but for what the table and the grid leave.
+            let inside = center >= kernel.half && center + kernel.half <= (signal.len() - 1) as f64;
+            if inside { sum / gain } else { sum }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::resample_down;
+    use crate::filter::decimate;
+    use crate::rng::lcg_noise;
+    use crate::spectrum::rms;
+    use crate::units::Hertz;
+    use std::f64::consts::TAU;
+
+    fn sine(frequency_hz: f64, rate_hz: f64) -> Vec<f64> {
+        (0..rate_hz as usize).map(|i| (TAU * frequency_hz * i as f64 / rate_hz).sin()).collect()
+    }
+
+    #[test]
+    fn a_sine_in_the_band_is_the_same_sine_and_one_above_is_gone() {
+        for from_hz in [1200.0, 3333.0, 11_025.0, 44_100.0] {
+            for frequency_hz in [20.0, 200.0, 440.0] {
+                let got = resample_down(&sine(frequency_hz, from_hz), Hertz(from_hz), Hertz(1000.0));
+                let expected = sine(frequency_hz, 1000.0);
+                assert_eq!(got.len(), 1000);
+                for (got, expected) in got[200..800].iter().zip(&expected[200..800]) {
+                    // 80 dB in the pass band too, and some for its ripple.
+                    assert!(
+                        (got - expected).abs() < 3e-4,
+                        "{frequency_hz} Hz of {from_hz}: {got}, {expected}"
+                    );
+                }
+            }
+            let above = resample_down(&sine(560.0, from_hz), Hertz(from_hz), Hertz(1000.0));
+            assert!(rms(&above[200..800]) < 3e-4, "{}", rms(&above[200..800]));
+        }
+    }
+
+    #[test]
+    fn whole_ratios_are_those_of_the_decimator() {
+        let x = lcg_noise(4000, 2);
+        assert_eq!(resample_down(&x, Hertz(4000.0), Hertz(1000.0)), decimate(&x, 4));
+        assert_eq!(resample_down(&x, Hertz(1000.0), Hertz(1000.0)), x);
+        assert!(resample_down(&[], Hertz(3333.0), Hertz(1000.0)).is_empty());
+        // The general way beside it, at a ratio just off a whole one.
+        let near = resample_down(&x, Hertz(4000.1), Hertz(1000.0));
+        for (a, b) in near[300..400].iter().zip(&decimate(&x, 4)[300..400]) {
+            assert!((a - b).abs() < 0.06, "{a} for {b}");
+        }
+    }
+}
