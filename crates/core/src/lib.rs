@@ -27,6 +27,7 @@
 
 pub mod ar;
 pub mod blend;
+pub mod boundary;
 pub mod contact_model;
 pub mod dft321;
 pub mod filter;
