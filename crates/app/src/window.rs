@@ -7,6 +7,7 @@ use shagreen_formats::library::Library;
 use crate::canvas::{canvas_ui, point_id};
 use crate::command::{Command, pressed};
 use crate::history::{Gesture, History};
+use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
 use crate::library_panel::library_ui;
 use crate::pad::{PadState, pad_ui};
@@ -14,7 +15,9 @@ use crate::panel::Panel;
 use crate::pictures::Pictures;
 use crate::project::Project;
 use crate::scope::scope_ui;
+use crate::save::SaveSheet;
 use crate::session::{OutputChoice, Session};
+use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
 use crate::strings;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, STAGE_HEIGHT, install, tokens};
@@ -29,6 +32,7 @@ pub struct Window {
     search: String,
     gesture: u64,
     was_holding: bool,
+    sheet: Sheet,
 }
 
 impl Window {
@@ -53,6 +57,7 @@ impl Window {
             search: String::new(),
             gesture: 0,
             was_holding: false,
+            sheet: Sheet::Closed,
         })
     }
 
@@ -64,6 +69,14 @@ impl Window {
     /// What is open and what sounds.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// The import sheet, where it is open.
+    pub fn import(&self) -> Option<&ImportSheet> {
+        match &self.sheet {
+            Sheet::Import(sheet) => Some(sheet),
+            _ => None,
+        }
     }
 
     /// One frame.
@@ -100,6 +113,13 @@ impl Window {
             },
         );
 
+        if self.sheet.is_open() {
+            // What lies below a sheet can be heard, but not changed.
+            let still_works =
+                |c: &Command| matches!(c, Command::ToggleTheme | Command::ToggleMute | Command::ToggleHand);
+            commands.retain(still_works);
+        }
+        commands.extend(self.sheet.show(&ctx, &self.session));
         for command in commands {
             self.carry_out(command, &ctx);
         }
@@ -191,6 +211,10 @@ impl Window {
             Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
             Command::ResetLimiter => self.session.reset_limiter(),
+            Command::OpenImport => self.sheet.import(Vec::new(), ctx),
+            Command::Import(sources) => self.sheet.import(sources, ctx),
+            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::default()),
+            Command::CloseSheet => self.sheet = Sheet::Closed,
         }
     }
 

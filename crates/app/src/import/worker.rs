@@ -267,10 +267,10 @@ fn read(input: &RecordingInput, map: &ColumnMap) -> ReadOutcome {
             };
             ReadOutcome { questions: file.questions, warnings, recording: Some(recording) }
         }
-        Err(RecordingFileError::NeedsAnswers { questions, faults, warnings, .. }) => {
+        Err(RecordingFileError::NeedsAnswers(needs)) => {
             // Where something else is wrong, no answer helps.
-            let recording = (!faults.is_empty()).then(|| Err(sentences(faults.iter())));
-            ReadOutcome { questions, warnings, recording }
+            let recording = (!needs.faults.is_empty()).then(|| Err(sentences(needs.faults.iter())));
+            ReadOutcome { questions: needs.questions, warnings: needs.warnings, recording }
         }
         Err(error) => {
             ReadOutcome { questions: Vec::new(), warnings: Vec::new(), recording: Some(Err(error.to_string())) }
