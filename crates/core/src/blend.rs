@@ -1,6 +1,5 @@
 //! An authored texture: the weights of its parents, and the spectrum of their mixture.
 
-use crate::ar::response;
 use crate::plane::{Grain, Plane};
 use crate::space::{Location, Space, SpacePoint};
 use crate::units::{Contact, Hertz};
@@ -96,11 +95,9 @@ pub fn mixture_psd(
         Mode::Shared => {
             let mut sum = vec![(0.0, 0.0); frequencies.len()];
             for (grain, weight) in &grains {
-                // One-sided density of the excitation is 2 σ² / rate.
-                let gain = weight * (2.0 * grain.excitation_variance() / grain.rate.0).sqrt();
-                for (s, (re, im)) in sum.iter_mut().zip(response(&grain.ar(), grain.rate, frequencies)) {
-                    s.0 += gain * re;
-                    s.1 += gain * im;
+                for (s, (re, im)) in sum.iter_mut().zip(grain.response(frequencies)) {
+                    s.0 += weight * re;
+                    s.1 += weight * im;
                 }
             }
             sum.into_iter().map(|(re, im)| re * re + im * im).collect()

@@ -26,6 +26,7 @@
 )]
 
 pub mod ar;
+pub mod arma;
 pub mod blend;
 pub mod boundary;
 pub mod contact_model;
@@ -36,6 +37,7 @@ pub mod height_field;
 pub mod lsf;
 pub mod material;
 pub mod plane;
+pub mod radial_basis;
 pub mod recording;
 pub mod render;
 pub mod rng;

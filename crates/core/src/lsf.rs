@@ -124,15 +124,20 @@ pub(crate) fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
 /// Frequencies put back in order and at least [`MIN_GAP`] apart and from both ends, for interpolators that can break
 /// the order. Sets that keep the rule already are returned as they are.
 pub fn repair(lsf: &[f64]) -> Vec<f64> {
+    repair_to(lsf, MIN_GAP)
+}
+
+/// The same with a smallest distance of `gap` radians, at most π over one more than there are frequencies.
+pub fn repair_to(lsf: &[f64], gap: f64) -> Vec<f64> {
     let n = lsf.len();
     let mut out = lsf.to_vec();
     out.sort_by(f64::total_cmp);
     for i in 0..n {
-        let floor = if i == 0 { MIN_GAP } else { out[i - 1] + MIN_GAP };
+        let floor = if i == 0 { gap } else { out[i - 1] + gap };
         out[i] = out[i].max(floor);
     }
     for i in (0..n).rev() {
-        let ceiling = if i + 1 == n { PI - MIN_GAP } else { out[i + 1] - MIN_GAP };
+        let ceiling = if i + 1 == n { PI - gap } else { out[i + 1] - gap };
         out[i] = out[i].min(ceiling);
     }
     out

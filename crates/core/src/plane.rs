@@ -1,38 +1,52 @@
 //! A texture's speed-force plane: measured nodes, the boundary around them, and what lies between.
 
+mod boundary;
 mod prepared;
+mod radial;
 mod refined;
+mod values;
 
 pub use crate::plane::prepared::Prepared;
 
-use crate::ar::{power_gain, psd};
-use crate::boundary::{BoundaryModel, boundary};
+use crate::arma;
 use crate::lsf::ar_from_lsf;
-use crate::texture::{MIN_NODE_DISTANCE, TextureModel};
-use crate::triangulation::Triangulation;
+use crate::plane::boundary::boundary;
+use crate::plane::radial::RadialGrain;
+use crate::plane::values::{Strength, Values};
+use crate::texture::{self, GrainNode, Interpolation, MIN_NODE_DISTANCE, PublishedNode, TextureModel};
+use crate::triangulation::{Triangulation, Xy};
 use crate::units::{Contact, Hertz};
 
-/// The grain of a texture at any contact: barycentric in the Delaunay triangles over speed and force, each divided by
-/// its maximum, closed by silent models at zero speed or force and by copies along the edges of full speed and force.
+/// The grain of a texture at any contact.
+///
+/// Measured nodes are interpolated in the Delaunay triangles over speed and force, each divided by its maximum, closed by
+/// silent models at zero speed or force and by copies along the edges of full speed and force; or by a radial basis,
+/// held at its value on the edge of what was measured, with a level that below the lowest speed or force falls in a
+/// straight line to silence. Published nodes bring their boundary with them.
 #[derive(Clone, Debug)]
 pub struct Plane {
     rate: Hertz,
     speed_max_mps: f64,
     force_max_n: f64,
-    /// Line spectral frequencies and level of every vertex.
-    vertices: Vec<(Vec<f64>, f64)>,
+    vertices: Vec<Values>,
     triangulation: Triangulation,
+    /// Where this is, the triangles only stand for it.
+    radial: Option<RadialGrain>,
 }
 
-/// The grain at one contact.
+/// The grain at one contact: white noise through a moving average and a predictor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grain {
     /// Samples a second of the model.
     pub rate: Hertz,
-    /// Line spectral frequencies in radians.
+    /// Line spectral frequencies of the predictor in radians.
     pub lsf: Vec<f64>,
+    /// Line spectral frequencies of the moving average in radians; none where there is none.
+    pub ma_lsf: Vec<f64>,
     /// Root mean square acceleration in m/s².
     pub level_mps2: f64,
+    /// Standard deviation of the white noise that gives the level, in m/s²; a published gain is part of it.
+    pub sigma_mps2: f64,
 }
 
 impl Grain {
@@ -41,48 +55,82 @@ impl Grain {
         ar_from_lsf(&self.lsf)
     }
 
+    /// Coefficients `b_1 … b_q` of the moving average.
+    pub fn ma(&self) -> Vec<f64> {
+        ar_from_lsf(&self.ma_lsf)
+    }
+
     /// Variance of the excitation that gives the level, in (m/s²)².
     pub fn excitation_variance(&self) -> f64 {
-        self.level_mps2 * self.level_mps2 / power_gain(&self.ar())
+        self.sigma_mps2 * self.sigma_mps2
+    }
+
+    /// Transfer function `sqrt(2 σ² / rate) B / A` at each frequency, as (real, imaginary): its square is the density.
+    pub fn response(&self, frequencies: &[Hertz]) -> Vec<(f64, f64)> {
+        let scale = self.sigma_mps2 * (2.0 / self.rate.0).sqrt();
+        let response = arma::response(&self.ar(), &self.ma(), self.rate, frequencies);
+        response.into_iter().map(|(re, im)| (scale * re, scale * im)).collect()
     }
 
     /// One-sided power spectral density in (m/s²)²/Hz at each frequency.
     pub fn psd(&self, frequencies: &[Hertz]) -> Vec<f64> {
-        psd(&self.ar(), self.excitation_variance(), self.rate, frequencies)
+        self.response(frequencies).into_iter().map(|(re, im)| re * re + im * im).collect()
     }
 }
 
 impl Plane {
     /// The plane of a texture.
     pub fn new(texture: &TextureModel) -> Self {
-        let highest = Contact { speed: texture.speed_max(), force: texture.force_max() };
-        let (speed_max_mps, force_max_n) = (highest.speed.0, highest.force.0);
-        let mut points: Vec<[f64; 2]> = Vec::new();
-        let mut vertices = Vec::new();
-        for node in texture.nodes() {
-            // A rounding error off a far edge would make a triangle that is as thin.
-            let snapped = |share: f64| if share > 1.0 - MIN_NODE_DISTANCE { 1.0 } else { share };
-            points.push([node.speed.0 / speed_max_mps, node.force.0 / force_max_n].map(snapped));
-            vertices.push((node.lsf.clone(), node.level_mps2));
-        }
-        let measured: Vec<Contact> = texture.contacts().collect();
-        for BoundaryModel { at, copy_of, silent } in boundary(&measured, highest) {
-            let node = &texture.nodes()[copy_of];
-            points.push([at.speed.0 / speed_max_mps, at.force.0 / force_max_n]);
-            vertices.push((node.lsf.clone(), if silent { 0.0 } else { node.level_mps2 }));
-        }
+        let (speed_max_mps, force_max_n) = (texture.speed_max().0, texture.force_max().0);
+        // A rounding error off an edge would make a triangle that is as thin. Measured nodes may be as near to zero.
+        let is_published = matches!(texture.grain(), texture::Grain::Published { .. });
+        let snapped = |share: f64| match share {
+            _ if share > 1.0 - MIN_NODE_DISTANCE => 1.0,
+            _ if share < MIN_NODE_DISTANCE && is_published => 0.0,
+            _ => share,
+        };
+        let place = |c: Contact| [c.speed.0 / speed_max_mps, c.force.0 / force_max_n].map(snapped);
+        let places: Vec<Xy> = texture.contacts().map(place).collect();
+        let (points, radial) = match texture.grain() {
+            texture::Grain::Measured { nodes, interpolation } => {
+                let radial = match interpolation {
+                    Interpolation::RadialBasis => RadialGrain::new(nodes, &places),
+                    Interpolation::Barycentric => None,
+                };
+                let points = match &radial {
+                    Some(radial) => radial.corners().into_iter().map(|at| (at, radial.at(at))).collect(),
+                    None => closed(nodes, &places, speed_max_mps, force_max_n),
+                };
+                (points, radial)
+            }
+            texture::Grain::Published { nodes } => {
+                (places.into_iter().zip(nodes.iter().map(published)).collect(), None)
+            }
+        };
+        let (points, vertices): (Vec<Xy>, Vec<Values>) = points.into_iter().unzip();
         let triangulation = match Triangulation::new(&points) {
             Ok(triangulation) => triangulation,
             Err(error) => unreachable!("a model's own checks keep shares of the highest in 0..1: {error}"),
         };
-        Self { rate: texture.rate(), speed_max_mps, force_max_n, vertices, triangulation }
+        Self { rate: texture.rate(), speed_max_mps, force_max_n, vertices, triangulation, radial }
     }
 
     /// The grain at `contact`; outside the measured range that of its nearest edge, in the air silent.
     pub fn at(&self, contact: Contact) -> Grain {
         let share = |x: f64, max: f64| if x > 0.0 { (x / max).min(1.0) } else { 0.0 };
         let at = [share(contact.speed.0, self.speed_max_mps), share(contact.force.0, self.force_max_n)];
-        let order = self.vertices[0].0.len();
+        let mut values = match &self.radial {
+            Some(radial) => radial.at(at),
+            None => self.in_triangles(at),
+        };
+        // A published texture may sound on its axes.
+        if at.contains(&0.0) {
+            values.strength = values.strength.silent();
+        }
+        values.into_grain(self.rate)
+    }
+
+    fn in_triangles(&self, at: Xy) -> Values {
         let parts = match self.triangulation.locate(at, 0) {
             Some((triangle, weights)) => {
                 let [a, b, c] = self.triangulation.triangles()[triangle];
@@ -94,13 +142,21 @@ impl Plane {
                 None => unreachable!("a plane has corners"),
             },
         };
-        let mix = |value: &dyn Fn(usize) -> f64| parts.iter().map(|(c, w)| w * value(*c)).sum::<f64>();
-        Grain {
-            rate: self.rate,
-            lsf: (0..order).map(|i| mix(&|c| self.vertices[c].0[i])).collect(),
-            level_mps2: mix(&|c| self.vertices[c].1),
-        }
+        Values::mean(&parts.map(|(vertex, weight)| (&self.vertices[vertex], weight)))
     }
+}
+
+/// Measured nodes and the boundary around them.
+fn closed(nodes: &[GrainNode], places: &[Xy], speed_max_mps: f64, force_max_n: f64) -> Vec<(Xy, Values)> {
+    let measured = nodes.iter().map(|n| Values::measured(n.lsf.clone(), n.level_mps2));
+    let mut points: Vec<(Xy, Values)> = places.iter().copied().zip(measured).collect();
+    points.extend(boundary(nodes, places, speed_max_mps, force_max_n));
+    points
+}
+
+fn published(node: &PublishedNode) -> Values {
+    let strength = Strength::Excitation { variance: node.variance, gain: node.gain };
+    Values { lsf: node.ar_lsf.clone(), ma_lsf: node.ma_lsf.clone(), strength }
 }
 
 #[cfg(test)]

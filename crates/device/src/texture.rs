@@ -1,6 +1,6 @@
 //! A prepared texture that owns its numbers and lends them to the callback.
 
-use shagreen_synth::texture::{self, Node, Parts, Texture, Triangle};
+use shagreen_synth::texture::{self, Excitation, Node, Parts, Texture, Triangle};
 
 /// Why numbers do not make a texture.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -26,6 +26,7 @@ fn explain(reason: texture::TextureError) -> &'static str {
         texture::TextureError::Order => "the order is zero or too high",
         texture::TextureError::Range => "the rate, or the largest speed or force, is not a positive number",
         texture::TextureError::Triangle => "there is no triangle, or one names a node that does not exist",
+        texture::TextureError::Excitation => "some nodes have an excitation and others have none",
         texture::TextureError::Number => "a number is not finite, or frequencies do not ascend",
         _ => "it breaks a rule of the renderer",
     }
@@ -36,9 +37,11 @@ fn explain(reason: texture::TextureError) -> &'static str {
 pub struct OwnedTexture {
     rate_hz: f32,
     order: usize,
+    ma_order: usize,
     speed_max_mps: f32,
     force_max_n: f32,
     nodes: Box<[Node]>,
+    excitations: Box<[Excitation]>,
     triangles: Box<[Triangle]>,
 }
 
@@ -48,7 +51,8 @@ impl OwnedTexture {
     /// # Errors
     /// [`TextureError`] where the renderer would refuse it.
     pub fn new(parts: Parts<'_>) -> Result<Self, TextureError> {
-        let Parts { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles } = parts;
+        let Parts { rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, triangles } =
+            parts;
         Texture::new(parts).map_err(|reason| TextureError {
             reason,
             order,
@@ -56,8 +60,16 @@ impl OwnedTexture {
             n_nodes: nodes.len(),
             n_triangles: triangles.len(),
         })?;
-        let (nodes, triangles) = (nodes.into(), triangles.into());
-        Ok(Self { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles })
+        Ok(Self {
+            rate_hz,
+            order,
+            ma_order,
+            speed_max_mps,
+            force_max_n,
+            nodes: nodes.into(),
+            excitations: excitations.into(),
+            triangles: triangles.into(),
+        })
     }
 
     /// Samples a second of the model, in Hz.
@@ -67,8 +79,16 @@ impl OwnedTexture {
 
     /// The texture as the renderer sees it: checked when it was made, and unchanged since.
     pub fn view(&self) -> Texture<'_> {
-        let Self { rate_hz, order, speed_max_mps, force_max_n, ref nodes, ref triangles } = *self;
-        Texture::checked_before(Parts { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles })
+        Texture::checked_before(Parts {
+            rate_hz: self.rate_hz,
+            order: self.order,
+            ma_order: self.ma_order,
+            speed_max_mps: self.speed_max_mps,
+            force_max_n: self.force_max_n,
+            nodes: &self.nodes,
+            excitations: &self.excitations,
+            triangles: &self.triangles,
+        })
     }
 }
 
@@ -95,7 +115,16 @@ pub(crate) mod tests {
             triangle([0, 2, 3], [NO_NEIGHBOR, NO_NEIGHBOR, 0], [0.0, -1.0, 1.0, 1.0, 0.0, 0.0]),
         ];
         let (nodes, triangles) = (&nodes, &triangles);
-        OwnedTexture::new(Parts { rate_hz, order: 2, speed_max_mps: 1.0, force_max_n: 1.0, nodes, triangles })
+        OwnedTexture::new(Parts {
+            rate_hz,
+            order: 2,
+            ma_order: 0,
+            speed_max_mps: 1.0,
+            force_max_n: 1.0,
+            nodes,
+            excitations: &[],
+            triangles,
+        })
     }
 
     #[test]

@@ -37,9 +37,11 @@ fn texture(level_mps2: f32) -> OwnedTexture {
     OwnedTexture::new(Parts {
         rate_hz: 1000.0,
         order: 2,
+        ma_order: 0,
         speed_max_mps: 1.0,
         force_max_n: 1.0,
         nodes,
+        excitations: &[],
         triangles,
     })
     .unwrap()

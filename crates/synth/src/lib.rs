@@ -37,6 +37,7 @@
 pub mod contact;
 pub mod limiter;
 pub mod lsf;
+mod moving_average;
 pub mod noise;
 pub mod renderer;
 pub mod resampler;

@@ -17,6 +17,17 @@ pub struct Node {
     pub lsf: [f32; MAX_ORDER],
 }
 
+/// What drives the predictor of a published texture at a node, in place of the node's level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excitation {
+    /// Variance of the white noise, in (m/s²)²; zero where the node is silent.
+    pub variance: f32,
+    /// Gain after it, without a unit.
+    pub gain: f32,
+    /// Line spectral frequencies of the moving average in radians (0, π), ascending; the first `ma_order` count.
+    pub ma_lsf: [f32; MAX_ORDER],
+}
+
 /// Three nodes and the affine map from a contact to its weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
@@ -27,8 +38,8 @@ pub struct Triangle {
     /// First weight `= m[0] x + m[1] y + m[2]`, second likewise from `m[3..]`, with `x = speed / speed_max` and
     /// `y = force / force_max`; the third is what is left of one.
     pub weights: [f32; 6],
-    /// ln of the power gain `1 / Π (1 - k²)` of the predictor at the three nodes, then at the middles of the edges
-    /// opposite each node. The gain between is the quadratic through these six: interpolated frequencies do not have
+    /// ln of the power gain, that of the predictor alone being `1 / Π (1 - k²)`, at the three nodes, then at the middles
+    /// of the edges opposite each node. The gain between is the quadratic through these six: interpolated frequencies do not have
     /// interpolated gains, and an exact gain would cost a step-down recursion at every tick.
     pub ln_gain: [f32; 6],
 }
@@ -37,7 +48,7 @@ pub struct Triangle {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TextureError {
-    /// The order is zero or above [`MAX_ORDER`].
+    /// The order is zero or above [`MAX_ORDER`], or there is a moving average without excitations.
     Order,
     /// The rate, or the largest speed or force, is not a positive finite number.
     Range,
@@ -45,6 +56,8 @@ pub enum TextureError {
     Triangle,
     /// A level, frequency, weight or gain is not finite, or frequencies do not ascend within (0, π).
     Number,
+    /// There are excitations, but not one for each node.
+    Excitation,
 }
 
 /// What a prepared texture is made of, as its owner lends it.
@@ -54,12 +67,16 @@ pub struct Parts<'a> {
     pub rate_hz: f32,
     /// Order of the predictor, the same at every node.
     pub order: usize,
+    /// Order of the moving average, the same at every node; zero where there is none.
+    pub ma_order: usize,
     /// Speed at which the texture saturates, in m/s.
     pub speed_max_mps: f32,
     /// Force at which the texture saturates, in N.
     pub force_max_n: f32,
     /// Nodes of the plane.
     pub nodes: &'a [Node],
+    /// For a published texture one for each node: excitations are interpolated instead of levels. Else none.
+    pub excitations: &'a [Excitation],
     /// Triangles over the nodes.
     pub triangles: &'a [Triangle],
 }
@@ -73,6 +90,10 @@ pub struct Texture<'a>(Parts<'a>);
 pub struct Evaluated {
     /// Line spectral frequencies in radians; the first `order` count.
     pub lsf: [f32; MAX_ORDER],
+    /// Line spectral frequencies of the moving average in radians; the first `ma_order` count.
+    pub ma_lsf: [f32; MAX_ORDER],
+    /// Order of the moving average; zero where there is none.
+    pub ma_order: usize,
     /// Output level, the root mean square in m/s².
     pub level_mps2: f32,
     /// Standard deviation of the excitation that gives this level, in m/s².
@@ -85,22 +106,30 @@ impl<'a> Texture<'a> {
     /// # Errors
     /// [`TextureError`] names the first rule that a slice breaks.
     pub fn new(parts: Parts<'a>) -> Result<Self, TextureError> {
-        let Parts { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles } = parts;
+        let Parts { rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, triangles } =
+            parts;
         let positive = |x: f32| x.is_finite() && x > 0.0;
-        if order == 0 || order > MAX_ORDER {
+        let is_published = !excitations.is_empty();
+        if order == 0 || order > MAX_ORDER || ma_order > MAX_ORDER || (ma_order > 0 && !is_published) {
             return Err(TextureError::Order);
         }
         if !(positive(rate_hz) && positive(speed_max_mps) && positive(force_max_n)) {
             return Err(TextureError::Range);
         }
         let node_is_good = |node: &Node| {
-            node.level_mps2.is_finite()
-                && node.level_mps2 >= 0.0
-                && node.lsf[0] > 0.0
-                && node.lsf[order - 1] < core::f32::consts::PI
-                && node.lsf[..order].windows(2).all(|w| w[0] < w[1])
+            node.level_mps2.is_finite() && node.level_mps2 >= 0.0 && ascends(&node.lsf[..order])
         };
         if !nodes.iter().all(node_is_good) {
+            return Err(TextureError::Number);
+        }
+        if is_published && excitations.len() != nodes.len() {
+            return Err(TextureError::Excitation);
+        }
+        let excitation_is_good = |excitation: &Excitation| {
+            let Excitation { variance, gain, ma_lsf } = excitation;
+            [variance, gain].iter().all(|x| x.is_finite() && **x >= 0.0) && ascends(&ma_lsf[..ma_order])
+        };
+        if !excitations.iter().all(excitation_is_good) {
             return Err(TextureError::Number);
         }
         let n_triangles = triangles.len();
@@ -124,7 +153,8 @@ impl<'a> Texture<'a> {
     /// A texture over slices that [`Texture::new`] has accepted before: free, for an owner who lends them at every tick.
     /// Slices that would not have been accepted are silent or not finite, never out of bounds.
     pub fn checked_before(parts: Parts<'a>) -> Self {
-        Self(Parts { order: parts.order.min(MAX_ORDER), ..parts })
+        let (order, ma_order) = (parts.order.min(MAX_ORDER), parts.ma_order.min(MAX_ORDER));
+        Self(Parts { order, ma_order, ..parts })
     }
 
     /// Samples a second of the model, in Hz.
@@ -145,22 +175,44 @@ impl<'a> Texture<'a> {
         let contact = contact.sanitized();
         let x = (contact.speed_mps / self.0.speed_max_mps).min(1.0);
         let y = (contact.force_n / self.0.force_max_n).min(1.0);
-        let mut lsf = [0.0; MAX_ORDER];
-        let silent = Evaluated { lsf, level_mps2: 0.0, sigma_mps2: 0.0 };
-        let Some((triangle, [u, v, w])) = self.locate(x, y, hint) else { return silent };
+        let none = [0.0; MAX_ORDER];
+        let mut at = Evaluated { lsf: none, ma_lsf: none, ma_order: 0, level_mps2: 0.0, sigma_mps2: 0.0 };
+        let Some((triangle, weights)) = self.locate(x, y, hint) else { return at };
+        let [u, v, w] = weights;
         let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.0.nodes.get(usize::from(n))) else {
-            return silent;
+            return at;
         };
-        for (i, out) in lsf[..self.0.order].iter_mut().enumerate() {
+        for (i, out) in at.lsf[..self.0.order].iter_mut().enumerate() {
             *out = u * a.lsf[i] + v * b.lsf[i] + w * c.lsf[i];
         }
-        let level_mps2 = (u * a.level_mps2 + v * b.level_mps2 + w * c.level_mps2).max(0.0);
         let g = &triangle.ln_gain;
         let ln_gain = u * (2.0 * u - 1.0) * g[0]
             + v * (2.0 * v - 1.0) * g[1]
             + w * (2.0 * w - 1.0) * g[2]
             + 4.0 * (v * w * g[3] + w * u * g[4] + u * v * g[5]);
-        Evaluated { lsf, level_mps2, sigma_mps2: level_mps2 * libm::expf(-0.5 * ln_gain) }
+        if self.0.excitations.is_empty() {
+            at.level_mps2 = (u * a.level_mps2 + v * b.level_mps2 + w * c.level_mps2).max(0.0);
+            at.sigma_mps2 = at.level_mps2 * libm::expf(-0.5 * ln_gain);
+        } else if x > 0.0 && y > 0.0 {
+            // A published texture may sound on its axes, but in the air nothing sounds.
+            self.excite(triangle, weights, &mut at);
+            at.level_mps2 = at.sigma_mps2 * libm::expf(0.5 * ln_gain);
+        }
+        at
+    }
+
+    /// The moving average and the excitation of a published texture: variance and gain each linear in the triangle.
+    fn excite(&self, triangle: &Triangle, [u, v, w]: [f32; 3], at: &mut Evaluated) {
+        let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.0.excitations.get(usize::from(n)))
+        else {
+            return;
+        };
+        at.ma_order = self.0.ma_order;
+        for (i, out) in at.ma_lsf[..at.ma_order].iter_mut().enumerate() {
+            *out = u * a.ma_lsf[i] + v * b.ma_lsf[i] + w * c.ma_lsf[i];
+        }
+        let variance = u * a.variance + v * b.variance + w * c.variance;
+        at.sigma_mps2 = (u * a.gain + v * b.gain + w * c.gain) * libm::sqrtf(variance.max(0.0));
     }
 
     /// The triangle that holds a normalized contact, and its three weights, each at least zero, that sum to one.
@@ -193,6 +245,13 @@ impl<'a> Texture<'a> {
         let sum = clamped[0] + clamped[1] + clamped[2];
         Some((triangle, if sum > 0.0 { clamped.map(|w| w / sum) } else { [1.0, 0.0, 0.0] }))
     }
+}
+
+/// Whether frequencies ascend within (0, π); none do.
+fn ascends(lsf: &[f32]) -> bool {
+    lsf.first().is_none_or(|low| *low > 0.0)
+        && lsf.last().is_none_or(|high| *high < core::f32::consts::PI)
+        && lsf.windows(2).all(|w| w[0] < w[1])
 }
 
 #[cfg(test)]

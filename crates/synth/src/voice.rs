@@ -1,6 +1,7 @@
 //! One texture sounding: its coefficients, its memory, its noise, and its weight on the way up or down.
 
 use crate::lsf::ar_from_lsf;
+use crate::moving_average::MovingAverage;
 use crate::texture::{Evaluated, MAX_ORDER};
 
 /// Coefficients that meet the four newest outputs; those wait for the last sample, the rest do not.
@@ -25,6 +26,7 @@ pub struct Voice {
     memory: [f32; MAX_ORDER + MAX_TICK],
     sigma: f32,
     sigma_next: f32,
+    moving_average: MovingAverage,
 }
 
 impl Default for Voice {
@@ -43,6 +45,7 @@ impl Voice {
             memory: [0.0; MAX_ORDER + MAX_TICK],
             sigma: 0.0,
             sigma_next: 0.0,
+            moving_average: MovingAverage::new(),
         }
     }
 
@@ -56,6 +59,7 @@ impl Voice {
         for (chunk, a) in self.older.iter_mut().zip(ar[RECENT..].chunks_exact(LANES)) {
             *chunk = [a[3], a[2], a[1], a[0]];
         }
+        self.moving_average.aim(&at.ma_lsf[..at.ma_order.min(MAX_ORDER)]);
         self.sigma = self.sigma_next;
         self.sigma_next = if at.sigma_mps2 < TINY_MPS2 { 0.0 } else { at.sigma_mps2 };
     }
@@ -63,33 +67,61 @@ impl Voice {
     /// Adds the voice's output to `out` (at most [`MAX_TICK`] samples), times a weight that goes from `weights.0`
     /// to `weights.1`, driven by `noise` of unit variance and the same length.
     ///
-    /// Cost a sample: `order` multiply-adds, all but four of them independent of the sample before.
+    /// Cost a sample: `order` multiply-adds, all but four of them independent of the sample before; with a moving
+    /// average [`MAX_ORDER`] more.
     #[inline]
     pub fn add_tick(&mut self, noise: &[f32], weights: (f32, f32), out: &mut [f32]) {
-        match self.n_chunks {
-            // The orders that models have: known lengths keep the coefficients in registers.
-            2 => self.run::<2>(noise, weights, out),
-            3 => self.run::<3>(noise, weights, out),
-            4 => self.run::<4>(noise, weights, out),
-            _ => self.run::<MAX_CHUNKS>(noise, weights, out),
-        }
-    }
-
-    #[inline]
-    fn run<const CHUNKS: usize>(&mut self, noise: &[f32], weights: (f32, f32), out: &mut [f32]) {
         let n = noise.len().min(out.len()).min(MAX_TICK);
         if n == 0 {
             return;
         }
+        let sigmas = (self.sigma, self.sigma_next);
+        if self.moving_average.is_empty() {
+            self.add(&noise[..n], sigmas, weights, &mut out[..n]);
+        } else {
+            let mut driven = [0.0; MAX_TICK];
+            let step = (sigmas.1 - sigmas.0) / n as f32;
+            let mut sigma = sigmas.0;
+            for (x, e) in driven.iter_mut().zip(&noise[..n]) {
+                sigma += step;
+                *x = sigma * e;
+            }
+            self.moving_average.filter(&mut driven[..n]);
+            self.add(&driven[..n], (1.0, 1.0), weights, &mut out[..n]);
+        }
+        self.sigma = self.sigma_next;
+        self.settle();
+    }
+
+    #[inline]
+    fn add(&mut self, noise: &[f32], sigmas: (f32, f32), weights: (f32, f32), out: &mut [f32]) {
+        match self.n_chunks {
+            // The orders that models have: known lengths keep the coefficients in registers.
+            2 => self.run::<2>(noise, sigmas, weights, out),
+            3 => self.run::<3>(noise, sigmas, weights, out),
+            4 => self.run::<4>(noise, sigmas, weights, out),
+            _ => self.run::<MAX_CHUNKS>(noise, sigmas, weights, out),
+        }
+    }
+
+    #[inline]
+    fn run<const CHUNKS: usize>(
+        &mut self,
+        noise: &[f32],
+        sigmas: (f32, f32),
+        weights: (f32, f32),
+        out: &mut [f32],
+    ) {
+        let n = noise.len().min(out.len()).min(MAX_TICK);
         let per_sample = 1.0 / n as f32;
         let (sigma_step, weight_step) =
-            ((self.sigma_next - self.sigma) * per_sample, (weights.1 - weights.0) * per_sample);
+            ((sigmas.1 - sigmas.0) * per_sample, (weights.1 - weights.0) * per_sample);
         let older: [[f32; LANES]; CHUNKS] = core::array::from_fn(|i| self.older[i]);
         let [a1, a2, a3, a4] = self.recent;
         let m = &mut self.memory;
         let (mut y1, mut y2, mut y3, mut y4) =
             (m[MAX_ORDER - 1], m[MAX_ORDER - 2], m[MAX_ORDER - 3], m[MAX_ORDER - 4]);
-        let (mut sigma, mut weight) = (self.sigma, weights.0);
+        let (mut sigma, mut weight) = (sigmas.0, weights.0);
         for i in 0..n {
             let mut sum = [0.0_f32; LANES];
             for (chunk_idx, a) in older.iter().enumerate() {
@@ -108,8 +140,6 @@ impl Voice {
             out[i] += weight * y;
         }
         m.copy_within(n.., 0);
-        self.sigma = self.sigma_next;
-        self.settle();
     }
 
     /// A memory that has all but rung out becomes exactly zero: numbers below 1e-38 slow a processor by hundreds of
@@ -146,7 +176,7 @@ mod tests {
             // Uneven gaps: resonances where they are narrow.
             *w = core::f32::consts::PI * (i as f32 + 0.7 + 0.25 * (i as f32).sin()) / (order as f32 + 1.0);
         }
-        Evaluated { lsf, level_mps2: 1.0, sigma_mps2 }
+        Evaluated { lsf, ma_lsf: [0.0; MAX_ORDER], ma_order: 0, level_mps2: 1.0, sigma_mps2 }
     }
 
     #[test]

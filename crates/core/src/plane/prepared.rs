@@ -1,9 +1,10 @@
 //! A texture as the renderer takes it: in `f32`, with triangles small enough for the level.
 
-use shagreen_synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, Triangle};
+use shagreen_synth::texture::{Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, Triangle};
 
 use crate::plane::Plane;
 use crate::plane::refined::{Refined, Vertex};
+use crate::plane::values::Strength;
 use crate::triangulation::weights_at;
 
 /// A texture as the renderer takes it.
@@ -11,29 +12,31 @@ use crate::triangulation::weights_at;
 pub struct Prepared {
     rate_hz: f32,
     order: usize,
+    ma_order: usize,
     speed_max_mps: f32,
     force_max_n: f32,
     nodes: Vec<Node>,
+    /// One for each node, or none.
+    excitations: Vec<Excitation>,
     triangles: Vec<Triangle>,
 }
 
 impl Plane {
-    /// What the renderer needs: nodes and triangles in `f32`, with the gain of the predictor at corners and at the
-    /// middles of edges, and more triangles than the plane has where a quadratic through these would miss the level.
+    /// What the renderer needs: nodes and triangles in `f32`, with the gain of the filter at corners and at the
+    /// middles of edges, and more triangles than the plane has where a quadratic through these would miss the level,
+    /// or triangles a radial basis.
     pub fn prepare(&self) -> Prepared {
-        let vertex = |(at, (lsf, level)): (&[f64; 2], &(Vec<f64>, f64))| Vertex {
-            at: *at,
-            lsf: lsf.clone(),
-            level_mps2: *level,
-        };
-        let vertices = self.triangulation.points().iter().zip(&self.vertices).map(vertex).collect();
-        let refined = Refined::new(vertices, &self.triangulation);
+        let points = self.triangulation.points().iter().zip(&self.vertices);
+        let vertices = points.map(|(at, values)| Vertex { at: *at, values: values.clone() }).collect();
+        let refined = Refined::new(vertices, &self.triangulation, self.radial.as_ref());
         Prepared {
             rate_hz: self.rate.0 as f32,
-            order: self.vertices[0].0.len(),
+            order: self.vertices[0].lsf.len(),
+            ma_order: self.vertices[0].ma_lsf.len(),
             speed_max_mps: self.speed_max_mps as f32,
             force_max_n: self.force_max_n as f32,
             nodes: refined.vertices.iter().map(node).collect(),
+            excitations: refined.vertices.iter().filter_map(excitation).collect(),
             triangles: (0..refined.triangles.len()).map(|index| triangle(&refined, index)).collect(),
         }
     }
@@ -47,8 +50,16 @@ impl Prepared {
 
     /// What the texture is made of.
     pub fn parts(&self) -> Parts<'_> {
-        let Self { rate_hz, order, speed_max_mps, force_max_n, ref nodes, ref triangles } = *self;
-        Parts { rate_hz, order, speed_max_mps, force_max_n, nodes, triangles }
+        Parts {
+            rate_hz: self.rate_hz,
+            order: self.order,
+            ma_order: self.ma_order,
+            speed_max_mps: self.speed_max_mps,
+            force_max_n: self.force_max_n,
+            nodes: &self.nodes,
+            excitations: &self.excitations,
+            triangles: &self.triangles,
+        }
     }
 
     /// The texture lent to a renderer.
@@ -59,14 +70,29 @@ impl Prepared {
 }
 
 fn node(vertex: &Vertex) -> Node {
-    let mut lsf = [0.0; MAX_ORDER];
-    for (narrow, wide) in lsf.iter_mut().zip(&vertex.lsf) {
-        *narrow = *wide as f32;
-    }
-    Node { level_mps2: vertex.level_mps2 as f32, lsf }
+    Node { level_mps2: vertex.values.level_mps2() as f32, lsf: narrow(&vertex.values.lsf) }
 }
 
-fn triangle(refined: &Refined, index: usize) -> Triangle {
+fn excitation(vertex: &Vertex) -> Option<Excitation> {
+    match vertex.values.strength {
+        Strength::Level { .. } => None,
+        Strength::Excitation { variance, gain } => Some(Excitation {
+            variance: variance as f32,
+            gain: gain as f32,
+            ma_lsf: narrow(&vertex.values.ma_lsf),
+        }),
+    }
+}
+
+fn narrow(lsf: &[f64]) -> [f32; MAX_ORDER] {
+    let mut out = [0.0; MAX_ORDER];
+    for (narrow, wide) in out.iter_mut().zip(lsf) {
+        *narrow = *wide as f32;
+    }
+    out
+}
+
+fn triangle(refined: &Refined<'_>, index: usize) -> Triangle {
     let corners = refined.triangles[index];
     // The weights are affine: their values at three points give the map.
     let places = corners.map(|corner| refined.vertices[corner].at);

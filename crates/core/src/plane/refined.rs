@@ -1,16 +1,17 @@
-//! Triangles small enough for the level: where the quadratic of the callback misses the gain of the predictor, edges
-//! are halved.
+//! Triangles small enough for the level: where the quadratic of the callback misses the gain of the filter, edges are
+//! halved.
 //!
 //! A new vertex has the mean of its edge's two, so the grain at any contact stays the same; only the quadratic through
-//! corners and middles comes nearer to the gain. Halving an edge splits the triangles on both its sides: no corner ever
+//! corners and middles comes nearer to the gain. Where triangles stand for a radial basis, edges are halved until they
+//! are near enough to that too, and a new vertex has its values. Halving an edge splits the triangles on both its sides: no corner ever
 //! lies on another triangle's edge. Placing a vertex on a Delaunay triangulation like that leaves one that is the lower
 //! hull of a lifted surface, so that walks from triangle to triangle still end (H. Edelsbrunner, "An acyclicity theorem
 //! for cell complexes in d dimension", 1990).
 
 use std::collections::{BTreeMap, VecDeque};
 
-use crate::ar::power_gain;
-use crate::lsf::ar_from_lsf;
+use crate::plane::radial::RadialGrain;
+use crate::plane::values::Values;
 use crate::triangulation::{Triangulation, Xy};
 
 /// Error of ln gain at which an edge is halved: 0.04 dB of level, less than half of what is promised, since only a few points of
@@ -21,10 +22,10 @@ const TOLERANCE: f64 = 0.04 / (10.0 * std::f64::consts::LOG10_E);
 const FLATTEST: f64 = 2.5e-3;
 /// Most triangles that one becomes on average, so that preparing a wild texture takes a bounded time.
 const MOST_EACH: usize = 8;
+/// Most triangles that stand for a radial basis, where that is more: about a tenth of a second of work.
+const MOST_FOR_BASIS: usize = 4000;
 /// Most triangles in all: their numbers have 16 bits in the renderer.
 const MOST: usize = 60_000;
-/// Highest ln gain, for predictors that rounding makes unstable: what such a model sounds like is silence.
-const HIGHEST_LN_GAIN: f64 = 60.0;
 
 /// Where the quadratic is looked at inside a triangle: in its middle, and half-way from there to the corners.
 const INSIDE: [[f64; 3]; 4] = [
@@ -39,19 +40,18 @@ const INSIDE: [[f64; 3]; 4] = [
 pub(super) struct Vertex {
     /// Place, in shares of the highest speed and force.
     pub(super) at: Xy,
-    /// Line spectral frequencies.
-    pub(super) lsf: Vec<f64>,
-    /// Level.
-    pub(super) level_mps2: f64,
+    /// What is there.
+    pub(super) values: Values,
 }
 
-/// Triangles over vertices, with ln of the predictor's power gain where the callback needs it.
+/// Triangles over vertices, with ln of the filter's power gain where the callback needs it.
 #[derive(Debug)]
-pub(super) struct Refined {
+pub(super) struct Refined<'a> {
     pub(super) vertices: Vec<Vertex>,
     pub(super) triangles: Vec<[usize; 3]>,
     ln_gains: Vec<f64>,
     edges: BTreeMap<(usize, usize), Edge>,
+    radial: Option<&'a RadialGrain>,
 }
 
 #[derive(Debug)]
@@ -60,20 +60,26 @@ struct Edge {
     sides: [Option<usize>; 2],
     /// ln gain at its middle.
     middle: f64,
-    /// Largest error of the quadratic along it.
+    /// Largest error along it, in units of what is tolerated.
     error: f64,
 }
 
-impl Refined {
-    /// The triangles over `vertices`, halved until the level is right to [`TOLERANCE`], as far as the limits allow.
-    pub(super) fn new(vertices: Vec<Vertex>, triangulation: &Triangulation) -> Self {
-        let ln_gains = vertices.iter().map(|v| ln_gain(&v.lsf)).collect();
+impl<'a> Refined<'a> {
+    /// The triangles over `vertices`, halved until the level is right to [`TOLERANCE`], and near enough to the radial
+    /// basis that they stand for, as far as the limits allow.
+    pub(super) fn new(
+        vertices: Vec<Vertex>,
+        triangulation: &Triangulation,
+        radial: Option<&'a RadialGrain>,
+    ) -> Self {
+        let ln_gains = vertices.iter().map(|v| v.values.ln_gain()).collect();
         let triangles = triangulation.triangles().to_vec();
-        let mut refined = Self { vertices, triangles, ln_gains, edges: BTreeMap::new() };
+        let mut refined = Self { vertices, triangles, ln_gains, edges: BTreeMap::new(), radial };
         for triangle in 0..refined.triangles.len() {
             refined.join(triangle);
         }
-        let most = (MOST_EACH * refined.triangles.len()).min(MOST);
+        let least = if radial.is_some() { MOST_FOR_BASIS } else { 0 };
+        let most = (MOST_EACH * refined.triangles.len()).max(least).min(MOST);
         let mut unchecked: VecDeque<usize> = (0..refined.triangles.len()).collect();
         while let Some(triangle) = unchecked.pop_front() {
             if refined.triangles.len() + 2 > most {
@@ -103,12 +109,12 @@ impl Refined {
         [across(b, c), across(c, a), across(a, b)]
     }
 
-    /// The edge of a triangle to halve: the one where the quadratic is worst, if it is bad anywhere in the triangle.
+    /// The edge of a triangle to halve: the one with the largest error, if it is bad anywhere in the triangle.
     fn edge_to_halve(&self, triangle: usize) -> Option<(usize, usize)> {
         let [a, b, c] = self.triangles[triangle];
         let sides = [sorted(b, c), sorted(c, a), sorted(a, b)];
         let worst_edge = sides.iter().map(|side| self.edges[side].error).fold(0.0, f64::max);
-        if worst_edge <= TOLERANCE && INSIDE.iter().all(|at| self.error_at(triangle, *at) <= TOLERANCE) {
+        if worst_edge <= 1.0 && INSIDE.iter().all(|at| self.error_at(triangle, *at) <= 1.0) {
             return None;
         }
         let is_divisible = |side: &(usize, usize)| {
@@ -127,32 +133,44 @@ impl Refined {
         double_area / length(a, b).max(length(b, c)).max(length(c, a))
     }
 
-    /// Error of the quadratic inside a triangle.
+    /// Error inside a triangle, in units of what is tolerated.
     fn error_at(&self, triangle: usize, [u, v, w]: [f64; 3]) -> f64 {
-        let [a, b, c] = self.triangles[triangle];
-        let exact = ln_gain(&self.mean_lsf(&[(a, u), (b, v), (c, w)]));
+        let corners = self.triangles[triangle];
+        let (at, values) = self.mean(&[(corners[0], u), (corners[1], v), (corners[2], w)]);
         let [a, b, c, opposite_a, opposite_b, opposite_c] = self.ln_gains(triangle);
         let corners = u * (2.0 * u - 1.0) * a + v * (2.0 * v - 1.0) * b + w * (2.0 * w - 1.0) * c;
         let middles = v * w * opposite_a + w * u * opposite_b + u * v * opposite_c;
-        (corners + 4.0 * middles - exact).abs()
+        self.error(at, &values, corners + 4.0 * middles)
     }
 
-    fn mean_lsf(&self, parts: &[(usize, f64)]) -> Vec<f64> {
-        let order = self.vertices[parts[0].0].lsf.len();
-        (0..order).map(|i| parts.iter().map(|(v, w)| w * self.vertices[*v].lsf[i]).sum()).collect()
+    /// Error where triangles have `values` and the callback takes `ln_gain`, in units of what is tolerated.
+    fn error(&self, at: Xy, values: &Values, ln_gain: f64) -> f64 {
+        let of_gain = (ln_gain - values.ln_gain()).abs() / TOLERANCE;
+        self.radial.map_or(of_gain, |radial| of_gain.max(radial.error(at, values)))
+    }
+
+    /// A place between vertices, and what triangles have there.
+    fn mean(&self, parts: &[(usize, f64)]) -> (Xy, Values) {
+        let at = [0, 1].map(|axis| parts.iter().map(|(v, w)| w * self.vertices[*v].at[axis]).sum());
+        let values: Vec<_> = parts.iter().map(|(v, w)| (&self.vertices[*v].values, *w)).collect();
+        (at, Values::mean(&values))
     }
 
     /// Puts a new vertex in the middle of an edge; gives the triangles that have changed.
     fn halve(&mut self, a: usize, b: usize) -> Vec<usize> {
         let Some(edge) = self.edges.remove(&(a, b)) else { return Vec::new() };
-        let (first, second) = (&self.vertices[a], &self.vertices[b]);
         let middle = self.vertices.len();
-        self.vertices.push(Vertex {
-            at: [0, 1].map(|axis| 0.5 * (first.at[axis] + second.at[axis])),
-            lsf: self.mean_lsf(&[(a, 0.5), (b, 0.5)]),
-            level_mps2: 0.5 * (first.level_mps2 + second.level_mps2),
-        });
-        self.ln_gains.push(edge.middle);
+        let (at, mean) = self.mean(&[(a, 0.5), (b, 0.5)]);
+        let (values, ln_gain) = match self.radial {
+            Some(radial) => {
+                let values = radial.at(at);
+                let ln_gain = values.ln_gain();
+                (values, ln_gain)
+            }
+            None => (mean, edge.middle),
+        };
+        self.vertices.push(Vertex { at, values });
+        self.ln_gains.push(ln_gain);
         let mut changed = Vec::new();
         for triangle in edge.sides.into_iter().flatten() {
             let corners = self.triangles[triangle];
@@ -179,12 +197,18 @@ impl Refined {
         let [a, b, c] = self.triangles[triangle];
         for (a, b) in [sorted(b, c), sorted(c, a), sorted(a, b)] {
             if !self.edges.contains_key(&(a, b)) {
-                let at = |w: f64| ln_gain(&self.mean_lsf(&[(a, 1.0 - w), (b, w)]));
-                let (first, second, middle) = (self.ln_gains[a], self.ln_gains[b], at(0.5));
+                let at = |w: f64| self.mean(&[(a, 1.0 - w), (b, w)]);
+                let (place, values) = at(0.5);
+                let (first, second, middle) = (self.ln_gains[a], self.ln_gains[b], values.ln_gain());
                 // The quadratic through both ends and the middle, at a quarter of the way from the near end.
                 let quadratic = |near: f64, far: f64| 0.375 * near + 0.75 * middle - 0.125 * far;
-                let error = (quadratic(first, second) - at(0.25)).abs();
-                let error = error.max((quadratic(second, first) - at(0.75)).abs());
+                let error = [(0.25, first, second), (0.75, second, first)]
+                    .map(|(w, near, far)| {
+                        let (place, values) = at(w);
+                        self.error(place, &values, quadratic(near, far))
+                    })
+                    .into_iter()
+                    .fold(self.error(place, &values, middle), f64::max);
                 self.edges.insert((a, b), Edge { sides: [None; 2], middle, error });
             }
             if let Some(edge) = self.edges.get_mut(&(a, b))
@@ -200,8 +224,4 @@ impl Refined {
 /// An edge by its ends, whichever comes first.
 fn sorted(a: usize, b: usize) -> (usize, usize) {
     (a.min(b), a.max(b))
-}
-
-fn ln_gain(lsf: &[f64]) -> f64 {
-    power_gain(&ar_from_lsf(lsf)).ln().min(HIGHEST_LN_GAIN)
 }

@@ -1,5 +1,5 @@
 extern crate std;
-use super::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, TextureError, Triangle};
+use super::{Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, TextureError, Triangle};
 use crate::contact::Contact;
 
 /// Order 2 on the unit square of 1 m/s and 1 N: silent but at the corner of full speed and force.
@@ -32,7 +32,16 @@ pub(crate) fn square() -> ([Node; 4], [Triangle; 2]) {
 
 /// Slices of order 2 at 1 kHz over the unit square.
 pub(crate) fn parts<'a>(nodes: &'a [Node], triangles: &'a [Triangle]) -> Parts<'a> {
-    Parts { rate_hz: 1000.0, order: 2, speed_max_mps: 1.0, force_max_n: 1.0, nodes, triangles }
+    Parts {
+        rate_hz: 1000.0,
+        order: 2,
+        ma_order: 0,
+        speed_max_mps: 1.0,
+        force_max_n: 1.0,
+        nodes,
+        excitations: &[],
+        triangles,
+    }
 }
 
 #[test]
@@ -95,4 +104,61 @@ fn broken_slices_are_refused() {
     bad = nodes;
     bad[1].level_mps2 = f32::NAN;
     assert_eq!(error(1000.0, 2, &bad, &triangles), Some(TextureError::Number));
+}
+
+/// The square with an excitation at each node: a moving average of order one.
+fn published(variances: [f32; 4], gains: [f32; 4]) -> [Excitation; 4] {
+    core::array::from_fn(|i| {
+        let mut ma_lsf = [0.0; MAX_ORDER];
+        ma_lsf[0] = 1.0 + 0.2 * i as f32;
+        Excitation { variance: variances[i], gain: gains[i], ma_lsf }
+    })
+}
+
+#[test]
+fn published_textures_interpolate_variance_and_gain() {
+    let (nodes, triangles) = square();
+    let excitations = published([0.0, 0.0, 4.0, 0.0], [1.0, 2.0, 3.0, 2.0]);
+    let parts = Parts { ma_order: 1, excitations: &excitations, ..parts(&nodes, &triangles) };
+    let texture = Texture::new(parts).unwrap();
+    for (speed_mps, force_n, variance, gain, ma) in
+        [(1.0, 1.0, 4.0, 3.0, 1.4_f32), (0.5, 0.25, 1.0, 0.5 + 0.25 * 2.0 + 0.25 * 3.0, 0.5 + 0.3 + 0.35)]
+    {
+        let at = texture.evaluate(Contact { speed_mps, force_n }, &mut 0);
+        let sigma = gain * f32::sqrt(variance);
+        assert!((at.sigma_mps2 - sigma).abs() < 1e-5, "{} for {sigma}", at.sigma_mps2);
+        // ln gain is one at all six points.
+        assert!((at.level_mps2 - sigma * 0.5_f32.exp()).abs() < 1e-5);
+        assert_eq!(at.ma_order, 1);
+        assert!((at.ma_lsf[0] - ma).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn published_textures_are_silent_in_the_air_even_where_their_axes_are_not() {
+    let (nodes, triangles) = square();
+    let excitations = published([1.0; 4], [1.0; 4]);
+    let texture = Texture::new(Parts { excitations: &excitations, ..parts(&nodes, &triangles) }).unwrap();
+    let sigma = |speed_mps, force_n| texture.evaluate(Contact { speed_mps, force_n }, &mut 0).sigma_mps2;
+    assert_eq!((sigma(0.5, 0.0), sigma(0.0, 0.5)), (0.0, 0.0));
+    assert!((sigma(0.5, 1e-4) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn broken_excitations_are_refused() {
+    let (nodes, triangles) = square();
+    let good = published([1.0; 4], [1.0; 4]);
+    let error = |ma_order, excitations: &[Excitation]| {
+        Texture::new(Parts { ma_order, excitations, ..parts(&nodes, &triangles) }).err()
+    };
+    assert_eq!(error(1, &good), None);
+    assert_eq!(error(1, &[]), Some(TextureError::Order));
+    assert_eq!(error(33, &good), Some(TextureError::Order));
+    assert_eq!(error(1, &good[..3]), Some(TextureError::Excitation));
+    for bad in [f32::NAN, f32::INFINITY, -1.0] {
+        assert_eq!(error(1, &published([1.0, bad, 1.0, 1.0], [1.0; 4])), Some(TextureError::Number));
+        assert_eq!(error(1, &published([1.0; 4], [1.0, bad, 1.0, 1.0])), Some(TextureError::Number));
+    }
+    // Of order two the second frequency is zero.
+    assert_eq!(error(2, &good), Some(TextureError::Number));
 }

@@ -1,0 +1,106 @@
+//! The moving average that colors the excitation of a published texture.
+
+use crate::lsf::ar_from_lsf;
+use crate::texture::MAX_ORDER;
+use crate::voice::MAX_TICK;
+
+/// Products are summed in so many lanes, so that as many multiplications are one instruction.
+const LANES: usize = 8;
+
+/// `x[t] + Σ b_j x[t-j]`, its coefficients and its memory.
+#[derive(Clone, Debug)]
+pub(crate) struct MovingAverage {
+    /// `b_1 …` turned round, so that they lie as the memory does: the first comes last.
+    coefficients: [f32; MAX_ORDER],
+    order: usize,
+    /// The last inputs, oldest first, then room for one tick.
+    memory: [f32; MAX_ORDER + MAX_TICK],
+}
+
+impl MovingAverage {
+    /// One that passes its input on.
+    pub(crate) fn new() -> Self {
+        Self { coefficients: [0.0; MAX_ORDER], order: 0, memory: [0.0; MAX_ORDER + MAX_TICK] }
+    }
+
+    /// Takes coefficients from line spectral frequencies in radians; none make it pass its input on.
+    #[inline]
+    pub(crate) fn aim(&mut self, lsf: &[f32]) {
+        let order = lsf.len().min(MAX_ORDER);
+        if order == 0 && self.order == 0 {
+            return;
+        }
+        let mut b = [0.0; MAX_ORDER];
+        ar_from_lsf(&lsf[..order], &mut b[..order]);
+        b.reverse();
+        self.coefficients = b;
+        self.order = order;
+    }
+
+    /// Whether there is nothing to do.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.order == 0
+    }
+
+    /// Filters at most [`MAX_TICK`] samples in place. Cost a sample: [`MAX_ORDER`] multiply-adds.
+    pub(crate) fn filter(&mut self, samples: &mut [f32]) {
+        let n = samples.len().min(MAX_TICK);
+        let m = &mut self.memory;
+        m[MAX_ORDER..MAX_ORDER + n].copy_from_slice(&samples[..n]);
+        for (i, out) in samples[..n].iter_mut().enumerate() {
+            let mut sum = [0.0_f32; LANES];
+            let past = m[i..i + MAX_ORDER].chunks_exact(LANES);
+            for (b, x) in self.coefficients.chunks_exact(LANES).zip(past) {
+                for lane in 0..LANES {
+                    sum[lane] += b[lane] * x[lane];
+                }
+            }
+            *out += sum.iter().sum::<f32>();
+        }
+        m.copy_within(n..n + MAX_ORDER, 0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::MovingAverage;
+    use crate::lsf::ar_from_lsf;
+    use crate::noise::{Gaussian, Noise};
+    use crate::texture::MAX_ORDER;
+    use crate::voice::MAX_TICK;
+    use std::vec;
+    use std::vec::Vec;
+
+    #[test]
+    fn every_order_agrees_with_the_plain_sum_whatever_the_ticks() {
+        let (table, mut noise) = (Gaussian::new(), Noise::new(9));
+        let x: Vec<f32> = (0..300).map(|_| table.draw(&mut noise)).collect();
+        for order in 0..=MAX_ORDER {
+            let lsf: Vec<f32> =
+                (1..=order).map(|i| core::f32::consts::PI * i as f32 / (order as f32 + 1.3)).collect();
+            let mut b = vec![0.0; order];
+            ar_from_lsf(&lsf, &mut b);
+            let mut average = MovingAverage::new();
+            average.aim(&lsf);
+            let mut got = x.clone();
+            let mut rest = &mut got[..];
+            for n in [1, 3, MAX_TICK, 7].into_iter().cycle() {
+                let (tick, after) = rest.split_at_mut(n.min(rest.len()));
+                average.filter(tick);
+                rest = after;
+                if rest.is_empty() {
+                    break;
+                }
+            }
+            for (t, y) in got.iter().enumerate() {
+                let sum: f64 =
+                    (1..=order.min(t)).map(|j| f64::from(b[j - 1]) * f64::from(x[t - j])).sum::<f64>();
+                // A sum of up to 32 products, rounded to f32.
+                let (want, scale) = (f64::from(x[t]) + sum, 1.0 + b.iter().map(|b| b.abs()).sum::<f32>());
+                assert!((f64::from(*y) - want).abs() < 1e-6 * f64::from(scale), "order {order}, sample {t}");
+            }
+        }
+    }
+}
