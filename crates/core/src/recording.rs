@@ -1,13 +1,21 @@
 //! What a stylus felt, measured: acceleration, speed and force on one clock.
 
+mod clock;
+mod dropout;
 mod fault;
 mod finding;
+mod from_raw;
+mod motion;
 mod raw;
+mod resample;
+mod stretch;
 
 use std::ops::Range;
 
+pub use crate::recording::clock::check_clock;
 pub use crate::recording::fault::{Fault, MAX_RATE_HZ, MIN_RATE_HZ, MIN_USABLE_SECS, RecordingError};
 pub use crate::recording::finding::{Finding, Where};
+pub use crate::recording::motion::{SPEED_CUTOFF_HZ, speed_from_positions};
 pub use crate::recording::raw::{RawClock, RawMotion, RawRecording, RawTrack};
 
 use crate::units::Hertz;
@@ -24,20 +32,11 @@ pub struct Recording {
     /// Normal force in N; about zero while lifted.
     pub force_n: Vec<f64>,
     /// Stretches of samples that were really measured, ascending, apart from each other. What lies between was missing,
-    /// stuck or clipped, and counts for nothing.
+    /// stuck or clipped, counts for nothing and is NaN in every column.
     pub usable: Vec<Range<usize>>,
 }
 
 impl Recording {
-    /// The recording on one regular clock, and what was not as it should be in it.
-    ///
-    /// # Errors
-    /// [`RecordingError`] with everything that keeps it from being used.
-    pub fn from_raw(raw: RawRecording) -> Result<(Self, Vec<Finding>), RecordingError> {
-        let n_rows = raw.acceleration_mps2.first().map_or(0, Vec::len);
-        Err(RecordingError { faults: vec![Fault::TooFewRows { n_rows }], findings: Vec::new() })
-    }
-
     /// Length in seconds.
     pub fn seconds(&self) -> f64 {
         self.acceleration_mps2.len() as f64 / self.rate.0

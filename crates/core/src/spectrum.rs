@@ -57,6 +57,13 @@ pub fn rms(signal: &[f64]) -> f64 {
     }
 }
 
+/// The middle value, or the mean of the two in the middle; NaN where there is none.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let n = values.len();
+    if n == 0 { f64::NAN } else { 0.5 * (values[(n - 1) / 2] + values[n / 2]) }
+}
+
 /// Power-weighted mean frequency of a density between `low` and `high`.
 pub fn centroid(density: &[(Hertz, f64)], low: Hertz, high: Hertz) -> Hertz {
     let inside = density.iter().filter(|(f, _)| f.0 >= low.0 && f.0 <= high.0);

@@ -103,10 +103,14 @@ impl fmt::Display for Fault {
                 write!(f, "{column} has {n_rows} rows, the recording {of_rows}")
             }
             Self::RateTooLow { rate_hz } => {
-                write!(f, "{rate_hz:.4} Hz, a model needs at least {MIN_RATE_HZ} Hz; record faster")
+                write!(f, "{} Hz, a model needs at least {MIN_RATE_HZ} Hz; record faster", tenths(*rate_hz))
             }
             Self::RateTooHigh { rate_hz } => {
-                write!(f, "{rate_hz:.4} Hz, at most {MAX_RATE_HZ} Hz are read; resample the recording")
+                write!(
+                    f,
+                    "{} Hz, at most {MAX_RATE_HZ} Hz are read; resample the recording",
+                    tenths(*rate_hz)
+                )
             }
             Self::BadClock { reason } => {
                 write!(f, "{reason}; record with a clock of the sensor, or state the rate if it is known")
@@ -131,4 +135,9 @@ impl fmt::Display for RecordingError {
             .collect();
         f.write_str(&sentences.join("; "))
     }
+}
+
+/// Rounded to tenths, so that a measured rate reads as a person says it.
+fn tenths(value: f64) -> f64 {
+    (10.0 * value).round() / 10.0
 }

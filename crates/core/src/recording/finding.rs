@@ -36,6 +36,11 @@ pub enum Finding {
         /// The regular rate in Hz.
         rate_hz: f64,
     },
+    /// The clock runs slower or faster at the end than at the beginning.
+    Drift {
+        /// Change of the step from the first to the last quarter, as a share of it.
+        share: f64,
+    },
     /// Values are missing or not numbers; those rows are left out.
     NotANumber {
         /// The column.
@@ -50,6 +55,22 @@ pub enum Finding {
         /// Where.
         at: Where,
     },
+    /// A column of acceleration holds each value for several rows: the sensor was slower than the file.
+    Held {
+        /// The column.
+        column: String,
+        /// Mean number of rows with the same value.
+        n_rows: f64,
+        /// The rate that the sensor seems to have had, in Hz.
+        true_rate_hz: f64,
+    },
+    /// An axis of acceleration never changes; it is not one of the axes.
+    DeadAxis {
+        /// The column.
+        column: String,
+        /// The value it has, in m/s².
+        value: f64,
+    },
     /// The signal stays at its largest value: the sensor or the converter was driven over its range. Left out.
     Clipped {
         /// The column.
@@ -63,6 +84,15 @@ pub enum Finding {
     AxesCombined {
         /// How many.
         n_axes: usize,
+    },
+    /// Speeds have a sign; their magnitude was taken.
+    SignedSpeed(Where),
+    /// Stretches too short to say anything about low frequencies; they are left out.
+    Fragments {
+        /// How many.
+        n: usize,
+        /// Their length in all, in seconds.
+        seconds: f64,
     },
     /// Speed was worked out from positions.
     SpeedFromPositions,
@@ -83,10 +113,15 @@ impl Finding {
             Self::BackwardTimes(_) => "backward timestamps",
             Self::Gaps { .. } => "gaps",
             Self::Jitter { .. } => "irregular timestamps",
+            Self::Drift { .. } => "clock drift",
             Self::NotANumber { .. } => "not a number",
             Self::Stuck { .. } => "stuck sensor",
+            Self::Held { .. } => "repeated values",
+            Self::DeadAxis { .. } => "dead axis",
             Self::Clipped { .. } => "clipping",
             Self::AxesCombined { .. } => "axes combined",
+            Self::SignedSpeed(_) => "signed speed",
+            Self::Fragments { .. } => "fragments",
             Self::SpeedFromPositions => "speed from positions",
             Self::Constant { .. } => "constant",
         }
@@ -113,12 +148,29 @@ impl fmt::Display for Finding {
                 "steps of the clock differ by {:.0} %; the columns were resampled to {rate_hz:.1} Hz",
                 100.0 * share
             ),
+            Self::Drift { share } => {
+                write!(f, "the step of the clock changes by {:.2} % from beginning to end", 100.0 * share)
+            }
+            Self::Held { column, n_rows, true_rate_hz } => write!(
+                f,
+                "{column} holds each value for {n_rows:.1} rows; its true rate seems to be {true_rate_hz:.0} Hz"
+            ),
+            Self::DeadAxis { column, value } => {
+                write!(f, "{column} is {value} in every row; it was not taken as an axis")
+            }
             Self::NotANumber { column, at } => write!(f, "{column}, {at}; those rows were left out"),
             Self::Stuck { column, at } => write!(f, "{column} does not change, {at}; left out"),
             Self::Clipped { column, at, value } => {
                 write!(f, "{column} stays at {value:.4}, {at}; left out")
             }
             Self::AxesCombined { n_axes } => write!(f, "{n_axes} axes became one by DFT321"),
+            Self::SignedSpeed(at) => write!(f, "below 0 in {at}; the magnitude was taken"),
+            Self::Fragments { n, seconds } => {
+                write!(
+                    f,
+                    "{n} stretches between what is left out, {seconds:.3} s in all, are too short to use"
+                )
+            }
             Self::SpeedFromPositions => write!(f, "the file has no speed; it follows from the positions"),
             Self::Constant { what, value } => write!(f, "{what} was taken as {value} throughout"),
         }

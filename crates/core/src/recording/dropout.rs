@@ -1,0 +1,192 @@
+//! Rows in which an axis of acceleration was not really measured: stuck, clipped or held.
+
+use crate::recording::clock::{Count, Timeline};
+use crate::recording::{Fault, Finding, MIN_RATE_HZ};
+
+/// Least length of a stretch of equal values that is suspicious, in seconds and in rows.
+const STUCK_SECS: f64 = 0.02;
+const STUCK_ROWS: usize = 20;
+/// Longer than this many times the usual long runs of the signal itself: coarse converters repeat values, too.
+const STUCK_RUNS: f64 = 4.0;
+/// Below this many runs the signal has no behavior of its own to compare with.
+const FEW_RUNS: usize = 100;
+/// Least rows at the largest value that are clipping: two where the range of the sensor is known, three elsewhere.
+const CLIPPED_ROWS: usize = 3;
+/// As near to the known range as a 12-bit converter's last step.
+const FULL_SCALE_SHARE: f64 = 1.0 - 1.0 / 2048.0;
+/// The largest value is at least so many steps of the converter away from the middle: in fewer, equal neighbors are usual.
+const CLIPPED_STEPS: f64 = 16.0;
+/// How abruptly, in steps of the converter, a clipped wave reaches and leaves its largest value. A round one does by few.
+const CLIPPED_EDGE_STEPS: f64 = 4.0;
+/// Spread of run lengths, over their mean, below which values are held by a clock. Of chance repeats it is near one.
+const HELD_SPREAD: f64 = 0.35;
+/// Least mean run length that is a hold.
+const HELD_ROWS: f64 = 1.5;
+/// At most this force in N, or this speed in m/s, is rest: a sensor that feels nothing may well not change.
+const REST_FORCE_N: f64 = 0.02;
+const REST_SPEED_MPS: f64 = 1e-3;
+
+/// An axis to look at, and what the tip did meanwhile; all in the order of the file.
+pub(super) struct Axis<'a> {
+    /// Its name in findings.
+    pub(super) column: &'a str,
+    /// Its values in m/s².
+    pub(super) values: &'a [f64],
+    /// Where it saturates, in m/s², where that is known.
+    pub(super) full_scale_mps2: Option<f64>,
+}
+
+/// Equal values in a row, as places in the timeline.
+struct Run {
+    start: usize,
+    end: usize,
+    value: f64,
+}
+
+impl Run {
+    fn len(&self) -> usize {
+        self.end - self.start
+    }
+}
+
+/// Marks rows of the timeline as unusable (`usable` is by place in it) and says why. `at_rest` tells whether the tip did
+/// nothing in a row. Gives false where the axis never changes, which it is then said.
+pub(super) fn mark_dropouts(
+    axis: &Axis<'_>,
+    timeline: &Timeline,
+    at_rest: impl Fn(usize) -> bool,
+    usable: &mut [bool],
+    findings: &mut Vec<Finding>,
+    faults: &mut Vec<Fault>,
+) -> bool {
+    let column = || axis.column.to_owned();
+    let of_rows = axis.values.len();
+    let runs = runs(axis.values, timeline);
+    if let [run] = runs.as_slice()
+        && run.len() > 1
+    {
+        findings.push(Finding::DeadAxis { column: column(), value: run.value });
+        return false;
+    }
+
+    let step = converter_step(&runs);
+    let mut clipped = Count::default();
+    let mut clipped_value = 0.0_f64;
+    let extremes = extremes(&runs);
+    let mut is_clipped = vec![false; runs.len()];
+    for (run_idx, run) in runs.iter().enumerate() {
+        if is_clipped_run(&runs, run_idx, extremes, step, axis.full_scale_mps2) {
+            is_clipped[run_idx] = true;
+            clipped_value = if clipped_value == 0.0 { run.value } else { clipped_value };
+            usable[run.start..run.end].fill(false);
+            timeline.times[run.start..run.end].iter().for_each(|time| clipped.add(*time));
+        }
+    }
+    findings.extend(clipped.found(of_rows).map(|at| Finding::Clipped {
+        column: column(),
+        at,
+        value: clipped_value,
+    }));
+
+    let limit = stuck_rows(&runs, timeline.rate_hz);
+    let mut stuck = Count::default();
+    let long = runs.iter().zip(&is_clipped).filter(|(run, clipped)| run.len() >= limit && !**clipped);
+    for (run, _) in long {
+        let n_rest = (run.start..run.end).filter(|place| at_rest(timeline.rows[*place])).count();
+        if 2 * n_rest < run.len() {
+            usable[run.start..run.end].fill(false);
+            timeline.times[run.start..run.end].iter().for_each(|time| stuck.add(*time));
+        }
+    }
+    findings.extend(stuck.found(of_rows).map(|at| Finding::Stuck { column: column(), at }));
+
+    if let Some(n_rows) = held_rows(&runs, limit) {
+        let true_rate_hz = timeline.rate_hz / n_rows;
+        findings.push(Finding::Held { column: column(), n_rows, true_rate_hz });
+        if true_rate_hz < MIN_RATE_HZ && timeline.rate_hz >= MIN_RATE_HZ {
+            faults.push(Fault::RateTooLow { rate_hz: true_rate_hz });
+        }
+    }
+    true
+}
+
+/// Runs of equal finite values; NaN is in no run.
+fn runs(values: &[f64], timeline: &Timeline) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (place, row) in timeline.rows.iter().enumerate() {
+        let value = values[*row];
+        if !value.is_finite() {
+            continue;
+        }
+        match runs.last_mut() {
+            Some(run) if run.value == value && run.end == place => run.end += 1,
+            _ => runs.push(Run { start: place, end: place + 1, value }),
+        }
+    }
+    runs
+}
+
+/// The smallest difference between two values that occur.
+fn converter_step(runs: &[Run]) -> f64 {
+    let mut values: Vec<f64> = runs.iter().map(|run| run.value).collect();
+    values.sort_by(f64::total_cmp);
+    values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+fn extremes(runs: &[Run]) -> [f64; 2] {
+    runs.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], run| {
+        [low.min(run.value), high.max(run.value)]
+    })
+}
+
+/// Whether a run is the cut-off top of a wave.
+fn is_clipped_run(
+    runs: &[Run],
+    run_idx: usize,
+    [low, high]: [f64; 2],
+    step: f64,
+    full_scale: Option<f64>,
+) -> bool {
+    let run = &runs[run_idx];
+    let at_full_scale = full_scale.is_some_and(|scale| run.value.abs() >= FULL_SCALE_SHARE * scale);
+    if at_full_scale {
+        return run.len() + 1 >= CLIPPED_ROWS;
+    }
+    if run.len() < CLIPPED_ROWS
+        || (run.value != low && run.value != high)
+        || high - low < CLIPPED_STEPS * step
+    {
+        return false;
+    }
+    let edge = |other: Option<&Run>| other.map_or(0.0, |other| (other.value - run.value).abs());
+    let before = run_idx.checked_sub(1).and_then(|idx| runs.get(idx));
+    edge(before) + edge(runs.get(run_idx + 1)) >= CLIPPED_EDGE_STEPS * step
+}
+
+/// Length of a run that is suspicious in this signal.
+fn stuck_rows(runs: &[Run], rate_hz: f64) -> usize {
+    let mut lengths: Vec<usize> = runs.iter().map(Run::len).collect();
+    lengths.sort_unstable();
+    let usual = if lengths.len() < FEW_RUNS { 1 } else { lengths[lengths.len() * 99 / 100] };
+    let limit = (STUCK_SECS * rate_hz).max(STUCK_RUNS * usual as f64);
+    (limit.ceil() as usize).max(STUCK_ROWS)
+}
+
+/// Mean length of runs that a clock made, if one did.
+fn held_rows(runs: &[Run], limit: usize) -> Option<f64> {
+    // The first and last are cut, and stuck ones say nothing of the clock.
+    let inner = runs.get(1..runs.len().saturating_sub(1))?;
+    let lengths: Vec<f64> = inner.iter().map(|run| run.len() as f64).filter(|n| *n < limit as f64).collect();
+    if lengths.len() < FEW_RUNS / 2 {
+        return None;
+    }
+    let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+    let variance = lengths.iter().map(|n| (n - mean).powi(2)).sum::<f64>() / lengths.len() as f64;
+    (mean >= HELD_ROWS && variance.sqrt() <= HELD_SPREAD * mean).then_some(mean)
+}
+
+/// Whether the tip does nothing at this speed and force, as far as they are measured.
+pub(super) fn is_rest(speed_mps: Option<f64>, force_n: Option<f64>) -> bool {
+    speed_mps.is_some_and(|speed| speed.abs() <= REST_SPEED_MPS)
+        || force_n.is_some_and(|force| force.abs() <= REST_FORCE_N)
+}

@@ -1,0 +1,226 @@
+//! From the rows of a file to one regular clock.
+
+use crate::dft321::dft321;
+use crate::recording::clock::{Count, Timeline, read_clock};
+use crate::recording::dropout::{Axis, is_rest, mark_dropouts};
+use crate::recording::motion::speed_from_positions;
+use crate::recording::stretch::{Stretch, fast, lay_out, slow};
+use crate::recording::{
+    Fault, Finding, MIN_USABLE_SECS, RawClock, RawMotion, RawRecording, RawTrack, Recording, RecordingError,
+};
+use crate::units::Hertz;
+
+impl Recording {
+    /// The recording on one regular clock, and what was not as it should be in it.
+    ///
+    /// A regular clock stays as it is: rows are samples. On a jittered one, acceleration is interpolated by polynomials of
+    /// high degree, speed and force by straight lines, and never across a gap. Acceleration keeps its mean, gravity
+    /// included. Rows that are stuck, clipped or lack a value are not in [`Recording::usable`].
+    ///
+    /// # Errors
+    /// [`RecordingError`] with everything that keeps it from being used.
+    pub fn from_raw(raw: RawRecording) -> Result<(Self, Vec<Finding>), RecordingError> {
+        let (mut findings, mut faults) = (Vec::new(), Vec::new());
+        let n_rows = raw.acceleration_mps2.first().map_or(0, Vec::len);
+        check_columns(&raw, n_rows, &mut faults);
+        let RawRecording { clock, mut acceleration_mps2, motion, force_n, full_scale_mps2 } = raw;
+        let timeline = read_clock(clock, n_rows, &mut findings, &mut faults);
+        let unequal = faults.iter().any(|fault| matches!(fault, Fault::UnequalColumns { .. }));
+        let Some(timeline) = timeline.filter(|timeline| !unequal && !timeline.rows.is_empty()) else {
+            return Err(RecordingError { faults, findings });
+        };
+
+        let mut usable = vec![true; timeline.rows.len()];
+        let speed_rows = rows_of_speed(&motion);
+        let force_rows = column_of(&force_n);
+        let names = axis_names(acceleration_mps2.len());
+        for (name, values) in names.iter().zip(&acceleration_mps2) {
+            mark_missing(name, &[values], &timeline, &mut usable, &mut findings);
+        }
+        if let Some(values) = speed_rows {
+            mark_missing("speed", &[values], &timeline, &mut usable, &mut findings);
+        }
+        if let RawMotion::Positions(axes) = &motion {
+            let axes: Vec<&[f64]> = axes.iter().map(Vec::as_slice).collect();
+            mark_missing("positions", &axes, &timeline, &mut usable, &mut findings);
+        }
+        if let Some(values) = force_rows {
+            mark_missing("force", &[values], &timeline, &mut usable, &mut findings);
+        }
+
+        let at_rest = |row: usize| is_rest(speed_rows.map(|v| v[row]), force_rows.map(|v| v[row]));
+        let mut alive = Vec::with_capacity(acceleration_mps2.len());
+        for (name, values) in names.iter().zip(&acceleration_mps2) {
+            let axis = Axis { column: name, values, full_scale_mps2 };
+            alive.push(mark_dropouts(&axis, &timeline, at_rest, &mut usable, &mut findings, &mut faults));
+        }
+        let mut alive = alive.into_iter();
+        acceleration_mps2.retain(|_| alive.next().unwrap_or(false));
+
+        let Some((stretches, n_samples)) = lay_out(&timeline, &usable, n_rows, &mut findings, &mut faults)
+        else {
+            return Err(RecordingError { faults, findings });
+        };
+        // What carries no signal on any axis has no stretch that could be used.
+        let stretches = if acceleration_mps2.is_empty() { Vec::new() } else { stretches };
+        let usable_secs =
+            stretches.iter().map(|stretch| stretch.samples.len()).sum::<usize>() as f64 / timeline.rate_hz;
+        if usable_secs < MIN_USABLE_SECS {
+            faults.push(Fault::NothingUsable { usable_secs });
+        }
+        say_motion(&motion, &force_n, &timeline, &mut findings);
+        if !faults.is_empty() {
+            return Err(RecordingError { faults, findings });
+        }
+        if acceleration_mps2.len() > 1 {
+            findings.push(Finding::AxesCombined { n_axes: acceleration_mps2.len() });
+        }
+
+        let nothing = || vec![f64::NAN; n_samples];
+        let mut recording = Self {
+            rate: Hertz(timeline.rate_hz),
+            acceleration_mps2: nothing(),
+            speed_mps: nothing(),
+            force_n: nothing(),
+            usable: stretches.iter().map(|stretch| stretch.samples.clone()).collect(),
+        };
+        for stretch in &stretches {
+            let at = stretch.samples.clone();
+            let axes: Vec<Vec<f64>> =
+                acceleration_mps2.iter().map(|values| fast(values, &timeline, stretch)).collect();
+            let axes: Vec<&[f64]> = axes.iter().map(Vec::as_slice).collect();
+            // The axes are cut to one stretch, so they have one length.
+            if let Ok(combined) = dft321(&axes) {
+                recording.acceleration_mps2[at.clone()].copy_from_slice(&combined);
+            }
+            recording.speed_mps[at.clone()].copy_from_slice(&speed_of(&motion, &timeline, stretch));
+            recording.force_n[at].copy_from_slice(&track_of(&force_n, &timeline, stretch));
+        }
+        Ok((recording, findings))
+    }
+}
+
+/// Names of the axes in findings.
+fn axis_names(n_axes: usize) -> Vec<String> {
+    if n_axes == 1 {
+        return vec!["acceleration".to_owned()];
+    }
+    (1..=n_axes).map(|axis| format!("acceleration {axis}")).collect()
+}
+
+fn column_of(track: &RawTrack) -> Option<&[f64]> {
+    if let RawTrack::Column(values) = track { Some(values) } else { None }
+}
+
+fn rows_of_speed(motion: &RawMotion) -> Option<&[f64]> {
+    if let RawMotion::Speed(track) = motion { column_of(track) } else { None }
+}
+
+/// What is wrong with the columns before a number in them is looked at.
+fn check_columns(raw: &RawRecording, n_rows: usize, faults: &mut Vec<Fault>) {
+    if raw.acceleration_mps2.is_empty() {
+        faults.push(Fault::NoAcceleration);
+    } else if n_rows < 2 {
+        faults.push(Fault::TooFewRows { n_rows });
+    }
+    let mut columns: Vec<(String, usize)> = axis_names(raw.acceleration_mps2.len())
+        .into_iter()
+        .zip(raw.acceleration_mps2.iter().map(Vec::len))
+        .collect();
+    if let RawClock::Times(times) = &raw.clock {
+        columns.push(("time".to_owned(), times.len()));
+    }
+    match &raw.motion {
+        RawMotion::Speed(track) => {
+            check_track(track, "speed in m/s", Fault::NoSpeed, faults);
+            columns.extend(column_of(track).map(|values| ("speed".to_owned(), values.len())));
+        }
+        RawMotion::Positions(axes) if axes.is_empty() => faults.push(Fault::NoSpeed),
+        RawMotion::Positions(axes) => {
+            columns.extend(axes.iter().map(|values| ("positions".to_owned(), values.len())));
+        }
+    }
+    check_track(&raw.force_n, "force in N", Fault::NoForce, faults);
+    columns.extend(column_of(&raw.force_n).map(|values| ("force".to_owned(), values.len())));
+    if raw.acceleration_mps2.is_empty() {
+        return;
+    }
+    let unequal = columns.into_iter().filter(|(_, n)| *n != n_rows);
+    faults.extend(unequal.map(|(column, n)| Fault::UnequalColumns { column, n_rows: n, of_rows: n_rows }));
+}
+
+fn check_track(track: &RawTrack, what: &'static str, missing: Fault, faults: &mut Vec<Fault>) {
+    match track {
+        RawTrack::Missing => faults.push(missing),
+        RawTrack::Constant(value) if !(value.is_finite() && *value >= 0.0) => {
+            faults.push(Fault::BadConstant { what, value: *value });
+        }
+        RawTrack::Constant(_) | RawTrack::Column(_) => {}
+    }
+}
+
+/// Marks rows where one of `columns` has no finite number.
+fn mark_missing(
+    name: &str,
+    columns: &[&[f64]],
+    timeline: &Timeline,
+    usable: &mut [bool],
+    findings: &mut Vec<Finding>,
+) {
+    let mut missing = Count::default();
+    for ((row, time), usable) in timeline.rows.iter().zip(&timeline.times).zip(usable) {
+        if columns.iter().any(|values| !values[*row].is_finite()) {
+            missing.add(*time);
+            *usable = false;
+        }
+    }
+    let at = missing.found(timeline.rows.len());
+    findings.extend(at.map(|at| Finding::NotANumber { column: name.to_owned(), at }));
+}
+
+/// What was said and not measured, or has to be known of what was measured.
+fn say_motion(motion: &RawMotion, force: &RawTrack, timeline: &Timeline, findings: &mut Vec<Finding>) {
+    match motion {
+        RawMotion::Positions(_) => findings.push(Finding::SpeedFromPositions),
+        RawMotion::Speed(RawTrack::Constant(value)) => {
+            findings.push(Finding::Constant { what: "speed in m/s", value: *value });
+        }
+        RawMotion::Speed(RawTrack::Column(values)) => {
+            let mut negative = Count::default();
+            for (row, time) in timeline.rows.iter().zip(&timeline.times) {
+                if values[*row] < 0.0 {
+                    negative.add(*time);
+                }
+            }
+            findings.extend(negative.found(timeline.rows.len()).map(Finding::SignedSpeed));
+        }
+        RawMotion::Speed(RawTrack::Missing) => {}
+    }
+    if let RawTrack::Constant(value) = force {
+        findings.push(Finding::Constant { what: "force in N", value: *value });
+    }
+}
+
+fn track_of(track: &RawTrack, timeline: &Timeline, stretch: &Stretch) -> Vec<f64> {
+    match track {
+        RawTrack::Column(values) => slow(values, timeline, stretch),
+        RawTrack::Constant(value) => vec![*value; stretch.samples.len()],
+        // A missing track is a fault, and there is no recording then.
+        RawTrack::Missing => vec![f64::NAN; stretch.samples.len()],
+    }
+}
+
+fn speed_of(motion: &RawMotion, timeline: &Timeline, stretch: &Stretch) -> Vec<f64> {
+    match motion {
+        RawMotion::Speed(track) => track_of(track, timeline, stretch).iter().map(|v| v.abs()).collect(),
+        RawMotion::Positions(axes) => {
+            let times: Vec<f64> =
+                stretch.samples.clone().map(|sample| sample as f64 / timeline.rate_hz).collect();
+            let axes: Vec<Vec<f64>> = axes.iter().map(|values| slow(values, timeline, stretch)).collect();
+            speed_from_positions(&times, &axes.iter().map(Vec::as_slice).collect::<Vec<_>>())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,229 @@
+use crate::recording::{
+    Fault, Finding, RawClock, RawMotion, RawRecording, RawTrack, Recording, RecordingError, check_clock,
+};
+use crate::rng::{Random, lcg_noise};
+use crate::units::Hertz;
+use proptest::prelude::{any, prop_assert, proptest};
+use std::f64::consts::TAU;
+
+const RATE_HZ: f64 = 1000.0;
+
+/// Noise of one axis at a constant speed and force.
+fn noise(n_rows: usize, clock: RawClock) -> RawRecording {
+    RawRecording {
+        clock,
+        acceleration_mps2: vec![lcg_noise(n_rows, 7)],
+        motion: RawMotion::Speed(RawTrack::Constant(0.1)),
+        force_n: RawTrack::Constant(1.0),
+        full_scale_mps2: None,
+    }
+}
+
+fn times(n_rows: usize) -> Vec<f64> {
+    (0..n_rows).map(|row| 5.0 + row as f64 / RATE_HZ).collect()
+}
+
+fn read(raw: RawRecording) -> (Recording, Vec<&'static str>) {
+    let (recording, findings) = Recording::from_raw(raw).expect("a recording");
+    let names = findings.iter().filter(|f| f.name() != "constant").map(Finding::name).collect();
+    (recording, names)
+}
+
+#[track_caller]
+fn check_findings(raw: RawRecording, expected: &[&str], usable_secs: f64) -> Recording {
+    let (recording, names) = read(raw);
+    assert_eq!(names, expected);
+    assert!((recording.usable_seconds() - usable_secs).abs() < 1e-9, "{} s", recording.usable_seconds());
+    for (i, value) in recording.acceleration_mps2.iter().enumerate() {
+        let inside = recording.usable.iter().any(|range| range.contains(&i));
+        assert_eq!(value.is_finite(), inside, "sample {i}");
+    }
+    recording
+}
+
+fn fault_names(raw: RawRecording) -> Vec<&'static str> {
+    let RecordingError { faults, .. } = Recording::from_raw(raw).expect_err("no recording");
+    faults.iter().map(Fault::name).collect()
+}
+
+fn at_times(edit: impl Fn(&mut Vec<f64>)) -> RawRecording {
+    let mut times = times(2000);
+    edit(&mut times);
+    noise(2000, RawClock::Times(times))
+}
+
+#[test]
+fn a_regular_clock_stays_as_it_is() {
+    let raw = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
+    let acceleration = raw.acceleration_mps2[0].clone();
+    let by_rate = check_findings(raw, &[], 2.0);
+    let by_times = check_findings(at_times(|_| ()), &[], 2.0);
+    assert_eq!(by_times, by_rate);
+    let off = by_rate.acceleration_mps2.iter().zip(&acceleration).map(|(a, b)| (a - b).abs());
+    // One axis through a Fourier transform and back.
+    assert!(off.fold(0.0, f64::max) < 1e-12);
+    assert_eq!((by_rate.speed_mps[5], by_rate.force_n[5], by_rate.rate.0), (0.1, 1.0, RATE_HZ));
+    // Times in tenths of a millisecond of a clock of 800 Hz are what they were rounded to, and no jitter.
+    let rounded = at_times(|times| {
+        for (row, time) in times.iter_mut().enumerate() {
+            *time = (row as f64 * 12.5).round() * 1e-4;
+        }
+    });
+    assert!((check_findings(rounded, &[], 2.5).rate.0 - 800.0).abs() < 0.1);
+}
+
+#[test]
+fn what_is_odd_in_the_clock_is_said_and_left_out() {
+    check_findings(at_times(|t| t[500] = t[499]), &["repeated timestamps", "gaps"], 1.999);
+    check_findings(at_times(|t| t[500] = t[400]), &["backward timestamps", "gaps"], 1.999);
+    check_findings(at_times(|t| t[500] = f64::NAN), &["not a number", "gaps"], 1.999);
+    let with_gap = at_times(|t| t[1000..].iter_mut().for_each(|time| *time += 0.7));
+    let recording = check_findings(with_gap, &["gaps"], 2.0);
+    assert_eq!(recording.usable, [0..1000, 1700..2700]);
+    let drifting = (0..8000).map(|row| f64::from(row) * (1.0 + 2e-7 * f64::from(row)) / RATE_HZ).collect();
+    check_findings(noise(8000, RawClock::Times(drifting)), &["clock drift"], 8.0);
+}
+
+#[test]
+fn too_bad_a_clock_is_an_error_by_name() {
+    let twice = at_times(|t| (0..2000).for_each(|row| t[row] = (row / 2) as f64 * 0.002));
+    let bursts =
+        at_times(|t| (0..2000).for_each(|row| t[row] = (row / 9) as f64 * 0.09 + (row % 9) as f64 * 5e-5));
+    let mut rng = Random::new(3);
+    let mut at = 0.0;
+    let chance: Vec<f64> = (0..2000)
+        .map(|_| {
+            at -= 1e-3 * rng.uniform().ln();
+            at
+        })
+        .collect();
+    let ends = at_times(|t| t[1999] = 1e12);
+    for (clock, words) in [
+        (twice, "50 % of the rows"),
+        (bursts, "bursts"),
+        (noise(2000, RawClock::Times(chance)), "bad clock"),
+        (ends, "cannot last"),
+    ] {
+        let message = Recording::from_raw(clock).expect_err("no clock").to_string();
+        assert!(message.contains("bad clock") && message.contains(words), "{message}");
+    }
+    assert_eq!(fault_names(noise(2000, RawClock::Rate(Hertz(f64::NAN)))), ["rate too high"]);
+    assert_eq!(
+        fault_names(noise(2000, RawClock::Rate(Hertz(96_000.0)))),
+        ["rate too high", "nothing usable"]
+    );
+}
+
+#[test]
+fn all_faults_are_told_at_once() {
+    let mut raw = noise(1000, RawClock::Rate(Hertz(100.0)));
+    raw.motion = RawMotion::Speed(RawTrack::Missing);
+    raw.force_n = RawTrack::Missing;
+    let message = Recording::from_raw(raw.clone()).expect_err("three faults").to_string();
+    assert!(message.contains("rate too low: 100 Hz, a model needs at least 500 Hz"), "{message}");
+    assert_eq!(fault_names(raw.clone()), ["no speed", "no force", "rate too low"]);
+    raw.acceleration_mps2 = Vec::new();
+    assert_eq!(fault_names(raw), ["no acceleration", "no speed", "no force", "rate too low"]);
+    let mut raw = noise(1000, RawClock::Rate(Hertz(RATE_HZ)));
+    raw.force_n = RawTrack::Column(vec![1.0; 999]);
+    raw.motion = RawMotion::Speed(RawTrack::Constant(f64::NAN));
+    assert_eq!(fault_names(raw), ["bad constant", "unequal columns"]);
+    assert_eq!(fault_names(noise(1, RawClock::Rate(Hertz(RATE_HZ)))), ["too few rows", "nothing usable"]);
+    assert_eq!(check_clock(&RawClock::Rate(Hertz(100.0))).1, [Fault::RateTooLow { rate_hz: 100.0 }]);
+}
+
+fn with_axis(edit: impl Fn(&mut Vec<f64>)) -> RawRecording {
+    let mut raw = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
+    edit(&mut raw.acceleration_mps2[0]);
+    raw
+}
+
+#[test]
+fn stuck_clipped_and_missing_rows_are_left_out() {
+    let stuck = || with_axis(|axis| axis[300..500].fill(0.25));
+    let recording = check_findings(stuck(), &["stuck sensor"], 1.8);
+    assert_eq!(recording.usable, [0..300, 500..2000]);
+    // A sensor that is lifted may well not change.
+    let mut lifted = stuck();
+    let force = (0..2000).map(|row| if (290..510).contains(&row) { 0.0 } else { 1.0 }).collect();
+    lifted.force_n = RawTrack::Column(force);
+    check_findings(lifted, &[], 2.0);
+    check_findings(with_axis(|axis| axis[300] = f64::NAN), &["not a number"], 1.999);
+    // A swing of 3 m/s² on a sensor that ends at 2.5.
+    let clipped = with_axis(|axis| {
+        for (row, value) in axis.iter_mut().enumerate() {
+            *value = (3.0 * (TAU * 10.0 * row as f64 / RATE_HZ).sin() + 0.01 * *value).clamp(-2.5, 2.5);
+        }
+    });
+    let (recording, names) = read(clipped);
+    assert_eq!(names, ["clipping"]);
+    assert!(recording.usable_seconds() < 1.5 && recording.usable_seconds() > 1.0);
+    // Silence throughout is no texture.
+    let silence = Recording::from_raw(with_axis(|axis| axis.fill(0.0))).expect_err("silence");
+    assert_eq!((silence.faults[0].name(), silence.findings[0].name()), ("nothing usable", "dead axis"));
+}
+
+#[test]
+fn coarse_converters_and_gravity_are_neither_stuck_nor_clipped() {
+    // Eight steps of a converter from peak to peak, and gravity.
+    check_findings(with_axis(|axis| axis.iter_mut().for_each(|v| *v = v.round() + 9.8)), &[], 2.0);
+    // A slow swing: equal values at its round top.
+    let swing = |row: usize| (100.0 * (TAU * 2.0 * row as f64 / RATE_HZ).sin()).round();
+    check_findings(with_axis(|axis| (0..2000).for_each(|row| axis[row] = swing(row))), &[], 2.0);
+}
+
+#[test]
+fn values_that_are_held_tell_the_true_rate() {
+    let held = |every: usize| with_axis(|axis| (0..2000).for_each(|row| axis[row] = axis[row - row % every]));
+    check_findings(held(2), &["repeated values"], 2.0);
+    let error = Recording::from_raw(held(10)).expect_err("100 Hz");
+    assert_eq!(error.faults, [Fault::RateTooLow { rate_hz: 100.0 }]);
+}
+
+#[test]
+fn axes_are_combined_and_dead_ones_left_out() {
+    let mut raw = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
+    raw.acceleration_mps2 = vec![lcg_noise(2000, 1), lcg_noise(2000, 2), vec![0.0; 2000]];
+    let energy: f64 = raw.acceleration_mps2.iter().flatten().map(|v| v * v).sum();
+    let recording = check_findings(raw, &["dead axis", "axes combined"], 2.0);
+    let combined: f64 = recording.acceleration_mps2.iter().map(|v| v * v).sum();
+    assert!((combined / energy - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn speeds_follow_from_positions_and_lose_their_sign() {
+    let mut raw = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
+    raw.motion = RawMotion::Speed(RawTrack::Column(vec![-0.2; 2000]));
+    assert_eq!(check_findings(raw.clone(), &["signed speed"], 2.0).speed_mps[7], 0.2);
+    raw.motion = RawMotion::Positions(vec![(0..2000).map(|row| 1e-4 * f64::from(row)).collect()]);
+    let recording = check_findings(raw, &["speed from positions"], 2.0);
+    assert!(recording.speed_mps.iter().all(|speed| (speed - 0.1).abs() < 1e-9));
+}
+
+proptest! {
+    #[test]
+    fn a_sine_on_a_jittered_clock_comes_back(
+        seed in any::<u64>(),
+        frequency_hz in 20.0..250.0_f64,
+        jitter in 0.05..0.2_f64,
+    ) {
+        let mut rng = Random::new(seed);
+        let mut times = times(1500);
+        times.iter_mut().for_each(|time| *time += jitter * (2.0 * rng.uniform() - 1.0) / RATE_HZ);
+        let sine = |secs: f64| (TAU * frequency_hz * secs).sin();
+        let mut raw = noise(1500, RawClock::Times(times.clone()));
+        raw.acceleration_mps2 = vec![times.iter().map(|time| sine(*time)).collect()];
+        let start = times[0];
+        let (recording, names) = read(raw);
+        prop_assert!(names.contains(&"irregular timestamps"), "{names:?}");
+        prop_assert!((recording.rate.0 / RATE_HZ - 1.0).abs() < 1e-3);
+        prop_assert!(recording.usable_seconds() > 1.45);
+        let mut worst = 0.0_f64;
+        for sample in recording.usable.iter().cloned().flatten() {
+            let expected = sine(start + sample as f64 / recording.rate.0);
+            worst = worst.max((recording.acceleration_mps2[sample] - expected).abs());
+        }
+        // The bound of the polynomial; rows as they stand would be off by up to 2 pi f times the jitter, 0.31.
+        prop_assert!(worst < 5e-3, "{worst} at {frequency_hz} Hz, jitter {jitter}");
+    }
+}
