@@ -1,9 +1,22 @@
 //! From recordings to a texture model.
 
+mod heldout;
+mod pieces;
+mod smear;
+mod surface;
+
+use crate::ar::ArError;
 use crate::recording::Recording;
 use crate::tap::Tap;
-use crate::texture::{Interpolation, TextureModel};
+use crate::texture::{Interpolation, MAX_ORDER, TextureModel, TextureModelError};
+use crate::triangulation::Triangulation;
 use crate::units::{Hertz, MetersPerSecond, Newtons};
+
+/// Below this nothing is fitted: gravity and the motion of the hand are no texture.
+pub const HIGH_PASS: Hertz = Hertz(10.0);
+
+/// Lowest order that the criterion may choose: fewer poles lose the shape of a real spectrum.
+const MIN_ORDER: usize = 10;
 
 /// How to fit; [`FitOptions::usual`] is a good start.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +80,12 @@ pub struct Segment {
 }
 
 /// A segment beside what the model says of its speed and force.
+///
+/// Segments last tenths of a second, and so little noise has no spectrum to speak of. So the segments nearest to it in
+/// speed and force, up to three seconds in all, are compared together: the mean of their spectra, each divided by the
+/// level that its model predicts, beside the mean of what their models predict for windows of the same length. A model
+/// that is compared with a segment was made without it, where [`FitReport::held_out`] says so; five models, each without
+/// a fifth of the segments, in blocks of neighboring ones, share the work.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Measured power spectral density (Welch), in (m/s²)²/Hz, at [`FitReport::frequencies`].
@@ -75,7 +94,7 @@ pub struct Comparison {
     pub model_psd: Vec<f64>,
     /// Goodness of fit of the two, 0..1.
     pub gfc: f64,
-    /// Level of the model over that of the segment, in dB.
+    /// Level of the model over that measured, of the same segments, in dB.
     pub level_error_db: f64,
 }
 
@@ -97,6 +116,102 @@ pub enum FitError {
     /// There is nothing to fit.
     #[error("there is no recording to fit")]
     Empty,
+    /// The columns of a recording do not belong together.
+    #[error("recording {recording}: its columns differ in length, or what is usable lies outside them")]
+    Columns {
+        /// Index of the recording.
+        recording: usize,
+    },
+    /// Something usable is not a number.
+    #[error("recording {recording}: {column} is not a finite number in row {row}; leave that row out")]
+    NotFinite {
+        /// Index of the recording.
+        recording: usize,
+        /// The column.
+        column: &'static str,
+        /// The row, from 0.
+        row: usize,
+    },
+    /// A recording is too coarse for vibrations.
+    #[error("recording {recording} has {rate_hz} samples a second; vibrations need at least {lowest_hz}")]
+    RecordingRate {
+        /// Index of the recording.
+        recording: usize,
+        /// Its rate.
+        rate_hz: f64,
+        /// The lowest that is possible.
+        lowest_hz: f64,
+    },
+    /// The rate that was asked for is above that of a recording.
+    #[error(
+        "a model at {rate_hz} Hz was asked for, but the recordings have {highest_hz} Hz; ask for a rate up to that"
+    )]
+    RateAsked {
+        /// The rate asked for.
+        rate_hz: f64,
+        /// The lowest rate of the recordings.
+        highest_hz: f64,
+    },
+    /// The order that was asked for cannot be rendered.
+    #[error("an order of {order} was asked for; it must lie between 1 and {highest}")]
+    OrderAsked {
+        /// The order asked for.
+        order: usize,
+        /// The highest that is possible at the rate of the model.
+        highest: usize,
+    },
+    /// There is too little signal.
+    #[error("only {seconds:.2} s are usable; record strokes of some seconds, best 10 s or more")]
+    TooShort {
+        /// What is usable.
+        seconds: f64,
+    },
+    /// The tip never pressed.
+    #[error(
+        "the force never exceeds {strongest_n:.3} N: press, or check the unit and the sign of the force column"
+    )]
+    NoContact {
+        /// The highest force.
+        strongest_n: f64,
+    },
+    /// The tip never moved.
+    #[error(
+        "the tip never moves faster than {fastest_mm_per_s:.2} mm/s in contact: stroke faster, or check the unit of the speed column"
+    )]
+    NoMotion {
+        /// The highest speed in contact.
+        fastest_mm_per_s: f64,
+    },
+    /// Speed or force always changes.
+    #[error("nowhere do speed and force stay the same for {shortest_secs} s: stroke more evenly")]
+    NotStationary {
+        /// Shortest stretch that counts.
+        shortest_secs: f64,
+    },
+    /// There is no vibration at all.
+    #[error("the acceleration is zero in all strokes: check the acceleration column")]
+    Silent,
+    /// A stretch has no predictor.
+    #[error("the strokes near {:.0} mm/s and {force_n:.2} N have no predictor: {source}", 1e3 * speed_mps)]
+    Predictor {
+        /// Speed, in m/s.
+        speed_mps: f64,
+        /// Force, in N.
+        force_n: f64,
+        /// Why.
+        source: ArError,
+    },
+    /// A predictor is on the edge of stability.
+    #[error("the strokes near {:.0} mm/s and {force_n:.2} N are a pure tone, not a texture: look for hum", 1e3 * speed_mps)]
+    Unstable {
+        /// Speed, in m/s.
+        speed_mps: f64,
+        /// Force, in N.
+        force_n: f64,
+    },
+    /// The fitted numbers make no model.
+    #[error(transparent)]
+    Model(#[from] TextureModelError),
 }
 
 impl FitOptions {
@@ -126,8 +241,57 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// Fits one texture to recordings of it.
 ///
+/// Strokes are cut where speed or force changes ([`crate::segment`]), high-passed at [`HIGH_PASS`] and brought to the
+/// rate of the model. Nodes lie at segments that are apart from each other; the predictor of a node is Burg's through
+/// all segments near its speed and force at once, and its level theirs about a power law of speed and force.
+///
 /// # Errors
 /// See [`FitError`].
-pub fn fit(_recordings: &[Recording], _options: &FitOptions) -> Result<Fitted, FitError> {
-    Err(FitError::Empty)
+pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, FitError> {
+    if recordings.is_empty() {
+        return Err(FitError::Empty);
+    }
+    let pieces::Pieces { pieces, rate, notes } = pieces::cut(recordings, options.rate)?;
+    let highest = pieces::highest_order(rate);
+    if let Some(order) = options.order.filter(|order| *order == 0 || *order > highest) {
+        return Err(FitError::OrderAsked { order, highest: highest.min(MAX_ORDER) });
+    }
+    let surface = surface::Surface::new(pieces.iter().collect());
+    let order = match options.order {
+        Some(order) => order,
+        None => surface.order(MIN_ORDER..=highest)?,
+    };
+    let model = surface.model(rate, order)?;
+    let compared = heldout::compare(&pieces, rate, order)?;
+    let segments = pieces.iter().zip(compared.comparisons).map(|(piece, comparison)| Segment {
+        recording: piece.recording,
+        start_secs: piece.start_secs,
+        seconds: piece.seconds,
+        speed: MetersPerSecond(piece.speed_mps),
+        force: Newtons(piece.force_n),
+        level_mps2: piece.mean_square.sqrt(),
+        comparison,
+    });
+    let report = FitReport {
+        segments: segments.collect(),
+        rate,
+        order,
+        coverage: hull_share(&surface.shares()),
+        frequencies: compared.frequencies,
+        tap: None,
+        held_out: compared.held_out,
+        notes,
+    };
+    Ok(Fitted { model, report })
+}
+
+/// Area of the convex hull of points, whose coordinates are shares of the highest.
+fn hull_share(points: &[[f64; 2]]) -> f64 {
+    // Shares are finite, so points can be triangulated.
+    let Ok(triangulation) = Triangulation::new(points) else { return 0.0 };
+    let area = |[a, b, c]: &[usize; 3]| {
+        let [a, b, c] = [*a, *b, *c].map(|i| triangulation.points()[i]);
+        0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])).abs()
+    };
+    triangulation.triangles().iter().map(area).sum()
 }

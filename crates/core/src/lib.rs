@@ -41,6 +41,7 @@ pub mod radial_basis;
 pub mod recording;
 pub mod render;
 pub mod rng;
+pub mod segment;
 pub mod shading;
 pub mod space;
 pub mod spectrum;

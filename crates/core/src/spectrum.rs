@@ -10,20 +10,38 @@ use crate::units::Hertz;
 /// taken out of each. Density in the signal's unit squared per Hz, from zero to half the rate; empty where the signal
 /// is shorter than a window or the window shorter than 2.
 pub fn welch(signal: &[f64], rate: Hertz, window: usize) -> Vec<(Hertz, f64)> {
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let density = hann_windowed(signal, rate, window, window, mean);
+    density.into_iter().enumerate().map(|(i, d)| (Hertz(i as f64 * rate.0 / window as f64), d)).collect()
+}
+
+/// As [`welch`], with zeros behind each window up to `n_bins` samples and the mean left in: for signals that have none.
+pub(crate) fn periodogram(signal: &[f64], rate: Hertz, window: usize, n_bins: usize) -> Vec<f64> {
+    hann_windowed(signal, rate, window, n_bins.max(window), |_| 0.0)
+}
+
+fn hann_windowed(
+    signal: &[f64],
+    rate: Hertz,
+    window: usize,
+    n_bins: usize,
+    offset: impl Fn(&[f64]) -> f64,
+) -> Vec<f64> {
     if window < 2 || signal.len() < window {
         return Vec::new();
     }
     let hann: Vec<f64> = (0..window).map(|i| 0.5 - 0.5 * (TAU * i as f64 / window as f64).cos()).collect();
     let power: f64 = hann.iter().map(|w| w * w).sum();
-    let fft = RealFftPlanner::<f64>::new().plan_fft_forward(window);
+    let fft = RealFftPlanner::<f64>::new().plan_fft_forward(n_bins);
     let (mut input, mut bins) = (fft.make_input_vec(), fft.make_output_vec());
     let mut sum = vec![0.0; bins.len()];
     let mut n_windows = 0.0;
     for start in (0..=signal.len() - window).step_by((window / 2).max(1)) {
         let part = &signal[start..start + window];
-        let mean = part.iter().sum::<f64>() / window as f64;
+        let offset = offset(part);
+        input.fill(0.0);
         for ((x, s), w) in input.iter_mut().zip(part).zip(&hann) {
-            *x = (s - mean) * w;
+            *x = (s - offset) * w;
         }
         // The lengths are those the plan asked for, so the transform cannot refuse them.
         if fft.process(&mut input, &mut bins).is_err() {
@@ -36,8 +54,8 @@ pub fn welch(signal: &[f64], rate: Hertz, window: usize) -> Vec<(Hertz, f64)> {
     }
     let last = sum.len() - 1;
     let density = |(i, s): (usize, f64)| {
-        let both_sides = if i == 0 || (i == last && window.is_multiple_of(2)) { 1.0 } else { 2.0 };
-        (Hertz(i as f64 * rate.0 / window as f64), both_sides * s / (n_windows * power * rate.0))
+        let both_sides = if i == 0 || (i == last && n_bins.is_multiple_of(2)) { 1.0 } else { 2.0 };
+        both_sides * s / (n_windows * power * rate.0)
     };
     sum.into_iter().enumerate().map(density).collect()
 }

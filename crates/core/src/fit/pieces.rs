@@ -1,0 +1,232 @@
+//! From recordings to pieces of signal at the rate of the model, each of one speed and force.
+
+use std::ops::Range;
+
+use crate::ar::BurgSums;
+use crate::filter::{DECIMATION_PASS_SHARE, butterworth_high_pass, filter, resample_down};
+use crate::fit::{FitError, HIGH_PASS};
+use crate::recording::Recording;
+use crate::segment::{MIN_FORCE, MIN_SPEED, Segmentation, segment};
+use crate::spectrum::welch;
+use crate::units::Hertz;
+
+/// Rates of models that are tried, from the lowest.
+const MODEL_RATES_HZ: [f64; 3] = [1000.0, 2000.0, 4000.0];
+
+/// Share of the power above [`HIGH_PASS`] that a model's band has to hold.
+const BAND_SHARE: f64 = 0.99;
+
+/// Lowest rate of a recording that still holds what a fingertip feels best.
+const MIN_RECORDING_HZ: f64 = 500.0;
+
+/// What the high-pass filter needs to forget the start of a stretch, in seconds: a period of its cut-off.
+const SETTLE_SECS: f64 = 0.1;
+
+/// Shortest piece, in seconds.
+const MIN_PIECE_SECS: f64 = 0.1;
+
+/// Samples a piece needs for each coefficient of a predictor.
+const SAMPLES_A_COEFFICIENT: usize = 5;
+
+/// Highest order that is tried, by the rate of the model: a band twice as wide has more resonances.
+pub(super) fn highest_order(rate: Hertz) -> usize {
+    if rate.0 <= 1000.0 { 20 } else { crate::texture::MAX_ORDER }
+}
+
+/// A stretch of signal at the rate of the model, with the sums that predictors are made of.
+pub(super) struct Piece {
+    pub(super) recording: usize,
+    pub(super) start_secs: f64,
+    pub(super) seconds: f64,
+    pub(super) speed_mps: f64,
+    pub(super) force_n: f64,
+    pub(super) signal: Vec<f64>,
+    pub(super) sums: BurgSums,
+    pub(super) mean_square: f64,
+}
+
+/// Everything that is fitted.
+pub(super) struct Pieces {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) rate: Hertz,
+    pub(super) notes: Vec<String>,
+}
+
+/// A recording without what is below [`HIGH_PASS`], and its stretches.
+struct Stroked<'a> {
+    recording: &'a Recording,
+    /// The usable stretches, filtered, at the recording's rate.
+    signals: Vec<(Range<usize>, Vec<f64>)>,
+    segmentation: Segmentation,
+}
+
+/// Pieces of all recordings, at `rate` or at the one that their bandwidth asks for.
+pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Pieces, FitError> {
+    for (index, recording) in recordings.iter().enumerate() {
+        check(index, recording)?;
+    }
+    let lowest_hz = recordings.iter().map(|r| r.rate.0).fold(f64::INFINITY, f64::min);
+    if let Some(asked) = rate
+        && !(asked.0 > 0.0 && asked.0 <= lowest_hz)
+    {
+        return Err(FitError::RateAsked { rate_hz: asked.0, highest_hz: lowest_hz });
+    }
+    let stroked: Vec<Stroked<'_>> = recordings.iter().map(filtered).collect();
+    if stroked.iter().all(|s| s.segmentation.stretches.is_empty()) {
+        return Err(nothing(&stroked));
+    }
+    let rate = rate.unwrap_or_else(|| rate_by_bandwidth(&stroked, lowest_hz));
+    let order = highest_order(rate);
+    let n_min = SAMPLES_A_COEFFICIENT * order;
+    let mut pieces = Vec::new();
+    let (mut short_secs, mut silent_secs) = (0.0, 0.0);
+    for (index, stroked) in stroked.iter().enumerate() {
+        let from = stroked.recording.rate;
+        let lower: Vec<Vec<f64>> =
+            stroked.signals.iter().map(|(_, signal)| resample_down(signal, from, rate)).collect();
+        for stretch in &stroked.segmentation.stretches {
+            let holds = |(usable, _): &(Range<usize>, _)| usable.contains(&stretch.samples.start);
+            let Some(at) = stroked.signals.iter().position(holds) else { continue };
+            let begin = stroked.signals[at].0.start;
+            let sample = |i: usize| ((i - begin) as f64 * rate.0 / from.0).round() as usize;
+            let signal = &lower[at];
+            let signal =
+                &signal[sample(stretch.samples.start)..sample(stretch.samples.end).min(signal.len())];
+            let seconds = signal.len() as f64 / rate.0;
+            // Rounding the ends may cost a sample.
+            if signal.len() + 1 < n_min || signal.len() <= order {
+                short_secs += seconds;
+                continue;
+            }
+            let sums = BurgSums::new(signal, order).map_err(|source| FitError::Predictor {
+                speed_mps: stretch.speed.0,
+                force_n: stretch.force.0,
+                source,
+            })?;
+            if sums.mean_square() == 0.0 {
+                silent_secs += seconds;
+                continue;
+            }
+            pieces.push(Piece {
+                recording: index,
+                start_secs: stretch.samples.start as f64 / from.0,
+                seconds,
+                speed_mps: stretch.speed.0,
+                force_n: stretch.force.0,
+                mean_square: sums.mean_square(),
+                signal: signal.to_vec(),
+                sums,
+            });
+        }
+    }
+    if pieces.is_empty() {
+        return Err(if silent_secs > 0.0 { FitError::Silent } else { nothing(&stroked) });
+    }
+    Ok(Pieces { pieces, rate, notes: notes(&stroked, short_secs, silent_secs) })
+}
+
+/// Refuses columns that are not what a recording promises.
+fn check(recording: usize, r: &Recording) -> Result<(), FitError> {
+    let n = r.acceleration_mps2.len();
+    let columns = [&r.acceleration_mps2, &r.speed_mps, &r.force_n];
+    let ascending = r.usable.windows(2).all(|w| w[0].end <= w[1].start);
+    let inside = r.usable.iter().all(|u| u.start <= u.end && u.end <= n);
+    if columns.iter().any(|c| c.len() != n) || !ascending || !inside {
+        return Err(FitError::Columns { recording });
+    }
+    if !(r.rate.0 >= MIN_RECORDING_HZ && r.rate.0.is_finite()) {
+        return Err(FitError::RecordingRate { recording, rate_hz: r.rate.0, lowest_hz: MIN_RECORDING_HZ });
+    }
+    for (column, values) in ["acceleration", "speed", "force"].into_iter().zip(columns) {
+        let mut rows = r.usable.iter().cloned().flatten();
+        if let Some(row) = rows.find(|i| !values[*i].is_finite()) {
+            return Err(FitError::NotFinite { recording, column, row });
+        }
+    }
+    Ok(())
+}
+
+/// High-passes every usable stretch, forward once: a spectrum does not see the phase, and above twice the cut-off the
+/// delay is a few milliseconds.
+fn filtered(recording: &Recording) -> Stroked<'_> {
+    let sections = butterworth_high_pass(4, HIGH_PASS, recording.rate);
+    let n_settle = (SETTLE_SECS * recording.rate.0) as usize;
+    let mut settled = recording.clone();
+    settled.usable.clear();
+    let mut signals = Vec::new();
+    for usable in recording.usable.iter().filter(|u| u.len() > n_settle) {
+        let part = &recording.acceleration_mps2[usable.clone()];
+        let mean = part.iter().sum::<f64>() / part.len() as f64;
+        let mut signal: Vec<f64> = part.iter().map(|x| x - mean).collect();
+        filter(&sections, &mut signal);
+        signals.push((usable.clone(), signal));
+        settled.usable.push(usable.start + n_settle..usable.end);
+    }
+    Stroked { recording, signals, segmentation: segment(&settled, MIN_PIECE_SECS) }
+}
+
+/// The lowest rate whose band holds [`BAND_SHARE`] of the power of the louder half of the stretches.
+fn rate_by_bandwidth(stroked: &[Stroked<'_>], lowest_hz: f64) -> Hertz {
+    let possible: Vec<f64> = MODEL_RATES_HZ.into_iter().filter(|r| *r <= lowest_hz * (1.0 + 1e-6)).collect();
+    let (Some(lowest), Some(highest)) = (possible.first(), possible.last()) else { return Hertz(lowest_hz) };
+    let mut densities: Vec<Vec<(Hertz, f64)>> = Vec::new();
+    for stroked in stroked {
+        let rate = stroked.recording.rate;
+        let window = (MIN_PIECE_SECS * rate.0) as usize;
+        for stretch in &stroked.segmentation.stretches {
+            let of = stroked.signals.iter().find(|(usable, _)| usable.contains(&stretch.samples.start));
+            if let Some((usable, signal)) = of {
+                let part = &signal[stretch.samples.start - usable.start..stretch.samples.end - usable.start];
+                densities.push(welch(part, rate, window.min(part.len())));
+            }
+        }
+    }
+    let power = |density: &[(Hertz, f64)], high_hz: f64| -> f64 {
+        let step = density.get(1).map_or(0.0, |d| d.0.0);
+        let inside = density.iter().filter(|(f, _)| f.0 >= HIGH_PASS.0 && f.0 <= high_hz);
+        step * inside.map(|(_, p)| p).sum::<f64>()
+    };
+    let top_hz = 0.5 * highest;
+    densities.sort_by(|a, b| power(b, top_hz).total_cmp(&power(a, top_hz)));
+    densities.truncate(densities.len().div_ceil(2));
+    let total = |high_hz: f64| densities.iter().map(|d| power(d, high_hz)).sum::<f64>();
+    let holds = |rate_hz: f64| total(DECIMATION_PASS_SHARE * 0.5 * rate_hz) >= BAND_SHARE * total(top_hz);
+    Hertz(possible.iter().copied().find(|r| holds(*r)).unwrap_or(if total(top_hz) > 0.0 {
+        *highest
+    } else {
+        *lowest
+    }))
+}
+
+/// Why there is no stretch to fit.
+fn nothing(stroked: &[Stroked<'_>]) -> FitError {
+    let most =
+        |value: fn(&Segmentation) -> f64| stroked.iter().map(|s| value(&s.segmentation)).fold(0.0, f64::max);
+    let usable_secs: f64 = stroked.iter().map(|s| s.recording.usable_seconds()).sum();
+    let (fastest_mps, strongest_n) = (most(|s| s.fastest.0), most(|s| s.strongest.0));
+    if usable_secs < MIN_PIECE_SECS + SETTLE_SECS {
+        FitError::TooShort { seconds: usable_secs }
+    } else if strongest_n < MIN_FORCE.0 {
+        FitError::NoContact { strongest_n }
+    } else if fastest_mps < MIN_SPEED.0 {
+        FitError::NoMotion { fastest_mm_per_s: 1e3 * fastest_mps }
+    } else {
+        FitError::NotStationary { shortest_secs: MIN_PIECE_SECS }
+    }
+}
+
+fn notes(stroked: &[Stroked<'_>], short_secs: f64, silent_secs: f64) -> Vec<String> {
+    let sum = |value: fn(&Segmentation) -> f64| stroked.iter().map(|s| value(&s.segmentation)).sum::<f64>();
+    let left_out = [
+        (sum(|s| s.lifted_secs), format!("with the tip lifted (below {MIN_FORCE})")),
+        (sum(|s| s.slow_secs), format!("slower than {:.0} mm/s", MIN_SPEED.mm_per_s())),
+        (sum(|s| s.changing_secs), "in which speed or force changed too fast".to_owned()),
+        (short_secs, format!("in stretches of under {SAMPLES_A_COEFFICIENT} samples a coefficient")),
+        (silent_secs, "without any vibration".to_owned()),
+    ];
+    left_out
+        .into_iter()
+        .filter(|(secs, _)| *secs >= 0.05)
+        .map(|(secs, what)| format!("{secs:.1} s {what} were left out."))
+        .collect()
+}

@@ -1,0 +1,201 @@
+//! What pieces say of the texture at any speed and force: their neighbors' sums and levels, weighted by nearness.
+
+use crate::ar::{ArFit, burg_of_many, order_by_bic};
+use crate::fit::FitError;
+use crate::fit::pieces::Piece;
+use crate::lsf::lsf_from_ar;
+use crate::texture::{GrainNode, TextureModel};
+use crate::units::{Hertz, MetersPerSecond, Newtons};
+
+/// Standard deviation of the kernel over (speed, force), each as a share of its highest: what is nearer is alike.
+const KERNEL_SHARE: f64 = 0.05;
+
+/// Seconds of signal that an estimate has at least, counting each piece by its weight; the kernel widens until it does.
+/// A level has a standard error of about half a decibel then, and a resonance is known to a few hertz.
+const ESTIMATE_SECS: f64 = 1.5;
+
+/// By how much the kernel widens at a time.
+const WIDENING: f64 = 1.25;
+
+/// The widest kernel: flat over the whole plane.
+const MAX_KERNEL_SHARE: f64 = 2.0;
+
+/// Distance that nodes keep from each other, as a share of the highest speed and force: half of what the kernel blurs.
+const NODE_SPACING: f64 = 0.1;
+
+/// Exponents of speed and force that levels have where a recording does not tell: the middle of a hundred real textures.
+const USUAL_EXPONENTS: [f64; 2] = [0.97, 0.28];
+
+/// How firmly [`USUAL_EXPONENTS`] are believed, in seconds of signal whose logarithms of speed or force differ by one
+/// from the others': a tenth of a second, so that any real variation overrules it.
+const BELIEF_SECS: f64 = 0.1;
+
+/// Estimates at any speed and force.
+pub(super) struct Surface<'a> {
+    pieces: Vec<&'a Piece>,
+    speed_max_mps: f64,
+    force_max_n: f64,
+    trend: Trend,
+}
+
+/// The power law `level² ∝ v^2α F^2β` through all pieces, about which neighbors are averaged.
+#[derive(Clone, Copy)]
+struct Trend {
+    exponents: [f64; 2],
+}
+
+impl Trend {
+    /// Weighted least squares on logarithms.
+    fn new(pieces: &[&Piece]) -> Self {
+        let total: f64 = pieces.iter().map(|p| p.seconds).sum();
+        let logs = |p: &Piece| [p.speed_mps.ln(), p.force_n.ln(), 0.5 * p.mean_square.ln()];
+        let mut mean = [0.0; 3];
+        for piece in pieces {
+            for (mean, log) in mean.iter_mut().zip(logs(piece)) {
+                *mean += piece.seconds / total * log;
+            }
+        }
+        // (M + b I) x = r + b usual, M and r being moments about the mean.
+        let mut moments = [[BELIEF_SECS, 0.0], [0.0, BELIEF_SECS]];
+        let mut right = USUAL_EXPONENTS.map(|e| BELIEF_SECS * e);
+        for piece in pieces {
+            let logs = logs(piece);
+            let d = [0, 1, 2].map(|i| logs[i] - mean[i]);
+            for i in 0..2 {
+                for j in 0..2 {
+                    moments[i][j] += piece.seconds * d[i] * d[j];
+                }
+                right[i] += piece.seconds * d[i] * d[2];
+            }
+        }
+        let [[a, b], [c, d]] = moments;
+        let determinant = a * d - b * c;
+        Self {
+            exponents: [
+                (d * right[0] - b * right[1]) / determinant,
+                (a * right[1] - c * right[0]) / determinant,
+            ],
+        }
+    }
+
+    /// `v^2α F^2β`, in no particular unit.
+    fn mean_square(&self, speed_mps: f64, force_n: f64) -> f64 {
+        let [alpha, beta] = self.exponents;
+        (2.0 * (alpha * speed_mps.ln() + beta * force_n.ln())).exp()
+    }
+}
+
+impl<'a> Surface<'a> {
+    /// Estimates from these pieces, at least one.
+    pub(super) fn new(pieces: Vec<&'a Piece>) -> Self {
+        let trend = Trend::new(&pieces);
+        let highest = |value: fn(&Piece) -> f64| pieces.iter().map(|p| value(p)).fold(0.0, f64::max);
+        let (speed_max_mps, force_max_n) = (highest(|p| p.speed_mps), highest(|p| p.force_n));
+        Self { pieces, speed_max_mps, force_max_n, trend }
+    }
+
+    /// Place of a speed and force, as shares of the highest.
+    pub(super) fn share(&self, speed_mps: f64, force_n: f64) -> [f64; 2] {
+        [speed_mps / self.speed_max_mps, force_n / self.force_max_n]
+    }
+
+    /// Places of all pieces.
+    pub(super) fn shares(&self) -> Vec<[f64; 2]> {
+        self.pieces.iter().map(|p| self.share(p.speed_mps, p.force_n)).collect()
+    }
+
+    /// Weight of every piece at a place.
+    fn weights(&self, at: [f64; 2]) -> Vec<f64> {
+        let squares: Vec<f64> = self.shares().into_iter().map(|p| distance(p, at).powi(2)).collect();
+        let mut width = KERNEL_SHARE;
+        loop {
+            let weights: Vec<f64> = squares.iter().map(|d| (-0.5 * d / (width * width)).exp()).collect();
+            let secs: f64 = weights.iter().zip(&self.pieces).map(|(w, p)| w * p.seconds).sum();
+            if secs >= ESTIMATE_SECS || width > MAX_KERNEL_SHARE {
+                return weights;
+            }
+            width *= WIDENING;
+        }
+    }
+
+    /// Predictor of the pieces near a place, each counted alike however loud it is, and the samples that it rests on.
+    fn predictor(&self, weights: &[f64], order: usize) -> Result<(ArFit, f64), FitError> {
+        let parts: Vec<_> =
+            self.pieces.iter().zip(weights).map(|(p, w)| (&p.sums, w / p.mean_square)).collect();
+        let fit = burg_of_many(&parts, order).map_err(|source| FitError::Predictor {
+            speed_mps: self.pieces[0].speed_mps,
+            force_n: self.pieces[0].force_n,
+            source,
+        })?;
+        let counted = |power: i32| {
+            self.pieces
+                .iter()
+                .zip(weights)
+                .map(|(p, w)| w.powi(power) * p.sums.n_samples() as f64)
+                .sum::<f64>()
+        };
+        Ok((fit, counted(1).powi(2) / counted(2)))
+    }
+
+    /// Level at a speed and force: the power law, times what the pieces near it have beyond it.
+    fn level_mps2(&self, weights: &[f64], speed_mps: f64, force_n: f64) -> f64 {
+        let beyond = |p: &Piece| p.mean_square / self.trend.mean_square(p.speed_mps, p.force_n);
+        let pairs = || self.pieces.iter().zip(weights);
+        let sum: f64 = pairs().map(|(p, w)| w * p.seconds * beyond(p)).sum();
+        let secs: f64 = pairs().map(|(p, w)| w * p.seconds).sum();
+        (sum / secs * self.trend.mean_square(speed_mps, force_n)).sqrt()
+    }
+
+    /// Pieces at whose speed and force nodes are put: the fastest, then always the one farthest from those that are
+    /// there, so that the ends of the range come first.
+    fn places(&self) -> Vec<usize> {
+        let shares = self.shares();
+        let first = (0..shares.len()).max_by(|a, b| shares[*a][0].total_cmp(&shares[*b][0])).unwrap_or(0);
+        let mut places = vec![first];
+        let mut nearest: Vec<f64> = shares.iter().map(|s| distance(*s, shares[first])).collect();
+        while let Some((next, far)) = nearest.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)) {
+            if *far < NODE_SPACING {
+                break;
+            }
+            places.push(next);
+            for (near, share) in nearest.iter_mut().zip(&shares) {
+                *near = near.min(distance(*share, shares[next]));
+            }
+        }
+        places
+    }
+
+    /// The order that the middle node prefers by the Bayesian information criterion, of those in `range`.
+    pub(super) fn order(&self, range: std::ops::RangeInclusive<usize>) -> Result<usize, FitError> {
+        let mut orders = Vec::new();
+        for place in self.places() {
+            let (fit, n) = self.predictor(&self.weights(self.shares()[place]), *range.end())?;
+            orders.push(order_by_bic(&fit, n as usize, 0..=*range.end()));
+        }
+        orders.sort_unstable();
+        Ok(orders[orders.len() / 2].clamp(*range.start(), *range.end()))
+    }
+
+    /// The texture.
+    pub(super) fn model(&self, rate: Hertz, order: usize) -> Result<TextureModel, FitError> {
+        let mut nodes = Vec::new();
+        for place in self.places() {
+            let Piece { speed_mps, force_n, .. } = *self.pieces[place];
+            let weights = self.weights(self.share(speed_mps, force_n));
+            let lsf = lsf_from_ar(&self.predictor(&weights, order)?.0.ar)
+                .ok_or(FitError::Unstable { speed_mps, force_n })?;
+            nodes.push(GrainNode {
+                speed: MetersPerSecond(speed_mps),
+                force: Newtons(force_n),
+                lsf,
+                level_mps2: self.level_mps2(&weights, speed_mps, force_n),
+            });
+        }
+        Ok(TextureModel::new(rate, nodes, None)?)
+    }
+}
+
+/// Distance of two places.
+pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}

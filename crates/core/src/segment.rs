@@ -1,0 +1,228 @@
+//! Stretches of a recording in which the hand kept its speed and force.
+//!
+//! Blocks of [`BLOCK_SECS`] are merged bottom-up, the most alike first, while speed and force stay within
+//! [`SPEED_TOLERANCE`] and [`FORCE_TOLERANCE`] of their middle inside the union.
+
+use std::ops::Range;
+
+use crate::recording::Recording;
+use crate::units::{MetersPerSecond, Newtons};
+
+/// Length of the blocks that are merged, in seconds.
+pub const BLOCK_SECS: f64 = 0.05;
+
+/// Longest stretch, in seconds: more of them say more about how a texture changes than longer ones.
+pub const MAX_SECS: f64 = 1.0;
+
+/// Slowest speed at which a tip counts as stroking.
+pub const MIN_SPEED: MetersPerSecond = MetersPerSecond(0.010);
+
+/// Lightest force at which a tip counts as touching: sensors drift by about as much.
+pub const MIN_FORCE: Newtons = Newtons(0.05);
+
+/// How far speed may be from the middle of its range in a stretch, as a share of it: 15 %, because a hand that goes back
+/// and forth holds its speed within 10 % only over a third of its time, and the level changes by hardly more than a
+/// decibel.
+pub const SPEED_TOLERANCE: f64 = 0.15;
+
+/// How far speed may be from its middle however slow it is, in m/s.
+pub const SPEED_TOLERANCE_MPS: f64 = 0.005;
+
+/// How far force may be from the middle of its range in a stretch, as a share of it: the level follows force half as much
+/// as speed.
+pub const FORCE_TOLERANCE: f64 = 0.15;
+
+/// How far force may be from its middle however light it is, in N.
+pub const FORCE_TOLERANCE_N: f64 = 0.05;
+
+/// Speed and force are low-passed here, in Hz: no hand is faster, and sensors are noisy above.
+const TRACK_BAND_HZ: f64 = 20.0;
+
+/// A stretch of one speed and force.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    /// Which samples of the recording.
+    pub samples: Range<usize>,
+    /// Median speed.
+    pub speed: MetersPerSecond,
+    /// Median force.
+    pub force: Newtons,
+}
+
+/// What a recording falls into.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Segmentation {
+    /// The stretches of one speed and force, in order.
+    pub stretches: Vec<Stretch>,
+    /// Seconds that were usable but with the tip lifted.
+    pub lifted_secs: f64,
+    /// Seconds in contact but slower than [`MIN_SPEED`].
+    pub slow_secs: f64,
+    /// Seconds of strokes whose speed or force changed too fast, or that were too short.
+    pub changing_secs: f64,
+    /// The highest speed in contact.
+    pub fastest: MetersPerSecond,
+    /// The highest force.
+    pub strongest: Newtons,
+}
+
+/// Lowest and highest of a quantity.
+#[derive(Clone, Copy)]
+struct Span {
+    low: f64,
+    high: f64,
+}
+
+/// A stretch that is still growing.
+#[derive(Clone)]
+struct Piece {
+    samples: Range<usize>,
+    speed: Span,
+    force: Span,
+}
+
+/// The stretches of at least `min_secs` of one speed and force, inside what is usable of a recording.
+pub fn segment(recording: &Recording, min_secs: f64) -> Segmentation {
+    let rate_hz = recording.rate.0;
+    let n_block = ((BLOCK_SECS * rate_hz).round() as usize).max(1);
+    let mut found = Segmentation::default();
+    for usable in &recording.usable {
+        let speed = smoothed(&recording.speed_mps[usable.clone()], rate_hz);
+        let force = smoothed(&recording.force_n[usable.clone()], rate_hz);
+        let mut run: Vec<Piece> = Vec::new();
+        for start in (0..usable.len()).step_by(n_block) {
+            let samples = start..(start + n_block).min(usable.len());
+            let piece =
+                Piece { speed: span(&speed[samples.clone()]), force: span(&force[samples.clone()]), samples };
+            let secs = piece.samples.len() as f64 / rate_hz;
+            found.strongest.0 = found.strongest.0.max(piece.force.high);
+            let lifted = piece.force.low < MIN_FORCE.0;
+            if !lifted {
+                found.fastest.0 = found.fastest.0.max(piece.speed.high);
+            }
+            let slow = piece.speed.low < MIN_SPEED.0;
+            let changing = spread(&piece) > 1.0;
+            if lifted {
+                found.lifted_secs += secs;
+            } else if slow {
+                found.slow_secs += secs;
+            } else if changing {
+                found.changing_secs += secs;
+            }
+            if lifted || slow || changing {
+                close(&mut run, &speed, &force, (usable.start, rate_hz, min_secs), &mut found);
+            } else {
+                run.push(piece);
+            }
+        }
+        close(&mut run, &speed, &force, (usable.start, rate_hz, min_secs), &mut found);
+    }
+    found
+}
+
+/// Merges a run of neighboring pieces and keeps what is long enough.
+fn close(
+    run: &mut Vec<Piece>,
+    speed: &[f64],
+    force: &[f64],
+    (offset, rate_hz, min_secs): (usize, f64, f64),
+    found: &mut Segmentation,
+) {
+    merge(run, (MAX_SECS * rate_hz).round() as usize);
+    for piece in run.drain(..) {
+        let secs = piece.samples.len() as f64 / rate_hz;
+        // A block's rounded length times two may be a sample short of what was asked for.
+        if secs + 1.0 / rate_hz < min_secs {
+            found.changing_secs += secs;
+            continue;
+        }
+        found.stretches.push(Stretch {
+            speed: MetersPerSecond(median(&speed[piece.samples.clone()])),
+            force: Newtons(median(&force[piece.samples.clone()])),
+            samples: piece.samples.start + offset..piece.samples.end + offset,
+        });
+    }
+}
+
+/// Joins the two neighbors that are most alike, again and again, while they stay within the tolerances and `n_max` samples.
+fn merge(run: &mut Vec<Piece>, n_max: usize) {
+    let cost = |pair: &[Piece]| {
+        let both = union(&pair[0], &pair[1]);
+        if both.samples.len() > n_max { f64::INFINITY } else { spread(&both) }
+    };
+    let mut costs: Vec<f64> = run.windows(2).map(cost).collect();
+    while let Some((i, _)) =
+        costs.iter().enumerate().filter(|(_, c)| **c <= 1.0).min_by(|a, b| a.1.total_cmp(b.1))
+    {
+        run[i] = union(&run[i], &run[i + 1]);
+        run.remove(i + 1);
+        costs.remove(i);
+        for j in [i.wrapping_sub(1), i] {
+            if let Some(pair) = run.get(j..).and_then(|from| from.get(..2)) {
+                costs[j] = cost(pair);
+            }
+        }
+    }
+}
+
+fn union(a: &Piece, b: &Piece) -> Piece {
+    let both = |a: Span, b: Span| Span { low: a.low.min(b.low), high: a.high.max(b.high) };
+    Piece {
+        samples: a.samples.start..b.samples.end,
+        speed: both(a.speed, b.speed),
+        force: both(a.force, b.force),
+    }
+}
+
+/// The larger of the ranges of speed and force, as a share of what is tolerated.
+fn spread(piece: &Piece) -> f64 {
+    let share = |span: Span, relative: f64, absolute: f64| {
+        let middle = 0.5 * (span.low + span.high);
+        0.5 * (span.high - span.low) / (relative * middle).max(absolute)
+    };
+    share(piece.speed, SPEED_TOLERANCE, SPEED_TOLERANCE_MPS).max(share(
+        piece.force,
+        FORCE_TOLERANCE,
+        FORCE_TOLERANCE_N,
+    ))
+}
+
+fn span(values: &[f64]) -> Span {
+    Span {
+        low: values.iter().copied().fold(f64::INFINITY, f64::min),
+        high: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    }
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    let middle = sorted.len() / 2;
+    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// A track without what is above [`TRACK_BAND_HZ`] and without delay: three moving averages, whose gain is `sinc³`.
+pub(crate) fn smoothed(track: &[f64], rate_hz: f64) -> Vec<f64> {
+    // sinc³ is 1/√2 where its argument is 0.262.
+    let half = (0.5 * 0.262 / TRACK_BAND_HZ * rate_hz).round() as usize;
+    (0..3).fold(track.to_vec(), |track, _| moving_average(&track, half))
+}
+
+/// Means over `half` samples to both sides; at the ends, over as many as there are on the shorter side.
+fn moving_average(track: &[f64], half: usize) -> Vec<f64> {
+    let sums: Vec<f64> = std::iter::once(0.0)
+        .chain(track.iter().scan(0.0, |sum, x| {
+            *sum += x;
+            Some(*sum)
+        }))
+        .collect();
+    let n = track.len();
+    (0..n)
+        .map(|i| {
+            let reach = half.min(i).min(n - 1 - i);
+            (sums[i + reach + 1] - sums[i - reach]) / (2 * reach + 1) as f64
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

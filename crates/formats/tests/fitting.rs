@@ -1,0 +1,118 @@
+//! Strokes that are made from a known texture and fitted again give back its spectra.
+//!
+//! The strokes are simulated: the renderer under a hand that goes back and forth, on the 25 textures of the starter
+//! library. Some stretches of time are kept from the fit; there the fitted model is held against the strokes and against
+//! the texture that they were made of.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::f64::consts::TAU;
+
+use shagreen_core::ar::comparison_frequencies;
+use shagreen_core::blend::Mode;
+use shagreen_core::fit::{FitOptions, Fitted, fit};
+use shagreen_core::plane::Plane;
+use shagreen_core::recording::Recording;
+use shagreen_core::render::{RenderPlan, render};
+use shagreen_core::segment::segment;
+use shagreen_core::spectrum::goodness_of_fit;
+use shagreen_core::texture::TextureModel;
+use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use shagreen_formats::starter::starter_library;
+
+const RATE: Hertz = Hertz(1000.0);
+const SECONDS: f64 = 40.0;
+
+/// A hand: strokes back and forth whose length and tempo wander, and a force that wanders more slowly.
+fn hand(t: f64) -> Contact {
+    let wander = |period_secs: f64, phase: f64| 0.5 + 0.5 * (TAU * t / period_secs + phase).sin();
+    let phase = TAU * (0.55 * t + 0.8 * (TAU * t / 11.0).sin());
+    let top_mps = 0.03 + 0.22 * (0.6 * wander(9.7, 0.0) + 0.4 * wander(3.1, 1.0));
+    let force_n = 0.2 + 2.8 * (0.7 * wander(13.3, 2.0) + 0.3 * wander(5.3, 0.3)).powi(2);
+    Contact { speed: MetersPerSecond(top_mps * phase.sin().abs()), force: Newtons(force_n) }
+}
+
+/// Strokes on a texture, simulated.
+fn strokes(model: &TextureModel, seed: u64) -> Recording {
+    let prepared = Plane::new(model).prepare();
+    let plan =
+        RenderPlan { parents: &[(&prepared, 1.0)], mode: Mode::Shared, rate: RATE, seconds: SECONDS, seed };
+    let acceleration_mps2: Vec<f64> = render(&plan, &mut hand).unwrap().into_iter().map(f64::from).collect();
+    let contacts = (0..acceleration_mps2.len()).map(|i| hand(i as f64 / RATE.0));
+    let (speed_mps, force_n) = contacts.map(|c| (c.speed.0, c.force.0)).unzip();
+    let usable = std::iter::once(0..acceleration_mps2.len()).collect();
+    Recording { rate: RATE, acceleration_mps2, speed_mps, force_n, usable }
+}
+
+/// Median goodness of fit, and median absolute level error in dB.
+#[derive(Clone, Copy, Debug)]
+struct Agreement {
+    gfc: f64,
+    level_db: f64,
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// The fitted model beside the true one, at the stretches of `unseen`.
+fn against_truth(fitted: &Fitted, model: &TextureModel, unseen: &Recording) -> Agreement {
+    let frequencies = comparison_frequencies(RATE, 256);
+    let (truth, ours) = (Plane::new(model), Plane::new(&fitted.model));
+    let stretches = segment(unseen, 0.1).stretches;
+    let both = |s: &shagreen_core::segment::Stretch| {
+        let contact = Contact { speed: s.speed, force: s.force };
+        (ours.at(contact), truth.at(contact))
+    };
+    Agreement {
+        gfc: median(stretches.iter().map(|s| {
+            let (ours, truth) = both(s);
+            goodness_of_fit(&ours.psd(&frequencies), &truth.psd(&frequencies))
+        })),
+        level_db: median(stretches.iter().map(|s| {
+            let (ours, truth) = both(s);
+            (20.0 * (ours.level_mps2 / truth.level_mps2).log10()).abs()
+        })),
+    }
+}
+
+#[test]
+fn forty_seconds_of_strokes_give_back_the_texture() {
+    let (mut measured, mut true_to) = (Vec::new(), Vec::new());
+    for (seed, texture) in (1..).zip(&starter_library().unwrap().textures) {
+        let recording = strokes(&texture.model, seed);
+        // Four stretches of 2 s stay unseen.
+        let (mut seen, mut unseen) = (recording.clone(), recording);
+        seen.usable = [0..6000, 8000..16_000, 18_000..26_000, 28_000..36_000, 38_000..40_000].to_vec();
+        unseen.usable = [6000..8000, 16_000..18_000, 26_000..28_000, 36_000..38_000].to_vec();
+        let fitted = fit(&[seen], &FitOptions::usual()).unwrap();
+        assert!(fitted.report.held_out);
+        let held_out =
+            Agreement { gfc: fitted.report.gfc_median(), level_db: fitted.report.level_error_db_median() };
+        let truth = against_truth(&fitted, &texture.model, &unseen);
+        println!(
+            "{:<24} order {:2}, {:3} segments, {:2} nodes, coverage {:.2}: held-out {:.3} {:.2} dB, truth {:.3} {:.2} dB",
+            texture.name,
+            fitted.report.order,
+            fitted.report.segments.len(),
+            fitted.model.nodes().len(),
+            fitted.report.coverage,
+            held_out.gfc,
+            held_out.level_db,
+            truth.gfc,
+            truth.level_db
+        );
+        measured.push(held_out);
+        true_to.push(truth);
+    }
+    for (name, agreements) in [("held-out segments", measured), ("the texture itself", true_to)] {
+        let gfc = median(agreements.iter().map(|a| a.gfc));
+        let level_db = median(agreements.iter().map(|a| a.level_db));
+        let worst_gfc = agreements.iter().map(|a| a.gfc).fold(1.0, f64::min);
+        let worst_db = agreements.iter().map(|a| a.level_db).fold(0.0, f64::max);
+        println!("{name}: median {gfc:.3} {level_db:.2} dB, worst {worst_gfc:.3} {worst_db:.2} dB");
+        assert!(gfc >= 0.95, "{name}: {gfc}");
+        assert!(level_db < 1.0, "{name}: {level_db}");
+    }
+}
