@@ -4,8 +4,8 @@
 //! they do not say. Nothing joins the library before the user accepts it.
 
 pub mod batch;
-mod draft_ui;
 mod draft;
+mod draft_ui;
 mod files_ui;
 mod model_ui;
 mod plane_plot;

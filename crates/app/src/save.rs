@@ -60,7 +60,8 @@ impl SaveSheet {
         let mut commands = Vec::new();
         ui.add(Label::new(RichText::new(strings::SAVE_TITLE).heading().strong()).selectable(false));
         ui.add_space(GAP);
-        let field = TextEdit::singleline(&mut self.path).hint_text(strings::SAVE_HINT).desired_width(f32::INFINITY);
+        let field =
+            TextEdit::singleline(&mut self.path).hint_text(strings::SAVE_HINT).desired_width(f32::INFINITY);
         let field = ui.add(field).accessible_name(strings::SAVE_PATH);
         if !std::mem::replace(&mut self.is_focused, true) {
             field.request_focus();
@@ -100,7 +101,10 @@ impl SaveSheet {
     /// Writes in a thread of its own, and not over a file that is there unless `replaces`.
     fn save(&mut self, path: &str, library: &Library, replaces: bool, ctx: &Context) {
         let (sender, receiver) = channel();
-        let library = Library { created_by: concat!("Shagreen ", env!("CARGO_PKG_VERSION")).to_owned(), ..library.clone() };
+        let library = Library {
+            created_by: concat!("Shagreen ", env!("CARGO_PKG_VERSION")).to_owned(),
+            ..library.clone()
+        };
         let (path, ctx) = (PathBuf::from(path), ctx.clone());
         std::thread::spawn(move || {
             // The sheet may have been closed meanwhile: then nobody asks any more.

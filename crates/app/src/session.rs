@@ -209,7 +209,8 @@ impl Session {
 
     /// What is heard alone may have another rate than the space: then the output is opened again, at that rate.
     fn follow_rate(&mut self, solo: Option<usize>, ctx: &egui::Context) {
-        let rate_hz = solo.map_or(self.space_rate_hz, |texture| self.library.textures[texture].model.rate().0);
+        let rate_hz =
+            solo.map_or(self.space_rate_hz, |texture| self.library.textures[texture].model.rate().0);
         if rate_hz != self.rate_hz {
             self.rate_hz = rate_hz;
             self.spectra = Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() };

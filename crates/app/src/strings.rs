@@ -147,7 +147,8 @@ pub const HEARD_ALONE: &str = "heard alone";
 /// Opens the import sheet.
 pub const IMPORT: &str = "Import…";
 /// What importing does.
-pub const IMPORT_HELP: &str = "Makes textures of recordings, HaTT models or another library. Files can also be dropped on the window.";
+pub const IMPORT_HELP: &str =
+    "Makes textures of recordings, HaTT models or another library. Files can also be dropped on the window.";
 /// Opens the sheet that saves the library.
 pub const SAVE_LIBRARY: &str = "Save library…";
 /// What saving does.

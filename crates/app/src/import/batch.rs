@@ -8,7 +8,9 @@ use shagreen_formats::recording::{ColumnMap, Question};
 
 use crate::import::draft::{Draft, FitState};
 use crate::import::source::Source;
-use crate::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, RecordingInput, Request, Worker};
+use crate::import::worker::{
+    Drawn, Loaded, LoadedContent, Message, ReadOutcome, RecordingInput, Request, Worker,
+};
 use crate::strings::import as strings;
 
 /// Files on their way into the library.
@@ -81,7 +83,13 @@ pub enum State {
 impl Batch {
     /// A batch without files.
     pub fn new(ctx: &egui::Context) -> Self {
-        Self { files: Vec::new(), drafts: Vec::new(), worker: Worker::new(ctx.clone()), are_one: false, last_id: 0 }
+        Self {
+            files: Vec::new(),
+            drafts: Vec::new(),
+            worker: Worker::new(ctx.clone()),
+            are_one: false,
+            last_id: 0,
+        }
     }
 
     /// Reads more files.
@@ -149,7 +157,9 @@ impl Batch {
         let content = match content {
             LoadedContent::Failed(reason) => Content::Failed(reason),
             LoadedContent::Helper { note } => Content::Helper(note),
-            LoadedContent::Textures { entries, warnings } => Content::Textures { entries, warnings, shown: 0 },
+            LoadedContent::Textures { entries, warnings } => {
+                Content::Textures { entries, warnings, shown: 0 }
+            }
             LoadedContent::Recording { input, map, outcome } => {
                 is_recording = true;
                 Content::Recording(Box::new(RecordingState {
@@ -264,7 +274,8 @@ impl Batch {
     }
 
     fn fit(&mut self, index: usize) {
-        let recordings: Vec<Arc<Drawn>> = self.drawn_of(&self.drafts[index]).map(|(_, d)| Arc::clone(d)).collect();
+        let recordings: Vec<Arc<Drawn>> =
+            self.drawn_of(&self.drafts[index]).map(|(_, d)| Arc::clone(d)).collect();
         let draft = &mut self.drafts[index];
         draft.generation += 1;
         if recordings.is_empty() {
@@ -295,13 +306,15 @@ impl Batch {
             Content::Helper(_) => State::Helper,
             Content::Textures { .. } => State::Ready,
             Content::Recording(state) if state.is_reading => State::Working,
-            Content::Recording(state) => match (&state.outcome.recording, self.draft_of(file.id).map(|d| &d.fit)) {
-                (None, _) => State::Question,
-                (Some(Err(_)), _) | (_, Some(FitState::Failed(_))) => State::Failed,
-                (_, Some(FitState::Done(_))) if !state.outcome.questions.is_empty() => State::Question,
-                (_, Some(FitState::Done(_))) => State::Ready,
-                _ => State::Working,
-            },
+            Content::Recording(state) => {
+                match (&state.outcome.recording, self.draft_of(file.id).map(|d| &d.fit)) {
+                    (None, _) => State::Question,
+                    (Some(Err(_)), _) | (_, Some(FitState::Failed(_))) => State::Failed,
+                    (_, Some(FitState::Done(_))) if !state.outcome.questions.is_empty() => State::Question,
+                    (_, Some(FitState::Done(_))) => State::Ready,
+                    _ => State::Working,
+                }
+            }
         }
     }
 

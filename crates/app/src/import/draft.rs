@@ -10,10 +10,10 @@ use shagreen_formats::library::TextureEntry;
 use crate::strings::import as strings;
 
 /// Rates that can be chosen, in Hz; without one the recordings decide.
-pub const RATES_HZ: [f64; 3] = [1000.0, 2000.0, 4000.0];
+pub(super) const RATES_HZ: [f64; 3] = [1000.0, 2000.0, 4000.0];
 
 /// Orders that can be chosen.
-pub const ORDERS: std::ops::RangeInclusive<usize> = 2..=MAX_ORDER;
+pub(super) const ORDERS: std::ops::RangeInclusive<usize> = 2..=MAX_ORDER;
 
 /// A texture in the making.
 #[derive(Clone, Debug)]

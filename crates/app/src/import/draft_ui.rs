@@ -23,7 +23,13 @@ const TRACES: f32 = 250.0;
 const SPECTRA: f32 = 190.0;
 
 /// Draws what belongs to the recording `id`.
-pub(super) fn draft_ui(ui: &mut Ui, batch: &mut Batch, id: u64, for_all: &mut bool, around: Surroundings<'_>) {
+pub(super) fn draft_ui(
+    ui: &mut Ui,
+    batch: &mut Batch,
+    id: u64,
+    for_all: &mut bool,
+    around: Surroundings<'_>,
+) {
     let area = ui.available_rect_before_wrap();
     let (left, right) = area.split_left_right_at_x(area.right() - DETAILS_WIDTH);
     let left = egui::Rect::from_min_max(left.min, left.max - vec2(GROUP_GAP + GAP, 0.0));
@@ -70,7 +76,9 @@ fn ask_ui(ui: &mut Ui, batch: &mut Batch, id: u64, for_all: &mut bool) {
         }
         None => {
             ui.add_space(GAP);
-            ui.add(Label::new(RichText::new(strings::ANSWER_FIRST).color(t.text_weak)).wrap().selectable(false));
+            ui.add(
+                Label::new(RichText::new(strings::ANSWER_FIRST).color(t.text_weak)).wrap().selectable(false),
+            );
         }
         Some(Ok(_)) => {}
     }
@@ -88,11 +96,15 @@ fn ask_ui(ui: &mut Ui, batch: &mut Batch, id: u64, for_all: &mut bool) {
 fn plots_ui(ui: &mut Ui, batch: &mut Batch, id: u64) {
     let Some(draft) = batch.draft_of(id) else { return };
     let place = batch.drawn_of(draft).position(|(file, _)| file.id == id);
-    let Some(drawn) = place.and_then(|place| batch.drawn_of(draft).nth(place)).map(|(_, d)| std::sync::Arc::clone(d))
+    let Some(drawn) =
+        place.and_then(|place| batch.drawn_of(draft).nth(place)).map(|(_, d)| std::sync::Arc::clone(d))
     else {
         return;
     };
-    let chosen = draft.fitted().and_then(|f| f.report.segments.get(draft.segment)).filter(|s| Some(s.recording) == place);
+    let chosen = draft
+        .fitted()
+        .and_then(|f| f.report.segments.get(draft.segment))
+        .filter(|s| Some(s.recording) == place);
     let chosen = chosen.map(|s| [s.start_secs, s.start_secs + s.seconds]);
     // The plots share what is left of the height, and scroll where that is too little.
     let left = ui.available_height();
@@ -268,7 +280,11 @@ fn figures_ui(ui: &mut Ui, report: &FitReport) {
     let tap = report.tap.as_ref().map_or(strings::NO_TAP.to_owned(), strings::tap);
     let rows = [
         (strings::GFC_MEDIAN, format!("{:.3}", report.gfc_median()), strings::GFC_HELP),
-        (strings::LEVEL_ERROR, format!("{:.2} dB", report.level_error_db_median()), strings::LEVEL_ERROR_HELP),
+        (
+            strings::LEVEL_ERROR,
+            format!("{:.2} dB", report.level_error_db_median()),
+            strings::LEVEL_ERROR_HELP,
+        ),
         (strings::N_SEGMENTS, report.segments.len().to_string(), ""),
         (strings::COVERAGE, format!("{:.0} %", 100.0 * report.coverage), strings::COVERAGE_HELP),
         (strings::MODEL_RATE, strings::rate(report.rate.0), strings::RATE_HELP),

@@ -20,7 +20,12 @@ pub(super) fn files_ui(ui: &mut Ui, batch: &mut Batch, selected: &mut Option<u64
             let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
             let word = word_of(state);
             response.widget_info(|| {
-                WidgetInfo::selected(Role::Button, true, *selected == Some(file.id), strings::file(&file.name, word))
+                WidgetInfo::selected(
+                    Role::Button,
+                    true,
+                    *selected == Some(file.id),
+                    strings::file(&file.name, word),
+                )
             });
             if response.gained_focus() {
                 response.scroll_to_me(None);

@@ -78,7 +78,8 @@ fn plots_ui(ui: &mut Ui, entry: &TextureEntry) {
             let Some(contact) = contacts.get(node) else { return };
             title(ui, strings::SPECTRUM, &strings::spectrum_at(*contact));
             let high = 0.4995 * entry.model.rate().0;
-            let frequency = |i: usize| Hertz(10.0 * (high / 10.0).powf(i as f64 / (N_FREQUENCIES - 1) as f64));
+            let frequency =
+                |i: usize| Hertz(10.0 * (high / 10.0).powf(i as f64 / (N_FREQUENCIES - 1) as f64));
             let frequencies: Vec<Hertz> = (0..N_FREQUENCIES).map(frequency).collect();
             let psd = Plane::new(&entry.model).at(*contact).psd(&frequencies);
             spectrum_plot(ui, &frequencies, None, &psd, inner);

@@ -18,7 +18,13 @@ pub(super) struct Dot {
 const REACH: f32 = 14.0;
 
 /// Draws the plane; returns the dot that was clicked.
-pub(super) fn plane_plot(ui: &mut Ui, name: &str, dots: &[Dot], selected: usize, height: f32) -> Option<usize> {
+pub(super) fn plane_plot(
+    ui: &mut Ui,
+    name: &str,
+    dots: &[Dot],
+    selected: usize,
+    height: f32,
+) -> Option<usize> {
     let t = tokens(ui.ctx());
     let highest = |value: fn(&Dot) -> f64| dots.iter().map(value).fold(0.0, f64::max).max(1e-3);
     let (speed_max, force_max) = (highest(|d| d.speed_mm_per_s), highest(|d| d.force_n));
@@ -42,7 +48,9 @@ pub(super) fn plane_plot(ui: &mut Ui, name: &str, dots: &[Dot], selected: usize,
                 plot.line(line.width(1.2).allow_hover(false));
             }
             for dot in dots {
-                plot.points(Points::new("", vec![[dot.speed_mm_per_s, dot.force_n]]).color(dot.color).radius(3.5));
+                plot.points(
+                    Points::new("", vec![[dot.speed_mm_per_s, dot.force_n]]).color(dot.color).radius(3.5),
+                );
             }
             if let Some(dot) = dots.get(selected) {
                 let ring = Points::new("", vec![[dot.speed_mm_per_s, dot.force_n]]);
@@ -79,7 +87,8 @@ pub(super) fn color_of_gfc(gfc: f64, t: &Tokens) -> Color32 {
 pub(super) fn gfc_legend_ui(ui: &mut Ui) {
     let t = tokens(ui.ctx());
     ui.horizontal(|ui| {
-        for (text, color) in [(strings::GOOD, t.accent), (strings::FAIR, t.warning), (strings::BAD, t.error)] {
+        for (text, color) in [(strings::GOOD, t.accent), (strings::FAIR, t.warning), (strings::BAD, t.error)]
+        {
             ui.spacing_mut().item_spacing.x = 4.0;
             let (area, _) = ui.allocate_exact_size(egui::vec2(8.0, 8.0), egui::Sense::hover());
             ui.painter().circle_filled(area.center(), 3.5, color);
@@ -122,7 +131,11 @@ mod tests {
 
     #[test]
     fn the_hull_goes_around_and_is_closed() {
-        let dot = |[speed_mm_per_s, force_n]: [f64; 2]| Dot { speed_mm_per_s, force_n, color: egui::Color32::WHITE };
+        let dot = |[speed_mm_per_s, force_n]: [f64; 2]| Dot {
+            speed_mm_per_s,
+            force_n,
+            color: egui::Color32::WHITE,
+        };
         let check = |points: &[[f64; 2]], expected: &[[f64; 2]]| {
             assert_eq!(hull(&points.iter().copied().map(dot).collect::<Vec<_>>()), expected);
         };

@@ -99,13 +99,17 @@ impl ImportSheet {
             });
             ui.add_space(GROUP_GAP - GAP);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let is_wanted = ui.add_enabled(!self.paths.trim().is_empty(), Button::new(strings::READ)).clicked();
+                let is_wanted =
+                    ui.add_enabled(!self.paths.trim().is_empty(), Button::new(strings::READ)).clicked();
                 // One line to look at, but pasted lines stay apart.
                 let field = TextEdit::singleline(&mut self.paths)
                     .hint_text(strings::PATHS_HINT)
                     .desired_width(f32::INFINITY);
                 let field = ui.add(field).accessible_name(strings::PATHS).on_hover_text(strings::DROP_KINDS);
-                if std::mem::take(&mut self.is_fresh) && self.batch.files().is_empty() && !self.batch.is_working() {
+                if std::mem::take(&mut self.is_fresh)
+                    && self.batch.files().is_empty()
+                    && !self.batch.is_working()
+                {
                     field.request_focus();
                 }
                 let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));

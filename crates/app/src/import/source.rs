@@ -31,11 +31,12 @@ impl Source {
     /// Its bytes, or what kept it from being read.
     pub(super) fn bytes(&self) -> Result<Vec<u8>, String> {
         match self {
-            Self::Path(path) => std::fs::read(path)
-                .map_err(|error| format!("the file cannot be read ({error}); check its path and permissions")),
-            Self::Dropped(file) => file
-                .bytes()
-                .map_err(|error| format!("the file cannot be read ({error}); drop it again, or copy it first")),
+            Self::Path(path) => std::fs::read(path).map_err(|error| {
+                format!("the file cannot be read ({error}); check its path and permissions")
+            }),
+            Self::Dropped(file) => file.bytes().map_err(|error| {
+                format!("the file cannot be read ({error}); drop it again, or copy it first")
+            }),
         }
     }
 

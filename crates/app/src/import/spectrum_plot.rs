@@ -15,7 +15,13 @@ const RANGE_DB: f64 = 60.0;
 const MARKS_HZ: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
 /// Draws the densities in (m/s²)²/Hz at `frequencies`; the measured one where there is one.
-pub(super) fn spectrum_plot(ui: &mut Ui, frequencies: &[Hertz], measured: Option<&[f64]>, model: &[f64], height: f32) {
+pub(super) fn spectrum_plot(
+    ui: &mut Ui,
+    frequencies: &[Hertz],
+    measured: Option<&[f64]>,
+    model: &[f64],
+    height: f32,
+) {
     let t = tokens(ui.ctx());
     let to_db = |density: f64| 10.0 * density.max(1e-20).log10();
     let drawn = |density: &[f64]| -> Vec<[f64; 2]> {
@@ -43,7 +49,11 @@ pub(super) fn spectrum_plot(ui: &mut Ui, frequencies: &[Hertz], measured: Option
             plot.set_plot_bounds_x(low..=high + 0.02);
             plot.set_plot_bounds_y(top - RANGE_DB..=top + 3.0);
             if let Some(measured) = measured {
-                plot.line(Line::new(strings::MEASURED_LINE, PlotPoints::from(measured)).color(t.text_weak).width(1.2));
+                plot.line(
+                    Line::new(strings::MEASURED_LINE, PlotPoints::from(measured))
+                        .color(t.text_weak)
+                        .width(1.2),
+                );
             }
             plot.line(Line::new(strings::MODEL_LINE, PlotPoints::from(model)).color(t.accent).width(2.2));
         });

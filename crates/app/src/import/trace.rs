@@ -3,7 +3,7 @@
 use shagreen_core::recording::Recording;
 
 /// Stretches that a recording is drawn in.
-pub const N_STRETCHES: usize = 600;
+pub(super) const N_STRETCHES: usize = 600;
 
 /// A recording to draw.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +25,9 @@ impl Trace {
     pub fn new(recording: &Recording) -> Self {
         let n = recording.acceleration_mps2.len();
         let length = n.div_ceil(N_STRETCHES).max(1);
-        let time_secs = |i: usize, len: usize| (i * length) as f64 / recording.rate.0 + 0.5 * len as f64 / recording.rate.0;
+        let time_secs = |i: usize, len: usize| {
+            (i * length) as f64 / recording.rate.0 + 0.5 * len as f64 / recording.rate.0
+        };
         let acceleration = recording.acceleration_mps2.chunks(length).enumerate().filter_map(|(i, part)| {
             let known = || part.iter().copied().filter(|a| a.is_finite());
             let (low, high) = (known().reduce(f64::min)?, known().reduce(f64::max)?);
@@ -35,7 +37,8 @@ impl Trace {
             let mean = |(i, part): (usize, &[f64])| {
                 let known = || part.iter().filter(|v| v.is_finite());
                 let n_known = known().count();
-                (n_known > 0).then(|| [time_secs(i, part.len()), scale * known().sum::<f64>() / n_known as f64])
+                (n_known > 0)
+                    .then(|| [time_secs(i, part.len()), scale * known().sum::<f64>() / n_known as f64])
             };
             values.chunks(length).enumerate().filter_map(mean).collect()
         };

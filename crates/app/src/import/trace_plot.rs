@@ -35,7 +35,9 @@ pub(super) fn trace_plot(ui: &mut Ui, trace: &Trace, chosen: Option<[f64; 2]>, h
         let highest = values.iter().map(|v| v[1]).fold(1e-3, f64::max) * 1.1;
         let lowest = values.iter().map(|v| v[1]).fold(0.0, f64::min) * 1.1;
         row(ui, name, trace, chosen, [lowest, highest], unit + axis, |plot| {
-            plot.line(Line::new("", PlotPoints::from(values.clone())).color(color).width(1.4).allow_hover(false));
+            plot.line(
+                Line::new("", PlotPoints::from(values.clone())).color(color).width(1.4).allow_hover(false),
+            );
         });
     }
 }

@@ -192,9 +192,8 @@ fn load(sources: Vec<Source>, outbox: &Sender<Message>) -> bool {
         }
     }
     others.iter().all(|source| {
-        let content = source
-            .bytes()
-            .map_or_else(LoadedContent::Failed, |bytes| load_one(source, bytes, &others, &map));
+        let content =
+            source.bytes().map_or_else(LoadedContent::Failed, |bytes| load_one(source, bytes, &others, &map));
         outbox.send(Message::Loaded(Loaded { name: source.name(), content })).is_ok()
     })
 }
@@ -272,9 +271,11 @@ fn read(input: &RecordingInput, map: &ColumnMap) -> ReadOutcome {
             let recording = (!needs.faults.is_empty()).then(|| Err(sentences(needs.faults.iter())));
             ReadOutcome { questions: needs.questions, warnings: needs.warnings, recording }
         }
-        Err(error) => {
-            ReadOutcome { questions: Vec::new(), warnings: Vec::new(), recording: Some(Err(error.to_string())) }
-        }
+        Err(error) => ReadOutcome {
+            questions: Vec::new(),
+            warnings: Vec::new(),
+            recording: Some(Err(error.to_string())),
+        },
     }
 }
 

@@ -246,7 +246,12 @@ impl Player {
         self.slots.resize(n_textures, None);
     }
 
-    fn slot_of(&mut self, texture: usize, planes: &[Arc<Plane>], ahead: &[Option<Prepared>]) -> Option<TextureId> {
+    fn slot_of(
+        &mut self,
+        texture: usize,
+        planes: &[Arc<Plane>],
+        ahead: &[Option<Prepared>],
+    ) -> Option<TextureId> {
         let handle = self.handle.as_mut()?;
         if let Some((id, used)) = &mut self.slots[texture] {
             *used = self.n_mixes;

@@ -38,7 +38,8 @@ pub const IS_MAP: &str = "A map: it says what the columns of the recordings that
 /// Units beside a WAV file.
 pub const IS_SIDECAR: &str = "Says what the WAV file beside it holds.";
 /// The worker is gone.
-pub const BROKEN: &str = "Reading broke off; close this sheet and import the files one by one to find the one that does it.";
+pub const BROKEN: &str =
+    "Reading broke off; close this sheet and import the files one by one to find the one that does it.";
 /// Something is read or fitted.
 pub const READING: &str = "Reading and fitting…";
 /// A texture without a name.
@@ -51,7 +52,8 @@ pub const ASKS: &str = "The file does not say";
 /// A guess that was gone on with.
 pub const GUESS: &str = "guess";
 /// What a guess is.
-pub const GUESS_HELP: &str = "Taken from the numbers of the file, not stated by it. Choose it to make it certain, or another.";
+pub const GUESS_HELP: &str =
+    "Taken from the numbers of the file, not stated by it. Choose it to make it certain, or another.";
 /// No answer yet.
 pub const CHOOSE: &str = "choose…";
 /// An answer is taken.
@@ -65,7 +67,8 @@ pub const FORCE_HINT: &str = "or e.g. 1 N";
 /// Answers go to all files that ask the same.
 pub const FOR_ALL: &str = "Same answer for all files that ask it";
 /// Before a required answer is given.
-pub const ANSWER_FIRST: &str = "Without the answers marked above, no number of this file has a meaning, so nothing is shown yet.";
+pub const ANSWER_FIRST: &str =
+    "Without the answers marked above, no number of this file has a meaning, so nothing is shown yet.";
 
 /// Heading of the trace of acceleration.
 pub const ACCELERATION: &str = "Acceleration";
@@ -121,7 +124,8 @@ pub const FIT: &str = "Fit";
 /// Accessible name and label of the choice of rates.
 pub const RATE: &str = "Model rate";
 /// What the rate is.
-pub const RATE_HELP: &str = "Samples a second of the model. Automatic: the lowest that keeps the bandwidth of the recording.";
+pub const RATE_HELP: &str =
+    "Samples a second of the model. Automatic: the lowest that keeps the bandwidth of the recording.";
 /// Accessible name and label of the choice of orders.
 pub const ORDER: &str = "Order";
 /// What the order is.
@@ -129,7 +133,8 @@ pub const ORDER_HELP: &str = "Order of the predictor, the same at every speed an
 /// Accessible name and label of the choice of interpolations.
 pub const INTERPOLATION: &str = "Interpolation";
 /// What the interpolation is.
-pub const INTERPOLATION_HELP: &str = "How the texture is found between the speeds and forces that were measured.";
+pub const INTERPOLATION_HELP: &str =
+    "How the texture is found between the speeds and forces that were measured.";
 /// Linear in triangles.
 pub const BARYCENTRIC: &str = "barycentric";
 /// Radial basis functions.
@@ -189,7 +194,8 @@ pub const UNKNOWN: &str = "not stated";
 /// Where a texture will be.
 pub const JOINS_UNPLACED: &str = "It joins the list without a place in the space: a click plays it alone.";
 /// Where a texture will be.
-pub const KEEPS_PLACE: &str = "It keeps its place in the space where that comes from the same source as the places of this library.";
+pub const KEEPS_PLACE: &str =
+    "It keeps its place in the space where that comes from the same source as the places of this library.";
 /// Number of nodes.
 pub const N_NODES: &str = "speeds and forces";
 /// An answer without which the file cannot be read.
