@@ -21,6 +21,7 @@
 )]
 
 pub mod atomic;
+pub mod hatt;
 pub mod imported;
 mod layout;
 pub mod library;

@@ -3,7 +3,7 @@
 //! ```json
 //! {
 //!   "format": "shagreen-library",
-//!   "version": "1.0",
+//!   "version": "1.1",
 //!   "units": {"speed": "mm/s", "force": "N", "acceleration": "m/s^2", "rate": "Hz", "lsf": "rad", "length": "mm"},
 //!   "name": "…", "description": "…", "origin": "…", "licence": "…", "created_by": "…", "seed": 1,
 //!   "textures": [{
@@ -17,28 +17,44 @@
 //! }
 //! ```
 //!
+//! Version 1.1 added, to a texture:
+//!
+//! - `"interpolation"`: how grain is found between anchors, `"barycentric"` (also where it is left out),
+//!   `"radial_basis"`, or `"published"`. Anchors of the last have `"variance"` in (m/s²)², `"gain"` and `"ma_lsf"` in place
+//!   of `level_mps2`, and include the boundary (speed or force zero).
+//! - `"tap": {"frequency_hz": 180.0, "decay_per_s": 90.0, "amplitude_mps2": 4.0}`: the transient of a landing.
+//! - `"provenance": "restricted"`: made from data that may not be passed on; see [`Provenance`].
+//!
+//! A file says the lowest version that has all it uses.
+//!
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
 //! refused.
 
+mod anchors;
+mod error;
+mod provenance;
 mod read;
 mod v1;
 mod write;
 
 use serde_json::{Map, Value};
-use shagreen_core::space::{LabelSource, SpacePoint, SpacePointError};
-use shagreen_core::texture::{TextureModel, TextureModelError};
+use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::texture::TextureModel;
 
 use crate::picture::Picture;
 
+pub use crate::library::error::LibraryError;
+pub use crate::library::provenance::Provenance;
 pub use crate::library::read::read_library;
+pub(crate) use crate::library::write::frequencies;
 pub use crate::library::write::write_library;
 
 /// What the field `format` of a library holds.
 pub const FORMAT: &str = "shagreen-library";
 /// Major version that is read and written: files of another one are refused.
 pub const VERSION_MAJOR: u32 = 1;
-/// Minor version that is written: fields may be added by a higher one.
-pub const VERSION_MINOR: u32 = 0;
+/// Highest minor version that is written: fields may be added by a higher one.
+pub const VERSION_MINOR: u32 = 1;
 
 /// Textures that belong together.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,6 +90,8 @@ pub struct TextureEntry {
     pub license: String,
     /// Where it comes from; as the library where it is empty.
     pub origin: String,
+    /// Whether it may be passed on.
+    pub provenance: Provenance,
     /// What it is.
     pub description: String,
     /// Where it lies in the space, where it has been placed.
@@ -120,6 +138,7 @@ pub struct Unknown {
     space: Map<String, Value>,
     physical: Map<String, Value>,
     picture: Map<String, Value>,
+    tap: Map<String, Value>,
     /// Empty, or one for each node of the model.
     anchors: Vec<Map<String, Value>>,
 }
@@ -133,6 +152,7 @@ impl TextureEntry {
             tags: Vec::new(),
             license: String::new(),
             origin: String::new(),
+            provenance: Provenance::default(),
             description: String::new(),
             place: None,
             physical: None,
@@ -185,108 +205,15 @@ impl Library {
         }
     }
 
+    /// The textures that may not be passed on.
+    pub fn restricted(&self) -> impl Iterator<Item = &TextureEntry> {
+        self.textures.iter().filter(|texture| texture.provenance == Provenance::Restricted)
+    }
+
     /// Terms of a texture: its own, or those of the library.
     pub fn license_of<'a>(&'a self, texture: &'a TextureEntry) -> &'a str {
         if texture.license.is_empty() { &self.license } else { &texture.license }
     }
-}
-
-/// Why bytes are not a library.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum LibraryError {
-    /// Not JSON, cut off, or a field is missing or of the wrong kind.
-    #[error("the library is damaged{}: {reason}; restore it from a copy", in_texture(.texture.as_ref()))]
-    Damaged {
-        /// What the parser says, with line and column.
-        reason: String,
-        /// Identifier of the texture, where the damage is inside one.
-        texture: Option<String>,
-    },
-    /// The file is JSON but of another kind.
-    #[error("this is not a texture library: `format` is {found}, not \"{FORMAT}\"; choose another file")]
-    Format {
-        /// What the field `format` holds.
-        found: String,
-    },
-    /// `version` is not of the form `major.minor`.
-    #[error(
-        "the version {found} of the library is not of the form \"{VERSION_MAJOR}.{VERSION_MINOR}\"; restore it from a copy"
-    )]
-    Version {
-        /// What the field `version` holds.
-        found: String,
-    },
-    /// The file is of another major version.
-    #[error(
-        "the library has version {found}, this program reads {VERSION_MAJOR}.x; open it with the Shagreen that wrote it, or a newer one"
-    )]
-    Major {
-        /// The version of the file.
-        found: String,
-    },
-    /// A quantity has another unit.
-    #[error(
-        "the library gives {quantity} in {found}, this program reads {expected}; convert the numbers and the unit"
-    )]
-    Unit {
-        /// The quantity.
-        quantity: &'static str,
-        /// The unit in the file.
-        found: String,
-        /// The unit that is read.
-        expected: &'static str,
-    },
-    /// An identifier is empty or has white space.
-    #[error("texture number {number} has the id \"{id}\"; give it one that is not empty and has no spaces")]
-    Id {
-        /// Place in the file, from one.
-        number: usize,
-        /// The identifier.
-        id: String,
-    },
-    /// Two textures have the same identifier.
-    #[error("two textures have the id \"{id}\"; rename one of them")]
-    Duplicate {
-        /// The identifier.
-        id: String,
-    },
-    /// A texture's numbers are no model.
-    #[error("texture \"{id}\" cannot be used: {source}; correct or remove it")]
-    Model {
-        /// Identifier of the texture.
-        id: String,
-        /// What is wrong.
-        source: TextureModelError,
-    },
-    /// A texture's position is outside the space.
-    #[error("texture \"{id}\" has no valid place: {source}; correct or remove its `space`")]
-    Place {
-        /// Identifier of the texture.
-        id: String,
-        /// What is wrong.
-        source: SpacePointError,
-    },
-    /// A position does not say where it comes from in a word that is known.
-    #[error("texture \"{id}\" has the label source \"{found}\"; it must be human, simulated or physical")]
-    LabelSource {
-        /// Identifier of the texture.
-        id: String,
-        /// The word in the file.
-        found: String,
-    },
-    /// A picture is not usable.
-    #[error("the picture of texture \"{id}\" cannot be used: {reason}; correct or remove it")]
-    Picture {
-        /// Identifier of the texture.
-        id: String,
-        /// What is wrong.
-        reason: String,
-    },
-}
-
-fn in_texture(texture: Option<&String>) -> String {
-    texture.map_or_else(String::new, |id| format!(" in texture \"{id}\""))
 }
 
 #[cfg(test)]

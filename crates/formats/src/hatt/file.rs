@@ -107,7 +107,7 @@ fn models(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Result<Vec<HattMode
         let number = scalar(*node, "modNum", "")?.unwrap_or((index + 1) as f64);
         let required =
             |element: &'static str, value: Option<f64>| value.ok_or_else(|| missing(element, *node));
-        let mut place = |element, listed: Option<&f64>, off: &mut Off| {
+        let place = |element, listed: Option<&f64>, off: &mut Off| {
             let own = scalar(*node, element, "")?;
             if let (Some(own), Some(listed)) = (own, listed) {
                 off.add((own - listed).abs(), LIST_TOLERANCE, number);
@@ -122,7 +122,8 @@ fn models(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Result<Vec<HattMode
                 .filter(|lsf| !lsf.is_empty())
                 .ok_or_else(|| missing("ARlsf", *node))?,
             // A model without a moving average is a plain predictor.
-            ma_lsf: frequencies(*node, ["MAlsf", "MAcoeff"], number, &mut coefficients_off)?.unwrap_or_default(),
+            ma_lsf: frequencies(*node, ["MAlsf", "MAcoeff"], number, &mut coefficients_off)?
+                .unwrap_or_default(),
             variance: required("var", scalar(*node, "var", "")?)?,
             gain: required("gain", scalar(*node, "gain", "")?)?,
         });

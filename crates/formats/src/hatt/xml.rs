@@ -43,9 +43,9 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, HattError> {
     }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     Document::parse_with_options(text.trim_start(), options).map_err(|error| match error {
-        roxmltree::Error::DtdDetected => {
-            refused("it declares a document type, which could pull in other files; remove the <!DOCTYPE …>".into())
-        }
+        roxmltree::Error::DtdDetected => refused(
+            "it declares a document type, which could pull in other files; remove the <!DOCTYPE …>".into(),
+        ),
         roxmltree::Error::NodesLimitReached => refused(format!("it has more than {MAX_NODES} elements")),
         error => refused(error.to_string()),
     })
@@ -84,7 +84,9 @@ pub(super) fn words<'a>(node: Node<'a, '_>) -> Vec<&'a str> {
         if inner.is_text() {
             texts.extend(inner.text());
         } else if inner.is_element() {
-            texts.extend(inner.attributes().find(|a| a.name().eq_ignore_ascii_case("value")).map(|a| a.value()));
+            texts.extend(
+                inner.attributes().find(|a| a.name().eq_ignore_ascii_case("value")).map(|a| a.value()),
+            );
         }
     }
     let split = |texts: &[&'a str]| -> Vec<&'a str> {

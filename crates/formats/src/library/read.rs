@@ -5,17 +5,18 @@ use std::collections::HashSet;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::de::IgnoredAny;
-use serde_json::{Map, Value};
+use serde_json::Value;
 use shagreen_core::space::{LabelSource, SpacePoint};
-use shagreen_core::texture::{GrainNode, TextureModel};
-use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
+use shagreen_core::tap::Tap;
+use shagreen_core::units::Hertz;
 
 use crate::imported::Imported;
-use crate::library::v1::{AnchorV1, Header, LibraryV1, PictureV1, SpaceV1, TextureV1, UnitsV1};
-use crate::library::write::UNITS;
+use crate::library::anchors::grain;
+use crate::library::v1::{Header, LibraryV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
+use crate::library::write::{RESTRICTED, UNITS};
 use crate::library::{
-    FORMAT, Library, LibraryError, PhysicalLabels, Place, TextureEntry, Unknown, UnknownOfLibrary,
-    VERSION_MAJOR, VERSION_MINOR,
+    FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, Unknown,
+    UnknownOfLibrary, VERSION_MAJOR, VERSION_MINOR,
 };
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 
@@ -136,18 +137,19 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
             hardness_log10_n_per_m: wire.hardness_log10_n_per_m,
         }
     });
-    let (nodes, anchors): (Vec<_>, Vec<_>) = wire.anchors.into_iter().map(anchor).unzip();
-    if anchors.iter().any(|fields| !fields.is_empty()) {
-        unknown.anchors = anchors;
-    }
-    let model = TextureModel::new(Hertz(wire.rate_hz), nodes, wire.mu)
-        .map_err(|source| LibraryError::Model { id: id.clone(), source })?;
+    let provenance = wire.provenance.map(|word| provenance(&id, word)).transpose()?.unwrap_or_default();
+    let tap = wire.tap.map(|wire| tap(&id, wire, &mut unknown)).transpose()?;
+    let model = grain(&id, wire.interpolation, wire.anchors, &mut unknown.anchors)?
+        .model(Hertz(wire.rate_hz), wire.mu)
+        .map_err(|source| LibraryError::Model { id: id.clone(), source })?
+        .with_tap(tap);
     Ok(TextureEntry {
         id,
         name: wire.name,
         tags: wire.tags,
         license: wire.licence,
         origin: wire.origin,
+        provenance,
         description: wire.description,
         place,
         physical,
@@ -157,14 +159,29 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
     })
 }
 
-fn anchor(wire: AnchorV1) -> (GrainNode, Map<String, Value>) {
-    let node = GrainNode {
-        speed: MetersPerSecond::from_mm_per_s(wire.speed_mm_per_s),
-        force: Newtons(wire.force_n),
-        lsf: wire.lsf,
-        level_mps2: wire.level_mps2,
-    };
-    (node, wire.unknown)
+fn provenance(id: &str, word: String) -> Result<Provenance, LibraryError> {
+    match word.as_str() {
+        RESTRICTED => Ok(Provenance::Restricted),
+        _ => Err(LibraryError::Word {
+            id: id.to_owned(),
+            field: "provenance",
+            found: word,
+            expected: "restricted, or left out",
+        }),
+    }
+}
+
+fn tap(id: &str, wire: TapV1, unknown: &mut Unknown) -> Result<Tap, LibraryError> {
+    let fields = [("frequency_hz", wire.frequency_hz), ("decay_per_s", wire.decay_per_s)];
+    if let Some((field, value)) = fields.into_iter().find(|(_, value)| *value <= 0.0) {
+        return Err(LibraryError::Tap { id: id.to_owned(), field, value, needs: "it must be above zero" });
+    }
+    unknown.tap = wire.unknown;
+    Ok(Tap {
+        frequency: Hertz(wire.frequency_hz),
+        decay_per_sec: wire.decay_per_s,
+        amplitude_mps2: wire.amplitude_mps2,
+    })
 }
 
 fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Place, LibraryError> {

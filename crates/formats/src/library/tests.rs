@@ -92,7 +92,7 @@ fn unknown_fields_survive() {
     value["mood"] = json!({"a": [1, 2.5, "x"]});
     value["units"]["temperature"] = json!("K");
     let texture = &mut value["textures"][0];
-    texture["tap"] = json!([1, 2]);
+    texture["smell"] = json!([1, 2]);
     texture["space"]["raters"] = json!(12);
     texture["physical"]["method"] = json!("x");
     texture["picture"]["camera"] = json!("none");

@@ -1,4 +1,4 @@
-//! The wire format of a library, version 1.
+//! The wire format of a library, versions 1.0 and 1.1.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -62,9 +62,18 @@ pub(super) struct TextureV1 {
     pub(super) space: Option<SpaceV1>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) physical: Option<PhysicalV1>,
+    /// Since 1.1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) provenance: Option<String>,
     pub(super) rate_hz: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) mu: Option<f64>,
+    /// Since 1.1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) interpolation: Option<String>,
+    /// Since 1.1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) tap: Option<TapV1>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     pub(super) anchors: Vec<AnchorV1>,
@@ -90,11 +99,28 @@ pub(super) struct PhysicalV1 {
 }
 
 #[derive(Serialize, Deserialize)]
+pub(super) struct TapV1 {
+    pub(super) frequency_hz: f64,
+    pub(super) decay_per_s: f64,
+    pub(super) amplitude_mps2: f64,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+/// Measured with a level; published, since 1.1, with the fields after it instead.
+#[derive(Serialize, Deserialize)]
 pub(super) struct AnchorV1 {
     pub(super) speed_mm_per_s: f64,
     pub(super) force_n: f64,
-    pub(super) level_mps2: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) level_mps2: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) variance: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) gain: Option<f64>,
     pub(super) lsf: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) ma_lsf: Option<Vec<f64>>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
 }

@@ -2,12 +2,16 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use serde_json::Map;
-use shagreen_core::texture::GrainNode;
+use shagreen_core::tap::Tap;
+use shagreen_core::texture::Interpolation;
 
 use crate::layout;
-use crate::library::v1::{AnchorV1, LibraryV1, PhysicalV1, PictureV1, SpaceV1, TextureV1, UnitsV1};
-use crate::library::{FORMAT, Library, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
+use crate::library::anchors::{anchors, interpolation_word};
+use crate::library::v1::{LibraryV1, PhysicalV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
+use crate::library::{FORMAT, Library, Provenance, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
+
+/// The word for [`Provenance::Restricted`].
+pub(super) const RESTRICTED: &str = "restricted";
 
 /// Quantities of the format and their units, in the order of [`UnitsV1`].
 pub(super) const UNITS: [(&str, &str); 6] = [
@@ -24,10 +28,13 @@ const OPEN_DEPTH: usize = 4;
 
 /// Decimals of line spectral frequencies and positions in a file.
 const DECIMALS: usize = 6;
+/// Frequencies closer than this stand in full: a resonance as narrow as they make it would change by more than a
+/// thousandth if they were rounded, and by a gap that a model must keep.
+const CLOSE_RAD: f64 = 1e-3;
 /// Significant digits of levels and labels in a file: far finer than anyone can measure.
-const DIGITS: usize = 6;
+pub(super) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
-const CONVERSION_DIGITS: usize = 12;
+pub(super) const CONVERSION_DIGITS: usize = 12;
 
 /// Writes a library, with numbers as long as they mean something: line spectral frequencies to six decimals, levels to
 /// six digits. Reading it back and writing it again gives the same bytes.
@@ -36,7 +43,7 @@ pub fn write_library(library: &Library) -> Vec<u8> {
     let [speed, force, acceleration, rate, lsf, length] = units;
     let wire = LibraryV1 {
         format: FORMAT.to_owned(),
-        version: format!("{VERSION_MAJOR}.{VERSION_MINOR}"),
+        version: format!("{VERSION_MAJOR}.{}", minor_version(library)),
         units: UnitsV1 {
             speed,
             force,
@@ -78,10 +85,13 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
             hardness_log10_n_per_m: digits(labels.hardness_log10_n_per_m, DIGITS),
             unknown: unknown.physical.clone(),
         }),
+        provenance: (entry.provenance == Provenance::Restricted).then(|| RESTRICTED.to_owned()),
         rate_hz: digits(entry.model.rate().0, CONVERSION_DIGITS),
         mu: entry.model.friction().map(|mu| digits(mu, DIGITS)),
         unknown: unknown.texture.clone(),
-        anchors: entry.model.nodes().iter().enumerate().map(|(i, node)| anchor(entry, i, node)).collect(),
+        interpolation: interpolation_word(&entry.model).map(str::to_owned),
+        tap: entry.model.tap().map(|measured| tap(measured, entry)),
+        anchors: anchors(&entry.model, &unknown.anchors),
         picture: entry.picture.as_ref().map(|picture| PictureV1 {
             media_type: picture.format.media_type().to_owned(),
             width: picture.width,
@@ -93,25 +103,31 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
     }
 }
 
-fn anchor(entry: &TextureEntry, index: usize, node: &GrainNode) -> AnchorV1 {
-    // Where nodes were added or taken away, nobody knows which unknown fields belong to which.
-    let same_nodes = entry.unknown.anchors.len() == entry.model.nodes().len();
-    let unknown = if same_nodes { entry.unknown.anchors[index].clone() } else { Map::new() };
-    AnchorV1 {
-        speed_mm_per_s: digits(node.speed.mm_per_s(), CONVERSION_DIGITS),
-        force_n: digits(node.force.0, CONVERSION_DIGITS),
-        level_mps2: digits(node.level_mps2, DIGITS),
-        lsf: frequencies(&node.lsf),
-        unknown,
+/// The lowest minor version that has all that a library uses: older programs read what they can.
+fn minor_version(library: &Library) -> u32 {
+    let is_new = |entry: &TextureEntry| {
+        entry.provenance != Provenance::Free
+            || entry.model.interpolation() != Some(Interpolation::Barycentric)
+            || entry.model.tap().is_some()
+    };
+    if library.textures.iter().any(is_new) { VERSION_MINOR } else { 0 }
+}
+
+fn tap(tap: Tap, entry: &TextureEntry) -> TapV1 {
+    TapV1 {
+        frequency_hz: digits(tap.frequency.0, DIGITS),
+        decay_per_s: digits(tap.decay_per_sec, DIGITS),
+        amplitude_mps2: digits(tap.amplitude_mps2, DIGITS),
+        unknown: entry.unknown.tap.clone(),
     }
 }
 
-/// Frequencies to [`DECIMALS`], but in full where rounding would make two of them equal or push one out of (0, π).
-fn frequencies(lsf: &[f64]) -> Vec<f64> {
-    let rounded: Vec<f64> = lsf.iter().map(|w| decimals(*w)).collect();
-    let inside = |w: &f64| *w > 0.0 && *w < std::f64::consts::PI;
-    let ascending = rounded.windows(2).all(|pair| pair[0] < pair[1]);
-    if ascending && rounded.iter().all(inside) { rounded } else { lsf.to_vec() }
+/// Frequencies to [`DECIMALS`], but in full where two lie, or one and an end, within [`CLOSE_RAD`].
+pub(crate) fn frequencies(lsf: &[f64]) -> Vec<f64> {
+    let ends = [0.0, std::f64::consts::PI];
+    let above = ends[..1].iter().chain(lsf).zip(lsf.iter().chain(&ends[1..]));
+    let is_close = above.into_iter().any(|(low, high)| high - low < CLOSE_RAD);
+    if is_close { lsf.to_vec() } else { lsf.iter().map(|w| decimals(*w)).collect() }
 }
 
 /// The nearest number of [`DECIMALS`] decimals; decimal text is the rounding that prints short.
@@ -120,7 +136,7 @@ fn decimals(value: f64) -> f64 {
 }
 
 /// The nearest number of so many significant digits.
-fn digits(value: f64, n: usize) -> f64 {
+pub(super) fn digits(value: f64, n: usize) -> f64 {
     let after_point = n - 1;
     format!("{value:.after_point$e}").parse().unwrap_or(value)
 }

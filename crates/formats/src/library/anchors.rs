@@ -1,0 +1,149 @@
+//! Anchors of a file and nodes of a model, both ways.
+
+use serde_json::{Map, Value};
+use shagreen_core::texture::{
+    Grain, GrainNode, Interpolation, PublishedNode, TextureModel, TextureModelError,
+};
+use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
+
+use crate::library::LibraryError;
+use crate::library::v1::AnchorV1;
+use crate::library::write::{CONVERSION_DIGITS, DIGITS, digits, frequencies};
+
+/// Words for the ways of interpolation; where there is none, it is the first.
+const BARYCENTRIC: &str = "barycentric";
+const RADIAL_BASIS: &str = "radial_basis";
+const PUBLISHED: &str = "published";
+
+/// Nodes that are read and not checked yet.
+pub(super) struct UncheckedGrain(Grain);
+
+impl UncheckedGrain {
+    /// The model of these nodes.
+    pub(super) fn model(self, rate: Hertz, mu: Option<f64>) -> Result<TextureModel, TextureModelError> {
+        match self.0 {
+            Grain::Measured { nodes, interpolation } => {
+                TextureModel::new(rate, nodes, mu)?.with_interpolation(interpolation)
+            }
+            Grain::Published { nodes } => TextureModel::published(rate, nodes, mu),
+        }
+    }
+}
+
+/// The nodes of a texture; `unknown` becomes the unknown fields of each, or stays empty where there are none.
+pub(super) fn grain(
+    id: &str,
+    interpolation: Option<String>,
+    anchors: Vec<AnchorV1>,
+    unknown: &mut Vec<Map<String, Value>>,
+) -> Result<UncheckedGrain, LibraryError> {
+    let interpolation = match interpolation.as_deref() {
+        None | Some(BARYCENTRIC) => Some(Interpolation::Barycentric),
+        Some(RADIAL_BASIS) => Some(Interpolation::RadialBasis),
+        Some(PUBLISHED) => None,
+        Some(found) => {
+            return Err(LibraryError::Word {
+                id: id.to_owned(),
+                field: "interpolation",
+                found: found.to_owned(),
+                expected: "barycentric, radial_basis or published",
+            });
+        }
+    };
+    let mut rest = Vec::with_capacity(anchors.len());
+    let needed = |value: Option<f64>, index: usize, field: &'static str| {
+        value.ok_or_else(|| LibraryError::Anchor { id: id.to_owned(), index, field })
+    };
+    let place =
+        |anchor: &AnchorV1| (MetersPerSecond::from_mm_per_s(anchor.speed_mm_per_s), Newtons(anchor.force_n));
+    let grain = match interpolation {
+        Some(interpolation) => {
+            let mut nodes = Vec::with_capacity(anchors.len());
+            for (index, mut anchor) in anchors.into_iter().enumerate() {
+                let (speed, force) = place(&anchor);
+                let level_mps2 = needed(anchor.level_mps2.take(), index, "level_mps2")?;
+                nodes.push(GrainNode { speed, force, lsf: std::mem::take(&mut anchor.lsf), level_mps2 });
+                rest.push(without_meaning(anchor));
+            }
+            Grain::Measured { nodes, interpolation }
+        }
+        None => {
+            let mut nodes = Vec::with_capacity(anchors.len());
+            for (index, mut anchor) in anchors.into_iter().enumerate() {
+                let (speed, force) = place(&anchor);
+                nodes.push(PublishedNode {
+                    speed,
+                    force,
+                    variance: needed(anchor.variance.take(), index, "variance")?,
+                    gain: needed(anchor.gain.take(), index, "gain")?,
+                    ar_lsf: std::mem::take(&mut anchor.lsf),
+                    ma_lsf: anchor.ma_lsf.take().unwrap_or_default(),
+                });
+                rest.push(without_meaning(anchor));
+            }
+            Grain::Published { nodes }
+        }
+    };
+    if rest.iter().any(|fields| !fields.is_empty()) {
+        *unknown = rest;
+    }
+    Ok(UncheckedGrain(grain))
+}
+
+/// What is left of an anchor whose numbers were taken: fields that nobody knows, and known ones that mean nothing for
+/// its kind of interpolation.
+fn without_meaning(anchor: AnchorV1) -> Map<String, Value> {
+    let mut rest = anchor.unknown;
+    let numbers = [("level_mps2", anchor.level_mps2), ("variance", anchor.variance), ("gain", anchor.gain)];
+    for (field, value) in numbers {
+        rest.extend(value.map(|value| (field.to_owned(), value.into())));
+    }
+    rest.extend(anchor.ma_lsf.map(|lsf| ("ma_lsf".to_owned(), lsf.into())));
+    rest
+}
+
+/// The word for the way of interpolation; `None` where it goes without saying.
+pub(super) fn interpolation_word(model: &TextureModel) -> Option<&'static str> {
+    match model.interpolation() {
+        Some(Interpolation::Barycentric) => None,
+        Some(Interpolation::RadialBasis) => Some(RADIAL_BASIS),
+        None => Some(PUBLISHED),
+    }
+}
+
+/// The anchors of a model, with the unknown fields of each.
+pub(super) fn anchors(model: &TextureModel, unknown: &[Map<String, Value>]) -> Vec<AnchorV1> {
+    // Where nodes were added or taken away, nobody knows which unknown fields belong to which.
+    let unknown_at = |index: usize| match unknown.get(index) {
+        Some(fields) if unknown.len() == model.n_nodes() => Map::clone(fields),
+        _ => Map::new(),
+    };
+    let bare = |index: usize, speed: MetersPerSecond, force: Newtons, lsf: &[f64]| AnchorV1 {
+        speed_mm_per_s: digits(speed.mm_per_s(), CONVERSION_DIGITS),
+        force_n: digits(force.0, CONVERSION_DIGITS),
+        level_mps2: None,
+        variance: None,
+        gain: None,
+        lsf: frequencies(lsf),
+        ma_lsf: None,
+        unknown: unknown_at(index),
+    };
+    match model.grain() {
+        Grain::Measured { nodes, .. } => {
+            let anchor = |(index, node): (usize, &GrainNode)| AnchorV1 {
+                level_mps2: Some(digits(node.level_mps2, DIGITS)),
+                ..bare(index, node.speed, node.force, &node.lsf)
+            };
+            nodes.iter().enumerate().map(anchor).collect()
+        }
+        Grain::Published { nodes } => {
+            let anchor = |(index, node): (usize, &PublishedNode)| AnchorV1 {
+                variance: Some(digits(node.variance, DIGITS)),
+                gain: Some(digits(node.gain, DIGITS)),
+                ma_lsf: Some(frequencies(&node.ma_lsf)).filter(|lsf| !lsf.is_empty()),
+                ..bare(index, node.speed, node.force, &node.ar_lsf)
+            };
+            nodes.iter().enumerate().map(anchor).collect()
+        }
+    }
+}
