@@ -2,6 +2,8 @@
 
 use egui::{Label, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
+use shagreen_formats::library::Provenance;
+
 use crate::command::Command;
 use crate::panel::Panel;
 use crate::project::Edit;
@@ -90,16 +92,25 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
         let below = match panel.session.parent_weight(index) {
             Some(_) if panel.project.solo.is_some() => strings::HEARD_ALONE.to_owned(),
             Some(weight) => strings::of_the_blend(100.0 * weight),
+            None if entry.provenance == Provenance::Restricted && !is_placed => {
+                format!("{} · {}", strings::NOT_PLACED_YET, strings::import::RESTRICTED_SHORT)
+            }
             None if !is_placed => strings::NOT_PLACED_YET.to_owned(),
+            None if entry.provenance == Provenance::Restricted => {
+                strings::import::RESTRICTED_SHORT.to_owned()
+            }
             None => entry.tags.join(", "),
         };
         text.add(
             Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false),
         );
     }
-    let at =
-        panel.session.space().position(index).map_or(strings::NOT_PLACED_HELP.to_owned(), |p| p.to_string());
-    response.on_hover_text(format!("{}\n{}", entry.name, at)).clicked()
+    let place = panel.session.space().position(index);
+    let mut help = place.map_or(strings::NOT_PLACED_HELP.to_owned(), |at| at.to_string());
+    if entry.provenance == Provenance::Restricted {
+        help = format!("{help}\n{}", strings::import::RESTRICTED);
+    }
+    response.on_hover_text(format!("{}\n{help}", entry.name)).clicked()
 }
 
 /// A texture's picture in `area`, or a plain square while there is none.

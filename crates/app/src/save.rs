@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use egui::{Button, Context, Key, Label, Modal, RichText, TextEdit, Ui};
 use shagreen_formats::atomic;
-use shagreen_formats::library::{Library, write_library};
+use shagreen_formats::library::{Library, Provenance, write_library};
 
 use crate::command::Command;
 use crate::strings::import as strings;
@@ -69,7 +69,7 @@ impl SaveSheet {
         if field.changed() {
             self.state = State::Asking;
         }
-        if let Some(warning) = None::<String> {
+        if let Some(warning) = Provenance::warning(library.restricted().map(|entry| entry.name.as_str())) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
         }
         let (text, color) = match &self.state {

@@ -111,7 +111,8 @@ fn recording(id: &str, seconds: f64) -> String {
     let speed_mm_per_s = |t: f64| 20.0 + 180.0 * (0.9 * t).sin().powi(2);
     let force_n = |t: f64| 1.2 + 0.8 * (0.23 * t).sin();
     let plan = RenderPlan { parents: &[(&prepared, 1.0)], mode: Mode::Shared, rate, seconds, seed: 5 };
-    let samples = render(&plan, &mut |t| Contact::from_mm_per_s_and_n(speed_mm_per_s(t), force_n(t))).unwrap();
+    let samples =
+        render(&plan, &mut |t| Contact::from_mm_per_s_and_n(speed_mm_per_s(t), force_n(t))).unwrap();
     let mut text = "time_s,acc,speed_mm/s,force_N\n".to_owned();
     for (i, sample) in samples.iter().enumerate() {
         let t = i as f64 / rate.0;
@@ -126,7 +127,9 @@ fn import_recording(harness: &mut Author, name: &str, text: &str) {
     let unit = import::answer_of("acceleration_unit");
     wait(harness, "the unit is asked for", |h| h.query_by_role_and_label(Role::ComboBox, &unit).is_some());
     choose(harness, &unit, "m/s²");
-    wait(harness, "the texture is fitted", |h| h.query_by_label(&import::add(1)).is_some_and(|n| !n.is_disabled()));
+    wait(harness, "the texture is fitted", |h| {
+        h.query_by_label(&import::add(1)).is_some_and(|n| !n.is_disabled())
+    });
 }
 
 /// The main job: a recording is dropped, its unit said, its fit looked at, and the texture joins the list and sounds.
@@ -153,7 +156,10 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     harness.run_steps(3);
     assert!(window(&harness).import().is_none(), "the sheet closes");
     let after = names(&harness);
-    assert_eq!((&after[..before.len()], after[before.len()..].concat()), (&before[..], "Oak board".to_owned()));
+    assert_eq!(
+        (&after[..before.len()], after[before.len()..].concat()),
+        (&before[..], "Oak board".to_owned())
+    );
     assert!(harness.query_by_label("Go to Oak board").is_none(), "it has no place yet");
 
     click(&mut harness, &strings::texture("Oak board"));
@@ -193,7 +199,9 @@ fn a_file_that_cannot_be_used_says_why_and_nothing_is_lost() {
     let mut harness = author();
     let before = names(&harness);
     drop_files(&mut harness, &[("broken.json", b"{ \"format\": \"shagreen-library\", ")]);
-    wait(&mut harness, "the file is read", |h| h.query_by_label(&import::file("broken.json", import::FAILED)).is_some());
+    wait(&mut harness, "the file is read", |h| {
+        h.query_by_label(&import::file("broken.json", import::FAILED)).is_some()
+    });
     assert!(harness.query_by_label_contains("the library is damaged").is_some(), "the reason is shown");
     assert!(harness.get_by_label(&import::add(0)).is_disabled());
     harness.key_press(Key::Escape);
@@ -252,7 +260,13 @@ fn unnamed_controls(harness: &Author) -> Vec<String> {
     let is_control = |role: Role| {
         matches!(
             role,
-            Role::Button | Role::Slider | Role::SpinButton | Role::TextInput | Role::ComboBox | Role::CheckBox | Role::Canvas
+            Role::Button
+                | Role::Slider
+                | Role::SpinButton
+                | Role::TextInput
+                | Role::ComboBox
+                | Role::CheckBox
+                | Role::Canvas
         )
     };
     let nodes = harness.root().children_recursive();

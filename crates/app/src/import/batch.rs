@@ -4,14 +4,13 @@ use std::sync::Arc;
 
 use shagreen_core::space::LabelSource;
 use shagreen_formats::library::{Library, TextureEntry};
-use shagreen_formats::recording::{ColumnMap, Question};
+use shagreen_formats::recording::Question;
 
 use crate::import::draft::{Draft, FitState};
+use crate::import::naming::{name_from, slug, unique_id};
+use crate::import::recording_state::RecordingState;
 use crate::import::source::Source;
-use crate::import::worker::{
-    Drawn, Loaded, LoadedContent, Message, ReadOutcome, RecordingInput, Request, Worker,
-};
-use crate::strings::import as strings;
+use crate::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, Request, Worker};
 
 /// Files on their way into the library.
 pub struct Batch {
@@ -49,20 +48,6 @@ pub enum Content {
     Helper(&'static str),
     /// Nothing that can be used, and why.
     Failed(String),
-}
-
-/// A recording, what is known of it, and what was asked.
-pub struct RecordingState {
-    input: RecordingInput,
-    map: ColumnMap,
-    generation: u64,
-    is_reading: bool,
-    /// What came of reading it last.
-    pub outcome: ReadOutcome,
-    /// Questions that were answered, with the answers.
-    pub answered: Vec<(Question, String)>,
-    /// What was wrong with the last answer.
-    pub answer_error: Option<String>,
 }
 
 /// How a file is doing, in a word.
@@ -162,15 +147,7 @@ impl Batch {
             }
             LoadedContent::Recording { input, map, outcome } => {
                 is_recording = true;
-                Content::Recording(Box::new(RecordingState {
-                    input,
-                    map,
-                    generation: 0,
-                    is_reading: false,
-                    outcome,
-                    answered: Vec::new(),
-                    answer_error: None,
-                }))
+                Content::Recording(Box::new(RecordingState::new(input, map, outcome)))
             }
         };
         self.files.push(File { id, name: name.clone(), content });
@@ -355,76 +332,5 @@ impl Batch {
             out.extend(draft.entry(id, &recordings).map(Arc::new));
         }
         out
-    }
-}
-
-impl RecordingState {
-    /// Whether it asks this now.
-    fn asks(&self, question: &Question) -> bool {
-        let same = |other: &Question| other.what == question.what && other.choices == question.choices;
-        self.outcome.questions.iter().any(same) || self.answered.iter().any(|(other, _)| same(other))
-    }
-
-    /// Takes an answer; whether the recording has to be read again.
-    fn answer(&mut self, question: &Question, answer: &str) -> bool {
-        let mut map = self.map.clone();
-        if let Err(error) = map.answer(question.what, answer) {
-            self.answer_error = Some(error.to_string());
-            return false;
-        }
-        self.answer_error = None;
-        self.map = map;
-        self.generation += 1;
-        self.is_reading = true;
-        match self.answered.iter_mut().find(|(other, _)| other.what == question.what) {
-            Some((_, old)) => answer.clone_into(old),
-            None => self.answered.push((question.clone(), answer.to_owned())),
-        }
-        true
-    }
-}
-
-/// A name to show, from the name of a file.
-fn name_from(file: &str) -> String {
-    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-    let words = stem.replace(['_', '-'], " ");
-    let mut letters = words.trim().chars();
-    match letters.next() {
-        Some(first) => first.to_uppercase().chain(letters).collect(),
-        None => strings::UNNAMED.to_owned(),
-    }
-}
-
-/// An identifier from a name: letters and digits in lower case, parted by hyphens.
-fn slug(name: &str) -> String {
-    let lower = name.to_lowercase();
-    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
-    if words.is_empty() { "texture".to_owned() } else { words.join("-") }
-}
-
-/// The identifier, or with a number behind it where it is taken; it is taken then.
-fn unique_id(wanted: &str, taken: &mut Vec<String>) -> String {
-    let numbered = (2..).map(|n| format!("{wanted}-{n}"));
-    let id = std::iter::once(wanted.to_owned()).chain(numbered).find(|id| !taken.contains(id));
-    // The numbers do not run out before the memory does.
-    let id = id.unwrap_or_else(|| wanted.to_owned());
-    taken.push(id.clone());
-    id
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{name_from, slug, unique_id};
-
-    #[test]
-    fn names_and_identifiers_follow_from_files() {
-        assert_eq!(name_from("sanded_wood-01.csv"), "Sanded wood 01");
-        assert_eq!(name_from(".csv"), crate::strings::import::UNNAMED);
-        assert_eq!(slug("Sanded wood, Nº 1"), "sanded-wood-nº-1");
-        assert_eq!(slug("—"), "texture");
-        let mut taken = vec!["cork".to_owned()];
-        assert_eq!(unique_id("cork", &mut taken), "cork-2");
-        assert_eq!(unique_id("cork", &mut taken), "cork-3");
-        assert_eq!(unique_id("felt", &mut taken), "felt");
     }
 }

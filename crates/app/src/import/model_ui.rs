@@ -3,9 +3,9 @@
 use egui::{Align, ComboBox, Label, Layout, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::plane::Plane;
 use shagreen_core::units::{Contact, Hertz};
-use shagreen_formats::library::TextureEntry;
+use shagreen_formats::library::{Provenance, TextureEntry};
 
-use crate::import::draft_ui::{figure_rows_ui, list_ui};
+use crate::import::fit_ui::{figure_rows_ui, list_ui};
 use crate::import::plane_plot::{Dot, plane_plot};
 use crate::import::sheet::Surroundings;
 use crate::import::spectrum_plot::spectrum_plot;
@@ -41,7 +41,7 @@ pub(super) fn model_ui(
             ui.heading(&entry.name);
         }
         let t = tokens(ui.ctx());
-        if false {
+        if entry.provenance == Provenance::Restricted {
             ui.add(Label::new(RichText::new(strings::RESTRICTED).color(t.warning)).wrap());
         }
         ui.add_space(GAP);

@@ -3,7 +3,7 @@
 use egui::{ComboBox, Grid, Key, Label, RichText, TextEdit, Ui};
 use shagreen_formats::recording::{Ask, Question};
 
-use crate::import::batch::RecordingState;
+use crate::import::recording_state::RecordingState;
 use crate::strings::import as strings;
 use crate::theme::{GAP, RADIUS, tokens};
 

@@ -6,9 +6,11 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 use shagreen_core::fit::{FitOptions, Fitted, fit};
 use shagreen_core::recording::Recording;
+use shagreen_formats::hatt::read_hatt;
 use shagreen_formats::library::{TextureEntry, read_library};
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
 
+use crate::import::naming::{name_from, slug};
 use crate::import::source::{Source, name_of, without_folders};
 use crate::import::trace::Trace;
 use crate::strings::import as strings;
@@ -212,6 +214,17 @@ fn load_one(source: &Source, bytes: Vec<u8>, all: &[Source], map: &ColumnMap) ->
                     }
                 }
                 LoadedContent::Textures { entries, warnings: library.warnings }
+            }
+            Err(error) => LoadedContent::Failed(error.to_string()),
+        },
+        "xml" => match read_hatt(&bytes) {
+            Ok(texture) => {
+                let mut entry = texture.value.into_entry(String::new());
+                if entry.name.is_empty() {
+                    entry.name = name_from(&source.name());
+                }
+                entry.id = slug(&entry.name);
+                LoadedContent::Textures { entries: vec![entry], warnings: texture.warnings }
             }
             Err(error) => LoadedContent::Failed(error.to_string()),
         },
