@@ -69,7 +69,8 @@ impl SaveSheet {
         if field.changed() {
             self.state = State::Asking;
         }
-        if let Some(warning) = Provenance::warning(library.restricted().map(|entry| entry.name.as_str())) {
+        let restricted: Vec<&str> = library.restricted().map(|entry| entry.name.as_str()).collect();
+        if let Some(warning) = Provenance::warning(&restricted) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
         }
         let (text, color) = match &self.state {

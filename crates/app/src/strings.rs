@@ -150,7 +150,7 @@ pub const IMPORT: &str = "Import…";
 pub const IMPORT_HELP: &str =
     "Makes textures of recordings, HaTT models or another library. Files can also be dropped on the window.";
 /// Opens the sheet that saves the library.
-pub const SAVE_LIBRARY: &str = "Save library…";
+pub const SAVE_LIBRARY: &str = "Save as…";
 /// What saving does.
 pub const SAVE_LIBRARY_HELP: &str = "Writes all textures of the list into one file.";
 /// Pictures that could not be read.

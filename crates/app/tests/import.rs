@@ -128,7 +128,7 @@ fn import_recording(harness: &mut Author, name: &str, text: &str) {
     wait(harness, "the unit is asked for", |h| h.query_by_role_and_label(Role::ComboBox, &unit).is_some());
     choose(harness, &unit, "m/s²");
     wait(harness, "the texture is fitted", |h| {
-        h.query_by_label(&import::add(1)).is_some_and(|n| !n.is_disabled())
+        h.query_by_label(&import::add(1)).is_some_and(|n| !n.accesskit_node().is_disabled())
     });
 }
 
@@ -203,12 +203,12 @@ fn a_file_that_cannot_be_used_says_why_and_nothing_is_lost() {
         h.query_by_label(&import::file("broken.json", import::FAILED)).is_some()
     });
     assert!(harness.query_by_label_contains("the library is damaged").is_some(), "the reason is shown");
-    assert!(harness.get_by_label(&import::add(0)).is_disabled());
+    assert!(harness.get_by_label(&import::add(0)).accesskit_node().is_disabled());
     harness.key_press(Key::Escape);
     harness.run_steps(3);
     assert!(window(&harness).import().is_none());
     assert_eq!(names(&harness), before);
-    assert!(harness.get_by_label(strings::UNDO).is_disabled());
+    assert!(harness.get_by_label(strings::UNDO).accesskit_node().is_disabled());
 }
 
 /// A library's textures join; where their places come from the same source they keep them.

@@ -7,7 +7,7 @@ use crate::import::batch::{Batch, Content};
 use crate::import::draft::FitState;
 use crate::import::fit_ui::{DETAILS_WIDTH, adjust_ui, fit_ui, list_ui};
 use crate::import::plane_plot::{Dot, color_of_gfc, gfc_legend_ui, plane_plot};
-use crate::import::questions_ui::questions_ui;
+use crate::import::questions_ui::{questions_ui, sentence};
 use crate::import::recording_state::RecordingState;
 use crate::import::sheet::Surroundings;
 use crate::import::spectrum_plot::spectrum_plot;
@@ -17,9 +17,9 @@ use crate::strings::import as strings;
 use crate::theme::{GAP, GROUP_GAP, tokens};
 
 /// Least height of the traces, in points.
-const TRACES: f32 = 250.0;
+const TRACES: f32 = 196.0;
 /// Least height of the plane and the spectrum, in points.
-const SPECTRA: f32 = 190.0;
+const SPECTRA: f32 = 136.0;
 
 /// Draws what belongs to the recording `id`.
 pub(super) fn draft_ui(
@@ -71,7 +71,7 @@ fn ask_ui(ui: &mut Ui, batch: &mut Batch, id: u64, for_all: &mut bool) {
     match &state.outcome.recording {
         Some(Err(reason)) => {
             ui.add_space(GAP);
-            ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
+            ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
         }
         None => {
             ui.add_space(GAP);
@@ -107,7 +107,7 @@ fn plots_ui(ui: &mut Ui, batch: &mut Batch, id: u64) {
     let chosen = chosen.map(|s| [s.start_secs, s.start_secs + s.seconds]);
     // The plots share what is left of the height, and scroll where that is too little.
     let left = ui.available_height();
-    let traces = (0.55 * left).max(TRACES);
+    let traces = (0.48 * left).max(TRACES);
     trace_plot(ui, &drawn.trace, chosen, traces);
     ui.add_space(GAP);
     let spectra = (left - traces - 64.0).max(SPECTRA);

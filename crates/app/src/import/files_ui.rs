@@ -51,10 +51,9 @@ pub(super) fn files_ui(ui: &mut Ui, batch: &mut Batch, selected: &mut Option<u64
             let below = RichText::new(below).small().color(color_of(state, t));
             text.add(Label::new(below).truncate().selectable(false));
             let cross = Rect::from_center_size(area.right_center() - vec2(15.0, 0.0), vec2(20.0, 20.0));
-            let mut cross = ui.new_child(UiBuilder::new().max_rect(cross));
             let button = egui::Button::new(RichText::new("×").color(t.text_weak)).frame(false);
             let name = strings::leave_out(&file.name);
-            if cross.add(button).accessible_name(&name).on_hover_text(&name).clicked() {
+            if ui.put(cross, button).accessible_name(&name).on_hover_text(&name).clicked() {
                 left_out = Some(file.id);
             }
         }

@@ -5,6 +5,7 @@ use shagreen_core::fit::FitReport;
 use shagreen_core::texture::Interpolation;
 
 use crate::import::draft::{Draft, FitState, ORDERS, RATES_HZ};
+use crate::import::questions_ui::sentence;
 use crate::import::sheet::Surroundings;
 use crate::strings::import as strings;
 use crate::theme::{GAP, tokens};
@@ -88,7 +89,7 @@ pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: Surroundings<'_>) {
             ui.add(Label::new(RichText::new(strings::READING).color(t.text_weak)).selectable(false));
         }
         FitState::Failed(reason) => {
-            ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
+            ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
         }
         FitState::Done(fitted) => {
             figures_ui(ui, &fitted.report);
@@ -149,7 +150,7 @@ pub(super) fn list_ui(ui: &mut Ui, heading: &str, sentences: &[String], color: e
     }
     ui.add_space(GAP);
     ui.add(Label::new(RichText::new(heading).strong()).selectable(false));
-    for sentence in sentences {
-        ui.add(Label::new(RichText::new(strings::answer(sentence)).small().color(color)).wrap());
+    for text in sentences {
+        ui.add(Label::new(RichText::new(sentence(&strings::answer(text))).small().color(color)).wrap());
     }
 }

@@ -1,6 +1,6 @@
 //! What a file does not say, as controls: with the guess marked as a guess, and what was answered still to be changed.
 
-use egui::{ComboBox, Grid, Key, Label, RichText, TextEdit, Ui};
+use egui::{Align, ComboBox, Key, Label, Layout, RichText, TextEdit, Ui, vec2};
 use shagreen_formats::recording::{Ask, Question};
 
 use crate::import::recording_state::RecordingState;
@@ -9,6 +9,8 @@ use crate::theme::{GAP, RADIUS, tokens};
 
 /// Width of the control that answers, in points.
 const ANSWER_WIDTH: f32 = 128.0;
+/// Width of the word beside it, in points.
+const MARK_WIDTH: f32 = 62.0;
 
 /// An answer that was given in this frame.
 pub(super) struct Answer {
@@ -33,20 +35,11 @@ pub(super) fn questions_ui(ui: &mut Ui, state: &RecordingState) -> Option<Answer
     frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.add(Label::new(RichText::new(strings::ASKS).strong()).selectable(false));
-        let text_width = (ui.available_width() - 2.0 * ANSWER_WIDTH - 60.0).max(120.0);
-        Grid::new("questions").num_columns(3).spacing([2.0 * GAP, GAP]).show(ui, |ui| {
-            for (question, answer) in &all {
-                ui.scope(|ui| {
-                    ui.set_width(text_width);
-                    ui.add(Label::new(sentence(&question.text)).wrap().selectable(false));
-                });
-                if let Some(text) = control_ui(ui, question, *answer) {
-                    given = Some(Answer { question: (*question).clone(), text });
-                }
-                mark_ui(ui, question, *answer);
-                ui.end_row();
+        for (question, answer) in &all {
+            if let Some(text) = question_ui(ui, question, *answer) {
+                given = Some(Answer { question: (*question).clone(), text });
             }
-        });
+        }
         if let Some(error) = &state.answer_error {
             ui.add(Label::new(RichText::new(error).color(t.error)).wrap());
         }
@@ -54,8 +47,32 @@ pub(super) fn questions_ui(ui: &mut Ui, state: &RecordingState) -> Option<Answer
     given
 }
 
-/// With a capital, since it stands alone here.
-fn sentence(text: &str) -> String {
+/// One question: the sentence on the left, its answer and where that comes from on the right.
+fn question_ui(ui: &mut Ui, question: &Question, answer: Option<&str>) -> Option<String> {
+    let width = ui.available_width();
+    let height = ui.spacing().interact_size.y;
+    let answers_width = ANSWER_WIDTH + if takes_constant(question) { ANSWER_WIDTH + GAP } else { 0.0 };
+    let text_width = (width - answers_width - MARK_WIDTH - 2.0 * GAP).max(ANSWER_WIDTH);
+    ui.horizontal(|ui| {
+        let in_column = Layout::top_down(Align::Min);
+        ui.allocate_ui_with_layout(vec2(text_width, height), in_column, |ui| {
+            ui.set_width(text_width);
+            ui.add(Label::new(sentence(&question.text)).wrap().selectable(false));
+        });
+        let given = control_ui(ui, question, answer);
+        mark_ui(ui, question, answer);
+        given
+    })
+    .inner
+}
+
+/// Whether a number with its unit answers it as well as one of the choices.
+fn takes_constant(question: &Question) -> bool {
+    matches!(question.what, Ask::Speed | Ask::Force) && !question.choices.is_empty()
+}
+
+/// With a capital, since it stands alone.
+pub(super) fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
@@ -64,7 +81,7 @@ fn sentence(text: &str) -> String {
 fn control_ui(ui: &mut Ui, question: &Question, answer: Option<&str>) -> Option<String> {
     let mut given = None;
     let name = strings::answer_of(question.what.key());
-    ui.horizontal(|ui| {
+    {
         if !question.choices.is_empty() {
             let current = answer.or(question.guess.as_deref());
             let shown = current.map_or(strings::CHOOSE.to_owned(), strings::answer);
@@ -86,13 +103,13 @@ fn control_ui(ui: &mut Ui, question: &Question, answer: Option<&str>) -> Option<
             Ask::Speed => strings::SPEED_HINT,
             Ask::Force => strings::FORCE_HINT,
             _ if question.choices.is_empty() => strings::NUMBER_HINT,
-            _ => return,
+            _ => return given,
         };
         let id = ui.scope_id().with(("typed", question.what.key()));
         let said = answer.filter(|answer| !question.choices.iter().any(|choice| choice == answer));
         let said = said.or(question.guess.as_deref().filter(|_| question.choices.is_empty()));
         let mut text = ui.data(|d| d.get_temp::<String>(id)).unwrap_or_else(|| said.unwrap_or("").to_owned());
-        let field = ui.add(TextEdit::singleline(&mut text).hint_text(hint).desired_width(ANSWER_WIDTH));
+        let field = ui.add(TextEdit::singleline(&mut text).hint_text(hint).desired_width(ANSWER_WIDTH - 8.0));
         let field = field.accessible_name(strings::typed(&name));
         let is_entered = field.lost_focus()
             && (ui.input(|i| i.key_pressed(Key::Enter)) || !text.trim().is_empty())
@@ -101,7 +118,7 @@ fn control_ui(ui: &mut Ui, question: &Question, answer: Option<&str>) -> Option<
         if is_entered && !text.trim().is_empty() {
             given = Some(text.trim().to_owned());
         }
-    });
+    }
     given
 }
 

@@ -8,6 +8,7 @@ use crate::import::batch::{Batch, Content, State};
 use crate::import::draft_ui::draft_ui;
 use crate::import::files_ui::files_ui;
 use crate::import::model_ui::model_ui;
+use crate::import::questions_ui::sentence;
 use crate::import::source::{Source, paths_in};
 use crate::project::Edit;
 use crate::strings::import as strings;
@@ -122,15 +123,11 @@ impl ImportSheet {
     }
 
     fn side_ui(&mut self, ui: &mut Ui) {
-        let t = tokens(ui.ctx());
         if self.batch.n_recordings() > 1 {
             let mut are_one = self.batch.are_one();
             if ui.checkbox(&mut are_one, strings::ARE_ONE).on_hover_text(strings::ARE_ONE_HELP).changed() {
                 self.batch.set_are_one(are_one);
             }
-        }
-        if self.batch.files().is_empty() && !self.batch.is_working() {
-            ui.add(Label::new(RichText::new(strings::NO_FILES).color(t.text_weak)).selectable(false));
         }
         files_ui(ui, &mut self.batch, &mut self.selected);
     }
@@ -138,16 +135,7 @@ impl ImportSheet {
     fn chosen_ui(&mut self, ui: &mut Ui, around: Surroundings<'_>) {
         let t = tokens(ui.ctx());
         let Some(id) = self.selected else {
-            ui.centered_and_justified(|ui| {
-                let (text, color) = if self.batch.is_broken() {
-                    (strings::BROKEN, t.error)
-                } else if self.batch.is_working() {
-                    (strings::READING, t.text_weak)
-                } else {
-                    (strings::DROP_KINDS, t.text_weak)
-                };
-                ui.add(Label::new(RichText::new(text).color(color)).selectable(false));
-            });
+            self.empty_ui(ui);
             return;
         };
         let Some(file) = self.batch.file_mut(id) else { return };
@@ -158,9 +146,26 @@ impl ImportSheet {
                 ui.label(RichText::new(*note).color(t.text_weak));
             }
             Content::Failed(reason) => {
-                ui.label(RichText::new(reason.as_str()).color(t.error));
+                ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
             }
         }
+    }
+
+    /// What stands there before the first file has been read.
+    fn empty_ui(&self, ui: &mut Ui) {
+        let t = tokens(ui.ctx());
+        ui.add_space(0.38 * ui.available_height());
+        ui.vertical_centered(|ui| {
+            if self.batch.is_broken() {
+                ui.add(Label::new(RichText::new(strings::BROKEN).color(t.error)).wrap());
+            } else if self.batch.is_working() {
+                ui.add(Label::new(RichText::new(strings::READING).color(t.text_weak)).selectable(false));
+            } else {
+                ui.add(Label::new(RichText::new(strings::DROP_HERE).heading()).selectable(false));
+                let kinds = RichText::new(strings::DROP_KINDS).color(t.text_weak);
+                ui.add(Label::new(kinds).wrap().selectable(false));
+            }
+        });
     }
 
     fn foot_ui(&self, ui: &mut Ui, around: Surroundings<'_>) -> Vec<Command> {

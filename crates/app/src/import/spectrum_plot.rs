@@ -37,25 +37,29 @@ pub(super) fn spectrum_plot(
     if low >= high {
         return;
     }
-    let marks = MARKS_HZ.map(|f| GridMark { value: f.log10(), step_size: 0.3 });
-    let plot = fixed(Plot::new("import spectrum"), t.line)
+    let marks: Vec<GridMark> = MARKS_HZ
+        .iter()
+        .map(|f| GridMark { value: f.log10(), step_size: 0.3 })
+        .filter(|mark| (low..=high).contains(&mark.value))
+        .collect();
+    let mut plot = fixed(Plot::new("import spectrum"), t.line)
         .height(height)
-        .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
-        .x_grid_spacer(move |_| marks.to_vec())
+        .x_grid_spacer(move |_| marks.clone())
         .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [100.0, 20.0, 20.0]))
         .x_axis_formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)))
-        .y_axis_formatter(|mark, _| format!("{:.0}", mark.value))
-        .show(ui, |plot| {
-            plot.set_plot_bounds_x(low..=high + 0.02);
-            plot.set_plot_bounds_y(top - RANGE_DB..=top + 3.0);
-            if let Some(measured) = measured {
-                plot.line(
-                    Line::new(strings::MEASURED_LINE, PlotPoints::from(measured))
-                        .color(t.text_weak)
-                        .width(1.2),
-                );
-            }
-            plot.line(Line::new(strings::MODEL_LINE, PlotPoints::from(model)).color(t.accent).width(2.2));
-        });
+        .y_axis_formatter(|mark, _| format!("{:.0}", mark.value + 0.0));
+    if measured.is_some() {
+        plot = plot.legend(Legend::default().position(Corner::LeftBottom).background_alpha(0.6));
+    }
+    let plot = plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(low..=high + 0.02);
+        plot.set_plot_bounds_y(top - RANGE_DB..=top + 3.0);
+        if let Some(measured) = measured {
+            plot.line(
+                Line::new(strings::MEASURED_LINE, PlotPoints::from(measured)).color(t.text_weak).width(1.2),
+            );
+        }
+        plot.line(Line::new(strings::MODEL_LINE, PlotPoints::from(model)).color(t.accent).width(2.2));
+    });
     plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, strings::SPECTRUM));
 }

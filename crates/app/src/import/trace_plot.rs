@@ -1,7 +1,7 @@
 //! A recording over time: acceleration, speed and force on one axis.
 
 use egui::{Color32, Ui};
-use egui_plot::{FilledArea, Line, Plot, PlotPoints, PlotUi, Span};
+use egui_plot::{FilledArea, GridMark, Line, Plot, PlotPoints, PlotUi, Span};
 
 use crate::import::plane_plot::short;
 use crate::import::trace::Trace;
@@ -53,12 +53,13 @@ fn row<'a>(
     draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
 ) {
     let t: &'static Tokens = tokens(ui.ctx());
-    let half = if range[0] < 0.0 { nice(range[1].max(-range[0])) } else { nice(range[1]) };
+    let mark = nice(range[1]);
+    let marks = [-mark, 0.0, mark].map(|value| GridMark { value, step_size: mark });
     let plot = fixed(Plot::new(name.to_owned()), t.line)
         .height(height)
         .show_axes([name == strings::FORCE, true])
         .y_axis_min_width(MARKS_WIDTH)
-        .y_grid_spacer(egui_plot::uniform_grid_spacer(move |_| [10.0 * half, half, half]))
+        .y_grid_spacer(move |_| marks.iter().copied().filter(|m| m.value >= range[0]).collect())
         .x_axis_formatter(|mark, _| format!("{} s", short(mark.value)))
         .y_axis_formatter(|mark, _| short(mark.value))
         .show(ui, move |plot| {
@@ -79,10 +80,10 @@ fn shade(plot: &mut PlotUi<'_>, range: [f64; 2], color: Color32) {
     plot.span(Span::new("", range[0]..=range[1]).fill(color));
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is at most `highest`.
+/// The largest whole number of a power of ten that is at most `highest`, so that one mark says how high a plot is.
 fn nice(highest: f64) -> f64 {
     let power = 10.0_f64.powf(highest.log10().floor());
-    [5.0, 2.0, 1.0].into_iter().map(|step| step * power).find(|step| *step <= highest).unwrap_or(power)
+    (highest / power * (1.0 + 1e-12)).floor() * power
 }
 
 #[cfg(test)]
@@ -91,7 +92,7 @@ mod tests {
 
     #[test]
     fn marks_are_at_round_numbers() {
-        for (highest, expected) in [(9.7, 5.0), (3.0, 2.0), (1.9, 1.0), (210.0, 200.0), (0.04, 0.02)] {
+        for (highest, expected) in [(9.7, 9.0), (3.0, 3.0), (1.9, 1.0), (210.0, 200.0), (0.045, 0.04)] {
             assert!((nice(highest) - expected).abs() < 1e-12, "{highest}: {}", nice(highest));
         }
     }

@@ -8,15 +8,13 @@ pub const TITLE: &str = "Import";
 /// Shown while files hover over the window.
 pub const DROP_HERE: &str = "Drop recordings, models or a library";
 /// What can be dropped.
-pub const DROP_KINDS: &str = "CSV, TXT, TSV or WAV recordings · HaTT XML models · a Shagreen library (JSON) · a map.toml for the columns · or a folder of them";
+pub const DROP_KINDS: &str = "CSV, TXT, TSV or WAV recordings · HaTT XML models · a Shagreen library (JSON) · a map.toml for columns · a folder of them";
 /// Accessible name of the field for paths.
 pub const PATHS: &str = "Paths of files or folders";
 /// Hint in the field for paths.
 pub const PATHS_HINT: &str = "Path of a file or folder…";
 /// Reads the files of the paths.
 pub const READ: &str = "Read";
-/// Accessible name of the list of files.
-pub const NO_FILES: &str = "Drop files on the window, or type a path above.";
 /// Closes the sheet without adding anything.
 pub const CANCEL: &str = "Cancel";
 /// Choice: all recordings are of one texture.
