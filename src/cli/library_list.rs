@@ -30,7 +30,7 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
         "tags": texture.tags,
         "at": texture.at().map(|at| [at.rough_smooth, at.hard_soft]),
         "label_source": texture.label_source().map(LabelSource::id),
-        "nodes": texture.model.nodes().len(),
+        "nodes": texture.model.n_nodes(),
         "order": texture.model.order(),
         "rate_hz": texture.model.rate().0,
         "licence": library.license_of(texture),
@@ -49,7 +49,7 @@ fn table(library: &Library) -> String {
             "{:widest$}  {}, {place}, {} nodes of order {} at {}",
             texture.id,
             texture.name,
-            model.nodes().len(),
+            model.n_nodes(),
             model.order(),
             model.rate()
         )

@@ -118,7 +118,7 @@ fn check(status: &Status) -> anyhow::Result<()> {
 
 fn load_textures(handle: &mut Handle, library: &Library, chosen: &Chosen) -> anyhow::Result<()> {
     let mut mix = Mix::silent(synth_blend(chosen.mode));
-    for (parent, (plane, weight)) in mix.parents.iter_mut().zip(chosen.planes(library)) {
+    for (parent, (plane, weight)) in mix.parents.iter_mut().zip(chosen.planes(library)?) {
         let texture = OwnedTexture::new(plane.prepare().parts())?;
         let id = handle.load(texture).context("the output takes no texture; try again")?;
         *parent = Parent { id, weight: weight as f32 };

@@ -104,7 +104,7 @@ fn samples(
     rate_hz: u32,
 ) -> anyhow::Result<Vec<f32>> {
     let prepared: Vec<(Prepared, f64)> =
-        chosen.planes(library).iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect();
+        chosen.planes(library)?.iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect();
     let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
     let plan = RenderPlan {
         parents: &parents,

@@ -6,6 +6,7 @@ use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::blend::{Mode, author};
 use shagreen_core::plane::Plane;
+use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{Space, SpacePoint};
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::Library;
@@ -113,21 +114,30 @@ fn choose(library: &Library, target: &TargetArgs, mode: Mode) -> anyhow::Result<
 }
 
 impl Chosen {
-    /// The planes of the parents, in their order, and the weights.
-    pub(crate) fn planes(&self, library: &Library) -> Vec<(Plane, f64)> {
-        self.parents.iter().map(|(index, w)| (Plane::new(&library.textures[*index].model), *w)).collect()
+    /// The planes of the parents at [`Chosen::rate`], in their order, and the weights.
+    pub(crate) fn planes(&self, library: &Library) -> anyhow::Result<Vec<(Plane, f64)>> {
+        let rate = self.rate(library)?;
+        let plane = |(index, weight): &(usize, f64)| {
+            let texture = &library.textures[*index];
+            let own = texture.model.rate();
+            let converted = at_rate(&texture.model, rate)
+                .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
+            if own != rate {
+                output::note(&format!(
+                    "\"{}\" has a rate of {own} and is converted to {rate} for its neighbors: same levels, spectra \
+                     within {:.1} dB (median of its speeds and forces; worst {:.1} dB)",
+                    texture.id, converted.error_db_median, converted.error_db_worst
+                ));
+            }
+            Ok((Plane::new(&converted.model), *weight))
+        };
+        self.parents.iter().map(plane).collect()
     }
 
-    /// The rate of the parents; they must share one.
+    /// The highest rate of the parents, to which the others are converted.
     pub(crate) fn rate(&self, library: &Library) -> anyhow::Result<Hertz> {
-        let mut rates = self.parents.iter().map(|(index, _)| library.textures[*index].model.rate());
-        let first = rates.next().context("there is nothing to render; choose another point")?;
-        match rates.find(|rate| *rate != first) {
-            Some(other) => bail!(
-                "the textures around this point have different rates, {first} and {other}; choose another point"
-            ),
-            None => Ok(first),
-        }
+        let models = self.parents.iter().map(|(index, _)| &library.textures[*index].model);
+        highest_rate(models).context("there is nothing to render; choose another point")
     }
 
     /// Says where the hand leaves what the parents know: beyond it they stay as they are at its edge.

@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let chosen = args.sound.choose(&library)?;
     let rate = chosen.rate(&library)?;
     let contact = Contact::from_mm_per_s_and_n(args.speed, args.force);
-    let planes = chosen.planes(&library);
+    let planes = chosen.planes(&library)?;
     let parents: Vec<(&Plane, f64)> = planes.iter().map(|(plane, weight)| (plane, *weight)).collect();
     let frequencies = comparison_frequencies(rate, args.bins as usize);
     let psd = mixture_psd(&parents, chosen.mode, contact, &frequencies);

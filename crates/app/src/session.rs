@@ -8,9 +8,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
-use anyhow::bail;
+use anyhow::Context as _;
 use shagreen_core::blend::{Authored, author, mixture_psd};
 use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{Location, Space};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
@@ -74,11 +75,12 @@ impl Session {
     /// A session with a library; no output is open yet.
     ///
     /// # Errors
-    /// The positions cannot be triangulated, or the textures have different rates.
+    /// The positions cannot be triangulated, or a texture cannot be had at the highest rate of them.
     pub fn new(library: Library) -> anyhow::Result<Self> {
-        let rate_hz = common_rate_hz(&library)?;
-        let planes: Vec<Arc<Plane>> =
-            library.textures.iter().map(|t| Arc::new(Plane::new(&t.model))).collect();
+        let rate = rate_of_space(library.textures.iter());
+        let rate_hz = rate.0;
+        let planes = library.textures.iter().map(|t| Ok(Arc::new(plane_of(t, rate)?)));
+        let planes = planes.collect::<anyhow::Result<Vec<Arc<Plane>>>>()?;
         let (sender, incoming) = channel();
         prepare_ahead(planes.iter().cloned().enumerate().collect(), sender.clone());
         Ok(Self {
@@ -188,10 +190,22 @@ impl Session {
         self.planes.truncate(kept);
         self.prepared.truncate(kept);
         self.added = added.to_vec();
+        if self.library.label_sources().is_empty() {
+            // Those that bring the first places bring the rate of the space too.
+            let all = self.library.textures.iter().chain(added[n_same..].iter().map(|entry| &**entry));
+            self.space_rate_hz = rate_of_space(all).0;
+        }
         for entry in &added[n_same..] {
-            self.library.textures.push(TextureEntry::clone(entry));
-            self.planes.push(Arc::new(Plane::new(&entry.model)));
+            let mut entry = TextureEntry::clone(entry);
+            let plane = plane_of(&entry, Hertz(self.space_rate_hz)).unwrap_or_else(|error| {
+                // Not to be blended then, but still to be heard alone.
+                self.player.message = Some(format!("{error:#}"));
+                entry.place = None;
+                Plane::new(&entry.model)
+            });
+            self.planes.push(Arc::new(plane));
             self.prepared.push(None);
+            self.library.textures.push(entry);
         }
         let fresh = self.planes.iter().cloned().enumerate().skip(kept).collect();
         prepare_ahead(fresh, self.sender.clone());
@@ -200,17 +214,13 @@ impl Session {
             Ok(space) => self.space = space,
             Err(error) => self.player.message = Some(error.to_string()),
         }
-        match common_rate_hz(&self.library) {
-            Ok(rate_hz) => self.space_rate_hz = rate_hz,
-            Err(error) => self.player.message = Some(error.to_string()),
-        }
         self.player.wanted = None;
     }
 
     /// What is heard alone may have another rate than the space: then the output is opened again, at that rate.
     fn follow_rate(&mut self, solo: Option<usize>, ctx: &egui::Context) {
-        let rate_hz =
-            solo.map_or(self.space_rate_hz, |texture| self.library.textures[texture].model.rate().0);
+        let alone = solo.map(|texture| &self.library.textures[texture]).filter(|t| t.place.is_none());
+        let rate_hz = alone.map_or(self.space_rate_hz, |texture| texture.model.rate().0);
         if rate_hz != self.rate_hz {
             self.rate_hz = rate_hz;
             self.spectra = Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() };
@@ -340,20 +350,22 @@ impl Session {
     }
 }
 
-/// The rate that all textures in the space share, in Hz: voices of different rates cannot be mixed.
-fn common_rate_hz(library: &Library) -> anyhow::Result<f64> {
-    let placed = || library.textures.iter().filter(|t| t.place.is_some());
-    let Some(first) = placed().next().or(library.textures.first()) else { return Ok(1000.0) };
-    let rate = first.model.rate();
-    match placed().find(|t| t.model.rate() != rate) {
-        None => Ok(rate.0),
-        Some(other) => bail!(
-            "\"{}\" has a rate of {rate} and \"{}\" of {}; textures of one space need the same: keep them in two libraries",
-            first.id,
-            other.id,
-            other.model.rate()
-        ),
+/// The rate of the textures in the space, which is the highest of them: voices of different rates cannot be mixed. Where
+/// none has a place, that of the first.
+fn rate_of_space<'a>(textures: impl Iterator<Item = &'a TextureEntry> + Clone) -> Hertz {
+    let placed = textures.clone().filter(|t| t.place.is_some()).map(|t| &t.model);
+    let first = textures.clone().next().map(|t| t.model.rate());
+    highest_rate(placed).or(first).unwrap_or(Hertz(1000.0))
+}
+
+/// The plane of a texture: at the rate of the space where it has a place there, else at its own, since it is heard alone.
+fn plane_of(texture: &TextureEntry, rate_of_space: Hertz) -> anyhow::Result<Plane> {
+    if texture.place.is_none() {
+        return Ok(Plane::new(&texture.model));
     }
+    let converted = at_rate(&texture.model, rate_of_space)
+        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate_of_space}", texture.id))?;
+    Ok(Plane::new(&converted.model))
 }
 
 /// Where spectra of a model are drawn: beyond half its rate it only repeats itself.

@@ -105,9 +105,8 @@ fn starter(id: &str) -> TextureEntry {
 
 /// A simulated recording of a starter texture: back and forth at many speeds and forces. The unit of acceleration is
 /// not stated.
-fn recording(id: &str, seconds: f64) -> String {
+fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
     let prepared = Plane::new(&starter(id).model).prepare();
-    let rate = Hertz(1000.0);
     let speed_mm_per_s = |t: f64| 20.0 + 180.0 * (0.9 * t).sin().powi(2);
     let force_n = |t: f64| 1.2 + 0.8 * (0.23 * t).sin();
     let plan = RenderPlan { parents: &[(&prepared, 1.0)], mode: Mode::Shared, rate, seconds, seed: 5 };
@@ -137,7 +136,7 @@ fn import_recording(harness: &mut Author, name: &str, text: &str) {
 fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     let mut harness = author();
     let before = names(&harness);
-    import_recording(&mut harness, "oak_board.csv", &recording("sanded-wood", 20.0));
+    import_recording(&mut harness, "oak_board.csv", &recording("sanded-wood", 20.0, Hertz(1000.0)));
 
     let sheet = window(&harness).import().expect("the sheet");
     let file = &sheet.batch().files()[0];
@@ -182,16 +181,24 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
 #[test]
 fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
     let mut harness = author();
-    import_recording(&mut harness, "felt.csv", &recording("felt", 12.0));
-    choose(&mut harness, import::RATE, "500 Hz");
-    wait(&mut harness, "the fit at 500 Hz", |h| {
+    import_recording(&mut harness, "felt.csv", &recording("felt", 12.0, Hertz(4000.0)));
+    choose(&mut harness, import::RATE, "2000 Hz");
+    wait(&mut harness, "the fit at 2000 Hz", |h| {
         let batch = window(h).import().expect("the sheet").batch();
         let draft = batch.draft_of(batch.files()[0].id);
-        draft.and_then(|d| d.fitted()).is_some_and(|f| f.report.rate.0 == 500.0)
+        draft.and_then(|d| d.fitted()).is_some_and(|f| f.report.rate.0 == 2000.0)
     });
     assert!(harness.query_by_label_contains("cannot be blended").is_some());
     click(&mut harness, &import::add(1));
-    click(&mut harness, &strings::texture("Felt"));
+    let before = window(&harness).session().textures().len();
+    assert_eq!(window(&harness).session().textures()[before - 1].model.rate().0, 2000.0);
+    harness.get_all_by_label(&strings::texture("Felt")).last().expect("two of that name").click();
+    harness.run_steps(2);
+    click(&mut harness, strings::HAND_START);
+    wait(&mut harness, "it sounds at its own rate", |h| window(h).session().scope().rms(0.3) > 1e-3);
+    // Moved back into the space, the blend sounds again, at the rate of the space.
+    click(&mut harness, &strings::go_to("Brick"));
+    wait(&mut harness, "the blend sounds", |h| window(h).session().scope().rms(0.3) > 0.2);
 }
 
 #[test]
@@ -242,7 +249,7 @@ fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("cork.csv");
-    std::fs::write(&path, recording("cork", 6.0)).unwrap();
+    std::fs::write(&path, recording("cork", 6.0, Hertz(1000.0))).unwrap();
     let field = harness.get_by_role_and_label(Role::TextInput, import::PATHS);
     field.type_text(&path.display().to_string());
     harness.run_steps(2);

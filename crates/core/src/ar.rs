@@ -53,20 +53,25 @@ pub enum ArError {
 /// See [`ArError`].
 pub fn yule_walker(signal: &[f64], order: usize) -> Result<ArFit, ArError> {
     let (x, energy) = centered(signal, order)?;
-    let lags = lag_sums(&x, energy, order);
     let n = x.len() as f64;
+    let lags: Vec<f64> = lag_sums(&x, energy, order).iter().map(|lag| lag / n).collect();
+    Ok(levinson(&lags, order))
+}
+
+/// The predictor of order `order` of an autocorrelation from lag 0 to at least that order, by Levinson's recursion.
+pub fn levinson(r: &[f64], order: usize) -> ArFit {
     let mut ar: Vec<f64> = Vec::with_capacity(order);
-    let mut variance = energy / n;
+    let mut variance = r[0];
     let mut variance_by_order = Vec::with_capacity(order + 1);
     variance_by_order.push(variance);
     for i in 1..=order {
-        let sum = lags[i] + ar.iter().zip(lags[1..i].iter().rev()).map(|(a, r)| a * r).sum::<f64>();
-        let reflection = -sum / (n * variance);
+        let sum = r[i] + ar.iter().zip(r[1..i].iter().rev()).map(|(a, r)| a * r).sum::<f64>();
+        let reflection = -sum / variance;
         step_up(&mut ar, reflection);
         variance *= 1.0 - reflection * reflection;
         variance_by_order.push(variance);
     }
-    Ok(ArFit { ar, variance, variance_by_order })
+    ArFit { ar, variance, variance_by_order }
 }
 
 /// The signal without its mean, and the sum of its squares.

@@ -38,6 +38,7 @@ pub mod lsf;
 pub mod material;
 pub mod plane;
 pub mod radial_basis;
+pub mod rate;
 pub mod recording;
 pub mod render;
 pub mod rng;

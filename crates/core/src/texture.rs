@@ -246,4 +246,6 @@ impl TextureModel {
 }
 
 #[cfg(test)]
+pub(crate) mod test_textures;
+#[cfg(test)]
 mod tests;

@@ -305,7 +305,7 @@ impl Batch {
     }
 
     /// The textures that would join `library` now. A texture keeps its place where it can be compared with the others:
-    /// where the places come from the same source, and its rate is `space_rate_hz`.
+    /// where the places come from the same source, and its rate is not above `space_rate_hz`.
     pub fn entries(&self, library: &Library, space_rate_hz: f64) -> Vec<Arc<TextureEntry>> {
         let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
         let mut source = library.label_source();
@@ -318,7 +318,7 @@ impl Batch {
                 entry.id = unique_id(&entry.id, &mut ids);
                 let fits = |from: LabelSource| !has_mixed_places && source.is_none_or(|s| s == from);
                 let is_comparable = entry.label_source().is_some_and(fits);
-                if is_comparable && entry.model.rate().0 == space_rate_hz {
+                if is_comparable && (library.label_sources().is_empty() || entry.model.rate().0 <= space_rate_hz) {
                     source = entry.label_source();
                 } else {
                     entry.place = None;

@@ -94,7 +94,7 @@ pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: Surroundings<'_>) {
         FitState::Done(fitted) => {
             figures_ui(ui, &fitted.report);
             let (rate_hz, space_rate_hz) = (fitted.report.rate.0, around.space_rate_hz);
-            if rate_hz != space_rate_hz {
+            if rate_hz > space_rate_hz {
                 let text = strings::other_rate(rate_hz, space_rate_hz);
                 ui.add(Label::new(RichText::new(text).small().color(t.warning)).wrap().selectable(false));
             }

@@ -103,7 +103,7 @@ fn about_ui(ui: &mut Ui, entry: &TextureEntry, around: Surroundings<'_>) {
     ];
     figure_rows_ui(ui, &rows);
     let (rate_hz, space_rate_hz) = (model.rate().0, around.space_rate_hz);
-    let note = if rate_hz != space_rate_hz && entry.place.is_some() {
+    let note = if rate_hz > space_rate_hz && entry.place.is_some() {
         strings::other_rate(rate_hz, space_rate_hz)
     } else if entry.place.is_some() {
         strings::KEEPS_PLACE.to_owned()

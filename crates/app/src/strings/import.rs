@@ -285,7 +285,7 @@ pub fn rate(rate_hz: f64) -> String {
 /// A texture at another rate than the space.
 pub fn other_rate(rate_hz: f64, space_rate_hz: f64) -> String {
     format!(
-        "At {} Hz it cannot be blended with the textures of the space, which are at {} Hz; choose that model rate to blend it.",
+        "At {} Hz it cannot be blended with the textures of this space, which are at {} Hz: it is heard alone.",
         rate_hz.round(),
         space_rate_hz.round()
     )

@@ -109,12 +109,27 @@ impl RadialGrain {
             (0..=n as usize).map(move |i| low + (1.0 - low) * i as f64 / n)
         };
         for s in steps(x) {
-            add([s, y]);
-            add([s, 0.0]);
+            for line in [0.0, y, 1.0] {
+                add([s, line]);
+            }
         }
         for s in steps(y) {
-            add([x, s]);
-            add([0.0, s]);
+            for line in [0.0, x, 1.0] {
+                add([line, s]);
+            }
+        }
+        // A node near such a line must not be the tip of a long flat triangle on it.
+        for node in &self.nodes {
+            for line in [y, 1.0] {
+                if (node[1] - line).abs() < SPACING {
+                    add([node[0], line]);
+                }
+            }
+            for line in [x, 1.0] {
+                if (node[0] - line).abs() < SPACING {
+                    add([line, node[1]]);
+                }
+            }
         }
         out
     }

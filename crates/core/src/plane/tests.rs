@@ -1,7 +1,7 @@
 use super::{Plane, Prepared};
-use crate::ar::test_signals::from_resonances;
-use crate::lsf::{lsf_from_ar, repair};
+use crate::lsf::repair;
 use crate::rng::lcg_noise;
+use crate::texture::test_textures::two_resonances as texture;
 use crate::texture::{FORCES_N, GrainNode, LEVELS_MPS2, MIN_LSF_GAP, SPEEDS_MPS, TextureModel};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use proptest::bool;
@@ -12,26 +12,6 @@ use proptest::test_runner::TestRunner;
 use shagreen_synth::contact::Contact as SynthContact;
 use shagreen_synth::texture::{Parts, Texture};
 use std::f64::consts::PI;
-
-/// Two resonances that wander with speed and force, level as v F^0.3.
-fn texture(speeds: &[f64], forces: &[f64]) -> TextureModel {
-    let mut nodes = Vec::new();
-    for &v in speeds {
-        for &f in forces {
-            let ar = from_resonances(
-                Hertz(1000.0),
-                &[(Hertz(60.0 + 400.0 * v), 0.9), (Hertz(200.0 + 30.0 * f), 0.85), (Hertz(400.0), 0.6)],
-            );
-            nodes.push(GrainNode {
-                speed: MetersPerSecond(v),
-                force: Newtons(f),
-                lsf: lsf_from_ar(&ar).unwrap(),
-                level_mps2: 10.0 * v * f.powf(0.3),
-            });
-        }
-    }
-    TextureModel::new(Hertz(1000.0), nodes, Some(0.3)).unwrap()
-}
 
 fn is_accepted(p: &Prepared) -> bool {
     Texture::new(p.parts()).is_ok()
@@ -165,6 +145,38 @@ fn the_models_of_the_property_are_accepted_often_enough() {
     assert!(n > 50, "{n} of 200");
 }
 
+#[test]
+fn few_nodes_on_one_line_cover_the_plane() {
+    let rows: [(&[f64], &[f64]); 4] = [
+        (&[0.05, 0.1], &[1.0]),
+        (&[0.05, 0.1, 0.2], &[1.0]),
+        (&[0.1], &[0.5, 1.0]),
+        (&[0.1], &[0.4, 0.9, 3.0]),
+    ];
+    for (speeds, forces) in rows {
+        let model = texture(speeds, forces);
+        let plane = Plane::new(&model);
+        assert!(is_accepted(&plane.prepare()));
+        for node in model.nodes() {
+            let level = plane.at(Contact { speed: node.speed, force: node.force }).level_mps2;
+            assert!((level - node.level_mps2).abs() < 1e-9, "{level} for {}", node.level_mps2);
+        }
+        let beyond = plane.at(Contact::from_mm_per_s_and_n(500.0, 9.0)).level_mps2;
+        let highest = model.nodes().iter().map(|n| n.level_mps2).fold(0.0, f64::max);
+        assert!((beyond - highest).abs() < 1e-9, "{beyond} for {highest}");
+        assert_eq!(plane.at(Contact::from_mm_per_s_and_n(0.0, 9.0)).level_mps2, 0.0);
+    }
+    // Three on a slanted line.
+    let nodes: Vec<GrainNode> =
+        [0, 4, 8].map(|i| texture(&[0.05, 0.1, 0.2], &[0.5, 1.0, 2.0]).nodes()[i].clone()).to_vec();
+    let plane = Plane::new(&TextureModel::new(Hertz(1000.0), nodes.clone(), None).unwrap());
+    assert!(is_accepted(&plane.prepare()));
+    for node in &nodes {
+        let level = plane.at(Contact { speed: node.speed, force: node.force }).level_mps2;
+        assert!((level - node.level_mps2).abs() < 1e-9);
+    }
+}
+
 proptest! {
     /// What is accepted as a model is accepted by the renderer, whatever its numbers, and is a finite level everywhere.
     #[test]
@@ -209,3 +221,6 @@ proptest! {
         }
     }
 }
+
+mod published;
+mod radial;

@@ -1,4 +1,7 @@
-use super::{GrainNode, LEVELS_MPS2, TextureModel, TextureModelError};
+use super::test_textures::arma;
+use super::{
+    GrainNode, Interpolation, LEVELS_MPS2, MAX_RADIAL_NODES, PublishedNode, TextureModel, TextureModelError,
+};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
 fn node(speed: f64, lsf: &[f64]) -> GrainNode {
@@ -55,4 +58,62 @@ fn nodes_at_one_place_are_refused_and_neighbors_are_not() {
     }
     // So near to zero speed that silence lies at the same place.
     assert!(matches!(make(&[far, [1e-5, 1.0]]), Some(TextureModelError::Value { index: 1, .. })));
+}
+
+fn published(change: &dyn Fn(&mut Vec<PublishedNode>)) -> Result<TextureModel, TextureModelError> {
+    let mut nodes = arma(6, 4).published_nodes().to_vec();
+    change(&mut nodes);
+    TextureModel::published(Hertz(1000.0), nodes, None)
+}
+
+#[test]
+fn published_nodes_say_what_they_are() {
+    let model = published(&|_| ()).unwrap();
+    assert_eq!((model.order(), model.ma_order(), model.n_nodes()), (6, 4, 16));
+    assert_eq!((model.nodes().len(), model.published_nodes().len()), (0, 16));
+    assert_eq!((model.speed_max(), model.force_max()), (MetersPerSecond(0.2), Newtons(3.0)));
+    assert_eq!(model.interpolation(), None);
+    assert_eq!(model.with_interpolation(Interpolation::RadialBasis), Err(TextureModelError::Published));
+    assert_eq!(published(&|nodes| nodes.iter_mut().for_each(|n| n.ma_lsf.clear())).unwrap().ma_order(), 0);
+    // As near as six decimals can be.
+    assert!(published(&|nodes| nodes[3].ma_lsf[1] = nodes[3].ma_lsf[0] + 1e-6).is_ok());
+}
+
+#[test]
+fn bad_published_nodes_are_named() {
+    let error = |change: &dyn Fn(&mut Vec<PublishedNode>)| published(change).unwrap_err();
+    assert_eq!(error(&|n| n.clear()), TextureModelError::Empty);
+    assert_eq!(error(&|n| n[2].ar_lsf.truncate(5)), TextureModelError::Order { index: 2, order: 5 });
+    assert_eq!(error(&|n| n[2].ma_lsf.truncate(3)), TextureModelError::MaOrder { index: 2, order: 3 });
+    let frequencies = |part| TextureModelError::PublishedFrequencies { part, index: 1 };
+    assert_eq!(error(&|n| n[1].ar_lsf[0] = f64::NAN), frequencies("AR"));
+    assert_eq!(error(&|n| n[1].ma_lsf.swap(0, 1)), frequencies("MA"));
+    assert_eq!(error(&|n| n[1].ma_lsf[1] = n[1].ma_lsf[0] + 1e-7), frequencies("MA"));
+    let named = |error: TextureModelError, name: &str| {
+        assert!(error.to_string().starts_with(name), "{error}");
+    };
+    for bad in [-1.0, 1e300, f64::NAN, f64::INFINITY] {
+        named(error(&|n| n[5].variance = bad), "variance in (m/s²)² of node 5");
+        named(error(&|n| n[5].gain = bad), "gain of node 5");
+        named(error(&|n| n[5].speed.0 = bad), "speed in m/s of node 5");
+        named(error(&|n| n[5].force.0 = bad), "force in N of node 5");
+    }
+    named(error(&|n| n.iter_mut().for_each(|n| n.force.0 = 0.0)), "highest force in N");
+    // Each of the corners in turn.
+    for (index, speed_mps, force_n) in [(0, 0.0, 0.0), (3, 0.0, 3.0), (12, 0.2, 0.0), (15, 0.2, 3.0)] {
+        let missing = TextureModelError::Corner { speed_mps, force_n };
+        assert_eq!(error(&|n| drop(n.remove(index))), missing);
+    }
+    assert_eq!(error(&|n| n.push(n[7].clone())), TextureModelError::SamePlace { first: 7, second: 16 });
+}
+
+#[test]
+fn a_radial_basis_is_for_so_many_nodes_and_no_more() {
+    let model = |n: usize| {
+        let nodes = (0..n).map(|i| node(0.01 + 1e-4 * i as f64, &[1.0])).collect();
+        TextureModel::new(Hertz(1000.0), nodes, None).unwrap().with_interpolation(Interpolation::RadialBasis)
+    };
+    assert_eq!(model(MAX_RADIAL_NODES).unwrap().interpolation(), Some(Interpolation::RadialBasis));
+    let n = MAX_RADIAL_NODES + 1;
+    assert_eq!(model(n), Err(TextureModelError::TooManyForRadialBasis { n }));
 }
