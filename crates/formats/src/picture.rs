@@ -3,13 +3,18 @@
 use std::io::Cursor;
 
 use image::codecs::jpeg::JpegEncoder;
-use image::{ExtendedColorType, ImageFormat, ImageReader};
+use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageFormat, ImageReader};
 
 /// Quality of the JPEG pictures in a library, 1..100.
 pub const JPEG_QUALITY: u8 = 85;
 
 /// Longest side of a picture that is read, in pixels.
 pub const MAX_SIDE: u32 = 4096;
+
+/// Memory that a picture may take to unpack, whatever its length: the largest in full color, and some.
+const MEMORY_BYTES: u64 = 56 << 20;
+/// Memory beyond that, by the length of its bytes.
+const MEMORY_FACTOR: u64 = 8;
 
 /// How the bytes of a picture are compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,6 +92,18 @@ pub enum PictureError {
         /// Rows, by the picture.
         found_height: u32,
     },
+    /// Unpacking would take far more memory than a picture of so many bytes is worth.
+    #[error(
+        "the picture is {width} x {height} pixels in {n_bytes} bytes, too large to unpack; make it smaller"
+    )]
+    TooLarge {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Compressed bytes.
+        n_bytes: usize,
+    },
     /// The compressed bytes are damaged.
     #[error("the picture is damaged")]
     Codec(#[from] image::ImageError),
@@ -111,9 +128,10 @@ pub fn encode_jpeg(rgb: &Rgb, millimeters: f64) -> Result<Picture, PictureError>
 /// Unpacks a picture.
 ///
 /// # Errors
-/// [`PictureError::Codec`] where the bytes are damaged, [`PictureError::Mismatch`] where they are of another size.
+/// [`PictureError::Codec`] where the bytes are damaged, [`PictureError::Mismatch`] where they are of another size,
+/// [`PictureError::TooLarge`] where few bytes would unpack to more than ten times their length and 64 MB.
 pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
-    let rgb = reader(picture).decode()?.into_rgb8();
+    let rgb = DynamicImage::from_decoder(decoder(picture)?)?.into_rgb8();
     check_size(picture, rgb.dimensions())?;
     Ok(Rgb { width: picture.width, height: picture.height, pixels: rgb.into_raw() })
 }
@@ -124,7 +142,26 @@ pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
 /// # Errors
 /// As [`decode`].
 pub fn check(picture: &Picture) -> Result<(), PictureError> {
-    check_size(picture, reader(picture).into_dimensions()?)
+    decoder(picture).map(|_| ())
+}
+
+/// A decoder that has seen the head of a picture, and found it good.
+fn decoder(picture: &Picture) -> Result<impl ImageDecoder + '_, PictureError> {
+    let decoder = reader(picture).into_decoder()?;
+    let (width, height) = decoder.dimensions();
+    check_size(picture, (width, height))?;
+    let n_pixels = u64::from(width) * u64::from(height);
+    let converted = if decoder.color_type() == ColorType::Rgb8 { 0 } else { 3 * n_pixels };
+    // A progressive JPEG is kept as 16-bit coefficients until its last pass.
+    let is_progressive =
+        picture.format == PictureFormat::Jpeg && picture.bytes.windows(2).any(|pair| pair == [0xFF, 0xC2]);
+    let coefficients = if is_progressive { 6 * n_pixels } else { 0 };
+    let n_bytes = picture.bytes.len();
+    let most = MEMORY_BYTES + MEMORY_FACTOR * n_bytes as u64;
+    if decoder.total_bytes().saturating_add(converted + coefficients) > most {
+        return Err(PictureError::TooLarge { width, height, n_bytes });
+    }
+    Ok(decoder)
 }
 
 fn reader(picture: &Picture) -> ImageReader<Cursor<&[u8]>> {

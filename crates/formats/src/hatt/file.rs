@@ -164,15 +164,16 @@ fn frequencies(
     let lsf = list(model, lsf_name, "")?;
     let mut coefficients = list(model, coefficient_name, "")?;
     // The leading one is usual and says nothing.
-    if coefficients.first() == Some(&1.0) && (lsf.is_empty() || coefficients.len() == lsf.len() + 1) {
+    if coefficients.first() == Some(&1.0) && (lsf.is_empty() || coefficients.len() > lsf.len()) {
         coefficients.remove(0);
     }
     if !lsf.is_empty() {
         if !coefficients.is_empty() {
-            let differences = ar_from_lsf(&lsf).into_iter().zip(&coefficients).map(|(a, b)| (a - b).abs());
-            let most = differences.fold(0.0, f64::max);
-            let same_length = lsf.len() == coefficients.len();
-            off.add(if same_length { most } else { f64::INFINITY }, COEFFICIENT_TOLERANCE, number);
+            let of_lsf = ar_from_lsf(&lsf);
+            let at = |filter: &[f64], k: usize| filter.get(k).copied().unwrap_or(0.0);
+            let n = of_lsf.len().max(coefficients.len());
+            let most = (0..n).map(|k| (at(&of_lsf, k) - at(&coefficients, k)).abs()).fold(0.0, f64::max);
+            off.add(most, COEFFICIENT_TOLERANCE, number);
         }
         return Ok(Some(lsf));
     }

@@ -28,6 +28,7 @@ use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 /// # Errors
 /// See [`LibraryError`]; every number is checked.
 pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
+    check_density(bytes)?;
     let mut warnings = Vec::new();
     let header = header(bytes)?;
     if header.format != FORMAT {
@@ -75,6 +76,24 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
         unknown: UnknownOfLibrary { library: wire.unknown, units: wire.units.unknown },
     };
     Ok(Imported { value: library, warnings })
+}
+
+/// Memory that values may take while they are read, whatever the length of a file.
+const MEMORY_BYTES: usize = 48 << 20;
+/// Memory beyond that, by the length of the file.
+const MEMORY_FACTOR: usize = 10;
+/// What a value of the unknown fields takes while it is read, about: it is kept twice, in lists that grow. Frequencies to
+/// six decimals always pass.
+const VALUE_BYTES: usize = 80;
+
+/// Refuses files of more values than anybody needs bytes for: a list of zeros takes fifty times its text.
+fn check_density(bytes: &[u8]) -> Result<(), LibraryError> {
+    let n_values = bytes.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
+    if n_values.saturating_mul(VALUE_BYTES) <= MEMORY_FACTOR.saturating_mul(bytes.len()) + MEMORY_BYTES {
+        return Ok(());
+    }
+    let reason = format!("{n_values} values in {} bytes are more than a library needs", bytes.len());
+    Err(LibraryError::Damaged { reason, texture: None })
 }
 
 /// What kind of file it is. JSON that is no object is of another kind, whatever it holds.

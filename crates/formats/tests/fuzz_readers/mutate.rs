@@ -8,8 +8,28 @@ use shagreen_core::rng::Random;
 const MAX_BYTES: usize = 1 << 18;
 /// What stands in for a number: the ends of every type, and what is none.
 const NUMBERS: [&str; 22] = [
-    "nan", "NaN", "-nan", "inf", "-inf", "1e999", "-1e999", "1e308", "1e-320", "-0", "0", "-1", "1", "0.5", "1,5",
-    "255", "65536", "4294967295", "9007199254740993", "18446744073709551616", "3.1415926535897932", "",
+    "nan",
+    "NaN",
+    "-nan",
+    "inf",
+    "-inf",
+    "1e999",
+    "-1e999",
+    "1e308",
+    "1e-320",
+    "-0",
+    "0",
+    "-1",
+    "1",
+    "0.5",
+    "1,5",
+    "255",
+    "65536",
+    "4294967295",
+    "9007199254740993",
+    "18446744073709551616",
+    "3.1415926535897932",
+    "",
 ];
 /// What opens, with what closes it.
 const BRACKETS: [(u8, u8); 5] = [(b'{', b'}'), (b'[', b']'), (b'<', b'>'), (b'"', b'"'), (b'\n', b'\n')];
@@ -17,14 +37,26 @@ const BRACKETS: [(u8, u8); 5] = [(b'{', b'}'), (b'[', b']'), (b'<', b'>'), (b'"'
 const NESTS: [&str; 6] = ["[", "{\"a\":", "<a>", "<a b=\"", "a.", "\"\""];
 /// Words that mean something somewhere.
 const WORDS: [&str; 12] = [
-    "null", "true", "<!DOCTYPE a [<!ENTITY b \"c\">]>", "&b;", "]]>", "<![CDATA[", "\u{feff}", "\u{0}", ";", "\t", ",", "\r\n",
+    "null",
+    "true",
+    "<!DOCTYPE a [<!ENTITY b \"c\">]>",
+    "&b;",
+    "]]>",
+    "<![CDATA[",
+    "\u{feff}",
+    "\u{0}",
+    ";",
+    "\t",
+    ",",
+    "\r\n",
 ];
 
 /// A changed copy of one of `seeds`.
 pub(crate) fn mutate(seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let mut bytes = seeds[below(random, seeds.len())].clone();
     // Mostly a change or two: what differs too much is refused at the door.
-    let n_changes = 1 + below(random, 1 << below(random, 4));
+    let most = 1 << below(random, 4);
+    let n_changes = 1 + below(random, most);
     for _ in 0..n_changes {
         let other = &seeds[below(random, seeds.len())];
         change(&mut bytes, other, random);
@@ -76,7 +108,8 @@ fn change(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
         13 => replace(bytes, at..at, WORDS[below(random, WORDS.len())].as_bytes()),
         // The ends of whole numbers in binary files.
         14 => {
-            let value = [0, 1, 0x7F, 0xFF, 0xFFFF, 0x7FFF_FFFF, u32::MAX, 1 << below(random, 32)][below(random, 8)];
+            let value =
+                [0, 1, 0x7F, 0xFF, 0xFFFF, 0x7FFF_FFFF, u32::MAX, 1 << below(random, 32)][below(random, 8)];
             let width = [1, 2, 4][below(random, 3)];
             let range = at..(at + width).min(bytes.len());
             let ordered = if below(random, 2) == 0 { value.to_le_bytes() } else { value.to_be_bytes() };

@@ -1,0 +1,202 @@
+//! Every reader takes whatever comes: no panic, no hang, no more memory than [`MEMORY_FACTOR`] times the input and
+//! [`MEMORY_BYTES`].
+//!
+//! Good files are changed by a seed ([`mutate`]), the same inputs in the same order every time. As a test all readers
+//! together take about [`SECS`]; `SHAGREEN_FUZZ_INPUTS` asks for a number of inputs a reader instead, which
+//! `scripts/fuzz` sets to a million.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test may stop at what it did not expect, and says what it did"
+)]
+
+mod memory;
+mod mutate;
+mod readers;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+use std::{env, fs, process, thread};
+
+use shagreen_core::rng::{Random, derive_seed};
+
+use crate::memory::peak_of;
+use crate::mutate::mutate;
+use crate::readers::{READERS, Reader};
+
+/// Seed of all inputs.
+const SEED: u64 = 3;
+/// Time of all readers together, in a test.
+const SECS: f64 = 60.0;
+/// Longest that a reader may take for one input.
+const LONGEST: Duration = Duration::from_secs(1);
+/// A reader that takes this long never ends.
+const NEVER: Duration = Duration::from_secs(30);
+/// Memory that a reader may use, by the length of its input.
+const MEMORY_FACTOR: usize = 10;
+/// Memory that a reader may use for any input.
+const MEMORY_BYTES: usize = 64 << 20;
+
+/// What a reader did wrong, with what.
+#[derive(Debug)]
+struct Failure {
+    what: String,
+    input: Vec<u8>,
+}
+
+/// Reads one input and says what was wrong.
+fn read_one(reader: &Reader, input: &[u8]) -> Result<(), String> {
+    let timed = || {
+        let start = Instant::now();
+        let (outcome, peak) = peak_of(|| catch_unwind(AssertUnwindSafe(|| (reader.read)(input))));
+        (outcome, peak, start.elapsed())
+    };
+    let (outcome, peak, mut took) = timed();
+    match outcome {
+        Err(panic) => {
+            let message = panic.downcast_ref::<String>().cloned();
+            let message = message.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+            return Err(format!("panic: {}", message.unwrap_or_default()));
+        }
+        Ok(Err(broken)) => return Err(broken),
+        Ok(Ok(())) => {}
+    }
+    let most = MEMORY_FACTOR * input.len() + MEMORY_BYTES;
+    if peak > most {
+        return Err(format!("memory: {peak} bytes for an input of {}", input.len()));
+    }
+    // A machine may be busy with other things once, not every time.
+    for _ in 0..3 {
+        if took <= LONGEST {
+            return Ok(());
+        }
+        took = timed().2;
+    }
+    Err(format!("hang: {took:?} for an input of {} bytes", input.len()))
+}
+
+/// Reads inputs until there are `n_inputs` or the time is over. Returns how many there were.
+fn fuzz(reader: &Reader, n_inputs: Option<u64>, secs: f64) -> Result<u64, Box<Failure>> {
+    let seeds = (reader.seeds)();
+    for seed in &seeds {
+        read_one(reader, seed).map_err(|what| Box::new(Failure { what, input: seed.clone() }))?;
+    }
+    let start = Instant::now();
+    let current = AtomicU64::new(0);
+    let is_over = AtomicU64::new(0);
+    thread::scope(|scope| {
+        scope.spawn(|| watch(reader.name, &current, &is_over));
+        let mut index = 0;
+        let outcome = loop {
+            let goes_on = match n_inputs {
+                Some(n) => index < n,
+                None => start.elapsed().as_secs_f64() < secs,
+            };
+            if !goes_on {
+                break Ok(index);
+            }
+            index += 1;
+            current.store(index, Ordering::Relaxed);
+            let input = input(reader, &seeds, index);
+            if let Err(what) = read_one(reader, &input) {
+                break Err(Box::new(Failure { what: format!("input {index}: {what}"), input }));
+            }
+        };
+        is_over.store(1, Ordering::Relaxed);
+        outcome
+    })
+}
+
+/// Input number `index` of a reader: a function of its name and number alone.
+fn input(reader: &Reader, seeds: &[Vec<u8>], index: u64) -> Vec<u8> {
+    let mut random = Random::new(derive_seed(SEED, &format!("{} {index}", reader.name)));
+    let mut bytes = mutate(seeds, &mut random);
+    if let Some(repair) = reader.repair {
+        repair(&mut bytes);
+    }
+    bytes
+}
+
+/// Ends the program where a reader does not come back: nothing else can end it.
+fn watch(name: &str, current: &AtomicU64, is_over: &AtomicU64) {
+    let (mut seen, mut since) = (0, Instant::now());
+    while is_over.load(Ordering::Relaxed) == 0 {
+        thread::sleep(Duration::from_millis(50));
+        let index = current.load(Ordering::Relaxed);
+        if index != seen {
+            (seen, since) = (index, Instant::now());
+        } else if since.elapsed() > NEVER {
+            eprintln!("hang: {name} does not come back from input {index}");
+            process::abort();
+        }
+    }
+}
+
+#[test]
+fn every_reader_takes_whatever_comes() {
+    let n_inputs = env::var("SHAGREEN_FUZZ_INPUTS").ok().map(|n| n.parse().unwrap());
+    let only = env::var("SHAGREEN_FUZZ_READER").ok();
+    let readers: Vec<&Reader> =
+        READERS.iter().filter(|r| only.as_ref().is_none_or(|only| r.name == only)).collect();
+    assert!(!readers.is_empty(), "there is no reader {only:?}");
+    // Panics are caught and told once.
+    let hook = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let mut failures = Vec::new();
+    for reader in &readers {
+        let start = Instant::now();
+        match fuzz(reader, n_inputs, SECS / READERS.len() as f64) {
+            Ok(n) => println!("{}: {n} inputs in {:.1} s", reader.name, start.elapsed().as_secs_f64()),
+            Err(failure) => {
+                let path = env::temp_dir().join(format!("shagreen-fuzz-{}", reader.name));
+                fs::write(&path, &failure.input).unwrap();
+                failures.push(format!("{}: {} ({})", reader.name, failure.what, path.display()));
+            }
+        }
+    }
+    std::panic::set_hook(hook);
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// A small file may unpack to a large picture, and a short text to deep nesting: nothing a change of a few bytes finds.
+#[test]
+fn what_is_made_to_be_large_is_refused() {
+    for reader in READERS {
+        for bomb in (reader.bombs)() {
+            if let Err(what) = read_one(reader, &bomb) {
+                panic!("{}: {what}", reader.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn planted_faults_are_caught() {
+    let check = |read: fn(&[u8]) -> Result<(), String>, expected: &str| {
+        let reader = Reader { name: "planted", seeds: || vec![b"seed 17, 4".to_vec()], read, ..READERS[0] };
+        let failure = fuzz(&reader, Some(2000), 0.0).unwrap_err();
+        assert!(failure.what.contains(expected), "{}", failure.what);
+    };
+    check(|bytes| if bytes.first() == Some(&b'x') { panic!("planted") } else { Ok(()) }, "panic: planted");
+    check(
+        |bytes| {
+            let n = if bytes.len() == 7 { 70 << 20 } else { 0 };
+            std::hint::black_box(Vec::<u8>::with_capacity(n));
+            Ok(())
+        },
+        "memory: ",
+    );
+    check(
+        |bytes| {
+            if bytes.contains(&b'9') {
+                thread::sleep(Duration::from_millis(1100));
+            }
+            Ok(())
+        },
+        "hang: ",
+    );
+    check(|bytes| if bytes.len() > 12 { Err("broken".into()) } else { Ok(()) }, "broken");
+}

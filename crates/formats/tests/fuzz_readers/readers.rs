@@ -1,0 +1,259 @@
+//! The readers, each with small good files to start from. A new reader is an entry in [`READERS`].
+
+use shagreen_formats::hatt::{read_hatt, write_hatt};
+use shagreen_formats::library::{read_library, write_library};
+use shagreen_formats::materials_toml::read_materials;
+use shagreen_formats::picture::{Picture, PictureFormat, Rgb, check, decode, encode_jpeg};
+use shagreen_formats::starter::starter_library;
+use shagreen_formats::stroke_csv::read_stroke_csv;
+use shagreen_formats::svc::{PenFlavor, PenMapping, pen_samples, read_svc};
+use shagreen_formats::wav::SidecarV1;
+
+use crate::mutate::repair_png;
+
+/// A reader and where its inputs come from.
+#[derive(Clone, Copy)]
+pub(crate) struct Reader {
+    pub(crate) name: &'static str,
+    /// Good files, a few kB each.
+    pub(crate) seeds: fn() -> Vec<Vec<u8>>,
+    /// Makes checksums right again, so that changes are looked at.
+    pub(crate) repair: Option<fn(&mut [u8])>,
+    /// Files that are small and ask for much.
+    pub(crate) bombs: fn() -> Vec<Vec<u8>>,
+    /// Reads. An error of the reader is well; a broken promise about what it read is not, and is given back.
+    pub(crate) read: fn(&[u8]) -> Result<(), String>,
+}
+
+pub(crate) const READERS: &[Reader] = &[
+    Reader { name: "library", seeds: library_seeds, repair: None, bombs: json_bombs, read: read_a_library },
+    Reader { name: "hatt", seeds: hatt_seeds, repair: None, bombs: xml_bombs, read: read_a_hatt },
+    Reader { name: "svc", seeds: svc_seeds, repair: None, bombs: no_bombs, read: read_an_svc },
+    Reader { name: "stroke_csv", seeds: csv_seeds, repair: None, bombs: csv_bombs, read: read_a_stroke },
+    Reader { name: "sidecar", seeds: sidecar_seeds, repair: None, bombs: json_bombs, read: read_a_sidecar },
+    Reader {
+        name: "materials",
+        seeds: materials_seeds,
+        repair: None,
+        bombs: toml_bombs,
+        read: read_some_materials,
+    },
+    Reader { name: "jpeg", seeds: jpeg_seeds, repair: None, bombs: jpeg_bombs, read: read_a_jpeg },
+    Reader { name: "png", seeds: png_seeds, repair: Some(repair_png), bombs: png_bombs, read: read_a_png },
+];
+
+fn no_bombs() -> Vec<Vec<u8>> {
+    Vec::new()
+}
+
+fn library_seeds() -> Vec<Vec<u8>> {
+    vec![
+        include_bytes!("../golden/library-1.0.json").to_vec(),
+        include_bytes!("../golden/library-1.1.json").to_vec(),
+    ]
+}
+
+fn json_bombs() -> Vec<Vec<u8>> {
+    let nested = |open: &str, n: usize| open.repeat(n).into_bytes();
+    let inside =
+        |inner: &str| format!("{{\"format\": \"shagreen-library\", \"version\": \"1.0\", \"x\": {inner}");
+    vec![
+        nested("[", 1 << 20),
+        nested("{\"a\":", 1 << 18),
+        inside(&"[".repeat(1 << 20)).into_bytes(),
+        inside(&format!("[{}0]}}", "0,".repeat(1 << 20))).into_bytes(),
+        inside(&format!("[{}0]}}", "[],".repeat(1 << 20))).into_bytes(),
+    ]
+}
+
+fn read_a_library(bytes: &[u8]) -> Result<(), String> {
+    let Ok(imported) = read_library(bytes) else { return Ok(()) };
+    let written = write_library(&imported.value);
+    let again =
+        read_library(&written).map_err(|error| format!("what was read cannot be written: {error}"))?;
+    if write_library(&again.value) == written { Ok(()) } else { Err("written twice, it differs".into()) }
+}
+
+/// A file of two measured models, as this program writes it, and one as others may write it.
+fn hatt_seeds() -> Vec<Vec<u8>> {
+    let mut texture = starter_library().unwrap().textures.swap_remove(0);
+    let nodes = texture.model.nodes()[..2].to_vec();
+    texture.model =
+        shagreen_core::texture::TextureModel::new(texture.model.rate(), nodes, Some(0.4)).unwrap();
+    let other = "<modelSet texture=\"7\"><material>Made up</material><AccelUnits>m/s^2</AccelUnits>\
+        <SpeedUnits>mm/s</SpeedUnits><ForceUnits>N</ForceUnits><SampleRate>1000</SampleRate><mu>0.3</mu>\
+        <numMod>1</numMod><maxSpeed>90</maxSpeed><maxForce>2</maxForce>\
+        <speedList><value>50</value></speedList><forceList><value>1</value></forceList>\
+        <numARCoeff>2</numARCoeff><numMACoeff>0</numMACoeff><model><modNum>1</modNum>\
+        <ARcoeff><value>1</value><value>-0.9</value><value>0.5</value></ARcoeff>\
+        <ARlsf><value>0.723</value><value>1.372</value></ARlsf><var>0.01</var><gain>2</gain>\
+        <speedMod>50</speedMod><forceMod>1</forceMod></model></modelSet>";
+    vec![write_hatt(&texture, "shagreen").unwrap(), other.as_bytes().to_vec()]
+}
+
+fn xml_bombs() -> Vec<Vec<u8>> {
+    let entities =
+        "<!DOCTYPE a [<!ENTITY b \"bbbbbbbb\"><!ENTITY c \"&b;&b;&b;&b;\">]><modelSet>&c;</modelSet>";
+    let attributes: String = (0..100_000).map(|i| format!(" a{i}=\"\"")).collect();
+    vec![
+        entities.as_bytes().to_vec(),
+        "<a>".repeat(1 << 19).into_bytes(),
+        format!("<modelSet>{}</modelSet>", "<a/>".repeat(1 << 20)).into_bytes(),
+        format!("<modelSet{attributes}/>").into_bytes(),
+        format!("<modelSet>{}</modelSet>", "<a a=\"\" b=\"\" c=\"\"/>".repeat(1 << 17)).into_bytes(),
+        format!("<modelSet><SampleRate>1</SampleRate>{}</modelSet>", "<model/>".repeat(100_000)).into_bytes(),
+        format!("<modelSet><speedList>{}</speedList></modelSet>", "1 ".repeat(1 << 20)).into_bytes(),
+    ]
+}
+
+fn read_a_hatt(bytes: &[u8]) -> Result<(), String> {
+    let Ok(imported) = read_hatt(bytes) else { return Ok(()) };
+    let mut entry = imported.value.into_entry("fuzz");
+    entry.provenance = shagreen_formats::library::Provenance::Free;
+    let written = write_hatt(&entry, "fuzz").map_err(|error| error.to_string())?;
+    read_hatt(&written).map(|_| ()).map_err(|error| format!("what was read cannot be written: {error}"))
+}
+
+fn svc_seeds() -> Vec<Vec<u8>> {
+    vec![
+        b"3\n100 200 10 1 1800 600 5000\n110 205 18 1 1800 600 5200\n120 210 26 0 1800 600 0\n".to_vec(),
+        b"2\n1.5 2.5 0.01 1 180.5 60 0.5\n1.75 2.5 0.018 1 180.5 60 0.625\n".to_vec(),
+    ]
+}
+
+fn read_an_svc(bytes: &[u8]) -> Result<(), String> {
+    if let Ok(imported) = read_svc(bytes) {
+        let mapping = PenMapping::of(PenFlavor::Raw);
+        // Whether its numbers make sense is not what is asked here.
+        let _ = pen_samples(&imported.value, &mapping);
+    }
+    Ok(())
+}
+
+fn csv_seeds() -> Vec<Vec<u8>> {
+    vec![
+        b"time [ms],speed [mm/s],force [N]\n0,100,0.5\n8,110,0.6\n16,\"120\",0.7\n".to_vec(),
+        b"t;x;y;pressure;touching\n0,0;1,5;2,5;0,5;1\n0,008;1,75;2,5;0,625;0\n".to_vec(),
+        b"0\t100\t0.5\n0.008\t110\t0.6\n".to_vec(),
+    ]
+}
+
+fn csv_bombs() -> Vec<Vec<u8>> {
+    vec![
+        ",".repeat(1 << 20).into_bytes(),
+        "0,1,2\n".repeat(1 << 17).into_bytes(),
+        "\n".repeat(1 << 20).into_bytes(),
+    ]
+}
+
+fn read_a_stroke(bytes: &[u8]) -> Result<(), String> {
+    // An error is as well.
+    let _ = read_stroke_csv(bytes);
+    Ok(())
+}
+
+fn sidecar_seeds() -> Vec<Vec<u8>> {
+    let text = r#"{"format": "shagreen-signal", "version": "1.0", "units": "m/s^2", "full_scale": 1.0,
+        "channels": ["acceleration"], "rate_hz": 1000, "seconds": 0.003, "texture": null, "at": [30.0, 70.0],
+        "clamped": false, "blend": "shared", "parents": [{"id": "cork", "weight": 1.0, "licence": "CC0-1.0"}],
+        "library": "Starter", "label_source": "physical", "seed": 5, "stroke": null,
+        "trace": {"time_s": [0.0, 0.001], "speed_mm_per_s": [100.0, 110.0], "force_n": [1.0, 1.0]},
+        "created_by": "shagreen"}"#;
+    vec![text.as_bytes().to_vec()]
+}
+
+fn read_a_sidecar(bytes: &[u8]) -> Result<(), String> {
+    // An error is as well.
+    let _ = serde_json::from_slice::<SidecarV1>(bytes);
+    Ok(())
+}
+
+fn materials_seeds() -> Vec<Vec<u8>> {
+    let text = include_str!("../../../../assets/starter/materials.toml");
+    // The head and the first two materials.
+    let end = text.match_indices("[[material]]").nth(2).map_or(text.len(), |(at, _)| at);
+    vec![text.as_bytes()[..end].to_vec()]
+}
+
+fn toml_bombs() -> Vec<Vec<u8>> {
+    vec![
+        format!("a = {}", "[".repeat(1 << 18)).into_bytes(),
+        format!("{}a = 1", "a.".repeat(1 << 16)).into_bytes(),
+        "[[material]]\n".repeat(1 << 14).into_bytes(),
+        format!("a = [{}]", "0,".repeat(1 << 17)).into_bytes(),
+    ]
+}
+
+fn read_some_materials(bytes: &[u8]) -> Result<(), String> {
+    // An error is as well.
+    let _ = read_materials(bytes);
+    Ok(())
+}
+
+fn rgb(width: u32, height: u32) -> Rgb {
+    let pixels = (0..3 * width * height).map(|i| (i * i / 7 % 256) as u8).collect();
+    Rgb { width, height, pixels }
+}
+
+fn jpeg_seeds() -> Vec<Vec<u8>> {
+    vec![encode_jpeg(&rgb(16, 16), 20.0).unwrap().bytes, encode_jpeg(&rgb(40, 24), 20.0).unwrap().bytes]
+}
+
+/// Two heads that announce pictures as large as can be, baseline and progressive.
+fn jpeg_bombs() -> Vec<Vec<u8>> {
+    let large = |change: fn(&mut [u8])| {
+        let mut bytes = encode_jpeg(&rgb(16, 16), 20.0).unwrap().bytes;
+        let frame = bytes.windows(2).position(|pair| pair == [0xFF, 0xC0]).unwrap();
+        bytes[frame + 5..frame + 9].copy_from_slice(&[0x10, 0, 0x10, 0]);
+        change(&mut bytes[frame..]);
+        bytes
+    };
+    vec![large(|_| {}), large(|frame| frame[1] = 0xC2)]
+}
+
+/// The size in the head, so that the reader does not stop at a picture of another size.
+fn jpeg_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    let frame = bytes.windows(2).position(|pair| pair[0] == 0xFF && (0xC0..=0xC2).contains(&pair[1]))?;
+    let side = |at: usize| Some(u32::from(u16::from_be_bytes([*bytes.get(at)?, *bytes.get(at + 1)?])));
+    Some((side(frame + 7)?, side(frame + 5)?))
+}
+
+fn read_a_jpeg(bytes: &[u8]) -> Result<(), String> {
+    let (width, height) = jpeg_size(bytes).unwrap_or((1, 1));
+    read_a_picture(bytes, width, height, PictureFormat::Jpeg)
+}
+
+fn png(image: &image::DynamicImage) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bytes.into_inner()
+}
+
+fn png_seeds() -> Vec<Vec<u8>> {
+    vec![
+        png(&image::DynamicImage::new_rgb8(12, 7)),
+        png(&image::DynamicImage::new_rgba16(5, 9)),
+        png(&image::DynamicImage::new_luma8(9, 5)),
+    ]
+}
+
+/// Pictures of nothing as large as can be: some kB that unpack to hundreds of MB.
+fn png_bombs() -> Vec<Vec<u8>> {
+    vec![png(&image::DynamicImage::new_luma8(4096, 4096)), png(&image::DynamicImage::new_rgba16(4096, 4096))]
+}
+
+fn read_a_png(bytes: &[u8]) -> Result<(), String> {
+    let side = |at: usize| {
+        bytes.get(at..at + 4).and_then(|b| <[u8; 4]>::try_from(b).ok()).map_or(1, u32::from_be_bytes)
+    };
+    read_a_picture(bytes, side(16), side(20), PictureFormat::Png)
+}
+
+fn read_a_picture(bytes: &[u8], width: u32, height: u32, format: PictureFormat) -> Result<(), String> {
+    let picture = Picture { width, height, millimeters: 20.0, format, bytes: bytes.to_vec() };
+    let head_is_sound = check(&picture).is_ok();
+    match decode(&picture) {
+        Ok(_) if !head_is_sound => Err("a picture with a damaged head was unpacked".into()),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,115 @@
+//! Libraries of every version that was ever written are read, value for value, and what they hold beyond is kept.
+//!
+//! The files in `golden` are never changed: a new version gets a new one.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use serde_json::Value;
+use shagreen_core::space::LabelSource;
+use shagreen_core::tap::Tap;
+use shagreen_core::texture::{Grain, Interpolation};
+use shagreen_core::units::Hertz;
+use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
+use shagreen_formats::picture::{PictureFormat, decode};
+
+const V1_0: &[u8] = include_bytes!("golden/library-1.0.json");
+const V1_1: &[u8] = include_bytes!("golden/library-1.1.json");
+
+/// Reads without a warning.
+fn read(bytes: &[u8]) -> Library {
+    let imported = read_library(bytes).unwrap();
+    assert_eq!(imported.warnings, [""; 0]);
+    imported.value
+}
+
+fn check_head(library: &Library, version: &str) {
+    let texts = [&library.name, &library.origin, &library.license, &library.created_by].map(String::as_str);
+    assert_eq!(texts, [&format!("Golden {version}"), "Made up.", "CC0-1.0", "nobody"]);
+    assert_eq!(library.description, format!("Made up to hold every field of version {version}."));
+    assert_eq!(library.seed, Some(7));
+}
+
+fn check_cork(texture: &TextureEntry) {
+    assert_eq!((texture.id.as_str(), texture.name.as_str()), ("cork", "Cork"));
+    assert_eq!(texture.tags, ["soft", "brown"]);
+    assert_eq!(texture.license, "CC-BY-4.0");
+    assert_eq!((texture.origin.as_str(), texture.description.as_str()), ("A board.", "Pressed."));
+    assert_eq!(texture.provenance, Provenance::Free);
+    let place = texture.place.unwrap();
+    assert_eq!((place.at.rough_smooth, place.at.hard_soft), (40.5, 71.25));
+    assert_eq!(place.source, LabelSource::PhysicalLabels);
+    let physical = texture.physical.unwrap();
+    assert_eq!((physical.roughness_log10_mps2, physical.hardness_log10_n_per_m), (-0.5, 4.25));
+    let model = &texture.model;
+    assert_eq!((model.rate(), model.friction(), model.tap()), (Hertz(1000.0), Some(0.4), None));
+    assert_eq!(model.interpolation(), Some(Interpolation::Barycentric));
+    let nodes: Vec<_> =
+        model.nodes().iter().map(|n| (n.speed.mm_per_s(), n.force.0, n.level_mps2, &n.lsf[..])).collect();
+    let expected: [(f64, f64, f64, &[f64]); 2] =
+        [(30.0, 0.15, 0.0625, &[0.5, 1.25, 3.0]), (70.0, 1.5, 0.75, &[0.123_457, 1.0, 2.0])];
+    assert_eq!(nodes, expected);
+    let picture = texture.picture.as_ref().unwrap();
+    assert_eq!((picture.width, picture.height, picture.millimeters), (2, 1, 20.0));
+    assert_eq!(picture.format, PictureFormat::Png);
+    assert_eq!(decode(picture).unwrap().pixels, [200, 100, 50, 50, 100, 200]);
+}
+
+#[test]
+fn version_1_0() {
+    let library = read(V1_0);
+    check_head(&library, "1.0");
+    let [cork, bare] = &library.textures[..] else { panic!("{} textures", library.textures.len()) };
+    check_cork(cork);
+    assert_eq!((bare.id.as_str(), bare.model.rate(), bare.model.friction()), ("bare", Hertz(2000.0), None));
+    assert!(bare.place.is_none() && bare.physical.is_none() && bare.picture.is_none());
+}
+
+#[test]
+fn version_1_1() {
+    let library = read(V1_1);
+    check_head(&library, "1.1");
+    let [cork, published, radial] = &library.textures[..] else { panic!("{}", library.textures.len()) };
+    check_cork(cork);
+
+    assert_eq!(published.provenance, Provenance::Restricted);
+    assert_eq!(library.restricted().map(|t| t.id.as_str()).collect::<Vec<_>>(), ["published"]);
+    let Grain::Published { nodes } = published.model.grain() else { panic!("{:?}", published.model) };
+    let places: Vec<_> = nodes.iter().map(|n| (n.speed.mm_per_s(), n.force.0, n.variance, n.gain)).collect();
+    let expected = [
+        (0.0, 0.0, 0.0, 2.0),
+        (200.0, 0.0, 0.0, 2.0),
+        (0.0, 3.0, 0.0, 2.0),
+        (200.0, 3.0, 0.02, 3.0),
+        (90.0, 1.25, 0.0125, 8.5),
+    ];
+    assert_eq!(places, expected);
+    assert_eq!((&nodes[3].ar_lsf[..], &nodes[3].ma_lsf[..]), (&[0.6, 1.1, 2.1, 2.6][..], &[1.1, 2.1][..]));
+
+    assert_eq!(radial.model.interpolation(), Some(Interpolation::RadialBasis));
+    let tap = Tap { frequency: Hertz(180.0), decay_per_sec: 90.5, amplitude_mps2: 4.0 };
+    assert_eq!(radial.model.tap(), Some(tap));
+    assert_eq!(radial.model.nodes().len(), 2);
+}
+
+#[test]
+fn what_is_not_known_is_written_back() {
+    for golden in [V1_0, V1_1] {
+        let before: Value = serde_json::from_slice(golden).unwrap();
+        let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
+        assert_eq!(after, before);
+    }
+}
+
+#[test]
+fn a_library_says_the_lowest_version_that_has_what_it_uses() {
+    let version = |library: &Library| {
+        let value: Value = serde_json::from_slice(&write_library(library)).unwrap();
+        value["version"].as_str().unwrap().to_owned()
+    };
+    let mut library = read(V1_1);
+    assert_eq!(version(&library), "1.1");
+    library.textures.truncate(1);
+    assert_eq!(version(&library), "1.0");
+    library.textures[0].provenance = Provenance::Restricted;
+    assert_eq!(version(&library), "1.1");
+}
