@@ -9,10 +9,13 @@
     reason = "a benchmark prints its figures and stops at what is wrong"
 )]
 
+#[path = "common/measure.rs"]
+mod measure;
+
 use std::hint::black_box;
 use std::path::Path;
-use std::time::Instant;
 
+use measure::bench;
 use shagreen_core::ar::power_gain;
 use shagreen_core::blend::{Mode, author};
 use shagreen_core::lsf::ar_from_lsf;
@@ -30,39 +33,6 @@ use shagreen_synth::renderer::{Blend, Mix, Parent, Renderer, TextureId, Textures
 use shagreen_synth::stream::Stream;
 use shagreen_synth::texture::Texture;
 use shagreen_synth::voice::{MAX_TICK, Voice};
-
-/// CPU seconds of the main thread, the only one that works here, where the system tells them to the nanosecond; seconds
-/// on the clock elsewhere.
-fn cpu_secs(start: Instant) -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
-    let ns = stat.split_whitespace().next().and_then(|ns| ns.parse::<f64>().ok());
-    ns.map_or_else(|| start.elapsed().as_secs_f64(), |ns| ns * 1e-9)
-}
-
-/// Shortest measurement: what a running thread has used is booked at the scheduler's ticks, milliseconds apart.
-const MIN_SECS: f64 = 0.3;
-
-/// Runs `work` to warm up and then `BENCH_REPS` times (5 without it) for at least [`MIN_SECS`], and prints a line for
-/// each: seconds are those of one call.
-fn bench(case: &str, units: f64, unit: &str, mut work: impl FnMut()) {
-    let reps = std::env::var("BENCH_REPS").ok().and_then(|r| r.parse().ok()).unwrap_or(5);
-    let warm = Instant::now();
-    work();
-    let inner = (MIN_SECS / warm.elapsed().as_secs_f64()).ceil().max(1.0);
-    for _ in 0..reps {
-        let wall = Instant::now();
-        let cpu = cpu_secs(wall);
-        for _ in 0..inner as usize {
-            work();
-        }
-        let (wall, cpu) = (wall.elapsed().as_secs_f64() / inner, (cpu_secs(wall) - cpu) / inner);
-        let line = serde_json::json!({
-            "workload": "W1", "case": case, "peer": "shagreen", "wall_s": wall, "cpu_s": cpu,
-            "units": units, "unit": unit, "threads": 1, "inner": inner, "per_s": units / cpu,
-        });
-        println!("{line}");
-    }
-}
 
 struct Table(Vec<Prepared>);
 

@@ -6,10 +6,12 @@ Usage: live.py INPUTS        prints one JSON line a measurement
 Inputs: `model_ar20.txt` (counts; triangles; then speed mm/s, force N, variance, gain and 20 line spectral frequencies a
 line) and `traj_60s_1kHz.f32` (speed mm/s, force N, 1 kHz).
 """
-import json, os, sys, time
+import sys
 from pathlib import Path
 
 import numpy as np
+
+from measure import bench
 
 ORDER, TICK = 20, 5
 
@@ -43,20 +45,6 @@ def read(folder):
     models = np.array(rows[1 + n_triangles :])
     stroke = np.fromfile(folder / "traj_60s_1kHz.f32", "<f4").reshape(-1, 2).astype(float)
     return triangles, models[:, :2].copy(), models[:, 2].copy(), models[:, 4:].copy(), stroke
-
-
-def bench(case, peer, units, work):
-    work()
-    start = time.perf_counter()
-    work()
-    inner = max(1, int(0.3 / (time.perf_counter() - start)))
-    for _ in range(int(os.environ.get("BENCH_REPS", 5))):
-        cpu, wall = time.process_time(), time.perf_counter()
-        for _ in range(inner):
-            work()
-        cpu, wall = (time.process_time() - cpu) / inner, (time.perf_counter() - wall) / inner
-        print(json.dumps(dict(workload="W1", case=case, peer=peer, cpu_s=cpu, wall_s=wall, units=units,
-                              unit="sample", per_s=units / cpu, threads=1)), flush=True)
 
 
 def main(folder):
@@ -160,9 +148,9 @@ def main(folder):
 
     y = np.zeros(n)
     case = "one texture, 1 kHz, coefficients every 5 ms"
-    bench(case, "numba loop", n, lambda: render(stroke, points, triangles, neighbors, lsf, variance, TICK, y))
+    bench(case, "numba loop", n, "sample", lambda: render(stroke, points, triangles, neighbors, lsf, variance, TICK, y))
     assert np.isfinite(y).all() and y.std() > 0.0
-    bench(case, "scipy lfilter, blocks of 5", n, blocks)
+    bench(case, "scipy lfilter, blocks of 5", n, "sample", blocks)
 
 
 if __name__ == "__main__":

@@ -131,6 +131,40 @@ mod tests {
     }
 
     #[test]
+    fn golden_energies_turns_and_overlapping_windows() {
+        let golden: serde_json::Value = serde_json::from_str(GOLDEN).expect("valid JSON");
+        let pair = |name: &str| [0, 1].map(|i| golden[name][i].as_f64().expect("a number"));
+        let eight: Frames = serde_json::from_value(golden["in8"].clone()).expect("frames");
+        let thousand: Frames = lcg_noise(3000, 777).chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
+        for (frames, [before, after]) in [(&eight, pair("energy8")), (&thousand, pair("energy1000"))] {
+            // Some hundred roundings of sums of up to 3000.
+            assert!((energy(frames.iter().flatten().copied()) / before - 1.0).abs() < 1e-13);
+            assert!((energy(combine(frames)) / after - 1.0).abs() < 1e-13);
+        }
+        // The reference's own deviation under a turn is 7e-16 of the largest magnitude; ours is a sum, not a transform.
+        let turned: Frames = thousand.iter().map(|frame| turn(*frame, [0.7, 0.3])).collect();
+        let (straight, turned) = (magnitudes(&combine(&thousand)), magnitudes(&combine(&turned)));
+        let largest = straight.iter().copied().fold(0.0, f64::max);
+        let allowed = golden["rotation_mag_maxrel"].as_f64().expect("a number") + 1e-12;
+        assert!(straight.iter().zip(&turned).all(|(a, b)| (a - b).abs() <= allowed * largest));
+        // Windows of 256, half overlapping, square roots of Hann before and after: energy is no longer kept.
+        let window: Vec<f64> =
+            (0..256).map(|i| (0.5 - 0.5 * (TAU * f64::from(i) / 256.0).cos()).sqrt()).collect();
+        let mut sum = vec![0.0; 1000];
+        for start in (0..=1000 - 256).step_by(128) {
+            let part: Frames =
+                thousand[start..start + 256].iter().zip(&window).map(|(f, w)| f.map(|x| x * w)).collect();
+            for ((sum, x), w) in sum[start..].iter_mut().zip(combine(&part)).zip(&window) {
+                *sum += w * x;
+            }
+        }
+        let inside = 256..1000 - 256;
+        let ratio =
+            energy(sum[inside.clone()].iter().copied()) / energy(thousand[inside].iter().flatten().copied());
+        assert!((ratio - golden["ola_energy_ratio"].as_f64().expect("a number")).abs() < 1e-12, "{ratio}");
+    }
+
+    #[test]
     fn one_axis_comes_back_unchanged() {
         let axis = lcg_noise(101, 3);
         let same = dft321(&[&axis]).expect("one axis");

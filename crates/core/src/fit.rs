@@ -7,7 +7,7 @@ mod surface;
 
 use crate::ar::ArError;
 use crate::recording::Recording;
-use crate::tap::Tap;
+use crate::tap::{Tap, fit_landings};
 use crate::texture::{Interpolation, MAX_ORDER, TextureModel, TextureModelError};
 use crate::triangulation::Triangulation;
 use crate::units::{Hertz, MetersPerSecond, Newtons};
@@ -17,6 +17,9 @@ pub const HIGH_PASS: Hertz = Hertz(10.0);
 
 /// Lowest order that the criterion may choose: fewer poles lose the shape of a real spectrum.
 const MIN_ORDER: usize = 10;
+
+/// Share of the energy of landings that an oscillation must explain to stand for them.
+const MIN_TAP_EXPLAINED: f64 = 0.5;
 
 /// How to fit; [`FitOptions::usual`] is a good start.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,8 +85,8 @@ pub struct Segment {
 /// A segment beside what the model says of its speed and force.
 ///
 /// Segments last tenths of a second, and so little noise has no spectrum to speak of. So the segments nearest to it in
-/// speed and force, up to three seconds in all, are compared together: the mean of their spectra, each divided by the
-/// level that its model predicts, beside the mean of what their models predict for windows of the same length. A model
+/// speed and force, up to four seconds in all, are compared together: the mean of their spectra, each divided by the
+/// power law that levels follow, beside the mean of what their models predict for windows of the same length. A model
 /// that is compared with a segment was made without it, where [`FitReport::held_out`] says so; five models, each without
 /// a fifth of the segments, in blocks of neighboring ones, share the work.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +102,7 @@ pub struct Comparison {
 }
 
 /// Landings and the decaying oscillation that stands for them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TapFit {
     /// The oscillation.
     pub tap: Tap,
@@ -251,7 +254,7 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
     if recordings.is_empty() {
         return Err(FitError::Empty);
     }
-    let pieces::Pieces { pieces, rate, notes } = pieces::cut(recordings, options.rate)?;
+    let pieces::Pieces { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
     let highest = pieces::highest_order(rate);
     if let Some(order) = options.order.filter(|order| *order == 0 || *order > highest) {
         return Err(FitError::OrderAsked { order, highest: highest.min(MAX_ORDER) });
@@ -262,6 +265,8 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         None => surface.order(MIN_ORDER..=highest)?,
     };
     let model = surface.model(rate, order)?;
+    let tap = landing(recordings, &mut notes);
+    let model = model.with_tap(tap.map(|t| t.tap));
     let compared = heldout::compare(&pieces, rate, order)?;
     let segments = pieces.iter().zip(compared.comparisons).map(|(piece, comparison)| Segment {
         recording: piece.recording,
@@ -278,11 +283,25 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         order,
         coverage: hull_share(&surface.shares()),
         frequencies: compared.frequencies,
-        tap: None,
+        tap,
         held_out: compared.held_out,
         notes,
     };
     Ok(Fitted { model, report })
+}
+
+/// The oscillation of the landings, where it explains them.
+fn landing(recordings: &[Recording], notes: &mut Vec<String>) -> Option<TapFit> {
+    let landed = fit_landings(recordings)?;
+    if landed.explained < MIN_TAP_EXPLAINED {
+        notes.push(format!(
+            "{} landings were found, but one decaying oscillation explains only {:.0} % of them: none was kept.",
+            landed.n_landings,
+            100.0 * landed.explained
+        ));
+        return None;
+    }
+    Some(TapFit { tap: landed.tap, n_landings: landed.n_landings, explained: landed.explained })
 }
 
 /// Area of the convex hull of points, whose coordinates are shares of the highest.
@@ -295,3 +314,6 @@ fn hull_share(points: &[[f64; 2]]) -> f64 {
     };
     triangulation.triangles().iter().map(area).sum()
 }
+
+#[cfg(test)]
+mod tests;

@@ -196,6 +196,29 @@ mod tests {
     }
 
     #[test]
+    fn golden_round_trip() {
+        let v: serde_json::Value =
+            serde_json::from_str(include_str!("../../../vectors/a_ar/ar_vectors.json")).unwrap();
+        let golden = v["lsf_roundtrip_maxerr"].as_f64().unwrap();
+        let mut random = crate::rng::Random::new(0);
+        // The reference's orders, with reflections as it draws them: nowhere worse than it.
+        for order in [3, 4, 7, 10, 15, 20, 25] {
+            let mut ar: Vec<f64> = Vec::new();
+            for _ in 0..order {
+                let k = 1.6 * random.uniform() - 0.8;
+                let before = ar.clone();
+                for (a, b) in ar.iter_mut().zip(before.iter().rev()) {
+                    *a += k * b;
+                }
+                ar.push(k);
+            }
+            for (a, b) in ar_from_lsf(&lsf_from_ar(&ar).unwrap()).iter().zip(&ar) {
+                assert!((a - b).abs() <= golden, "order {order}: {a} for {b}");
+            }
+        }
+    }
+
+    #[test]
     fn unstable_predictors_have_none() {
         assert_eq!(lsf_from_ar(&[0.0, 1.1]), None);
         assert_eq!(lsf_from_ar(&[f64::NAN]), None);

@@ -1,5 +1,6 @@
 use super::test_signals::from_resonances;
 use super::{ArError, burg, comparison_frequencies, order_by_bic, power_gain, psd, yule_walker};
+use crate::lsf::{ar_from_lsf, lsf_from_ar};
 use crate::rng::lcg_noise;
 use crate::units::Hertz;
 use serde_json::Value;
@@ -40,21 +41,143 @@ fn golden_true_model() {
 }
 
 #[test]
+fn golden_noise() {
+    // The same operations in the same order: only the last bit of logarithm, sine and cosine may differ.
+    check(&lcg_noise(8, 12345), &floats(&vectors()["noise_first8"]), 1e-14);
+}
+
+/// The reflection coefficients of a predictor, by stepping its order down.
+fn reflections(ar: &[f64]) -> Vec<f64> {
+    let mut a = ar.to_vec();
+    let mut out = Vec::new();
+    while let Some(k) = a.pop() {
+        out.push(k);
+        let reversed: Vec<f64> = a.iter().rev().copied().collect();
+        for (a, r) in a.iter_mut().zip(&reversed) {
+            *a = (*a - k * r) / (1.0 - k * k);
+        }
+    }
+    out.reverse();
+    out
+}
+
+#[test]
 fn golden_fits() {
     let (v, x) = (vectors(), realization());
     check(&x[..8], &floats(&v["x_first8"]), 1e-12);
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    let variance = x.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / x.len() as f64;
+    check(&[variance], &[v["x_var"].as_f64().unwrap()], 1e-12);
     for (name, fit) in [("yule_walker", yule_walker as fn(&[f64], usize) -> _), ("burg", burg)] {
         // Sums of 5000 products round differently by about 1e-13; conditioning at order 20 costs two digits.
         let four = fit(&x, 4).unwrap();
-        check(&four.ar, &floats(&v[format!("{name}_p4")]["a"])[1..], 1e-11);
-        check(&[four.variance], &[v[format!("{name}_p4")]["s2"].as_f64().unwrap()], 1e-12);
+        let golden = &v[format!("{name}_p4")];
+        check(&four.ar, &floats(&golden["a"])[1..], 1e-11);
+        check(&[four.variance], &[golden["s2"].as_f64().unwrap()], 1e-12);
+        check(&reflections(&four.ar), &floats(&golden["k"]), 1e-11);
+        // The reference takes roots of a polynomial, good to about 1e-11.
+        check(&lsf_from_ar(&four.ar).unwrap(), &floats(&golden["lsf"]), 1e-10);
         let twenty = fit(&x, 20).unwrap();
         let golden = &v[format!("{name}_p20")];
         check(&[twenty.variance], &[golden["s2"].as_f64().unwrap()], 1e-11);
         check(&[twenty.variance * power_gain(&twenty.ar)], &[golden["power"].as_f64().unwrap()], 1e-9);
+        check(&lsf_from_ar(&twenty.ar).unwrap(), &floats(&golden["lsf"]), 1e-9);
     }
+}
+
+#[test]
+fn golden_orders() {
+    let (v, x) = (vectors(), realization());
     let fit = yule_walker(&x, 30).unwrap();
-    assert_eq!(order_by_bic(&fit, x.len(), 0..=30), 4);
+    let n = x.len() as f64;
+    let order = |criterion: &dyn Fn(f64, f64) -> f64| {
+        let value = |p: usize| criterion(fit.variance_by_order[p], p as f64);
+        (0..=30).min_by(|a, b| value(*a).total_cmp(&value(*b))).unwrap()
+    };
+    let golden = |name: &str| v["orders_pmax30"][name].as_u64().unwrap() as usize;
+    assert_eq!(order_by_bic(&fit, x.len(), 0..=30), golden("BIC"));
+    // The other criteria are not used; that they agree says that the variances are right at every order.
+    assert_eq!(order(&|e, p| n * e.ln() + 2.0 * p), golden("AIC"));
+    assert_eq!(order(&|e, p| e * (n + p + 1.0) / (n - p - 1.0)), golden("FPE"));
+    assert_eq!(order(&|e, p| 0.5 * n * e.ln() + 0.5 * p * n.ln()), golden("MDL"));
+}
+
+#[test]
+fn golden_midpoint_of_two_predictors() {
+    let v = &vectors()["interp"];
+    let a = from_resonances(Hertz(1000.0), &[(Hertz(110.0), 0.95), (Hertz(260.0), 0.90)]);
+    let b = from_resonances(Hertz(1000.0), &[(Hertz(60.0), 0.97), (Hertz(180.0), 0.93)]);
+    let middle = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect() };
+    let mid_lsf = ar_from_lsf(&middle(&lsf_from_ar(&a).unwrap(), &lsf_from_ar(&b).unwrap()));
+    let mid_coef = middle(&a, &b);
+    let number = |name: &str| v[name].as_f64().unwrap();
+    check(&b, &floats(&v["b"])[1..], 1e-12);
+    check(&lsf_from_ar(&b).unwrap(), &floats(&v["lsf_b"]), 1e-10);
+    check(&mid_lsf, &floats(&v["a_mid_lsf"])[1..], 1e-10);
+    check(&mid_coef, &floats(&v["a_mid_coef"])[1..], 1e-12);
+    // Powers, which reach 77, are as sensitive as the sharpest pole.
+    for (ar, name) in
+        [(&a, "power_a"), (&b, "power_b"), (&mid_lsf, "power_mid_lsf"), (&mid_coef, "power_mid_coef")]
+    {
+        check(&[power_gain(ar) / number(name)], &[1.0], 1e-9);
+    }
+    // The largest radius r of a pole: the predictor with coefficients a_k r^-k is just not stable.
+    for (ar, name) in [(&mid_lsf, "rad_lsf"), (&mid_coef, "rad_coef")] {
+        let stable = |radius: f64| {
+            let scaled: Vec<f64> = ar.iter().zip(1..).map(|(a, k)| a * radius.powi(-k)).collect();
+            power_gain(&scaled).is_finite()
+        };
+        assert!(stable(number(name) + 1e-9) && !stable(number(name) - 1e-9), "{name}");
+    }
+}
+
+/// `switching.py`: a predictor that moves between two, twice a second, with its coefficients set every `n_update` samples.
+fn switched(n_update: usize, level: impl Fn(f64, &[f64]) -> f64) -> [f64; 2] {
+    let a = from_resonances(Hertz(1000.0), &[(Hertz(110.0), 0.95), (Hertz(260.0), 0.90)]);
+    let b = from_resonances(Hertz(1000.0), &[(Hertz(60.0), 0.97), (Hertz(180.0), 0.93)]);
+    let (lsf_a, lsf_b) = (lsf_from_ar(&a).unwrap(), lsf_from_ar(&b).unwrap());
+    let mut all = Vec::new();
+    for seed in [5, 6, 7] {
+        let mut x = lcg_noise(4000, seed);
+        let (mut ar, mut gain) = (Vec::new(), 0.0);
+        for n in 0..x.len() {
+            if n % n_update == 0 {
+                let w = 0.5 + 0.5 * (std::f64::consts::TAU * 2.0 * n as f64 / 1000.0).sin();
+                let lsf: Vec<f64> = lsf_a.iter().zip(&lsf_b).map(|(a, b)| w * a + (1.0 - w) * b).collect();
+                ar = ar_from_lsf(&lsf);
+                gain = level(w, &ar);
+            }
+            x[n] = gain * x[n] - (1..=4.min(n)).map(|k| ar[k - 1] * x[n - k]).sum::<f64>();
+        }
+        all.extend(x);
+    }
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    let rms = (all.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / all.len() as f64).sqrt();
+    [rms, all.iter().fold(0.0_f64, |m, x| m.max(x.abs())) / rms]
+}
+
+#[test]
+fn golden_switching() {
+    let v: Value = serde_json::from_str(include_str!("../../../../vectors/a_ar/switching.json")).unwrap();
+    let a = from_resonances(Hertz(1000.0), &[(Hertz(110.0), 0.95), (Hertz(260.0), 0.90)]);
+    let b = from_resonances(Hertz(1000.0), &[(Hertz(60.0), 0.97), (Hertz(180.0), 0.93)]);
+    let (power_a, power_b) = (power_gain(&a), power_gain(&b));
+    let excitation = |w: f64, _: &[f64]| (w / power_a + (1.0 - w) / power_b).sqrt();
+    for n_update in [1, 10, 50] {
+        let golden = |mode: &str| {
+            let golden = &v[format!("U{n_update}_{mode}")];
+            [golden["rms"].as_f64().unwrap(), golden["crest"].as_f64().unwrap()]
+        };
+        // Errors of frequencies, 1e-11, grow by the sharpness of the poles.
+        check(&switched(n_update, |_, ar| power_gain(ar).powf(-0.5)), &golden("rms"), 1e-8);
+        check(&switched(n_update, excitation), &golden("excvar"), 1e-8);
+    }
+    let middle: Vec<f64> =
+        lsf_from_ar(&a).unwrap().iter().zip(&lsf_from_ar(&b).unwrap()).map(|(a, b)| 0.5 * (a + b)).collect();
+    let middle = ar_from_lsf(&middle);
+    let rms = |excitation: f64| excitation * power_gain(&middle).sqrt();
+    check(&[rms(excitation(0.5, &[]))], &[v["mid_rms_excvar"].as_f64().unwrap()], 1e-9);
+    check(&[rms(power_gain(&middle).powf(-0.5))], &[v["mid_rms_rmsmode"].as_f64().unwrap()], 1e-12);
 }
 
 #[test]

@@ -21,8 +21,8 @@ const MIN_PIECES: usize = 10;
 const WINDOW_SECS: f64 = 0.256;
 
 /// Seconds of signal beside which a model is put. The spectrum of a quarter of a second is noise: it agrees to 0.7 with
-/// its own model, and this much to 0.97.
-const POOL_SECS: f64 = 3.0;
+/// its own model, and this much to 0.98.
+const POOL_SECS: f64 = 4.0;
 
 /// Farthest pieces that are pooled, as a share of the highest speed and force.
 const POOL_DISTANCE: f64 = 0.2;
@@ -71,9 +71,11 @@ pub(super) fn compare(pieces: &[Piece], rate: Hertz, order: usize) -> Result<Com
         .collect();
     let predicted: Vec<f64> =
         grains.iter().map(|g| g.as_ref().map_or(0.0, |g| g.level_mps2.powi(2))).collect();
-    let shares = Surface::new(pieces.iter().collect()).shares();
+    let all = Surface::new(pieces.iter().collect());
+    let shares = all.shares();
+    let usual: Vec<f64> = pieces.iter().map(|p| all.usual_mean_square(p)).collect();
     let comparisons = (0..pieces.len())
-        .map(|i| pooled(i, &pool(i, pieces, &shares), pieces, &spectra, &predicted))
+        .map(|i| pooled(i, &pool(i, pieces, &shares), pieces, &spectra, [&predicted, &usual]))
         .collect();
     Ok(Compared { frequencies: bins.map(|k| Hertz(k as f64 * step_hz)).collect(), comparisons, held_out })
 }
@@ -107,20 +109,17 @@ fn pool(of: usize, pieces: &[Piece], shares: &[[f64; 2]]) -> Vec<usize> {
         .collect()
 }
 
-/// Pieces beside their own models' predictions, all brought to the level that is predicted for the piece in the middle.
+/// Pieces beside their own models' predictions, both brought from the level that is usual at their speed and force to that
+/// of the piece in the middle: by what was predicted or measured, errors would weigh themselves.
 fn pooled(
     of: usize,
     pool: &[usize],
     pieces: &[Piece],
     spectra: &[[Vec<f64>; 2]],
-    predicted: &[f64],
+    [predicted, usual]: [&[f64]; 2],
 ) -> Comparison {
     let total: f64 = pool.iter().map(|i| pieces[*i].seconds).sum();
-    // Pieces whose prediction is silence have no level to be brought to; they count as they are.
-    let scale = |i: usize| {
-        let share = pieces[i].seconds / total;
-        if predicted[i] > 0.0 { share * predicted[of] / predicted[i] } else { share }
-    };
+    let scale = |i: usize| pieces[i].seconds / total * usual[of] / usual[i];
     let sum = |which: usize| -> Vec<f64> {
         let mut sum = vec![0.0; spectra[of][which].len()];
         for i in pool {

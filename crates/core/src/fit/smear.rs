@@ -57,14 +57,17 @@ mod tests {
     use super::{expected, measured};
     use crate::ar::test_signals::from_resonances;
     use crate::lsf::lsf_from_ar;
-    use crate::plane::Grain;
+    use crate::plane::{Grain, Plane};
     use crate::rng::lcg_noise;
-    use crate::units::Hertz;
+    use crate::texture::{GrainNode, TextureModel};
+    use crate::units::{Contact, Hertz};
 
     fn grain() -> (Grain, Vec<f64>) {
         let ar = from_resonances(Hertz(1000.0), &[(Hertz(60.0), 0.98), (Hertz(240.0), 0.93)]);
+        let at = Contact::from_mm_per_s_and_n(100.0, 1.0);
         let lsf = lsf_from_ar(&ar).unwrap();
-        (Grain { rate: Hertz(1000.0), lsf, level_mps2: 2.0 }, ar)
+        let node = GrainNode { speed: at.speed, force: at.force, lsf, level_mps2: 2.0 };
+        (Plane::new(&TextureModel::new(Hertz(1000.0), vec![node], None).unwrap()).at(at), ar)
     }
 
     #[test]

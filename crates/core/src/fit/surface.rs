@@ -26,8 +26,9 @@ const NODE_SPACING: f64 = 0.1;
 /// Exponents of speed and force that levels have where a recording does not tell: the middle of a hundred real textures.
 const USUAL_EXPONENTS: [f64; 2] = [0.97, 0.28];
 
-/// How firmly [`USUAL_EXPONENTS`] are believed, in seconds of signal whose logarithms of speed or force differ by one
-/// from the others': a tenth of a second, so that any real variation overrules it.
+/// How firmly [`USUAL_EXPONENTS`] are believed for a whole texture, and its exponents for a neighborhood, in seconds of
+/// signal whose logarithms of speed or force differ by one from the others': a tenth of a second, so that any real
+/// variation overrules it.
 const BELIEF_SECS: f64 = 0.1;
 
 /// Estimates at any speed and force.
@@ -38,34 +39,35 @@ pub(super) struct Surface<'a> {
     trend: Trend,
 }
 
-/// The power law `level² ∝ v^2α F^2β` through all pieces, about which neighbors are averaged.
+/// A power law `level² ∝ v^2α F^2β` through pieces, about which they are averaged.
 #[derive(Clone, Copy)]
 struct Trend {
     exponents: [f64; 2],
 }
 
 impl Trend {
-    /// Weighted least squares on logarithms.
-    fn new(pieces: &[&Piece]) -> Self {
-        let total: f64 = pieces.iter().map(|p| p.seconds).sum();
+    /// Weighted least squares on logarithms; exponents that the pieces do not tell are as `believed`.
+    fn new(pieces: &[&Piece], weights: &[f64], believed: [f64; 2]) -> Self {
+        let total: f64 = pieces.iter().zip(weights).map(|(p, w)| w * p.seconds).sum();
         let logs = |p: &Piece| [p.speed_mps.ln(), p.force_n.ln(), 0.5 * p.mean_square.ln()];
         let mut mean = [0.0; 3];
-        for piece in pieces {
+        for (piece, weight) in pieces.iter().zip(weights) {
             for (mean, log) in mean.iter_mut().zip(logs(piece)) {
-                *mean += piece.seconds / total * log;
+                *mean += weight * piece.seconds / total * log;
             }
         }
-        // (M + b I) x = r + b usual, M and r being moments about the mean.
+        // (M + b I) x = r + b believed, M and r being moments about the mean.
         let mut moments = [[BELIEF_SECS, 0.0], [0.0, BELIEF_SECS]];
-        let mut right = USUAL_EXPONENTS.map(|e| BELIEF_SECS * e);
-        for piece in pieces {
+        let mut right = believed.map(|e| BELIEF_SECS * e);
+        for (piece, weight) in pieces.iter().zip(weights) {
             let logs = logs(piece);
+            let secs = weight * piece.seconds;
             let d = [0, 1, 2].map(|i| logs[i] - mean[i]);
             for i in 0..2 {
                 for j in 0..2 {
-                    moments[i][j] += piece.seconds * d[i] * d[j];
+                    moments[i][j] += secs * d[i] * d[j];
                 }
-                right[i] += piece.seconds * d[i] * d[2];
+                right[i] += secs * d[i] * d[2];
             }
         }
         let [[a, b], [c, d]] = moments;
@@ -88,7 +90,7 @@ impl Trend {
 impl<'a> Surface<'a> {
     /// Estimates from these pieces, at least one.
     pub(super) fn new(pieces: Vec<&'a Piece>) -> Self {
-        let trend = Trend::new(&pieces);
+        let trend = Trend::new(&pieces, &vec![1.0; pieces.len()], USUAL_EXPONENTS);
         let highest = |value: fn(&Piece) -> f64| pieces.iter().map(|p| value(p)).fold(0.0, f64::max);
         let (speed_max_mps, force_max_n) = (highest(|p| p.speed_mps), highest(|p| p.force_n));
         Self { pieces, speed_max_mps, force_max_n, trend }
@@ -97,6 +99,11 @@ impl<'a> Surface<'a> {
     /// Place of a speed and force, as shares of the highest.
     pub(super) fn share(&self, speed_mps: f64, force_n: f64) -> [f64; 2] {
         [speed_mps / self.speed_max_mps, force_n / self.force_max_n]
+    }
+
+    /// What the power law through all pieces has at the speed and force of one, in no particular unit.
+    pub(super) fn usual_mean_square(&self, piece: &Piece) -> f64 {
+        self.trend.mean_square(piece.speed_mps, piece.force_n)
     }
 
     /// Places of all pieces.
@@ -137,13 +144,15 @@ impl<'a> Surface<'a> {
         Ok((fit, counted(1).powi(2) / counted(2)))
     }
 
-    /// Level at a speed and force: the power law, times what the pieces near it have beyond it.
+    /// Level at a speed and force: a power law through the pieces near it, times what they have beyond it. The mean is
+    /// one of squares: that of logarithms is too low for short pieces.
     fn level_mps2(&self, weights: &[f64], speed_mps: f64, force_n: f64) -> f64 {
-        let beyond = |p: &Piece| p.mean_square / self.trend.mean_square(p.speed_mps, p.force_n);
+        let trend = Trend::new(&self.pieces, weights, self.trend.exponents);
+        let beyond = |p: &Piece| p.mean_square / trend.mean_square(p.speed_mps, p.force_n);
         let pairs = || self.pieces.iter().zip(weights);
         let sum: f64 = pairs().map(|(p, w)| w * p.seconds * beyond(p)).sum();
         let secs: f64 = pairs().map(|(p, w)| w * p.seconds).sum();
-        (sum / secs * self.trend.mean_square(speed_mps, force_n)).sqrt()
+        (sum / secs * trend.mean_square(speed_mps, force_n)).sqrt()
     }
 
     /// Pieces at whose speed and force nodes are put: the fastest, then always the one farthest from those that are

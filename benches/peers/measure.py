@@ -1,0 +1,16 @@
+"""Measuring a piece of work, for all peers."""
+import json, os, time
+
+
+def bench(case, peer, units, unit, work):
+    work()
+    start = time.perf_counter()
+    work()
+    inner = max(1, int(0.3 / (time.perf_counter() - start)))
+    for _ in range(int(os.environ.get("BENCH_REPS", 5))):
+        cpu, wall = time.process_time(), time.perf_counter()
+        for _ in range(inner):
+            work()
+        cpu, wall = (time.process_time() - cpu) / inner, (time.perf_counter() - wall) / inner
+        print(json.dumps(dict(case=case, peer=peer, cpu_s=cpu, wall_s=wall, units=units,
+                              unit=unit, per_s=units / cpu, threads=1)), flush=True)

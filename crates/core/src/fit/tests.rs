@@ -1,0 +1,139 @@
+use super::{FitError, FitOptions, fit};
+use crate::ar::test_signals::from_resonances;
+use crate::plane::Plane;
+use crate::recording::Recording;
+use crate::rng::lcg_noise;
+use crate::spectrum::{goodness_of_fit, rms};
+use crate::units::{Contact, Hertz};
+use std::f64::consts::TAU;
+
+/// Resonances of the texture that all tests stroke, and the power law of its level.
+const RESONANCES: [(Hertz, f64); 2] = [(Hertz(90.0), 0.97), (Hertz(230.0), 0.95)];
+
+fn level_mps2(speed_mps: f64, force_n: f64) -> f64 {
+    5.0 * speed_mps.powf(0.9) * force_n.powf(0.3)
+}
+
+/// Back and forth, on a texture whose spectrum never changes. Simulated.
+fn strokes(rate_hz: f64, seconds: f64, seed: u64) -> Recording {
+    // Poles in Hz, whatever the rate: radii shrink with the step.
+    let poles = RESONANCES.map(|(f, radius)| (f, radius.powf(1000.0 / rate_hz)));
+    let ar = from_resonances(Hertz(rate_hz), &poles);
+    let n = (seconds * rate_hz) as usize;
+    let mut x = lcg_noise(n, seed);
+    for i in 0..n {
+        x[i] -= (1..=ar.len().min(i)).map(|k| ar[k - 1] * x[i - k]).sum::<f64>();
+    }
+    let scale = 1.0 / rms(&x);
+    let contact = |i: usize| {
+        let t = i as f64 / rate_hz;
+        (
+            (0.05 + 0.1 * (TAU * t / 9.0).sin().powi(2)) * (1.0 + 0.9 * (TAU * 0.6 * t).sin()),
+            1.0 + 0.6 * (TAU * t / 7.0).sin(),
+        )
+    };
+    let (speed_mps, force_n): (Vec<f64>, Vec<f64>) = (0..n).map(contact).unzip();
+    for ((x, v), f) in x.iter_mut().zip(&speed_mps).zip(&force_n) {
+        *x *= scale * level_mps2(*v, *f);
+    }
+    // Gravity, and a hand.
+    let acceleration_mps2 = x.iter().zip(0..).map(|(x, i)| x + 9.81 + (TAU * f64::from(i) / rate_hz).sin());
+    Recording {
+        rate: Hertz(rate_hz),
+        acceleration_mps2: acceleration_mps2.collect(),
+        speed_mps,
+        force_n,
+        usable: std::iter::once(0..n).collect(),
+    }
+}
+
+#[track_caller]
+fn check(rate_hz: f64, model_hz: f64) {
+    let fitted = fit(&[strokes(rate_hz, 15.0, 3)], &FitOptions::usual()).unwrap();
+    let report = &fitted.report;
+    assert_eq!(report.rate, Hertz(model_hz), "of {rate_hz} Hz");
+    assert!(report.held_out && report.gfc_median() > 0.94, "{}", report.gfc_median());
+    assert!(report.level_error_db_median() < 0.8, "{}", report.level_error_db_median());
+    assert_eq!(report.frequencies.len(), report.segments[0].comparison.model_psd.len());
+    // Against the truth, wherever it was stroked.
+    let frequencies: Vec<Hertz> = (10..440).map(|f| Hertz(f64::from(f))).collect();
+    let poles = RESONANCES.map(|(f, radius)| (f, radius.powf(1000.0 / rate_hz)));
+    let truth = crate::ar::psd(&from_resonances(Hertz(rate_hz), &poles), 1.0, Hertz(rate_hz), &frequencies);
+    let plane = Plane::new(&fitted.model);
+    for contact in [(80.0, 1.0), (120.0, 0.8), (60.0, 1.3)] {
+        let grain = plane.at(Contact::from_mm_per_s_and_n(contact.0, contact.1));
+        // A quarter of an hour of strokes would give 0.999; seconds blur and shift peaks by some hertz.
+        let gfc = goodness_of_fit(&grain.psd(&frequencies), &truth);
+        assert!(gfc > 0.95, "{gfc} at {contact:?}, {rate_hz} Hz");
+        let error_db = 20.0 * (grain.level_mps2 / level_mps2(1e-3 * contact.0, contact.1)).log10();
+        assert!(error_db.abs() < 1.2, "{error_db} dB at {contact:?}, {rate_hz} Hz");
+    }
+}
+
+#[test]
+fn strokes_of_any_rate_give_back_their_texture() {
+    for rate_hz in [1000.0, 2500.0, 8000.0, 44_100.0] {
+        check(rate_hz, 1000.0);
+    }
+    check(800.0, 800.0);
+}
+
+#[test]
+fn the_band_decides_the_rate() {
+    let mut wide = strokes(8000.0, 6.0, 1);
+    for (a, e) in wide.acceleration_mps2.iter_mut().zip(lcg_noise(48_000, 8)) {
+        *a += 2.0 * e;
+    }
+    assert_eq!(fit(&[wide.clone()], &FitOptions::usual()).unwrap().report.rate, Hertz(4000.0));
+    let asked = FitOptions { rate: Some(Hertz(1500.0)), order: Some(7), ..FitOptions::usual() };
+    let report = fit(&[wide], &asked).unwrap().report;
+    assert_eq!((report.rate, report.order), (Hertz(1500.0), 7));
+}
+
+#[test]
+fn several_recordings_are_one_texture() {
+    let both = fit(&[strokes(1000.0, 8.0, 1), strokes(2500.0, 8.0, 2)], &FitOptions::usual()).unwrap();
+    assert!([0, 1].iter().all(|r| both.report.segments.iter().any(|s| s.recording == *r)));
+    assert!(both.report.coverage > 0.2 && both.report.coverage <= 1.0);
+    assert_eq!(both.report.tap, None);
+}
+
+#[test]
+fn a_model_of_other_strokes_does_not_pass() {
+    // The negative control of the held-out figure: halfway through, the texture becomes another one.
+    let mut r = strokes(1000.0, 16.0, 1);
+    let other = lcg_noise(16_000, 5);
+    for i in (0..16_000).filter(|i| (i / 800) % 2 == 1) {
+        r.acceleration_mps2[i] = 9.81 + 4.0 * level_mps2(r.speed_mps[i], r.force_n[i]) * other[i];
+    }
+    let report = fit(&[r], &FitOptions::usual()).unwrap().report;
+    assert!(report.gfc_median() < 0.95, "{}", report.gfc_median());
+}
+
+#[test]
+fn what_makes_no_texture_says_why() {
+    let good = strokes(1000.0, 4.0, 1);
+    let check = |change: &dyn Fn(&mut Recording), word: &str| {
+        let mut r = good.clone();
+        change(&mut r);
+        let message = fit(&[r], &FitOptions::usual()).unwrap_err().to_string();
+        assert!(message.contains(word), "{message}");
+    };
+    assert_eq!(fit(&[], &FitOptions::usual()), Err(FitError::Empty));
+    check(&|r| r.usable.clear(), "usable");
+    check(&|r| r.force_n.fill(0.01), "force never exceeds 0.010 N");
+    check(&|r| r.speed_mps.iter_mut().for_each(|v| *v *= 1e-3), "unit of the speed column");
+    check(&|r| r.acceleration_mps2.fill(0.0), "acceleration column");
+    check(&|r| r.acceleration_mps2[2000] = f64::NAN, "row 2000");
+    check(&|r| r.rate = Hertz(100.0), "at least 500");
+    check(&|r| _ = r.force_n.pop(), "differ in length");
+    let jumps = |r: &mut Recording| {
+        for (i, v) in r.speed_mps.iter_mut().enumerate() {
+            *v = if (i / 40) % 2 == 0 { 0.05 } else { 0.2 };
+        }
+    };
+    check(&jumps, "more evenly");
+    let asked = |rate, order| fit(&[good.clone()], &FitOptions { rate, order, ..FitOptions::usual() });
+    assert!(matches!(asked(Some(Hertz(2000.0)), None), Err(FitError::RateAsked { .. })));
+    assert!(matches!(asked(None, Some(33)), Err(FitError::OrderAsked { order: 33, highest: 20 })));
+}

@@ -1,0 +1,85 @@
+//! Where the tip lands.
+
+use crate::filter::{butterworth_high_pass, filter_zero_phase};
+use crate::recording::Recording;
+use crate::segment::MIN_FORCE;
+use crate::units::Hertz;
+
+/// How long the tip has been in the air before a landing, in seconds.
+const AIR_SECS: f64 = 0.05;
+
+/// How long it stays down after one, in seconds.
+const CONTACT_SECS: f64 = 0.05;
+
+/// Length of a landing's transient, in seconds: the slowest everyday decay is over.
+pub(super) const TRANSIENT_SECS: f64 = 0.08;
+
+/// How far before or after the force says so a transient may begin, in seconds: force sensors are slow, and filtered.
+const SEARCH_SECS: f64 = 0.03;
+
+/// What is slower is the hand's own motion. Half of what textures are cut at, since rubber rings at 18 Hz.
+const HIGH_PASS: Hertz = Hertz(5.0);
+
+/// How much stronger than the noise in the air before it a transient is, as a ratio of amplitudes.
+const MIN_RISE: f64 = 4.0;
+
+/// The transient of one landing.
+pub(super) struct Transient {
+    pub(super) rate: Hertz,
+    /// Acceleration in m/s² from the moment of landing.
+    pub(super) signal: Vec<f64>,
+}
+
+/// The transients of all landings of a recording.
+pub(super) fn landings(recording: &Recording) -> Vec<Transient> {
+    let rate = recording.rate;
+    let samples = |secs: f64| (secs * rate.0).round() as usize;
+    let (n_air, n_contact) = (samples(AIR_SECS), samples(CONTACT_SECS));
+    let (n_search, n_transient) = (samples(SEARCH_SECS), samples(TRANSIENT_SECS));
+    let mut found = Vec::new();
+    for usable in &recording.usable {
+        if usable.len() < n_air + n_transient + 2 * n_search {
+            continue;
+        }
+        let force = &recording.force_n[usable.clone()];
+        let part = &recording.acceleration_mps2[usable.clone()];
+        let mean = part.iter().sum::<f64>() / part.len() as f64;
+        let mut signal: Vec<f64> = part.iter().map(|x| x - mean).collect();
+        filter_zero_phase(&butterworth_high_pass(2, HIGH_PASS, rate), &mut signal);
+        let (mut n_lifted, mut i) = (0, 0);
+        while i < force.len() {
+            if force[i] < MIN_FORCE.0 {
+                n_lifted += 1;
+            } else {
+                let stays = force[i..].iter().take(n_contact).all(|f| *f >= MIN_FORCE.0);
+                if n_lifted >= n_air && stays && i > n_air + n_search {
+                    found.extend(onset(&signal, i, n_air, n_search).and_then(|start| {
+                        let signal = signal.get(start..start + n_transient)?.to_vec();
+                        Some(Transient { rate, signal })
+                    }));
+                }
+                n_lifted = 0;
+            }
+            i += 1;
+        }
+    }
+    found
+}
+
+/// The sample at which a transient begins near the sample at which the force rises, where one sticks out of the noise
+/// before.
+fn onset(signal: &[f64], rise: usize, n_air: usize, n_search: usize) -> Option<usize> {
+    let air = &signal[rise - n_air - n_search..rise - n_search];
+    let noise = crate::spectrum::rms(air);
+    let near = &signal[rise - n_search..(rise + n_search).min(signal.len())];
+    let peak = near.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if peak < MIN_RISE * noise || peak == 0.0 {
+        return None;
+    }
+    // The first sample above a fifth of the peak and the noise, and back to where it left zero.
+    let threshold = (0.2 * peak).max(MIN_RISE * noise);
+    let first = near.iter().position(|x| x.abs() >= threshold)?;
+    let sign = near[first].signum();
+    let back = near[..first].iter().rev().take_while(|x| **x * sign > noise).count();
+    Some(rise - n_search + first - back.min(first)).map(|start| start.saturating_sub(1))
+}
