@@ -1,6 +1,36 @@
 //! The columns of a recording, said in a TOML file.
+//!
+//! Every key is optional; what is not said is guessed or asked for. A key that is not known is an error, for it would be
+//! an answer without effect.
+//!
+//! ```
+//! let map = shagreen_formats::map_toml::read_map(br#"
+//! separator = "semicolon"        # comma, semicolon, tab or spaces
+//! decimal_comma = true
+//! header = true
+//! time = "t"                     # a column by its name, or by its place from 1
+//! time_unit = "ms"               # s, ms, us or ns
+//! # rate_hz = 10000.0            # where there is no time column
+//! acceleration = ["ax", "ay", "az"]
+//! acceleration_unit = "g"        # m/s^2, g or mg
+//! # per_count = 6.1e-5           # for counts of a converter: units a count
+//! full_scale = 16.0              # a WAV sample of 1.0, or the range of the sensor, in that unit
+//! speed = "v"                    # or positions = ["x", "y"] with position_unit = "mm" (mm, m or um),
+//! speed_unit = "mm/s"            # or constant_speed = "100 mm/s"
+//! force = 6                      # or constant_force = "1 N"
+//! force_unit = "N"               # N, mN or gf
+//! pressing_is_negative = false
+//! "#)?;
+//! assert_eq!(map.time_unit, Some(shagreen_formats::recording::TimeUnit::Milliseconds));
+//! # Ok::<(), shagreen_formats::map_toml::MapError>(())
+//! ```
+//!
+//! A WAV file has `channels = ["acceleration", "speed", "force", "unused"]`, `full_scale`, `speed_full_scale` and
+//! `force_full_scale` instead of columns.
 
-use crate::recording::ColumnMap;
+use toml::Value;
+
+use crate::recording::{Ask, ColumnMap};
 
 /// Why bytes are no map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -20,10 +50,98 @@ pub enum MapError {
     },
 }
 
+/// Keys of constants, and what they answer.
+const CONSTANTS: [(&str, Ask); 2] = [("constant_speed", Ask::Speed), ("constant_force", Ask::Force)];
+
 /// Reads a map.
 ///
 /// # Errors
 /// See [`MapError`].
-pub fn read_map(_bytes: &[u8]) -> Result<ColumnMap, MapError> {
-    Ok(ColumnMap::default())
+pub fn read_map(bytes: &[u8]) -> Result<ColumnMap, MapError> {
+    let text = std::str::from_utf8(bytes).map_err(|error| MapError::NotText { at: error.valid_up_to() })?;
+    let table: toml::Table = toml::from_str(text).map_err(|error| {
+        let before = error.span().and_then(|span| text.get(..span.start));
+        let line = before.map_or(1, |before| before.matches('\n').count() + 1);
+        MapError::Damaged { reason: format!("{} in line {line}", error.message().replace('\n', " ")) }
+    })?;
+    let mut map = ColumnMap::default();
+    for (key, value) in &table {
+        let damaged = |problem: String| match line_of(text, key) {
+            Some(line) => MapError::Damaged { reason: format!("{problem} in line {line}") },
+            None => MapError::Damaged { reason: problem },
+        };
+        let constant = CONSTANTS.iter().find(|(name, _)| name == key);
+        let Some(what) =
+            constant.map(|(_, what)| *what).or_else(|| Ask::ALL.iter().copied().find(|ask| ask.key() == key))
+        else {
+            return Err(damaged(format!("{key:?} is not known")));
+        };
+        let answer =
+            answer_of(value).ok_or_else(|| damaged(format!("{key} cannot be a {}", value.type_str())))?;
+        map.answer(what, &answer).map_err(|error| damaged(error.to_string()))?;
+        let taken = if what == Ask::Speed { map.speed.is_some() } else { map.force.is_some() };
+        if constant.is_some() && taken {
+            return Err(damaged(format!(
+                "{key} is {answer:?}, needs a number with its unit, such as \"1 N\""
+            )));
+        }
+    }
+    Ok(map)
+}
+
+/// A value as an answer to a question.
+fn answer_of(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Integer(number) => Some(number.to_string()),
+        Value::Float(number) => Some(number.to_string()),
+        Value::Boolean(flag) => Some(if *flag { "yes" } else { "no" }.to_owned()),
+        Value::Array(values) => {
+            let answers: Option<Vec<String>> = values.iter().map(answer_of).collect();
+            Some(answers?.join(","))
+        }
+        Value::Datetime(_) | Value::Table(_) => None,
+    }
+}
+
+/// The line, from one, that begins with a key.
+fn line_of(text: &str, key: &str) -> Option<usize> {
+    let begins =
+        |line: &str| line.trim_start().trim_start_matches(['"', '\'', '[']).strip_prefix(key).is_some();
+    text.lines().position(begins).map(|line| line + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::read_map;
+    use crate::recording::{AccelerationUnit, Column};
+    use shagreen_core::units::MetersPerSecond;
+
+    #[track_caller]
+    fn check_error(text: &str, words: &str) {
+        let message = read_map(text.as_bytes()).unwrap_err().to_string();
+        assert!(message.contains(words) && !message.contains('\n'), "{message}");
+    }
+
+    #[test]
+    fn keys_are_answers() {
+        let map = read_map(
+            b"acceleration = [\"ax\", 3]\nacceleration_unit = \"m/s\xc2\xb2\"\nconstant_speed = \"50 mm/s\"",
+        )
+        .unwrap();
+        assert_eq!(map.acceleration, Some(vec![Column::Name("ax".into()), Column::Number(3)]));
+        assert_eq!(map.acceleration_unit, Some(AccelerationUnit::MetersPerSecondSquared));
+        assert_eq!(map.constant_speed, Some(MetersPerSecond(0.05)));
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_line() {
+        check_error("header = true\nspeeed = \"v\"", "\"speeed\" is not known in line 2");
+        check_error("time_unit = \"h\"", "one of s, ms, us, ns in line 1");
+        check_error("a = [", "line 1");
+        check_error("rate_hz = -5", "a number above 0");
+        check_error("constant_speed = \"fast\"", "number with its unit");
+        check_error("time = 1979-05-27", "cannot be a datetime");
+        assert!(read_map(b"\xff").unwrap_err().to_string().contains("byte 0"));
+    }
 }

@@ -5,12 +5,24 @@
 //! The answers are a [`ColumnMap`], from the window, the command line or a file ([`crate::map_toml`]).
 
 mod column_map;
+mod from_table;
+mod from_wav;
+mod inquiry;
+mod names;
 mod question;
+mod sidecar;
+mod table;
 mod units;
+mod wav;
 
 use std::fmt;
 
 use shagreen_core::recording::{Fault, RawRecording};
+
+use crate::recording::from_table::recording_of_table;
+use crate::recording::from_wav::recording_of_wav;
+use crate::recording::table::read_table;
+use crate::recording::wav::is_wav;
 
 pub use crate::recording::column_map::{Channel, Column, ColumnMap, Separator};
 pub use crate::recording::question::{AnswerError, Ask, Question};
@@ -112,12 +124,20 @@ fn no_acceleration(columns: &[String], faults: &[Fault]) -> String {
 /// # Errors
 /// See [`RecordingFileError`].
 pub fn read_recording(
-    _file_name: &str,
-    _bytes: &[u8],
-    _sidecar: Option<&[u8]>,
+    file_name: &str,
+    bytes: &[u8],
+    sidecar: Option<&[u8]>,
     map: &ColumnMap,
 ) -> Result<RecordingFile, RecordingFileError> {
-    let (questions, faults, warnings) = (Vec::new(), Vec::new(), Vec::new());
-    let needed = NeedsAnswers { questions, faults, map: map.clone(), warnings };
-    Err(RecordingFileError::NeedsAnswers(Box::new(needed)))
+    if is_wav(bytes) {
+        recording_of_wav(bytes, sidecar, map)
+    } else if file_name.to_lowercase().ends_with(".wav") {
+        let problem = "does not begin as WAV files do".to_owned();
+        Err(RecordingFileError::Wav { problem })
+    } else {
+        recording_of_table(read_table(bytes, map)?, map)
+    }
 }
+
+#[cfg(test)]
+mod tests;

@@ -77,6 +77,29 @@ pub struct AnswerError {
 }
 
 impl Ask {
+    /// All of them.
+    pub const ALL: &[Self] = &[
+        Self::Separator,
+        Self::DecimalComma,
+        Self::Header,
+        Self::Time,
+        Self::TimeUnit,
+        Self::RateHz,
+        Self::Acceleration,
+        Self::AccelerationUnit,
+        Self::FullScale,
+        Self::Speed,
+        Self::SpeedUnit,
+        Self::SpeedFullScale,
+        Self::Positions,
+        Self::PositionUnit,
+        Self::Force,
+        Self::ForceUnit,
+        Self::ForceFullScale,
+        Self::PressingIsNegative,
+        Self::Channels,
+    ];
+
     /// The key of the map that answers it.
     pub fn key(self) -> &'static str {
         match self {

@@ -33,7 +33,9 @@ fn read(raw: RawRecording) -> (Recording, Vec<&'static str>) {
 fn check_findings(raw: RawRecording, expected: &[&str], usable_secs: f64) -> Recording {
     let (recording, names) = read(raw);
     assert_eq!(names, expected);
-    assert!((recording.usable_seconds() - usable_secs).abs() < 1e-9, "{} s", recording.usable_seconds());
+    // A drifting clock has one rate for all, and the mean of its steps is not its middle one.
+    let share = recording.usable_seconds() / usable_secs - 1.0;
+    assert!(share.abs() < 2e-3, "{} s", recording.usable_seconds());
     for (i, value) in recording.acceleration_mps2.iter().enumerate() {
         let inside = recording.usable.iter().any(|range| range.contains(&i));
         assert_eq!(value.is_finite(), inside, "sample {i}");
@@ -156,7 +158,8 @@ fn stuck_clipped_and_missing_rows_are_left_out() {
         }
     });
     let (recording, names) = read(clipped);
-    assert_eq!(names, ["clipping"]);
+    // Between the tops of a swing are the bottoms of it and the ways between.
+    assert_eq!(names, ["clipping", "fragments"]);
     assert!(recording.usable_seconds() < 1.5 && recording.usable_seconds() > 1.0);
     // Silence throughout is no texture.
     let silence = Recording::from_raw(with_axis(|axis| axis.fill(0.0))).expect_err("silence");
@@ -209,7 +212,9 @@ proptest! {
     ) {
         let mut rng = Random::new(seed);
         let mut times = times(1500);
-        times.iter_mut().for_each(|time| *time += jitter * (2.0 * rng.uniform() - 1.0) / RATE_HZ);
+        for time in &mut times {
+            *time += jitter * (2.0 * rng.uniform() - 1.0) / RATE_HZ;
+        }
         let sine = |secs: f64| (TAU * frequency_hz * secs).sin();
         let mut raw = noise(1500, RawClock::Times(times.clone()));
         raw.acceleration_mps2 = vec![times.iter().map(|time| sine(*time)).collect()];

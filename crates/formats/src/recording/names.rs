@@ -1,0 +1,135 @@
+//! What the name of a column says.
+
+use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit, letters};
+
+/// What a column is by its name, with its unit where the name has one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Meaning {
+    Time(Option<TimeUnit>),
+    Acceleration(Option<AccelerationUnit>),
+    Speed(Option<SpeedUnit>),
+    Position(Option<PositionUnit>),
+    /// A bare x, y or z: a position or an acceleration.
+    Axis,
+    /// Normal force.
+    Force(Option<ForceUnit>),
+    /// Force along z, which is usually the normal one.
+    ForceZ(Option<ForceUnit>),
+}
+
+/// The meaning of a name such as `t`, `Time (ms)`, `acc_x [g]`, `ax (m/s^2)`, `speed_mm_per_s`; none where it has a unit
+/// that is none of its quantity, which would be silently wrong by a factor.
+pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
+    if let Some((word, unit)) = name.split_once(['[', '(']) {
+        return meaning(&letters(word), &letters(unit));
+    }
+    let words: Vec<String> = name
+        .split(|c: char| !c.is_alphanumeric() && c != '²')
+        .map(letters)
+        .filter(|word| !word.is_empty())
+        .collect();
+    (1..=words.len()).rev().find_map(|n| meaning(&words[..n].concat(), &words[n..].concat()))
+}
+
+/// A name has a unit that is none of its quantity.
+struct WrongUnit;
+
+/// The unit of a name, where it has one.
+fn unit<T>(text: &str, parse: impl Fn(&str) -> Option<T>) -> Result<Option<T>, WrongUnit> {
+    if text.is_empty() { Ok(None) } else { parse(text).map(Some).ok_or(WrongUnit) }
+}
+
+fn meaning(word: &str, text: &str) -> Option<Meaning> {
+    let axis = |stems: &[&str], marks: &[&str]| {
+        stems.iter().any(|stem| {
+            marks.iter().any(|mark| {
+                word.strip_prefix(stem) == Some(mark)
+                    || (word.strip_suffix(stem) == Some(mark) && !mark.is_empty())
+            })
+        })
+    };
+    let accelerations = [
+        "a",
+        "ac",
+        "acc",
+        "accel",
+        "accelerometer",
+        "acceleration",
+        "accelerations",
+        "linacc",
+        "linearacceleration",
+    ];
+    match word {
+        "millis" if text.is_empty() => return Some(Meaning::Time(Some(TimeUnit::Milliseconds))),
+        "micros" if text.is_empty() => return Some(Meaning::Time(Some(TimeUnit::Microseconds))),
+        "seconds" | "secs" if text.is_empty() => return Some(Meaning::Time(Some(TimeUnit::Seconds))),
+        "t" | "time" | "timestamp" | "timestamps" | "elapsed" | "elapsedtime" => {
+            return unit(text, TimeUnit::parse).map(Meaning::Time).ok();
+        }
+        "v" | "vel" | "speed" | "velocity" | "tangentialspeed" | "tangentialvelocity" | "scanspeed"
+        | "scanningspeed" | "toolspeed" | "tipspeed" => {
+            return unit(text, SpeedUnit::parse).map(Meaning::Speed).ok();
+        }
+        "f" | "fn" | "force" | "normalforce" | "forcenormal" | "fnormal" | "load" | "normalload" => {
+            return unit(text, ForceUnit::parse).map(Meaning::Force).ok();
+        }
+        "fz" | "forcez" | "zforce" => return unit(text, ForceUnit::parse).map(Meaning::ForceZ).ok(),
+        "x" | "y" | "z" => {
+            return match (AccelerationUnit::parse(text), PositionUnit::parse(text)) {
+                (Some(unit), _) => Some(Meaning::Acceleration(Some(unit))),
+                (None, Some(unit)) => Some(Meaning::Position(Some(unit))),
+                (None, None) => text.is_empty().then_some(Meaning::Axis),
+            };
+        }
+        _ => {}
+    }
+    if axis(&["p", "pos", "position"], &["x", "y", "z"]) {
+        return unit(text, PositionUnit::parse).map(Meaning::Position).ok();
+    }
+    if axis(&accelerations, &["", "x", "y", "z", "0", "1", "2", "3"]) {
+        return unit(text, AccelerationUnit::parse).map(Meaning::Acceleration).ok();
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Meaning, meaning_of};
+    use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit};
+
+    #[test]
+    fn usual_names_are_understood_and_others_are_not() {
+        let si = Some(AccelerationUnit::MetersPerSecondSquared);
+        let g = Some(AccelerationUnit::StandardGravity);
+        for (name, expected) in [
+            ("t", Some(Meaning::Time(None))),
+            ("Time (ms)", Some(Meaning::Time(Some(TimeUnit::Milliseconds)))),
+            ("t_s", Some(Meaning::Time(Some(TimeUnit::Seconds)))),
+            ("time_us", Some(Meaning::Time(Some(TimeUnit::Microseconds)))),
+            ("timestamp [s]", Some(Meaning::Time(Some(TimeUnit::Seconds)))),
+            ("acc_x [g]", Some(Meaning::Acceleration(g))),
+            ("ax (m/s^2)", Some(Meaning::Acceleration(si))),
+            ("Acceleration X (m/s²)", Some(Meaning::Acceleration(si))),
+            ("accel_y_mps2", Some(Meaning::Acceleration(si))),
+            ("acc1", Some(Meaning::Acceleration(None))),
+            ("AccZ", Some(Meaning::Acceleration(None))),
+            ("a", Some(Meaning::Acceleration(None))),
+            ("x [mm]", Some(Meaning::Position(Some(PositionUnit::Millimeters)))),
+            ("pos_y", Some(Meaning::Position(None))),
+            ("x [g]", Some(Meaning::Acceleration(g))),
+            ("z", Some(Meaning::Axis)),
+            ("speed_mm_per_s", Some(Meaning::Speed(Some(SpeedUnit::MillimetersPerSecond)))),
+            ("v (m/s)", Some(Meaning::Speed(Some(SpeedUnit::MetersPerSecond)))),
+            ("Normal force [N]", Some(Meaning::Force(Some(ForceUnit::Newtons)))),
+            ("force_mN", Some(Meaning::Force(Some(ForceUnit::Millinewtons)))),
+            ("Fz", Some(Meaning::ForceZ(None))),
+            ("acc_x [V]", None),
+            ("gyro_x", None),
+            ("Fx", None),
+            ("material", None),
+            ("", None),
+        ] {
+            assert_eq!(meaning_of(name), expected, "{name}");
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Tables of numbers in any dialect: text to columns.
+
+use crate::recording::RecordingFileError;
+use crate::recording::column_map::{ColumnMap, Separator};
+
+/// More columns than any sensor has.
+const MAX_COLUMNS: usize = 1000;
+/// Lines that a dialect is told from.
+const SNIFFED_LINES: usize = 50;
+
+/// Cells of a column that are text where a number should be.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct NotNumbers {
+    /// How many.
+    pub(super) n: usize,
+    /// The line of the first, from one.
+    pub(super) first_line: usize,
+}
+
+/// A table: columns of one length, with NaN where there is no number.
+#[derive(Debug)]
+pub(super) struct Table {
+    /// Names as written, with the unit of a second header line in brackets; `column 1` and so on without a header.
+    pub(super) names: Vec<String>,
+    /// Values.
+    pub(super) columns: Vec<Vec<f64>>,
+    /// Text cells, by column.
+    pub(super) not_numbers: Vec<NotNumbers>,
+    /// What parts the columns.
+    pub(super) separator: Separator,
+    /// Whether numbers have a decimal comma.
+    pub(super) decimal_comma: bool,
+    /// Whether there is a header.
+    pub(super) header: bool,
+    /// Sentences for people.
+    pub(super) warnings: Vec<String>,
+}
+
+/// Text of bytes: UTF-8, or UTF-16 with a byte order mark; odd letters (of a header in another encoding) are replaced.
+fn text_of(bytes: &[u8]) -> Result<String, RecordingFileError> {
+    let wide = |from: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| from([pair[0], pair[1]])).collect();
+        String::from_utf16_lossy(&units)
+    };
+    let text = match bytes {
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
+        _ => String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).into_owned(),
+    };
+    if text.contains('\0') {
+        let problem = "the file is neither a WAV file nor text".to_owned();
+        return Err(RecordingFileError::Table { problem, line: None });
+    }
+    Ok(text)
+}
+
+/// Lines that hold something.
+fn content(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().map(str::trim_end).filter(|line| !line.trim().is_empty() && !line.starts_with('#'))
+}
+
+fn separator_of(text: &str) -> Separator {
+    let lines: Vec<&str> = content(text).take(SNIFFED_LINES).collect();
+    let last = lines.last().copied().unwrap_or("");
+    // The last of the lines is a row of numbers; a header may hold any character.
+    if last.contains(';') {
+        Separator::Semicolon
+    } else if last.contains('\t') {
+        Separator::Tab
+    } else if last.trim().contains(' ') && (!last.contains(',') || has_decimal_commas(last, &[' '])) {
+        Separator::Spaces
+    } else {
+        Separator::Comma
+    }
+}
+
+/// Whether every comma of a line stands inside a number, and at least one does.
+fn has_decimal_commas(line: &str, separators: &[char]) -> bool {
+    let mut fields = line.split(separators).filter(|field| field.contains(',')).peekable();
+    fields.peek().is_some() && fields.all(|field| number(field.trim_matches('"'), true).is_some())
+}
+
+/// The number in a field; NaN where it says that there is none.
+pub(super) fn number(field: &str, decimal_comma: bool) -> Option<f64> {
+    match field {
+        "" | "-" | "NA" | "N/A" | "null" | "NULL" | "None" => Some(f64::NAN),
+        _ if decimal_comma && field.contains(',') => field.replace(',', ".").parse().ok(),
+        _ => field.parse().ok(),
+    }
+}
+
+/// Reads a table; the map may say its dialect.
+pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, RecordingFileError> {
+    let mut text = text_of(bytes)?;
+    let separator = map.separator.unwrap_or_else(|| separator_of(&text));
+    let mark = match separator {
+        Separator::Comma => ',',
+        Separator::Semicolon => ';',
+        Separator::Tab | Separator::Spaces => '\t',
+    };
+    let decimal_comma = map.decimal_comma.unwrap_or_else(|| {
+        let marks: &[char] = if separator == Separator::Spaces { &[' ', '\t'] } else { &[mark] };
+        separator != Separator::Comma
+            && content(&text).skip(1).take(SNIFFED_LINES).any(|line| has_decimal_commas(line, marks))
+    });
+    if separator == Separator::Spaces {
+        text = single_tabs(&text);
+    }
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(mark as u8)
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let mut table = Table {
+        names: Vec::new(),
+        columns: Vec::new(),
+        not_numbers: Vec::new(),
+        separator,
+        decimal_comma,
+        header: false,
+        warnings: Vec::new(),
+    };
+    let mut record = csv::StringRecord::new();
+    let (mut n_short, mut first_short) = (0, 0);
+    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
+    while reader.read_record(&mut record).unwrap_or(false) {
+        let line = record.position().map_or(0, |position| position.line() as usize);
+        if record.iter().all(str::is_empty) {
+            continue;
+        }
+        let is_words = record
+            .iter()
+            .all(|field| field.is_empty() || number(field, decimal_comma || mark != ',').is_none());
+        if table.names.is_empty() {
+            table.start(&record, map.header.unwrap_or(is_words), line)?;
+            if table.header {
+                continue;
+            }
+        } else if table.header && is_words && table.columns.first().is_some_and(Vec::is_empty) {
+            for (name, unit) in table.names.iter_mut().zip(&record).filter(|(_, unit)| !unit.is_empty()) {
+                *name = format!("{name} [{}]", unit.trim_matches(['[', ']', '(', ')']));
+            }
+            continue;
+        }
+        if record.iter().skip(table.names.len()).any(|field| !field.is_empty()) {
+            let problem =
+                format!("{} values where the table has {} columns", record.len(), table.names.len());
+            return Err(RecordingFileError::Table { problem, line: Some(line) });
+        }
+        if record.len() < table.names.len() {
+            n_short += 1;
+            first_short = if n_short == 1 { line } else { first_short };
+        }
+        table.push(&record, line);
+    }
+    if table.columns.first().is_none_or(Vec::is_empty) {
+        let problem = "the table has no rows of numbers".to_owned();
+        return Err(RecordingFileError::Table { problem, line: None });
+    }
+    if n_short > 0 {
+        table.warnings.push(format!(
+            "{n_short} lines have fewer values than columns, first line {first_short}; what they lack counts as missing"
+        ));
+    }
+    Ok(table)
+}
+
+/// Runs of spaces and tabs as one tab each, none at the ends of lines.
+fn single_tabs(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for line in text.lines() {
+        for (i, word) in line.split_whitespace().enumerate() {
+            if i > 0 {
+                out.push('\t');
+            }
+            out.push_str(word);
+        }
+        out.push('\n');
+    }
+    out
+}
+
+impl Table {
+    fn start(
+        &mut self,
+        first: &csv::StringRecord,
+        header: bool,
+        line: usize,
+    ) -> Result<(), RecordingFileError> {
+        if first.len() > MAX_COLUMNS {
+            let problem = format!("{} columns, at most {MAX_COLUMNS} are read", first.len());
+            return Err(RecordingFileError::Table { problem, line: Some(line) });
+        }
+        self.header = header;
+        let name =
+            |(i, field): (usize, &str)| if header { field.to_owned() } else { format!("column {}", i + 1) };
+        self.names = first.iter().enumerate().map(name).collect();
+        // Columns without a name at the end are trailing separators.
+        while header && self.names.len() > 1 && self.names.last().is_some_and(String::is_empty) {
+            self.names.pop();
+        }
+        self.columns = vec![Vec::new(); self.names.len()];
+        self.not_numbers = vec![NotNumbers::default(); self.names.len()];
+        Ok(())
+    }
+
+    fn push(&mut self, record: &csv::StringRecord, line: usize) {
+        for (i, column) in self.columns.iter_mut().enumerate() {
+            let value = number(record.get(i).unwrap_or(""), self.decimal_comma);
+            if value.is_none() {
+                let cells = &mut self.not_numbers[i];
+                cells.first_line = if cells.n == 0 { line } else { cells.first_line };
+                cells.n += 1;
+            }
+            column.push(value.unwrap_or(f64::NAN));
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! Samples of WAV files.
+//!
+//! Our own reader of chunks, since no kept crate reads what recorders write: `hound`, which writes our files, refuses
+//! 64-bit floats, sizes that a recorder never filled in, and files that were cut off.
+
+use crate::recording::RecordingFileError;
+
+/// Most channels that are read.
+const MAX_CHANNELS: usize = 64;
+/// What a size is that was never filled in.
+const UNKNOWN_SIZE: u64 = 0xffff_ffff;
+const PCM: u16 = 1;
+const FLOAT: u16 = 3;
+const EXTENSIBLE: u16 = 0xfffe;
+
+/// Samples of a WAV file.
+#[derive(Debug)]
+pub(super) struct WavSamples {
+    /// Frames a second.
+    pub(super) rate_hz: u32,
+    /// One column a channel; integers count -1..1.
+    pub(super) channels: Vec<Vec<f64>>,
+    /// Whether they were floats, that may be in any unit.
+    pub(super) float: bool,
+    /// Sentences for people.
+    pub(super) warnings: Vec<String>,
+}
+
+struct Format {
+    float: bool,
+    n_channels: usize,
+    rate_hz: u32,
+    bytes_a_sample: usize,
+}
+
+/// Whether bytes begin as WAV files do.
+pub(super) fn is_wav(bytes: &[u8]) -> bool {
+    matches!(bytes.get(..4), Some(b"RIFF" | b"RF64" | b"BW64")) && bytes.get(8..12) == Some(b"WAVE")
+}
+
+fn error(problem: impl Into<String>) -> RecordingFileError {
+    RecordingFileError::Wav { problem: problem.into() }
+}
+
+fn u16_at(bytes: &[u8], at: usize) -> Option<u16> {
+    bytes.get(at..at + 2)?.try_into().ok().map(u16::from_le_bytes)
+}
+
+fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
+    bytes.get(at..at + 4)?.try_into().ok().map(u32::from_le_bytes)
+}
+
+/// Reads a WAV file: integers of 8 to 32 bits, floats of 32 or 64, any order of chunks.
+pub(super) fn read_wav(bytes: &[u8]) -> Result<WavSamples, RecordingFileError> {
+    let mut format = None;
+    let mut data_size_64 = None;
+    let mut rest = bytes.get(12..).unwrap_or(&[]);
+    while rest.len() >= 8 {
+        let (head, body) = rest.split_at(8);
+        let stated = u64::from(u32_at(head, 4).unwrap_or(0));
+        let there = &body[..body.len().min(usize::try_from(stated).unwrap_or(usize::MAX))];
+        match &head[..4] {
+            b"fmt " => format = Some(read_format(there)?),
+            b"ds64" => {
+                let size = there.get(8..16).and_then(|part| part.try_into().ok());
+                data_size_64 = size.map(u64::from_le_bytes);
+            }
+            b"data" => {
+                let format = format.ok_or_else(|| error("has samples before it says what they are"))?;
+                let stated =
+                    if stated == UNKNOWN_SIZE { data_size_64.unwrap_or(UNKNOWN_SIZE) } else { stated };
+                // A recorder that was switched off wrote no size; what follows is samples.
+                let open = stated == UNKNOWN_SIZE || (stated == 0 && !body.is_empty() && is_open(bytes));
+                let n_bytes = if open { body.len() as u64 } else { stated.min(body.len() as u64) };
+                let mut samples = read_samples(&body[..n_bytes as usize], &format);
+                if open {
+                    samples
+                        .warnings
+                        .push("the file does not say its length; it was read to its end".to_owned());
+                } else if n_bytes < stated {
+                    samples.warnings.push(format!(
+                        "the file is cut off: it should hold {stated} bytes of samples and holds {n_bytes}"
+                    ));
+                }
+                if samples.channels[0].is_empty() {
+                    return Err(error("has no samples"));
+                }
+                return Ok(samples);
+            }
+            _ => {}
+        }
+        // Chunks begin at even places.
+        let next = there.len() + there.len() % 2;
+        rest = body.get(next..).unwrap_or(&[]);
+    }
+    Err(error(if format.is_some() { "has no samples" } else { "does not say what its samples are" }))
+}
+
+/// Whether the size of the whole file was never filled in.
+fn is_open(bytes: &[u8]) -> bool {
+    matches!(u32_at(bytes, 4), Some(0 | u32::MAX))
+}
+
+fn read_format(body: &[u8]) -> Result<Format, RecordingFileError> {
+    let short = || error("does not say what its samples are");
+    let mut tag = u16_at(body, 0).ok_or_else(short)?;
+    let n_channels = usize::from(u16_at(body, 2).ok_or_else(short)?);
+    let rate_hz = u32_at(body, 4).ok_or_else(short)?;
+    let block = usize::from(u16_at(body, 12).ok_or_else(short)?);
+    let bits = u16_at(body, 14).ok_or_else(short)?;
+    if tag == EXTENSIBLE {
+        tag = u16_at(body, 24).ok_or_else(short)?;
+    }
+    if !(1..=MAX_CHANNELS).contains(&n_channels) {
+        return Err(error(format!("has {n_channels} channels, 1 to {MAX_CHANNELS} are read")));
+    }
+    let bytes_a_sample = if block > 0 && block.is_multiple_of(n_channels) {
+        block / n_channels
+    } else {
+        usize::from(bits.div_ceil(8))
+    };
+    let float = match (tag, bytes_a_sample) {
+        (PCM, 1..=4) => false,
+        (FLOAT, 4 | 8) => true,
+        (PCM | FLOAT, n) => return Err(error(format!("has samples of {n} bytes"))),
+        (other, _) => return Err(error(format!("is compressed (format {other})"))),
+    };
+    Ok(Format { float, n_channels, rate_hz, bytes_a_sample })
+}
+
+fn read_samples(data: &[u8], format: &Format) -> WavSamples {
+    let frame = format.n_channels * format.bytes_a_sample;
+    let mut channels = vec![Vec::with_capacity(data.len() / frame); format.n_channels];
+    for frame in data.chunks_exact(frame) {
+        for (channel, bytes) in channels.iter_mut().zip(frame.chunks_exact(format.bytes_a_sample)) {
+            channel.push(sample(bytes, format.float));
+        }
+    }
+    WavSamples { rate_hz: format.rate_hz, channels, float: format.float, warnings: Vec::new() }
+}
+
+/// One sample. An integer fills its bytes from the top, however many of its bits are valid.
+fn sample(bytes: &[u8], float: bool) -> f64 {
+    const INTEGER: f64 = 2_147_483_648.0;
+    match (bytes, float) {
+        ([a, b, c, d], true) => f64::from(f32::from_le_bytes([*a, *b, *c, *d])),
+        ([a, b, c, d, e, f, g, h], true) => f64::from_le_bytes([*a, *b, *c, *d, *e, *f, *g, *h]),
+        ([a], _) => (f64::from(*a) - 128.0) / 128.0,
+        ([a, b], _) => f64::from(i32::from_le_bytes([0, 0, *a, *b])) / INTEGER,
+        ([a, b, c], _) => f64::from(i32::from_le_bytes([0, *a, *b, *c])) / INTEGER,
+        ([a, b, c, d], _) => f64::from(i32::from_le_bytes([*a, *b, *c, *d])) / INTEGER,
+        // The format was checked to have one of these sizes.
+        _ => f64::NAN,
+    }
+}
