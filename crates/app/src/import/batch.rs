@@ -318,7 +318,9 @@ impl Batch {
                 entry.id = unique_id(&entry.id, &mut ids);
                 let fits = |from: LabelSource| !has_mixed_places && source.is_none_or(|s| s == from);
                 let is_comparable = entry.label_source().is_some_and(fits);
-                if is_comparable && (library.label_sources().is_empty() || entry.model.rate().0 <= space_rate_hz) {
+                if is_comparable
+                    && (library.label_sources().is_empty() || entry.model.rate().0 <= space_rate_hz)
+                {
                     source = entry.label_source();
                 } else {
                     entry.place = None;
