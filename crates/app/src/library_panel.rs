@@ -13,8 +13,14 @@ use crate::theme::{GAP, tokens};
 /// Side of a picture in the list, in points.
 const PICTURE: f32 = 34.0;
 
-/// Draws the list and returns what the user asked of it. `search` is the panel's own state.
-pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Command> {
+/// Draws the list and returns what the user asked of it. `search` is the panel's own state; the texture to `reveal` is
+/// scrolled to, once.
+pub fn library_ui(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    search: &mut String,
+    reveal: &mut Option<usize>,
+) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     ui.add_space(GAP);
@@ -49,7 +55,8 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
         for (index, entry) in panel.session.textures().iter().enumerate() {
             if matches(&entry.name, &entry.tags) {
                 found = true;
-                if row(ui, panel, index) {
+                let is_new = reveal.take_if(|wanted| *wanted == index).is_some();
+                if row(ui, panel, index, is_new) {
                     let place = panel.session.space().position(index);
                     commands.push(Command::Edit(place.map_or(Edit::Solo(index), Edit::MovePoint)));
                 }
@@ -64,13 +71,13 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
     commands
 }
 
-/// One texture; returns whether it was clicked.
-fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
+/// One texture, scrolled to where it is new; returns whether it was clicked.
+fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> bool {
     let t = tokens(ui.ctx());
     let entry = &panel.session.textures()[index];
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), PICTURE + 6.0), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::texture(&entry.name)));
-    if response.gained_focus() {
+    if response.gained_focus() || is_new {
         response.scroll_to_me(None);
     }
     if ui.is_rect_visible(area) {

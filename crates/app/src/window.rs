@@ -13,7 +13,7 @@ use crate::library_panel::library_ui;
 use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
 use crate::pictures::Pictures;
-use crate::project::Project;
+use crate::project::{Edit, Project};
 use crate::save::SaveSheet;
 use crate::scope::scope_ui;
 use crate::session::{OutputChoice, Session};
@@ -30,6 +30,8 @@ pub struct Window {
     pictures: Pictures,
     pad: PadState,
     search: String,
+    /// A texture that has just joined, to be scrolled to.
+    reveal: Option<usize>,
     gesture: u64,
     was_holding: bool,
     sheet: Sheet,
@@ -55,6 +57,7 @@ impl Window {
             pictures: Pictures::new(ctx, sources),
             pad: PadState::default(),
             search: String::new(),
+            reveal: None,
             gesture: 0,
             was_holding: false,
             sheet: Sheet::Closed,
@@ -99,9 +102,9 @@ impl Window {
             .show(ui, |ui| commands.extend(status_ui(ui, &panel)));
         self.stage_ui(ui, &ctx, &mut commands);
         let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
-        let search = &mut self.search;
+        let (search, reveal) = (&mut self.search, &mut self.reveal);
         Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
-            commands.extend(library_ui(ui, &panel, search));
+            commands.extend(library_ui(ui, &panel, search, reveal));
         });
         Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
             commands.extend(inspector_ui(ui, &panel));
@@ -192,7 +195,13 @@ impl Window {
     /// Does what was asked for.
     pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
         match command {
-            Command::Edit(edit) => self.history.apply(&mut self.project, edit, Gesture(self.gesture)),
+            Command::Edit(edit) => {
+                if matches!(edit, Edit::AddTextures(_)) {
+                    self.search.clear();
+                    self.reveal = Some(self.session.textures().len());
+                }
+                self.history.apply(&mut self.project, edit, Gesture(self.gesture));
+            }
             Command::Undo => {
                 self.history.undo(&mut self.project);
             }

@@ -152,7 +152,8 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     assert!(harness.query_by_label_contains("segment 2 of").is_some());
 
     click(&mut harness, &import::add(1));
-    harness.run_steps(3);
+    // The list scrolls to what is new.
+    harness.run_steps(60);
     assert!(window(&harness).import().is_none(), "the sheet closes");
     let after = names(&harness);
     assert_eq!(
@@ -190,10 +191,12 @@ fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
     });
     assert!(harness.query_by_label_contains("cannot be blended").is_some());
     click(&mut harness, &import::add(1));
+    harness.run_steps(60);
     let before = window(&harness).session().textures().len();
     assert_eq!(window(&harness).session().textures()[before - 1].model.rate().0, 2000.0);
     harness.get_all_by_label(&strings::texture("Felt")).last().expect("two of that name").click();
     harness.run_steps(2);
+    assert_eq!(window(&harness).project().solo, Some(before - 1));
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds at its own rate", |h| window(h).session().scope().rms(0.3) > 1e-3);
     // Moved back into the space, the blend sounds again, at the rate of the space.
@@ -209,7 +212,7 @@ fn a_file_that_cannot_be_used_says_why_and_nothing_is_lost() {
     wait(&mut harness, "the file is read", |h| {
         h.query_by_label(&import::file("broken.json", import::FAILED)).is_some()
     });
-    assert!(harness.query_by_label_contains("the library is damaged").is_some(), "the reason is shown");
+    assert!(harness.query_by_label_contains("The library is damaged").is_some(), "the reason is shown");
     assert!(harness.get_by_label(&import::add(0)).accesskit_node().is_disabled());
     harness.key_press(Key::Escape);
     harness.run_steps(3);
