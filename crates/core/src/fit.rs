@@ -85,10 +85,10 @@ pub struct Segment {
 /// A segment beside what the model says of its speed and force.
 ///
 /// Segments last tenths of a second, and so little noise has no spectrum to speak of. So the segments nearest to it in
-/// speed and force, up to four seconds in all, are compared together: the mean of their spectra, each divided by the
+/// speed and force, up to five seconds in all, are compared together: the mean of their spectra, each divided by the
 /// power law that levels follow, beside the mean of what their models predict for windows of the same length. A model
-/// that is compared with a segment was made without it, where [`FitReport::held_out`] says so; five models, each without
-/// a fifth of the segments, in blocks of neighboring ones, share the work.
+/// that is compared with a segment was made without it, where [`FitReport::held_out`] says so; ten models, each without
+/// a tenth of the segments, in blocks of neighboring ones, share the work.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Measured power spectral density (Welch), in (m/s²)²/Hz, at [`FitReport::frequencies`].
@@ -254,7 +254,7 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
     if recordings.is_empty() {
         return Err(FitError::Empty);
     }
-    let pieces::Pieces { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
+    let pieces::Cut { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
     let highest = pieces::highest_order(rate);
     if let Some(order) = options.order.filter(|order| *order == 0 || *order > highest) {
         return Err(FitError::OrderAsked { order, highest: highest.min(MAX_ORDER) });

@@ -8,13 +8,13 @@ use crate::spectrum::goodness_of_fit;
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 /// Models that are made, each without one part of the pieces.
-const N_FOLDS: usize = 5;
+const N_FOLDS: usize = 10;
 
 /// Turns through the folds in the time of all pieces: a fold is made of blocks of neighboring pieces, spread over all
 /// strokes.
-const N_TURNS: usize = 4;
+const N_TURNS: usize = 2;
 
-/// Fewest pieces with which a model can do without a fifth.
+/// Fewest pieces with which a model can do without a tenth.
 const MIN_PIECES: usize = 10;
 
 /// Length of the windows, in seconds: 256 samples at 1 kHz.
@@ -22,7 +22,7 @@ const WINDOW_SECS: f64 = 0.256;
 
 /// Seconds of signal beside which a model is put. The spectrum of a quarter of a second is noise: it agrees to 0.7 with
 /// its own model, and this much to 0.98.
-const POOL_SECS: f64 = 4.0;
+const POOL_SECS: f64 = 5.0;
 
 /// Farthest pieces that are pooled, as a share of the highest speed and force.
 const POOL_DISTANCE: f64 = 0.2;

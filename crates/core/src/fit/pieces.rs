@@ -46,7 +46,7 @@ pub(super) struct Piece {
 }
 
 /// Everything that is fitted.
-pub(super) struct Pieces {
+pub(super) struct Cut {
     pub(super) pieces: Vec<Piece>,
     pub(super) rate: Hertz,
     pub(super) notes: Vec<String>,
@@ -61,7 +61,7 @@ struct Stroked<'a> {
 }
 
 /// Pieces of all recordings, at `rate` or at the one that their bandwidth asks for.
-pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Pieces, FitError> {
+pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, FitError> {
     for (index, recording) in recordings.iter().enumerate() {
         check(index, recording)?;
     }
@@ -122,7 +122,7 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Piece
     if pieces.is_empty() {
         return Err(if silent_secs > 0.0 { FitError::Silent } else { nothing(&stroked) });
     }
-    Ok(Pieces { pieces, rate, notes: notes(&stroked, short_secs, silent_secs) })
+    Ok(Cut { pieces, rate, notes: notes(&stroked, short_secs, silent_secs) })
 }
 
 /// Refuses columns that are not what a recording promises.

@@ -133,7 +133,8 @@ fn what_makes_no_texture_says_why() {
         }
     };
     check(&jumps, "more evenly");
-    let asked = |rate, order| fit(&[good.clone()], &FitOptions { rate, order, ..FitOptions::usual() });
+    let asked =
+        |rate, order| fit(std::slice::from_ref(&good), &FitOptions { rate, order, ..FitOptions::usual() });
     assert!(matches!(asked(Some(Hertz(2000.0)), None), Err(FitError::RateAsked { .. })));
     assert!(matches!(asked(None, Some(33)), Err(FitError::OrderAsked { order: 33, highest: 20 })));
 }

@@ -1,8 +1,8 @@
 //! Where the tip lands.
 
-use crate::filter::{butterworth_high_pass, filter_zero_phase};
 use crate::recording::Recording;
 use crate::segment::MIN_FORCE;
+use crate::spectrum::rms;
 use crate::units::Hertz;
 
 /// How long the tip has been in the air before a landing, in seconds.
@@ -16,9 +16,6 @@ pub(super) const TRANSIENT_SECS: f64 = 0.08;
 
 /// How far before or after the force says so a transient may begin, in seconds: force sensors are slow, and filtered.
 const SEARCH_SECS: f64 = 0.03;
-
-/// What is slower is the hand's own motion. Half of what textures are cut at, since rubber rings at 18 Hz.
-const HIGH_PASS: Hertz = Hertz(5.0);
 
 /// How much stronger than the noise in the air before it a transient is, as a ratio of amplitudes.
 const MIN_RISE: f64 = 4.0;
@@ -42,10 +39,7 @@ pub(super) fn landings(recording: &Recording) -> Vec<Transient> {
             continue;
         }
         let force = &recording.force_n[usable.clone()];
-        let part = &recording.acceleration_mps2[usable.clone()];
-        let mean = part.iter().sum::<f64>() / part.len() as f64;
-        let mut signal: Vec<f64> = part.iter().map(|x| x - mean).collect();
-        filter_zero_phase(&butterworth_high_pass(2, HIGH_PASS, rate), &mut signal);
+        let signal = &recording.acceleration_mps2[usable.clone()];
         let (mut n_lifted, mut i) = (0, 0);
         while i < force.len() {
             if force[i] < MIN_FORCE.0 {
@@ -53,8 +47,15 @@ pub(super) fn landings(recording: &Recording) -> Vec<Transient> {
             } else {
                 let stays = force[i..].iter().take(n_contact).all(|f| *f >= MIN_FORCE.0);
                 if n_lifted >= n_air && stays && i > n_air + n_search {
-                    found.extend(onset(&signal, i, n_air, n_search).and_then(|start| {
-                        let signal = signal.get(start..start + n_transient)?.to_vec();
+                    // Gravity, and the hand: what was felt in the air just before. A high-pass filter that takes it out
+                    // would ring as slowly as rubber does.
+                    let air = &signal[i - n_air - n_search..i - n_search];
+                    let rest = air.iter().sum::<f64>() / air.len() as f64;
+                    let end = (i + n_search + n_transient).min(signal.len());
+                    let around: Vec<f64> =
+                        signal[i - n_air - n_search..end].iter().map(|x| x - rest).collect();
+                    found.extend(onset(&around, n_air, n_search).and_then(|start| {
+                        let signal = around.get(start..start + n_transient)?.to_vec();
                         Some(Transient { rate, signal })
                     }));
                 }
@@ -66,12 +67,12 @@ pub(super) fn landings(recording: &Recording) -> Vec<Transient> {
     found
 }
 
-/// The sample at which a transient begins near the sample at which the force rises, where one sticks out of the noise
-/// before.
-fn onset(signal: &[f64], rise: usize, n_air: usize, n_search: usize) -> Option<usize> {
-    let air = &signal[rise - n_air - n_search..rise - n_search];
-    let noise = crate::spectrum::rms(air);
-    let near = &signal[rise - n_search..(rise + n_search).min(signal.len())];
+/// The sample at which a transient begins, where one sticks out of the noise: `signal` starts with `n_air` samples of air,
+/// and `n_search` after these the force rises.
+fn onset(signal: &[f64], n_air: usize, n_search: usize) -> Option<usize> {
+    let (air, rest) = signal.split_at_checked(n_air)?;
+    let noise = rms(air);
+    let near = &rest[..(2 * n_search).min(rest.len())];
     let peak = near.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     if peak < MIN_RISE * noise || peak == 0.0 {
         return None;
@@ -81,5 +82,5 @@ fn onset(signal: &[f64], rise: usize, n_air: usize, n_search: usize) -> Option<u
     let first = near.iter().position(|x| x.abs() >= threshold)?;
     let sign = near[first].signum();
     let back = near[..first].iter().rev().take_while(|x| **x * sign > noise).count();
-    Some(rise - n_search + first - back.min(first)).map(|start| start.saturating_sub(1))
+    Some((n_air + first - back).saturating_sub(1))
 }
