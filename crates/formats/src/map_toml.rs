@@ -10,10 +10,10 @@
 //! header = true
 //! time = "t"                     # a column by its name, or by its place from 1
 //! time_unit = "ms"               # s, ms, us or ns
-//! # rate_hz = 10000.0            # where there is no time column
+//! rate_hz = 10000.0              # only where there is no time column
 //! acceleration = ["ax", "ay", "az"]
 //! acceleration_unit = "g"        # m/s^2, g or mg
-//! # per_count = 6.1e-5           # for counts of a converter: units a count
+//! per_count = 6.1e-5             # only for counts of a converter: units a count
 //! full_scale = 16.0              # a WAV sample of 1.0, or the range of the sensor, in that unit
 //! speed = "v"                    # or positions = ["x", "y"] with position_unit = "mm" (mm, m or um),
 //! speed_unit = "mm/s"            # or constant_speed = "100 mm/s"

@@ -27,6 +27,8 @@ pub enum Ask {
     Acceleration,
     /// The unit of acceleration.
     AccelerationUnit,
+    /// How many units of acceleration one count of a table is.
+    PerCount,
     /// The acceleration of a WAV sample of 1.0.
     FullScale,
     /// Which column is speed, or the constant speed, or the positions that it follows from.
@@ -87,6 +89,7 @@ impl Ask {
         Self::RateHz,
         Self::Acceleration,
         Self::AccelerationUnit,
+        Self::PerCount,
         Self::FullScale,
         Self::Speed,
         Self::SpeedUnit,
@@ -111,6 +114,7 @@ impl Ask {
             Self::RateHz => "rate_hz",
             Self::Acceleration => "acceleration",
             Self::AccelerationUnit => "acceleration_unit",
+            Self::PerCount => "per_count",
             Self::FullScale => "full_scale",
             Self::Speed => "speed",
             Self::SpeedUnit => "speed_unit",
@@ -178,6 +182,7 @@ impl ColumnMap {
             Ask::RateHz => self.rate_hz = above_zero()?,
             Ask::Acceleration => self.acceleration = columns()?,
             Ask::AccelerationUnit => self.acceleration_unit = named!(AccelerationUnit),
+            Ask::PerCount => self.per_count = above_zero()?,
             Ask::FullScale => self.full_scale = above_zero()?,
             Ask::Speed => match quantity(answer, |unit| SpeedUnit::parse(unit).map(SpeedUnit::si)) {
                 Some(speed_mps) => self.constant_speed = Some(MetersPerSecond(speed_mps)),

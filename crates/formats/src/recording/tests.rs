@@ -94,10 +94,8 @@ fn what_is_not_said_is_asked() {
 
 #[test]
 fn guesses_are_said_and_physics_decides_them() {
-    let mut text = "time,ax,ay,az,v,fz\n".to_owned();
-    for row in 0..100 {
-        text += &format!("{},{},0.01,{},{},-0.5\n", row, 0.02 * f64::from(row % 2), 0.99, 100 + row % 3);
-    }
+    let row = |row: i32| format!("{row},{},0.01,0.99,{},-0.5", 0.02 * f64::from(row % 2), 100 + row % 3);
+    let text = format!("time,ax,ay,az,v,fz\n{}\n", (0..100).map(row).collect::<Vec<_>>().join("\n"));
     let read_file = read(&text, &[]);
     let guessed: Vec<(Ask, &str)> =
         read_file.questions.iter().map(|q| (q.what, q.guess.as_deref().unwrap())).collect();
