@@ -36,6 +36,8 @@ pub(super) fn draft_ui(
     let mut main = ui.new_child(egui::UiBuilder::new().max_rect(left).layout(top_down));
     let mut details = ui.new_child(egui::UiBuilder::new().max_rect(right).layout(top_down));
     ScrollArea::vertical().id_salt(("main", id)).auto_shrink(false).show(&mut main, |ui| {
+        // Room for the bar that scrolls.
+        ui.set_max_width(ui.available_width() - 10.0);
         ask_ui(ui, batch, id, for_all);
         plots_ui(ui, batch, id);
     });
@@ -110,7 +112,7 @@ fn plots_ui(ui: &mut Ui, batch: &mut Batch, id: u64) {
     let traces = (0.48 * left).max(TRACES);
     trace_plot(ui, &drawn.trace, chosen, traces);
     ui.add_space(GAP);
-    let spectra = (left - traces - 64.0).max(SPECTRA);
+    let spectra = (ui.available_height() - 74.0).max(SPECTRA);
     let Some(draft) = batch.draft_of_mut(id) else { return };
     let FitState::Done(fitted) = &draft.fit else { return };
     let report = &fitted.report;

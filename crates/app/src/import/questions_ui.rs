@@ -54,9 +54,9 @@ fn question_ui(ui: &mut Ui, question: &Question, answer: Option<&str>) -> Option
     let answers_width = ANSWER_WIDTH + if takes_constant(question) { ANSWER_WIDTH + GAP } else { 0.0 };
     let text_width = (width - answers_width - MARK_WIDTH - 2.0 * GAP).max(ANSWER_WIDTH);
     ui.horizontal(|ui| {
-        let in_column = Layout::top_down(Align::Min);
+        let in_column = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(text_width, height), in_column, |ui| {
-            ui.set_width(text_width);
+            ui.set_min_size(vec2(text_width, height));
             ui.add(Label::new(sentence(&question.text)).wrap().selectable(false));
         });
         let given = control_ui(ui, question, answer);

@@ -15,7 +15,7 @@ const MARKS_WIDTH: f32 = 44.0;
 /// Draws the three traces in `height`, with the segment from `chosen[0]` to `chosen[1]` s brought out.
 pub(super) fn trace_plot(ui: &mut Ui, trace: &Trace, chosen: Option<[f64; 2]>, height: f32) {
     let t = tokens(ui.ctx());
-    let titles = 3.0 * 21.0;
+    let titles = 3.0 * 28.0;
     let unit = (height - titles - 20.0).max(90.0) / 4.0;
     let excluded = if trace.excluded.is_empty() { "" } else { strings::EXCLUDED };
     title(ui, strings::ACCELERATION, &format!("{}   {excluded}", strings::ACCELERATION_UNIT));
