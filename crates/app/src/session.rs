@@ -353,8 +353,8 @@ impl Session {
 /// The rate of the textures in the space, which is the highest of them: voices of different rates cannot be mixed. Where
 /// none has a place, that of the first.
 fn rate_of_space<'a, I: Iterator<Item = &'a TextureEntry> + Clone>(textures: I) -> Hertz {
-    let placed = textures.clone().filter(|t| t.place.is_some()).map(|t| &t.model);
     let first = textures.clone().next().map(|t| t.model.rate());
+    let placed = textures.filter(|t| t.place.is_some()).map(|t| &t.model);
     highest_rate(placed).or(first).unwrap_or(Hertz(1000.0))
 }
 

@@ -147,19 +147,18 @@ impl Batch {
             }
             LoadedContent::Recording { input, map, outcome } => {
                 is_recording = true;
-                Content::Recording(Box::new(RecordingState::new(input, map, outcome)))
+                Content::Recording(Box::new(RecordingState::new(input, *map, outcome)))
             }
         };
         self.files.push(File { id, name: name.clone(), content });
         if !is_recording {
             return;
         }
-        match self.drafts.first_mut().filter(|_| self.are_one) {
-            Some(draft) => draft.files.push(id),
-            None => {
-                let draft = self.next_id();
-                self.drafts.push(Draft::new(draft, name_from(&name), vec![id]));
-            }
+        if let Some(draft) = self.drafts.first_mut().filter(|_| self.are_one) {
+            draft.files.push(id);
+        } else {
+            let draft = self.next_id();
+            self.drafts.push(Draft::new(draft, name_from(&name), vec![id]));
         }
         self.fit_with(id);
     }
@@ -180,7 +179,7 @@ impl Batch {
             let Content::Recording(state) = &mut file.content else { continue };
             let is_meant = file_id == id || for_all && state.asks(question);
             if is_meant && state.answer(question, answer) {
-                let (input, map) = (state.input.clone(), state.map.clone());
+                let (input, map) = (state.input.clone(), Box::new(state.map.clone()));
                 self.worker.ask(Request::Read { file: file_id, generation: state.generation, input, map });
             }
         }

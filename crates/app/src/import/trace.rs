@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn no_peak_is_lost_and_no_more_is_drawn_than_can_be_seen() {
         for n in [10, N_STRETCHES, 100_003] {
-            let trace = Trace::new(&recording(n, vec![0..n]));
+            let trace = Trace::new(&recording(n, std::iter::once(0..n).collect()));
             assert!(trace.acceleration.len() <= N_STRETCHES);
             let low = trace.acceleration.iter().map(|a| a[1]).fold(0.0, f64::min);
             let last_odd = if n % 2 == 0 { n - 1 } else { n - 2 };

@@ -20,7 +20,7 @@ pub(super) enum Request {
     /// Read these files, each as what it is.
     Load(Vec<Source>),
     /// Read a recording again, with more known about it.
-    Read { file: u64, generation: u64, input: RecordingInput, map: ColumnMap },
+    Read { file: u64, generation: u64, input: RecordingInput, map: Box<ColumnMap> },
     /// Fit a texture.
     Fit { draft: u64, generation: u64, recordings: Vec<Arc<Drawn>>, options: FitOptions },
 }
@@ -46,7 +46,7 @@ pub(super) struct Loaded {
 /// What a file turned out to be.
 pub(super) enum LoadedContent {
     /// A recording, with what was known of its columns.
-    Recording { input: RecordingInput, map: ColumnMap, outcome: ReadOutcome },
+    Recording { input: RecordingInput, map: Box<ColumnMap>, outcome: ReadOutcome },
     /// Textures, with what was odd about them.
     Textures { entries: Vec<TextureEntry>, warnings: Vec<String> },
     /// Something that serves the other files.
@@ -232,7 +232,7 @@ fn load_one(source: &Source, bytes: Vec<u8>, all: &[Source], map: &ColumnMap) ->
             let sidecar = sidecar_of(source, all);
             let input = RecordingInput { name: source.name(), bytes: bytes.into(), sidecar };
             let outcome = read(&input, map);
-            LoadedContent::Recording { input, map: map.clone(), outcome }
+            LoadedContent::Recording { input, map: Box::new(map.clone()), outcome }
         }
     }
 }
