@@ -51,6 +51,11 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
     }
     commands.extend(point_ui(ui, axes, panel, t));
+    if let Some(texture) = panel.project.solo.and_then(|solo| panel.session.textures().get(solo)) {
+        let below = pos2(axes.rect.center().x, axes.rect.bottom() + 42.0);
+        let (text, font) = (strings::plays_alone(&texture.name), FontId::proportional(12.5));
+        ui.painter().text(below, Align2::CENTER_BOTTOM, text, font, t.accent);
+    }
     commands
 }
 

@@ -2,10 +2,11 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+use crate::import::source::Source;
 use crate::project::Edit;
 
 /// A request of the user, carried out after the frame.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Command {
     /// Change the project.
     Edit(Edit),
@@ -25,6 +26,14 @@ pub enum Command {
     OpenOutput(String),
     /// End the latched silence of the limiter.
     ResetLimiter,
+    /// Open the sheet that imports files.
+    OpenImport,
+    /// Import these files, in the sheet.
+    Import(Vec<Source>),
+    /// Open the sheet that saves the library.
+    OpenSave,
+    /// Close the sheet that is open.
+    CloseSheet,
 }
 
 /// The commands that have a key.

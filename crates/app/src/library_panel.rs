@@ -2,6 +2,8 @@
 
 use egui::{Label, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
+use shagreen_formats::library::Provenance;
+
 use crate::command::Command;
 use crate::panel::Panel;
 use crate::project::Edit;
@@ -11,14 +13,32 @@ use crate::theme::{GAP, tokens};
 /// Side of a picture in the list, in points.
 const PICTURE: f32 = 34.0;
 
-/// Draws the list and returns what the user asked of it. `search` is the panel's own state.
-pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Command> {
+/// Draws the list and returns what the user asked of it. `search` is the panel's own state; the texture to `reveal` is
+/// scrolled to, once.
+pub fn library_ui(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    search: &mut String,
+    reveal: &mut Option<usize>,
+) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     ui.add_space(GAP);
     ui.horizontal(|ui| {
         ui.heading(strings::LIBRARY);
         ui.label(egui::RichText::new(format!("{}", panel.session.textures().len())).color(t.text_weak));
+    });
+    ui.horizontal(|ui| {
+        let width = 0.5 * (ui.available_width() - GAP);
+        for (command, name, help) in [
+            (Command::OpenImport, strings::IMPORT, strings::IMPORT_HELP),
+            (Command::OpenSave, strings::SAVE_LIBRARY, strings::SAVE_LIBRARY_HELP),
+        ] {
+            let button = egui::Button::new(name).min_size(vec2(width, 0.0));
+            if ui.add(button).on_hover_text(help).clicked() {
+                commands.push(command);
+            }
+        }
     });
     let field =
         ui.add(TextEdit::singleline(search).hint_text(strings::SEARCH_HINT).desired_width(f32::INFINITY));
@@ -35,10 +55,10 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
         for (index, entry) in panel.session.textures().iter().enumerate() {
             if matches(&entry.name, &entry.tags) {
                 found = true;
-                if row(ui, panel, index)
-                    && let Some(at) = panel.session.space().position(index)
-                {
-                    commands.push(Command::Edit(Edit::MovePoint(at)));
+                let is_new = reveal.take_if(|wanted| *wanted == index).is_some();
+                if row(ui, panel, index, is_new) {
+                    let place = panel.session.space().position(index);
+                    commands.push(Command::Edit(place.map_or(Edit::Solo(index), Edit::MovePoint)));
                 }
             }
         }
@@ -51,13 +71,13 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, search: &mut String) -> Vec<Co
     commands
 }
 
-/// One texture; returns whether it was clicked.
-fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
+/// One texture, scrolled to where it is new; returns whether it was clicked.
+fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> bool {
     let t = tokens(ui.ctx());
     let entry = &panel.session.textures()[index];
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), PICTURE + 6.0), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::texture(&entry.name)));
-    if response.gained_focus() {
+    if response.gained_focus() || is_new {
         response.scroll_to_me(None);
     }
     if ui.is_rect_visible(area) {
@@ -75,16 +95,29 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize) -> bool {
         let rank = panel.session.parent_rank(index);
         let color = rank.map_or(t.text, |r| t.parents[r.min(2)]);
         text.add(Label::new(egui::RichText::new(&entry.name).color(color)).truncate().selectable(false));
+        let is_placed = panel.session.space().position(index).is_some();
         let below = match panel.session.parent_weight(index) {
+            Some(_) if panel.project.solo.is_some() => strings::HEARD_ALONE.to_owned(),
             Some(weight) => strings::of_the_blend(100.0 * weight),
+            None if entry.provenance == Provenance::Restricted && !is_placed => {
+                format!("{} · {}", strings::NOT_PLACED_YET, strings::import::RESTRICTED_SHORT)
+            }
+            None if !is_placed => strings::NOT_PLACED_YET.to_owned(),
+            None if entry.provenance == Provenance::Restricted => {
+                strings::import::RESTRICTED_SHORT.to_owned()
+            }
             None => entry.tags.join(", "),
         };
         text.add(
             Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false),
         );
     }
-    let at = panel.session.space().position(index).map_or(strings::NOT_PLACED.to_owned(), |p| p.to_string());
-    response.on_hover_text(format!("{}\n{}", entry.name, at)).clicked()
+    let place = panel.session.space().position(index);
+    let mut help = place.map_or(strings::NOT_PLACED_HELP.to_owned(), |at| at.to_string());
+    if entry.provenance == Provenance::Restricted {
+        help = format!("{help}\n{}", strings::import::RESTRICTED);
+    }
+    response.on_hover_text(format!("{}\n{help}", entry.name)).clicked()
 }
 
 /// A texture's picture in `area`, or a plain square while there is none.

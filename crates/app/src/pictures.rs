@@ -1,8 +1,10 @@
 //! Pictures of textures on the graphics card: decoded by a worker, blended for the pad.
 
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
+use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::{Picture, Rgb, decode};
 
 /// Side of the blended picture in pixels.
@@ -17,33 +19,85 @@ pub struct Pictures {
     thumbnails: Vec<Option<TextureHandle>>,
     pixels: Vec<Option<Rgb>>,
     millimeters: Vec<f64>,
-    incoming: Receiver<(usize, Rgb)>,
+    incoming: Receiver<Decoded>,
+    sender: Sender<Decoded>,
+    /// Textures that joined the library, whose pictures come after its own.
+    added: Vec<Arc<TextureEntry>>,
+    /// Goes up when textures join or go: pictures of those before are late.
+    generation: u64,
+    n_opened: usize,
     blended: Option<(Vec<(usize, u32)>, TextureHandle)>,
 }
+
+/// A picture that a worker has decoded, for which texture, and in which generation.
+type Decoded = (u64, usize, Rgb);
+
+/// Side of what a texture without a picture would show, in mm.
+const USUAL_SIDE_MM: f64 = 20.0;
 
 impl Pictures {
     /// Starts to decode the pictures in a thread of their own; `ctx` is asked to repaint as they come in.
     pub fn new(ctx: &Context, sources: Vec<Option<Picture>>) -> Self {
         let (sender, incoming) = channel();
-        let (n, ctx) = (sources.len(), ctx.clone());
-        let millimeters = sources.iter().map(|p| p.as_ref().map_or(20.0, |p| p.millimeters)).collect();
+        let n_opened = sources.len();
+        let mut pictures = Self {
+            thumbnails: Vec::new(),
+            pixels: Vec::new(),
+            millimeters: Vec::new(),
+            incoming,
+            sender,
+            added: Vec::new(),
+            generation: 0,
+            n_opened,
+            blended: None,
+        };
+        pictures.decode(ctx, sources);
+        pictures
+    }
+
+    /// Follows the textures that joined the library.
+    pub fn follow(&mut self, ctx: &Context, added: &[Arc<TextureEntry>]) {
+        let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
+        if self.added.len() == added.len() && self.added.iter().zip(added).all(is_same) {
+            return;
+        }
+        self.generation += 1;
+        self.added = added.to_vec();
+        self.thumbnails.truncate(self.n_opened);
+        self.pixels.truncate(self.n_opened);
+        self.millimeters.truncate(self.n_opened);
+        self.decode(ctx, added.iter().map(|entry| entry.picture.clone()).collect());
+    }
+
+    /// Decodes the pictures of the textures after those that are known.
+    fn decode(&mut self, ctx: &Context, sources: Vec<Option<Picture>>) {
+        let first = self.millimeters.len();
+        let side_mm = |p: &Option<Picture>| p.as_ref().map_or(USUAL_SIDE_MM, |p| p.millimeters);
+        self.millimeters.extend(sources.iter().map(side_mm));
+        self.thumbnails.resize(self.millimeters.len(), None);
+        self.pixels.resize(self.millimeters.len(), None);
+        self.blended = None;
+        let (sender, generation, ctx) = (self.sender.clone(), self.generation, ctx.clone());
         std::thread::spawn(move || {
-            for (index, source) in sources.into_iter().enumerate() {
+            for (index, source) in (first..).zip(sources) {
                 // A picture that cannot be decoded stays plain: the library's reader has warned already.
-                if let Some(Ok(image)) = source.as_ref().map(decode)
-                    && sender.send((index, image)).is_err()
-                {
-                    return;
+                if let Some(Ok(image)) = source.as_ref().map(decode) {
+                    if sender.send((generation, index, image)).is_err() {
+                        return;
+                    }
+                    ctx.request_repaint();
                 }
-                ctx.request_repaint();
             }
         });
-        Self { thumbnails: vec![None; n], pixels: vec![None; n], millimeters, incoming, blended: None }
     }
 
     /// Takes in what the worker has finished.
     pub fn collect(&mut self, ctx: &Context) {
-        while let Ok((index, image)) = self.incoming.try_recv() {
+        while let Ok((generation, index, image)) = self.incoming.try_recv() {
+            // The library's own pictures stay; those of textures that joined may be late.
+            if index >= self.n_opened && generation != self.generation {
+                continue;
+            }
             let color = ColorImage::from_rgb([image.width as usize, image.height as usize], &image.pixels);
             let options =
                 TextureOptions { mipmap_mode: Some(egui::TextureFilter::Linear), ..TextureOptions::LINEAR };

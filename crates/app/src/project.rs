@@ -1,7 +1,10 @@
 //! What the user makes: the part of the program's state that undo brings back.
 
+use std::sync::Arc;
+
 use shagreen_core::blend::Mode;
 use shagreen_core::space::SpacePoint;
+use shagreen_formats::library::TextureEntry;
 
 /// An authored texture in the making.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +15,10 @@ pub struct Project {
     pub point: SpacePoint,
     /// How its parents are mixed.
     pub mode: Mode,
+    /// Textures that joined those of the library, in the order in which they came.
+    pub added: Vec<Arc<TextureEntry>>,
+    /// The texture that is heard alone instead of the blend, by its place in the list.
+    pub solo: Option<usize>,
 }
 
 impl Default for Project {
@@ -20,6 +27,8 @@ impl Default for Project {
             name: "New texture".to_owned(),
             point: SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 },
             mode: Mode::default(),
+            added: Vec::new(),
+            solo: None,
         }
     }
 }
@@ -27,12 +36,16 @@ impl Default for Project {
 /// A change of the project: there is no other way to change it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// The point moves to a place in the square.
+    /// The point moves to a place in the square, and the blend there is heard.
     MovePoint(SpacePoint),
     /// The parents are mixed in another way.
     SetMode(Mode),
     /// The texture gets a name.
     Rename(String),
+    /// Textures join the list.
+    AddTextures(Vec<Arc<TextureEntry>>),
+    /// One texture of the list is heard alone, until the point moves.
+    Solo(usize),
 }
 
 impl Edit {
@@ -42,6 +55,8 @@ impl Edit {
             Self::MovePoint(_) => "Move point",
             Self::SetMode(_) => "Change blend",
             Self::Rename(_) => "Rename",
+            Self::AddTextures(_) => "Add textures",
+            Self::Solo(_) => "Hear one texture",
         }
     }
 }
@@ -52,9 +67,11 @@ impl Project {
     pub fn edited(&self, edit: Edit) -> Self {
         let mut project = self.clone();
         match edit {
-            Edit::MovePoint(point) => project.point = point,
+            Edit::MovePoint(point) => (project.point, project.solo) = (point, None),
             Edit::SetMode(mode) => project.mode = mode,
             Edit::Rename(name) => project.name = name,
+            Edit::AddTextures(entries) => project.added.extend(entries),
+            Edit::Solo(texture) => project.solo = Some(texture),
         }
         project
     }

@@ -25,7 +25,8 @@ pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>) {
     });
 }
 
-fn title(ui: &mut Ui, text: &str, unit: &str) {
+/// A heading and the unit of what stands below it.
+pub(crate) fn title(ui: &mut Ui, text: &str, unit: &str) {
     let t = tokens(ui.ctx());
     ui.horizontal(|ui| {
         ui.add(Label::new(RichText::new(text).strong()).selectable(false));
@@ -87,7 +88,7 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
 }
 
 /// A plot that is looked at, not moved.
-fn fixed(plot: Plot<'_>, grid: egui::Color32) -> Plot<'_> {
+pub(crate) fn fixed(plot: Plot<'_>, grid: egui::Color32) -> Plot<'_> {
     plot.grid_color(grid)
         .allow_drag(false)
         .allow_zoom(false)

@@ -5,14 +5,14 @@
 mod player;
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
 use anyhow::Context as _;
 use shagreen_core::blend::{Authored, author, mixture_psd};
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::rate::{at_rate, highest_rate};
-use shagreen_core::space::Space;
+use shagreen_core::space::{Location, Space};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
 use shagreen_device::output::OutputInfo;
@@ -48,18 +48,28 @@ pub struct Spectra {
 /// Everything that is not undone.
 pub struct Session {
     library: Library,
-    planes: Arc<[Plane]>,
+    /// How many textures the library was opened with; those after them are the project's.
+    n_opened: usize,
+    added: Vec<Arc<TextureEntry>>,
+    planes: Vec<Arc<Plane>>,
     /// What the output takes, worked out ahead by a worker: a drag into textures not yet heard must not wait for it.
     prepared: Vec<Option<Prepared>>,
-    incoming: Receiver<(usize, Prepared)>,
+    incoming: Receiver<Ahead>,
+    sender: Sender<Ahead>,
     space: Space,
     authored: Option<Authored>,
     spectra: Spectra,
     player: Player,
     hand: Option<Hand>,
     scope: ScopeBuffer,
+    /// The rate of what lies in the space, in Hz.
+    space_rate_hz: f64,
+    /// The rate of what is heard, in Hz.
     rate_hz: f64,
 }
+
+/// A texture that a worker has prepared: where it was in the list, and the plane that tells whether it still is.
+type Ahead = (usize, Arc<Plane>, Prepared);
 
 impl Session {
     /// A session with a library; no output is open yet.
@@ -67,30 +77,37 @@ impl Session {
     /// # Errors
     /// The positions cannot be triangulated, or a texture cannot be had at the highest rate of them.
     pub fn new(library: Library) -> anyhow::Result<Self> {
-        let rate = highest_rate(library.textures.iter().map(|t| &t.model)).unwrap_or(Hertz(1000.0));
+        let rate = rate_of_space(library.textures.iter());
         let rate_hz = rate.0;
-        let planes =
-            library.textures.iter().map(|t| plane_at(t, rate)).collect::<anyhow::Result<Arc<[Plane]>>>()?;
-        // Beyond half the rate a model only repeats itself.
-        let (low, high) = (BAND_HZ.0, BAND_HZ.1.min(0.4995 * rate_hz));
-        let frequency = |i: usize| low * (high / low).powf(i as f64 / (N_FREQUENCIES - 1) as f64);
-        let frequencies = (0..N_FREQUENCIES).map(|i| Hertz(frequency(i))).collect();
+        let planes = library.textures.iter().map(|t| Ok(Arc::new(plane_of(t, rate)?)));
+        let planes = planes.collect::<anyhow::Result<Vec<Arc<Plane>>>>()?;
+        let (sender, incoming) = channel();
+        prepare_ahead(planes.iter().cloned().enumerate().collect(), sender.clone());
         Ok(Self {
             space: Space::new(&library.positions())?,
             prepared: vec![None; planes.len()],
-            incoming: prepare_ahead(Arc::clone(&planes)),
-            planes,
+            incoming,
+            sender,
             player: Player::new(library.textures.len()),
+            n_opened: library.textures.len(),
+            added: Vec::new(),
+            planes,
             library,
             authored: None,
-            spectra: Spectra { frequencies, ..Spectra::default() },
+            spectra: Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() },
             hand: None,
             scope: ScopeBuffer::new(48_000.0, rate_hz),
+            space_rate_hz: rate_hz,
             rate_hz,
         })
     }
 
-    /// The textures of the library.
+    /// The library with the textures that joined it: what a file of it holds.
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// The textures of the library, then those that joined it.
     pub fn textures(&self) -> &[TextureEntry] {
         &self.library.textures
     }
@@ -134,24 +151,93 @@ impl Session {
         &self.scope
     }
 
-    /// Follows the project: finds the parents and tells the output.
-    pub fn follow(&mut self, project: &Project) {
-        let unchanged = |a: &Authored| a.mode == project.mode && self.player.point == Some(project.point);
-        if self.authored.as_ref().is_none_or(|a| !unchanged(a)) {
-            self.authored = author(&self.space, project.point, project.mode);
-            self.player.point = Some(project.point);
-            self.player.mix_is_new = true;
+    /// The rate in Hz of the textures in the space: one of another rate is heard alone.
+    pub fn space_rate_hz(&self) -> f64 {
+        self.space_rate_hz
+    }
+
+    /// Follows the project: takes in its textures, finds the parents, and tells the output.
+    pub fn follow(&mut self, project: &Project, ctx: &egui::Context) {
+        let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
+        let n_same = self.added.iter().zip(&project.added).take_while(|pair| is_same(*pair)).count();
+        if n_same < self.added.len() || n_same < project.added.len() {
+            self.take_added(&project.added, n_same);
         }
-        if let Some(authored) = &self.authored {
-            self.player.send_mix(authored, &self.planes, &self.prepared);
+        let wanted = (project.point, project.mode, project.solo);
+        if self.player.wanted != Some(wanted) {
+            self.authored = match project.solo {
+                Some(texture) => Some(Authored {
+                    location: Location { at: project.point, clamped: false, corners: Vec::new() },
+                    parents: vec![(texture, 1.0)],
+                    mode: project.mode,
+                }),
+                None => author(&self.space, project.point, project.mode),
+            };
+            self.player.wanted = Some(wanted);
+            self.player.mix_is_new = true;
+            self.follow_rate(project.solo, ctx);
+        }
+        match &self.authored {
+            Some(authored) => self.player.send_mix(authored, &self.planes, &self.prepared, self.rate_hz),
+            None => self.player.send_silence(),
+        }
+    }
+
+    /// Replaces the textures after the first `n_same` that joined by those of the project.
+    fn take_added(&mut self, added: &[Arc<TextureEntry>], n_same: usize) {
+        let kept = self.n_opened + n_same;
+        self.library.textures.truncate(kept);
+        self.planes.truncate(kept);
+        self.prepared.truncate(kept);
+        self.added = added.to_vec();
+        if self.library.label_sources().is_empty() {
+            // Those that bring the first places bring the rate of the space too.
+            let all = self.library.textures.iter().chain(added[n_same..].iter().map(|entry| &**entry));
+            self.space_rate_hz = rate_of_space(all).0;
+        }
+        for entry in &added[n_same..] {
+            let mut entry = TextureEntry::clone(entry);
+            let plane = plane_of(&entry, Hertz(self.space_rate_hz)).unwrap_or_else(|error| {
+                // Not to be blended then, but still to be heard alone.
+                self.player.message = Some(format!("{error:#}"));
+                entry.place = None;
+                Plane::new(&entry.model)
+            });
+            self.planes.push(Arc::new(plane));
+            self.prepared.push(None);
+            self.library.textures.push(entry);
+        }
+        let fresh = self.planes.iter().cloned().enumerate().skip(kept).collect();
+        prepare_ahead(fresh, self.sender.clone());
+        self.player.keep(kept, self.planes.len());
+        match Space::new(&self.library.positions()) {
+            Ok(space) => self.space = space,
+            Err(error) => self.player.message = Some(error.to_string()),
+        }
+        self.player.wanted = None;
+    }
+
+    /// What is heard alone may have another rate than the space: then the output is opened again, at that rate.
+    fn follow_rate(&mut self, solo: Option<usize>, ctx: &egui::Context) {
+        let alone = solo.map(|texture| &self.library.textures[texture]).filter(|t| t.place.is_none());
+        let rate_hz = alone.map_or(self.space_rate_hz, |texture| texture.model.rate().0);
+        if rate_hz != self.rate_hz {
+            self.rate_hz = rate_hz;
+            self.spectra = Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() };
+            if let Some(id) = self.player.output_id.clone() {
+                self.open_output(OutputChoice::Id(id), ctx);
+            }
         }
     }
 
     /// Once a frame: takes in what the output says, and works out what is shown. `contact` is what the spectra are
     /// drawn for while nothing touches.
     pub fn update(&mut self, contact: Contact) {
-        while let Ok((texture, prepared)) = self.incoming.try_recv() {
-            self.prepared[texture] = Some(prepared);
+        while let Ok((texture, plane, prepared)) = self.incoming.try_recv() {
+            // Undo may have taken it away meanwhile.
+            if self.planes.get(texture).is_some_and(|now| Arc::ptr_eq(now, &plane)) {
+                self.prepared[texture] = Some(prepared);
+            }
         }
         if self.player.collect(&mut self.scope) {
             self.player.set_hand(self.hand);
@@ -168,7 +254,7 @@ impl Session {
         };
         let Some(authored) = &self.authored else { return };
         let parents: Vec<(&Plane, f64)> =
-            authored.parents.iter().map(|(t, w)| (&self.planes[*t], *w)).collect();
+            authored.parents.iter().map(|(t, w)| (&*self.planes[*t], *w)).collect();
         self.spectra.blend = mixture_psd(&parents, authored.mode, contact, &self.spectra.frequencies);
         self.spectra.parents =
             parents.iter().map(|(plane, _)| plane.at(contact).psd(&self.spectra.frequencies)).collect();
@@ -264,22 +350,42 @@ impl Session {
     }
 }
 
-/// The plane of a texture at the rate of the whole library: voices of different rates cannot be mixed.
-fn plane_at(texture: &TextureEntry, rate: Hertz) -> anyhow::Result<Plane> {
-    let converted = at_rate(&texture.model, rate)
-        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
+/// The rate of the textures in the space, which is the highest of them: voices of different rates cannot be mixed. Where
+/// none has a place, that of the first.
+fn rate_of_space<'a, I: Iterator<Item = &'a TextureEntry> + Clone>(textures: I) -> Hertz {
+    let first = textures.clone().next().map(|t| t.model.rate());
+    let placed = textures.filter(|t| t.place.is_some()).map(|t| &t.model);
+    highest_rate(placed).or(first).unwrap_or(Hertz(1000.0))
+}
+
+/// The plane of a texture: at the rate of the space where it has a place there, else at its own, since it is heard alone.
+fn plane_of(texture: &TextureEntry, rate_of_space: Hertz) -> anyhow::Result<Plane> {
+    if texture.place.is_none() {
+        return Ok(Plane::new(&texture.model));
+    }
+    let converted = at_rate(&texture.model, rate_of_space)
+        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate_of_space}", texture.id))?;
     Ok(Plane::new(&converted.model))
 }
 
-/// Prepares all textures in a thread of its own, which ends with them or with the session.
-fn prepare_ahead(planes: Arc<[Plane]>) -> Receiver<(usize, Prepared)> {
-    let (sender, receiver) = channel();
+/// Where spectra of a model are drawn: beyond half its rate it only repeats itself.
+fn drawn_frequencies(rate_hz: f64) -> Vec<Hertz> {
+    let (low, high) = (BAND_HZ.0, BAND_HZ.1.min(0.4995 * rate_hz));
+    let frequency = |i: usize| low * (high / low).powf(i as f64 / (N_FREQUENCIES - 1) as f64);
+    (0..N_FREQUENCIES).map(|i| Hertz(frequency(i))).collect()
+}
+
+/// Prepares textures in a thread of its own, which ends with them or with the session.
+fn prepare_ahead(planes: Vec<(usize, Arc<Plane>)>, sender: Sender<Ahead>) {
+    if planes.is_empty() {
+        return;
+    }
     std::thread::spawn(move || {
-        for (texture, plane) in planes.iter().enumerate() {
-            if sender.send((texture, plane.prepare())).is_err() {
+        for (texture, plane) in planes {
+            let prepared = plane.prepare();
+            if sender.send((texture, plane, prepared)).is_err() {
                 return;
             }
         }
     });
-    receiver
 }

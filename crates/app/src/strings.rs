@@ -2,6 +2,8 @@
 
 use shagreen_core::space::SpacePoint;
 
+pub mod import;
+
 /// Name of the program.
 pub const APP: &str = "Shagreen";
 /// Left end of the first axis.
@@ -136,8 +138,21 @@ pub const WAVEFORM_UNIT: &str = "m/s², last 0.25 s";
 pub const SPECTRUM_UNIT: &str = "dB re 1 (m/s²)²/Hz";
 /// The scale bar of the pad.
 pub const TEN_MM: &str = "10 mm";
-/// A texture without a place in the space.
-pub const NOT_PLACED: &str = "not placed";
+/// A texture without a place in the space, in the list.
+pub const NOT_PLACED_YET: &str = "not placed yet";
+/// What clicking on a texture without a place does.
+pub const NOT_PLACED_HELP: &str = "Not placed in the space yet: a click plays it alone.";
+/// The one texture that is heard, in the list.
+pub const HEARD_ALONE: &str = "heard alone";
+/// Opens the import sheet.
+pub const IMPORT: &str = "Import…";
+/// What importing does.
+pub const IMPORT_HELP: &str =
+    "Makes textures of recordings, HaTT models or another library. Files can also be dropped on the window.";
+/// Opens the sheet that saves the library.
+pub const SAVE_LIBRARY: &str = "Save as…";
+/// What saving does.
+pub const SAVE_LIBRARY_HELP: &str = "Writes all textures of the list into one file.";
 /// Pictures that could not be read.
 pub const DAMAGED_PICTURE: &str = "The picture cannot be read";
 /// The straight path of the hand.
@@ -170,4 +185,9 @@ pub fn parent(name: &str, percent: f64) -> String {
 /// A weight in the list of textures, in percent.
 pub fn of_the_blend(percent: f64) -> String {
     format!("{percent:.0} % of the blend")
+}
+
+/// One texture is heard alone.
+pub fn plays_alone(texture: &str) -> String {
+    format!("{texture} plays alone. Move the point to hear the blend again.")
 }

@@ -7,14 +7,17 @@ use shagreen_formats::library::Library;
 use crate::canvas::{canvas_ui, point_id};
 use crate::command::{Command, pressed};
 use crate::history::{Gesture, History};
+use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
 use crate::library_panel::library_ui;
 use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
 use crate::pictures::Pictures;
-use crate::project::Project;
+use crate::project::{Edit, Project};
+use crate::save::SaveSheet;
 use crate::scope::scope_ui;
 use crate::session::{OutputChoice, Session};
+use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
 use crate::strings;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, STAGE_HEIGHT, install, tokens};
@@ -27,8 +30,11 @@ pub struct Window {
     pictures: Pictures,
     pad: PadState,
     search: String,
+    /// A texture that has just joined, to be scrolled to.
+    reveal: Option<usize>,
     gesture: u64,
     was_holding: bool,
+    sheet: Sheet,
 }
 
 impl Window {
@@ -43,7 +49,7 @@ impl Window {
         session.list_outputs(ctx);
         session.open_output(output, ctx);
         let project = Project::default();
-        session.follow(&project);
+        session.follow(&project, ctx);
         Ok(Self {
             project,
             history: History::default(),
@@ -51,8 +57,10 @@ impl Window {
             pictures: Pictures::new(ctx, sources),
             pad: PadState::default(),
             search: String::new(),
+            reveal: None,
             gesture: 0,
             was_holding: false,
+            sheet: Sheet::Closed,
         })
     }
 
@@ -64,6 +72,14 @@ impl Window {
     /// What is open and what sounds.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// The import sheet, where it is open.
+    pub fn import(&self) -> Option<&ImportSheet> {
+        match &self.sheet {
+            Sheet::Import(sheet) => Some(sheet),
+            _ => None,
+        }
     }
 
     /// One frame.
@@ -86,9 +102,9 @@ impl Window {
             .show(ui, |ui| commands.extend(status_ui(ui, &panel)));
         self.stage_ui(ui, &ctx, &mut commands);
         let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
-        let search = &mut self.search;
+        let (search, reveal) = (&mut self.search, &mut self.reveal);
         Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
-            commands.extend(library_ui(ui, &panel, search));
+            commands.extend(library_ui(ui, &panel, search, reveal));
         });
         Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
             commands.extend(inspector_ui(ui, &panel));
@@ -100,10 +116,18 @@ impl Window {
             },
         );
 
+        if self.sheet.is_open() {
+            // What lies below a sheet can be heard, but not changed.
+            let still_works =
+                |c: &Command| matches!(c, Command::ToggleTheme | Command::ToggleMute | Command::ToggleHand);
+            commands.retain(still_works);
+        }
+        commands.extend(self.sheet.show(&ctx, &self.session));
         for command in commands {
             self.carry_out(command, &ctx);
         }
-        self.session.follow(&self.project);
+        self.session.follow(&self.project, &ctx);
+        self.pictures.follow(&ctx, &self.project.added);
         self.keep_going(&ctx);
     }
 
@@ -171,7 +195,13 @@ impl Window {
     /// Does what was asked for.
     pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
         match command {
-            Command::Edit(edit) => self.history.apply(&mut self.project, edit, Gesture(self.gesture)),
+            Command::Edit(edit) => {
+                if matches!(edit, Edit::AddTextures(_)) {
+                    self.search.clear();
+                    self.reveal = Some(self.session.textures().len());
+                }
+                self.history.apply(&mut self.project, edit, Gesture(self.gesture));
+            }
             Command::Undo => {
                 self.history.undo(&mut self.project);
             }
@@ -190,6 +220,10 @@ impl Window {
             Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
             Command::ResetLimiter => self.session.reset_limiter(),
+            Command::OpenImport => self.sheet.import(Vec::new(), ctx),
+            Command::Import(sources) => self.sheet.import(sources, ctx),
+            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::default()),
+            Command::CloseSheet => self.sheet = Sheet::Closed,
         }
     }
 

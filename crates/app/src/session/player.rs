@@ -1,9 +1,10 @@
 //! The open output: textures on their way to it, touches, and what it tells back.
 
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Instant;
 
-use shagreen_core::blend::Authored;
+use shagreen_core::blend::{Authored, Mode};
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
@@ -61,7 +62,8 @@ impl OutputChoice {
 
 /// An output and everything that is on its way to it.
 pub(super) struct Player {
-    pub(super) point: Option<SpacePoint>,
+    /// What the mix was last worked out for: the point, the mode, and what is heard alone.
+    pub(super) wanted: Option<(SpacePoint, Mode, Option<usize>)>,
     pub(super) mix_is_new: bool,
     pub(super) outputs: Vec<OutputInfo>,
     pub(super) output_id: Option<String>,
@@ -85,7 +87,7 @@ pub(super) struct Player {
 impl Player {
     pub(super) fn new(n_textures: usize) -> Self {
         Self {
-            point: None,
+            wanted: None,
             mix_is_new: false,
             outputs: Vec::new(),
             output_id: None,
@@ -201,8 +203,15 @@ impl Player {
     }
 
     /// Loads what the blend needs and fades to it. Tried again in the next frame where the output is busy.
-    pub(super) fn send_mix(&mut self, authored: &Authored, planes: &[Plane], ahead: &[Option<Prepared>]) {
-        if !self.mix_is_new || self.handle.is_none() {
+    pub(super) fn send_mix(
+        &mut self,
+        authored: &Authored,
+        planes: &[Arc<Plane>],
+        ahead: &[Option<Prepared>],
+        rate_hz: f64,
+    ) {
+        let is_ready = |handle: &Handle| handle.config().model_rate_hz == rate_hz as f32;
+        if !self.mix_is_new || !self.handle.as_ref().is_some_and(is_ready) {
             return;
         }
         self.n_mixes += 1;
@@ -218,7 +227,31 @@ impl Player {
         }
     }
 
-    fn slot_of(&mut self, texture: usize, planes: &[Plane], ahead: &[Option<Prepared>]) -> Option<TextureId> {
+    /// Nothing is to be heard: there is no blend.
+    pub(super) fn send_silence(&mut self) {
+        if let Some(handle) = self.handle.as_mut().filter(|_| self.mix_is_new)
+            && handle.set_mix(Mix::silent(synth_blend(Mode::default()))).is_ok()
+        {
+            self.mix_is_new = false;
+        }
+    }
+
+    /// Lets go of all textures but the first `n_kept`, and makes room for `n_textures`.
+    pub(super) fn keep(&mut self, n_kept: usize, n_textures: usize) {
+        for (id, _) in self.slots.drain(n_kept.min(self.slots.len())..).flatten() {
+            if let Some(handle) = &mut self.handle {
+                handle.unload(id);
+            }
+        }
+        self.slots.resize(n_textures, None);
+    }
+
+    fn slot_of(
+        &mut self,
+        texture: usize,
+        planes: &[Arc<Plane>],
+        ahead: &[Option<Prepared>],
+    ) -> Option<TextureId> {
         let handle = self.handle.as_mut()?;
         if let Some((id, used)) = &mut self.slots[texture] {
             *used = self.n_mixes;

@@ -1,0 +1,337 @@
+//! The files that are being imported, and the textures that they become.
+
+use std::sync::Arc;
+
+use shagreen_core::space::LabelSource;
+use shagreen_formats::library::{Library, TextureEntry};
+use shagreen_formats::recording::Question;
+
+use crate::import::draft::{Draft, FitState};
+use crate::import::naming::{name_from, slug, unique_id};
+use crate::import::recording_state::RecordingState;
+use crate::import::source::Source;
+use crate::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, Request, Worker};
+
+/// Files on their way into the library.
+pub struct Batch {
+    files: Vec<File>,
+    drafts: Vec<Draft>,
+    worker: Worker,
+    are_one: bool,
+    last_id: u64,
+}
+
+/// A file of a batch.
+pub struct File {
+    /// Tells it from the others.
+    pub id: u64,
+    /// Its name, without the folder.
+    pub name: String,
+    /// What it is.
+    pub content: Content,
+}
+
+/// What a file holds.
+pub enum Content {
+    /// A recording.
+    Recording(Box<RecordingState>),
+    /// Textures that are models already, with what was odd about them and the node that is shown of each.
+    Textures {
+        /// The textures.
+        entries: Vec<TextureEntry>,
+        /// What was odd, in sentences.
+        warnings: Vec<String>,
+        /// The texture that is looked at.
+        shown: usize,
+    },
+    /// Something that serves the other files, and how.
+    Helper(&'static str),
+    /// Nothing that can be used, and why.
+    Failed(String),
+}
+
+/// How a file is doing, in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// It is being read or fitted.
+    Working,
+    /// It can join the library.
+    Ready,
+    /// It waits for an answer.
+    Question,
+    /// It cannot be used.
+    Failed,
+    /// It serves other files.
+    Helper,
+}
+
+impl Batch {
+    /// A batch without files.
+    pub fn new(ctx: &egui::Context) -> Self {
+        Self {
+            files: Vec::new(),
+            drafts: Vec::new(),
+            worker: Worker::new(ctx.clone()),
+            are_one: false,
+            last_id: 0,
+        }
+    }
+
+    /// Reads more files.
+    pub fn load(&mut self, sources: Vec<Source>) {
+        self.worker.ask(Request::Load(sources));
+    }
+
+    /// The files.
+    pub fn files(&self) -> &[File] {
+        &self.files
+    }
+
+    /// The file with this id.
+    pub fn file_mut(&mut self, id: u64) -> Option<&mut File> {
+        self.files.iter_mut().find(|file| file.id == id)
+    }
+
+    /// The texture that a file becomes a part of.
+    pub fn draft_of(&self, file: u64) -> Option<&Draft> {
+        self.drafts.iter().find(|draft| draft.files.contains(&file))
+    }
+
+    /// The same, to change it.
+    pub fn draft_of_mut(&mut self, file: u64) -> Option<&mut Draft> {
+        self.drafts.iter_mut().find(|draft| draft.files.contains(&file))
+    }
+
+    /// Whether something is being read or fitted.
+    pub fn is_working(&self) -> bool {
+        self.worker.n_pending() > 0
+    }
+
+    /// Whether reading broke off for good.
+    pub fn is_broken(&self) -> bool {
+        self.worker.is_gone()
+    }
+
+    /// Takes in what the worker has done.
+    pub fn collect(&mut self) {
+        while let Some(message) = self.worker.next() {
+            match message {
+                Message::Loaded(loaded) => self.take_loaded(loaded),
+                Message::Read { file, generation, outcome } => self.take_read(file, generation, outcome),
+                Message::Fitted { draft, generation, outcome } => {
+                    let draft = self.drafts.iter_mut().find(|d| d.id == draft && d.generation == generation);
+                    if let Some(draft) = draft {
+                        draft.segment = 0;
+                        draft.fit = outcome.map_or_else(FitState::Failed, FitState::Done);
+                    }
+                }
+                Message::Done => {}
+            }
+        }
+    }
+
+    fn next_id(&mut self) -> u64 {
+        self.last_id += 1;
+        self.last_id
+    }
+
+    fn take_loaded(&mut self, loaded: Loaded) {
+        let id = self.next_id();
+        let Loaded { name, content } = loaded;
+        let mut is_recording = false;
+        let content = match content {
+            LoadedContent::Failed(reason) => Content::Failed(reason),
+            LoadedContent::Helper { note } => Content::Helper(note),
+            LoadedContent::Textures { entries, warnings } => {
+                Content::Textures { entries, warnings, shown: 0 }
+            }
+            LoadedContent::Recording { input, map, outcome } => {
+                is_recording = true;
+                Content::Recording(Box::new(RecordingState::new(input, *map, outcome)))
+            }
+        };
+        self.files.push(File { id, name: name.clone(), content });
+        if !is_recording {
+            return;
+        }
+        if let Some(draft) = self.drafts.first_mut().filter(|_| self.are_one) {
+            draft.files.push(id);
+        } else {
+            let draft = self.next_id();
+            self.drafts.push(Draft::new(draft, name_from(&name), vec![id]));
+        }
+        self.fit_with(id);
+    }
+
+    fn take_read(&mut self, id: u64, generation: u64, outcome: ReadOutcome) {
+        let Some(Content::Recording(state)) = self.file_mut(id).map(|file| &mut file.content) else { return };
+        if state.generation == generation {
+            state.outcome = outcome;
+            state.is_reading = false;
+            self.fit_with(id);
+        }
+    }
+
+    /// Answers a question about a recording, and about all others that ask the same where `for_all`.
+    pub fn answer(&mut self, id: u64, question: &Question, answer: &str, for_all: bool) {
+        for file in &mut self.files {
+            let file_id = file.id;
+            let Content::Recording(state) = &mut file.content else { continue };
+            let is_meant = file_id == id || for_all && state.asks(question);
+            if is_meant && state.answer(question, answer) {
+                let (input, map) = (state.input.clone(), Box::new(state.map.clone()));
+                self.worker.ask(Request::Read { file: file_id, generation: state.generation, input, map });
+            }
+        }
+    }
+
+    /// How many recordings ask the same as this one, itself included.
+    pub fn n_asking(&self, question: &Question) -> usize {
+        let asks = |file: &&File| matches!(&file.content, Content::Recording(state) if state.asks(question));
+        self.files.iter().filter(asks).count()
+    }
+
+    /// Whether all recordings are of one texture.
+    pub fn are_one(&self) -> bool {
+        self.are_one
+    }
+
+    /// How many recordings there are.
+    pub fn n_recordings(&self) -> usize {
+        self.files.iter().filter(|file| matches!(file.content, Content::Recording(_))).count()
+    }
+
+    /// Makes one texture of all recordings, or one of each.
+    pub fn set_are_one(&mut self, are_one: bool) {
+        self.are_one = are_one;
+        let recordings: Vec<(u64, String)> = self
+            .files
+            .iter()
+            .filter(|file| matches!(file.content, Content::Recording(_)))
+            .map(|file| (file.id, name_from(&file.name)))
+            .collect();
+        let old = std::mem::take(&mut self.drafts);
+        let like = old.first().map(|draft| draft.options.clone());
+        let groups: Vec<(Vec<u64>, String)> = match recordings.first() {
+            Some((_, name)) if are_one => vec![(recordings.iter().map(|r| r.0).collect(), name.clone())],
+            _ => recordings.into_iter().map(|(id, name)| (vec![id], name)).collect(),
+        };
+        for (files, name) in groups {
+            let id = self.next_id();
+            let mut draft = Draft::new(id, name, files);
+            if let Some(options) = &like {
+                draft.options = options.clone();
+            }
+            self.drafts.push(draft);
+        }
+        for draft in 0..self.drafts.len() {
+            self.fit(draft);
+        }
+    }
+
+    /// Leaves a file out.
+    pub fn remove(&mut self, id: u64) {
+        self.files.retain(|file| file.id != id);
+        let index = self.drafts.iter().position(|draft| draft.files.contains(&id));
+        for draft in &mut self.drafts {
+            draft.files.retain(|file| *file != id);
+        }
+        if let Some(index) = index {
+            self.fit(index);
+        }
+        self.drafts.retain(|draft| !draft.files.is_empty());
+    }
+
+    /// Fits the texture of a file anew.
+    pub fn fit_with(&mut self, file: u64) {
+        if let Some(draft) = self.drafts.iter().position(|draft| draft.files.contains(&file)) {
+            self.fit(draft);
+        }
+    }
+
+    fn fit(&mut self, index: usize) {
+        let recordings: Vec<Arc<Drawn>> =
+            self.drawn_of(&self.drafts[index]).map(|(_, d)| Arc::clone(d)).collect();
+        let draft = &mut self.drafts[index];
+        draft.generation += 1;
+        if recordings.is_empty() {
+            draft.fit = FitState::Nothing;
+            return;
+        }
+        draft.fit = FitState::Working;
+        let (draft, generation, options) = (draft.id, draft.generation, draft.options.clone());
+        self.worker.ask(Request::Fit { draft, generation, recordings, options });
+    }
+
+    /// The recordings of a texture that can be read, in the order of the segments of its fit.
+    pub fn drawn_of<'a>(&'a self, draft: &'a Draft) -> impl Iterator<Item = (&'a File, &'a Arc<Drawn>)> + 'a {
+        let in_draft = self.files.iter().filter(|file| draft.files.contains(&file.id));
+        in_draft.filter_map(|file| match &file.content {
+            Content::Recording(state) => match &state.outcome.recording {
+                Some(Ok(drawn)) => Some((file, drawn)),
+                _ => None,
+            },
+            _ => None,
+        })
+    }
+
+    /// How a file is doing.
+    pub fn state(&self, file: &File) -> State {
+        match &file.content {
+            Content::Failed(_) => State::Failed,
+            Content::Helper(_) => State::Helper,
+            Content::Textures { .. } => State::Ready,
+            Content::Recording(state) if state.is_reading => State::Working,
+            Content::Recording(state) => {
+                match (&state.outcome.recording, self.draft_of(file.id).map(|d| &d.fit)) {
+                    (None, _) => State::Question,
+                    (Some(Err(_)), _) | (_, Some(FitState::Failed(_))) => State::Failed,
+                    (_, Some(FitState::Done(_))) if !state.outcome.questions.is_empty() => State::Question,
+                    (_, Some(FitState::Done(_))) => State::Ready,
+                    _ => State::Working,
+                }
+            }
+        }
+    }
+
+    /// How many textures would join the library now.
+    pub fn n_ready(&self) -> usize {
+        let of_files = self.files.iter().map(|file| match &file.content {
+            Content::Textures { entries, .. } => entries.len(),
+            _ => 0,
+        });
+        of_files.sum::<usize>() + self.drafts.iter().filter(|draft| draft.fitted().is_some()).count()
+    }
+
+    /// The textures that would join `library` now. A texture keeps its place where it can be compared with the others:
+    /// where the places come from the same source, and its rate is not above `space_rate_hz`.
+    pub fn entries(&self, library: &Library, space_rate_hz: f64) -> Vec<Arc<TextureEntry>> {
+        let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
+        let mut source = library.label_source();
+        let has_mixed_places = source.is_none() && !library.label_sources().is_empty();
+        let mut out = Vec::new();
+        for file in &self.files {
+            let Content::Textures { entries, .. } = &file.content else { continue };
+            for entry in entries {
+                let mut entry = entry.clone();
+                entry.id = unique_id(&entry.id, &mut ids);
+                let fits = |from: LabelSource| !has_mixed_places && source.is_none_or(|s| s == from);
+                let is_comparable = entry.label_source().is_some_and(fits);
+                if is_comparable
+                    && (library.label_sources().is_empty() || entry.model.rate().0 <= space_rate_hz)
+                {
+                    source = entry.label_source();
+                } else {
+                    entry.place = None;
+                }
+                out.push(Arc::new(entry));
+            }
+        }
+        for draft in &self.drafts {
+            let recordings: Vec<&str> = self.drawn_of(draft).map(|(file, _)| file.name.as_str()).collect();
+            let id = unique_id(&slug(&draft.name), &mut ids);
+            out.extend(draft.entry(id, &recordings).map(Arc::new));
+        }
+        out
+    }
+}

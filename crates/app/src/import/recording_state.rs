@@ -1,0 +1,57 @@
+//! A recording in the sheet: what is known of its columns, what was asked, and what was read.
+
+use shagreen_formats::recording::{ColumnMap, Question};
+
+use crate::import::worker::{ReadOutcome, RecordingInput};
+
+/// A recording, what is known of it, and what was asked.
+pub struct RecordingState {
+    pub(super) input: RecordingInput,
+    pub(super) map: ColumnMap,
+    pub(super) generation: u64,
+    pub(super) is_reading: bool,
+    /// What came of reading it last.
+    pub outcome: ReadOutcome,
+    /// Questions that were answered, with the answers.
+    pub answered: Vec<(Question, String)>,
+    /// What was wrong with the last answer.
+    pub answer_error: Option<String>,
+}
+
+impl RecordingState {
+    pub(super) fn new(input: RecordingInput, map: ColumnMap, outcome: ReadOutcome) -> Self {
+        Self {
+            input,
+            map,
+            generation: 0,
+            is_reading: false,
+            outcome,
+            answered: Vec::new(),
+            answer_error: None,
+        }
+    }
+
+    /// Whether it asks this now.
+    pub(super) fn asks(&self, question: &Question) -> bool {
+        let same = |other: &Question| other.what == question.what && other.choices == question.choices;
+        self.outcome.questions.iter().any(same) || self.answered.iter().any(|(other, _)| same(other))
+    }
+
+    /// Takes an answer; whether the recording has to be read again.
+    pub(super) fn answer(&mut self, question: &Question, answer: &str) -> bool {
+        let mut map = self.map.clone();
+        if let Err(error) = map.answer(question.what, answer) {
+            self.answer_error = Some(error.to_string());
+            return false;
+        }
+        self.answer_error = None;
+        self.map = map;
+        self.generation += 1;
+        self.is_reading = true;
+        match self.answered.iter_mut().find(|(other, _)| other.what == question.what) {
+            Some((_, old)) => answer.clone_into(old),
+            None => self.answered.push((question.clone(), answer.to_owned())),
+        }
+        true
+    }
+}

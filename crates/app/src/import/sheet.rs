@@ -1,0 +1,210 @@
+//! The import sheet: files on the left, the chosen one on the right, accept or cancel at the foot.
+
+use egui::{Align, Button, Context, Key, Label, Layout, Modal, RichText, TextEdit, Ui, UiBuilder, vec2};
+use shagreen_formats::library::Library;
+
+use crate::command::Command;
+use crate::import::batch::{Batch, Content, State};
+use crate::import::draft_ui::draft_ui;
+use crate::import::files_ui::files_ui;
+use crate::import::model_ui::model_ui;
+use crate::import::questions_ui::sentence;
+use crate::import::source::{Source, paths_in};
+use crate::project::Edit;
+use crate::strings::import as strings;
+use crate::theme::{GAP, GROUP_GAP, tokens};
+
+/// Width of the list of files, in points.
+const FILES_WIDTH: f32 = 212.0;
+/// Space around the sheet, in points.
+const AROUND: f32 = 22.0;
+
+/// The sheet, as long as it is open.
+pub struct ImportSheet {
+    batch: Batch,
+    selected: Option<u64>,
+    paths: String,
+    for_all: bool,
+    is_fresh: bool,
+}
+
+/// What the sheet has to know of the rest.
+#[derive(Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// The library that textures will join.
+    pub library: &'a Library,
+    /// The rate of the textures in the space, in Hz.
+    pub space_rate_hz: f64,
+}
+
+impl ImportSheet {
+    /// A sheet without files.
+    pub fn new(ctx: &Context) -> Self {
+        Self { batch: Batch::new(ctx), selected: None, paths: String::new(), for_all: true, is_fresh: true }
+    }
+
+    /// Reads more files.
+    pub fn load(&mut self, sources: Vec<Source>) {
+        if !sources.is_empty() {
+            self.batch.load(sources);
+        }
+    }
+
+    /// The files, and what they become.
+    pub fn batch(&self) -> &Batch {
+        &self.batch
+    }
+
+    /// Draws the sheet over the window and returns what the user asked of it.
+    pub fn show(&mut self, ctx: &Context, around: Surroundings<'_>) -> Vec<Command> {
+        self.batch.collect();
+        let is_there = |id: &u64| self.batch.files().iter().any(|file| file.id == *id);
+        self.selected = self.selected.filter(is_there).or(self.batch.files().first().map(|file| file.id));
+        let size = ctx.content_rect().size() - vec2(2.0 * AROUND, 2.0 * AROUND);
+        let t = tokens(ctx);
+        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
+        let inner = size - vec2(28.0, 28.0);
+        let shown = Modal::new(egui::Id::unique("import sheet")).frame(frame).show(ctx, |ui| {
+            ui.set_min_size(inner);
+            ui.set_max_size(inner);
+            self.content_ui(ui, around)
+        });
+        let mut commands = shown.inner;
+        if !shown.any_popup_open && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape)) {
+            commands.push(Command::CloseSheet);
+        }
+        commands
+    }
+
+    fn content_ui(&mut self, ui: &mut Ui, around: Surroundings<'_>) -> Vec<Command> {
+        self.head_ui(ui);
+        ui.add_space(GAP);
+        let area = ui.available_rect_before_wrap();
+        let foot = 34.0;
+        let middle = egui::Rect::from_min_max(area.min, egui::pos2(area.right(), area.bottom() - foot - GAP));
+        let (left, right) = middle.split_left_right_at_x(middle.left() + FILES_WIDTH);
+        let right = egui::Rect::from_min_max(right.min + vec2(GROUP_GAP, 0.0), right.max);
+        self.side_ui(&mut ui.new_child(UiBuilder::new().max_rect(left).layout(Layout::top_down(Align::Min))));
+        let mut child = ui.new_child(UiBuilder::new().max_rect(right).layout(Layout::top_down(Align::Min)));
+        self.chosen_ui(&mut child, around);
+        let foot = egui::Rect::from_min_max(egui::pos2(area.left(), area.bottom() - foot), area.max);
+        let builder = UiBuilder::new().max_rect(foot).layout(Layout::right_to_left(Align::Center));
+        self.foot_ui(&mut ui.new_child(builder), around)
+    }
+
+    fn head_ui(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            ui.allocate_ui_with_layout(vec2(FILES_WIDTH, 26.0), Layout::left_to_right(Align::Center), |ui| {
+                ui.set_min_width(FILES_WIDTH);
+                ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
+            });
+            ui.add_space(GROUP_GAP - GAP);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let is_wanted =
+                    ui.add_enabled(!self.paths.trim().is_empty(), Button::new(strings::READ)).clicked();
+                // One line to look at, but pasted lines stay apart.
+                let field = TextEdit::singleline(&mut self.paths)
+                    .hint_text(strings::PATHS_HINT)
+                    .desired_width(f32::INFINITY);
+                let field = ui.add(field).accessible_name(strings::PATHS).on_hover_text(strings::DROP_KINDS);
+                if std::mem::take(&mut self.is_fresh)
+                    && self.batch.files().is_empty()
+                    && !self.batch.is_working()
+                {
+                    field.request_focus();
+                }
+                let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+                if is_wanted || is_entered {
+                    let paths = std::mem::take(&mut self.paths);
+                    self.load(paths_in(&paths));
+                }
+            });
+        });
+    }
+
+    fn side_ui(&mut self, ui: &mut Ui) {
+        if self.batch.n_recordings() > 1 {
+            let mut are_one = self.batch.are_one();
+            if ui.checkbox(&mut are_one, strings::ARE_ONE).on_hover_text(strings::ARE_ONE_HELP).changed() {
+                self.batch.set_are_one(are_one);
+            }
+        }
+        files_ui(ui, &mut self.batch, &mut self.selected);
+    }
+
+    fn chosen_ui(&mut self, ui: &mut Ui, around: Surroundings<'_>) {
+        let t = tokens(ui.ctx());
+        let Some(id) = self.selected else {
+            self.empty_ui(ui);
+            return;
+        };
+        let Some(file) = self.batch.file_mut(id) else { return };
+        match &mut file.content {
+            Content::Recording(_) => draft_ui(ui, &mut self.batch, id, &mut self.for_all, around),
+            Content::Textures { entries, warnings, shown } => model_ui(ui, entries, warnings, shown, around),
+            Content::Helper(note) => {
+                ui.label(RichText::new(*note).color(t.text_weak));
+            }
+            Content::Failed(reason) => {
+                ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
+            }
+        }
+    }
+
+    /// What stands there before the first file has been read.
+    fn empty_ui(&self, ui: &mut Ui) {
+        let t = tokens(ui.ctx());
+        ui.add_space(0.38 * ui.available_height());
+        ui.vertical_centered(|ui| {
+            if self.batch.is_broken() {
+                ui.add(Label::new(RichText::new(strings::BROKEN).color(t.error)).wrap());
+            } else if self.batch.is_working() {
+                ui.add(Label::new(RichText::new(strings::READING).color(t.text_weak)).selectable(false));
+            } else {
+                ui.add(Label::new(RichText::new(strings::DROP_HERE).heading()).selectable(false));
+                let kinds = RichText::new(strings::DROP_KINDS).color(t.text_weak);
+                ui.add(Label::new(kinds).wrap().selectable(false));
+            }
+        });
+    }
+
+    fn foot_ui(&self, ui: &mut Ui, around: Surroundings<'_>) -> Vec<Command> {
+        let t = tokens(ui.ctx());
+        let mut commands = Vec::new();
+        let n_ready = self.batch.n_ready();
+        let accept = Button::new(RichText::new(strings::add(n_ready)).color(if n_ready > 0 {
+            t.on_accent
+        } else {
+            t.text_weak
+        }));
+        let accept = if n_ready > 0 { accept.fill(t.accent) } else { accept };
+        if ui.add_enabled(n_ready > 0, accept).clicked() {
+            let entries = self.batch.entries(around.library, around.space_rate_hz);
+            commands.push(Command::Edit(Edit::AddTextures(entries)));
+            commands.push(Command::CloseSheet);
+        }
+        if ui.button(strings::CANCEL).clicked() {
+            commands.push(Command::CloseSheet);
+        }
+        let is_left_out = |state: State| matches!(state, State::Failed);
+        let waits = |state: State, file: u64| {
+            state == State::Question && self.batch.draft_of(file).is_none_or(|draft| draft.fitted().is_none())
+        };
+        let files = self.batch.files().iter().map(|file| (self.batch.state(file), file.id));
+        let n_left = files.filter(|(state, id)| is_left_out(*state) || waits(*state, *id)).count();
+        ui.add(
+            Label::new(RichText::new(strings::left_out(n_left)).small().color(t.warning)).selectable(false),
+        );
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            if self.batch.is_working() {
+                ui.spinner();
+                ui.add(
+                    Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false),
+                );
+            } else if self.batch.is_broken() {
+                ui.add(Label::new(RichText::new(strings::BROKEN).small().color(t.error)).selectable(false));
+            }
+        });
+        commands
+    }
+}

@@ -1,0 +1,65 @@
+//! The spectrum of a segment beside the model's.
+
+use egui::Ui;
+use egui_plot::{Corner, GridMark, Legend, Line, Plot, PlotPoints};
+use shagreen_core::units::Hertz;
+
+use crate::scope::fixed;
+use crate::strings::import as strings;
+use crate::theme::tokens;
+
+/// Range of levels that is drawn below the highest, in dB.
+const RANGE_DB: f64 = 60.0;
+
+/// Marks of the axis of frequencies, in Hz.
+const MARKS_HZ: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
+
+/// Draws the densities in (m/s²)²/Hz at `frequencies`; the measured one where there is one.
+pub(super) fn spectrum_plot(
+    ui: &mut Ui,
+    frequencies: &[Hertz],
+    measured: Option<&[f64]>,
+    model: &[f64],
+    height: f32,
+) {
+    let t = tokens(ui.ctx());
+    let to_db = |density: f64| 10.0 * density.max(1e-20).log10();
+    let drawn = |density: &[f64]| -> Vec<[f64; 2]> {
+        let pairs = frequencies.iter().zip(density).filter(|(f, p)| f.0 > 0.0 && p.is_finite());
+        pairs.map(|(f, p)| [f.0.log10(), to_db(*p)]).collect()
+    };
+    let (measured, model) = (measured.map(drawn), drawn(model));
+    let all = || model.iter().chain(measured.iter().flatten());
+    let top = all().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
+    let top = if top.is_finite() { (top / 10.0).ceil() * 10.0 } else { 0.0 };
+    let low = all().map(|p| p[0]).fold(f64::INFINITY, f64::min).max(MARKS_HZ[0].log10());
+    let high = all().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
+    if low >= high {
+        return;
+    }
+    let marks: Vec<GridMark> = MARKS_HZ
+        .iter()
+        .map(|f| GridMark { value: f.log10(), step_size: 0.3 })
+        .filter(|mark| (low..=high).contains(&mark.value))
+        .collect();
+    let mut plot = fixed(Plot::new("import spectrum"), t.line)
+        .height(height)
+        .x_grid_spacer(move |_| marks.clone())
+        .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [100.0, 20.0, 20.0]))
+        .x_axis_formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)))
+        .y_axis_formatter(|mark, _| format!("{:.0}", mark.value + 0.0));
+    if measured.is_some() {
+        plot = plot.legend(Legend::default().position(Corner::LeftBottom).background_alpha(0.6));
+    }
+    let plot = plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(low..=high + 0.02);
+        plot.set_plot_bounds_y(top - RANGE_DB..=top + 3.0);
+        if let Some(measured) = measured {
+            plot.line(
+                Line::new(strings::MEASURED_LINE, PlotPoints::from(measured)).color(t.text_weak).width(1.2),
+            );
+        }
+        plot.line(Line::new(strings::MODEL_LINE, PlotPoints::from(model)).color(t.accent).width(2.2));
+    });
+    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, strings::SPECTRUM));
+}

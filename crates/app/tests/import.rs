@@ -1,0 +1,309 @@
+//! Importing, as a person would: files dropped on the window, questions answered, the texture accepted, heard, undone.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::accesskit::Role;
+use egui::{DroppedFile, Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use shagreen_app::session::OutputChoice;
+use shagreen_app::strings::{self, import};
+use shagreen_app::window::Window;
+use shagreen_core::blend::Mode;
+use shagreen_core::plane::Plane;
+use shagreen_core::render::{RenderPlan, render};
+use shagreen_core::units::{Contact, Hertz};
+use shagreen_formats::library::{Library, TextureEntry, read_library, write_library};
+use shagreen_formats::starter::starter_library;
+
+type Author = Harness<'static, Option<Window>>;
+
+/// The window on the starter library, playing to the silent output with a real clock.
+fn author() -> Author {
+    let mut harness = Harness::builder().with_size([1280.0, 720.0]).build_ui_state(
+        |ui, window: &mut Option<Window>| {
+            let window = window.get_or_insert_with(|| {
+                let library = starter_library().expect("the starter library");
+                Window::new(ui.ctx(), library, OutputChoice::Id("null".to_owned())).expect("a window")
+            });
+            window.frame_ui(ui);
+        },
+        None,
+    );
+    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
+    harness
+}
+
+fn window(harness: &Author) -> &Window {
+    harness.state().as_ref().expect("a window after the first frame")
+}
+
+fn names(harness: &Author) -> Vec<String> {
+    window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()
+}
+
+/// Runs frames in real time until `done`, for at most half a minute.
+#[track_caller]
+fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> bool) {
+    let start = Instant::now();
+    loop {
+        harness.step();
+        if done(harness) {
+            return;
+        }
+        assert!(start.elapsed() < Duration::from_secs(30), "waited in vain: {what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// A file in memory, as a windowing system would hand it over.
+#[derive(Debug)]
+struct InMemory {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl DroppedFile for InMemory {
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Ok(self.bytes.clone())
+    }
+}
+
+fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
+    let handles = files.iter().map(|(name, bytes)| {
+        Arc::new(InMemory { path: PathBuf::from(name), bytes: bytes.to_vec() }) as egui::DroppedFileHandle
+    });
+    harness.input_mut().dropped_files.extend(handles);
+    harness.run_steps(2);
+}
+
+fn click(harness: &mut Author, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(2);
+}
+
+/// Opens a choice and takes one of it.
+fn choose(harness: &mut Author, name: &str, choice: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, name).click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, choice).click();
+    harness.run_steps(3);
+}
+
+fn starter(id: &str) -> TextureEntry {
+    let library = starter_library().expect("the starter library");
+    library.textures[library.index_of(id).expect("a texture of the starter library")].clone()
+}
+
+/// A simulated recording of a starter texture: back and forth at many speeds and forces. The unit of acceleration is
+/// not stated.
+fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
+    let prepared = Plane::new(&starter(id).model).prepare();
+    let speed_mm_per_s = |t: f64| 20.0 + 180.0 * (0.9 * t).sin().powi(2);
+    let force_n = |t: f64| 1.2 + 0.8 * (0.23 * t).sin();
+    let plan = RenderPlan { parents: &[(&prepared, 1.0)], mode: Mode::Shared, rate, seconds, seed: 5 };
+    let samples =
+        render(&plan, &mut |t| Contact::from_mm_per_s_and_n(speed_mm_per_s(t), force_n(t))).unwrap();
+    let mut text = "time_s,acc,speed_mm/s,force_N\n".to_owned();
+    for (i, sample) in samples.iter().enumerate() {
+        let t = i as f64 / rate.0;
+        let _ = writeln!(text, "{t:.4},{sample:.6},{:.3},{:.4}", speed_mm_per_s(t), force_n(t));
+    }
+    text
+}
+
+/// Drops a recording and answers what is asked, until it is fitted.
+fn import_recording(harness: &mut Author, name: &str, text: &str) {
+    drop_files(harness, &[(name, text.as_bytes())]);
+    let unit = import::answer_of("acceleration_unit");
+    wait(harness, "the unit is asked for", |h| h.query_by_role_and_label(Role::ComboBox, &unit).is_some());
+    choose(harness, &unit, "m/s²");
+    wait(harness, "the texture is fitted", |h| {
+        h.query_by_label(&import::add(1)).is_some_and(|n| !n.accesskit_node().is_disabled())
+    });
+}
+
+/// The main job: a recording is dropped, its unit said, its fit looked at, and the texture joins the list and sounds.
+#[test]
+fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
+    let mut harness = author();
+    let before = names(&harness);
+    import_recording(&mut harness, "oak_board.csv", &recording("sanded-wood", 20.0, Hertz(1000.0)));
+
+    let sheet = window(&harness).import().expect("the sheet");
+    let file = &sheet.batch().files()[0];
+    let draft = sheet.batch().draft_of(file.id).expect("a texture in the making");
+    let report = &draft.fitted().expect("a fit").report;
+    assert!(report.segments.len() > 5 && report.rate.0 == 1000.0, "{}", report.segments.len());
+    assert!(report.gfc_median() > 0.85 && report.level_error_db_median() < 2.0, "{report:?}");
+    for words in [import::GFC_MEDIAN, import::LEVEL_ERROR, import::COVERAGE, import::TAP] {
+        assert!(harness.query_by_label(words).is_some(), "{words} is not shown");
+    }
+    assert!(harness.query_by_label_contains("segment 1 of").is_some());
+    click(&mut harness, import::NEXT_SEGMENT);
+    assert!(harness.query_by_label_contains("segment 2 of").is_some());
+
+    click(&mut harness, &import::add(1));
+    // The list scrolls to what is new.
+    harness.run_steps(60);
+    assert!(window(&harness).import().is_none(), "the sheet closes");
+    let after = names(&harness);
+    assert_eq!(
+        (&after[..before.len()], after[before.len()..].concat()),
+        (&before[..], "Oak board".to_owned())
+    );
+    assert!(harness.query_by_label("Go to Oak board").is_none(), "it has no place yet");
+
+    click(&mut harness, &strings::texture("Oak board"));
+    assert_eq!(window(&harness).project().solo, Some(before.len()));
+    click(&mut harness, strings::HAND_START);
+    wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 0.02);
+
+    harness.get_by_label(strings::UNDO).click();
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project().solo, None);
+    harness.get_by_label(strings::UNDO).click();
+    harness.run_steps(3);
+    assert_eq!(names(&harness), before, "one step takes it away");
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(names(&harness).len(), before.len() + 1);
+}
+
+/// Another rate is another fit, and one that cannot be blended says so; heard alone, the output follows its rate.
+#[test]
+fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
+    let mut harness = author();
+    import_recording(&mut harness, "felt.csv", &recording("felt", 12.0, Hertz(4000.0)));
+    choose(&mut harness, import::RATE, "2000 Hz");
+    wait(&mut harness, "the fit at 2000 Hz", |h| {
+        let batch = window(h).import().expect("the sheet").batch();
+        let draft = batch.draft_of(batch.files()[0].id);
+        draft.and_then(|d| d.fitted()).is_some_and(|f| f.report.rate.0 == 2000.0)
+    });
+    assert!(harness.query_by_label_contains("cannot be blended").is_some());
+    click(&mut harness, &import::add(1));
+    harness.run_steps(60);
+    let before = window(&harness).session().textures().len();
+    assert_eq!(window(&harness).session().textures()[before - 1].model.rate().0, 2000.0);
+    harness.get_all_by_label(&strings::texture("Felt")).last().expect("two of that name").click();
+    harness.run_steps(2);
+    assert_eq!(window(&harness).project().solo, Some(before - 1));
+    click(&mut harness, strings::HAND_START);
+    wait(&mut harness, "it sounds at its own rate", |h| window(h).session().scope().rms(0.3) > 1e-3);
+    // Moved back into the space, the blend sounds again, at the rate of the space.
+    click(&mut harness, &strings::go_to("Brick"));
+    wait(&mut harness, "the blend sounds", |h| window(h).session().scope().rms(0.3) > 0.2);
+}
+
+#[test]
+fn a_file_that_cannot_be_used_says_why_and_nothing_is_lost() {
+    let mut harness = author();
+    let before = names(&harness);
+    drop_files(&mut harness, &[("broken.json", b"{ \"format\": \"shagreen-library\", ")]);
+    wait(&mut harness, "the file is read", |h| {
+        h.query_by_label(&import::file("broken.json", import::FAILED)).is_some()
+    });
+    assert!(harness.query_by_label_contains("The library is damaged").is_some(), "the reason is shown");
+    assert!(harness.get_by_label(&import::add(0)).accesskit_node().is_disabled());
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert!(window(&harness).import().is_none());
+    assert_eq!(names(&harness), before);
+    assert!(harness.get_by_label(strings::UNDO).accesskit_node().is_disabled());
+}
+
+/// A library's textures join; where their places come from the same source they keep them.
+#[test]
+fn a_dropped_library_adds_its_textures_with_their_places() {
+    let mut harness = author();
+    let n = names(&harness).len();
+    let cork = TextureEntry { name: "My cork".to_owned(), ..starter("cork") };
+    let unplaced = TextureEntry { name: "My felt".to_owned(), place: None, ..starter("felt") };
+    let library = Library { name: "Mine".to_owned(), textures: vec![cork, unplaced], ..Library::default() };
+    drop_files(&mut harness, &[("mine.json", &write_library(&library))]);
+    wait(&mut harness, "the library is read", |h| h.query_by_label(&import::add(2)).is_some());
+    click(&mut harness, &import::add(2));
+    harness.run_steps(2);
+    let textures = window(&harness).session().textures();
+    assert_eq!((textures[n].id.as_str(), textures[n].place), ("cork-2", starter("cork").place));
+    assert_eq!((textures[n + 1].id.as_str(), textures[n + 1].place), ("felt-2", None));
+    assert!(harness.query_by_label("Go to My cork").is_some());
+}
+
+/// Nothing below a sheet changes while it is open, and every control of it has a name.
+#[test]
+fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
+    let mut harness = author();
+    let point = window(&harness).project().point;
+    click(&mut harness, strings::IMPORT);
+    harness.run_steps(2);
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(2);
+    assert_eq!(window(&harness).project().point, point);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cork.csv");
+    std::fs::write(&path, recording("cork", 6.0, Hertz(1000.0))).unwrap();
+    let field = harness.get_by_role_and_label(Role::TextInput, import::PATHS);
+    field.type_text(&path.display().to_string());
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    let unit = import::answer_of("acceleration_unit");
+    wait(&mut harness, "the file is read", |h| h.query_by_role_and_label(Role::ComboBox, &unit).is_some());
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    choose(&mut harness, &unit, "m/s²");
+    wait(&mut harness, "the fit", |h| h.query_by_label(import::GFC_MEDIAN).is_some());
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+}
+
+/// Controls that a keyboard or screen reader reaches but that have no name.
+fn unnamed_controls(harness: &Author) -> Vec<String> {
+    let is_control = |role: Role| {
+        matches!(
+            role,
+            Role::Button
+                | Role::Slider
+                | Role::SpinButton
+                | Role::TextInput
+                | Role::ComboBox
+                | Role::CheckBox
+                | Role::Canvas
+        )
+    };
+    let nodes = harness.root().children_recursive();
+    let unnamed = nodes.filter(|n| {
+        let node = n.accesskit_node();
+        is_control(node.role()) && node.label().is_none_or(|l| l.trim().is_empty())
+    });
+    unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
+}
+
+/// Saving asks before it replaces, and what it writes is the whole list.
+#[test]
+fn the_library_is_saved_with_what_joined_it() {
+    let mut harness = author();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.json");
+    std::fs::write(&path, "something else").unwrap();
+    click(&mut harness, strings::SAVE_LIBRARY);
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::TextInput, import::SAVE_PATH).type_text(&path.display().to_string());
+    harness.run_steps(2);
+    click(&mut harness, import::SAVE);
+    wait(&mut harness, "it says that a file is there", |h| h.query_by_label(import::REPLACE).is_some());
+    assert_eq!(std::fs::read(&path).unwrap(), b"something else");
+    click(&mut harness, import::REPLACE);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "it is saved", |h| h.query_by_label(&saved).is_some());
+    let library = read_library(&std::fs::read(&path).unwrap()).unwrap().value;
+    assert_eq!(library.textures.len(), names(&harness).len());
+}
