@@ -82,7 +82,7 @@ fn own_models_leave_as_hatt_and_come_back() {
     assert!(lost["files"][0].as_str().unwrap().ends_with("cork.xml"), "{lost}");
     let back = bench.json("import hatt cork.xml --out cork.json");
     assert_eq!(back["textures"][0]["restricted"], false, "{back}");
-    for (speed, force) in [(50, 0.5), (100, 1.0), (250, 3.0)] {
+    for (speed, force) in [(30, 0.15), (120, 0.8), (250, 3.0)] {
         let psd = |library: &str| {
             let psd =
                 bench.json(&format!("texture psd {library} --texture cork --speed {speed} --force {force}"));
@@ -166,14 +166,14 @@ fn a_recorded_stroke_becomes_the_texture_it_was_made_of() {
     let bench = Bench::new();
     bench.write("stroke.csv", table(&bench, "cork"));
     // The unit of acceleration is not in the file and cannot be told from it.
-    let said = bench.run("import recording stroke.csv --out cork.json --json");
+    let said = bench.run("import recording stroke.csv --out lib.json --json");
     assert_eq!(said.code, 1, "{}", said.stderr);
     let asked: Value = serde_json::from_str(&said.stdout).unwrap();
     let asks = |key: &str| asked["questions"].as_array().unwrap().iter().any(|q| q["key"] == key);
     assert!(asks("acceleration_unit") && !asks("force_unit"), "{asked}");
-    assert!(!bench.path("cork.json").exists());
+    assert!(!bench.path("lib.json").exists());
     bench.write("map.toml", "acceleration_unit = \"m/s^2\"\n");
-    let done = bench.json("import recording stroke.csv --out cork.json --map map.toml --report report");
+    let done = bench.json("import recording stroke.csv --out lib.json --map map.toml --report report");
     let figures = &done["textures"][0];
     assert!(figures["segments"].as_u64().unwrap() >= 20, "{figures}");
     assert!(figures["gfc_median"].as_f64().unwrap() > 0.9, "{figures}");
@@ -183,7 +183,7 @@ fn a_recorded_stroke_becomes_the_texture_it_was_made_of() {
     for (speed, force) in [(80, 0.8), (120, 1.2), (160, 1.6)] {
         let psd =
             |options: &str| bench.json(&format!("texture psd {options} --speed {speed} --force {force}"));
-        let (truth, fitted) = (psd("--texture cork"), psd("--library cork.json --texture stroke"));
+        let (truth, fitted) = (psd("--texture cork"), psd("--library lib.json --texture stroke"));
         let level = 20.0 * (fitted["rms"].as_f64().unwrap() / truth["rms"].as_f64().unwrap()).log10();
         assert!(level.abs() < 1.0, "{level} dB at {speed} mm/s");
         let (a, b) = (floats(&truth["psd"]), floats(&fitted["psd"]));
@@ -226,7 +226,7 @@ fn real_recordings_that_cannot_be_modelled_say_why() {
         (
             ["force-press-slide/Material_Metal_raw_1.csv", "force-press-slide/Material_Wood_raw_1.csv"]
                 .as_slice(),
-            ["no acceleration", "timestamps"].as_slice(),
+            ["no acceleration", "bad clock"].as_slice(),
         ),
     ] {
         for file in files {

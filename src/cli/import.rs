@@ -25,10 +25,14 @@ pub(crate) struct Destination {
 }
 
 impl Destination {
-    /// Refuses to write over a file that is read, before any work is done.
-    pub(crate) fn check(&self, inputs: &[PathBuf]) -> anyhow::Result<()> {
+    /// The library that the textures are added to, before any work is done: the one that is there, or a new one.
+    ///
+    /// # Errors
+    /// The file is one of the inputs, or is there and no library.
+    pub(crate) fn open(&self, inputs: &[PathBuf]) -> anyhow::Result<Library> {
         let inputs: Vec<Option<&Path>> = inputs.iter().map(|path| Some(path.as_path())).collect();
-        refuse_inputs(&[&self.out], &inputs)
+        refuse_inputs(&[&self.out], &inputs)?;
+        existing(&self.out)
     }
 }
 
@@ -63,12 +67,16 @@ impl Outcome {
         self.warnings.push(message);
     }
 
-    /// Writes the library and says what was done.
+    /// Writes `library` with the textures and says what was done.
     ///
     /// # Errors
     /// Nothing was imported, or the library cannot be written.
-    pub(crate) fn finish(mut self, destination: &Destination, more: Value) -> anyhow::Result<()> {
-        let mut library = existing(&destination.out)?;
+    pub(crate) fn finish(
+        mut self,
+        mut library: Library,
+        destination: &Destination,
+        more: Value,
+    ) -> anyhow::Result<()> {
         let mut textures = Vec::new();
         for (mut texture, figures) in std::mem::take(&mut self.imported) {
             match library.index_of(&texture.id) {
@@ -107,9 +115,16 @@ impl Outcome {
         if let (Some(result), Value::Object(more)) = (result.as_object_mut(), more) {
             result.extend(more);
         }
-        output::print(destination.json, &result, || {
-            format!("Imported {n_imported} of {}: {}", n_imported + failed.len(), destination.out.display())
-        });
+        // A script reads what failed and what was asked; a person has read it already.
+        if destination.json || n_imported > 0 {
+            output::print(destination.json, &result, || {
+                format!(
+                    "Imported {n_imported} of {}: {}",
+                    n_imported + failed.len(),
+                    destination.out.display()
+                )
+            });
+        }
         if n_imported == 0 {
             bail!("nothing was imported; the reasons stand above");
         }

@@ -25,7 +25,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let files = model_files(&args.files)?;
-    args.destination.check(&files)?;
+    let library = args.destination.open(&files)?;
     let mut outcome = Outcome::default();
     let mut restricted = Vec::new();
     let progress = Progress::new("models", files.len());
@@ -61,9 +61,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     progress.finish();
     let names: Vec<&str> = restricted.iter().map(String::as_str).collect();
     if let Some(warning) = Provenance::warning(&names) {
-        outcome.warn_of_all(format!("{warning}; HaTT models are for non-profit research"));
+        outcome.warn_of_all(warning);
     }
-    outcome.finish(&args.destination, json!({}))
+    outcome.finish(library, &args.destination, json!({}))
 }
 
 /// The files named, and the `.xml` files of the folders named, in the order of their names.

@@ -61,7 +61,7 @@ struct Job<'a> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    args.destination.check(&args.files)?;
+    let library = args.destination.open(&args.files)?;
     let map = map(args)?;
     if let Some(folder) = &args.report {
         std::fs::create_dir_all(folder)
@@ -80,7 +80,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         progress.step();
     }
     progress.finish();
-    outcome.finish(&args.destination, json!({"questions": questions}))
+    outcome.finish(library, &args.destination, json!({"questions": questions}))
 }
 
 /// Fits the texture of a job, or says why not.
@@ -163,6 +163,7 @@ fn read(
             for warning in &needed.warnings {
                 outcome.warn(file, warning);
             }
+            return format!("{error}; answer by --set KEY=VALUE or --map MAP.toml");
         }
         error.to_string()
     })?;

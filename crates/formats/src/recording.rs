@@ -102,7 +102,7 @@ impl fmt::Display for NeedsAnswers {
         let open = self.questions.iter().filter(|question| question.guess.is_none());
         let mut sentences: Vec<String> = open.map(Question::to_string).collect();
         let noun = if sentences.len() == 1 { "answer is" } else { "answers are" };
-        write!(f, "{} {noun} needed, in the map or in the window: ", sentences.len())?;
+        write!(f, "{} {noun} needed: ", sentences.len())?;
         sentences.extend(self.faults.iter().map(Fault::to_string));
         f.write_str(&sentences.join("; "))
     }

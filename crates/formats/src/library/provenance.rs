@@ -24,7 +24,7 @@ impl Provenance {
         let (are, them) = if restricted.len() == 1 { ("is", "it") } else { ("are", "them") };
         (!restricted.is_empty()).then(|| {
             format!(
-                "{shown}{more} {are} made from restricted data, which may not be passed on: leave {them} out of what you share"
+                "{shown}{more} {are} made from restricted data, for non-profit research and not to be passed on: leave {them} out of what you share"
             )
         })
     }

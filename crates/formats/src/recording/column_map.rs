@@ -131,9 +131,11 @@ impl Channel {
         }
     }
 
-    /// The channel of a name; `x`, `y` and `z` are axes of acceleration.
+    /// The channel of a name; `x`, `y` and `z` are axes of acceleration, and so is what begins with that word, as
+    /// rendered signals have it.
     pub fn parse(text: &str) -> Option<Self> {
         match text {
+            _ if text.starts_with(Self::Acceleration.name()) => Some(Self::Acceleration),
             "x" | "y" | "z" | "ax" | "ay" | "az" => Some(Self::Acceleration),
             _ => Self::ALL.iter().copied().find(|channel| channel.name() == text),
         }
