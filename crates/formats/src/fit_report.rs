@@ -3,8 +3,8 @@
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::{
-    ChartBuilder, Circle, DrawingArea, IntoDrawingArea as _, IntoFont as _, IntoLogRange as _, LineSeries,
-    RGBColor, SVGBackend, TextStyle,
+    BindKeyPoints as _, ChartBuilder, Circle, DrawingArea, IntoDrawingArea as _, IntoFont as _,
+    IntoLogRange as _, LineSeries, RGBColor, SVGBackend, TextStyle,
 };
 use plotters::style::Color as _;
 use shagreen_core::fit::{FitReport, Segment};
@@ -130,11 +130,15 @@ fn plane(panel: &Page<'_>, report: &FitReport) -> Drawn {
         .axis_style(MEASURED)
         .label_style(text(12.0))
         .x_labels(6)
+        .x_label_formatter(&|x| format!("{x:.0}"))
         .y_labels(6)
         .draw()?;
     let size = |s: &Segment| (3.0 + 4.0 * s.seconds.min(1.0)) as i32;
     chart.draw_series(
-        report.segments.iter().map(|s| Circle::new((s.speed.mm_per_s(), s.force.0), size(s), color(s))),
+        report
+            .segments
+            .iter()
+            .map(|s| Circle::new((s.speed.mm_per_s(), s.force.0), size(s), color(s).mix(0.6).filled())),
     )?;
     Ok(())
 }
@@ -161,11 +165,13 @@ fn by_segment(
         .axis_style(MEASURED)
         .label_style(text(12.0))
         .x_labels(6)
+        .x_label_formatter(&|x| format!("{x:.0}"))
         .y_labels(6)
         .draw()?;
     // What is off the scale is drawn at its end, not left out.
-    let dot =
-        |(i, s): (usize, &Segment)| Circle::new((i as f64 + 0.5, value(s).clamp(low, high)), 3, color(s));
+    let dot = |(i, s): (usize, &Segment)| {
+        Circle::new((i as f64 + 0.5, value(s).clamp(low, high)), 3, color(s).filled())
+    };
     chart.draw_series(report.segments.iter().enumerate().map(dot))?;
     Ok(())
 }
@@ -192,6 +198,8 @@ fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
     let top = measured.iter().chain(&model).map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
     let top = if top.is_finite() { (top / 10.0).ceil() * 10.0 } else { 0.0 };
     let last = report.frequencies.last().map_or(500.0, |f| f.0.max(20.0));
+    let ticks =
+        [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0].into_iter().filter(|f| *f <= last).collect();
     let caption = format!(
         "{:.0} mm/s, {:.2} N · GFC {:.3}, {:+.1} dB",
         segment.speed.mm_per_s(),
@@ -204,7 +212,7 @@ fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
         .caption(caption, text(14.0))
         .x_label_area_size(44)
         .y_label_area_size(44)
-        .build_cartesian_2d((10.0..last).log_scale(), top - 60.0..top)?;
+        .build_cartesian_2d((10.0..last).log_scale().with_key_points(ticks), top - 60.0..top)?;
     chart
         .configure_mesh()
         .light_line_style(plotters::style::WHITE)
@@ -213,6 +221,7 @@ fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
         .label_style(text(12.0))
         .x_desc("Hz; dB re 1 (m/s²)²/Hz; gray measured, green model")
         .x_label_formatter(&|f| format!("{f:.0}"))
+        .y_label_formatter(&|db| format!("{db:.0}"))
         .y_labels(7)
         .draw()?;
     let inside = |(f, p): (f64, f64)| (f >= 10.0).then_some((f, p.clamp(top - 60.0, top)));
