@@ -193,6 +193,39 @@ fn a_recorded_stroke_becomes_the_texture_it_was_made_of() {
     }
 }
 
+/// A page of plots and a table are written for every texture, never over a recording.
+#[test]
+fn reports_have_names_of_their_own() {
+    let bench = Bench::new();
+    for folder in ["a", "b"] {
+        std::fs::create_dir(bench.path(folder)).unwrap();
+        bench.json(&format!(
+            "render --texture cork --speed 90 --force 1 --seconds 3 --rate 1000 -o {folder}/run.wav"
+        ));
+    }
+    let done = bench.json("import recording a/run.wav b/run.wav --out lib.json --report plots");
+    let ids: Vec<&str> =
+        done["textures"].as_array().unwrap().iter().map(|t| t["id"].as_str().unwrap()).collect();
+    assert_eq!(ids, ["run", "run-2"]);
+    for id in ids {
+        assert!(
+            bench.path(&format!("plots/{id}.svg")).exists()
+                && bench.path(&format!("plots/{id}.csv")).exists()
+        );
+    }
+    bench.write("a/wood.csv", "t_ms,acc_m/s2\n");
+    let mut table = String::from("time_s,acc [m/s^2],speed [mm/s],force [N]\n");
+    for i in 0..3000 {
+        let (t, a) = (f64::from(i) / 1000.0, (f64::from(i * i % 1999) * 0.37).sin());
+        writeln!(table, "{t:.3},{a:.5},100,1").unwrap();
+    }
+    bench.write("a/wood.csv", &table);
+    let said = bench.run("import recording a/wood.csv --out wood.json --report a");
+    assert_eq!(said.code, 1, "{}", said.stderr);
+    assert!(said.stderr.contains("write over"), "{}", said.stderr);
+    assert_eq!(std::fs::read_to_string(bench.path("a/wood.csv")).unwrap(), table);
+}
+
 #[test]
 fn a_rendered_file_with_its_sidecar_needs_no_answers() {
     let bench = Bench::new();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_formats::atomic;
-use shagreen_formats::library::{Library, TextureEntry, read_library, write_library};
+use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, read_library, write_library};
 
 use crate::cli::guard::refuse_inputs;
 use crate::cli::output;
@@ -24,28 +24,47 @@ pub(crate) struct Destination {
     json: bool,
 }
 
-impl Destination {
-    /// The library that the textures are added to, before any work is done: the one that is there, or a new one.
-    ///
-    /// # Errors
-    /// The file is one of the inputs, or is there and no library.
-    pub(crate) fn open(&self, inputs: &[PathBuf]) -> anyhow::Result<Library> {
-        let inputs: Vec<Option<&Path>> = inputs.iter().map(|path| Some(path.as_path())).collect();
-        refuse_inputs(&[&self.out], &inputs)?;
-        existing(&self.out)
-    }
-}
-
 /// What became of the files.
-#[derive(Default)]
-pub(crate) struct Outcome {
+pub(crate) struct Outcome<'a> {
+    destination: &'a Destination,
+    library: Library,
+    /// Identifiers that textures of this import have.
+    claimed: Vec<String>,
     imported: Vec<(TextureEntry, Value)>,
     failed: Vec<(PathBuf, String)>,
     warnings: Vec<String>,
 }
 
-impl Outcome {
-    /// A texture came of a file; `figures` are shown beside its id.
+impl<'a> Outcome<'a> {
+    /// Nothing yet, beside what the library already holds.
+    ///
+    /// # Errors
+    /// The library would be written over one of the inputs, or the file is there and no library.
+    pub(crate) fn new(destination: &'a Destination, inputs: &[PathBuf]) -> anyhow::Result<Self> {
+        let inputs: Vec<Option<&Path>> = inputs.iter().map(|path| Some(path.as_path())).collect();
+        refuse_inputs(&[&destination.out], &inputs)?;
+        let library = existing(&destination.out)?;
+        let (claimed, imported, failed, warnings) = Default::default();
+        Ok(Self { destination, library, claimed, imported, failed, warnings })
+    }
+
+    /// The identifier of a texture with this name: one that is free, or that of the texture which it replaces.
+    pub(crate) fn claim_id(&mut self, name: &str) -> String {
+        let wanted = id_from_name(name);
+        let is_claimed = |id: &str| self.claimed.iter().any(|claimed| claimed == id);
+        let is_kept = |id: &str| self.library.index_of(id).is_some() && !self.destination.replace;
+        let id = free_id(&wanted, |id| is_claimed(id) || is_kept(id));
+        if id != wanted {
+            let hint = if is_kept(&wanted) { "; --replace puts it in its place" } else { "" };
+            self.warn_of_all(format!(
+                "there is already a texture \"{wanted}\": this one became \"{id}\"{hint}"
+            ));
+        }
+        self.claimed.push(id.clone());
+        id
+    }
+
+    /// A texture came of a file, under an identifier that was claimed; `figures` are shown beside it.
     pub(crate) fn imported(&mut self, texture: TextureEntry, figures: Value) {
         self.imported.push((texture, figures));
     }
@@ -67,34 +86,19 @@ impl Outcome {
         self.warnings.push(message);
     }
 
-    /// Writes `library` with the textures and says what was done.
+    /// Writes the library with the textures and says what was done.
     ///
     /// # Errors
     /// Nothing was imported, or the library cannot be written.
-    pub(crate) fn finish(
-        mut self,
-        mut library: Library,
-        destination: &Destination,
-        more: Value,
-    ) -> anyhow::Result<()> {
+    pub(crate) fn finish(self, more: Value) -> anyhow::Result<()> {
+        let Self { destination, mut library, .. } = self;
         let mut textures = Vec::new();
-        for (mut texture, figures) in std::mem::take(&mut self.imported) {
-            match library.index_of(&texture.id) {
-                Some(index) if destination.replace => library.textures[index] = texture.clone(),
-                taken => {
-                    if taken.is_some() {
-                        let free = library.free_id(&texture.id);
-                        let message = format!(
-                            "the library already has \"{}\": this one became \"{free}\"; --replace puts it in its place",
-                            texture.id
-                        );
-                        self.warn_of_all(message);
-                        texture.id = free;
-                    }
-                    library.textures.push(texture.clone());
-                }
-            }
+        for (texture, figures) in self.imported {
             textures.push(with_id(&texture, figures));
+            match library.index_of(&texture.id) {
+                Some(index) => library.textures[index] = texture,
+                None => library.textures.push(texture),
+            }
         }
         let n_imported = textures.len();
         if n_imported > 0 {

@@ -1,14 +1,14 @@
 //! `shagreen import hatt`: models in the XML of the Penn Haptic Texture Toolkit.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context as _;
 use serde_json::json;
 use shagreen_formats::hatt::read_hatt;
-use shagreen_formats::library::{Provenance, id_from_name};
+use shagreen_formats::library::{Provenance, name_from_file};
 
 use crate::cli::import::{Destination, Outcome};
-use crate::cli::output::{self, Progress};
+use crate::cli::output::{self, Progress, file_name};
 
 /// Imports texture models in the XML of the Penn Haptic Texture Toolkit (HaTT).
 ///
@@ -25,8 +25,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let files = model_files(&args.files)?;
-    let library = args.destination.open(&files)?;
-    let mut outcome = Outcome::default();
+    let mut outcome = Outcome::new(&args.destination, &files)?;
     let mut restricted = Vec::new();
     let progress = Progress::new("models", files.len());
     for file in &files {
@@ -38,7 +37,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                     outcome.warn(file, warning);
                 }
                 let texture = read.value;
-                let name = if texture.name.is_empty() { stem(file) } else { texture.name.clone() };
+                let name = if texture.name.is_empty() {
+                    name_from_file(&file_name(file))
+                } else {
+                    texture.name.clone()
+                };
                 let is_restricted = texture.provenance == Provenance::Restricted;
                 if is_restricted {
                     restricted.push(name.clone());
@@ -51,7 +54,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                     "rate_hz": texture.model.rate().0,
                     "restricted": is_restricted,
                 });
-                let mut entry = texture.into_entry(id_from_name(&name));
+                let mut entry = texture.into_entry(outcome.claim_id(&name));
                 entry.name = name;
                 outcome.imported(entry, figures);
             }
@@ -63,7 +66,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(warning) = Provenance::warning(&names) {
         outcome.warn_of_all(warning);
     }
-    outcome.finish(library, &args.destination, json!({}))
+    outcome.finish(json!({}))
 }
 
 /// The files named, and the `.xml` files of the folders named, in the order of their names.
@@ -83,8 +86,4 @@ fn model_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
         files.extend(found);
     }
     Ok(files)
-}
-
-fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "texture".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

@@ -9,13 +9,14 @@ use shagreen_core::recording::Recording;
 use shagreen_core::texture::{Interpolation, MAX_ORDER};
 use shagreen_core::units::Hertz;
 use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg};
-use shagreen_formats::library::{TextureEntry, id_from_name};
+use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::{Ask, ColumnMap, Question, RecordingFileError, read_recording};
 use shagreen_formats::{atomic, wav};
 
+use crate::cli::guard::refuse_inputs;
 use crate::cli::import::{Destination, Outcome};
-use crate::cli::output::{self, Progress};
+use crate::cli::output::{self, Progress, file_name};
 
 /// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as a table.
 ///
@@ -31,7 +32,7 @@ pub(crate) struct Args {
     /// What the columns are and in which units, as a TOML file.
     #[arg(long, value_name = "MAP.toml")]
     map: Option<PathBuf>,
-    /// Answers one question, as in acceleration_unit=g or speed=\"100 mm/s\"; overrules the map.
+    /// Answers one question, as in acceleration_unit=g or speed="100 mm/s"; overrules the map.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer)]
     answers: Vec<(Ask, String)>,
     /// All files are strokes of one texture, which gets this name.
@@ -61,7 +62,7 @@ struct Job<'a> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let library = args.destination.open(&args.files)?;
+    let mut outcome = Outcome::new(&args.destination, &args.files)?;
     let map = map(args)?;
     if let Some(folder) = &args.report {
         std::fs::create_dir_all(folder)
@@ -70,9 +71,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let jobs: Vec<Job<'_>> = match &args.name {
         Some(name) => vec![Job { name: name.clone(), files: &args.files }],
-        None => args.files.chunks(1).map(|files| Job { name: stem(&files[0]), files }).collect(),
+        None => args
+            .files
+            .chunks(1)
+            .map(|files| Job { name: name_from_file(&file_name(&files[0])), files })
+            .collect(),
     };
-    let mut outcome = Outcome::default();
     let mut questions = Vec::new();
     let progress = Progress::new("recordings", jobs.len());
     for job in &jobs {
@@ -80,7 +84,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         progress.step();
     }
     progress.finish();
-    outcome.finish(library, &args.destination, json!({"questions": questions}))
+    outcome.finish(json!({"questions": questions}))
 }
 
 /// Fits the texture of a job, or says why not.
@@ -88,13 +92,16 @@ fn import(
     args: &Args,
     map: &ColumnMap,
     job: &Job<'_>,
-    outcome: &mut Outcome,
+    outcome: &mut Outcome<'_>,
     questions: &mut Vec<Value>,
 ) -> anyhow::Result<()> {
-    let mut recordings = Vec::new();
+    let (mut files, mut recordings) = (Vec::new(), Vec::new());
     for file in job.files {
         match read(file, map, outcome, questions) {
-            Ok(recording) => recordings.push(recording),
+            Ok(recording) => {
+                files.push(file.as_path());
+                recordings.push(recording);
+            }
             Err(reason) => outcome.failed(file, reason),
         }
     }
@@ -112,22 +119,19 @@ fn import(
     let fitted = match fit::fit(&recordings, &options) {
         Ok(fitted) => fitted,
         Err(error) => {
-            job.files.iter().for_each(|file| outcome.failed(file, error.to_string()));
+            files.iter().for_each(|file| outcome.failed(file, error.to_string()));
             return Ok(());
         }
     };
+    let names: Vec<String> = files.iter().map(|file| file_name(file)).collect();
     for note in &fitted.report.notes {
-        outcome.warn(&job.files[0], note);
+        outcome.warn_of_all(format!("{}: {note}", names.join(", ")));
     }
-    let figures = figures(job, &fitted);
-    let id = id_from_name(&job.name);
+    let id = outcome.claim_id(&job.name);
     if let Some(folder) = &args.report {
-        let write =
-            |extension: &str, bytes: &[u8]| atomic::write(&folder.join(format!("{id}.{extension}")), bytes);
-        write("svg", fit_report_svg(&job.name, &fitted.report).as_bytes())?;
-        write("csv", &fit_report_csv(&fitted.report))?;
+        write_report(args, folder, &id, &job.name, &fitted)?;
     }
-    let names: Vec<String> = job.files.iter().map(|file| file_name(file)).collect();
+    let figures = figures(&files, &fitted);
     let texture = TextureEntry {
         license: args.licence.clone(),
         origin: format!("Fitted to recordings: {}", names.join(", ")),
@@ -137,15 +141,26 @@ fn import(
     Ok(())
 }
 
+/// Writes the page of plots and the table of segments, but never over what was read.
+fn write_report(args: &Args, folder: &Path, id: &str, name: &str, fitted: &Fitted) -> anyhow::Result<()> {
+    let (page, table) = (folder.join(format!("{id}.svg")), folder.join(format!("{id}.csv")));
+    let inputs: Vec<Option<&Path>> =
+        args.files.iter().chain(&args.map).map(|path| Some(path.as_path())).collect();
+    refuse_inputs(&[&page, &table], &inputs)?;
+    atomic::write(&page, fit_report_svg(name, &fitted.report).as_bytes())?;
+    atomic::write(&table, &fit_report_csv(&fitted.report))?;
+    Ok(())
+}
+
 /// The recording in a file, or why there is none.
 fn read(
     file: &Path,
     map: &ColumnMap,
-    outcome: &mut Outcome,
+    outcome: &mut Outcome<'_>,
     questions: &mut Vec<Value>,
 ) -> Result<Recording, String> {
     let bytes = output::read_file(file).map_err(|error| format!("{error:#}"))?;
-    let sidecar = std::fs::read(wav::sidecar_path(file)).ok(); // Most recordings have none.
+    let sidecar = sidecar(file)?;
     let mut ask = |list: &[Question]| {
         questions.extend(list.iter().map(|question| {
             json!({
@@ -174,21 +189,34 @@ fn read(
     for warning in &read.warnings {
         outcome.warn(file, warning);
     }
-    let (recording, findings) = Recording::from_raw(read.raw).map_err(|error| {
-        for finding in &error.findings {
-            outcome.warn(file, &finding.to_string());
-        }
-        error.to_string()
-    })?;
+    // What was found stands in the error too.
+    let (recording, findings) = Recording::from_raw(read.raw).map_err(|error| error.to_string())?;
     for finding in &findings {
         outcome.warn(file, &finding.to_string());
     }
     Ok(recording)
 }
 
-fn figures(job: &Job<'_>, fitted: &Fitted) -> Value {
+/// The bytes of the file of units beside a WAV file; most have none.
+fn sidecar(file: &Path) -> Result<Option<Vec<u8>>, String> {
+    if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav")) {
+        return Ok(None);
+    }
+    for name in wav::sidecar_names(&file_name(file)) {
+        match std::fs::read(file.with_file_name(&name)) {
+            Ok(bytes) => return Ok(Some(bytes)),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
+            Err(error) => {
+                return Err(format!("the sidecar {name} cannot be read ({error}); check your rights"));
+            }
+        }
+    }
+    Ok(None)
+}
+
+fn figures(files: &[&Path], fitted: &Fitted) -> Value {
     let report = &fitted.report;
-    let files: Vec<String> = job.files.iter().map(|file| file.display().to_string()).collect();
+    let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     json!({
         "files": files,
         "segments": report.segments.len(),
@@ -237,12 +265,4 @@ fn parse_rate(text: &str) -> Result<f64, String> {
         "4000" => Ok(4000.0),
         _ => Err("a model has 1000, 2000 or 4000 Hz".to_owned()),
     }
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
-fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "texture".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

@@ -98,6 +98,11 @@ pub(crate) fn in_file(path: &Path) -> String {
     format!("{IN_FILE}{}", path.display())
 }
 
+/// The name of a file, for people.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
 /// The bytes of a file.
 pub(crate) fn read_file(path: &Path) -> anyhow::Result<Vec<u8>> {
     std::fs::read(path)

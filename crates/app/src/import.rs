@@ -9,7 +9,6 @@ mod draft_ui;
 mod files_ui;
 mod fit_ui;
 mod model_ui;
-mod naming;
 mod plane_plot;
 mod questions_ui;
 pub mod recording_state;

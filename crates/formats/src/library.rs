@@ -45,7 +45,7 @@ use shagreen_core::texture::TextureModel;
 use crate::picture::Picture;
 
 pub use crate::library::error::LibraryError;
-pub use crate::library::id::id_from_name;
+pub use crate::library::id::{free_id, id_from_name, name_from_file};
 pub use crate::library::provenance::Provenance;
 pub use crate::library::read::read_library;
 pub(crate) use crate::library::write::frequencies;

@@ -117,6 +117,12 @@ pub fn sidecar_path(wav: &Path) -> PathBuf {
     wav.with_extension("json")
 }
 
+/// What may stand for the sidecar of a WAV file that is read: the name that is written, and `.json` behind the whole name.
+pub fn sidecar_names(wav_name: &str) -> [String; 2] {
+    let stem = wav_name.rsplit_once('.').map_or(wav_name, |(stem, _)| stem);
+    [format!("{stem}.json"), format!("{wav_name}.json")]
+}
+
 /// Says whether so many samples fit a WAV file, before anybody works them out.
 ///
 /// # Errors

@@ -193,9 +193,13 @@ impl<'a> Texture<'a> {
         if self.0.excitations.is_empty() {
             at.level_mps2 = (u * a.level_mps2 + v * b.level_mps2 + w * c.level_mps2).max(0.0);
             at.sigma_mps2 = at.level_mps2 * libm::expf(-0.5 * ln_gain);
-        } else if x > 0.0 && y > 0.0 {
-            // A published texture may sound on its axes, but in the air nothing sounds.
+        } else {
             self.excite(triangle, weights, &mut at);
+            // A published texture may sound on its axes, but in the air nothing sounds. The filters stay as they are, so
+            // that the last tick before the air has them too.
+            if x <= 0.0 || y <= 0.0 {
+                at.sigma_mps2 = 0.0;
+            }
             at.level_mps2 = at.sigma_mps2 * libm::expf(0.5 * ln_gain);
         }
         at

@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use shagreen_core::space::LabelSource;
-use shagreen_formats::library::{Library, TextureEntry};
+use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, name_from_file};
 use shagreen_formats::recording::Question;
 
 use crate::import::draft::{Draft, FitState};
-use crate::import::naming::{name_from, slug, unique_id};
 use crate::import::recording_state::RecordingState;
 use crate::import::source::Source;
 use crate::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, Request, Worker};
@@ -158,7 +157,7 @@ impl Batch {
             draft.files.push(id);
         } else {
             let draft = self.next_id();
-            self.drafts.push(Draft::new(draft, name_from(&name), vec![id]));
+            self.drafts.push(Draft::new(draft, name_from_file(&name), vec![id]));
         }
         self.fit_with(id);
     }
@@ -208,7 +207,7 @@ impl Batch {
             .files
             .iter()
             .filter(|file| matches!(file.content, Content::Recording(_)))
-            .map(|file| (file.id, name_from(&file.name)))
+            .map(|file| (file.id, name_from_file(&file.name)))
             .collect();
         let old = std::mem::take(&mut self.drafts);
         let like = old.first().map(|draft| draft.options.clone());
@@ -314,7 +313,7 @@ impl Batch {
             let Content::Textures { entries, .. } = &file.content else { continue };
             for entry in entries {
                 let mut entry = entry.clone();
-                entry.id = unique_id(&entry.id, &mut ids);
+                entry.id = claim_id(&entry.id, &mut ids);
                 let fits = |from: LabelSource| !has_mixed_places && source.is_none_or(|s| s == from);
                 let is_comparable = entry.label_source().is_some_and(fits);
                 if is_comparable
@@ -329,9 +328,16 @@ impl Batch {
         }
         for draft in &self.drafts {
             let recordings: Vec<&str> = self.drawn_of(draft).map(|(file, _)| file.name.as_str()).collect();
-            let id = unique_id(&slug(&draft.name), &mut ids);
+            let id = claim_id(&id_from_name(&draft.name), &mut ids);
             out.extend(draft.entry(id, &recordings).map(Arc::new));
         }
         out
     }
+}
+
+/// The identifier, or with a number behind it where it is taken; it is taken then.
+fn claim_id(wanted: &str, taken: &mut Vec<String>) -> String {
+    let id = free_id(wanted, |id| taken.iter().any(|other| other == id));
+    taken.push(id.clone());
+    id
 }

@@ -1,17 +1,16 @@
 //! The thread that reads files and fits textures, so that the window never waits.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 use shagreen_core::fit::{FitOptions, Fitted, fit};
 use shagreen_core::recording::Recording;
 use shagreen_formats::hatt::read_hatt;
-use shagreen_formats::library::{TextureEntry, read_library};
+use shagreen_formats::library::{TextureEntry, id_from_name, name_from_file, read_library};
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
+use shagreen_formats::wav::sidecar_names;
 
-use crate::import::naming::{name_from, slug};
-use crate::import::source::{Source, name_of, without_folders};
+use crate::import::source::{Source, without_folders};
 use crate::import::trace::Trace;
 use crate::strings::import as strings;
 
@@ -221,9 +220,9 @@ fn load_one(source: &Source, bytes: Vec<u8>, all: &[Source], map: &ColumnMap) ->
             Ok(texture) => {
                 let mut entry = texture.value.into_entry(String::new());
                 if entry.name.is_empty() {
-                    entry.name = name_from(&source.name());
+                    entry.name = name_from_file(&source.name());
                 }
-                entry.id = slug(&entry.name);
+                entry.id = id_from_name(&entry.name);
                 LoadedContent::Textures { entries: vec![entry], warnings: texture.warnings }
             }
             Err(error) => LoadedContent::Failed(error.to_string()),
@@ -240,12 +239,6 @@ fn load_one(source: &Source, bytes: Vec<u8>, all: &[Source], map: &ColumnMap) ->
 /// Whether a JSON file lies beside a WAV file of the same name that is imported too.
 fn is_sidecar(json: &Source, all: &[Source]) -> bool {
     all.iter().any(|other| other.ending() == "wav" && sidecar_names(&other.name()).contains(&json.name()))
-}
-
-/// What the file of units beside a WAV file may be called.
-fn sidecar_names(wav: &str) -> [String; 2] {
-    let stem = Path::new(wav).with_extension("json");
-    [name_of(&stem), format!("{wav}.json")]
 }
 
 /// The units beside a WAV file: imported with it, or in the same folder.

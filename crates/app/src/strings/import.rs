@@ -40,8 +40,6 @@ pub const BROKEN: &str =
     "Reading broke off; close this sheet and import the files one by one to find the one that does it.";
 /// Something is read or fitted.
 pub const READING: &str = "Reading and fitting…";
-/// A texture without a name.
-pub const UNNAMED: &str = "Texture";
 /// Terms of a texture that nobody stated.
 pub const TERMS_NOT_STATED: &str = "not stated";
 

@@ -168,7 +168,8 @@ fn frequencies(
         coefficients.remove(0);
     }
     if !lsf.is_empty() {
-        if !coefficients.is_empty() {
+        // Longer filters are refused as a model; their coefficients are not worth the time.
+        if !coefficients.is_empty() && lsf.len() <= super::MAX_ORDER {
             let of_lsf = ar_from_lsf(&lsf);
             let at = |filter: &[f64], k: usize| filter.get(k).copied().unwrap_or(0.0);
             let n = of_lsf.len().max(coefficients.len());

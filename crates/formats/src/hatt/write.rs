@@ -88,8 +88,12 @@ pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
     if entry.picture.is_some() {
         lost.push("the picture".to_owned());
     }
-    if !(entry.tags.is_empty() && entry.description.is_empty() && entry.license.is_empty()) {
-        lost.push("tags, description and licence".to_owned());
+    if entry.physical.is_some() {
+        lost.push("the physical labels".to_owned());
+    }
+    let said = [&entry.description, &entry.license, &entry.origin];
+    if !(entry.tags.is_empty() && said.iter().all(|text| text.is_empty())) {
+        lost.push("tags, description, licence and origin".to_owned());
     }
     lost
 }

@@ -1,6 +1,15 @@
-//! Identifiers of textures: made from names, unique in a library.
+//! Names and identifiers of textures that join a library: made from the names of files, unique.
 
-use crate::library::Library;
+/// The name that a file suggests: without its ending, with spaces between words, beginning with a capital letter.
+pub fn name_from_file(file_name: &str) -> String {
+    let stem = file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem);
+    let words = stem.replace(['_', '-'], " ");
+    let mut letters = words.trim().chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => "Texture".to_owned(),
+    }
+}
 
 /// The identifier that a name suggests: its letters and digits in lower case, all else as single hyphens.
 pub fn id_from_name(name: &str) -> String {
@@ -9,21 +18,16 @@ pub fn id_from_name(name: &str) -> String {
     if id.is_empty() { "texture".to_owned() } else { id }
 }
 
-impl Library {
-    /// `id` where it is free, else `id-2`, `id-3` and so on.
-    pub fn free_id(&self, id: &str) -> String {
-        if self.index_of(id).is_none() {
-            return id.to_owned();
-        }
-        // One more than there are textures is tried, so one is free.
-        (2..).map(|n| format!("{id}-{n}")).find(|id| self.index_of(id).is_none()).unwrap_or_default()
-    }
+/// `id` where it is free, else `id-2`, `id-3` and so on.
+pub fn free_id(id: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    let numbered = (2_u64..).map(|n| format!("{id}-{n}"));
+    // The numbers do not run out before the memory does.
+    std::iter::once(id.to_owned()).chain(numbered).find(|id| !is_taken(id)).unwrap_or_default()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::id_from_name;
-    use crate::starter::starter_library;
+    use super::{free_id, id_from_name, name_from_file};
 
     #[test]
     fn names_become_identifiers() {
@@ -40,11 +44,18 @@ mod tests {
     }
 
     #[test]
+    fn files_become_names() {
+        for (file, name) in
+            [("sanded_wood-01.csv", "Sanded wood 01"), (".csv", "Texture"), ("öl.v2.wav", "Öl.v2")]
+        {
+            assert_eq!(name_from_file(file), name);
+        }
+    }
+
+    #[test]
     fn a_taken_identifier_gets_a_number() {
-        let mut library = starter_library().unwrap();
-        assert_eq!(library.free_id("moon"), "moon");
-        assert_eq!(library.free_id("glass"), "glass-2");
-        library.textures[1].id = "glass-2".to_owned();
-        assert_eq!(library.free_id("glass"), "glass-3");
+        let taken = ["glass", "glass-2"];
+        assert_eq!(free_id("moon", |id| taken.contains(&id)), "moon");
+        assert_eq!(free_id("glass", |id| taken.contains(&id)), "glass-3");
     }
 }
