@@ -15,6 +15,7 @@
 mod memory;
 mod mutate;
 mod readers;
+mod recordings;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
