@@ -1,5 +1,7 @@
 //! From the rows of a file to one regular clock.
 
+use std::slice::from_mut;
+
 use crate::dft321::dft321;
 use crate::recording::clock::{Count, Timeline, read_clock};
 use crate::recording::dropout::{Axis, is_rest, mark_dropouts};
@@ -34,13 +36,13 @@ impl Recording {
 
         match &mut motion {
             RawMotion::Speed(RawTrack::Column(values)) => {
-                fill_slower("speed", [values], &timeline, &mut findings);
+                fill_slower("speed", from_mut(values), &timeline, &mut findings);
             }
             RawMotion::Positions(axes) => fill_slower("positions", axes, &timeline, &mut findings),
             RawMotion::Speed(_) => {}
         }
         if let RawTrack::Column(values) = &mut force_n {
-            fill_slower("force", [values], &timeline, &mut findings);
+            fill_slower("force", from_mut(values), &timeline, &mut findings);
         }
         let mut usable = vec![true; timeline.rows.len()];
         let speed_rows = rows_of_speed(&motion);

@@ -42,7 +42,7 @@ pub(super) fn mark_missing(
 /// (NaN). Rows before the first value, behind the last and in gaps stay empty.
 pub(super) fn fill_slower(
     name: &str,
-    columns: impl IntoIterator<Item = &mut Vec<f64>>,
+    columns: &mut [Vec<f64>],
     timeline: &Timeline,
     findings: &mut Vec<Finding>,
 ) {

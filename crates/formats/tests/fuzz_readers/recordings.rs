@@ -144,7 +144,7 @@ pub(crate) fn wav_seeds() -> Vec<Vec<u8>> {
 
 pub(crate) fn wav_bombs() -> Vec<Vec<u8>> {
     let mut long = Wav { riff: b"RIFF", tag: 1, channels: 1, bits: 8, stated: Some(u32::MAX) }.bytes();
-    long.extend((0..1_u32 << 18).map(|i| (i * i % 251) as u8));
+    long.extend((0..1_u32 << 18).map(|i| (i.wrapping_mul(i) % 251) as u8));
     let mut chunks = b"RIFF\0\0\0\0WAVE".to_vec();
     chunks.extend(b"junk\0\0\0\0".repeat(1 << 17));
     vec![long, chunks]

@@ -80,10 +80,22 @@ fn files_of_64_bit_sizes_end_where_they_say() {
         bytes.extend(chunk(b"junk", 4, b"abcd"));
         check(&bytes, &[0.5, -1.0], None);
         check(&file(kind, [u32::MAX; 2], &[sizes(400), plain.clone()], &DATA), &[0.5, -1.0], Some("cut off"));
-        check(&file(kind, [u32::MAX; 2], &[sizes(u64::MAX), plain.clone()], &DATA), &[0.5, -1.0], Some("cut off"));
+        check(
+            &file(kind, [u32::MAX; 2], &[sizes(u64::MAX), plain.clone()], &DATA),
+            &[0.5, -1.0],
+            Some("cut off"),
+        );
         // Where the sizes in 64 bits are missing, or were not filled in, the file is read to its end.
-        check(&file(kind, [u32::MAX; 2], std::slice::from_ref(&plain), &DATA), &[0.5, -1.0], Some("to its end"));
-        check(&file(kind, [u32::MAX; 2], &[sizes(0), plain.clone()], &DATA), &[0.5, -1.0], Some("to its end"));
+        check(
+            &file(kind, [u32::MAX; 2], std::slice::from_ref(&plain), &DATA),
+            &[0.5, -1.0],
+            Some("to its end"),
+        );
+        check(
+            &file(kind, [u32::MAX; 2], &[sizes(0), plain.clone()], &DATA),
+            &[0.5, -1.0],
+            Some("to its end"),
+        );
     }
 }
 
