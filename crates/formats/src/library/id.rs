@@ -16,7 +16,10 @@ impl Library {
             return id.to_owned();
         }
         // One more than there are textures is tried, so one is free.
-        (2..).map(|n| format!("{id}-{n}")).find(|id| self.index_of(id).is_none()).unwrap_or_default()
+        (2..usize::MAX)
+            .map(|n| format!("{id}-{n}"))
+            .find(|id| self.index_of(id).is_none())
+            .unwrap_or_default()
     }
 }
 
