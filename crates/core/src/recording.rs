@@ -5,6 +5,7 @@ mod dropout;
 mod fault;
 mod finding;
 mod from_raw;
+mod missing;
 mod motion;
 mod raw;
 mod resample;

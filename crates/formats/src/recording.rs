@@ -12,6 +12,7 @@ mod names;
 mod question;
 mod sidecar;
 mod table;
+mod told;
 mod units;
 mod wav;
 

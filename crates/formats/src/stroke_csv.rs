@@ -109,11 +109,12 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
         warnings.push(format!("no header; the columns are taken for {}", columns.in_words()));
     }
     let first_row = (!is_header).then_some(first);
-    let rows = first_row
-        .into_iter()
-        .chain(records)
-        .map(|record| parse_row(&columns, &record, delimiter))
-        .collect::<Result<Vec<_>, _>>()?;
+    // Room that the text can fill: a digit and what parts it from the next, for each value.
+    let n_lines = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count() + 1;
+    let mut rows = Vec::with_capacity(n_lines.min(text.len() / (2 * columns.n) + 1));
+    for record in first_row.into_iter().chain(records) {
+        rows.push(parse_row(&columns, &record, delimiter)?);
+    }
     let secs_per_unit = secs_per_unit(&columns, &rows, &mut warnings)?;
     let start = rows.first().map_or(0.0, |row| row.time);
     let time_secs = |row: &Row| (row.time - start) * secs_per_unit;

@@ -178,7 +178,11 @@ pub fn read_svc(bytes: &[u8]) -> Result<Imported<PenRecording>, SvcError> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let first = lines.next().map_or("", |(_, line)| line.trim());
     let announced: usize = first.parse().map_err(|_| SvcError::Count { found: short(first) })?;
-    let rows = lines.map(|(index, line)| parse_row(index + 1, line)).collect::<Result<Vec<_>, _>>()?;
+    // Room that the text can fill, whatever its first line says.
+    let mut rows = Vec::with_capacity(announced.min(text.len() / SHORTEST_ROW_BYTES));
+    for (index, line) in lines {
+        rows.push(parse_row(index + 1, line)?);
+    }
     if rows.is_empty() || rows.len() < announced {
         return Err(SvcError::Missing { announced, found: rows.len() });
     }
@@ -245,14 +249,18 @@ pub fn pen_samples(
     Ok(Imported { value: recording.rows.iter().map(sample).collect(), warnings })
 }
 
+/// Seven digits, each with what parts it from the next.
+const SHORTEST_ROW_BYTES: usize = 14;
+
 fn parse_row(line: usize, text: &str) -> Result<Row, SvcError> {
     const COLUMNS: [&str; 7] = ["x", "y", "time", "on-surface", "azimuth", "altitude", "pressure"];
-    let found: Vec<&str> = text.split_whitespace().collect();
-    if found.len() != COLUMNS.len() {
-        return Err(SvcError::Columns { line, found: found.len() });
+    let words = text.split_whitespace();
+    let found = words.clone().count();
+    if found != COLUMNS.len() {
+        return Err(SvcError::Columns { line, found });
     }
     let mut values = [0.0; COLUMNS.len()];
-    for ((value, text), column) in values.iter_mut().zip(found).zip(COLUMNS) {
+    for ((value, text), column) in values.iter_mut().zip(words).zip(COLUMNS) {
         *value = match text.parse::<f64>() {
             Ok(number) if number.is_finite() => number,
             _ => return Err(SvcError::Number { line, column, found: short(text) }),

@@ -48,6 +48,23 @@ pub enum Finding {
         /// Where.
         at: Where,
     },
+    /// Values are larger than anything that could have been measured; those rows are left out.
+    Impossible {
+        /// The column.
+        column: String,
+        /// Where.
+        at: Where,
+        /// The largest magnitude that is taken, in the SI unit of the column.
+        most: f64,
+    },
+    /// A column of speed, position or force has values in some of the rows only, as a slower sensor has; straight lines
+    /// were put between them.
+    SlowerTrack {
+        /// The column.
+        column: String,
+        /// The mean rate of its values, in Hz.
+        rate_hz: f64,
+    },
     /// A column does not change for suspiciously long: the sensor, or its cable, was stuck. Left out.
     Stuck {
         /// The column.
@@ -115,6 +132,8 @@ impl Finding {
             Self::Jitter { .. } => "irregular timestamps",
             Self::Drift { .. } => "clock drift",
             Self::NotANumber { .. } => "not a number",
+            Self::Impossible { .. } => "impossible values",
+            Self::SlowerTrack { .. } => "slower track",
             Self::Stuck { .. } => "stuck sensor",
             Self::Held { .. } => "repeated values",
             Self::DeadAxis { .. } => "dead axis",
@@ -159,6 +178,12 @@ impl fmt::Display for Finding {
                 write!(f, "{column} is {value} in every row; it was not taken as an axis")
             }
             Self::NotANumber { column, at } => write!(f, "{column}, {at}; those rows were left out"),
+            Self::Impossible { column, at, most } => {
+                write!(f, "{column} is beyond {most:e} in SI units, {at}; those rows were left out")
+            }
+            Self::SlowerTrack { column, rate_hz } => {
+                write!(f, "{column} has values at {rate_hz:.1} Hz only; straight lines were put between them")
+            }
             Self::Stuck { column, at } => write!(f, "{column} does not change, {at}; left out"),
             Self::Clipped { column, at, value } => {
                 write!(f, "{column} stays at {value:.4}, {at}; left out")

@@ -1,8 +1,11 @@
 //! From the rows of a file to one regular clock.
 
+use std::slice::from_mut;
+
 use crate::dft321::dft321;
 use crate::recording::clock::{Count, Timeline, read_clock};
 use crate::recording::dropout::{Axis, is_rest, mark_dropouts};
+use crate::recording::missing::{fill_slower, mark_missing};
 use crate::recording::motion::speed_from_positions;
 use crate::recording::stretch::{Stretch, fast, lay_out, slow};
 use crate::recording::{
@@ -15,7 +18,8 @@ impl Recording {
     ///
     /// A regular clock stays as it is: rows are samples. On a jittered one, acceleration is interpolated by polynomials of
     /// high degree, speed and force by straight lines, and never across a gap. Acceleration keeps its mean, gravity
-    /// included. Rows that are stuck, clipped or lack a value are not in [`Recording::usable`].
+    /// included. Rows that are stuck, clipped or lack a value are not in [`Recording::usable`]. Where speed, positions or
+    /// force stand in only some of the rows, at 25 Hz or more, straight lines lie between their values.
     ///
     /// # Errors
     /// [`RecordingError`] with everything that keeps it from being used.
@@ -23,13 +27,23 @@ impl Recording {
         let (mut findings, mut faults) = (Vec::new(), Vec::new());
         let n_rows = raw.acceleration_mps2.first().map_or(0, Vec::len);
         check_columns(&raw, n_rows, &mut faults);
-        let RawRecording { clock, mut acceleration_mps2, motion, force_n, full_scale_mps2 } = raw;
+        let RawRecording { clock, mut acceleration_mps2, mut motion, mut force_n, full_scale_mps2 } = raw;
         let timeline = read_clock(clock, n_rows, &mut findings, &mut faults);
         let unequal = faults.iter().any(|fault| matches!(fault, Fault::UnequalColumns { .. }));
         let Some(timeline) = timeline.filter(|timeline| !unequal && !timeline.rows.is_empty()) else {
             return Err(RecordingError { faults, findings });
         };
 
+        match &mut motion {
+            RawMotion::Speed(RawTrack::Column(values)) => {
+                fill_slower("speed", from_mut(values), &timeline, &mut findings);
+            }
+            RawMotion::Positions(axes) => fill_slower("positions", axes, &timeline, &mut findings),
+            RawMotion::Speed(_) => {}
+        }
+        if let RawTrack::Column(values) = &mut force_n {
+            fill_slower("force", from_mut(values), &timeline, &mut findings);
+        }
         let mut usable = vec![true; timeline.rows.len()];
         let speed_rows = rows_of_speed(&motion);
         let force_rows = column_of(&force_n);
@@ -157,25 +171,6 @@ fn check_track(track: &RawTrack, what: &'static str, missing: Fault, faults: &mu
         }
         RawTrack::Constant(_) | RawTrack::Column(_) => {}
     }
-}
-
-/// Marks rows where one of `columns` has no finite number.
-fn mark_missing(
-    name: &str,
-    columns: &[&[f64]],
-    timeline: &Timeline,
-    usable: &mut [bool],
-    findings: &mut Vec<Finding>,
-) {
-    let mut missing = Count::default();
-    for ((row, time), usable) in timeline.rows.iter().zip(&timeline.times).zip(usable) {
-        if columns.iter().any(|values| !values[*row].is_finite()) {
-            missing.add(*time);
-            *usable = false;
-        }
-    }
-    let at = missing.found(timeline.rows.len());
-    findings.extend(at.map(|at| Finding::NotANumber { column: name.to_owned(), at }));
 }
 
 /// What was said and not measured, or has to be known of what was measured.

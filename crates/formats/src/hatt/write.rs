@@ -181,7 +181,9 @@ impl Lines {
 
     /// A list of numbers: one element `value` each, as published files have it.
     fn list(&mut self, element: &str, numbers: impl IntoIterator<Item = String>) {
-        let values: String = numbers.into_iter().map(|number| format!("<value>{number}</value>")).collect();
+        let values: Vec<String> =
+            numbers.into_iter().map(|number| format!("<value>{number}</value>")).collect();
+        let values = values.concat();
         let _ = writeln!(self.text, "<{element}>{values}</{element}>");
     }
 

@@ -4,10 +4,10 @@ use shagreen_core::recording::{Fault, RawClock, RawMotion, RawRecording, RawTrac
 use shagreen_core::units::Hertz;
 
 use crate::recording::column_map::{Channel, ColumnMap};
-use crate::recording::from_table::largest;
 use crate::recording::inquiry::Inquiry;
 use crate::recording::question::Ask;
 use crate::recording::sidecar::read_sidecar;
+use crate::recording::told::largest;
 use crate::recording::units::{AccelerationUnit, ForceUnit, SpeedUnit};
 use crate::recording::wav::{WavSamples, read_wav};
 use crate::recording::{RecordingFile, RecordingFileError};

@@ -28,8 +28,14 @@ pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
         .map(letters)
         .filter(|word| !word.is_empty())
         .collect();
+    if words.len() > MAX_WORDS {
+        return None;
+    }
     (1..=words.len()).rev().find_map(|n| meaning(&words[..n].concat(), &words[n..].concat()))
 }
+
+/// Words of a name beyond which it is a sentence and says nothing.
+const MAX_WORDS: usize = 20;
 
 /// A name has a unit that is none of its quantity.
 struct WrongUnit;
@@ -131,5 +137,6 @@ mod tests {
         ] {
             assert_eq!(meaning_of(name), expected, "{name}");
         }
+        assert_eq!(meaning_of(&"a ".repeat(1 << 20)), None);
     }
 }

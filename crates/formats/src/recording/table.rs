@@ -123,7 +123,7 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
         warnings: Vec::new(),
     };
     let mut record = csv::StringRecord::new();
-    let (mut n_short, mut first_short) = (0, 0);
+    let (mut n_short, mut first_short, mut n_lacking) = (0, 0, 0);
     // Text in memory with rows of any length: there is nothing left that the parser could refuse.
     while reader.read_record(&mut record).unwrap_or(false) {
         let line = record.position().map_or(0, |position| position.line() as usize);
@@ -135,6 +135,7 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
             .all(|field| field.is_empty() || number(field, decimal_comma || mark != ',').is_none());
         if table.names.is_empty() {
             table.start(&record, map.header.unwrap_or(is_words), line)?;
+            table.reserve(&text);
             if table.header {
                 continue;
             }
@@ -151,6 +152,13 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
         }
         if record.len() < table.names.len() {
             n_short += 1;
+            n_lacking += table.names.len() - record.len();
+            // Else a short file could ask for any amount of memory.
+            if n_lacking > text.len() {
+                let n_columns = table.names.len();
+                let problem = format!("too many lines have fewer values than the {n_columns} columns");
+                return Err(RecordingFileError::Table { problem, line: Some(line) });
+            }
             first_short = if n_short == 1 { line } else { first_short };
         }
         table.push(&record, line);
@@ -204,6 +212,15 @@ impl Table {
         self.columns = vec![Vec::new(); self.names.len()];
         self.not_numbers = vec![NotNumbers::default(); self.names.len()];
         Ok(())
+    }
+
+    /// Room for as many rows as the text can hold: a full one takes a byte for each column at least.
+    fn reserve(&mut self, text: &str) {
+        let n_lines = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count() + 1;
+        let n_rows = n_lines.min(text.len() / self.columns.len() + 1);
+        for column in &mut self.columns {
+            column.reserve_exact(n_rows);
+        }
     }
 
     fn push(&mut self, record: &csv::StringRecord, line: usize) {

@@ -132,6 +132,12 @@ fn damage_is_named_with_its_place() {
     }
     let error = read_recording("a.csv", b"t,a\n0,1\n", None, &map(&[(Ask::Speed, "w")])).unwrap_err();
     assert!(error.to_string().contains("no column \"w\""), "{error}");
+    let twice = map(&[(Ask::Speed, "a"), (Ask::SpeedUnit, "m/s"), (Ask::AccelerationUnit, "g")]);
+    let error = read_recording("a.csv", b"t_s,a\n0,1\n1,2\n", None, &twice).unwrap_err();
+    assert!(error.to_string().contains("\"a\" cannot be two things"), "{error}");
+    let lacking = format!("{}\n{}", ["c"; 900].join(","), "1\n".repeat(900));
+    let error = read_recording("a.csv", lacking.as_bytes(), None, &ColumnMap::default()).unwrap_err();
+    assert!(error.to_string().contains("too many lines have fewer values"), "{error}");
     let odd = "t_s,a [g],note,v [m/s],f [N]\n0,1,x,1,1\n0.001,bad,x,1,1\n0.002,1\n";
     let warnings = read(odd, &[]).warnings.join("; ");
     for words in ["1 lines have fewer", "1 cells of \"a [g]\"", "not used: \"note\""] {

@@ -153,3 +153,6 @@ fn sample(bytes: &[u8], float: bool) -> f64 {
         _ => f64::NAN,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -15,6 +15,7 @@
 mod memory;
 mod mutate;
 mod readers;
+mod recordings;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -22,6 +23,10 @@ use std::time::{Duration, Instant};
 use std::{env, fs, process, thread};
 
 use shagreen_core::rng::{Random, derive_seed};
+use shagreen_formats::map_toml::read_map;
+use shagreen_formats::recording::read_recording;
+use shagreen_formats::stroke_csv::read_stroke_csv;
+use shagreen_formats::svc::read_svc;
 
 use crate::memory::peak_of;
 use crate::mutate::mutate;
@@ -171,6 +176,35 @@ fn what_is_made_to_be_large_is_refused() {
             }
         }
     }
+}
+
+/// Files of some MB whose cells are as short as can be.
+#[test]
+fn dense_tables_are_read_in_the_same_bounds() {
+    const N_ROWS: usize = 700_000;
+    let table = |head: &str, row: fn(usize) -> String| {
+        (0..N_ROWS).fold(head.to_owned(), |text, i| text + &row(i) + "\n").into_bytes()
+    };
+    let recording = |bytes: &[u8]| {
+        let map = b"rate_hz = 1000\nacceleration = [1]\nacceleration_unit = \"g\"\nspeed = 2\n\
+            speed_unit = \"mm/s\"\nforce = 3\nforce_unit = \"N\"";
+        read_recording("a.csv", bytes, None, &read_map(map).unwrap()).is_ok()
+    };
+    let check = |name: &str, bytes: &[u8], read: &dyn Fn(&[u8]) -> bool| {
+        let (is_read, peak) = peak_of(|| read(bytes));
+        assert!(is_read, "{name}");
+        let share = peak as f64 / bytes.len() as f64;
+        println!("{name}: {share:.1} times the {} bytes of the file", bytes.len());
+        assert!(peak <= MEMORY_FACTOR * bytes.len() + MEMORY_BYTES, "{name}: {share:.1} times");
+    };
+    check("recording", &table("", |i| format!("{},2,3", i * i % 10)), &recording);
+    check("recording of many columns", &table("", |i| format!("{},2,3,,,,,,,,,", i * i % 10)), &recording);
+    check("stroke", &table("t_ms,speed,force\n", |i| format!("{i},1,1")), &|bytes| {
+        read_stroke_csv(bytes).is_ok()
+    });
+    check("pen", &table("700000\n", |i| format!("1 1 {i} 1 1 1 1")), &|bytes| read_svc(bytes).is_ok());
+    let words = "1 ".repeat(5 << 20);
+    check("a line of words", words.as_bytes(), &|bytes| read_svc(bytes).is_err());
 }
 
 #[test]

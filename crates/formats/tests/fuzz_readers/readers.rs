@@ -10,6 +10,10 @@ use shagreen_formats::svc::{PenFlavor, PenMapping, pen_samples, read_svc};
 use shagreen_formats::wav::SidecarV1;
 
 use crate::mutate::repair_png;
+use crate::recordings::{
+    map_seeds, read_a_map, read_a_table, read_a_wav, read_a_wav_sidecar, sidecar_seeds as wav_sidecar_seeds,
+    table_bombs, table_seeds, wav_bombs, wav_seeds,
+};
 
 /// A reader and where its inputs come from.
 #[derive(Clone, Copy)]
@@ -70,6 +74,22 @@ pub(crate) const READERS: &[Reader] = &[
     },
     Reader { name: "jpeg", seeds: jpeg_seeds, repair: None, bombs: jpeg_bombs, read: read_a_jpeg },
     Reader { name: "png", seeds: png_seeds, repair: Some(repair_png), bombs: png_bombs, read: read_a_png },
+    Reader {
+        name: "recording_table",
+        seeds: table_seeds,
+        repair: None,
+        bombs: table_bombs,
+        read: read_a_table,
+    },
+    Reader { name: "recording_wav", seeds: wav_seeds, repair: None, bombs: wav_bombs, read: read_a_wav },
+    Reader {
+        name: "recording_sidecar",
+        seeds: wav_sidecar_seeds,
+        repair: None,
+        bombs: json_bombs,
+        read: read_a_wav_sidecar,
+    },
+    Reader { name: "map", seeds: map_seeds, repair: None, bombs: toml_bombs, read: read_a_map },
 ];
 
 fn no_bombs() -> Vec<Vec<u8>> {

@@ -203,6 +203,33 @@ fn speeds_follow_from_positions_and_lose_their_sign() {
     assert!(recording.speed_mps.iter().all(|speed| (speed - 0.1).abs() < 1e-9));
 }
 
+#[test]
+fn speed_and_force_of_slower_sensors_are_on_lines_between_their_values() {
+    let slow = |every: usize, value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        (0..2001).map(|row| if row % every == 0 { value(row) } else { f64::NAN }).collect()
+    };
+    let mut raw = noise(2001, RawClock::Rate(Hertz(RATE_HZ)));
+    raw.motion = RawMotion::Speed(RawTrack::Column(slow(10, &|row| 1e-4 * row as f64)));
+    raw.force_n = RawTrack::Column(slow(8, &|_| 1.5));
+    let recording = check_findings(raw.clone(), &["slower track", "slower track"], 2.001);
+    for (row, speed) in recording.speed_mps.iter().enumerate() {
+        assert!((speed - 1e-4 * row as f64).abs() < 1e-12, "row {row} is {speed}");
+    }
+    assert!(recording.force_n.iter().all(|force| *force == 1.5));
+    raw.motion = RawMotion::Positions(vec![slow(10, &|row| 1e-4 * row as f64)]);
+    let recording =
+        check_findings(raw.clone(), &["slower track", "slower track", "speed from positions"], 2.001);
+    assert!(recording.speed_mps.iter().all(|speed| (speed - 0.1).abs() < 1e-9));
+    // Values that are too rare say too little.
+    raw.force_n = RawTrack::Column(slow(100, &|_| 1.5));
+    assert_eq!(fault_names(raw), ["nothing usable"]);
+}
+
+#[test]
+fn values_that_cannot_be_are_left_out() {
+    check_findings(with_axis(|axis| axis[300] = 1e308), &["impossible values"], 1.999);
+}
+
 proptest! {
     #[test]
     fn a_sine_on_a_jittered_clock_comes_back(

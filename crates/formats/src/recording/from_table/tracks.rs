@@ -1,0 +1,111 @@
+//! The columns of speed or position, and of force.
+
+use shagreen_core::recording::{RawMotion, RawTrack};
+
+use crate::recording::RecordingFileError;
+use crate::recording::from_table::Reading;
+use crate::recording::names::Meaning;
+use crate::recording::question::Ask;
+use crate::recording::told::{largest, median_of};
+use crate::recording::units::{ForceUnit, PositionUnit, SpeedUnit};
+
+/// Speeds of hands: none is above this in m/s, and a stroke is not below this in mm/s.
+const FASTEST_MPS: f64 = 2.0;
+/// No stylus is pressed harder, in N.
+const STRONGEST_N: f64 = 50.0;
+
+impl Reading {
+    pub(super) fn motion(&mut self, positions: &[usize]) -> Result<RawMotion, RecordingFileError> {
+        if let Some(speed) = self.inquiry.map.constant_speed {
+            return Ok(RawMotion::Speed(RawTrack::Constant(speed.0)));
+        }
+        let named = self.inquiry.map.speed.clone().map(|column| self.place(&column)).transpose()?;
+        let meant = self.meant(|meaning| matches!(meaning, Meaning::Speed(_)));
+        if named.is_none() && !positions.is_empty() {
+            let by_name = positions.iter().find_map(|place| match self.meanings[*place] {
+                Some(Meaning::Position(unit)) => unit,
+                _ => None,
+            });
+            if self.inquiry.map.position_unit.is_none() {
+                self.inquiry.map.position_unit = by_name;
+            }
+            if self.inquiry.map.position_unit.is_none() {
+                let names: Vec<&str> = PositionUnit::ALL.iter().map(|unit| unit.name()).collect();
+                let text = format!("the unit of {} is not stated", self.name(positions));
+                self.inquiry.ask(Ask::PositionUnit, &names, text);
+            }
+            let si = self.inquiry.map.position_unit.map_or(1.0, PositionUnit::si);
+            let axes: Result<_, _> = positions.iter().map(|place| self.take(*place, si)).collect();
+            return Ok(RawMotion::Positions(axes?));
+        }
+        let Some(place) = named.or(meant.first().copied()) else {
+            let text = "the file has neither speed nor positions; name a column, or say the constant speed, such as \"100 mm/s\"";
+            self.inquiry.ask(Ask::Speed, &[], text.to_owned());
+            return Ok(RawMotion::Speed(RawTrack::Missing));
+        };
+        self.inquiry.map.speed = Some(self.column(place));
+        if let (None, Some(Meaning::Speed(unit))) = (self.inquiry.map.speed_unit, self.meanings[place]) {
+            self.inquiry.map.speed_unit = unit;
+        }
+        if self.inquiry.map.speed_unit.is_none() {
+            let names: Vec<&str> = SpeedUnit::ALL.iter().map(|unit| unit.name()).collect();
+            let most = largest(&self.table.columns[place]);
+            let text = format!("the unit of {} is not stated; it goes up to {most:.3}", self.name(&[place]));
+            if most > 10.0 * FASTEST_MPS {
+                let text = format!("{text}, faster than hands in m/s");
+                self.inquiry.guess(Ask::SpeedUnit, SpeedUnit::MillimetersPerSecond.name(), &names, text);
+            } else if most > 0.0 && most <= 0.5 * FASTEST_MPS {
+                let text = format!("{text}, slower than any stroke in mm/s");
+                self.inquiry.guess(Ask::SpeedUnit, SpeedUnit::MetersPerSecond.name(), &names, text);
+            } else {
+                self.inquiry.ask(Ask::SpeedUnit, &names, text);
+            }
+        }
+        let si = self.inquiry.map.speed_unit.map_or(1.0, SpeedUnit::si);
+        Ok(RawMotion::Speed(RawTrack::Column(self.take(place, si)?)))
+    }
+
+    pub(super) fn force(&mut self) -> Result<RawTrack, RecordingFileError> {
+        if let Some(force) = self.inquiry.map.constant_force {
+            return Ok(RawTrack::Constant(force.0));
+        }
+        let named = self.inquiry.map.force.clone().map(|column| self.place(&column)).transpose()?;
+        let meant = self.meant(|meaning| matches!(meaning, Meaning::Force(_)));
+        let along_z = self.meant(|meaning| matches!(meaning, Meaning::ForceZ(_)));
+        let Some(place) = named.or(meant.first().copied()).or(along_z.first().copied()) else {
+            let text =
+                "the file has no normal force; name a column, or say the constant force, such as \"1 N\"";
+            self.inquiry.ask(Ask::Force, &[], text.to_owned());
+            return Ok(RawTrack::Missing);
+        };
+        if named.is_none() && meant.is_empty() {
+            let text = format!("{} is taken for the normal force", self.name(&[place]));
+            self.inquiry.guess(Ask::Force, &(place + 1).to_string(), &[], text);
+        }
+        self.inquiry.map.force = Some(self.column(place));
+        if let (None, Some(Meaning::Force(unit) | Meaning::ForceZ(unit))) =
+            (self.inquiry.map.force_unit, self.meanings[place])
+        {
+            self.inquiry.map.force_unit = unit;
+        }
+        let most = largest(&self.table.columns[place]);
+        if self.inquiry.map.force_unit.is_none() {
+            let names: Vec<&str> = ForceUnit::ALL.iter().map(|unit| unit.name()).collect();
+            let text = format!("the unit of {} is not stated; it goes up to {most:.3}", self.name(&[place]));
+            if most <= STRONGEST_N {
+                self.inquiry.guess(Ask::ForceUnit, ForceUnit::Newtons.name(), &names, text);
+            } else {
+                self.inquiry.ask(Ask::ForceUnit, &names, format!("{text}, more than a stylus bears in N"));
+            }
+        }
+        let si = self.inquiry.map.force_unit.map_or(1.0, ForceUnit::si);
+        let column = &self.table.columns[place];
+        if self.inquiry.map.pressing_is_negative.is_none() && median_of(column) < -0.01 * most {
+            let text =
+                format!("{} is below 0 most of the time, so pressing is negative", self.name(&[place]));
+            self.inquiry.guess(Ask::PressingIsNegative, "yes", &["yes", "no"], text);
+        }
+        let sign = if self.inquiry.map.pressing_is_negative == Some(true) { -1.0 } else { 1.0 };
+        Ok(RawTrack::Column(self.take(place, sign * si)?))
+    }
+}

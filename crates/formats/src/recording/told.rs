@@ -1,0 +1,69 @@
+//! What numbers tell of themselves: units, by physics.
+
+use shagreen_core::spectrum::median;
+
+use crate::recording::units::{AccelerationUnit, TimeUnit};
+
+/// Rates that a recording can have, in Hz, where only the unit of time decides.
+const LIKELY_RATES_HZ: [f64; 2] = [20.0, 48_500.0];
+/// How near to gravity the mean vector is, and how much smaller what moves is, where gravity tells the unit.
+const GRAVITY_SHARE: f64 = 0.06;
+const MOVING_SHARE: f64 = 0.5;
+
+/// Largest magnitude of the numbers.
+pub(super) fn largest(values: &[f64]) -> f64 {
+    values.iter().filter(|value| value.is_finite()).fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+pub(super) fn median_of(values: &[f64]) -> f64 {
+    median(values.iter().copied().filter(|value| value.is_finite()).collect())
+}
+
+/// Whether a column of numbers only goes up.
+pub(super) fn goes_on(values: &[f64]) -> bool {
+    values.len() > 2 && values.windows(2).all(|pair| pair[1] > pair[0])
+}
+
+/// The unit of times that gives a rate that recordings have, and why, where there is only one.
+pub(super) fn likely_time_unit(times: &[f64]) -> Option<(TimeUnit, String)> {
+    let first = times.iter().copied().find(|time| time.is_finite())?;
+    // Seconds since 1970 of the years 2001 to 2065.
+    let epoch = TimeUnit::ALL.iter().find(|unit| (1e9..3e9).contains(&(first * unit.si())));
+    if let Some(unit) = epoch {
+        return Some((*unit, format!("{first} is a date, counted in {}", unit.name())));
+    }
+    let steps = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0 && step.is_finite());
+    let step = median(steps.collect());
+    let [low, high] = LIKELY_RATES_HZ;
+    let rate_hz = |unit: &TimeUnit| 1.0 / (step * unit.si());
+    let mut units = TimeUnit::ALL.iter().filter(|unit| (low..high).contains(&rate_hz(unit)));
+    let unit = *units.next()?;
+    if units.next().is_some() {
+        return None;
+    }
+    Some((
+        unit,
+        format!("the middle step is {step:.6}, which is {:.1} Hz in {}", rate_hz(&unit), unit.name()),
+    ))
+}
+
+/// The unit in which the mean of three axes is as long as gravity while the rest is small, and that length.
+pub(super) fn unit_by_gravity(axes: &[&[f64]], scale: f64) -> Option<(AccelerationUnit, f64)> {
+    let [x, y, z] = axes else { return None };
+    let moments = |axis: &[f64]| {
+        let (n, sum, squares) = axis
+            .iter()
+            .filter(|value| value.is_finite())
+            .fold((0.0, 0.0, 0.0), |(n, sum, squares), value| {
+                (n + 1.0, sum + value * scale, squares + (value * scale).powi(2))
+            });
+        (sum / n, squares / n - (sum / n).powi(2))
+    };
+    let [x, y, z] = [moments(x), moments(y), moments(z)];
+    let length = (x.0.powi(2) + y.0.powi(2) + z.0.powi(2)).sqrt();
+    let moving = (x.1 + y.1 + z.1).max(0.0).sqrt();
+    let gravity = AccelerationUnit::StandardGravity.si();
+    let is_gravity = |unit: &&AccelerationUnit| (length * unit.si() / gravity - 1.0).abs() <= GRAVITY_SHARE;
+    let unit = AccelerationUnit::ALL.iter().find(is_gravity)?;
+    (moving <= MOVING_SHARE * length).then_some((*unit, length))
+}
