@@ -41,8 +41,7 @@ struct Moments {
 /// parts, at their offsets.
 pub(crate) fn burg_varying(parts: &[Part<'_>], order: usize) -> Option<ArFit> {
     let n: f64 = parts.iter().map(|p| p.weight * p.signal.len() as f64).sum();
-    let energy: f64 =
-        parts.iter().map(|p| p.weight * p.signal.iter().map(|x| x * x).sum::<f64>()).sum();
+    let energy: f64 = parts.iter().map(|p| p.weight * p.signal.iter().map(|x| x * x).sum::<f64>()).sum();
     let mut variance = energy / n;
     if variance.is_nan() || variance <= 0.0 {
         return None;

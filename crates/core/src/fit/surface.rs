@@ -23,8 +23,9 @@ const WIDENING: f64 = 1.25;
 /// The widest kernel: flat over the whole plane.
 const MAX_KERNEL_SHARE: f64 = 2.0;
 
-/// Distance that nodes keep from each other, as a share of the highest speed and force: half of what the kernel blurs.
-const NODE_SPACING: f64 = 0.1;
+/// Distance that nodes keep from each other, as a share of the highest speed and force: a little more than what the kernel
+/// blurs, so that resonances that move are not far from a node.
+const NODE_SPACING: f64 = 0.07;
 
 /// Exponents of speed and force that levels have where a recording does not tell: the middle of a hundred real textures.
 const USUAL_EXPONENTS: [f64; 2] = [0.97, 0.28];
@@ -129,7 +130,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Predictor of the pieces near a place, each counted alike however loud it is, and the samples that it rests on.
-    fn predictor(&self, weights: &[f64], speed_mps: f64, order: usize) -> (ArFit, f64) {
+    fn predictor(&self, weights: &[f64], speed_mps: f64, order: usize) -> Result<(ArFit, f64), FitError> {
         let near = || self.pieces.iter().zip(weights).filter(|(_, w)| **w > NEGLIGIBLE);
         let unit_mps = KERNEL_SHARE * self.speed_max_mps;
         let parts: Vec<Part<'_>> = near()
@@ -139,17 +140,20 @@ impl<'a> Surface<'a> {
                 weight: w / p.mean_square,
             })
             .collect();
-        // Pieces are not silent, and one of them lies at the place.
-        let fit = burg_varying(&parts, order).unwrap_or_else(|| unreachable!());
+        let fit = burg_varying(&parts, order).ok_or(FitError::Silent)?;
         let counted = |power: i32| near().map(|(p, w)| w.powi(power) * p.signal.len() as f64).sum::<f64>();
-        (fit, counted(1).powi(2) / counted(2))
+        Ok((fit, counted(1).powi(2) / counted(2)))
     }
 
     /// Level at a speed and force: a power law through the pieces near it, times what they have beyond it. The mean is
     /// one of squares: that of logarithms is too low for short pieces.
     fn level_mps2(&self, weights: &[f64], speed_mps: f64, force_n: f64) -> f64 {
         let trend = Trend::new(&self.pieces, weights, self.trend.exponents);
-        let beyond = |p: &Piece| p.mean_square / trend.mean_square(p.speed_mps, p.force_n);
+        // Within a piece, speed changes by a quarter: the power law is averaged over it, not taken in its middle.
+        let beyond = |p: &Piece| {
+            let sum: f64 = p.speeds_mps.iter().map(|v| trend.mean_square(*v, p.force_n)).sum();
+            p.mean_square * p.speeds_mps.len() as f64 / sum
+        };
         let pairs = || self.pieces.iter().zip(weights);
         let sum: f64 = pairs().map(|(p, w)| w * p.seconds * beyond(p)).sum();
         let secs: f64 = pairs().map(|(p, w)| w * p.seconds).sum();
@@ -180,7 +184,7 @@ impl<'a> Surface<'a> {
         let mut orders = Vec::new();
         for place in self.places() {
             let weights = self.weights(self.shares()[place]);
-            let (fit, n) = self.predictor(&weights, self.pieces[place].speed_mps, *range.end());
+            let (fit, n) = self.predictor(&weights, self.pieces[place].speed_mps, *range.end())?;
             orders.push(order_by_bic(&fit, n as usize, 0..=*range.end()));
         }
         orders.sort_unstable();
@@ -198,7 +202,7 @@ impl<'a> Surface<'a> {
         for place in self.places() {
             let Piece { speed_mps, force_n, .. } = *self.pieces[place];
             let weights = self.weights(self.share(speed_mps, force_n));
-            let lsf = lsf_from_ar(&self.predictor(&weights, speed_mps, order).0.ar)
+            let lsf = lsf_from_ar(&self.predictor(&weights, speed_mps, order)?.0.ar)
                 .ok_or(FitError::Unstable { speed_mps, force_n })?;
             nodes.push(GrainNode {
                 speed: MetersPerSecond(speed_mps),
