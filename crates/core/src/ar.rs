@@ -5,10 +5,12 @@
 
 mod burg;
 mod lags;
+mod varying;
 
 use std::f64::consts::TAU;
 
 pub use crate::ar::burg::{BurgSums, burg, burg_of_many};
+pub(crate) use crate::ar::varying::{Part, burg_varying};
 
 use crate::ar::lags::{lag_sums, sum_of};
 use crate::units::Hertz;

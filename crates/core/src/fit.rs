@@ -161,10 +161,10 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         Some(order) => order,
         None => surface.order(MIN_ORDER..=highest)?,
     };
-    let model = surface.model(rate, order)?;
+    let model = surface.model(rate, order, options.interpolation)?;
     let tap = landing(recordings, &mut notes);
     let model = model.with_tap(tap.map(|t| t.tap));
-    let compared = heldout::compare(&pieces, rate, order)?;
+    let compared = heldout::compare(&pieces, rate, order, options.interpolation)?;
     let segments = pieces.iter().zip(compared.comparisons).map(|(piece, comparison)| Segment {
         recording: piece.recording,
         start_secs: piece.start_secs,

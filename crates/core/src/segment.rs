@@ -20,13 +20,13 @@ pub const MIN_SPEED: MetersPerSecond = MetersPerSecond(0.010);
 /// Lightest force at which a tip counts as touching: sensors drift by about as much.
 pub const MIN_FORCE: Newtons = Newtons(0.05);
 
-/// How far speed may be from the middle of its range in a stretch, as a share of it: 15 %, because a hand that goes back
-/// and forth holds its speed within 10 % only over a third of its time, and the level changes by hardly more than a
-/// decibel.
-pub const SPEED_TOLERANCE: f64 = 0.15;
+/// How far speed may be from the middle of its range in a stretch, as a share of it: a quarter, because a hand that goes
+/// back and forth holds its speed within 10 % only over a third of its time, and hardly ever while it is slow. What a
+/// texture changes within a quarter, [`crate::fit`] follows sample by sample.
+pub const SPEED_TOLERANCE: f64 = 0.25;
 
 /// How far speed may be from its middle however slow it is, in m/s.
-pub const SPEED_TOLERANCE_MPS: f64 = 0.005;
+pub const SPEED_TOLERANCE_MPS: f64 = 0.010;
 
 /// How far force may be from the middle of its range in a stretch, as a share of it: the level follows force half as much
 /// as speed.

@@ -5,6 +5,7 @@ use crate::fit::surface::{Surface, distance};
 use crate::fit::{Comparison, FitError, HIGH_PASS, smear};
 use crate::plane::{Grain, Plane};
 use crate::spectrum::goodness_of_fit;
+use crate::texture::Interpolation;
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 /// Models that are made, each without one part of the pieces.
@@ -35,7 +36,12 @@ pub(super) struct Compared {
 }
 
 /// Every piece beside what models that have not seen it say; beside the model of all where there are few.
-pub(super) fn compare(pieces: &[Piece], rate: Hertz, order: usize) -> Result<Compared, FitError> {
+pub(super) fn compare(
+    pieces: &[Piece],
+    rate: Hertz,
+    order: usize,
+    interpolation: Interpolation,
+) -> Result<Compared, FitError> {
     let held_out = pieces.len() >= MIN_PIECES;
     let folds = if held_out { folds(pieces) } else { vec![0; pieces.len()] };
     let mut grains: Vec<Option<Grain>> = vec![None; pieces.len()];
@@ -46,7 +52,7 @@ pub(super) fn compare(pieces: &[Piece], rate: Hertz, order: usize) -> Result<Com
         if seen.is_empty() || asked().next().is_none() {
             continue;
         }
-        let plane = Plane::new(&Surface::new(seen).model(rate, order)?);
+        let plane = Plane::new(&Surface::new(seen).model(rate, order, interpolation)?);
         for (i, _) in asked() {
             let contact =
                 Contact { speed: MetersPerSecond(pieces[i].speed_mps), force: Newtons(pieces[i].force_n) };

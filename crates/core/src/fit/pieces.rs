@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
-use crate::ar::BurgSums;
 use crate::filter::{DECIMATION_PASS_SHARE, butterworth_high_pass, filter, resample_down};
 use crate::fit::{FitError, HIGH_PASS};
 use crate::recording::Recording;
-use crate::segment::{MIN_FORCE, MIN_SPEED, Segmentation, segment};
+use crate::segment::{MIN_FORCE, MIN_SPEED, Segmentation, segment, smoothed};
 use crate::spectrum::welch;
 use crate::units::Hertz;
 
@@ -41,7 +40,8 @@ pub(super) struct Piece {
     pub(super) speed_mps: f64,
     pub(super) force_n: f64,
     pub(super) signal: Vec<f64>,
-    pub(super) sums: BurgSums,
+    /// Smoothed speed at each sample of the signal.
+    pub(super) speeds_mps: Vec<f64>,
     pub(super) mean_square: f64,
 }
 
@@ -84,12 +84,21 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
         let from = stroked.recording.rate;
         let lower: Vec<Vec<f64>> =
             stroked.signals.iter().map(|(_, signal)| resample_down(signal, from, rate)).collect();
+        let speeds: Vec<Vec<f64>> = stroked
+            .signals
+            .iter()
+            .map(|(usable, _)| smoothed(&stroked.recording.speed_mps[usable.clone()], from.0))
+            .collect();
         for stretch in &stroked.segmentation.stretches {
             let holds = |(usable, _): &(Range<usize>, _)| usable.contains(&stretch.samples.start);
             let Some(at) = stroked.signals.iter().position(holds) else { continue };
             let begin = stroked.signals[at].0.start;
             let sample = |i: usize| ((i - begin) as f64 * rate.0 / from.0).round() as usize;
             let signal = &lower[at];
+            let speed_mps = |i: usize| {
+                let i = stretch.samples.start - begin + (i as f64 * from.0 / rate.0) as usize;
+                speeds[at][i.min(speeds[at].len() - 1)]
+            };
             let signal =
                 &signal[sample(stretch.samples.start)..sample(stretch.samples.end).min(signal.len())];
             let seconds = signal.len() as f64 / rate.0;
@@ -98,12 +107,8 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
                 short_secs += seconds;
                 continue;
             }
-            let sums = BurgSums::new(signal, order).map_err(|source| FitError::Predictor {
-                speed_mps: stretch.speed.0,
-                force_n: stretch.force.0,
-                source,
-            })?;
-            if sums.mean_square() == 0.0 {
+            let mean_square = signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64;
+            if mean_square == 0.0 {
                 silent_secs += seconds;
                 continue;
             }
@@ -113,9 +118,9 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
                 seconds,
                 speed_mps: stretch.speed.0,
                 force_n: stretch.force.0,
-                mean_square: sums.mean_square(),
+                mean_square,
+                speeds_mps: (0..signal.len()).map(speed_mps).collect(),
                 signal: signal.to_vec(),
-                sums,
             });
         }
     }

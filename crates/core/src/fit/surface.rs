@@ -1,10 +1,10 @@
 //! What pieces say of the texture at any speed and force: their neighbors' sums and levels, weighted by nearness.
 
-use crate::ar::{ArFit, burg_of_many, order_by_bic};
+use crate::ar::{ArFit, Part, burg_varying, order_by_bic};
 use crate::fit::FitError;
 use crate::fit::pieces::Piece;
 use crate::lsf::lsf_from_ar;
-use crate::texture::{GrainNode, TextureModel};
+use crate::texture::{GrainNode, Interpolation, TextureModel};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
 /// Standard deviation of the kernel over (speed, force), each as a share of its highest: what is nearer is alike.
@@ -14,14 +14,18 @@ const KERNEL_SHARE: f64 = 0.05;
 /// A level has a standard error of about half a decibel then, and a resonance is known to a few hertz.
 const ESTIMATE_SECS: f64 = 1.5;
 
+/// Weight below which a piece is left out of a predictor.
+const NEGLIGIBLE: f64 = 1e-3;
+
 /// By how much the kernel widens at a time.
 const WIDENING: f64 = 1.25;
 
 /// The widest kernel: flat over the whole plane.
 const MAX_KERNEL_SHARE: f64 = 2.0;
 
-/// Distance that nodes keep from each other, as a share of the highest speed and force: half of what the kernel blurs.
-const NODE_SPACING: f64 = 0.1;
+/// Distance that nodes keep from each other, as a share of the highest speed and force: a little more than what the kernel
+/// blurs, so that resonances that move are not far from a node.
+const NODE_SPACING: f64 = 0.07;
 
 /// Exponents of speed and force that levels have where a recording does not tell: the middle of a hundred real textures.
 const USUAL_EXPONENTS: [f64; 2] = [0.97, 0.28];
@@ -126,21 +130,18 @@ impl<'a> Surface<'a> {
     }
 
     /// Predictor of the pieces near a place, each counted alike however loud it is, and the samples that it rests on.
-    fn predictor(&self, weights: &[f64], order: usize) -> Result<(ArFit, f64), FitError> {
-        let parts: Vec<_> =
-            self.pieces.iter().zip(weights).map(|(p, w)| (&p.sums, w / p.mean_square)).collect();
-        let fit = burg_of_many(&parts, order).map_err(|source| FitError::Predictor {
-            speed_mps: self.pieces[0].speed_mps,
-            force_n: self.pieces[0].force_n,
-            source,
-        })?;
-        let counted = |power: i32| {
-            self.pieces
-                .iter()
-                .zip(weights)
-                .map(|(p, w)| w.powi(power) * p.sums.n_samples() as f64)
-                .sum::<f64>()
-        };
+    fn predictor(&self, weights: &[f64], speed_mps: f64, order: usize) -> Result<(ArFit, f64), FitError> {
+        let near = || self.pieces.iter().zip(weights).filter(|(_, w)| **w > NEGLIGIBLE);
+        let unit_mps = KERNEL_SHARE * self.speed_max_mps;
+        let parts: Vec<Part<'_>> = near()
+            .map(|(p, w)| Part {
+                signal: &p.signal,
+                offsets: p.speeds_mps.iter().map(|v| (v - speed_mps) / unit_mps).collect(),
+                weight: w / p.mean_square,
+            })
+            .collect();
+        let fit = burg_varying(&parts, order).ok_or(FitError::Silent)?;
+        let counted = |power: i32| near().map(|(p, w)| w.powi(power) * p.signal.len() as f64).sum::<f64>();
         Ok((fit, counted(1).powi(2) / counted(2)))
     }
 
@@ -148,7 +149,11 @@ impl<'a> Surface<'a> {
     /// one of squares: that of logarithms is too low for short pieces.
     fn level_mps2(&self, weights: &[f64], speed_mps: f64, force_n: f64) -> f64 {
         let trend = Trend::new(&self.pieces, weights, self.trend.exponents);
-        let beyond = |p: &Piece| p.mean_square / trend.mean_square(p.speed_mps, p.force_n);
+        // Within a piece, speed changes by a quarter: the power law is averaged over it, not taken in its middle.
+        let beyond = |p: &Piece| {
+            let sum: f64 = p.speeds_mps.iter().map(|v| trend.mean_square(*v, p.force_n)).sum();
+            p.mean_square * p.speeds_mps.len() as f64 / sum
+        };
         let pairs = || self.pieces.iter().zip(weights);
         let sum: f64 = pairs().map(|(p, w)| w * p.seconds * beyond(p)).sum();
         let secs: f64 = pairs().map(|(p, w)| w * p.seconds).sum();
@@ -178,7 +183,8 @@ impl<'a> Surface<'a> {
     pub(super) fn order(&self, range: std::ops::RangeInclusive<usize>) -> Result<usize, FitError> {
         let mut orders = Vec::new();
         for place in self.places() {
-            let (fit, n) = self.predictor(&self.weights(self.shares()[place]), *range.end())?;
+            let weights = self.weights(self.shares()[place]);
+            let (fit, n) = self.predictor(&weights, self.pieces[place].speed_mps, *range.end())?;
             orders.push(order_by_bic(&fit, n as usize, 0..=*range.end()));
         }
         orders.sort_unstable();
@@ -186,12 +192,17 @@ impl<'a> Surface<'a> {
     }
 
     /// The texture.
-    pub(super) fn model(&self, rate: Hertz, order: usize) -> Result<TextureModel, FitError> {
+    pub(super) fn model(
+        &self,
+        rate: Hertz,
+        order: usize,
+        interpolation: Interpolation,
+    ) -> Result<TextureModel, FitError> {
         let mut nodes = Vec::new();
         for place in self.places() {
             let Piece { speed_mps, force_n, .. } = *self.pieces[place];
             let weights = self.weights(self.share(speed_mps, force_n));
-            let lsf = lsf_from_ar(&self.predictor(&weights, order)?.0.ar)
+            let lsf = lsf_from_ar(&self.predictor(&weights, speed_mps, order)?.0.ar)
                 .ok_or(FitError::Unstable { speed_mps, force_n })?;
             nodes.push(GrainNode {
                 speed: MetersPerSecond(speed_mps),
@@ -200,7 +211,7 @@ impl<'a> Surface<'a> {
                 level_mps2: self.level_mps2(&weights, speed_mps, force_n),
             });
         }
-        Ok(TextureModel::new(rate, nodes, None)?)
+        Ok(TextureModel::new(rate, nodes, None)?.with_interpolation(interpolation)?)
     }
 }
 

@@ -1,9 +1,10 @@
-use super::{FitError, FitOptions, fit};
+use super::{FitError, FitOptions, FitReport, fit};
 use crate::ar::test_signals::from_resonances;
 use crate::plane::Plane;
 use crate::recording::Recording;
 use crate::rng::lcg_noise;
 use crate::spectrum::{goodness_of_fit, rms};
+use crate::texture::Interpolation;
 use crate::units::{Contact, Hertz};
 use std::f64::consts::TAU;
 
@@ -89,6 +90,22 @@ fn the_band_decides_the_rate() {
     let asked = FitOptions { rate: Some(Hertz(1500.0)), order: Some(7), ..FitOptions::usual() };
     let report = fit(&[wide], &asked).unwrap().report;
     assert_eq!((report.rate, report.order), (Hertz(1500.0), 7));
+}
+
+#[test]
+fn the_interpolation_that_was_asked_for_is_fitted_and_compared() {
+    let recording = strokes(1000.0, 12.0, 2);
+    let [triangles, radial] = [Interpolation::Barycentric, Interpolation::RadialBasis].map(|interpolation| {
+        let options = FitOptions { interpolation, ..FitOptions::usual() };
+        let fitted = fit(std::slice::from_ref(&recording), &options).unwrap();
+        assert_eq!(fitted.model.interpolation(), Some(interpolation));
+        fitted.report
+    });
+    assert_eq!(triangles.segments.len(), radial.segments.len());
+    // The same nodes, but something else between them.
+    let level = |report: &FitReport| report.level_error_db_median();
+    assert!((level(&triangles) - level(&radial)).abs() > 1e-6);
+    assert!(radial.gfc_median() > 0.85 && level(&radial) < 1.4, "{} {}", radial.gfc_median(), level(&radial));
 }
 
 #[test]
