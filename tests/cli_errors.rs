@@ -193,7 +193,7 @@ fn what_is_read_is_not_written_over() {
     assert_eq!(std::fs::read(bench.path("mine.json")).unwrap(), starter);
     // Nor is somebody's file beside the signal a sidecar.
     bench.write("notes.json", "{\"mine\": true}");
-    bench.fails(&format!("render --texture cork {STEADY} -o notes.wav"), 1, &["no sidecar", "notes.json"]);
+    bench.fails(&format!("render --texture cork {STEADY} -o notes.wav"), 1, &["would replace", "notes.json"]);
     assert!(!bench.path("notes.wav").exists());
     bench.write("stroke.csv", "t,speed,force\n0,100,1\n1,100,1\n");
     bench.fails("render --texture cork --stroke stroke.csv -o stroke.csv", 1, &["stroke.csv"]);

@@ -224,6 +224,17 @@ fn reports_have_names_of_their_own() {
     assert_eq!(said.code, 1, "{}", said.stderr);
     assert!(said.stderr.contains("write over"), "{}", said.stderr);
     assert_eq!(std::fs::read_to_string(bench.path("a/wood.csv")).unwrap(), table);
+    // Nor over somebody's notes.
+    bench.write("b/wood.csv", "mine");
+    assert_eq!(bench.run("import recording a/wood.csv --out wood.json --report b").code, 1);
+    bench.fails("export --texture cork --format hatt -o b/wood.csv", 1, &["would replace"]);
+    assert_eq!(std::fs::read(bench.path("b/wood.csv")).unwrap(), b"mine");
+    bench.fails("import recording a/wood.csv --out none/wood.json", 1, &["no such folder"]);
+    bench.fails(
+        "import recording a/wood.csv --out x.json --set speed=v --set speed=w",
+        2,
+        &["two things of speed"],
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use shagreen_formats::atomic;
 use shagreen_formats::hatt::{lost_in_hatt, write_hatt};
 use shagreen_formats::library::Provenance;
 
-use crate::cli::guard::refuse_inputs;
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output;
 use crate::cli::target::unknown_texture;
@@ -44,6 +44,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(warning) = &warning {
         output::warn(warning);
     }
+    refuse_foreign(&args.out, "a HaTT model", |bytes| contains(bytes, b"<modelSet"))?;
     let bytes = write_hatt(texture, output::CREATED_BY)?;
     atomic::write(&args.out, &bytes)?;
     let lost = lost_in_hatt(texture);
@@ -57,4 +58,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         || format!("Wrote \"{}\" as {}: {file}", texture.name, args.format),
     );
     Ok(())
+}
+
+/// Whether `bytes` hold `part`.
+fn contains(bytes: &[u8], part: &[u8]) -> bool {
+    bytes.windows(part.len()).any(|window| window == part)
 }

@@ -17,19 +17,28 @@ pub(crate) fn refuse_inputs(outputs: &[&Path], inputs: &[Option<&Path>]) -> anyh
     Ok(())
 }
 
-/// Refuses a sidecar that would replace a file which is none: a signal's description may be replaced with its signal,
-/// somebody's notes may not.
-pub(crate) fn refuse_foreign_sidecar(sidecar: &Path) -> anyhow::Result<()> {
-    if !sidecar.is_file() {
+/// Refuses to replace a file that is not of the kind which is written: what the program wrote may be replaced, somebody's
+/// notes may not. `what` is what would be written.
+pub(crate) fn refuse_foreign(
+    output: &Path,
+    what: &str,
+    is_ours: impl Fn(&[u8]) -> bool,
+) -> anyhow::Result<()> {
+    if !output.is_file() {
         return Ok(()); // Not there, or refused on writing.
     }
-    let Ok(bytes) = std::fs::read(sidecar) else { return Ok(()) }; // What cannot be read is told on writing.
-    let header: Option<serde_json::Value> = serde_json::from_slice(&bytes).ok();
-    if header.and_then(|h| h.get("format").cloned()) == Some(wav::FORMAT.into()) {
+    let Ok(bytes) = std::fs::read(output) else { return Ok(()) }; // What cannot be read is told on writing.
+    if is_ours(&bytes) {
         return Ok(());
     }
     bail!(
-        "the signal's sidecar would replace a file that is no sidecar; choose another name for the signal: {}",
-        sidecar.display()
+        "{what} would replace a file that is none; choose another name, or move that file: {}",
+        output.display()
     );
+}
+
+/// Whether a file is the sidecar of a signal.
+pub(crate) fn is_sidecar(bytes: &[u8]) -> bool {
+    let header: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+    header.and_then(|h| h.get("format").cloned()) == Some(wav::FORMAT.into())
 }

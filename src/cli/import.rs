@@ -122,9 +122,11 @@ impl<'a> Outcome<'a> {
         // A script reads what failed and what was asked; a person has read it already.
         if destination.json || n_imported > 0 {
             output::print(destination.json, &result, || {
+                let ids: Vec<&str> = textures.iter().filter_map(|texture| texture["id"].as_str()).collect();
                 format!(
-                    "Imported {n_imported} of {}: {}",
+                    "Imported {n_imported} of {} ({}): {}",
                     n_imported + failed.len(),
+                    ids.join(", "),
                     destination.out.display()
                 )
             });
@@ -139,6 +141,10 @@ impl<'a> Outcome<'a> {
 /// The library at `path`, or a new one.
 fn existing(path: &Path) -> anyhow::Result<Library> {
     if !path.exists() {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+            bail!("there is no such folder to write to; make it, or choose another: {}", folder.display());
+        }
         return Ok(Library {
             name: path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
             created_by: output::CREATED_BY.to_owned(),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use serde_json::json;
 use shagreen_formats::hatt::read_hatt;
 use shagreen_formats::library::{Provenance, name_from_file};
@@ -82,6 +82,9 @@ fn model_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
             .with_context(|| output::in_file(path))?;
         let is_xml = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"));
         let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(is_xml).collect();
+        if found.is_empty() {
+            bail!("the folder holds no .xml file; name the folder of the models: {}", path.display());
+        }
         found.sort();
         files.extend(found);
     }

@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::fit::{self, FitOptions, Fitted};
 use shagreen_core::recording::Recording;
 use shagreen_core::texture::{Interpolation, MAX_ORDER};
 use shagreen_core::units::Hertz;
-use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg};
+use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report_csv, is_fit_report_svg};
 use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::{Ask, ColumnMap, Question, RecordingFileError, read_recording};
 use shagreen_formats::{atomic, wav};
 
-use crate::cli::guard::refuse_inputs;
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import::{Destination, Outcome};
 use crate::cli::output::{self, Progress, file_name};
 
@@ -147,6 +147,8 @@ fn write_report(args: &Args, folder: &Path, id: &str, name: &str, fitted: &Fitte
     let inputs: Vec<Option<&Path>> =
         args.files.iter().chain(&args.map).map(|path| Some(path.as_path())).collect();
     refuse_inputs(&[&page, &table], &inputs)?;
+    refuse_foreign(&page, "a page of plots", is_fit_report_svg)?;
+    refuse_foreign(&table, "a table of segments", is_fit_report_csv)?;
     atomic::write(&page, fit_report_svg(name, &fitted.report).as_bytes())?;
     atomic::write(&table, &fit_report_csv(&fitted.report))?;
     Ok(())
@@ -243,7 +245,12 @@ fn map(args: &Args) -> anyhow::Result<ColumnMap> {
         None => ColumnMap::default(),
         Some(path) => read_map(&output::read_file(path)?).with_context(|| output::in_file(path))?,
     };
-    for (what, answer) in &args.answers {
+    for (i, (what, answer)) in args.answers.iter().enumerate() {
+        if let Some((_, other)) =
+            args.answers[..i].iter().find(|(earlier, other)| earlier == what && other != answer)
+        {
+            bail!(output::Usage(format!("--set says two things of {}: {other} and {answer}", what.key())));
+        }
         map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
     }
     Ok(map)

@@ -11,7 +11,7 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav};
 
-use crate::cli::guard::{refuse_foreign_sidecar, refuse_inputs};
+use crate::cli::guard::{is_sidecar, refuse_foreign, refuse_inputs};
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Progress};
 use crate::cli::target::{Chosen, SoundArgs};
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     let beside = sidecar_path(&args.out);
     refuse_inputs(&[&args.out, &beside], &[motion.stroke_path(), args.sound.library_path()])?;
-    refuse_foreign_sidecar(&beside)?;
+    refuse_foreign(&beside, "the signal's sidecar", is_sidecar)?;
     wav::check_length((motion.seconds() * f64::from(rate_hz)).round() as u64)?;
     chosen.note_limits(&library, &motion);
     let samples = samples(args, &library, &chosen, &motion, rate_hz)?;

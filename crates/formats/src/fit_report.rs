@@ -25,6 +25,12 @@ const BAD: RGBColor = RGBColor(0xC0, 0x4A, 0x1B);
 /// Goodness of fit below which a segment is drawn as bad: the usual gate for models of textures.
 const GOOD_GFC: f64 = 0.9;
 
+/// What every figure rests on.
+const MEASURED_ON: &str = "(measured on signals)";
+/// The first line of the table.
+const COLUMNS: &str =
+    "recording,start_s,seconds,speed_mm_per_s,force_n,level_mps2,gfc,level_error_db,held_out";
+
 type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
@@ -38,11 +44,19 @@ pub fn fit_report_svg(name: &str, report: &FitReport) -> String {
     svg
 }
 
+/// Whether bytes are such a page.
+pub fn is_fit_report_svg(bytes: &[u8]) -> bool {
+    std::str::from_utf8(bytes).is_ok_and(|text| text.starts_with("<svg") && text.contains(MEASURED_ON))
+}
+
+/// Whether bytes are such a table.
+pub fn is_fit_report_csv(bytes: &[u8]) -> bool {
+    bytes.starts_with(COLUMNS.as_bytes())
+}
+
 /// The table: one segment a line, in the units of hands.
 pub fn fit_report_csv(report: &FitReport) -> Vec<u8> {
-    let mut text = String::from(
-        "recording,start_s,seconds,speed_mm_per_s,force_n,level_mps2,gfc,level_error_db,held_out\n",
-    );
+    let mut text = format!("{COLUMNS}\n");
     for s in &report.segments {
         let line = format!(
             "{},{:.3},{:.3},{:.2},{:.4},{:.5},{:.4},{:.3},{}\n",
@@ -93,7 +107,7 @@ fn summary(report: &FitReport) -> String {
         )
     });
     format!(
-        "{} segments · model at {:.0} Hz, order {} · {:.0} % of the speed-force plane · {}: median GFC {:.3}, level error {:.2} dB (measured on signals){tap}",
+        "{} segments · model at {:.0} Hz, order {} · {:.0} % of the speed-force plane · {}: median GFC {:.3}, level error {:.2} dB {MEASURED_ON}{tap}",
         report.segments.len(),
         report.rate.0,
         report.order,
@@ -296,5 +310,8 @@ mod tests {
         let csv = String::from_utf8(fit_report_csv(&report(2))).unwrap();
         assert_eq!(csv.lines().nth(2), Some("0,1.000,0.500,60.00,0.5000,0.60000,0.9700,0.600,true"));
         assert_eq!(csv.lines().count(), 3);
+        assert!(super::is_fit_report_csv(csv.as_bytes()) && !super::is_fit_report_csv(b"time,acc\n"));
+        assert!(super::is_fit_report_svg(fit_report_svg("x", &report(2)).as_bytes()));
+        assert!(!super::is_fit_report_svg(b"<svg><text>mine</text></svg>"));
     }
 }
