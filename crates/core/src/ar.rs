@@ -57,7 +57,9 @@ pub fn yule_walker(signal: &[f64], order: usize) -> Result<ArFit, ArError> {
     let (x, energy) = centered(signal, order)?;
     let mut lags = lag_sums(&x, energy, order);
     let n = x.len() as f64;
-    lags.iter_mut().for_each(|lag| *lag /= n);
+    for lag in &mut lags {
+        *lag /= n;
+    }
     Ok(levinson(&lags, order))
 }
 
