@@ -151,7 +151,9 @@ mod tests {
             x[i] += 1.2 * x[i - 1] - 0.8 * x[i - 2];
         }
         let mean = x.iter().sum::<f64>() / x.len() as f64;
-        x.iter_mut().for_each(|v| *v -= mean);
+        for v in &mut x {
+            *v -= mean;
+        }
         let (ours, burgs) = (burg_varying(&[part(&x, |_| 0.0)], 6).unwrap(), burg(&x, 6).unwrap());
         for (a, b) in ours.ar.iter().zip(&burgs.ar) {
             // Another order of the same sums.

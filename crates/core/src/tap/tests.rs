@@ -54,6 +54,24 @@ fn materials_of_the_literature_come_back() {
 }
 
 #[test]
+fn gentle_landings_are_found() {
+    let tap = Tap { frequency: Hertz(120.0), decay_per_sec: 80.0, amplitude_mps2: 4.0 };
+    for newtons_per_sec in [0.5, 1.0, 1.5] {
+        let mut gentle = landing_recording(tap, 1000.0, 0.05);
+        let noise = lcg_noise(6000, 7);
+        for (i, force_n) in gentle.force_n.iter_mut().enumerate() {
+            // The tip lands 0.4 s into every second and rests for half a second.
+            let t = i as f64 / 1000.0 % 1.0 - 0.4;
+            *force_n = if (0.0..0.5).contains(&t) { newtons_per_sec * t } else { 0.0 };
+            *force_n += 0.003 * noise[i];
+        }
+        let landed = fit_landings(&[gentle]).unwrap();
+        assert!(landed.n_landings >= 5 && landed.explained > 0.9, "{newtons_per_sec} N/s: {landed:?}");
+        assert!((landed.tap.frequency.0 / 120.0 - 1.0).abs() < 0.02, "{landed:?}");
+    }
+}
+
+#[test]
 fn without_a_landing_there_is_none() {
     let tap = Tap { frequency: Hertz(100.0), decay_per_sec: 80.0, amplitude_mps2: 8.0 };
     assert_eq!(fit_landings(&[]), None);
