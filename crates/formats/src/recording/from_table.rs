@@ -88,9 +88,13 @@ impl Reading {
         meanings.filter(|(_, meaning)| meaning.is_some_and(&is)).map(|(place, _)| place).collect()
     }
 
+    /// What a column is called in a map.
     fn column(&self, place: usize) -> Column {
-        if self.table.header && !self.table.names[place].is_empty() {
-            Column::Name(self.table.names[place].clone())
+        let name = &self.table.names[place];
+        let named = Column::Name(name.clone());
+        // Of two columns of one name, the name means the first.
+        if self.table.header && !name.is_empty() && self.place(&named).is_ok_and(|found| found == place) {
+            named
         } else {
             Column::Number(place + 1)
         }

@@ -1,4 +1,4 @@
-use super::{AccelerationUnit, Ask, ColumnMap, RecordingFile, RecordingFileError, read_recording};
+use super::{AccelerationUnit, Ask, Column, ColumnMap, RecordingFile, RecordingFileError, read_recording};
 use crate::wav::{FORMAT, SidecarV1, TraceV1, VERSION, write_wav};
 use proptest::prelude::{any, prop, prop_assert_eq, proptest};
 use shagreen_core::recording::{RawClock, RawMotion, RawTrack, Recording};
@@ -135,6 +135,11 @@ fn damage_is_named_with_its_place() {
     let twice = map(&[(Ask::Speed, "a"), (Ask::SpeedUnit, "m/s"), (Ask::AccelerationUnit, "g")]);
     let error = read_recording("a.csv", b"t_s,a\n0,1\n1,2\n", None, &twice).unwrap_err();
     assert!(error.to_string().contains("\"a\" cannot be two things"), "{error}");
+    // Two columns of one name are two.
+    let axes = read("t_s,a [g],a [g],v [m/s],f [N]\n0,1,2,1,1\n1,3,4,1,1\n", &[]);
+    let again =
+        [axes.map.acceleration.clone().unwrap(), vec![Column::Name("a [g]".into()), Column::Number(3)]];
+    assert_eq!((axes.raw.acceleration_mps2.len(), &again[0]), (2, &again[1]));
     let lacking = format!("{}\n{}", ["c"; 900].join(","), "1\n".repeat(900));
     let error = read_recording("a.csv", lacking.as_bytes(), None, &ColumnMap::default()).unwrap_err();
     assert!(error.to_string().contains("too many lines have fewer values"), "{error}");
