@@ -9,7 +9,7 @@ mod varying;
 
 use std::f64::consts::TAU;
 
-pub use crate::ar::burg::{BurgSums, burg, burg_of_many};
+pub use crate::ar::burg::burg;
 pub(crate) use crate::ar::varying::{Part, burg_varying};
 
 use crate::ar::lags::{lag_sums, sum_of};

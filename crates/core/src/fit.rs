@@ -9,6 +9,7 @@ mod surface;
 pub use crate::fit::error::FitError;
 
 use crate::recording::Recording;
+use crate::spectrum::median;
 use crate::tap::{Tap, fit_landings};
 use crate::texture::{Interpolation, TextureModel};
 use crate::triangulation::Triangulation;
@@ -22,6 +23,9 @@ const MIN_ORDER: usize = 10;
 
 /// Share of the energy of landings that an oscillation must explain to stand for them.
 const MIN_TAP_EXPLAINED: f64 = 0.5;
+
+/// Coverage below which a texture is known at hardly more than one speed or force.
+const THIN_COVERAGE: f64 = 0.1;
 
 /// How to fit; [`FitOptions::usual`] is a good start.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,12 +137,6 @@ impl FitReport {
     }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let n = values.len();
-    if n == 0 { f64::NAN } else { 0.5 * (values[(n - 1) / 2] + values[n / 2]) }
-}
-
 /// Fits one texture to recordings of it.
 ///
 /// Strokes are cut where speed or force changes ([`crate::segment`]), high-passed at [`HIGH_PASS`] and brought to the
@@ -174,11 +172,18 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         level_mps2: piece.mean_square.sqrt(),
         comparison,
     });
+    let coverage = hull_share(&surface.shares());
+    if coverage < THIN_COVERAGE {
+        notes.push(format!(
+            "The strokes cover {:.0} % of the plane of speed and force: elsewhere the texture is that of the nearest stroke; record more speeds and forces.",
+            100.0 * coverage
+        ));
+    }
     let report = FitReport {
         segments: segments.collect(),
         rate,
         order,
-        coverage: hull_share(&surface.shares()),
+        coverage,
         frequencies: compared.frequencies,
         tap,
         held_out: compared.held_out,

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use crate::recording::Recording;
+use crate::spectrum::median;
 use crate::units::{MetersPerSecond, Newtons};
 
 /// Length of the blocks that are merged, in seconds.
@@ -137,8 +138,8 @@ fn close(
             continue;
         }
         found.stretches.push(Stretch {
-            speed: MetersPerSecond(median(&speed[piece.samples.clone()])),
-            force: Newtons(median(&force[piece.samples.clone()])),
+            speed: MetersPerSecond(median(speed[piece.samples.clone()].to_vec())),
+            force: Newtons(median(force[piece.samples.clone()].to_vec())),
             samples: piece.samples.start + offset..piece.samples.end + offset,
         });
     }
@@ -194,16 +195,10 @@ fn span(values: &[f64]) -> Span {
     }
 }
 
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    let middle = sorted.len() / 2;
-    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
 /// A track without what is above [`TRACK_BAND_HZ`] and without delay: three moving averages, whose gain is `sinc³`.
 pub(crate) fn smoothed(track: &[f64], rate_hz: f64) -> Vec<f64> {
-    // sinc³ is 1/√2 where its argument is 0.262.
-    let half = (0.5 * 0.262 / TRACK_BAND_HZ * rate_hz).round() as usize;
+    // sinc³ is 1/√2 where its argument, length times frequency over rate, is 0.262.
+    let half = (0.5 * (0.262 / TRACK_BAND_HZ * rate_hz - 1.0)).round().max(0.0) as usize;
     (0..3).fold(track.to_vec(), |track, _| moving_average(&track, half))
 }
 

@@ -19,6 +19,9 @@ pub const MAX_NODES: usize = 20_000;
 /// Most nodes of a texture with a radial basis, whose system of equations takes as many cubed multiplications.
 pub const MAX_RADIAL_NODES: usize = 500;
 
+/// Rates that a model may have, in Hz.
+pub const RATES_HZ: RangeInclusive<f64> = 200.0..=4000.0;
+
 /// Speeds that a node may have, in m/s: wide enough for any hand, and usable numbers in the renderer's `f32`.
 pub const SPEEDS_MPS: RangeInclusive<f64> = 1e-6..=100.0;
 

@@ -38,7 +38,7 @@ pub enum FitError {
     },
     /// The rate that was asked for is above that of a recording.
     #[error(
-        "a model at {rate_hz} Hz was asked for, but the recordings have {highest_hz} Hz; ask for a rate up to that"
+        "a model at {rate_hz} Hz was asked for, but the recordings have {highest_hz} Hz; ask for 200 to 4000 Hz, at most that of the recordings"
     )]
     RateAsked {
         /// The rate asked for.

@@ -7,6 +7,7 @@ use crate::fit::{FitError, HIGH_PASS};
 use crate::recording::Recording;
 use crate::segment::{MIN_FORCE, MIN_SPEED, Segmentation, segment, smoothed};
 use crate::spectrum::welch;
+use crate::texture::RATES_HZ;
 use crate::units::Hertz;
 
 /// Rates of models that are tried, from the lowest.
@@ -65,9 +66,9 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
     for (index, recording) in recordings.iter().enumerate() {
         check(index, recording)?;
     }
-    let lowest_hz = recordings.iter().map(|r| r.rate.0).fold(f64::INFINITY, f64::min);
+    let lowest_hz = recordings.iter().map(|r| nominal(r.rate).0).fold(f64::INFINITY, f64::min);
     if let Some(asked) = rate
-        && !(asked.0 > 0.0 && asked.0 <= lowest_hz)
+        && !(RATES_HZ.contains(&asked.0) && asked.0 <= lowest_hz)
     {
         return Err(FitError::RateAsked { rate_hz: asked.0, highest_hz: lowest_hz });
     }
@@ -81,7 +82,7 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
     let mut pieces = Vec::new();
     let (mut short_secs, mut silent_secs) = (0.0, 0.0);
     for (index, stroked) in stroked.iter().enumerate() {
-        let from = stroked.recording.rate;
+        let from = nominal(stroked.recording.rate);
         let lower: Vec<Vec<f64>> =
             stroked.signals.iter().map(|(_, signal)| resample_down(signal, from, rate)).collect();
         let speeds: Vec<Vec<f64>> = stroked
@@ -170,9 +171,17 @@ fn filtered(recording: &Recording) -> Stroked<'_> {
     Stroked { recording, signals, segmentation: segment(&settled, MIN_PIECE_SECS) }
 }
 
+/// The rate of a model where a recording has it but for the error of its clock: a frequency that is off by so little is
+/// neither heard nor felt.
+fn nominal(rate: Hertz) -> Hertz {
+    const CLOCK_ERROR: f64 = 1e-3;
+    let is_near = |model_hz: &f64| (rate.0 / model_hz - 1.0).abs() < CLOCK_ERROR;
+    MODEL_RATES_HZ.into_iter().find(is_near).map_or(rate, Hertz)
+}
+
 /// The lowest rate whose band holds [`BAND_SHARE`] of the power of the louder half of the stretches.
 fn rate_by_bandwidth(stroked: &[Stroked<'_>], lowest_hz: f64) -> Hertz {
-    let possible: Vec<f64> = MODEL_RATES_HZ.into_iter().filter(|r| *r <= lowest_hz * (1.0 + 1e-6)).collect();
+    let possible: Vec<f64> = MODEL_RATES_HZ.into_iter().filter(|r| *r <= lowest_hz).collect();
     let (Some(lowest), Some(highest)) = (possible.first(), possible.last()) else { return Hertz(lowest_hz) };
     let mut densities: Vec<Vec<(Hertz, f64)>> = Vec::new();
     for stroked in stroked {

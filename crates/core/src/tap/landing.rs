@@ -51,8 +51,10 @@ pub(super) fn landings(recording: &Recording) -> Vec<Transient> {
             if force[i] < MIN_FORCE.0 {
                 n_lifted += 1;
             } else {
-                let stays = force[i..].iter().take(n_contact).all(|f| *f >= MIN_FORCE.0);
-                if n_lifted >= n_air && stays && i > n_air + n_back {
+                let stays =
+                    force.get(i..i + n_contact).is_some_and(|next| next.iter().all(|f| *f >= MIN_FORCE.0));
+                // Wholly in the air is what was felt before, however far back it is looked for.
+                if n_lifted >= n_air + n_back && stays && i > n_air + n_back {
                     // Gravity, and the hand: what was felt in the air just before. A high-pass filter that takes it out
                     // would ring as slowly as rubber does.
                     let air = &signal[i - n_air - n_back..i - n_back];

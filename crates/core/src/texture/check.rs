@@ -6,13 +6,13 @@ use std::ops::RangeInclusive;
 
 use crate::texture::{
     FORCES_N, GAINS, GrainNode, LEVELS_MPS2, MAX_NODES, MAX_ORDER, MIN_LSF_GAP, MIN_NODE_DISTANCE,
-    MIN_PUBLISHED_LSF_GAP, PublishedNode, SPEEDS_MPS, TextureModelError, VARIANCES,
+    MIN_PUBLISHED_LSF_GAP, PublishedNode, RATES_HZ, SPEEDS_MPS, TextureModelError, VARIANCES,
 };
 use crate::units::Hertz;
 
 /// What measured and published textures share.
 pub(super) fn frame(rate: Hertz, n_nodes: usize, friction: Option<f64>) -> Result<(), TextureModelError> {
-    if !(200.0..=4000.0).contains(&rate.0) {
+    if !RATES_HZ.contains(&rate.0) {
         return Err(TextureModelError::Rate { rate_hz: rate.0 });
     }
     if n_nodes == 0 {
