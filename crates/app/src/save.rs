@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use egui::{Button, Context, Key, Label, Modal, RichText, TextEdit, Ui};
 use shagreen_formats::atomic;
-use shagreen_formats::library::{Library, Provenance, write_library};
+use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
 
 use crate::command::Command;
 use crate::strings::import as strings;
@@ -39,6 +39,11 @@ enum Outcome {
 }
 
 impl SaveSheet {
+    /// Whether the file is on its way: the sheet stays until its outcome has been shown.
+    pub fn is_saving(&self) -> bool {
+        matches!(self.state, State::Saving(_))
+    }
+
     /// Draws the sheet over the window and returns what the user asked of it.
     pub fn show(&mut self, ctx: &Context, library: &Library) -> Vec<Command> {
         self.collect();
@@ -49,7 +54,8 @@ impl SaveSheet {
             self.content_ui(ui, library)
         });
         let mut commands = shown.inner;
-        if ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape)) {
+        let is_left = ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape));
+        if is_left && !self.is_saving() {
             commands.push(Command::CloseSheet);
         }
         commands
@@ -60,10 +66,12 @@ impl SaveSheet {
         let mut commands = Vec::new();
         ui.add(Label::new(RichText::new(strings::SAVE_TITLE).heading().strong()).selectable(false));
         ui.add_space(GAP);
+        // What is being saved is what the outcome is told of.
+        let is_saving = self.is_saving();
         let field =
             TextEdit::singleline(&mut self.path).hint_text(strings::SAVE_HINT).desired_width(f32::INFINITY);
-        let field = ui.add(field).accessible_name(strings::SAVE_PATH);
-        if !std::mem::replace(&mut self.is_focused, true) {
+        let field = ui.add_enabled(!is_saving, field).accessible_name(strings::SAVE_PATH);
+        if !is_saving && !std::mem::replace(&mut self.is_focused, true) {
             field.request_focus();
         }
         if field.changed() {
@@ -85,14 +93,15 @@ impl SaveSheet {
         ui.horizontal(|ui| {
             let path = self.path.trim().to_owned();
             let replaces = matches!(&self.state, State::Exists(exists) if *exists == path);
-            let can_save = !path.is_empty() && !matches!(self.state, State::Saving(_) | State::Saved(_));
+            let can_save = !path.is_empty() && !is_saving && !matches!(self.state, State::Saved(_));
             let save = Button::new(if replaces { strings::REPLACE } else { strings::SAVE });
             let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) && !replaces;
             if ui.add_enabled(can_save, save).clicked() || (can_save && is_entered) {
                 self.save(&path, library, replaces, ui.ctx());
             }
             let is_saved = matches!(self.state, State::Saved(_));
-            if ui.button(if is_saved { strings::CLOSE } else { strings::CANCEL }).clicked() {
+            let close = Button::new(if is_saved { strings::CLOSE } else { strings::CANCEL });
+            if ui.add_enabled(!self.is_saving(), close).clicked() {
                 commands.push(Command::CloseSheet);
             }
         });
@@ -108,7 +117,7 @@ impl SaveSheet {
         };
         let (path, ctx) = (PathBuf::from(path), ctx.clone());
         std::thread::spawn(move || {
-            // The sheet may have been closed meanwhile: then nobody asks any more.
+            // The program may have ended meanwhile: then nobody asks any more.
             let _ = sender.send(write(&path, &library, replaces));
             ctx.request_repaint();
         });
@@ -125,16 +134,41 @@ impl SaveSheet {
             Ok(Outcome::Exists) => State::Exists(path),
             Ok(Outcome::Failed(reason)) => State::Failed(reason),
         };
+        // A field that was disabled has lost the keyboard.
+        self.is_focused = false;
     }
 }
 
 fn write(path: &Path, library: &Library, replaces: bool) -> Outcome {
-    if !replaces && path.symlink_metadata().is_ok() {
-        return Outcome::Exists;
+    if path.symlink_metadata().is_ok() {
+        // What is there may be another file than it was when the user was asked.
+        match refusal(path) {
+            Some(reason) => return Outcome::Failed(reason),
+            None if !replaces => return Outcome::Exists,
+            None => {}
+        }
     }
     match atomic::write(path, &write_library(library)) {
         Ok(()) => Outcome::Saved,
         Err(error) => Outcome::Failed(error.to_string()),
+    }
+}
+
+/// Why what is at this path must not be replaced; `None` where it is a library, of whatever version and with whatever
+/// mistakes in it.
+fn refusal(path: &Path) -> Option<String> {
+    let bytes = match path.metadata() {
+        // A pipe or device would be read for ever.
+        Ok(metadata) if !metadata.is_file() => return Some(strings::no_library(strings::NO_FILE)),
+        Ok(_) => std::fs::read(path),
+        Err(error) => Err(error),
+    };
+    match bytes.map(|bytes| read_library(&bytes)) {
+        Err(error) => Some(strings::cannot_be_checked(&error.to_string())),
+        Ok(Err(error @ (LibraryError::Format { .. } | LibraryError::Damaged { texture: None, .. }))) => {
+            Some(strings::no_library(&error.to_string()))
+        }
+        Ok(_) => None,
     }
 }
 
@@ -144,7 +178,7 @@ mod tests {
     use shagreen_formats::library::{Library, read_library};
 
     #[test]
-    fn a_file_is_replaced_only_when_that_was_said() {
+    fn only_a_library_is_replaced_and_only_when_that_was_said() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.json");
         let library = |name: &str| Library { name: name.to_owned(), ..Library::default() };
@@ -154,6 +188,15 @@ mod tests {
         assert_eq!(name(), "one");
         assert_eq!(write(&path, &library("two"), true), Outcome::Saved);
         assert_eq!(name(), "two");
+        std::fs::write(&path, "something else").unwrap();
+        for replaces in [false, true] {
+            assert!(matches!(write(&path, &library("three"), replaces), Outcome::Failed(_)), "{replaces}");
+            assert!(matches!(write(folder.path(), &library("three"), replaces), Outcome::Failed(_)));
+        }
+        assert_eq!(std::fs::read(&path).unwrap(), b"something else");
+        let newer = br#"{ "format": "shagreen-library", "version": "99.0" }"#;
+        std::fs::write(&path, newer).unwrap();
+        assert_eq!(write(&path, &library("three"), false), Outcome::Exists);
         let nowhere = folder.path().join("no/such/folder.json");
         assert!(matches!(write(&nowhere, &library("three"), true), Outcome::Failed(_)));
     }

@@ -48,6 +48,10 @@ impl Sheet {
             }
             Self::Save(sheet) => sheet.show(ctx, session.library()),
         };
+        if matches!(self, Self::Save(sheet) if sheet.is_saving()) {
+            // It stays until its outcome has been shown.
+            return commands;
+        }
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         if !dropped.is_empty() {
             commands.push(Command::Import(dropped.into_iter().map(Source::Dropped).collect()));

@@ -91,7 +91,7 @@ impl Window {
         let hand = self.pad.hand;
         self.session
             .update(Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n)));
-        let mut commands = pressed(&ctx, point_id());
+        let mut commands = if self.sheet.is_open() { Vec::new() } else { pressed(&ctx, point_id()) };
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
         Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
@@ -117,10 +117,8 @@ impl Window {
         );
 
         if self.sheet.is_open() {
-            // What lies below a sheet can be heard, but not changed.
-            let still_works =
-                |c: &Command| matches!(c, Command::ToggleTheme | Command::ToggleMute | Command::ToggleHand);
-            commands.retain(still_works);
+            // What lies below a sheet goes on as it was.
+            commands.clear();
         }
         commands.extend(self.sheet.show(&ctx, &self.session));
         for command in commands {

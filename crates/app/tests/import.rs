@@ -17,7 +17,7 @@ use shagreen_core::blend::Mode;
 use shagreen_core::plane::Plane;
 use shagreen_core::render::{RenderPlan, render};
 use shagreen_core::units::{Contact, Hertz};
-use shagreen_formats::library::{Library, TextureEntry, read_library, write_library};
+use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
 type Author = Harness<'static, Option<Window>>;
@@ -147,6 +147,8 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     for words in [import::GFC_MEDIAN, import::LEVEL_ERROR, import::COVERAGE, import::TAP] {
         assert!(harness.query_by_label(words).is_some(), "{words} is not shown");
     }
+    assert!(harness.query_by_label(&import::spectrum_of(import::HELD_OUT_LINE)).is_some());
+    assert!(harness.query_by_label(&import::file("oak_board.csv", import::READY)).is_some());
     assert!(harness.query_by_label_contains("segment 1 of").is_some());
     click(&mut harness, import::NEXT_SEGMENT);
     assert!(harness.query_by_label_contains("segment 2 of").is_some());
@@ -246,19 +248,43 @@ fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
     let point = window(&harness).project().point;
     click(&mut harness, strings::IMPORT);
     harness.run_steps(2);
-    harness.key_press(Key::ArrowRight);
-    harness.run_steps(2);
-    assert_eq!(window(&harness).project().point, point);
+    let theme = harness.ctx.theme();
+    // First in the field of paths, then past it.
+    harness.get_by_role_and_label(Role::TextInput, import::PATHS).click();
+    for (modifiers, key) in [
+        (Modifiers::NONE, Key::ArrowRight),
+        (Modifiers::COMMAND, Key::T),
+        (Modifiers::COMMAND, Key::Z),
+        (Modifiers::NONE, Key::Tab),
+        (Modifiers::NONE, Key::ArrowRight),
+        (Modifiers::NONE, Key::M),
+        (Modifiers::COMMAND, Key::Z),
+    ] {
+        harness.key_press_modifiers(modifiers, key);
+        harness.run_steps(2);
+    }
+    let below = window(&harness);
+    assert_eq!((below.project().point, harness.ctx.theme()), (point, theme));
+    assert!(below.import().is_some() && !below.session().is_muted() && !below.session().hand_is_running());
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("cork.csv");
     std::fs::write(&path, recording("cork", 6.0, Hertz(1000.0))).unwrap();
+    harness.get_by_role_and_label(Role::TextInput, import::PATHS).focus();
+    harness.run_steps(2);
     let field = harness.get_by_role_and_label(Role::TextInput, import::PATHS);
     field.type_text(&path.display().to_string());
     harness.run_steps(2);
     harness.key_press(Key::Enter);
     let unit = import::answer_of("acceleration_unit");
     wait(&mut harness, "the file is read", |h| h.query_by_role_and_label(Role::ComboBox, &unit).is_some());
+    let field = harness.get_by_role_and_label(Role::TextInput, import::PATHS);
+    assert!(field.accesskit_node().is_focused(), "what is typed next goes into the field");
+    harness.event(egui::Event::Text("m".to_owned()));
+    harness.run_steps(2);
+    let field = harness.get_by_role_and_label(Role::TextInput, import::PATHS);
+    assert_eq!(field.accesskit_node().value().as_deref(), Some("m"));
+    assert!(!window(&harness).session().is_muted());
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     choose(&mut harness, &unit, "m/s²");
     wait(&mut harness, "the fit", |h| h.query_by_label(import::GFC_MEDIAN).is_some());
@@ -287,7 +313,7 @@ fn unnamed_controls(harness: &Author) -> Vec<String> {
     unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
 }
 
-/// Saving asks before it replaces, and what it writes is the whole list.
+/// Saving asks before it replaces a library, replaces nothing else, and what it writes is the whole list.
 #[test]
 fn the_library_is_saved_with_what_joined_it() {
     let mut harness = author();
@@ -298,12 +324,87 @@ fn the_library_is_saved_with_what_joined_it() {
     harness.run_steps(2);
     harness.get_by_role_and_label(Role::TextInput, import::SAVE_PATH).type_text(&path.display().to_string());
     harness.run_steps(2);
-    click(&mut harness, import::SAVE);
-    wait(&mut harness, "it says that a file is there", |h| h.query_by_label(import::REPLACE).is_some());
+    harness.key_press(Key::Enter);
+    let refused = "is no Shagreen library";
+    wait(&mut harness, "it refuses", |h| h.query_by_label_contains(refused).is_some());
+    assert!(harness.query_by_label(import::REPLACE).is_none());
     assert_eq!(std::fs::read(&path).unwrap(), b"something else");
+
+    std::fs::write(&path, write_library(&Library::default())).unwrap();
+    click(&mut harness, import::SAVE);
+    wait(&mut harness, "it says that a library is there", |h| h.query_by_label(import::REPLACE).is_some());
+    assert!(read_library(&std::fs::read(&path).unwrap()).unwrap().value.textures.is_empty());
     click(&mut harness, import::REPLACE);
     let saved = import::saved(&path.display().to_string());
     wait(&mut harness, "it is saved", |h| h.query_by_label(&saved).is_some());
     let library = read_library(&std::fs::read(&path).unwrap()).unwrap().value;
     assert_eq!(library.textures.len(), names(&harness).len());
+}
+
+/// A published texture says that it may not be passed on: in the sheet, in the list, and before it is saved.
+#[test]
+fn a_published_texture_joins_and_is_marked_as_restricted() {
+    let mut harness = author();
+    let n = names(&harness).len();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../vectors/hatt/made_up.xml");
+    drop_files(&mut harness, &[("made_up.xml", &std::fs::read(path).unwrap())]);
+    wait(&mut harness, "the model is read", |h| {
+        h.query_by_label(&import::file("made_up.xml", import::READY)).is_some()
+    });
+    assert!(harness.query_by_label(import::RESTRICTED).is_some(), "the terms are shown");
+    assert!(harness.query_by_label(&import::spectrum_of(import::MODEL_LINE)).is_some());
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    click(&mut harness, &import::add(1));
+    harness.run_steps(60);
+
+    let texture = window(&harness).session().textures()[n].clone();
+    assert!(texture.provenance == Provenance::Restricted && texture.place.is_none());
+    let label = format!("{} · {}", strings::NOT_PLACED_YET, import::RESTRICTED_SHORT);
+    assert!(harness.query_by_label(&label).is_some(), "the list says so");
+    click(&mut harness, &strings::texture(&texture.name));
+    assert_eq!(window(&harness).project().solo, Some(n));
+    click(&mut harness, strings::HAND_START);
+    wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 1e-4);
+
+    click(&mut harness, strings::SAVE_LIBRARY);
+    harness.run_steps(2);
+    let warning = Provenance::warning(&[&texture.name]).unwrap();
+    assert!(harness.query_by_label(&warning).is_some(), "saving warns");
+}
+
+/// What was typed stays with its files while they are put together and taken apart again.
+#[test]
+fn names_and_tags_stay_when_recordings_become_one_texture_and_back() {
+    let mut harness = author();
+    let files =
+        [("a.csv", recording("cork", 6.0, Hertz(1000.0))), ("b.csv", recording("felt", 6.0, Hertz(1000.0)))];
+    drop_files(&mut harness, &files.each_ref().map(|(name, text)| (*name, text.as_bytes())));
+    let name = |h: &Author| {
+        let field = h.get_by_role_and_label(Role::TextInput, import::NAME);
+        field.accesskit_node().value().unwrap_or_default()
+    };
+    wait(&mut harness, "both are read", |h| h.query_by_label(import::ARE_ONE).is_some());
+    harness.run_steps(3);
+    let typed = |h: &mut Author, label: &str, text: &str| {
+        h.get_by_role_and_label(Role::TextInput, label).focus();
+        h.run_steps(2);
+        h.get_by_role_and_label(Role::TextInput, label).type_text(text);
+        h.run_steps(2);
+    };
+    typed(&mut harness, import::NAME, "lone ");
+    typed(&mut harness, import::TAGS, "soft");
+    let lone = name(&harness);
+    assert!(lone.contains("lone"), "{lone}");
+    click(&mut harness, import::ARE_ONE);
+    assert!(!name(&harness).contains("lone"));
+    typed(&mut harness, import::NAME, "both ");
+    let both = name(&harness);
+    click(&mut harness, import::ARE_ONE);
+    assert_eq!(name(&harness), lone);
+    let batch = window(&harness).import().unwrap().batch();
+    let tags: Vec<&str> =
+        batch.files().iter().map(|file| batch.draft_of(file.id).unwrap().tags.as_str()).collect();
+    assert_eq!(tags, ["soft", ""]);
+    click(&mut harness, import::ARE_ONE);
+    assert_eq!(name(&harness), both);
 }

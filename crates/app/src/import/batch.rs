@@ -15,6 +15,8 @@ use crate::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, 
 pub struct Batch {
     files: Vec<File>,
     drafts: Vec<Draft>,
+    /// What the textures were while the recordings were put together the other way.
+    set_aside: Vec<Draft>,
     worker: Worker,
     are_one: bool,
     last_id: u64,
@@ -58,6 +60,8 @@ pub enum State {
     Ready,
     /// It waits for an answer.
     Question,
+    /// It can join the library; what it does not say was guessed from its numbers.
+    Guessed,
     /// It cannot be used.
     Failed,
     /// It serves other files.
@@ -70,6 +74,7 @@ impl Batch {
         Self {
             files: Vec::new(),
             drafts: Vec::new(),
+            set_aside: Vec::new(),
             worker: Worker::new(ctx.clone()),
             are_one: false,
             last_id: 0,
@@ -200,7 +205,7 @@ impl Batch {
         self.files.iter().filter(|file| matches!(file.content, Content::Recording(_))).count()
     }
 
-    /// Makes one texture of all recordings, or one of each.
+    /// Makes one texture of all recordings, or one of each. What was typed for the same files before stays.
     pub fn set_are_one(&mut self, are_one: bool) {
         self.are_one = are_one;
         let recordings: Vec<(u64, String)> = self
@@ -211,6 +216,7 @@ impl Batch {
             .collect();
         let old = std::mem::take(&mut self.drafts);
         let like = old.first().map(|draft| draft.options.clone());
+        let before = std::mem::replace(&mut self.set_aside, old);
         let groups: Vec<(Vec<u64>, String)> = match recordings.first() {
             Some((_, name)) if are_one => vec![(recordings.iter().map(|r| r.0).collect(), name.clone())],
             _ => recordings.into_iter().map(|(id, name)| (vec![id], name)).collect(),
@@ -218,6 +224,10 @@ impl Batch {
         for (files, name) in groups {
             let id = self.next_id();
             let mut draft = Draft::new(id, name, files);
+            if let Some(before) = before.iter().find(|before| are_one || before.files == draft.files) {
+                draft.name.clone_from(&before.name);
+                draft.tags.clone_from(&before.tags);
+            }
             if let Some(options) = &like {
                 draft.options = options.clone();
             }
@@ -285,7 +295,7 @@ impl Batch {
                 match (&state.outcome.recording, self.draft_of(file.id).map(|d| &d.fit)) {
                     (None, _) => State::Question,
                     (Some(Err(_)), _) | (_, Some(FitState::Failed(_))) => State::Failed,
-                    (_, Some(FitState::Done(_))) if !state.outcome.questions.is_empty() => State::Question,
+                    (_, Some(FitState::Done(_))) if state.is_guessed() => State::Guessed,
                     (_, Some(FitState::Done(_))) => State::Ready,
                     _ => State::Working,
                 }

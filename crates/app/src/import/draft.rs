@@ -1,5 +1,6 @@
 //! A texture in the making: recordings, how to fit them, and what came of it.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use shagreen_core::fit::{FitOptions, Fitted};
@@ -12,8 +13,13 @@ use crate::strings::import as strings;
 /// Rates that can be chosen, in Hz; without one the recordings decide.
 pub(super) const RATES_HZ: [f64; 3] = [1000.0, 2000.0, 4000.0];
 
-/// Orders that can be chosen.
-pub(super) const ORDERS: std::ops::RangeInclusive<usize> = 2..=MAX_ORDER;
+/// Lowest order that can be chosen.
+const LOWEST_ORDER: usize = 2;
+
+/// The highest order that a fit takes at this rate.
+fn highest_order(rate_hz: f64) -> usize {
+    if rate_hz <= 1000.0 { 20 } else { MAX_ORDER }
+}
 
 /// A texture in the making.
 #[derive(Clone, Debug)]
@@ -76,9 +82,20 @@ impl Draft {
         self.options.rate.map(|rate| rate.0)
     }
 
-    /// Asks for a rate in Hz, or leaves it to the recordings.
+    /// Asks for a rate in Hz, or leaves it to the recordings. An order that the rate does not take is left to the
+    /// recordings.
     pub fn set_rate_hz(&mut self, rate_hz: Option<f64>) {
         self.options.rate = rate_hz.map(Hertz);
+        if let Some(rate_hz) = rate_hz {
+            self.options.order = self.options.order.filter(|order| *order <= highest_order(rate_hz));
+        }
+    }
+
+    /// Orders that can be asked for at the rate that was asked for, or else that the recordings led to. As long as that
+    /// is not known, those that every rate takes.
+    pub(super) fn orders(&self) -> RangeInclusive<usize> {
+        let rate_hz = self.rate_hz().or(self.fitted().map(|fitted| fitted.report.rate.0));
+        LOWEST_ORDER..=highest_order(rate_hz.unwrap_or(RATES_HZ[0]))
     }
 
     /// The texture as an entry of a library, which says what it was made of; `None` where it is not fitted.
@@ -92,5 +109,53 @@ impl Draft {
             description: strings::fit_in_words(&fitted.report),
             ..TextureEntry::new(id, self.name.trim(), fitted.model.clone())
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Draft, RATES_HZ, highest_order};
+    use shagreen_core::fit::{FitError, FitOptions, fit};
+    use shagreen_core::recording::Recording;
+    use shagreen_core::texture::{Interpolation, MAX_ORDER};
+    use shagreen_core::units::Hertz;
+
+    /// Noise of a hand that strokes evenly.
+    fn recording() -> Recording {
+        let n = 16_000_usize;
+        let noise = |i: usize| ((i.wrapping_mul(2_654_435_761) >> 7) % 2000) as f64 / 1000.0 - 1.0;
+        Recording {
+            rate: Hertz(4000.0),
+            acceleration_mps2: (0..n).map(noise).collect(),
+            speed_mps: vec![0.1; n],
+            force_n: vec![1.0; n],
+            usable: std::iter::once(0..n).collect(),
+        }
+    }
+
+    #[test]
+    fn the_highest_order_that_is_offered_is_the_highest_that_a_fit_takes() {
+        let recordings = [recording()];
+        for rate_hz in RATES_HZ {
+            let order = Some(highest_order(rate_hz) + 1);
+            let rate = Some(Hertz(rate_hz));
+            let asked =
+                fit(&recordings, &FitOptions { rate, order, interpolation: Interpolation::Barycentric });
+            let refused = |e: &FitError| matches!(e, FitError::OrderAsked { highest, .. } if *highest == highest_order(rate_hz));
+            assert!(asked.as_ref().is_err_and(refused), "at {rate_hz} Hz: {asked:?}");
+        }
+    }
+
+    #[test]
+    fn orders_follow_the_rate() {
+        let mut draft = Draft::new(1, "Cork".to_owned(), vec![]);
+        assert_eq!(draft.orders(), 2..=20);
+        draft.set_rate_hz(Some(4000.0));
+        assert_eq!(draft.orders(), 2..=MAX_ORDER);
+        draft.options.order = Some(MAX_ORDER);
+        draft.set_rate_hz(Some(2000.0));
+        assert_eq!(draft.options.order, Some(MAX_ORDER));
+        draft.set_rate_hz(Some(1000.0));
+        assert_eq!(draft.options.order, None);
     }
 }

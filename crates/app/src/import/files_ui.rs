@@ -68,6 +68,7 @@ fn word_of(state: State) -> &'static str {
         State::Working => strings::WORKING,
         State::Ready => strings::READY,
         State::Question => strings::QUESTION,
+        State::Guessed => strings::GUESSED,
         State::Failed => strings::FAILED,
         State::Helper => strings::HELPER,
     }
@@ -77,7 +78,7 @@ fn color_of(state: State, t: &Tokens) -> egui::Color32 {
     match state {
         State::Working | State::Helper => t.text_weak,
         State::Ready => t.accent,
-        State::Question => t.warning,
+        State::Question | State::Guessed => t.warning,
         State::Failed => t.error,
     }
 }

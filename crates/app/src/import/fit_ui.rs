@@ -4,7 +4,7 @@ use egui::{ComboBox, Grid, Label, RichText, TextEdit, Ui};
 use shagreen_core::fit::FitReport;
 use shagreen_core::texture::Interpolation;
 
-use crate::import::draft::{Draft, FitState, ORDERS, RATES_HZ};
+use crate::import::draft::{Draft, FitState, RATES_HZ};
 use crate::import::questions_ui::sentence;
 use crate::import::sheet::Surroundings;
 use crate::strings::import as strings;
@@ -68,10 +68,11 @@ fn rate_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
 
 fn order_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
     let words = |order: Option<usize>| order.map_or(strings::AUTOMATIC.to_owned(), |order| order.to_string());
+    let orders = draft.orders();
     let order = &mut draft.options.order;
     let combo = ComboBox::from_id_salt("order").width(width).selected_text(words(*order));
     let combo = combo.show_ui(ui, |ui| {
-        for choice in std::iter::once(None).chain(ORDERS.map(Some)) {
+        for choice in std::iter::once(None).chain(orders.map(Some)) {
             ui.selectable_value(order, choice, words(choice));
         }
     });

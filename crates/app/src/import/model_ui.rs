@@ -82,7 +82,7 @@ fn plots_ui(ui: &mut Ui, entry: &TextureEntry) {
                 |i: usize| Hertz(10.0 * (high / 10.0).powf(i as f64 / (N_FREQUENCIES - 1) as f64));
             let frequencies: Vec<Hertz> = (0..N_FREQUENCIES).map(frequency).collect();
             let psd = Plane::new(&entry.model).at(*contact).psd(&frequencies);
-            spectrum_plot(ui, &frequencies, None, &psd, inner);
+            spectrum_plot(ui, &frequencies, None, (strings::MODEL_LINE, &psd), inner);
         });
     });
     ui.data_mut(|d| d.insert_temp(id, node));

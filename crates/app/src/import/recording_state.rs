@@ -37,6 +37,12 @@ impl RecordingState {
         self.outcome.questions.iter().any(same) || self.answered.iter().any(|(other, _)| same(other))
     }
 
+    /// Whether guesses stand in for answers.
+    pub(super) fn is_guessed(&self) -> bool {
+        let is_answered = |q: &Question| self.answered.iter().any(|(other, _)| other.what == q.what);
+        self.outcome.questions.iter().any(|q| q.guess.is_some() && !is_answered(q))
+    }
+
     /// Takes an answer; whether the recording has to be read again.
     pub(super) fn answer(&mut self, question: &Question, answer: &str) -> bool {
         let mut map = self.map.clone();

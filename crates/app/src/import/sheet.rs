@@ -118,6 +118,9 @@ impl ImportSheet {
                     let paths = std::mem::take(&mut self.paths);
                     self.load(paths_in(&paths));
                 }
+                if is_entered {
+                    field.request_focus();
+                }
             });
         });
     }

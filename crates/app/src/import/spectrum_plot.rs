@@ -14,12 +14,13 @@ const RANGE_DB: f64 = 60.0;
 /// Marks of the axis of frequencies, in Hz.
 const MARKS_HZ: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
-/// Draws the densities in (m/s²)²/Hz at `frequencies`; the measured one where there is one.
+/// Draws the densities in (m/s²)²/Hz at `frequencies`; the measured one where there is one. `model_name` is what the
+/// legend calls the model.
 pub(super) fn spectrum_plot(
     ui: &mut Ui,
     frequencies: &[Hertz],
     measured: Option<&[f64]>,
-    model: &[f64],
+    (model_name, model): (&str, &[f64]),
     height: f32,
 ) {
     let t = tokens(ui.ctx());
@@ -59,7 +60,8 @@ pub(super) fn spectrum_plot(
                 Line::new(strings::MEASURED_LINE, PlotPoints::from(measured)).color(t.text_weak).width(1.2),
             );
         }
-        plot.line(Line::new(strings::MODEL_LINE, PlotPoints::from(model)).color(t.accent).width(2.2));
+        plot.line(Line::new(model_name, PlotPoints::from(model)).color(t.accent).width(2.2));
     });
-    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, strings::SPECTRUM));
+    let name = strings::spectrum_of(model_name);
+    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
 }

@@ -1,5 +1,6 @@
 //! The thread that reads files and fits textures, so that the window never waits.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
@@ -134,19 +135,28 @@ impl Worker {
 }
 
 fn serve(inbox: &Receiver<Request>, outbox: &Sender<Message>, ctx: &egui::Context) {
-    while let Ok(first) = inbox.recv() {
-        // Whatever waits already may make an earlier request stale.
-        let waiting: Vec<Request> = std::iter::once(first).chain(inbox.try_iter()).collect();
-        for (i, request) in waiting.iter().enumerate() {
-            let is_stale = waiting[i + 1..].iter().any(|later| request.is_replaced_by(later));
-            let mut is_heard = is_stale || request.carry_out(outbox);
-            is_heard &= outbox.send(Message::Done).is_ok();
-            if !is_heard {
-                return;
-            }
-            ctx.request_repaint();
+    let mut waiting = VecDeque::new();
+    while let Some(request) = next_request(&mut waiting, inbox) {
+        let is_stale = waiting.iter().any(|later| request.is_replaced_by(later));
+        let mut is_heard = is_stale || request.carry_out(outbox);
+        is_heard &= outbox.send(Message::Done).is_ok();
+        if !is_heard {
+            return;
         }
+        ctx.request_repaint();
     }
+}
+
+/// The oldest request, once there is one; `waiting` then holds all that came after it, which may make it stale. `None`
+/// when nobody asks any more.
+fn next_request(waiting: &mut VecDeque<Request>, inbox: &Receiver<Request>) -> Option<Request> {
+    waiting.extend(inbox.try_iter());
+    if waiting.is_empty() {
+        // An error is the end of the other side: there is nothing to say to anybody.
+        waiting.push_back(inbox.recv().ok()?);
+        waiting.extend(inbox.try_iter());
+    }
+    waiting.pop_front()
 }
 
 impl Request {
@@ -291,4 +301,37 @@ fn sentences(parts: impl Iterator<Item = impl ToString>) -> String {
 
 fn read_map(bytes: &[u8]) -> Result<ColumnMap, String> {
     shagreen_formats::map_toml::read_map(bytes).map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Request, next_request};
+    use std::collections::VecDeque;
+    use std::sync::mpsc::channel;
+
+    use crate::import::draft::Draft;
+
+    fn fit(draft: u64, generation: u64) -> Request {
+        let options = Draft::new(draft, String::new(), vec![]).options;
+        Request::Fit { draft, generation, recordings: Vec::new(), options }
+    }
+
+    /// What came while another request was carried out counts too.
+    #[test]
+    fn a_later_request_for_the_same_texture_makes_those_that_wait_stale() {
+        let (sender, inbox) = channel();
+        let mut waiting = VecDeque::new();
+        let is_stale = |r: &Request, waiting: &VecDeque<Request>| waiting.iter().any(|l| r.is_replaced_by(l));
+        sender.send(fit(1, 1)).unwrap();
+        sender.send(fit(2, 1)).unwrap();
+        let first = next_request(&mut waiting, &inbox).unwrap();
+        assert!(!is_stale(&first, &waiting), "the other is of another texture");
+        sender.send(fit(2, 2)).unwrap();
+        let second = next_request(&mut waiting, &inbox).unwrap();
+        assert!(is_stale(&second, &waiting));
+        drop(sender);
+        let third = next_request(&mut waiting, &inbox).unwrap();
+        assert!(matches!(third, Request::Fit { draft: 2, generation: 2, .. }));
+        assert!(next_request(&mut waiting, &inbox).is_none(), "nobody asks any more");
+    }
 }

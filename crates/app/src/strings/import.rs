@@ -25,6 +25,8 @@ pub const ARE_ONE_HELP: &str = "Fits one texture to all recordings together, ins
 pub const READY: &str = "ready";
 /// A file that waits for an answer.
 pub const QUESTION: &str = "asks";
+/// A file that is ready, with guesses for what it does not say.
+pub const GUESSED: &str = "guessed";
 /// A file that is read or fitted.
 pub const WORKING: &str = "working…";
 /// A file that cannot be used.
@@ -94,6 +96,8 @@ pub const SPECTRUM_UNIT: &str = "dB re 1 (m/s²)²/Hz";
 pub const MEASURED_LINE: &str = "measured";
 /// The line of the model.
 pub const MODEL_LINE: &str = "model";
+/// The line of the model that a held-out segment is compared with.
+pub const HELD_OUT_LINE: &str = "model without this segment";
 /// A good fit in the legend of the plane.
 pub const GOOD: &str = "GFC ≥ 0.95";
 /// A fair fit.
@@ -208,7 +212,9 @@ pub const SAVE: &str = "Save";
 /// Replaces a file that is there.
 pub const REPLACE: &str = "Replace the file";
 /// A file is there.
-pub const EXISTS: &str = "There is a file at this path already. Replace it, or choose another path.";
+pub const EXISTS: &str = "There is a library at this path already. Replace it, or choose another path.";
+/// Why a folder or a device is no library.
+pub const NO_FILE: &str = "it is a folder or a device; choose another path";
 /// It is being saved.
 pub const SAVING: &str = "Saving…";
 /// Closes the sheet.
@@ -333,6 +339,11 @@ pub fn orders(ar: usize, ma: usize) -> String {
     if ma == 0 { ar.to_string() } else { format!("{ar}, moving average {ma}") }
 }
 
+/// The plot of a spectrum, for those who cannot see which line of a model it shows.
+pub fn spectrum_of(model_name: &str) -> String {
+    format!("{SPECTRUM}: {model_name}")
+}
+
 /// Where a model's spectrum is shown.
 pub fn spectrum_at(contact: Contact) -> String {
     format!("{SPECTRUM_UNIT}   at {:.0} mm/s, {:.2} N", contact.speed.mm_per_s(), contact.force.0)
@@ -341,4 +352,14 @@ pub fn spectrum_at(contact: Contact) -> String {
 /// How much is saved.
 pub fn to_save(n_textures: usize) -> String {
     format!("All {n_textures} textures of the list go into one file.")
+}
+
+/// A file is there that is no library.
+pub fn no_library(reason: &str) -> String {
+    format!("What is at this path is no Shagreen library that can be read, so it is not replaced: {reason}.")
+}
+
+/// Something is there that cannot be looked into.
+pub fn cannot_be_checked(reason: &str) -> String {
+    format!("What is at this path cannot be read ({reason}), so it is not replaced. Choose another path.")
 }
