@@ -178,7 +178,7 @@ impl Session {
             self.follow_rate(project.solo, ctx);
         }
         match &self.authored {
-            Some(authored) => self.player.send_mix(authored, &self.planes, &self.prepared, self.rate_hz),
+            Some(authored) => self.player.send_mix(authored, &self.prepared, self.rate_hz),
             None => self.player.send_silence(),
         }
     }

@@ -1,11 +1,10 @@
 //! The open output: textures on their way to it, touches, and what it tells back.
 
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Instant;
 
 use shagreen_core::blend::{Authored, Mode};
-use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::plane::Prepared;
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
 use shagreen_device::controls::{Drive, Input};
@@ -202,14 +201,9 @@ impl Player {
         }
     }
 
-    /// Loads what the blend needs and fades to it. Tried again in the next frame where the output is busy.
-    pub(super) fn send_mix(
-        &mut self,
-        authored: &Authored,
-        planes: &[Arc<Plane>],
-        ahead: &[Option<Prepared>],
-        rate_hz: f64,
-    ) {
+    /// Loads what the blend needs and fades to it. Tried again in the next frame where the output is busy, or a texture
+    /// is still being prepared.
+    pub(super) fn send_mix(&mut self, authored: &Authored, ahead: &[Option<Prepared>], rate_hz: f64) {
         let is_ready = |handle: &Handle| handle.config().model_rate_hz == rate_hz as f32;
         if !self.mix_is_new || !self.handle.as_ref().is_some_and(is_ready) {
             return;
@@ -217,7 +211,7 @@ impl Player {
         self.n_mixes += 1;
         let mut mix = Mix::silent(synth_blend(authored.mode));
         for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
-            let Some(id) = self.slot_of(*texture, planes, ahead) else { return };
+            let Some(id) = self.slot_of(*texture, ahead) else { return };
             *parent = Parent { id, weight: *weight as f32 };
         }
         if let Some(handle) = &mut self.handle
@@ -246,17 +240,13 @@ impl Player {
         self.slots.resize(n_textures, None);
     }
 
-    fn slot_of(
-        &mut self,
-        texture: usize,
-        planes: &[Arc<Plane>],
-        ahead: &[Option<Prepared>],
-    ) -> Option<TextureId> {
+    fn slot_of(&mut self, texture: usize, ahead: &[Option<Prepared>]) -> Option<TextureId> {
         let handle = self.handle.as_mut()?;
         if let Some((id, used)) = &mut self.slots[texture] {
             *used = self.n_mixes;
             return Some(*id);
         }
+        let prepared = ahead.get(texture)?.as_ref()?;
         if self.slots.iter().flatten().count() >= KEPT {
             let oldest = (0..self.slots.len())
                 .filter(|i| self.slots[*i].is_some())
@@ -265,11 +255,7 @@ impl Player {
                 handle.unload(id);
             }
         }
-        let owned = match &ahead[texture] {
-            Some(prepared) => OwnedTexture::new(prepared.parts()),
-            None => OwnedTexture::new(planes[texture].prepare().parts()),
-        };
-        let refusal = match owned {
+        let refusal = match OwnedTexture::new(prepared.parts()) {
             Ok(owned) => match handle.load(owned) {
                 Ok(id) => {
                     self.slots[texture] = Some((id, self.n_mixes));

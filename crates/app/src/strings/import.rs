@@ -214,7 +214,7 @@ pub const REPLACE: &str = "Replace the file";
 /// A file is there.
 pub const EXISTS: &str = "There is a library at this path already. Replace it, or choose another path.";
 /// Why a folder or a device is no library.
-pub const NO_FILE: &str = "it is a folder or a device; choose another path";
+pub const NO_FILE: &str = "it is a folder or a device";
 /// It is being saved.
 pub const SAVING: &str = "Saving…";
 /// Closes the sheet.
@@ -356,7 +356,9 @@ pub fn to_save(n_textures: usize) -> String {
 
 /// A file is there that is no library.
 pub fn no_library(reason: &str) -> String {
-    format!("What is at this path is no Shagreen library that can be read, so it is not replaced: {reason}.")
+    format!(
+        "Choose another path: what is there is no Shagreen library that can be read, so it is not replaced ({reason})."
+    )
 }
 
 /// Something is there that cannot be looked into.
