@@ -55,14 +55,22 @@ pub(super) fn read_sidecar(bytes: &[u8], map: &mut ColumnMap) -> Result<Option<T
         wire.force_units.map(|text| ForceUnit::parse(&text).ok_or_else(|| unknown("force_units", &text)));
     map.force_unit = map.force_unit.or(unit.transpose()?);
     map.force_full_scale = map.force_full_scale.or(positive("force_full_scale", wire.force_full_scale)?);
-    map.constant_speed = map.constant_speed.or(wire.speed_mm_per_s.map(MetersPerSecond::from_mm_per_s));
-    map.constant_force = map.constant_force.or(wire.force_n.map(Newtons));
     if let (None, Some(names)) = (&map.channels, wire.channels) {
         let channel = |name: &String| {
             Channel::parse(&name.to_lowercase())
                 .ok_or_else(|| error(format!("the channel {name:?} is not known")))
         };
         map.channels = Some(names.iter().map(channel).collect::<Result<_, _>>()?);
+    }
+    // What was measured counts more than what was said, unless the map says otherwise.
+    let has = |kind: Channel| map.channels.iter().flatten().any(|channel| *channel == kind);
+    let (has_speed, has_force) =
+        (map.speed.is_some() || has(Channel::Speed), map.force.is_some() || has(Channel::Force));
+    if !has_speed {
+        map.constant_speed = map.constant_speed.or(wire.speed_mm_per_s.map(MetersPerSecond::from_mm_per_s));
+    }
+    if !has_force {
+        map.constant_force = map.constant_force.or(wire.force_n.map(Newtons));
     }
     let Some(trace) = wire.trace.filter(|trace| !trace.time_s.is_empty()) else { return Ok(None) };
     let n = trace.time_s.len();

@@ -324,3 +324,20 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_table_without_numbers_is_refused_at_once() {
+    // Were every line added to the names, this would take minutes.
+    let text = "t;a\n".to_owned() + &"0.1;2.5\n".repeat(200_000);
+    let error = read_recording("a.csv", text.as_bytes(), None, &map(&[(Ask::Separator, "tab")])).unwrap_err();
+    let message = error.to_string();
+    assert!(message.contains("no rows of numbers") && message.contains("parted by tab"), "{message}");
+}
+
+#[test]
+fn the_later_of_a_constant_and_a_column_counts() {
+    let both = map(&[(Ask::Speed, "100 mm/s"), (Ask::Speed, "v"), (Ask::Force, "f"), (Ask::Force, "1 N")]);
+    assert!(both.constant_speed.is_none() && both.speed.is_some());
+    assert!(both.constant_force.is_some() && both.force.is_none());
+    assert!(map(&[(Ask::Speed, "1 m/s"), (Ask::Positions, "x")]).constant_speed.is_none());
+}
