@@ -1,4 +1,7 @@
 //! What the `.json` beside a WAV file says: ours ([`crate::wav::SidecarV1`]) or one written by hand.
+//!
+//! Beside `units` (of acceleration), `full_scale` and `channels` it may have `speed_unit`, `speed_full_scale`, `force_unit` and
+//! `force_full_scale`; `acceleration_unit` is `units` under the name that a map has for it.
 
 use serde::Deserialize;
 use shagreen_core::units::{MetersPerSecond, Newtons};
@@ -13,11 +16,14 @@ use crate::wav::{FORMAT, TraceV1, VERSION};
 struct Wire {
     format: Option<String>,
     version: Option<String>,
+    #[serde(alias = "acceleration_unit")]
     units: Option<String>,
     full_scale: Option<f64>,
     channels: Option<Vec<String>>,
+    #[serde(alias = "speed_unit")]
     speed_units: Option<String>,
     speed_full_scale: Option<f64>,
+    #[serde(alias = "force_unit")]
     force_units: Option<String>,
     force_full_scale: Option<f64>,
     speed_mm_per_s: Option<f64>,

@@ -341,3 +341,22 @@ fn the_later_of_a_constant_and_a_column_counts() {
     assert!(both.constant_force.is_some() && both.force.is_none());
     assert!(map(&[(Ask::Speed, "1 m/s"), (Ask::Positions, "x")]).constant_speed.is_none());
 }
+
+#[test]
+fn a_speed_channel_stands_beside_the_force_of_a_trace() {
+    let mut wav = b"RIFF\x30\0\0\0WAVEfmt \x10\0\0\0\x01\0\x02\0".to_vec();
+    for number in [1000_u32, 4000, 0x0010_0004] {
+        wav.extend(number.to_le_bytes());
+    }
+    wav.extend(b"data\x0c\0\0\0");
+    wav.extend([16384_i16; 6].iter().flat_map(|sample| sample.to_le_bytes()));
+    let sidecar = br#"{"acceleration_unit": "m/s^2", "full_scale": 2, "channels": ["speed", "acceleration"],
+        "speed_unit": "mm/s", "speed_full_scale": 100, "speed_mm_per_s": 7,
+        "trace": {"time_s": [0, 0.002], "speed_mm_per_s": [1, 1], "force_n": [1, 2]}}"#;
+    for (map, expected) in [(map(&[]), [1.0, 1.5, 2.0]), (map(&[(Ask::RateHz, "500")]), [1.0, 2.0, 2.0])] {
+        let raw = read_recording("a.wav", &wav, Some(sidecar), &map).unwrap().raw;
+        assert_eq!(raw.acceleration_mps2, [vec![1.0; 3]]);
+        assert_eq!(raw.motion, RawMotion::Speed(RawTrack::Column(vec![0.05; 3])));
+        assert_eq!(raw.force_n, RawTrack::Column(expected.to_vec()));
+    }
+}
