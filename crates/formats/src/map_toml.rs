@@ -53,6 +53,10 @@ pub enum MapError {
 /// Keys of constants, and what they answer.
 const CONSTANTS: [(&str, Ask); 2] = [("constant_speed", Ask::Speed), ("constant_force", Ask::Force)];
 
+/// Keys that cannot stand in one map.
+const EXCLUSIVE: [[&str; 2]; 3] =
+    [["constant_speed", "speed"], ["constant_speed", "positions"], ["constant_force", "force"]];
+
 /// Reads a map.
 ///
 /// # Errors
@@ -64,6 +68,13 @@ pub fn read_map(bytes: &[u8]) -> Result<ColumnMap, MapError> {
         let line = before.map_or(1, |before| before.matches('\n').count() + 1);
         MapError::Damaged { reason: format!("{} in line {line}", error.message().replace('\n', " ")) }
     })?;
+    for [constant, column] in EXCLUSIVE {
+        if table.contains_key(constant) && table.contains_key(column) {
+            let line = line_of(text, column).map_or(String::new(), |line| format!(" in line {line}"));
+            let reason = format!("{column}{line} and {constant} exclude each other");
+            return Err(MapError::Damaged { reason });
+        }
+    }
     let mut map = ColumnMap::default();
     for (key, value) in &table {
         let damaged = |problem: String| match line_of(text, key) {
@@ -82,7 +93,8 @@ pub fn read_map(bytes: &[u8]) -> Result<ColumnMap, MapError> {
         let taken = if what == Ask::Speed { map.speed.is_some() } else { map.force.is_some() };
         if constant.is_some() && taken {
             return Err(damaged(format!(
-                "{key} is {answer:?}, needs a number with its unit, such as \"1 N\""
+                "{key} is {answer:?}, needs a number with its unit, such as {:?}",
+                if what == Ask::Speed { "100 mm/s" } else { "1 N" }
             )));
         }
     }
@@ -140,7 +152,11 @@ mod tests {
         check_error("time_unit = \"h\"", "one of s, ms, us, ns in line 1");
         check_error("a = [", "line 1");
         check_error("rate_hz = -5", "a number above 0");
-        check_error("constant_speed = \"fast\"", "number with its unit");
+        check_error("constant_speed = \"fast\"", "number with its unit, such as \"100 mm/s\"");
+        check_error("constant_force = \"f\"", "number with its unit, such as \"1 N\"");
+        check_error("speed = \"100 kg\"", "such as \"100 mm/s\"");
+        check_error("force = -3", "such as \"1 N\"");
+        check_error("speed = 2\nconstant_speed = \"1 m/s\"", "speed in line 1 and constant_speed exclude");
         check_error("time = 1979-05-27", "cannot be a datetime");
         assert!(read_map(b"\xff").unwrap_err().to_string().contains("byte 0"));
     }

@@ -105,7 +105,12 @@ fn read_times(
     findings: &mut Vec<Finding>,
     faults: &mut Vec<Fault>,
 ) -> Option<Timeline> {
-    let start = written.iter().copied().find(|time| time.is_finite())?;
+    let Some(start) = written.iter().copied().find(|time| time.is_finite()) else {
+        if !written.is_empty() {
+            faults.push(Fault::BadClock { reason: "no time is a number".to_owned() });
+        }
+        return None;
+    };
     let (mut rows, mut times) = (Vec::with_capacity(written.len()), Vec::with_capacity(written.len()));
     let (mut missing, mut repeated, mut backward) = (Count::default(), Count::default(), Count::default());
     let mut last = f64::NEG_INFINITY;
@@ -206,7 +211,7 @@ fn bad_clock(
     if n_gaps > 1 && n_gaps as f64 > BAD_SHARE * steps.len() as f64 {
         let (share, millis) = (percent(n_gaps, steps.len()), 1e3 * usual_secs);
         return Some(format!(
-            "rows come in bursts, {share:.0} % of the steps are gaps, the others {millis:.3} ms"
+            "steps differ too much, {share:.0} % of them are gaps, the others {millis:.3} ms"
         ));
     }
     let jitter_secs = median(steps.iter().map(|step| (step - usual_secs).abs()).collect());

@@ -50,7 +50,7 @@ impl Run {
 }
 
 /// Marks rows of the timeline as unusable (`usable` is by place in it) and says why. `at_rest` tells whether the tip did
-/// nothing in a row. Gives false where the axis never changes, which it is then said.
+/// nothing in a row.
 pub(super) fn mark_dropouts(
     axis: &Axis<'_>,
     timeline: &Timeline,
@@ -58,17 +58,10 @@ pub(super) fn mark_dropouts(
     usable: &mut [bool],
     findings: &mut Vec<Finding>,
     faults: &mut Vec<Fault>,
-) -> bool {
+) {
     let column = || axis.column.to_owned();
     let of_rows = axis.values.len();
     let runs = runs(axis.values, timeline);
-    if let [run] = runs.as_slice()
-        && run.len() > 1
-    {
-        findings.push(Finding::DeadAxis { column: column(), value: run.value });
-        return false;
-    }
-
     let step = converter_step(&runs);
     let mut clipped = Count::default();
     let mut clipped_value = 0.0_f64;
@@ -107,7 +100,13 @@ pub(super) fn mark_dropouts(
             faults.push(Fault::RateTooLow { rate_hz: true_rate_hz });
         }
     }
-    true
+}
+
+/// The value of an axis that never changes. Rows that lack a value say nothing of it.
+pub(super) fn dead_value(values: &[f64], timeline: &Timeline) -> Option<f64> {
+    let mut finite = timeline.rows.iter().map(|row| values[*row]).filter(|value| value.is_finite());
+    let (first, second) = (finite.next()?, finite.next()?);
+    (first == second && finite.all(|value| value == first)).then_some(first)
 }
 
 /// Runs of equal finite values; NaN is in no run.

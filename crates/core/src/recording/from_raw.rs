@@ -4,7 +4,7 @@ use std::slice::from_mut;
 
 use crate::dft321::dft321;
 use crate::recording::clock::{Count, Timeline, read_clock};
-use crate::recording::dropout::{Axis, is_rest, mark_dropouts};
+use crate::recording::dropout::{Axis, dead_value, is_rest, mark_dropouts};
 use crate::recording::missing::{fill_slower, mark_missing};
 use crate::recording::motion::speed_from_positions;
 use crate::recording::stretch::{Stretch, fast, lay_out, slow};
@@ -27,7 +27,7 @@ impl Recording {
         let (mut findings, mut faults) = (Vec::new(), Vec::new());
         let n_rows = raw.acceleration_mps2.first().map_or(0, Vec::len);
         check_columns(&raw, n_rows, &mut faults);
-        let RawRecording { clock, mut acceleration_mps2, mut motion, mut force_n, full_scale_mps2 } = raw;
+        let RawRecording { clock, acceleration_mps2, mut motion, mut force_n, full_scale_mps2 } = raw;
         let timeline = read_clock(clock, n_rows, &mut findings, &mut faults);
         let unequal = faults.iter().any(|fault| matches!(fault, Fault::UnequalColumns { .. }));
         let Some(timeline) = timeline.filter(|timeline| !unequal && !timeline.rows.is_empty()) else {
@@ -48,7 +48,14 @@ impl Recording {
         let speed_rows = rows_of_speed(&motion);
         let force_rows = column_of(&force_n);
         let names = axis_names(acceleration_mps2.len());
-        for (name, values) in names.iter().zip(&acceleration_mps2) {
+        let mut axes: Vec<(String, Vec<f64>)> = names.into_iter().zip(acceleration_mps2).collect();
+        // Before rows are marked: what a dead axis lacks is no loss.
+        axes.retain(|(name, values)| {
+            let dead = dead_value(values, &timeline);
+            findings.extend(dead.map(|value| Finding::DeadAxis { column: name.clone(), value }));
+            dead.is_none()
+        });
+        for (name, values) in &axes {
             mark_missing(name, &[values], &timeline, &mut usable, &mut findings);
         }
         if let Some(values) = speed_rows {
@@ -63,13 +70,11 @@ impl Recording {
         }
 
         let at_rest = |row: usize| is_rest(speed_rows.map(|v| v[row]), force_rows.map(|v| v[row]));
-        let mut alive = Vec::with_capacity(acceleration_mps2.len());
-        for (name, values) in names.iter().zip(&acceleration_mps2) {
+        for (name, values) in &axes {
             let axis = Axis { column: name, values, full_scale_mps2 };
-            alive.push(mark_dropouts(&axis, &timeline, at_rest, &mut usable, &mut findings, &mut faults));
+            mark_dropouts(&axis, &timeline, at_rest, &mut usable, &mut findings, &mut faults);
         }
-        let mut alive = alive.into_iter();
-        acceleration_mps2.retain(|_| alive.next().unwrap_or(false));
+        let acceleration_mps2: Vec<Vec<f64>> = axes.into_iter().map(|(_, values)| values).collect();
 
         let Some((stretches, n_samples)) = lay_out(&timeline, &usable, n_rows, &mut findings, &mut faults)
         else {

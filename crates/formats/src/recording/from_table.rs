@@ -74,7 +74,11 @@ impl Reading {
         };
         found.ok_or_else(|| {
             let names = names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-            RecordingFileError::Map { problem: format!("there is no column {column}; there are {names}") }
+            let missing = match column {
+                Column::Name(_) => format!("column {column}"),
+                Column::Number(_) => column.to_string(),
+            };
+            RecordingFileError::Map { problem: format!("there is no {missing}; there are {names}") }
         })
     }
 

@@ -22,8 +22,10 @@ pub(super) fn recording_of_wav(
     let mut inquiry = Inquiry::new(map.clone());
     inquiry.warnings = warnings;
     let trace = sidecar.map(|bytes| read_sidecar(bytes, &mut inquiry.map)).transpose()?.flatten();
-    let clock = RawClock::Rate(Hertz(inquiry.map.rate_hz.unwrap_or(f64::from(rate_hz))));
-    inquiry.map.rate_hz.get_or_insert(f64::from(rate_hz));
+    let rate_hz = *inquiry.map.rate_hz.get_or_insert(f64::from(rate_hz));
+    let clock = RawClock::Rate(Hertz(rate_hz));
+    // Channels are emptied as they are taken.
+    let n_samples = channels.first().map_or(0, Vec::len);
     let faults: Vec<Fault> = check_clock(&clock).1;
     let Some(kinds) = channel_kinds(&mut inquiry, channels.len())? else {
         return inquiry.close(None, faults);
@@ -59,7 +61,7 @@ pub(super) fn recording_of_wav(
         let si = scale * inquiry.map.speed_unit.map_or(1.0, SpeedUnit::si);
         RawTrack::Column(scaled(&mut channels[place], si))
     } else if let Some(trace) = &trace {
-        on_clock(&trace.time_s, &trace.speed_mm_per_s, 1e-3, channels[0].len(), rate_hz)
+        on_clock(&trace.time_s, &trace.speed_mm_per_s, 1e-3, n_samples, rate_hz)
     } else {
         let text =
             "neither a channel nor a sidecar says the speed; say the constant speed, such as \"100 mm/s\"";
@@ -78,7 +80,7 @@ pub(super) fn recording_of_wav(
         let si = sign * scale * inquiry.map.force_unit.map_or(1.0, ForceUnit::si);
         RawTrack::Column(scaled(&mut channels[place], si))
     } else if let Some(trace) = &trace {
-        on_clock(&trace.time_s, &trace.force_n, 1.0, channels[0].len(), rate_hz)
+        on_clock(&trace.time_s, &trace.force_n, 1.0, n_samples, rate_hz)
     } else {
         let text =
             "neither a channel nor a sidecar says the normal force; say the constant force, such as \"1 N\"";
@@ -154,10 +156,10 @@ fn scaled(samples: &mut Vec<f64>, si: f64) -> Vec<f64> {
 }
 
 /// A trace on the clock of the samples: straight lines between, its ends held.
-fn on_clock(times: &[f64], values: &[f64], si: f64, n_samples: usize, rate_hz: u32) -> RawTrack {
+fn on_clock(times: &[f64], values: &[f64], si: f64, n_samples: usize, rate_hz: f64) -> RawTrack {
     let mut after = 0;
     let at = |sample: usize| {
-        let time = sample as f64 / f64::from(rate_hz);
+        let time = sample as f64 / rate_hz;
         while after < times.len() && times[after] <= time {
             after += 1;
         }

@@ -137,7 +137,8 @@ impl Ask {
 
 impl ColumnMap {
     /// Puts the answer to a question into the map. Lists are parted by commas; a column is its name or its place from 1;
-    /// a speed or force may also be a number with its unit, such as `100 mm/s` or `1 N`, for a constant.
+    /// a speed or force may also be a number with its unit, such as `100 mm/s` or `1 N`, for a constant. A constant and a
+    /// column exclude each other: the later answer counts.
     ///
     /// # Errors
     /// [`AnswerError`]; the map is then as it was.
@@ -178,6 +179,8 @@ impl ColumnMap {
                 Err(error("one to three columns, parted by commas".to_owned()))
             }
         };
+        let needs =
+            |example: &str| format!("a column, or a number from 0 up with its unit, such as {example:?}");
         match what {
             Ask::Separator => self.separator = named!(Separator),
             Ask::DecimalComma => self.decimal_comma = flag()?,
@@ -190,16 +193,33 @@ impl ColumnMap {
             Ask::PerCount => self.per_count = above_zero()?,
             Ask::FullScale => self.full_scale = above_zero()?,
             Ask::Speed => match quantity(answer, |unit| SpeedUnit::parse(unit).map(SpeedUnit::si)) {
-                Some(speed_mps) => self.constant_speed = Some(MetersPerSecond(speed_mps)),
-                None => self.speed = column()?,
+                Some(speed_mps) => {
+                    self.constant_speed = Some(MetersPerSecond(speed_mps));
+                    self.speed = None;
+                }
+                None if is_bad_quantity(answer) => return Err(error(needs("100 mm/s"))),
+                None => {
+                    self.speed = column()?;
+                    self.constant_speed = None;
+                }
             },
             Ask::SpeedUnit => self.speed_unit = named!(SpeedUnit),
             Ask::SpeedFullScale => self.speed_full_scale = above_zero()?,
-            Ask::Positions => self.positions = columns()?,
+            Ask::Positions => {
+                self.positions = columns()?;
+                (self.speed, self.constant_speed) = (None, None);
+            }
             Ask::PositionUnit => self.position_unit = named!(PositionUnit),
             Ask::Force => match quantity(answer, |unit| ForceUnit::parse(unit).map(ForceUnit::si)) {
-                Some(force_n) => self.constant_force = Some(Newtons(force_n)),
-                None => self.force = column()?,
+                Some(force_n) => {
+                    self.constant_force = Some(Newtons(force_n));
+                    self.force = None;
+                }
+                None if is_bad_quantity(answer) => return Err(error(needs("1 N"))),
+                None => {
+                    self.force = column()?;
+                    self.constant_force = None;
+                }
             },
             Ask::ForceUnit => self.force_unit = named!(ForceUnit),
             Ask::ForceFullScale => self.force_full_scale = above_zero()?,
@@ -221,6 +241,15 @@ fn quantity(text: &str, si: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let (number, unit) = text.split_at(end);
     let number: f64 = number.parse().ok()?;
     Some(number * si(unit)?).filter(|value| value.is_finite())
+}
+
+/// Whether a text that is no [`quantity`] looks like one: a number that is no place of a column, or one with a word.
+fn is_bad_quantity(text: &str) -> bool {
+    if let Ok(number) = text.parse::<f64>() {
+        return !text.parse::<usize>().is_ok_and(|place| place > 0) && !number.is_nan();
+    }
+    let mut words = text.split_whitespace();
+    words.next().is_some_and(|first| first.parse::<f64>().is_ok()) && words.count() == 1
 }
 
 impl fmt::Display for Question {

@@ -1,4 +1,7 @@
 //! What the `.json` beside a WAV file says: ours ([`crate::wav::SidecarV1`]) or one written by hand.
+//!
+//! Beside `units` (of acceleration), `full_scale` and `channels` it may have `speed_unit`, `speed_full_scale`, `force_unit` and
+//! `force_full_scale`; `acceleration_unit` is `units` under the name that a map has for it.
 
 use serde::Deserialize;
 use shagreen_core::units::{MetersPerSecond, Newtons};
@@ -13,11 +16,14 @@ use crate::wav::{FORMAT, TraceV1, VERSION};
 struct Wire {
     format: Option<String>,
     version: Option<String>,
+    #[serde(alias = "acceleration_unit")]
     units: Option<String>,
     full_scale: Option<f64>,
     channels: Option<Vec<String>>,
+    #[serde(alias = "speed_unit")]
     speed_units: Option<String>,
     speed_full_scale: Option<f64>,
+    #[serde(alias = "force_unit")]
     force_units: Option<String>,
     force_full_scale: Option<f64>,
     speed_mm_per_s: Option<f64>,
@@ -55,14 +61,22 @@ pub(super) fn read_sidecar(bytes: &[u8], map: &mut ColumnMap) -> Result<Option<T
         wire.force_units.map(|text| ForceUnit::parse(&text).ok_or_else(|| unknown("force_units", &text)));
     map.force_unit = map.force_unit.or(unit.transpose()?);
     map.force_full_scale = map.force_full_scale.or(positive("force_full_scale", wire.force_full_scale)?);
-    map.constant_speed = map.constant_speed.or(wire.speed_mm_per_s.map(MetersPerSecond::from_mm_per_s));
-    map.constant_force = map.constant_force.or(wire.force_n.map(Newtons));
     if let (None, Some(names)) = (&map.channels, wire.channels) {
         let channel = |name: &String| {
             Channel::parse(&name.to_lowercase())
                 .ok_or_else(|| error(format!("the channel {name:?} is not known")))
         };
         map.channels = Some(names.iter().map(channel).collect::<Result<_, _>>()?);
+    }
+    // What was measured counts more than what was said, unless the map says otherwise.
+    let has = |kind: Channel| map.channels.iter().flatten().any(|channel| *channel == kind);
+    let (has_speed, has_force) =
+        (map.speed.is_some() || has(Channel::Speed), map.force.is_some() || has(Channel::Force));
+    if !has_speed {
+        map.constant_speed = map.constant_speed.or(wire.speed_mm_per_s.map(MetersPerSecond::from_mm_per_s));
+    }
+    if !has_force {
+        map.constant_force = map.constant_force.or(wire.force_n.map(Newtons));
     }
     let Some(trace) = wire.trace.filter(|trace| !trace.time_s.is_empty()) else { return Ok(None) };
     let n = trace.time_s.len();

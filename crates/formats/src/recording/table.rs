@@ -124,6 +124,7 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
     };
     let mut record = csv::StringRecord::new();
     let (mut n_short, mut first_short, mut n_lacking) = (0, 0, 0);
+    let (mut has_units, mut n_words) = (false, 0);
     // Text in memory with rows of any length: there is nothing left that the parser could refuse.
     while reader.read_record(&mut record).unwrap_or(false) {
         let line = record.position().map_or(0, |position| position.line() as usize);
@@ -140,6 +141,11 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
                 continue;
             }
         } else if table.header && is_words && table.columns.first().is_some_and(Vec::is_empty) {
+            // One line can hold units. Were each added to the names, prose would take time by the square of its length.
+            if std::mem::replace(&mut has_units, true) {
+                n_words += 1;
+                continue;
+            }
             for (name, unit) in table.names.iter_mut().zip(&record).filter(|(_, unit)| !unit.is_empty()) {
                 *name = format!("{name} [{}]", unit.trim_matches(['[', ']', '(', ')']));
             }
@@ -164,8 +170,14 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
         table.push(&record, line);
     }
     if table.columns.first().is_none_or(Vec::is_empty) {
-        let problem = "the table has no rows of numbers".to_owned();
+        let problem = format!(
+            "the table has no rows of numbers where columns are parted by {}; if they are parted otherwise, say the separator",
+            separator.name()
+        );
         return Err(RecordingFileError::Table { problem, line: None });
+    }
+    if n_words > 0 {
+        table.warnings.push(format!("{n_words} lines of words before the numbers are left out"));
     }
     if n_short > 0 {
         table.warnings.push(format!(

@@ -329,3 +329,39 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_table_without_numbers_is_refused_at_once() {
+    // Were every line added to the names, this would take minutes.
+    let text = "t;a\n".to_owned() + &"0.1;2.5\n".repeat(200_000);
+    let error = read_recording("a.csv", text.as_bytes(), None, &map(&[(Ask::Separator, "tab")])).unwrap_err();
+    let message = error.to_string();
+    assert!(message.contains("no rows of numbers") && message.contains("parted by tab"), "{message}");
+}
+
+#[test]
+fn the_later_of_a_constant_and_a_column_counts() {
+    let both = map(&[(Ask::Speed, "100 mm/s"), (Ask::Speed, "v"), (Ask::Force, "f"), (Ask::Force, "1 N")]);
+    assert!(both.constant_speed.is_none() && both.speed.is_some());
+    assert!(both.constant_force.is_some() && both.force.is_none());
+    assert!(map(&[(Ask::Speed, "1 m/s"), (Ask::Positions, "x")]).constant_speed.is_none());
+}
+
+#[test]
+fn a_speed_channel_stands_beside_the_force_of_a_trace() {
+    let mut wav = b"RIFF\x30\0\0\0WAVEfmt \x10\0\0\0\x01\0\x02\0".to_vec();
+    for number in [1000_u32, 4000, 0x0010_0004] {
+        wav.extend(number.to_le_bytes());
+    }
+    wav.extend(b"data\x0c\0\0\0");
+    wav.extend([16384_i16; 6].iter().flat_map(|sample| sample.to_le_bytes()));
+    let sidecar = br#"{"acceleration_unit": "m/s^2", "full_scale": 2, "channels": ["speed", "acceleration"],
+        "speed_unit": "mm/s", "speed_full_scale": 100, "speed_mm_per_s": 7,
+        "trace": {"time_s": [0, 0.002], "speed_mm_per_s": [1, 1], "force_n": [1, 2]}}"#;
+    for (map, expected) in [(map(&[]), [1.0, 1.5, 2.0]), (map(&[(Ask::RateHz, "500")]), [1.0, 2.0, 2.0])] {
+        let raw = read_recording("a.wav", &wav, Some(sidecar), &map).unwrap().raw;
+        assert_eq!(raw.acceleration_mps2, [vec![1.0; 3]]);
+        assert_eq!(raw.motion, RawMotion::Speed(RawTrack::Column(vec![0.05; 3])));
+        assert_eq!(raw.force_n, RawTrack::Column(expected.to_vec()));
+    }
+}

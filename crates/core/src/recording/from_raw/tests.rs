@@ -102,7 +102,7 @@ fn too_bad_a_clock_is_an_error_by_name() {
     let ends = at_times(|t| t[1999] = 1e12);
     for (clock, words) in [
         (twice, "50 % of the rows"),
-        (bursts, "bursts"),
+        (bursts, "steps differ too much"),
         (noise(2000, RawClock::Times(chance)), "bad clock"),
         (ends, "cannot last"),
     ] {
@@ -258,4 +258,18 @@ proptest! {
         // The bound of the polynomial; rows as they stand would be off by up to 2 pi f times the jitter, 0.31.
         prop_assert!(worst < 5e-3, "{worst} at {frequency_hz} Hz, jitter {jitter}");
     }
+}
+
+#[test]
+fn a_dead_axis_may_lack_cells() {
+    let mut raw = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
+    let mut dead = vec![0.5; 2000];
+    dead[700] = f64::NAN;
+    raw.acceleration_mps2.push(dead);
+    check_findings(raw, &["dead axis"], 2.0);
+}
+
+#[test]
+fn times_that_are_no_numbers_are_a_fault() {
+    assert_eq!(fault_names(at_times(|times| times.fill(f64::NAN))), ["bad clock"]);
 }
