@@ -119,7 +119,9 @@ fn import(
     let fitted = match fit::fit(&recordings, &options) {
         Ok(fitted) => fitted,
         Err(error) => {
-            files.iter().for_each(|file| outcome.failed(file, error.to_string()));
+            for file in files {
+                outcome.failed(file, error.to_string());
+            }
             return Ok(());
         }
     };
