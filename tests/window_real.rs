@@ -76,7 +76,7 @@ impl Display {
             if is_right(&shot) {
                 return shot;
             }
-            assert!(start.elapsed() < Duration::from_secs(60), "waited in vain: {what}; see {name}.png");
+            assert!(start.elapsed() < Duration::from_mins(1), "waited in vain: {what}; see {name}.png");
             std::thread::sleep(Duration::from_millis(200));
         }
     }
