@@ -1,6 +1,6 @@
 //! Import: files that were dropped or named become textures of the library.
 //!
-//! Files are read and textures fitted by a [`worker::Worker`]; the sheet shows a [`batch::Batch`] of them and asks what
+//! Files are read and textures fitted by a worker; the sheet shows a [`batch::Batch`] of them and asks what
 //! they do not say. Nothing joins the library before the user accepts it.
 
 pub mod batch;
