@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::fit::{self, FitOptions, Fitted};
+use shagreen_core::fit::{self, FitOptions, Fitted, MODEL_RATES_HZ};
 use shagreen_core::recording::Recording;
 use shagreen_core::texture::{Interpolation, MAX_ORDER};
 use shagreen_core::units::Hertz;
@@ -268,10 +268,6 @@ fn parse_answer(text: &str) -> Result<(Ask, String), String> {
 }
 
 fn parse_rate(text: &str) -> Result<f64, String> {
-    match text {
-        "1000" => Ok(1000.0),
-        "2000" => Ok(2000.0),
-        "4000" => Ok(4000.0),
-        _ => Err("a model has 1000, 2000 or 4000 Hz".to_owned()),
-    }
+    let rate = MODEL_RATES_HZ.into_iter().find(|rate| rate.to_string() == text);
+    rate.ok_or_else(|| format!("a model has {} Hz", MODEL_RATES_HZ.map(|rate| rate.to_string()).join(" or ")))
 }

@@ -7,6 +7,7 @@ mod smear;
 mod surface;
 
 pub use crate::fit::error::FitError;
+pub use crate::fit::pieces::{MODEL_RATES_HZ, highest_order};
 
 use crate::recording::Recording;
 use crate::spectrum::median;
@@ -150,7 +151,7 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         return Err(FitError::Empty);
     }
     let pieces::Cut { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
-    let highest = pieces::highest_order(rate);
+    let highest = highest_order(rate);
     if let Some(order) = options.order.filter(|order| *order == 0 || *order > highest) {
         return Err(FitError::OrderAsked { order, highest });
     }

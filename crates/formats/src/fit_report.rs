@@ -1,9 +1,13 @@
 //! What a fit was like, for people: a page of plots (SVG) and a table of its segments (CSV).
 
+use std::ops::Range;
+
+use plotters::chart::ChartContext;
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::{
-    BindKeyPoints as _, ChartBuilder, Circle, DrawingArea, IntoDrawingArea as _, IntoFont as _,
+    BindKeyPoints as _, Cartesian2d, ChartBuilder, Circle, DrawingArea, IntoDrawingArea as _, IntoFont as _,
     IntoLogRange as _, LineSeries, RGBColor, SVGBackend, TextStyle,
 };
 use plotters::style::Color as _;
@@ -32,6 +36,7 @@ const COLUMNS: &str =
     "recording,start_s,seconds,speed_mm_per_s,force_n,level_mps2,gfc,level_error_db,held_out";
 
 type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 /// The page of plots: the segments on the plane of speed and force, their goodness of fit and level errors, and the
@@ -126,17 +131,19 @@ fn color(segment: &Segment) -> RGBColor {
     if segment.comparison.gfc >= GOOD_GFC { MODEL } else { BAD }
 }
 
-/// Segments over speed and force, larger where they are longer.
-fn plane(panel: &Page<'_>, report: &FitReport) -> Drawn {
-    let highest =
-        |value: &dyn Fn(&Segment) -> f64| 1.05 * report.segments.iter().map(value).fold(1e-3, f64::max);
-    let speeds = 0.0..highest(&|s| s.speed.mm_per_s());
+/// A chart with a caption, and a grid over these ranges.
+fn axes<'a>(
+    panel: &Page<'a>,
+    caption: &str,
+    x: Range<f64>,
+    y: Range<f64>,
+) -> Result<Chart<'a>, DrawingAreaErrorKind<std::io::Error>> {
     let mut chart = ChartBuilder::on(panel)
         .margin(14)
-        .caption("segments: speed, mm/s, and force, N", text(15.0))
+        .caption(caption, text(15.0))
         .x_label_area_size(28)
         .y_label_area_size(44)
-        .build_cartesian_2d(speeds, 0.0..highest(&|s| s.force.0))?;
+        .build_cartesian_2d(x, y)?;
     chart
         .configure_mesh()
         .light_line_style(plotters::style::WHITE)
@@ -147,6 +154,15 @@ fn plane(panel: &Page<'_>, report: &FitReport) -> Drawn {
         .x_label_formatter(&|x| format!("{x:.0}"))
         .y_labels(6)
         .draw()?;
+    Ok(chart)
+}
+
+/// Segments over speed and force, larger where they are longer.
+fn plane(panel: &Page<'_>, report: &FitReport) -> Drawn {
+    let highest =
+        |value: &dyn Fn(&Segment) -> f64| 1.05 * report.segments.iter().map(value).fold(1e-3, f64::max);
+    let speeds = 0.0..highest(&|s| s.speed.mm_per_s());
+    let mut chart = axes(panel, "segments: speed, mm/s, and force, N", speeds, 0.0..highest(&|s| s.force.0))?;
     let size = |s: &Segment| (3.0 + 4.0 * s.seconds.min(1.0)) as i32;
     chart.draw_series(
         report
@@ -166,22 +182,7 @@ fn by_segment(
     (low, high): (f64, f64),
 ) -> Drawn {
     let last = report.segments.len().max(2) as f64;
-    let mut chart = ChartBuilder::on(panel)
-        .margin(14)
-        .caption(caption, text(15.0))
-        .x_label_area_size(28)
-        .y_label_area_size(44)
-        .build_cartesian_2d(0.0..last, low..high)?;
-    chart
-        .configure_mesh()
-        .light_line_style(plotters::style::WHITE)
-        .bold_line_style(FAINT)
-        .axis_style(MEASURED)
-        .label_style(text(12.0))
-        .x_labels(6)
-        .x_label_formatter(&|x| format!("{x:.0}"))
-        .y_labels(6)
-        .draw()?;
+    let mut chart = axes(panel, caption, 0.0..last, low..high)?;
     // What is off the scale is drawn at its end, not left out.
     let dot = |(i, s): (usize, &Segment)| {
         Circle::new((i as f64 + 0.5, value(s).clamp(low, high)), 3, color(s).filled())

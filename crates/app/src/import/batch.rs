@@ -7,6 +7,7 @@ use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, na
 use shagreen_formats::recording::Question;
 
 use crate::import::draft::{Draft, FitState};
+use crate::import::model_ui::ShownModel;
 use crate::import::recording_state::RecordingState;
 use crate::import::source::Source;
 use crate::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, Request, Worker};
@@ -42,8 +43,8 @@ pub enum Content {
         entries: Vec<TextureEntry>,
         /// What was odd, in sentences.
         warnings: Vec<String>,
-        /// The texture that is looked at.
-        shown: usize,
+        /// What is looked at.
+        shown: ShownModel,
     },
     /// Something that serves the other files, and how.
     Helper(&'static str),
@@ -147,7 +148,7 @@ impl Batch {
             LoadedContent::Failed(reason) => Content::Failed(reason),
             LoadedContent::Helper { note } => Content::Helper(note),
             LoadedContent::Textures { entries, warnings } => {
-                Content::Textures { entries, warnings, shown: 0 }
+                Content::Textures { entries, warnings, shown: ShownModel::default() }
             }
             LoadedContent::Recording { input, map, outcome } => {
                 is_recording = true;

@@ -3,23 +3,14 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use shagreen_core::fit::{FitOptions, Fitted};
-use shagreen_core::texture::{Interpolation, MAX_ORDER};
+use shagreen_core::fit::{FitOptions, Fitted, MODEL_RATES_HZ, highest_order};
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::TextureEntry;
 
 use crate::strings::import as strings;
 
-/// Rates that can be chosen, in Hz; without one the recordings decide.
-pub(super) const RATES_HZ: [f64; 3] = [1000.0, 2000.0, 4000.0];
-
 /// Lowest order that can be chosen.
 const LOWEST_ORDER: usize = 2;
-
-/// The highest order that a fit takes at this rate.
-fn highest_order(rate_hz: f64) -> usize {
-    if rate_hz <= 1000.0 { 20 } else { MAX_ORDER }
-}
 
 /// A texture in the making.
 #[derive(Clone, Debug)]
@@ -61,7 +52,7 @@ impl Draft {
             id,
             name,
             tags: String::new(),
-            options: FitOptions { rate: None, order: None, interpolation: Interpolation::Barycentric },
+            options: FitOptions::usual(),
             files,
             generation: 0,
             fit: FitState::Nothing,
@@ -87,7 +78,7 @@ impl Draft {
     pub fn set_rate_hz(&mut self, rate_hz: Option<f64>) {
         self.options.rate = rate_hz.map(Hertz);
         if let Some(rate_hz) = rate_hz {
-            self.options.order = self.options.order.filter(|order| *order <= highest_order(rate_hz));
+            self.options.order = self.options.order.filter(|order| *order <= highest_order(Hertz(rate_hz)));
         }
     }
 
@@ -95,7 +86,7 @@ impl Draft {
     /// is not known, those that every rate takes.
     pub(super) fn orders(&self) -> RangeInclusive<usize> {
         let rate_hz = self.rate_hz().or(self.fitted().map(|fitted| fitted.report.rate.0));
-        LOWEST_ORDER..=highest_order(rate_hz.unwrap_or(RATES_HZ[0]))
+        LOWEST_ORDER..=highest_order(Hertz(rate_hz.unwrap_or(MODEL_RATES_HZ[0])))
     }
 
     /// The texture as an entry of a library, which says what it was made of; `None` where it is not fitted.
@@ -114,37 +105,8 @@ impl Draft {
 
 #[cfg(test)]
 mod tests {
-    use super::{Draft, RATES_HZ, highest_order};
-    use shagreen_core::fit::{FitError, FitOptions, fit};
-    use shagreen_core::recording::Recording;
-    use shagreen_core::texture::{Interpolation, MAX_ORDER};
-    use shagreen_core::units::Hertz;
-
-    /// Noise of a hand that strokes evenly.
-    fn recording() -> Recording {
-        let n = 16_000_usize;
-        let noise = |i: usize| ((i.wrapping_mul(2_654_435_761) >> 7) % 2000) as f64 / 1000.0 - 1.0;
-        Recording {
-            rate: Hertz(4000.0),
-            acceleration_mps2: (0..n).map(noise).collect(),
-            speed_mps: vec![0.1; n],
-            force_n: vec![1.0; n],
-            usable: std::iter::once(0..n).collect(),
-        }
-    }
-
-    #[test]
-    fn the_highest_order_that_is_offered_is_the_highest_that_a_fit_takes() {
-        let recordings = [recording()];
-        for rate_hz in RATES_HZ {
-            let order = Some(highest_order(rate_hz) + 1);
-            let rate = Some(Hertz(rate_hz));
-            let asked =
-                fit(&recordings, &FitOptions { rate, order, interpolation: Interpolation::Barycentric });
-            let refused = |e: &FitError| matches!(e, FitError::OrderAsked { highest, .. } if *highest == highest_order(rate_hz));
-            assert!(asked.as_ref().is_err_and(refused), "at {rate_hz} Hz: {asked:?}");
-        }
-    }
+    use super::Draft;
+    use shagreen_core::texture::MAX_ORDER;
 
     #[test]
     fn orders_follow_the_rate() {

@@ -1,10 +1,10 @@
 //! How a texture is fitted, to be adjusted, and how well it fits.
 
 use egui::{ComboBox, Grid, Label, RichText, TextEdit, Ui};
-use shagreen_core::fit::FitReport;
+use shagreen_core::fit::{FitReport, MODEL_RATES_HZ};
 use shagreen_core::texture::Interpolation;
 
-use crate::import::draft::{Draft, FitState, RATES_HZ};
+use crate::import::draft::{Draft, FitState};
 use crate::import::questions_ui::sentence;
 use crate::import::sheet::Surroundings;
 use crate::strings::import as strings;
@@ -58,7 +58,7 @@ fn rate_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
     let mut rate_hz = draft.rate_hz();
     let combo = ComboBox::from_id_salt("rate").width(width).selected_text(words(rate_hz));
     let combo = combo.show_ui(ui, |ui| {
-        for choice in std::iter::once(None).chain(RATES_HZ.map(Some)) {
+        for choice in std::iter::once(None).chain(MODEL_RATES_HZ.map(Some)) {
             ui.selectable_value(&mut rate_hz, choice, words(choice));
         }
     });

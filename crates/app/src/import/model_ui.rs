@@ -1,5 +1,7 @@
 //! Textures that are models already: what they are, where they were measured, and under which terms they stand.
 
+use std::collections::BTreeMap;
+
 use egui::{Align, ComboBox, Label, Layout, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::plane::Plane;
 use shagreen_core::units::{Contact, Hertz};
@@ -16,15 +18,26 @@ use crate::theme::{GAP, GROUP_GAP, tokens};
 /// Frequencies at which a spectrum is drawn.
 const N_FREQUENCIES: usize = 120;
 
-/// Draws the textures of a file; `shown` is the one that is looked at.
+/// What is looked at of a file's textures.
+#[derive(Clone, Debug, Default)]
+pub struct ShownModel {
+    /// Index of the texture.
+    texture: usize,
+    /// Index of the node that was chosen, by the index of the texture.
+    nodes: BTreeMap<usize, usize>,
+    /// The spectrum of that texture at that node, once it has been drawn: a plane takes too long for every frame.
+    spectrum: Option<((usize, usize), Vec<f64>)>,
+}
+
+/// Draws the textures of a file; `shown` is what is looked at.
 pub(super) fn model_ui(
     ui: &mut Ui,
     entries: &[TextureEntry],
     warnings: &[String],
-    shown: &mut usize,
+    shown: &mut ShownModel,
     around: Surroundings<'_>,
 ) {
-    let Some(entry) = entries.get(*shown).or(entries.first()) else {
+    let Some(entry) = entries.get(shown.texture).or(entries.first()) else {
         ui.label(crate::strings::NO_TEXTURES);
         return;
     };
@@ -33,7 +46,7 @@ pub(super) fn model_ui(
             let combo = ComboBox::from_id_salt("texture").width(260.0).selected_text(&entry.name);
             let combo = combo.show_ui(ui, |ui| {
                 for (index, other) in entries.iter().enumerate() {
-                    ui.selectable_value(shown, index, &other.name);
+                    ui.selectable_value(&mut shown.texture, index, &other.name);
                 }
             });
             combo.response.accessible_name(strings::TEXTURE_OF_FILE);
@@ -45,23 +58,22 @@ pub(super) fn model_ui(
             ui.add(Label::new(RichText::new(strings::RESTRICTED).color(t.warning)).wrap());
         }
         ui.add_space(GAP);
-        plots_ui(ui, entry);
+        plots_ui(ui, entry, shown);
         ui.add_space(GAP);
         about_ui(ui, entry, around);
         list_ui(ui, strings::WARNINGS, warnings, t.warning);
     });
 }
 
-fn plots_ui(ui: &mut Ui, entry: &TextureEntry) {
+fn plots_ui(ui: &mut Ui, entry: &TextureEntry, shown: &mut ShownModel) {
     let t = tokens(ui.ctx());
     let contacts: Vec<Contact> = entry.model.contacts().collect();
     let dots: Vec<Dot> = contacts
         .iter()
         .map(|c| Dot { speed_mm_per_s: c.speed.mm_per_s(), force_n: c.force.0, color: t.accent })
         .collect();
-    let id = ui.scope_id().with(("node", &entry.id));
     let middle = contacts.iter().position(|c| c.speed.0 > 0.0 && c.force.0 > 0.0).unwrap_or(0);
-    let mut node = ui.data(|d| d.get_temp::<usize>(id)).unwrap_or(middle).min(dots.len().saturating_sub(1));
+    let mut node = shown.nodes.get(&shown.texture).copied().unwrap_or(middle);
     let size = vec2(0.5 * (ui.available_width() - GROUP_GAP), 280.0);
     let inner = size.y - 24.0;
     ui.horizontal_top(|ui| {
@@ -81,11 +93,15 @@ fn plots_ui(ui: &mut Ui, entry: &TextureEntry) {
             let frequency =
                 |i: usize| Hertz(10.0 * (high / 10.0).powf(i as f64 / (N_FREQUENCIES - 1) as f64));
             let frequencies: Vec<Hertz> = (0..N_FREQUENCIES).map(frequency).collect();
-            let psd = Plane::new(&entry.model).at(*contact).psd(&frequencies);
-            spectrum_plot(ui, &frequencies, None, (strings::MODEL_LINE, &psd), inner);
+            let at = (shown.texture, node);
+            let (_, psd) = match shown.spectrum.take().filter(|(drawn_at, _)| *drawn_at == at) {
+                Some(drawn) => shown.spectrum.insert(drawn),
+                None => shown.spectrum.insert((at, Plane::new(&entry.model).at(*contact).psd(&frequencies))),
+            };
+            spectrum_plot(ui, &frequencies, None, (strings::MODEL_LINE, psd), inner);
         });
     });
-    ui.data_mut(|d| d.insert_temp(id, node));
+    shown.nodes.insert(shown.texture, node);
 }
 
 fn about_ui(ui: &mut Ui, entry: &TextureEntry, around: Surroundings<'_>) {

@@ -10,8 +10,8 @@ use crate::spectrum::welch;
 use crate::texture::RATES_HZ;
 use crate::units::Hertz;
 
-/// Rates of models that are tried, from the lowest.
-const MODEL_RATES_HZ: [f64; 3] = [1000.0, 2000.0, 4000.0];
+/// Rates of models that are tried, in Hz, from the lowest.
+pub const MODEL_RATES_HZ: [f64; 3] = [1000.0, 2000.0, 4000.0];
 
 /// Share of the power above [`HIGH_PASS`] that a model's band has to hold.
 const BAND_SHARE: f64 = 0.99;
@@ -29,7 +29,7 @@ const MIN_PIECE_SECS: f64 = 0.1;
 const SAMPLES_A_COEFFICIENT: usize = 5;
 
 /// Highest order that is tried, by the rate of the model: a band twice as wide has more resonances.
-pub(super) fn highest_order(rate: Hertz) -> usize {
+pub fn highest_order(rate: Hertz) -> usize {
     if rate.0 <= 1000.0 { 20 } else { crate::texture::MAX_ORDER }
 }
 
