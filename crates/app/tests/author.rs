@@ -1,57 +1,18 @@
 //! The workspace Author, used as a person would: controls found by name, the point dragged, the texture heard.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
 
+mod support;
+
 use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use shagreen_app::session::OutputChoice;
 use shagreen_app::strings;
-use shagreen_app::window::Window;
 use shagreen_core::blend::Mode;
-use shagreen_formats::starter::starter_library;
 
-type Author = Harness<'static, Option<Window>>;
-
-/// The window on the starter library, playing to the silent output with a real clock.
-fn author() -> Author {
-    let mut harness = Harness::builder().with_size([1280.0, 720.0]).build_ui_state(
-        |ui, window: &mut Option<Window>| {
-            let window = window.get_or_insert_with(|| {
-                Window::new(
-                    ui.ctx(),
-                    starter_library().expect("the starter library"),
-                    OutputChoice::Id("null".to_owned()),
-                )
-                .expect("a window")
-            });
-            window.frame_ui(ui);
-        },
-        None,
-    );
-    wait(&mut harness, "the output opens", |w| w.session().status().is_some());
-    harness
-}
-
-fn window(harness: &Author) -> &Window {
-    harness.state().as_ref().expect("a window after the first frame")
-}
-
-/// Runs frames in real time until `done`, for at most ten seconds.
-#[track_caller]
-fn wait(harness: &mut Author, what: &str, done: impl Fn(&Window) -> bool) {
-    let start = Instant::now();
-    loop {
-        harness.step();
-        if harness.state().as_ref().is_some_and(&done) {
-            return;
-        }
-        assert!(start.elapsed() < Duration::from_secs(10), "waited in vain: {what}");
-        std::thread::sleep(Duration::from_millis(10));
-    }
-}
+use support::{Author, author, click, wait, window};
 
 /// Lets the texture sound for a while.
 fn listen(harness: &mut Author, seconds: f64) {
@@ -161,9 +122,8 @@ fn a_control_without_a_name_is_found() {
 #[test]
 fn dragging_the_point_changes_sliders_weights_and_sound() {
     let mut harness = author();
-    harness.get_by_label(strings::HAND_START).click();
-    harness.run_steps(2);
-    wait(&mut harness, "the hand strokes", |w| w.session().touch().contact.force_n > 0.0);
+    click(&mut harness, strings::HAND_START);
+    wait(&mut harness, "the hand strokes", |h| window(h).session().touch().contact.force_n > 0.0);
 
     let smooth = center(&harness, "Go to Glass");
     let from = center(&harness, strings::POINT);
@@ -189,8 +149,7 @@ fn dragging_the_point_changes_sliders_weights_and_sound() {
     let power: f64 = steps.zip(&spectra.blend).map(|(df, p)| df * p).sum();
     assert!((power.sqrt() / loud).log10().abs() < 0.15, "shown {} m/s², heard {loud}", power.sqrt());
 
-    harness.get_by_label(strings::HAND_STOP).click();
-    harness.run_steps(2);
+    click(&mut harness, strings::HAND_STOP);
     listen(&mut harness, 0.8);
     assert!(window(&harness).session().scope().rms(0.3) < 1e-3, "silence when the hand stops");
 }
@@ -220,8 +179,7 @@ fn a_whole_drag_is_one_step_of_undo() {
     let (from, to) = (center(&harness, strings::POINT), center(&harness, "Go to Felt"));
     drag(&mut harness, from, to);
     assert_ne!(window(&harness).project().point, start);
-    harness.get_by_label(strings::UNDO).click();
-    harness.run_steps(3);
+    click(&mut harness, strings::UNDO);
     assert_eq!(window(&harness).project().point, start);
 }
 
@@ -255,8 +213,7 @@ fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
         .map(|(_, at)| at.distance(point))
         .fold(100.0, f64::min);
     assert!(nearest < 1.0, "let go at {point}, {nearest} from the nearest texture");
-    harness.get_by_label(strings::UNDO).click();
-    harness.run_steps(3);
+    click(&mut harness, strings::UNDO);
     assert_eq!(window(&harness).project().point, start, "one step of undo");
 }
 
@@ -337,8 +294,7 @@ fn outside_the_measured_textures_the_window_says_so() {
 #[test]
 fn the_blend_is_chosen_and_a_search_narrows_the_list() {
     let mut harness = author();
-    harness.get_by_label("paper").click();
-    harness.run_steps(2);
+    click(&mut harness, "paper");
     assert_eq!(window(&harness).project().mode, Mode::Paper);
     harness.get_by_role_and_label(Role::TextInput, strings::SEARCH).focus();
     harness.run_steps(2);

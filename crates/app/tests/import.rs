@@ -1,18 +1,16 @@
 //! Importing, as a person would: files dropped on the window, questions answered, the texture accepted, heard, undone.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
 
+mod support;
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
 use egui::{DroppedFile, Key, Modifiers};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use shagreen_app::session::OutputChoice;
 use shagreen_app::strings::{self, import};
-use shagreen_app::window::Window;
 use shagreen_core::blend::Mode;
 use shagreen_core::plane::Plane;
 use shagreen_core::render::{RenderPlan, render};
@@ -20,44 +18,10 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
-type Author = Harness<'static, Option<Window>>;
-
-/// The window on the starter library, playing to the silent output with a real clock.
-fn author() -> Author {
-    let mut harness = Harness::builder().with_size([1280.0, 720.0]).build_ui_state(
-        |ui, window: &mut Option<Window>| {
-            let window = window.get_or_insert_with(|| {
-                let library = starter_library().expect("the starter library");
-                Window::new(ui.ctx(), library, OutputChoice::Id("null".to_owned())).expect("a window")
-            });
-            window.frame_ui(ui);
-        },
-        None,
-    );
-    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
-    harness
-}
-
-fn window(harness: &Author) -> &Window {
-    harness.state().as_ref().expect("a window after the first frame")
-}
+use support::{Author, author, click, wait, window};
 
 fn names(harness: &Author) -> Vec<String> {
     window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()
-}
-
-/// Runs frames in real time until `done`, for at most half a minute.
-#[track_caller]
-fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> bool) {
-    let start = Instant::now();
-    loop {
-        harness.step();
-        if done(harness) {
-            return;
-        }
-        assert!(start.elapsed() < Duration::from_secs(30), "waited in vain: {what}");
-        std::thread::sleep(Duration::from_millis(10));
-    }
 }
 
 /// A file in memory, as a windowing system would hand it over.
@@ -82,11 +46,6 @@ fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
         Arc::new(InMemory { path: PathBuf::from(name), bytes: bytes.to_vec() }) as egui::DroppedFileHandle
     });
     harness.input_mut().dropped_files.extend(handles);
-    harness.run_steps(2);
-}
-
-fn click(harness: &mut Author, name: &str) {
-    harness.get_by_label(name).click();
     harness.run_steps(2);
 }
 
@@ -169,11 +128,9 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 0.02);
 
-    harness.get_by_label(strings::UNDO).click();
-    harness.run_steps(3);
+    click(&mut harness, strings::UNDO);
     assert_eq!(window(&harness).project().solo, None);
-    harness.get_by_label(strings::UNDO).click();
-    harness.run_steps(3);
+    click(&mut harness, strings::UNDO);
     assert_eq!(names(&harness), before, "one step takes it away");
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);

@@ -1,0 +1,52 @@
+//! What the tests of the window share: the window on the starter library, and a person's moves.
+
+use std::time::{Duration, Instant};
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use shagreen_app::session::OutputChoice;
+use shagreen_app::window::Window;
+use shagreen_formats::starter::starter_library;
+
+/// The program under test; there is a window after the first frame.
+pub(crate) type Author = Harness<'static, Option<Window>>;
+
+/// The window on the starter library, playing to the silent output with a real clock.
+pub(crate) fn author() -> Author {
+    let mut harness = Harness::builder().with_size([1280.0, 720.0]).build_ui_state(
+        |ui, window: &mut Option<Window>| {
+            let window = window.get_or_insert_with(|| {
+                let library = starter_library().expect("the starter library");
+                Window::new(ui.ctx(), library, OutputChoice::Id("null".to_owned())).expect("a window")
+            });
+            window.frame_ui(ui);
+        },
+        None,
+    );
+    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
+    harness
+}
+
+pub(crate) fn window(harness: &Author) -> &Window {
+    harness.state().as_ref().expect("a window after the first frame")
+}
+
+/// Runs frames in real time until `done`, for at most half a minute.
+#[track_caller]
+pub(crate) fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> bool) {
+    let start = Instant::now();
+    loop {
+        harness.step();
+        if done(harness) {
+            return;
+        }
+        assert!(start.elapsed() < Duration::from_secs(30), "waited in vain: {what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Presses the control of this name.
+pub(crate) fn click(harness: &mut Author, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(2);
+}
