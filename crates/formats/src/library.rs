@@ -25,12 +25,22 @@
 //! - `"tap": {"frequency_hz": 180.0, "decay_per_s": 90.0, "amplitude_mps2": 4.0}`: the transient of a landing.
 //! - `"provenance": "restricted"`: made from data that may not be passed on; see [`Provenance`].
 //!
+//! Version 1.2 added, to a texture:
+//!
+//! - `"attributes": {"label_source": "human", "values": [{"name": "rough-smooth", "value": 40.5}, …]}`: values from 0 to
+//!   100 on any number of attributes, each named by its two poles; see [`Attributes`].
+//!
+//! and to the library:
+//!
+//! - `"space_report": {…}`: how its space was made and how far it can be believed, as `shagreen space build` prints it.
+//!
 //! A file says the lowest version that has all it uses.
 //!
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
 //! refused.
 
 mod anchors;
+mod attributes;
 mod error;
 mod id;
 mod provenance;
@@ -44,6 +54,7 @@ use shagreen_core::texture::TextureModel;
 
 use crate::picture::Picture;
 
+pub use crate::library::attributes::{Attribute, Attributes, poles};
 pub use crate::library::error::LibraryError;
 pub use crate::library::id::{free_id, id_from_name, name_from_file};
 pub use crate::library::provenance::Provenance;
@@ -56,7 +67,7 @@ pub const FORMAT: &str = "shagreen-library";
 /// Major version that is read and written: files of another one are refused.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written: fields may be added by a higher one.
-pub const VERSION_MINOR: u32 = 1;
+pub const VERSION_MINOR: u32 = 2;
 
 /// Textures that belong together.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,6 +84,8 @@ pub struct Library {
     pub created_by: String,
     /// Seed of all that is random in it, where it was made by a program.
     pub seed: Option<u64>,
+    /// How its space was made and how far it can be believed: a JSON object, as `shagreen space build` prints it.
+    pub space_report: Option<Value>,
     /// The textures. Identifiers are unique; a texture is known by its index here.
     pub textures: Vec<TextureEntry>,
     /// Fields that this version does not know.
@@ -98,6 +111,8 @@ pub struct TextureEntry {
     pub description: String,
     /// Where it lies in the space, where it has been placed.
     pub place: Option<Place>,
+    /// How it is rated on attributes, of which two may be the axes of its space.
+    pub attributes: Option<Attributes>,
     /// What was measured or computed of the surface itself, where that is known.
     pub physical: Option<PhysicalLabels>,
     /// What it does to a tip.
@@ -138,6 +153,9 @@ pub struct UnknownOfLibrary {
 pub struct Unknown {
     texture: Map<String, Value>,
     space: Map<String, Value>,
+    attributes: Map<String, Value>,
+    /// Empty, or one for each value of the attributes.
+    values: Vec<Map<String, Value>>,
     physical: Map<String, Value>,
     picture: Map<String, Value>,
     tap: Map<String, Value>,
@@ -157,6 +175,7 @@ impl TextureEntry {
             provenance: Provenance::default(),
             description: String::new(),
             place: None,
+            attributes: None,
             physical: None,
             model,
             picture: None,

@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
 use shagreen_core::tap::Tap;
 use shagreen_core::texture::{Grain, Interpolation};
@@ -14,6 +14,7 @@ use shagreen_formats::picture::{PictureFormat, decode};
 
 const V1_0: &[u8] = include_bytes!("golden/library-1.0.json");
 const V1_1: &[u8] = include_bytes!("golden/library-1.1.json");
+const V1_2: &[u8] = include_bytes!("golden/library-1.2.json");
 
 /// Reads without a warning.
 fn read(bytes: &[u8]) -> Library {
@@ -92,8 +93,23 @@ fn version_1_1() {
 }
 
 #[test]
+fn version_1_2() {
+    let library = read(V1_2);
+    check_head(&library, "1.2");
+    check_cork(&library.textures[0]);
+    let report = library.space_report.as_ref().unwrap();
+    assert_eq!((&report["stress"][0]["stress"], &report["note"]), (&json!(0.05), &json!("made up")));
+    let attributes = library.textures[0].attributes.as_ref().unwrap();
+    assert_eq!(attributes.source, LabelSource::SimulatedRaters);
+    let values: Vec<_> = attributes.values.iter().map(|a| (a.name.as_str(), a.value)).collect();
+    assert_eq!(values, [("rough-smooth", 40.5), ("flat-bumpy", 12.25), ("warm", 100.0)]);
+    assert_eq!((attributes.get("flat-bumpy"), attributes.get("bumpy-flat")), (Some(12.25), None));
+    assert!(library.textures[1..].iter().all(|texture| texture.attributes.is_none()));
+}
+
+#[test]
 fn what_is_not_known_is_written_back() {
-    for golden in [V1_0, V1_1] {
+    for golden in [V1_0, V1_1, V1_2] {
         let before: Value = serde_json::from_slice(golden).unwrap();
         let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
         assert_eq!(after, before);
@@ -106,7 +122,11 @@ fn a_library_says_the_lowest_version_that_has_what_it_uses() {
         let value: Value = serde_json::from_slice(&write_library(library)).unwrap();
         value["version"].as_str().unwrap().to_owned()
     };
-    let mut library = read(V1_1);
+    let mut library = read(V1_2);
+    assert_eq!(version(&library), "1.2");
+    library.space_report = None;
+    assert_eq!(version(&library), "1.2");
+    library.textures[0].attributes = None;
     assert_eq!(version(&library), "1.1");
     library.textures.truncate(1);
     assert_eq!(version(&library), "1.0");

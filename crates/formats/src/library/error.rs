@@ -39,6 +39,19 @@ pub enum LibraryError {
         /// The version of the file.
         found: String,
     },
+    /// The report on the space is no object.
+    #[error("`space_report` is not an object; leave it out, or build the space again")]
+    Report,
+    /// A value on an attribute has no meaning.
+    #[error("texture \"{id}\": the attribute \"{name}\" cannot be used: {reason}; correct it")]
+    Attribute {
+        /// Identifier of the texture.
+        id: String,
+        /// Name of the attribute.
+        name: String,
+        /// Why.
+        reason: &'static str,
+    },
     /// A quantity has another unit.
     #[error(
         "the library gives {quantity} in {found}, this program reads {expected}; convert the numbers and the unit"

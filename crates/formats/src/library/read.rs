@@ -12,6 +12,7 @@ use shagreen_core::units::Hertz;
 
 use crate::imported::Imported;
 use crate::library::anchors::grain;
+use crate::library::attributes;
 use crate::library::v1::{Header, LibraryV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
 use crate::library::write::{RESTRICTED, UNITS};
 use crate::library::{
@@ -65,6 +66,7 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
             warnings.push(format!("the picture of texture \"{id}\" cannot be shown: {error}"));
         }
     }
+    let space_report = attributes::report(wire.space_report)?;
     let library = Library {
         name: wire.name,
         description: wire.description,
@@ -72,6 +74,7 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
         license: wire.licence,
         created_by: wire.created_by,
         seed: wire.seed,
+        space_report,
         textures,
         unknown: UnknownOfLibrary { library: wire.unknown, units: wire.units.unknown },
     };
@@ -149,6 +152,7 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
     let id = wire.id;
     let mut unknown = Unknown { texture: wire.unknown, ..Unknown::default() };
     let place = wire.space.map(|space| place(&id, space, &mut unknown)).transpose()?;
+    let attributes = wire.attributes.map(|wire| attributes::read(&id, wire, &mut unknown)).transpose()?;
     let picture = wire.picture.map(|wire| picture(&id, wire, &mut unknown)).transpose()?;
     let physical = wire.physical.map(|wire| {
         unknown.physical = wire.unknown;
@@ -172,6 +176,7 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
         provenance,
         description: wire.description,
         place,
+        attributes,
         physical,
         model,
         picture,

@@ -228,3 +228,17 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn attributes_without_meaning_are_refused() {
+    let with = |values: Value, source: &str| {
+        let attributes = json!({"label_source": source, "values": values});
+        move |library: &mut Value| library["textures"][0]["attributes"] = attributes
+    };
+    let value = |name: &str, value: f64| json!({"name": name, "value": value});
+    check_error(with(json!([value("a-b", 101.0)]), "human"), &["cork", "\"a-b\"", "0 and 100"]);
+    check_error(with(json!([value("a-b", 1.0), value("a-b", 2.0)]), "human"), &["cork", "twice"]);
+    check_error(with(json!([value(" ", 1.0)]), "human"), &["no name"]);
+    check_error(with(json!([]), "guessed"), &["cork", "guessed"]);
+    check_error(|library| library["space_report"] = json!([1]), &["space_report"]);
+}

@@ -1,4 +1,4 @@
-//! The wire format of a library, versions 1.0 and 1.1.
+//! The wire format of a library, versions 1.0 to 1.2.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -28,6 +28,9 @@ pub(super) struct LibraryV1 {
     pub(super) created_by: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) seed: Option<u64>,
+    /// Since 1.2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) space_report: Option<Value>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     // Last, so that what is said about the library stands before the long part.
@@ -60,6 +63,9 @@ pub(super) struct TextureV1 {
     pub(super) description: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) space: Option<SpaceV1>,
+    /// Since 1.2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) attributes: Option<AttributesV1>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) physical: Option<PhysicalV1>,
     /// Since 1.1.
@@ -86,6 +92,22 @@ pub(super) struct SpaceV1 {
     pub(super) rough_smooth: f64,
     pub(super) hard_soft: f64,
     pub(super) label_source: String,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct AttributesV1 {
+    pub(super) label_source: String,
+    pub(super) values: Vec<AttributeV1>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct AttributeV1 {
+    pub(super) name: String,
+    pub(super) value: f64,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
 }

@@ -7,6 +7,7 @@ use shagreen_core::texture::Interpolation;
 
 use crate::layout;
 use crate::library::anchors::{anchors, interpolation_word};
+use crate::library::attributes;
 use crate::library::v1::{LibraryV1, PhysicalV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
 use crate::library::{FORMAT, Library, Provenance, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
 
@@ -59,6 +60,7 @@ pub fn write_library(library: &Library) -> Vec<u8> {
         licence: library.license.clone(),
         created_by: library.created_by.clone(),
         seed: library.seed,
+        space_report: library.space_report.clone(),
         unknown: library.unknown.library.clone(),
         textures: library.textures.iter().map(texture).collect(),
     };
@@ -80,6 +82,7 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
             label_source: place.source.id().to_owned(),
             unknown: unknown.space.clone(),
         }),
+        attributes: entry.attributes.as_ref().map(|a| attributes::write(a, unknown)),
         physical: entry.physical.map(|labels| PhysicalV1 {
             roughness_log10_mps2: digits(labels.roughness_log10_mps2, DIGITS),
             hardness_log10_n_per_m: digits(labels.hardness_log10_n_per_m, DIGITS),
@@ -105,12 +108,15 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
 
 /// The lowest minor version that has all that a library uses: older programs read what they can.
 fn minor_version(library: &Library) -> u32 {
+    if library.space_report.is_some() || library.textures.iter().any(|entry| entry.attributes.is_some()) {
+        return VERSION_MINOR;
+    }
     let is_new = |entry: &TextureEntry| {
         entry.provenance != Provenance::Free
             || entry.model.interpolation() != Some(Interpolation::Barycentric)
             || entry.model.tap().is_some()
     };
-    if library.textures.iter().any(is_new) { VERSION_MINOR } else { 0 }
+    u32::from(library.textures.iter().any(is_new))
 }
 
 fn tap(tap: Tap, entry: &TextureEntry) -> TapV1 {

@@ -1,0 +1,99 @@
+//! How a texture is rated on any number of attributes, of which two may be the axes of a space.
+
+use serde_json::Value;
+use shagreen_core::space::LabelSource;
+
+use crate::library::v1::{AttributeV1, AttributesV1};
+use crate::library::write::{DIGITS, digits};
+use crate::library::{LibraryError, Unknown};
+
+/// A texture's values on attributes, which always say where they come from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attributes {
+    /// What they were derived from.
+    pub source: LabelSource,
+    /// The values, in the order of the axes of the space that they belong to. Names are unique.
+    pub values: Vec<Attribute>,
+}
+
+/// A value on one attribute.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attribute {
+    /// Name of the attribute: its two poles with a hyphen between them, as `rough-smooth`.
+    pub name: String,
+    /// 0 at the first pole, 100 at the second.
+    pub value: f64,
+}
+
+impl Attributes {
+    /// The value on the attribute of this name.
+    pub fn get(&self, name: &str) -> Option<f64> {
+        self.values.iter().find(|attribute| attribute.name == name).map(|attribute| attribute.value)
+    }
+}
+
+/// The two poles of an attribute's name; the second is empty where the name has only one word.
+pub fn poles(name: &str) -> (&str, &str) {
+    name.split_once('-').map_or((name, ""), |(low, high)| (low.trim(), high.trim()))
+}
+
+/// The attributes of a file, checked.
+pub(super) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Result<Attributes, LibraryError> {
+    let source = LabelSource::from_id(&wire.label_source)
+        .ok_or_else(|| LibraryError::LabelSource { id: id.to_owned(), found: wire.label_source })?;
+    unknown.attributes = wire.unknown;
+    let mut values: Vec<Attribute> = Vec::new();
+    for AttributeV1 { name, value, unknown: more } in wire.values {
+        let failed =
+            |reason: &'static str| LibraryError::Attribute { id: id.to_owned(), name: name.clone(), reason };
+        if name.trim().is_empty() {
+            return Err(failed("it has no name"));
+        }
+        if !(0.0..=100.0).contains(&value) {
+            return Err(failed("its value is not between 0 and 100"));
+        }
+        if values.iter().any(|other| other.name == name) {
+            return Err(failed("it is there twice"));
+        }
+        values.push(Attribute { name, value });
+        unknown.values.push(more);
+    }
+    Ok(Attributes { source, values })
+}
+
+/// The attributes as a file has them.
+pub(super) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 {
+    let n_values = attributes.values.len();
+    // What is not known of values belongs to them only as long as they are the same.
+    let more = |i: usize| unknown.values.get(i).filter(|_| unknown.values.len() == n_values).cloned();
+    let wire = |(i, a): (usize, &Attribute)| AttributeV1 {
+        name: a.name.clone(),
+        value: digits(a.value, DIGITS),
+        unknown: more(i).unwrap_or_default(),
+    };
+    AttributesV1 {
+        label_source: attributes.source.id().to_owned(),
+        values: attributes.values.iter().enumerate().map(wire).collect(),
+        unknown: unknown.attributes.clone(),
+    }
+}
+
+/// What a file says of how its space was made: an object, or nothing.
+pub(super) fn report(wire: Option<Value>) -> Result<Option<Value>, LibraryError> {
+    match wire {
+        None | Some(Value::Object(_)) => Ok(wire),
+        Some(_) => Err(LibraryError::Report),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::poles;
+
+    #[test]
+    fn a_name_says_its_poles() {
+        assert_eq!(poles("rough-smooth"), ("rough", "smooth"));
+        assert_eq!(poles("not hard - very soft"), ("not hard", "very soft"));
+        assert_eq!(poles("warm"), ("warm", ""));
+    }
+}
