@@ -16,6 +16,7 @@ mod motion;
 mod output;
 mod play;
 mod render;
+mod space_place;
 mod stroke;
 mod target;
 mod texture_psd;
@@ -50,6 +51,9 @@ enum Command {
     #[command(subcommand)]
     Texture(TextureCommand),
     Export(export::Args),
+    /// Spaces of textures: made from what people felt, or placed by a table.
+    #[command(subcommand)]
+    Space(SpaceCommand),
     /// Lists styluses, outputs and serial ports.
     Devices(devices::Args),
     /// Drives an actuator with a texture.
@@ -67,6 +71,11 @@ enum LibraryCommand {
 enum ImportCommand {
     Hatt(import_hatt::Args),
     Recording(import_recording::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum SpaceCommand {
+    Place(space_place::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -90,6 +99,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
         Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Devices(args)) => {
             devices::run(args);

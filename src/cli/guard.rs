@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use shagreen_formats::wav;
+use shagreen_formats::{library, wav};
 
 /// Refuses an output that is one of the inputs.
 pub(crate) fn refuse_inputs(outputs: &[&Path], inputs: &[Option<&Path>]) -> anyhow::Result<()> {
@@ -39,6 +39,16 @@ pub(crate) fn refuse_foreign(
 
 /// Whether a file is the sidecar of a signal.
 pub(crate) fn is_sidecar(bytes: &[u8]) -> bool {
+    has_format(bytes, wav::FORMAT)
+}
+
+/// Whether a file is a library of textures, of whatever version.
+pub(crate) fn is_library(bytes: &[u8]) -> bool {
+    has_format(bytes, library::FORMAT)
+}
+
+/// Whether a file is a JSON object that says that it has this format.
+pub(crate) fn has_format(bytes: &[u8], format: &str) -> bool {
     let header: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
-    header.and_then(|h| h.get("format").cloned()) == Some(wav::FORMAT.into())
+    header.and_then(|h| h.get("format").cloned()) == Some(format.into())
 }

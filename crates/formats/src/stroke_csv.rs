@@ -8,6 +8,7 @@
 mod columns;
 
 use crate::imported::Imported;
+use crate::named_table::{delimiter_of, line_of, number};
 use crate::stroke::{PenSample, Stroke, TimedContact};
 use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
 
@@ -113,7 +114,7 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
     let n_lines = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count() + 1;
     let mut rows = Vec::with_capacity(n_lines.min(text.len() / (2 * columns.n) + 1));
     for record in first_row.into_iter().chain(records) {
-        rows.push(parse_row(&columns, &record, delimiter)?);
+        rows.push(parse_row(&columns, &record, line_of(text, &record), delimiter)?);
     }
     let secs_per_unit = secs_per_unit(&columns, &rows, &mut warnings)?;
     let start = rows.first().map_or(0.0, |row| row.time);
@@ -142,32 +143,17 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
     Ok(Imported { value: stroke, warnings })
 }
 
-/// The delimiter of the first line that has any: a semicolon or tab is never part of a number.
-fn delimiter_of(text: &str) -> u8 {
-    let line = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
-    if line.contains(';') {
-        b';'
-    } else if line.contains('\t') {
-        b'\t'
-    } else {
-        b','
-    }
-}
-
-/// The number in a field, if it is a finite one.
-fn number(field: &str, delimiter: u8) -> Option<f64> {
-    let parsed = if delimiter == b',' { field.parse() } else { field.replace(',', ".").parse() };
-    // What is no number is the caller's to name.
-    parsed.ok().filter(|value: &f64| value.is_finite())
-}
-
 /// Whether a field is NaN or infinity spelled out, which is no column name.
 fn is_nonsense_number(field: &str) -> bool {
     field.parse::<f64>().is_ok()
 }
 
-fn parse_row(columns: &Columns, record: &csv::StringRecord, delimiter: u8) -> Result<Row, StrokeCsvError> {
-    let line = record.position().map_or(0, csv::Position::line);
+fn parse_row(
+    columns: &Columns,
+    record: &csv::StringRecord,
+    line: u64,
+    delimiter: u8,
+) -> Result<Row, StrokeCsvError> {
     if record.len() != columns.n {
         return Err(StrokeCsvError::Columns { line, found: record.len(), expected: columns.n });
     }
