@@ -21,6 +21,7 @@
 )]
 
 pub mod atomic;
+pub mod figure;
 pub mod fit_report;
 pub mod hatt;
 pub mod imported;

@@ -1,0 +1,180 @@
+//! Figures as pictures: SVG, one or a page of them.
+
+use plotters::chart::{ChartBuilder, SeriesLabelPosition};
+use plotters::coord::Shift;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::element::{Circle, PathElement, Text};
+use plotters::prelude::{DrawingArea, IntoDrawingArea as _, IntoFont as _, RGBColor, SVGBackend, TextStyle};
+use plotters::style::Color as _;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::figure::{Chart, Figure, Mark, Table, Tone};
+
+/// Size of a figure by itself, in pixels.
+const SIZE: (u32, u32) = (760, 620);
+/// Size of a figure of a page, in pixels.
+const PANEL: (u32, u32) = (600, 500);
+/// Figures beside each other on a page.
+const COLUMNS: usize = 2;
+/// Height of the lines above a page, in pixels.
+const HEAD: u32 = 84;
+/// Height of a row of a table, in pixels.
+const ROW: i32 = 24;
+
+const INK: RGBColor = RGBColor(0x22, 0x2B, 0x2F);
+const FAINT: RGBColor = RGBColor(0xDD, 0xE2, 0xE4);
+const WEAK: RGBColor = RGBColor(0x6B, 0x77, 0x7D);
+
+type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+/// A figure by itself.
+pub fn figure_svg(figure: &Figure) -> String {
+    drawn(SIZE, |page| panel(page, figure))
+}
+
+/// Figures on a page, under a title and a sentence that says what they rest on.
+pub fn page_svg(title: &str, subtitle: &str, figures: &[Figure]) -> String {
+    let n_rows = figures.len().div_ceil(COLUMNS);
+    let size = (COLUMNS as u32 * PANEL.0, HEAD + n_rows as u32 * PANEL.1);
+    drawn(size, |page| {
+        let (head, rest) = page.split_vertically(HEAD);
+        head.draw_text(title, &text(26.0, INK), (28, 16))?;
+        head.draw_text(subtitle, &text(14.0, WEAK), (28, 52))?;
+        for (area, figure) in rest.split_evenly((n_rows, COLUMNS)).iter().zip(figures) {
+            panel(area, figure)?;
+        }
+        Ok(())
+    })
+}
+
+fn drawn(size: (u32, u32), draw: impl FnOnce(&Page<'_>) -> Drawn) -> String {
+    let mut svg = String::new();
+    {
+        let page = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        let done =
+            page.fill(&plotters::style::WHITE).and_then(|()| draw(&page)).and_then(|()| page.present());
+        // Memory takes all text, and every range is made of finite numbers that differ.
+        assert!(done.is_ok(), "a figure can always be drawn: {done:?}");
+    }
+    svg
+}
+
+fn panel(page: &Page<'_>, figure: &Figure) -> Drawn {
+    match figure {
+        Figure::Chart(chart) => draw_chart(page, chart),
+        Figure::Table(table) => draw_table(page, table),
+    }
+}
+
+fn text(size: f64, color: RGBColor) -> TextStyle<'static> {
+    ("sans-serif", size).into_font().color(&color)
+}
+
+fn color(tone: Tone) -> RGBColor {
+    match tone {
+        Tone::Main => RGBColor(0x0B, 0x7A, 0x63),
+        Tone::Second => RGBColor(0xC0, 0x4A, 0x1B),
+        Tone::Third => RGBColor(0x16, 0x6C, 0xAB),
+        Tone::Faint => RGBColor(0xB4, 0xBE, 0xC2),
+    }
+}
+
+fn draw_chart(page: &Page<'_>, chart: &Chart) -> Drawn {
+    let [mut x, mut y] = chart.bounds();
+    let (width, height) = page.dim_in_pixel();
+    let inner =
+        (f64::from(width.saturating_sub(96)).max(1.0), f64::from(height.saturating_sub(104)).max(1.0));
+    if chart.is_isotropic {
+        let unit = ((x.1 - x.0) / inner.0).max((y.1 - y.0) / inner.1);
+        let widened = |(low, high): (f64, f64), length: f64| {
+            let middle = 0.5 * (low + high);
+            (middle - 0.5 * length, middle + 0.5 * length)
+        };
+        (x, y) = (widened(x, unit * inner.0), widened(y, unit * inner.1));
+    }
+    let mut context = ChartBuilder::on(page)
+        .margin(16)
+        .caption(&chart.title, text(16.0, INK))
+        .x_label_area_size(42)
+        .y_label_area_size(52)
+        .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
+    context
+        .configure_mesh()
+        .light_line_style(plotters::style::WHITE)
+        .bold_line_style(FAINT)
+        .axis_style(WEAK)
+        .label_style(text(12.0, INK))
+        .x_desc(&chart.x_label)
+        .y_desc(&chart.y_label)
+        .x_labels(6)
+        .y_labels(6)
+        .draw()?;
+    for series in &chart.series {
+        let tone = color(series.tone);
+        let points: Vec<(f64, f64)> = series.points.iter().map(|p| (p.x, p.y)).collect();
+        match series.mark {
+            Mark::Line => {
+                let line = PathElement::new(points.clone(), tone.stroke_width(2));
+                context
+                    .draw_series([line])?
+                    .label(&series.name)
+                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 14, y)], tone.stroke_width(2)));
+            }
+            Mark::Segments => {
+                let width = if series.tone == Tone::Faint { 1 } else { 2 };
+                let ends = points.as_chunks::<2>().0.iter();
+                let lines = ends.map(|pair| PathElement::new(pair.to_vec(), tone.stroke_width(width)));
+                context
+                    .draw_series(lines)?
+                    .label(&series.name)
+                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 14, y)], tone.stroke_width(width)));
+            }
+            Mark::Dots => {
+                let dots = points.iter().map(|point| Circle::new(*point, 4, tone.filled()));
+                context
+                    .draw_series(dots)?
+                    .label(&series.name)
+                    .legend(move |(x, y)| Circle::new((x + 7, y), 4, tone.filled()));
+            }
+        }
+        let (size, tone) = if series.mark == Mark::Dots { (11.0, WEAK) } else { (13.0, tone) };
+        let style = text(size, tone).pos(Pos::new(HPos::Left, VPos::Bottom));
+        let named = series.points.iter().filter(|point| !point.label.is_empty());
+        // A space keeps it off its dot.
+        context.draw_series(
+            named.map(|point| Text::new(format!(" {}", point.label), (point.x, point.y), style.clone())),
+        )?;
+    }
+    if chart.series.len() > 1 {
+        context
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(plotters::style::WHITE.mix(0.8))
+            .border_style(FAINT)
+            .label_font(text(12.0, INK))
+            .draw()?;
+    }
+    Ok(())
+}
+
+fn draw_table(page: &Page<'_>, table: &Table) -> Drawn {
+    page.draw_text(&table.title, &text(16.0, INK), (28, 16))?;
+    let width = page.dim_in_pixel().0.cast_signed();
+    let n_columns = i32::try_from(table.columns.len().max(1)).unwrap_or(i32::MAX);
+    let first = (width / 3).min(220);
+    let step = ((width - first - 56) / n_columns).clamp(24, 120);
+    let rights = || (1..).map(|column| 28 + first + step * column);
+    let at_right = |size: f64, tone: RGBColor| text(size, tone).pos(Pos::new(HPos::Right, VPos::Top));
+    for (right, name) in rights().zip(&table.columns) {
+        page.draw_text(name, &at_right(12.0, WEAK), (right, 52))?;
+    }
+    for (row, (name, values)) in (1..).zip(&table.rows) {
+        let top = 52 + ROW * row;
+        page.draw_text(name, &text(13.0, INK), (28, top))?;
+        for (right, value) in rights().zip(values) {
+            page.draw_text(&table.shown(*value), &at_right(13.0, INK), (right, top))?;
+        }
+    }
+    Ok(())
+}
