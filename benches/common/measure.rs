@@ -16,9 +16,17 @@ const MIN_SECS: f64 = 0.3;
 /// Runs `work` to warm up and then `BENCH_REPS` times (5 without it) for at least [`MIN_SECS`], and prints a line for
 /// each: seconds are those of one call.
 pub(crate) fn bench(case: &str, units: f64, unit: &str, mut work: impl FnMut()) {
+    bench_noted(case, units, unit, || {
+        work();
+        String::new()
+    });
+}
+
+/// As [`bench`], with what `work` says of its result beside the figures.
+pub(crate) fn bench_noted(case: &str, units: f64, unit: &str, mut work: impl FnMut() -> String) {
     let reps = std::env::var("BENCH_REPS").ok().and_then(|r| r.parse().ok()).unwrap_or(5);
     let warm = Instant::now();
-    work();
+    let note = work();
     let inner = (MIN_SECS / warm.elapsed().as_secs_f64()).ceil().max(1.0);
     for _ in 0..reps {
         let wall = Instant::now();
@@ -29,7 +37,7 @@ pub(crate) fn bench(case: &str, units: f64, unit: &str, mut work: impl FnMut()) 
         let (wall, cpu) = (wall.elapsed().as_secs_f64() / inner, (cpu_secs(wall) - cpu) / inner);
         let line = serde_json::json!({
             "case": case, "peer": "shagreen", "wall_s": wall, "cpu_s": cpu,
-            "units": units, "unit": unit, "threads": 1, "inner": inner, "per_s": units / cpu,
+            "units": units, "unit": unit, "threads": 1, "inner": inner, "per_s": units / cpu, "note": note,
         });
         println!("{line}");
     }

@@ -2,8 +2,9 @@
 import json, os, time
 
 
-def bench(case, peer, units, unit, work):
-    work()
+def bench(case, peer, units, unit, work, note=lambda result: ""):
+    """One JSON line a repetition; `note` says something of what `work` came to, beside the figures."""
+    said = note(work())
     start = time.perf_counter()
     work()
     inner = max(1, int(0.3 / (time.perf_counter() - start)))
@@ -13,4 +14,4 @@ def bench(case, peer, units, unit, work):
             work()
         cpu, wall = (time.process_time() - cpu) / inner, (time.perf_counter() - wall) / inner
         print(json.dumps(dict(case=case, peer=peer, cpu_s=cpu, wall_s=wall, units=units,
-                              unit=unit, per_s=units / cpu, threads=1)), flush=True)
+                              unit=unit, per_s=units / cpu, threads=1, note=said)), flush=True)

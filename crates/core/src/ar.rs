@@ -10,9 +10,10 @@ mod varying;
 use std::f64::consts::TAU;
 
 pub use crate::ar::burg::burg;
+pub(crate) use crate::ar::lags::sum_of;
 pub(crate) use crate::ar::varying::{Part, burg_varying};
 
-use crate::ar::lags::{lag_sums, sum_of};
+use crate::ar::lags::lag_sums;
 use crate::units::Hertz;
 
 /// A predictor fitted to a signal.

@@ -11,7 +11,7 @@ const N_LAGS: usize = 4;
 const LAG_LANES: usize = 4;
 
 /// `Σ value(x)`.
-pub(super) fn sum_of(x: &[f64], value: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn sum_of(x: &[f64], value: impl Fn(f64) -> f64) -> f64 {
     let chunks = x.chunks_exact(N_LANES);
     let rest: f64 = chunks.remainder().iter().map(|v| value(*v)).sum();
     let mut lanes = [0.0; N_LANES];

@@ -1,0 +1,225 @@
+//! How much each two of a set of items differ: checked, symmetric, some pairs perhaps unknown.
+
+/// A dissimilarity for each pair of items, 0 or more, or none where a pair was never compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dissimilarities {
+    n_items: usize,
+    /// Row by row above the diagonal.
+    condensed: Vec<Option<f64>>,
+}
+
+/// Why numbers are no dissimilarities.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DissimilaritiesError {
+    /// The numbers are not as many as the pairs.
+    #[error("{n_items} items have {wanted} pairs, but {given} dissimilarities are given")]
+    Count {
+        /// The items.
+        n_items: usize,
+        /// Their pairs.
+        wanted: usize,
+        /// The numbers given.
+        given: usize,
+    },
+    /// A matrix is not square.
+    #[error("row {row} of {n_items} has {len} columns; a dissimilarity matrix is square")]
+    NotSquare {
+        /// The row, from 0.
+        row: usize,
+        /// Rows of the matrix.
+        n_items: usize,
+        /// Columns of the row.
+        len: usize,
+    },
+    /// A dissimilarity is not finite.
+    #[error(
+        "the dissimilarity of items {first} and {second} is not a finite number; leave the pair out instead"
+    )]
+    NotFinite {
+        /// Index of an item.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+    },
+    /// A dissimilarity is below zero.
+    #[error("the dissimilarity of items {first} and {second} is {value}; it must be 0 or more")]
+    Negative {
+        /// Index of an item.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// The number given.
+        value: f64,
+    },
+    /// The two halves of a matrix differ.
+    #[error(
+        "items {first} and {second} have the dissimilarity {one} one way and {other} the other; decide, or average"
+    )]
+    Asymmetric {
+        /// Index of an item.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// Above the diagonal.
+        one: f64,
+        /// Below the diagonal.
+        other: f64,
+    },
+    /// An item differs from itself.
+    #[error(
+        "item {item} has the dissimilarity {value} with itself; it must be 0 (a similarity is subtracted from its highest value first)"
+    )]
+    Diagonal {
+        /// Index of the item.
+        item: usize,
+        /// The number given.
+        value: f64,
+    },
+}
+
+/// Difference of the halves of a matrix, as a share of their size, that is taken for rounding.
+const ROUNDING: f64 = 1e-9;
+
+impl Dissimilarities {
+    /// From one number for each pair, row by row above the diagonal: (0, 1), (0, 2) … (1, 2) …; `None` where a pair was
+    /// never compared.
+    ///
+    /// # Errors
+    /// `Count`, `NotFinite`, `Negative`: see [`DissimilaritiesError`].
+    pub fn from_condensed(n_items: usize, condensed: Vec<Option<f64>>) -> Result<Self, DissimilaritiesError> {
+        let wanted = n_items * n_items.saturating_sub(1) / 2;
+        if condensed.len() != wanted {
+            return Err(DissimilaritiesError::Count { n_items, wanted, given: condensed.len() });
+        }
+        let dissimilarities = Self { n_items, condensed };
+        for (first, second, value) in dissimilarities.pairs() {
+            if !value.is_finite() {
+                return Err(DissimilaritiesError::NotFinite { first, second });
+            }
+            if value < 0.0 {
+                return Err(DissimilaritiesError::Negative { first, second, value });
+            }
+        }
+        Ok(dissimilarities)
+    }
+
+    /// From a full matrix, a row for each item.
+    ///
+    /// # Errors
+    /// See [`DissimilaritiesError`]; halves that differ by rounding only are averaged.
+    pub fn from_matrix(matrix: &[Vec<f64>]) -> Result<Self, DissimilaritiesError> {
+        let n_items = matrix.len();
+        if let Some((row, columns)) = matrix.iter().enumerate().find(|(_, columns)| columns.len() != n_items)
+        {
+            return Err(DissimilaritiesError::NotSquare { row, n_items, len: columns.len() });
+        }
+        let mut condensed = Vec::with_capacity(n_items * n_items.saturating_sub(1) / 2);
+        for (first, row) in matrix.iter().enumerate() {
+            if row[first] != 0.0 {
+                return Err(DissimilaritiesError::Diagonal { item: first, value: row[first] });
+            }
+            for second in first + 1..n_items {
+                let (one, other) = (row[second], matrix[second][first]);
+                if !one.is_finite() || !other.is_finite() {
+                    return Err(DissimilaritiesError::NotFinite { first, second });
+                }
+                if (one - other).abs() > ROUNDING * one.abs().max(other.abs()) {
+                    return Err(DissimilaritiesError::Asymmetric { first, second, one, other });
+                }
+                condensed.push(Some(0.5 * (one + other)));
+            }
+        }
+        Self::from_condensed(n_items, condensed)
+    }
+
+    /// How many items there are.
+    pub fn n_items(&self) -> usize {
+        self.n_items
+    }
+
+    /// The dissimilarity of two items, whichever is first; `None` for a pair never compared, and 0 of an item with
+    /// itself.
+    pub fn between(&self, one: usize, other: usize) -> Option<f64> {
+        let (first, second) = (one.min(other), one.max(other));
+        if first == second {
+            return Some(0.0);
+        }
+        self.condensed[first * (2 * self.n_items - first - 1) / 2 + second - first - 1]
+    }
+
+    /// Every pair that was compared, with its dissimilarity: (first, second, dissimilarity), first < second, in order.
+    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        let all =
+            (0..self.n_items).flat_map(|first| (first + 1..self.n_items).map(move |second| (first, second)));
+        all.zip(&self.condensed).filter_map(|((first, second), value)| value.map(|v| (first, second, v)))
+    }
+
+    /// An item that no chain of compared pairs joins to item 0.
+    pub fn unreachable(&self) -> Option<usize> {
+        // Complete data are the usual case.
+        if self.condensed.iter().all(Option::is_some) {
+            return None;
+        }
+        let mut part: Vec<usize> = (0..self.n_items).collect();
+        for (first, second, _) in self.pairs() {
+            let (from, to) = (part[first].max(part[second]), part[first].min(part[second]));
+            if from != to {
+                for p in part.iter_mut().filter(|p| **p == from) {
+                    *p = to;
+                }
+            }
+        }
+        part.iter().position(|p| *p != 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Dissimilarities, DissimilaritiesError};
+
+    #[test]
+    fn bad_numbers_are_named() {
+        let nan = Dissimilarities::from_condensed(3, vec![Some(1.0), Some(f64::NAN), None]);
+        assert_eq!(nan, Err(DissimilaritiesError::NotFinite { first: 0, second: 2 }));
+        let negative = Dissimilarities::from_condensed(3, vec![Some(1.0), None, Some(-2.0)]);
+        assert_eq!(negative, Err(DissimilaritiesError::Negative { first: 1, second: 2, value: -2.0 }));
+        let count = Dissimilarities::from_condensed(4, vec![None; 5]);
+        assert_eq!(count, Err(DissimilaritiesError::Count { n_items: 4, wanted: 6, given: 5 }));
+        let matrix = |rows: &[[f64; 3]; 3]| {
+            Dissimilarities::from_matrix(&rows.iter().map(|r| r.to_vec()).collect::<Vec<_>>())
+        };
+        let asymmetric = matrix(&[[0.0, 1.0, 2.0], [1.0, 0.0, 3.0], [2.5, 3.0, 0.0]]);
+        let expected = DissimilaritiesError::Asymmetric { first: 0, second: 2, one: 2.0, other: 2.5 };
+        assert_eq!(asymmetric, Err(expected));
+        let similarity = matrix(&[[100.0, 1.0, 2.0], [1.0, 100.0, 3.0], [2.0, 3.0, 100.0]]);
+        assert_eq!(similarity, Err(DissimilaritiesError::Diagonal { item: 0, value: 100.0 }));
+        let nan = matrix(&[[0.0, 1.0, 2.0], [f64::NAN, 0.0, 3.0], [2.0, 3.0, 0.0]]);
+        assert_eq!(nan, Err(DissimilaritiesError::NotFinite { first: 0, second: 1 }));
+        let ragged = Dissimilarities::from_matrix(&[vec![0.0, 1.0], vec![1.0]]);
+        assert_eq!(ragged, Err(DissimilaritiesError::NotSquare { row: 1, n_items: 2, len: 1 }));
+    }
+
+    #[test]
+    fn pairs_are_found_again() {
+        let condensed = (0..10).map(|k| if k == 4 { None } else { Some(f64::from(k)) }).collect();
+        let five = Dissimilarities::from_condensed(5, condensed).unwrap();
+        assert_eq!(five.pairs().count(), 9);
+        for (first, second, value) in five.pairs() {
+            assert_eq!(five.between(first, second), Some(value));
+            assert_eq!(five.between(second, first), Some(value));
+        }
+        assert_eq!((five.between(1, 2), five.between(3, 3)), (None, Some(0.0)));
+    }
+
+    #[test]
+    fn chains_of_pairs_join_items() {
+        // Items 0-1 and 2-3, and whatever (1, 3) says.
+        let with = |last| {
+            let condensed = vec![Some(1.0), None, None, None, last, Some(2.0)];
+            Dissimilarities::from_condensed(4, condensed).unwrap().unreachable()
+        };
+        assert_eq!(with(Some(3.0)), None);
+        assert_eq!(with(None), Some(2));
+    }
+}

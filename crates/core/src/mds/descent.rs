@@ -1,0 +1,183 @@
+//! Descent of a function with a continuous gradient: L-BFGS (Nocedal 1980) that begins as SMACOF and never climbs.
+
+use std::collections::VecDeque;
+
+/// A function at a point, beside its gradient.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Evaluation {
+    /// Its value.
+    pub(super) value: f64,
+    /// What the gradient is multiplied with to make the step of the Guttman transform, which is sure to descend.
+    pub(super) guttman: f64,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// Fall of the root of the value in one step, as a share of it.
+    pub(super) tolerance: f64,
+    /// The most steps.
+    pub(super) max_steps: usize,
+}
+
+/// Where a descent ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    /// The value there.
+    pub(super) value: f64,
+    /// Whether it stands still there.
+    pub(super) converged: bool,
+    /// Steps taken.
+    pub(super) n_steps: usize,
+}
+
+/// Steps whose curvature is remembered.
+const N_REMEMBERED: usize = 6;
+
+/// A value below which nothing is left to gain: stress of 1e-10.
+const PERFECT: f64 = 1e-20;
+
+/// Share of what the slope promises that a step must bring.
+const ENOUGH: f64 = 1e-4;
+
+/// Times that a step is shortened before its direction is given up.
+const MAX_SHORTENED: usize = 20;
+
+/// Share of the value that the next step may still promise where rounding stops the descent.
+const ROUNDING: f64 = 1e-10;
+
+/// Moves `points` down to where the value stands still: a step brings less than the tolerance, and the Guttman
+/// transform promises no more than that either.
+pub(super) fn descend(
+    points: &mut [f64],
+    stop: Stop,
+    mut evaluate: impl FnMut(&[f64], &mut [f64]) -> Evaluation,
+) -> End {
+    let mut gradient = vec![0.0; points.len()];
+    let mut tried = Tried { points: points.to_vec(), gradient: gradient.clone() };
+    let mut direction = gradient.clone();
+    let mut memory = Memory::default();
+    let mut at = evaluate(points, &mut gradient);
+    let mut n_steps = 0;
+    while n_steps < stop.max_steps && at.value > PERFECT && at.value.is_finite() {
+        memory.direct(&gradient, at.guttman, &mut direction);
+        let mut slope = -dot(&gradient, &direction);
+        if slope.is_nan() || slope >= 0.0 {
+            memory.steps.clear();
+            memory.direct(&gradient, at.guttman, &mut direction);
+            slope = -dot(&gradient, &direction);
+        }
+        let Some(next) = search(points, &direction, at.value, slope, &mut tried, &mut evaluate) else {
+            if memory.steps.is_empty() {
+                // Not even the step that is sure to descend does: there is nothing left but rounding.
+                let promised = 0.5 * at.guttman * dot(&gradient, &gradient);
+                return End { value: at.value, converged: promised <= ROUNDING * at.value, n_steps };
+            }
+            memory.steps.clear();
+            continue;
+        };
+        memory.remember(points, &gradient, &tried);
+        points.copy_from_slice(&tried.points);
+        gradient.copy_from_slice(&tried.gradient);
+        n_steps += 1;
+        let still = 2.0 * stop.tolerance * next.value;
+        let (fell, promised) = (at.value - next.value, 0.5 * next.guttman * dot(&gradient, &gradient));
+        at = next;
+        if fell <= still && promised <= still {
+            return End { value: at.value, converged: true, n_steps };
+        }
+    }
+    End { value: at.value, converged: at.value <= PERFECT, n_steps }
+}
+
+/// A point that a step leads to, and the gradient there.
+struct Tried {
+    points: Vec<f64>,
+    gradient: Vec<f64>,
+}
+
+/// The longest step against `direction` that brings enough; `None` where none does.
+fn search(
+    points: &[f64],
+    direction: &[f64],
+    value: f64,
+    slope: f64,
+    tried: &mut Tried,
+    evaluate: &mut impl FnMut(&[f64], &mut [f64]) -> Evaluation,
+) -> Option<Evaluation> {
+    let mut length = 1.0;
+    for _ in 0..MAX_SHORTENED {
+        for ((tried, point), d) in tried.points.iter_mut().zip(points).zip(direction) {
+            *tried = point - length * d;
+        }
+        let next = evaluate(&tried.points, &mut tried.gradient);
+        if next.value <= value + ENOUGH * length * slope {
+            return Some(next);
+        }
+        // The lowest point of the parabola through both values with the slope, if that is much, but not too much shorter.
+        let lowest = -0.5 * slope * length * length / (next.value - value - slope * length);
+        length = lowest.clamp(0.1 * length, 0.5 * length);
+    }
+    None
+}
+
+/// A step and what it did to the gradient.
+struct Curvature {
+    step: Vec<f64>,
+    change: Vec<f64>,
+    /// One over the product of both.
+    inverse: f64,
+}
+
+#[derive(Default)]
+struct Memory {
+    steps: VecDeque<Curvature>,
+}
+
+impl Memory {
+    /// The step against which to move, by the two loops of L-BFGS.
+    fn direct(&self, gradient: &[f64], guttman: f64, direction: &mut [f64]) {
+        direction.copy_from_slice(gradient);
+        let mut shares = [0.0; N_REMEMBERED];
+        for (Curvature { step, change, inverse }, share) in self.steps.iter().zip(&mut shares).rev() {
+            *share = inverse * dot(step, direction);
+            add(direction, -*share, change);
+        }
+        let last = self.steps.back();
+        let size = last.map_or(guttman, |last| 1.0 / (last.inverse * dot(&last.change, &last.change)));
+        for d in direction.iter_mut() {
+            *d *= size;
+        }
+        for (Curvature { step, change, inverse }, share) in self.steps.iter().zip(shares) {
+            add(direction, share - inverse * dot(change, direction), step);
+        }
+    }
+
+    /// Keeps the step from `points` to `tried`, if the gradient grew along it, as it does in a valley.
+    fn remember(&mut self, points: &[f64], gradient: &[f64], tried: &Tried) {
+        let full = self.steps.len() == N_REMEMBERED;
+        let oldest = if full { self.steps.pop_front() } else { None };
+        let (mut step, mut change) = oldest.map_or_else(Default::default, |c| (c.step, c.change));
+        difference(&tried.points, points, &mut step);
+        difference(&tried.gradient, gradient, &mut change);
+        let product = dot(&step, &change);
+        if product > f64::EPSILON * (dot(&step, &step) * dot(&change, &change)).sqrt() {
+            self.steps.push_back(Curvature { step, change, inverse: 1.0 / product });
+        }
+    }
+}
+
+fn difference(to: &[f64], from: &[f64], out: &mut Vec<f64>) {
+    out.clear();
+    out.extend(to.iter().zip(from).map(|(t, f)| t - f));
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn add(to: &mut [f64], share: f64, other: &[f64]) {
+    for (to, other) in to.iter_mut().zip(other) {
+        *to += share * other;
+    }
+}

@@ -1,0 +1,180 @@
+//! Every number of `vectors/d_mds/mds_vectors.json`.
+
+use nalgebra::{DMatrix, DVector};
+use serde_json::Value;
+
+use super::smacof::smacof;
+use crate::dissimilarities::Dissimilarities;
+use crate::isotonic::isotonic;
+use crate::mds::axes::settle;
+use crate::mds::start::classical;
+use crate::mds::{MdsOptions, Ties, nonmetric, nonmetric_from, stress_by_dimension};
+use crate::procrustes::procrustes;
+use crate::rng::lcg_noise;
+
+fn vectors() -> Value {
+    serde_json::from_str(include_str!("../../../../../vectors/d_mds/mds_vectors.json")).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+fn floats(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(number).collect()
+}
+
+fn rows(value: &Value) -> Vec<Vec<f64>> {
+    value.as_array().unwrap().iter().map(floats).collect()
+}
+
+#[track_caller]
+fn check(actual: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(actual.len(), expected.len());
+    for (i, (a, e)) in actual.iter().zip(expected).enumerate() {
+        assert!((a - e).abs() < tolerance, "[{i}] {a} for {e}");
+    }
+}
+
+/// 25 textures that ten simulated participants sorted, as dissimilarities 100 - s.
+fn sorted_textures() -> Dissimilarities {
+    let dissimilar = |(i, row): (usize, Vec<f64>)| -> Vec<f64> {
+        row.iter().enumerate().map(|(j, s)| if i == j { 0.0 } else { 100.0 - s }).collect()
+    };
+    let matrix: Vec<Vec<f64>> = rows(&vectors()["S"]).into_iter().enumerate().map(dissimilar).collect();
+    Dissimilarities::from_matrix(&matrix).unwrap()
+}
+
+fn four_items() -> Dissimilarities {
+    Dissimilarities::from_matrix(&rows(&vectors()["demo4"]["delta"])).unwrap()
+}
+
+fn condensed(dissimilarities: &Dissimilarities) -> Vec<f64> {
+    dissimilarities.pairs().map(|(_, _, value)| value).collect()
+}
+
+/// SMACOF from the classical start, as the script.
+fn by_smacof(dissimilarities: &Dissimilarities, dims: usize, ties: Ties) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let mut points = classical(dissimilarities, dims, 0);
+    let history = smacof(&condensed(dissimilarities), dims, ties, &mut points, 1e-9);
+    (settle(&points, dims, 1.0), history)
+}
+
+#[test]
+fn pools() {
+    let v = &vectors()["pava_demo"];
+    check(&isotonic(&floats(&v["y"])), &floats(&v["out"]), 1e-15);
+}
+
+#[test]
+fn the_oracle_is_the_script() {
+    let (v, textures) = (vectors(), sorted_textures());
+    for (name, ties) in [("primary", Ties::Primary), ("secondary", Ties::Secondary)] {
+        for (dims, golden) in (1..=10).zip(floats(&v["stress1_dims1_10"][name])) {
+            let (_, history) = by_smacof(&textures, dims, ties);
+            // The same steps: sums of 300 pairs round differently by 1e-14, and steps draw together more than apart.
+            check(&[*history.last().unwrap()], &[golden], 1e-12);
+        }
+    }
+    let (points, history) = by_smacof(&textures, 2, Ties::Primary);
+    assert_eq!(history.len() as u64, v["iters"].as_u64().unwrap());
+    for (point, golden) in points.iter().zip(rows(&v["X2_primary"])) {
+        // Coordinates of up to 50, along directions in which stress is flat.
+        check(point, &golden, 1e-9);
+    }
+    let aligned = procrustes(&points, &rows(&v["truth"])).unwrap();
+    check(&[aligned.r_squared], &[number(&v["procrustes_R2"])], 1e-12);
+    check(&[*history.last().unwrap()], &[number(&v["random_starts"]["classical"])], 1e-12);
+}
+
+#[test]
+fn random_starts() {
+    let (v, textures) = (vectors(), sorted_textures());
+    let condensed = condensed(&textures);
+    let mut found: Vec<f64> = (0..50)
+        .map(|i| {
+            let mut points: Vec<f64> = lcg_noise(50, 5000 + i).iter().map(|x| 30.0 * x).collect();
+            *smacof(&condensed, 2, Ties::Primary, &mut points, 1e-9).last().unwrap()
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    let golden = &v["random_starts"];
+    check(&[found[0], found[49]], &[number(&golden["min"]), number(&golden["max"])], 1e-12);
+    check(&[0.5 * (found[24] + found[25])], &[number(&golden["median"])], 1e-12);
+    // The descent, from the same starts, comes as low as SMACOF at its best, and from as many of them.
+    let options = MdsOptions::usual(1);
+    let mut here: Vec<f64> = (0..50)
+        .map(|i| {
+            let start: Vec<Vec<f64>> = lcg_noise(50, 5000 + i).chunks(2).map(<[f64]>::to_vec).collect();
+            nonmetric_from(&textures, &start, &options).unwrap().stress
+        })
+        .collect();
+    here.sort_by(f64::total_cmp);
+    assert!(here[0] <= found[0] && here[25] <= found[25], "{here:?}");
+}
+
+#[test]
+fn four_items_in_one_and_two_dimensions() {
+    let (v, four) = (&vectors()["demo4"], four_items());
+    for (dims, ties, name) in [
+        (1, Ties::Primary, "stress_1d_primary"),
+        (2, Ties::Primary, "stress_2d_primary"),
+        (1, Ties::Secondary, "stress_1d_secondary"),
+    ] {
+        let (_, history) = by_smacof(&four, dims, ties);
+        // All are zero but for where SMACOF stopped, which rounding moves.
+        check(&[*history.last().unwrap()], &[number(&v[name])], 1e-15);
+        let stress = nonmetric(&four, dims, &MdsOptions { ties, ..MdsOptions::usual(1) }).unwrap().stress;
+        assert!(stress < 1e-9, "{name}: {stress}");
+    }
+}
+
+#[test]
+fn stress_is_no_higher_than_by_smacof() {
+    let (v, textures) = (vectors(), sorted_textures());
+    for (name, ties) in [("primary", Ties::Primary), ("secondary", Ties::Secondary)] {
+        let golden = floats(&v["stress1_dims1_10"][name]);
+        let options = MdsOptions { ties, ..MdsOptions::usual(1) };
+        let stress = stress_by_dimension(&textures, 1..=10, &options).unwrap();
+        assert!(stress.iter().zip(&golden).all(|(s, g)| s <= g), "{name}: {stress:?} for {golden:?}");
+        assert!(stress.is_sorted_by(|a, b| a >= b), "{stress:?}");
+        // Without another start the descent ends in the valley that SMACOF, which has not reached its ground, ended in.
+        let alone = nonmetric(&textures, 2, &MdsOptions { n_random_starts: 0, ..options }).unwrap();
+        assert!(alone.converged && alone.stress <= golden[1] && alone.stress > golden[1] - 1e-6);
+    }
+    let found = nonmetric(&textures, 2, &MdsOptions::usual(1)).unwrap();
+    // The script stops where stress falls by 1e-9 a step; that far from the ground coordinates differ in the third digit.
+    let aligned = procrustes(&found.points, &rows(&v["X2_primary"])).unwrap();
+    assert!(aligned.r_squared > 1.0 - 1e-6, "{}", aligned.r_squared);
+    let truth = procrustes(&found.points, &rows(&v["truth"])).unwrap();
+    check(&[truth.r_squared], &[number(&v["procrustes_R2"])], 1e-3);
+}
+
+#[test]
+fn property_fitting_on_the_golden_configuration() {
+    let v = vectors();
+    let (golden, points) = (&v["propfit"], rows(&v["X2_primary"]));
+    let noise = lcg_noise(25, 9);
+    let y: Vec<f64> = rows(&v["truth"])
+        .iter()
+        .zip(noise)
+        .map(|(t, e)| 50.0 + 20.0 * (0.8 * t[0] + 0.6 * t[1]) + 3.0 * e)
+        .collect();
+    check(&y, &floats(&golden["y"]), 1e-12);
+    let x = DMatrix::from_fn(25, 3, |i, k| if k == 0 { 1.0 } else { points[i][k - 1] });
+    let y = DVector::from_vec(y);
+    let b = x.clone().svd(true, true).solve(&y, 1e-12).unwrap();
+    check(b.as_slice(), &floats(&golden["b"]), 1e-11);
+    let centered = y.add_scalar(-y.mean());
+    let r_squared = 1.0 - (&y - &x * &b).norm_squared() / centered.norm_squared();
+    check(&[r_squared], &[number(&golden["R2"])], 1e-12);
+    let direction = [b[1] / b[1].hypot(b[2]), b[2] / b[1].hypot(b[2])];
+    check(&direction, &floats(&golden["dir"]), 1e-12);
+    let along: Vec<f64> = points.iter().map(|p| p[0] * direction[0] + p[1] * direction[1]).collect();
+    check(&along, &floats(&golden["proj"]), 1e-10);
+    let correlation = |axis: usize| {
+        let column = x.column(axis + 1).add_scalar(-x.column(axis + 1).mean());
+        column.dot(&centered) / (column.norm() * centered.norm())
+    };
+    check(&[correlation(0), correlation(1)], &floats(&golden["corr_dims"]), 1e-12);
+}

@@ -1,0 +1,88 @@
+//! How each participant's sorting agrees with the others'.
+
+use crate::sorting::Tally;
+use crate::spectrum::median;
+
+/// How a participant agrees with the others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Agreement {
+    /// Who sorted.
+    pub participant: String,
+    /// Correlation of the participant's similarities with those of all others together, over the pairs that both have;
+    /// `None` where either is the same for all pairs, or there are fewer than [`MIN_PAIRS`].
+    pub correlation: Option<f64>,
+    /// The middle one of all correlations where this one lies far below it: see [`FAR_BELOW`].
+    pub outlying_from: Option<f64>,
+}
+
+/// The fewest pairs of which a correlation says anything.
+pub const MIN_PAIRS: usize = 3;
+
+/// The fewest participants of whom one may be called outlying.
+pub const MIN_PARTICIPANTS: usize = 4;
+
+/// Robust standard deviations below the middle one from which on a correlation is outlying: one in 700 of normal ones.
+pub const FAR_BELOW: f64 = 3.0;
+
+/// Distance below the middle one that is never outlying: ten simulated participants of one kind already spread by 0.15.
+const NEAR: f64 = 0.2;
+
+/// Standard deviation of a normal distribution, in median absolute deviations.
+const NORMAL: f64 = 1.4826;
+
+pub(super) fn agreement(names: &[&str], tallies: &[Tally]) -> Vec<Agreement> {
+    let correlations: Vec<Option<f64>> = (0..tallies.len()).map(|i| with_others(i, tallies)).collect();
+    let known: Vec<f64> = correlations.iter().flatten().copied().collect();
+    let middle = median(known.clone());
+    let deviation = NORMAL * median(known.iter().map(|c| (c - middle).abs()).collect());
+    let lowest = middle - NEAR.max(FAR_BELOW * deviation);
+    let one = |(name, correlation): (&&str, Option<f64>)| {
+        let far = known.len() >= MIN_PARTICIPANTS && correlation.is_some_and(|c| c < lowest);
+        Agreement { participant: (*name).to_owned(), correlation, outlying_from: far.then_some(middle) }
+    };
+    names.iter().zip(correlations).map(one).collect()
+}
+
+/// Correlation of the similarities of participant `i` with those of the others together.
+fn with_others(i: usize, tallies: &[Tally]) -> Option<f64> {
+    let n = tallies[i].n_textures;
+    let mut others = Tally::new(n);
+    for (j, tally) in tallies.iter().enumerate() {
+        if i != j {
+            others.merge(tally);
+        }
+    }
+    let [own, others] = [tallies[i].scores(), others.scores()];
+    let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+    let both: Vec<(f64, f64)> = pairs.filter_map(|(i, j)| own[i][j].zip(others[i][j])).collect();
+    correlation(&both)
+}
+
+fn correlation(pairs: &[(f64, f64)]) -> Option<f64> {
+    if pairs.len() < MIN_PAIRS {
+        return None;
+    }
+    let n = pairs.len() as f64;
+    let (sum_x, sum_y) = pairs.iter().fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x, sy + y));
+    let sum = |of: &dyn Fn(f64, f64) -> f64| {
+        pairs.iter().map(|(x, y)| of(x - sum_x / n, y - sum_y / n)).sum::<f64>()
+    };
+    let (xx, xy, yy) = (sum(&|x, _| x * x), sum(&|x, y| x * y), sum(&|_, y| y * y));
+    // Scores are percentages: what is left of equal ones is rounding.
+    let constant = |square: f64| square <= n * 1e-20;
+    (!constant(xx) && !constant(yy)).then(|| xy / (xx * yy).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::correlation;
+
+    #[test]
+    fn correlations_by_hand() {
+        assert_eq!(correlation(&[(1.0, 2.0), (2.0, 4.0)]), None);
+        assert_eq!(correlation(&[(1.0, 2.0), (1.0, 4.0), (1.0, 3.0)]), None);
+        assert_eq!(correlation(&[(1.0, 2.0), (2.0, 4.0), (3.0, 6.0)]), Some(1.0));
+        // Deviations (-1, 0, 1) and (0, -1, 1): product 1, squares 2 and 2.
+        assert_eq!(correlation(&[(1.0, 1.0), (2.0, 0.0), (3.0, 2.0)]), Some(0.5));
+    }
+}
