@@ -1,0 +1,147 @@
+//! Means, correlations, and the tails of the F and t distributions.
+//!
+//! The distributions are regularized incomplete beta functions (Abramowitz and Stegun 26.5.28, 26.6.2, 26.7.1).
+
+use statrs::function::beta::{beta_reg, inv_beta_reg};
+
+/// Sum of squares below which a column counts as constant, as a share of its sum of squares about zero: what rounding
+/// leaves of equal numbers.
+const CONSTANT_SHARE: f64 = 1e-24;
+
+/// The mean; 0 of nothing.
+pub fn mean(values: &[f64]) -> f64 {
+    if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
+}
+
+/// The values less their mean.
+pub fn centered(values: &[f64]) -> Vec<f64> {
+    let mean = mean(values);
+    values.iter().map(|v| v - mean).collect()
+}
+
+/// Standard deviation with the divisor `n - 1`; 0 of fewer than two values.
+pub fn standard_deviation(values: &[f64]) -> f64 {
+    if values.len() < 2 {
+        return 0.0;
+    }
+    let centered = centered(values);
+    (dot(&centered, &centered) / (values.len() - 1) as f64).sqrt()
+}
+
+/// Whether all values are equal, to rounding.
+pub fn is_constant(values: &[f64]) -> bool {
+    let centered = centered(values);
+    dot(&centered, &centered) <= CONSTANT_SHARE * dot(values, values)
+}
+
+/// Pearson's correlation, -1 to 1; `None` where one of the two is constant.
+///
+/// # Panics
+/// If the lengths differ.
+pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
+    assert_eq!(a.len(), b.len(), "columns of one table have one length");
+    if is_constant(a) || is_constant(b) {
+        return None;
+    }
+    let (a, b) = (centered(a), centered(b));
+    Some((dot(&a, &b) / (dot(&a, &a) * dot(&b, &b)).sqrt()).clamp(-1.0, 1.0))
+}
+
+/// The sum of products.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    // Four sums side by side: one sum would wait for every addition.
+    let (a_blocks, b_blocks) = (a.chunks_exact(4), b.chunks_exact(4));
+    let tail: f64 = a_blocks.remainder().iter().zip(b_blocks.remainder()).map(|(x, y)| x * y).sum();
+    let mut sums = [0.0; 4];
+    for (x, y) in a_blocks.zip(b_blocks) {
+        for lane in 0..4 {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
+}
+
+/// Probability that F with `numerator` and `denominator` degrees of freedom (above 0) exceeds `f`.
+pub fn f_upper_tail(f: f64, numerator: f64, denominator: f64) -> f64 {
+    if f <= 0.0 {
+        return 1.0;
+    }
+    if f.is_infinite() {
+        return 0.0;
+    }
+    beta_reg(0.5 * denominator, 0.5 * numerator, denominator / (denominator + numerator * f))
+}
+
+/// The value that F with `numerator` and `denominator` degrees of freedom (above 0) exceeds with `probability`
+/// (0 to 1, neither end).
+pub fn f_quantile_above(probability: f64, numerator: f64, denominator: f64) -> f64 {
+    let x = inv_beta_reg(0.5 * denominator, 0.5 * numerator, probability);
+    denominator * (1.0 - x) / (numerator * x)
+}
+
+/// The value that the magnitude of Student's t with `dof` degrees of freedom (above 0) exceeds with `probability`
+/// (0 to 1, neither end).
+pub fn t_quantile_two_sided(probability: f64, dof: f64) -> f64 {
+    f_quantile_above(probability, 1.0, dof).sqrt()
+}
+
+/// The value below which a share `rank` (0 to 1) of the values lies, linear between neighbors; `None` of nothing.
+pub fn quantile(values: &[f64], rank: f64) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = rank.clamp(0.0, 1.0) * sorted.len().checked_sub(1)? as f64;
+    let (low, high) = (sorted[at.floor() as usize], sorted[at.ceil() as usize]);
+    Some(low + at.fract() * (high - low))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        correlation, dot, f_quantile_above, f_upper_tail, is_constant, quantile, t_quantile_two_sided,
+    };
+
+    #[test]
+    fn tails_have_their_closed_forms() {
+        // Two degrees above: P(F > f) = (1 + 2 f / d)^(-d/2). Two below one: F(1, 2) is t of two degrees squared.
+        for (f, d) in [(0.3_f64, 5.0_f64), (1.0, 22.0), (4.0, 7.0), (30.0, 12.0)] {
+            let closed = (1.0 + 2.0 * f / d).powf(-0.5 * d);
+            assert!((f_upper_tail(f, 2.0, d) / closed - 1.0).abs() < 1e-12, "{f} {d}");
+            let t = f.sqrt();
+            let closed = 1.0 - t / (2.0 + t * t).sqrt();
+            assert!((f_upper_tail(f, 1.0, 2.0) - closed).abs() < 1e-12, "{f}");
+        }
+        assert_eq!((f_upper_tail(0.0, 1.0, 3.0), f_upper_tail(f64::INFINITY, 1.0, 3.0)), (1.0, 0.0));
+    }
+
+    #[test]
+    fn quantiles_undo_tails_and_match_printed_tables() {
+        for (p, a, b) in [(0.05, 1.0, 23.0), (0.01, 3.0, 9.0), (0.025, 24.0, 7.3), (0.975, 4.0, 4.0)] {
+            let back = f_upper_tail(f_quantile_above(p, a, b), a, b);
+            assert!((back - p).abs() < 1e-9, "{back} is not {p}");
+        }
+        // Three decimals of the tables in any textbook.
+        for (dof, table) in [(1.0, 12.706), (4.0, 2.776), (9.0, 2.262), (24.0, 2.064), (120.0, 1.980)] {
+            let t = t_quantile_two_sided(0.05, dof);
+            assert!((t - table).abs() < 6e-4, "{dof}: {t}");
+        }
+    }
+
+    #[test]
+    fn correlations_of_lines_and_constants() {
+        assert_eq!(correlation(&[1.0, 2.0, 4.0], &[3.0, 5.0, 9.0]), Some(1.0));
+        assert!((correlation(&[1.0, 2.0, 3.0, 4.0], &[1.0, -1.0, -1.0, 1.0]).unwrap()).abs() < 1e-15);
+        assert_eq!(correlation(&[0.1; 7], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]), None);
+        assert!(is_constant(&[1e9 + 0.1; 25]) && !is_constant(&[1.0, 1.0 + 1e-9]) && is_constant(&[0.0; 3]));
+    }
+
+    #[test]
+    fn sums_and_quantiles_of_any_length() {
+        for n in 0..11_u8 {
+            let values: Vec<f64> = (0..n).map(f64::from).collect();
+            let n = f64::from(n);
+            assert_eq!(dot(&values, &values), (n - 1.0) * n * (2.0 * n - 1.0) / 6.0);
+        }
+        assert_eq!(quantile(&[3.0, 1.0, 2.0], 0.75), Some(2.5));
+        assert_eq!(quantile(&[], 0.5), None);
+    }
+}
