@@ -36,6 +36,7 @@ pub mod fit;
 pub mod height_field;
 pub mod lsf;
 pub mod material;
+pub mod mfcc;
 pub mod plane;
 pub mod radial_basis;
 pub mod rate;
