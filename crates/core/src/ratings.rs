@@ -5,11 +5,13 @@
 
 mod agreement;
 mod outliers;
+mod pair_name;
 mod relevance;
 mod table;
 
 pub use agreement::{Agreement, AgreementError, IntraclassCorrelation, agreement};
 pub use outliers::{OUTLIER_LIMIT, RaterFit, rater_fits};
+pub use pair_name::PairNameError;
 pub use relevance::{RELEVANCE_LIMIT, Relevance, RelevanceVote, VoteError, relevances};
 pub use table::{RatingTable, RatingsError};
 

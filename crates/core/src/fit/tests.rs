@@ -128,10 +128,10 @@ fn what_a_held_out_model_cannot_know_it_does_not_get_right() {
             other[i] -= ar[0] * other[i - 1] + ar[1] * other[i - 2];
         }
         let scale = 1.0 / rms(&other);
-        for i in 0..16_000 {
+        for (i, other) in other.into_iter().enumerate() {
             let speed_mps = if is_fast(i) { 0.25 } else { 0.05 };
             let usual = (r.acceleration_mps2[i] - 9.81) / level_mps2(r.speed_mps[i], r.force_n[i]);
-            let grain = if is_fast(i) { scale * other[i] } else { usual };
+            let grain = if is_fast(i) { scale * other } else { usual };
             r.acceleration_mps2[i] = 9.81 + level_mps2(speed_mps, 1.0) * grain;
             (r.speed_mps[i], r.force_n[i]) = (speed_mps, 1.0);
         }

@@ -1,0 +1,209 @@
+//! Ratings by people as a table, in either of two shapes.
+//!
+//! A line for each rating, or a line for each participant and texture with a column for each adjective pair:
+//!
+//! ```csv
+//! participant,texture,adjective,value          participant,texture,rough-smooth,hard-soft
+//! p01,cork,rough-smooth,41                     p01,cork,41,70.5
+//! ```
+//!
+//! A pair is named by its poles, the one at 0 first. A rating that is left empty is missing.
+
+use shagreen_core::ratings::{AdjectivePair, PairNameError, Rating, RelevanceVote};
+
+use crate::named_table::{Field, NamedTable, NamedTableError};
+use crate::sorting_csv::{PARTICIPANT, TEXTURE};
+
+/// Why a table holds no ratings.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RatingsCsvError {
+    /// It cannot be read.
+    #[error(transparent)]
+    Table(#[from] NamedTableError),
+    /// A name is no pair of adjectives.
+    #[error("line {line}: {source}")]
+    Pair {
+        /// The line, from one.
+        line: u64,
+        /// What is wrong.
+        source: PairNameError,
+    },
+    /// No column is for a pair.
+    #[error(
+        "no column holds ratings; give the columns adjective and value, or a column for each pair, named as \"rough-smooth\": the columns are {found}"
+    )]
+    NoPairs {
+        /// Names of the columns.
+        found: String,
+    },
+    /// A vote is neither yes nor no.
+    #[error("{column} in line {line} is \"{found}\"; say 1 or 0, or yes or no")]
+    Vote {
+        /// Name of the column.
+        column: String,
+        /// The line, from one.
+        line: u64,
+        /// What stands there.
+        found: String,
+    },
+}
+
+const ADJECTIVE: [&str; 6] = ["adjective", "adjective_pair", "pair", "attribute", "scale", "dimension"];
+const VALUE: [&str; 4] = ["value", "rating", "score", "response"];
+const RELEVANT: [&str; 4] = ["relevant", "selected", "vote", "chosen"];
+
+/// Reads ratings, missing ones among them.
+///
+/// # Errors
+/// See [`RatingsCsvError`].
+pub fn read_ratings_csv(bytes: &[u8]) -> Result<Vec<Rating>, RatingsCsvError> {
+    let table = NamedTable::read(bytes, "participant, texture, adjective, value", "rating")?;
+    let participant = table.need(&PARTICIPANT)?;
+    let texture = table.need(&TEXTURE)?;
+    let pair = |name: &str, line: u64| -> Result<AdjectivePair, RatingsCsvError> {
+        name.parse().map_err(|source| RatingsCsvError::Pair { line, source })
+    };
+    let mut ratings = Vec::new();
+    let mut push = |row_participant: Field<'_>, row_texture: Field<'_>, pair, value| {
+        let (participant, texture) = (row_participant.word()?.to_owned(), row_texture.word()?.to_owned());
+        ratings.push(Rating { participant, texture, pair, value });
+        Ok::<(), RatingsCsvError>(())
+    };
+    if let (Some(adjective), Some(value)) = (table.find(&ADJECTIVE), table.find(&VALUE)) {
+        for row in table.rows() {
+            let pair = pair(row.at(adjective).word()?, row.line())?;
+            push(row.at(participant), row.at(texture), pair, row.at(value).number()?)?;
+        }
+        return Ok(ratings);
+    }
+    let others = table.others(&[Some(participant), Some(texture)]);
+    if others.is_empty() {
+        return Err(RatingsCsvError::NoPairs { found: table.columns.join(", ") });
+    }
+    let pairs: Vec<(usize, AdjectivePair)> = others
+        .into_iter()
+        .map(|column| Ok((column, pair(&table.columns[column], 1)?)))
+        .collect::<Result<_, RatingsCsvError>>()?;
+    for row in table.rows() {
+        for (column, pair) in &pairs {
+            push(row.at(participant), row.at(texture), pair.clone(), row.at(*column).number()?)?;
+        }
+    }
+    Ok(ratings)
+}
+
+/// Reads votes on which adjectives are relevant: the columns `participant`, `adjective`, `relevant` and perhaps
+/// `texture`, or a column for each adjective. A vote that is left empty was not cast.
+///
+/// # Errors
+/// See [`RatingsCsvError`].
+pub fn read_relevance_csv(bytes: &[u8]) -> Result<Vec<RelevanceVote>, RatingsCsvError> {
+    let table = NamedTable::read(bytes, "participant, adjective, relevant", "vote")?;
+    let participant = table.need(&PARTICIPANT)?;
+    let texture = table.find(&TEXTURE);
+    let mut votes = Vec::new();
+    if let (Some(adjective), Some(relevant)) = (table.find(&ADJECTIVE), table.find(&RELEVANT)) {
+        for row in table.rows() {
+            let texture = texture.map(|column| row.at(column).word().map(str::to_owned)).transpose()?;
+            let Some(relevant) = vote(row.at(relevant))? else { continue };
+            let adjective = row.at(adjective).word()?.to_owned();
+            votes.push(RelevanceVote {
+                participant: row.at(participant).word()?.to_owned(),
+                texture,
+                adjective,
+                relevant,
+            });
+        }
+        return Ok(votes);
+    }
+    let others = table.others(&[Some(participant), texture]);
+    if others.is_empty() {
+        return Err(RatingsCsvError::NoPairs { found: table.columns.join(", ") });
+    }
+    for row in table.rows() {
+        for column in &others {
+            let texture = texture.map(|column| row.at(column).word().map(str::to_owned)).transpose()?;
+            let Some(relevant) = vote(row.at(*column))? else { continue };
+            votes.push(RelevanceVote {
+                participant: row.at(participant).word()?.to_owned(),
+                texture,
+                adjective: table.columns[*column].clone(),
+                relevant,
+            });
+        }
+    }
+    Ok(votes)
+}
+
+fn vote(field: Field<'_>) -> Result<Option<bool>, RatingsCsvError> {
+    match field.text().to_lowercase().as_str() {
+        "" => Ok(None),
+        "1" | "yes" | "y" | "true" | "x" => Ok(Some(true)),
+        "0" | "no" | "n" | "false" => Ok(Some(false)),
+        found => Err(RatingsCsvError::Vote {
+            column: field.name().to_owned(),
+            line: field.line(),
+            found: found.to_owned(),
+        }),
+    }
+}
+
+/// The ratings as a table with a line each.
+pub fn ratings_csv(ratings: &[Rating]) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut write = |fields: [&str; 4]| {
+        // Memory takes all text.
+        let written = writer.write_record(fields);
+        assert!(written.is_ok(), "rows are all as long: {written:?}");
+    };
+    write(["participant", "texture", "adjective", "value"]);
+    for rating in ratings {
+        let value = rating.value.map_or_else(String::new, |value| format!("{value}"));
+        write([&rating.participant, &rating.texture, &rating.pair.name(), &value]);
+    }
+    writer.into_inner().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ratings_csv, read_ratings_csv, read_relevance_csv};
+
+    const LONG: &str = "participant,texture,adjective,value\n\
+                        p1,cork,rough-smooth,41\np1,cork,hard-soft,70.5\n\
+                        p2,cork,rough-smooth,\np2,cork,hard-soft,60\n";
+    const WIDE: &str = "subject\ttexture id\trough-smooth\thard-soft\np1\tcork\t41\t70,5\np2\tcork\t\t60\n";
+
+    #[test]
+    fn both_shapes_say_the_same() {
+        let long = read_ratings_csv(LONG.as_bytes()).unwrap();
+        assert_eq!(read_ratings_csv(WIDE.as_bytes()), Ok(long.clone()));
+        assert_eq!((long.len(), long[2].value, long[1].value), (4, None, Some(70.5)));
+        assert_eq!(read_ratings_csv(&ratings_csv(&long)), Ok(long));
+    }
+
+    #[test]
+    fn what_is_no_rating_says_why() {
+        let check = |text: &str, words: &str| {
+            let message = read_ratings_csv(text.as_bytes()).unwrap_err().to_string();
+            assert!(message.contains(words), "{message}");
+        };
+        check("participant,texture\np,cork\n", "no column holds ratings");
+        check("participant,texture,smoothness\np,cork,3\n", "line 1: \"smoothness\" names one pole");
+        check("participant,texture,adjective,value\np,cork,smooth,3\n", "line 2: \"smooth\"");
+        check("participant,texture,a-b\np,cork,much\n", "a-b in line 2 is \"much\"");
+        check("participant,texture,a-b\np,,3\n", "line 2 has no texture");
+        check("texture,a-b\ncork,3\n", "\"participant\"");
+    }
+
+    #[test]
+    fn votes_are_read_in_both_shapes() {
+        let long = "participant,adjective,relevant\np1,rough,yes\np1,warm,0\np2,rough,1\np2,warm,\n";
+        let wide = "participant,rough,warm\np1,1,0\np2,x,\n";
+        let votes = read_relevance_csv(long.as_bytes()).unwrap();
+        assert_eq!(read_relevance_csv(wide.as_bytes()), Ok(votes.clone()));
+        assert_eq!(votes.iter().filter(|vote| vote.relevant).count(), 2);
+        let message = read_relevance_csv(b"participant,rough\np1,maybe\n").unwrap_err().to_string();
+        assert!(message.contains("rough in line 2 is \"maybe\""), "{message}");
+    }
+}

@@ -1,0 +1,276 @@
+//! Cluster sortings as a table, in either of two shapes.
+//!
+//! A line for each texture of each sort:
+//!
+//! ```csv
+//! participant,trial,groups,texture,group
+//! p01,1,3,cork,a
+//! ```
+//!
+//! or a line for each sort, with a column for each texture that holds its group:
+//!
+//! ```csv
+//! participant,trial,groups,cork,felt,glass
+//! p01,1,3,a,a,b
+//! ```
+//!
+//! `groups` is how many groups were to be made; without it those that were made are counted. Without `trial` the number of
+//! groups tells the sorts of a participant apart. A texture whose group is left empty was not sorted.
+
+use std::collections::HashMap;
+
+use shagreen_core::sorting::{Placement, Sort};
+
+use crate::named_table::{Field, NamedTable, NamedTableError};
+
+/// Sorts, and all textures that they name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SortingTable {
+    /// Identifiers of the textures, in the order of their first appearance.
+    pub textures: Vec<String>,
+    /// The sorts, in the order of the file.
+    pub sorts: Vec<Sort>,
+}
+
+/// Why a table holds no sortings.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SortingCsvError {
+    /// It cannot be read.
+    #[error(transparent)]
+    Table(#[from] NamedTableError),
+    /// There are neither columns for textures nor one that names them.
+    #[error(
+        "no column holds groups; give the columns texture and group, or a column for each texture: the columns are {found}"
+    )]
+    NoGroups {
+        /// Names of the columns.
+        found: String,
+    },
+    /// A number of groups is none.
+    #[error(
+        "{column} in line {line} is \"{found}\"; give the number of groups that were to be made, 1 or more"
+    )]
+    NotACount {
+        /// Name of the column.
+        column: String,
+        /// The line, from one.
+        line: u64,
+        /// What stands there.
+        found: String,
+    },
+    /// The lines of one sort disagree.
+    #[error(
+        "participant \"{participant}\", trial \"{trial}\": line {line} says another number of groups than the lines before; correct it"
+    )]
+    OtherCount {
+        /// Who sorted.
+        participant: String,
+        /// Which sort.
+        trial: String,
+        /// The line, from one.
+        line: u64,
+    },
+    /// A sort stands on two lines.
+    #[error(
+        "participant \"{participant}\" has trial \"{trial}\" again in line {line}; number the trials, or keep one"
+    )]
+    SortTwice {
+        /// Who sorted.
+        participant: String,
+        /// Which sort.
+        trial: String,
+        /// The line, from one.
+        line: u64,
+    },
+}
+
+/// Names of the column that says who sorted.
+pub(crate) const PARTICIPANT: [&str; 5] = ["participant", "subject", "rater", "person", "participant_id"];
+const TRIAL: [&str; 4] = ["trial", "sort", "session", "block"];
+const GROUPS: [&str; 4] = ["groups", "n_groups", "number_of_groups", "clusters"];
+/// Names of the column that says which texture.
+pub(crate) const TEXTURE: [&str; 7] =
+    ["texture", "texture_id", "id", "stimulus", "surface", "material", "item"];
+const GROUP: [&str; 4] = ["group", "cluster", "pile", "category"];
+
+/// Reads sortings.
+///
+/// # Errors
+/// See [`SortingCsvError`].
+pub fn read_sorting_csv(bytes: &[u8]) -> Result<SortingTable, SortingCsvError> {
+    let table = NamedTable::read(bytes, "participant, trial, texture, group", "texture of a sort")?;
+    let columns = Columns {
+        participant: table.need(&PARTICIPANT)?,
+        trial: table.find(&TRIAL),
+        groups: table.find(&GROUPS),
+    };
+    match (table.find(&TEXTURE), table.find(&GROUP)) {
+        (Some(texture), Some(group)) => by_texture(&table, &columns, texture, group),
+        _ => by_sort(&table, &columns),
+    }
+}
+
+/// Columns of both shapes.
+struct Columns {
+    participant: usize,
+    trial: Option<usize>,
+    groups: Option<usize>,
+}
+
+/// Textures in the order of their first appearance.
+#[derive(Default)]
+struct Names(Vec<String>, HashMap<String, ()>);
+
+impl Names {
+    fn add(&mut self, name: &str) {
+        if self.1.insert(name.to_owned(), ()).is_none() {
+            self.0.push(name.to_owned());
+        }
+    }
+}
+
+/// How many groups were to be made, where that is said.
+fn count(field: Option<Field<'_>>) -> Result<Option<usize>, SortingCsvError> {
+    let Some(field) = field else { return Ok(None) };
+    if field.text().is_empty() {
+        return Ok(None);
+    }
+    let count = field.text().parse().ok().filter(|n: &usize| *n > 0);
+    count.map(Some).ok_or_else(|| SortingCsvError::NotACount {
+        column: field.name().to_owned(),
+        line: field.line(),
+        found: field.text().to_owned(),
+    })
+}
+
+/// What tells a sort from the others of its participant.
+fn trial_name(trial: Option<Field<'_>>, n_groups: Option<usize>) -> Result<String, SortingCsvError> {
+    match trial {
+        Some(field) => Ok(field.word()?.to_owned()),
+        None => Ok(n_groups.map_or_else(|| "1".to_owned(), |n| n.to_string())),
+    }
+}
+
+fn by_texture(
+    table: &NamedTable,
+    columns: &Columns,
+    texture: usize,
+    group: usize,
+) -> Result<SortingTable, SortingCsvError> {
+    let mut names = Names::default();
+    let mut sorts: Vec<Sort> = Vec::new();
+    let mut at_of: HashMap<(String, String), usize> = HashMap::new();
+    for row in table.rows() {
+        let participant = row.at(columns.participant).word()?.to_owned();
+        let n_groups = count(columns.groups.map(|column| row.at(column)))?;
+        let trial = trial_name(columns.trial.map(|column| row.at(column)), n_groups)?;
+        let at = *at_of.entry((participant.clone(), trial.clone())).or_insert_with(|| {
+            sorts.push(Sort {
+                participant: participant.clone(),
+                trial: trial.clone(),
+                n_groups,
+                placements: Vec::new(),
+            });
+            sorts.len() - 1
+        });
+        if sorts[at].n_groups != n_groups {
+            return Err(SortingCsvError::OtherCount { participant, trial, line: row.line() });
+        }
+        let texture = row.at(texture).word()?;
+        names.add(texture);
+        let group = row.at(group).text();
+        if !group.is_empty() {
+            sorts[at].placements.push(Placement { texture: texture.to_owned(), group: group.to_owned() });
+        }
+    }
+    Ok(SortingTable { textures: names.0, sorts })
+}
+
+fn by_sort(table: &NamedTable, columns: &Columns) -> Result<SortingTable, SortingCsvError> {
+    let textures = table.others(&[Some(columns.participant), columns.trial, columns.groups]);
+    if textures.is_empty() {
+        return Err(SortingCsvError::NoGroups { found: table.columns.join(", ") });
+    }
+    let mut names = Names::default();
+    for column in &textures {
+        names.add(&table.columns[*column]);
+    }
+    let mut seen = HashMap::new();
+    let mut sorts = Vec::new();
+    for row in table.rows() {
+        let participant = row.at(columns.participant).word()?.to_owned();
+        let n_groups = count(columns.groups.map(|column| row.at(column)))?;
+        let trial = trial_name(columns.trial.map(|column| row.at(column)), n_groups)?;
+        if seen.insert((participant.clone(), trial.clone()), ()).is_some() {
+            return Err(SortingCsvError::SortTwice { participant, trial, line: row.line() });
+        }
+        let fields = textures.iter().map(|column| row.at(*column)).filter(|field| !field.text().is_empty());
+        let placement =
+            |field: Field<'_>| Placement { texture: field.name().to_owned(), group: field.text().to_owned() };
+        sorts.push(Sort { participant, trial, n_groups, placements: fields.map(placement).collect() });
+    }
+    Ok(SortingTable { textures: names.0, sorts })
+}
+
+/// The sortings as a table with a line for each texture of each sort.
+pub fn sorting_csv(sorts: &[Sort]) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut write = |fields: [&str; 5]| {
+        // Memory takes all text.
+        let written = writer.write_record(fields);
+        assert!(written.is_ok(), "rows are all as long: {written:?}");
+    };
+    write(["participant", "trial", "groups", "texture", "group"]);
+    for sort in sorts {
+        let n_groups = sort.n_groups.map_or_else(String::new, |n| n.to_string());
+        for Placement { texture, group } in &sort.placements {
+            write([&sort.participant, &sort.trial, &n_groups, texture, group]);
+        }
+    }
+    writer.into_inner().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{read_sorting_csv, sorting_csv};
+
+    const LONG: &str = "participant,trial,groups,texture,group\n\
+                        p1,1,2,cork,a\np1,1,2,felt,a\np1,1,2,glass,b\n\
+                        p2,1,2,cork,x\np2,1,2,felt,\np2,1,2,glass,y\n";
+    const WIDE: &str = "Participant;Trial;N groups;cork;felt;glass\np1;1;2;a;a;b\np2;1;2;x;;y\n";
+
+    #[test]
+    fn both_shapes_say_the_same() {
+        let long = read_sorting_csv(LONG.as_bytes()).unwrap();
+        assert_eq!(read_sorting_csv(WIDE.as_bytes()), Ok(long.clone()));
+        assert_eq!(long.textures, ["cork", "felt", "glass"]);
+        assert_eq!(long.sorts.len(), 2);
+        assert_eq!(long.sorts[0].n_groups, Some(2));
+        assert_eq!(long.sorts[1].placements.len(), 2, "felt was not sorted by p2");
+        let again = read_sorting_csv(&sorting_csv(&long.sorts)).unwrap();
+        assert_eq!(again.sorts, long.sorts);
+    }
+
+    #[test]
+    fn without_trials_the_number_of_groups_tells_sorts_apart() {
+        let text = "subject,groups,cork,felt,glass\np1,3,a,b,c\np1,2,a,a,b\n";
+        let sorts = read_sorting_csv(text.as_bytes()).unwrap().sorts;
+        assert_eq!(sorts.iter().map(|s| s.trial.as_str()).collect::<Vec<_>>(), ["3", "2"]);
+    }
+
+    #[test]
+    fn what_is_no_sorting_says_why() {
+        let check = |text: &str, words: &str| {
+            let message = read_sorting_csv(text.as_bytes()).unwrap_err().to_string();
+            assert!(message.contains(words), "{message}");
+        };
+        check("participant,trial\np,1\n", "no column holds groups");
+        check("who,trial,cork\np,1,a\n", "\"participant\"");
+        check("participant,trial,groups,cork\np,1,many,a\n", "groups in line 2 is \"many\"");
+        check("participant,trial,cork\np,1,a\np,1,b\n", "again in line 3");
+        check("participant,cork\np,a\np,b\n", "again in line 3");
+        check("participant,trial,groups,texture,group\np,1,3,a,x\np,1,6,b,x\n", "line 3 says another");
+        check("participant,trial,texture,group\n,1,a,x\n", "line 2 has no participant");
+    }
+}
