@@ -47,8 +47,8 @@ pub fn least_squares(columns: &[Vec<f64>], target: &[f64]) -> Result<LeastSquare
             *share += again;
         }
         let left = dot(&rest, &rest).sqrt();
-        // Written so that a column that is not a number is refused too.
-        if !(left > LEAST_LEFT * dot(column, column).sqrt()) {
+        // A column that is not a number is refused too.
+        if left.is_nan() || left <= LEAST_LEFT * dot(column, column).sqrt() {
             return Err(LeastSquaresError::Dependent { column: index });
         }
         basis.push(rest.iter().map(|r| r / left).collect());

@@ -147,7 +147,7 @@ pub fn project(coordinates: &[Vec<f64>], direction: &[f64]) -> Vec<f64> {
 pub fn axis_positions(projections: &[f64], zero_at: ZeroAt) -> Option<Vec<f64>> {
     let low = projections.iter().copied().fold(f64::INFINITY, f64::min);
     let high = projections.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if is_constant(projections) || !(high > low) {
+    if projections.is_empty() || is_constant(projections) {
         return None;
     }
     let place = |t: &f64| match zero_at {

@@ -1,0 +1,256 @@
+//! Simulated participants: for trying a study's pipeline before anybody is invited, never for conclusions.
+//!
+//! Everybody perceives the same physical labels, with noise, and uses the scale in an own way. What comes out is named
+//! `simulated-01` and so on, and whatever is made of it has to carry [`crate::space::LabelSource::SimulatedRaters`].
+
+use crate::ratings::{AdjectivePair, Rating};
+use crate::rng::{Random, derive_seed};
+
+/// Rounds of grouping after which a simulated participant leaves the groups as they are.
+const MAX_ROUNDS: usize = 50;
+
+/// What the participants are like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelConfig {
+    /// How many there are.
+    pub n_participants: usize,
+    /// Standard deviation of what one of them perceives of one texture at one time, in points of an axis.
+    pub noise_points: f64,
+    /// Standard deviation over participants of a constant error on a pair, in points.
+    pub bias_points: f64,
+    /// Standard deviation over participants of the logarithm of the share of the scale that they use on a pair.
+    pub scale_log_spread: f64,
+    /// Seed: the same panel says the same.
+    pub seed: u64,
+}
+
+/// Textures as one simulated participant grouped them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SimulatedSort {
+    /// Who.
+    pub participant: String,
+    /// Into how many groups; none of them is empty.
+    pub n_groups: usize,
+    /// The group of each texture, below `n_groups`, numbered by first appearance.
+    pub groups: Vec<usize>,
+}
+
+/// Why there is no panel.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PanelError {
+    /// A part of the configuration has no meaning.
+    #[error("{what} is {value}; it must be a finite number, 0 or more")]
+    Config {
+        /// Which part.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// There is nobody.
+    #[error("a panel needs at least one participant")]
+    Nobody,
+    /// A label is not on its axis.
+    #[error("label {label} of texture {texture} is {value}; a label lies between 0 and 100")]
+    Label {
+        /// Index of the texture.
+        texture: usize,
+        /// Index of the label.
+        label: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A texture has another number of labels.
+    #[error("texture {texture} has {n} labels, {expected} are expected")]
+    Labels {
+        /// Index of the texture.
+        texture: usize,
+        /// Its labels.
+        n: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// Textures do not have one name each.
+    #[error("{n_names} textures have a name, {n_labels} have labels")]
+    Names {
+        /// Textures with a name.
+        n_names: usize,
+        /// Textures with labels.
+        n_labels: usize,
+    },
+    /// More groups than textures, or none.
+    #[error("{n_textures} textures cannot be sorted into {n_groups} groups that are not empty")]
+    Groups {
+        /// Textures.
+        n_textures: usize,
+        /// Groups asked for.
+        n_groups: usize,
+    },
+}
+
+/// Ratings of textures by a panel: `labels` are those of each texture, 0..100, one a pair.
+///
+/// A rating is `50 + scale (label - 50) + bias + noise`, kept within 0..100.
+///
+/// # Errors
+/// See [`PanelError`].
+pub fn simulated_ratings(
+    textures: &[String],
+    labels: &[Vec<f64>],
+    pairs: &[AdjectivePair],
+    config: &PanelConfig,
+) -> Result<Vec<Rating>, PanelError> {
+    if textures.len() != labels.len() {
+        return Err(PanelError::Names { n_names: textures.len(), n_labels: labels.len() });
+    }
+    check(labels, pairs.len(), config)?;
+    let mut ratings = Vec::with_capacity(config.n_participants * textures.len() * pairs.len());
+    for participant in participants(config) {
+        let mut random = Random::new(derive_seed(config.seed, &format!("{participant} rates")));
+        let habits: Vec<(f64, f64)> = pairs
+            .iter()
+            .map(|_| (random.log_normal(config.scale_log_spread), config.bias_points * random.normal()))
+            .collect();
+        for (texture, labels) in textures.iter().zip(labels) {
+            for ((pair, label), (scale, bias)) in pairs.iter().zip(labels).zip(&habits) {
+                let felt = label + config.noise_points * random.normal();
+                ratings.push(Rating {
+                    participant: participant.clone(),
+                    texture: texture.clone(),
+                    pair: pair.clone(),
+                    value: Some((50.0 + scale * (felt - 50.0) + bias).clamp(0.0, 100.0)),
+                });
+            }
+        }
+    }
+    Ok(ratings)
+}
+
+/// Every participant sorts the textures once for each number of groups, by what is felt of them that time.
+///
+/// # Errors
+/// See [`PanelError`].
+pub fn simulated_sorts(
+    labels: &[Vec<f64>],
+    numbers_of_groups: &[usize],
+    config: &PanelConfig,
+) -> Result<Vec<SimulatedSort>, PanelError> {
+    check(labels, labels.first().map_or(0, Vec::len), config)?;
+    let n_textures = labels.len();
+    if let Some(n_groups) = numbers_of_groups.iter().copied().find(|n| *n == 0 || *n > n_textures) {
+        return Err(PanelError::Groups { n_textures, n_groups });
+    }
+    let mut sorts = Vec::with_capacity(config.n_participants * numbers_of_groups.len());
+    for participant in participants(config) {
+        let mut random = Random::new(derive_seed(config.seed, &format!("{participant} sorts")));
+        for n_groups in numbers_of_groups.iter().copied() {
+            let felt: Vec<Vec<f64>> = labels
+                .iter()
+                .map(|l| l.iter().map(|v| v + config.noise_points * random.normal()).collect())
+                .collect();
+            let first = ((random.uniform() * n_textures as f64) as usize).min(n_textures - 1);
+            let groups = by_first_appearance(&group(&felt, n_groups, first));
+            sorts.push(SimulatedSort { participant: participant.clone(), n_groups, groups });
+        }
+    }
+    Ok(sorts)
+}
+
+fn participants(config: &PanelConfig) -> impl Iterator<Item = String> {
+    (1..=config.n_participants).map(|number| format!("simulated-{number:02}"))
+}
+
+fn check(labels: &[Vec<f64>], n_labels: usize, config: &PanelConfig) -> Result<(), PanelError> {
+    let parts = [
+        ("the noise", config.noise_points),
+        ("the bias", config.bias_points),
+        ("the spread of the scale", config.scale_log_spread),
+    ];
+    for (what, value) in parts {
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(PanelError::Config { what, value });
+        }
+    }
+    if config.n_participants == 0 {
+        return Err(PanelError::Nobody);
+    }
+    for (texture, of_texture) in labels.iter().enumerate() {
+        if of_texture.len() != n_labels {
+            return Err(PanelError::Labels { texture, n: of_texture.len(), expected: n_labels });
+        }
+        if let Some(label) = of_texture.iter().position(|v| !(0.0..=100.0).contains(v)) {
+            return Err(PanelError::Label { texture, label, value: of_texture[label] });
+        }
+    }
+    Ok(())
+}
+
+/// Lloyd's grouping: starts from one texture and those farthest from the ones before, then moves every texture to the
+/// nearest center until nothing moves. A group that runs empty takes the texture farthest from its own center.
+fn group(felt: &[Vec<f64>], n_groups: usize, first: usize) -> Vec<usize> {
+    let mut centers = vec![felt[first].clone()];
+    while centers.len() < n_groups {
+        let farthest = farthest(felt, |point| nearest(point, &centers).1);
+        centers.push(felt[farthest].clone());
+    }
+    let mut groups = vec![usize::MAX; felt.len()];
+    for _ in 0..MAX_ROUNDS {
+        let mut moved: Vec<usize> = felt.iter().map(|point| nearest(point, &centers).0).collect();
+        fill_empty(&mut moved, felt, &centers);
+        if moved == groups {
+            break;
+        }
+        groups = moved;
+        for (index, center) in centers.iter_mut().enumerate() {
+            let members: Vec<&Vec<f64>> =
+                felt.iter().zip(&groups).filter(|(_, g)| **g == index).map(|(point, _)| point).collect();
+            for (dimension, coordinate) in center.iter_mut().enumerate() {
+                *coordinate = members.iter().map(|m| m[dimension]).sum::<f64>() / members.len() as f64;
+            }
+        }
+    }
+    groups
+}
+
+fn fill_empty(groups: &mut [usize], felt: &[Vec<f64>], centers: &[Vec<f64>]) {
+    for empty in 0..centers.len() {
+        if groups.contains(&empty) {
+            continue;
+        }
+        let shared = |texture: &usize| groups.iter().filter(|g| **g == groups[*texture]).count() > 1;
+        let off = |texture: &usize| squared_distance(&felt[*texture], &centers[groups[*texture]]);
+        let taken = (0..felt.len()).filter(shared).max_by(|a, b| off(a).total_cmp(&off(b)));
+        if let Some(taken) = taken {
+            groups[taken] = empty;
+        }
+    }
+}
+
+fn farthest(felt: &[Vec<f64>], distance: impl Fn(&Vec<f64>) -> f64) -> usize {
+    let distances: Vec<f64> = felt.iter().map(distance).collect();
+    (0..felt.len()).max_by(|a, b| distances[*a].total_cmp(&distances[*b])).unwrap_or_default()
+}
+
+/// The nearest center and its squared distance.
+fn nearest(point: &[f64], centers: &[Vec<f64>]) -> (usize, f64) {
+    let distances = centers.iter().map(|center| squared_distance(point, center)).enumerate();
+    distances.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
+}
+
+fn squared_distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum()
+}
+
+fn by_first_appearance(groups: &[usize]) -> Vec<usize> {
+    let mut order: Vec<usize> = Vec::new();
+    let number = |group: &usize| {
+        order.iter().position(|known| known == group).unwrap_or_else(|| {
+            order.push(*group);
+            order.len() - 1
+        })
+    };
+    groups.iter().map(number).collect()
+}
+
+#[cfg(test)]
+mod tests;

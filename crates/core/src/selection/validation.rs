@@ -1,0 +1,212 @@
+//! What a model of an axis is worth on textures that it has not seen.
+
+use super::folds::{outside, repeated, shuffled};
+use super::standardized::Standardized;
+use super::{AxisModel, Choice, FeatureTable, Method, Prepared, SelectionError, all, error};
+use crate::rng::{Random, derive_seed};
+use crate::statistics::{correlation, mean, quantile};
+
+/// How textures are left out, and how often positions are exchanged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scheme {
+    /// Folds, 2 to the number of textures; as many as textures leave one out at a time.
+    pub n_folds: usize,
+    /// How often the textures are dealt out to folds anew, at least once.
+    pub n_repeats: usize,
+    /// How often the positions are exchanged among the textures for the null distribution; none gives no p-value.
+    pub n_permutations: usize,
+    /// Seed of folds and permutations.
+    pub seed: u64,
+}
+
+/// Five folds as published, dealt out four times, since one deal among 25 textures moves the correlation by a tenth;
+/// 1,000 permutations.
+pub const STANDARD: Scheme = Scheme { n_folds: 5, n_repeats: 4, n_permutations: 1000, seed: 1 };
+
+/// What a model is worth on textures that it has not seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Validation {
+    /// How it was measured.
+    pub scheme: Scheme,
+    /// Correlation of predictions with positions, the features having been selected on all textures: as published,
+    /// and far too good. 0 where nothing was selected.
+    pub cv_r: f64,
+    /// Range-normalized accuracy of the same, `100 (1 - RMSE / range)`, in percent.
+    pub cv_rms_percent: f64,
+    /// Correlation where features are selected inside each fold, both sides measured from the mean of the training
+    /// textures (see [`crate::selection`]); 0 where nothing but that mean was ever predicted.
+    pub nested_cv_r: f64,
+    /// Range-normalized accuracy of the same, in percent.
+    pub nested_cv_rms_percent: f64,
+    /// What predicting the mean of the training textures has as range-normalized accuracy, in percent: what any model
+    /// has to exceed.
+    pub mean_rms_percent: f64,
+    /// Chance of a nested correlation as high when positions are exchanged among textures,
+    /// `(1 + count) / (1 + permutations)`; `None` without permutations.
+    pub permutation_p: Option<f64>,
+    /// The nested correlation that 5 % of the permutations exceed; `None` without permutations.
+    pub null_r_95: Option<f64>,
+    /// How many permutations were made.
+    pub n_permutations: usize,
+    /// Nested prediction of each texture, 0..100, the mean over repeats.
+    pub predicted: Vec<f64>,
+}
+
+/// Validates a method on features and positions, 0..100. The same seed gives the same result.
+///
+/// Takes folds × repeats × permutations fits: with 25 textures and 325 features, a few seconds in a release build.
+///
+/// # Errors
+/// See [`SelectionError`].
+pub fn validate(
+    features: &FeatureTable,
+    target: &[f64],
+    method: Method,
+    scheme: &Scheme,
+) -> Result<Validation, SelectionError> {
+    error::check(features, target)?;
+    let n = target.len();
+    let mut random = Random::new(derive_seed(scheme.seed, "folds"));
+    let folds = repeated(n, scheme.n_folds, scheme.n_repeats, &mut random)?;
+    let mut random = Random::new(derive_seed(scheme.seed, "permutations"));
+    // The positions themselves come first, so that they and their permutations go the same way.
+    let mut targets = vec![target.to_vec()];
+    targets.extend(
+        (0..scheme.n_permutations)
+            .map(|_| shuffled(n, &mut random).iter().map(|i| target[*i]).collect::<Vec<f64>>()),
+    );
+    let mut products = vec![FromMeans::default(); targets.len()];
+    let (mut nested, mut flat) = (LeftOut::default(), LeftOut::default());
+    for fold in &folds {
+        let textures = outside(fold, n);
+        let train = Standardized::new(features, &textures);
+        let mut prepared = Prepared::new(&train, method);
+        for (index, (target, product)) in targets.iter().zip(&mut products).enumerate() {
+            let known: Vec<f64> = textures.iter().map(|t| target[*t]).collect();
+            let choice = prepared.choose(&train, &known);
+            let model = prepared.estimate(&train, &known, &choice);
+            let center = mean(&known);
+            for texture in fold {
+                let predicted = position(&model, features, *texture).clamp(0.0, 100.0);
+                product.add(predicted - center, target[*texture] - center);
+                if index == 0 {
+                    nested.add(*texture, target[*texture], predicted);
+                    flat.add(*texture, target[*texture], center);
+                }
+            }
+        }
+    }
+    let observed = products[0].r();
+    let null: Vec<f64> = products[1..].iter().map(FromMeans::r).collect();
+    let as_high = null.iter().filter(|r| **r >= observed).count();
+    let chosen = chosen_on_all(features, target, method, &folds);
+    // Means of the training textures alone are no prediction, whatever their correlation (see the module above).
+    let found = chosen.predictions != flat.predictions;
+    let cv_r = if found { correlation(&chosen.targets, &chosen.predictions).unwrap_or(0.0) } else { 0.0 };
+    Ok(Validation {
+        scheme: *scheme,
+        cv_r,
+        cv_rms_percent: chosen.rms_percent(),
+        nested_cv_r: observed,
+        nested_cv_rms_percent: nested.rms_percent(),
+        mean_rms_percent: flat.rms_percent(),
+        permutation_p: (!null.is_empty()).then(|| (1 + as_high) as f64 / (1 + null.len()) as f64),
+        null_r_95: quantile(&null, 0.95),
+        n_permutations: null.len(),
+        predicted: nested.by_texture(n),
+    })
+}
+
+/// Cross-validation as published: features are selected once, on all textures.
+fn chosen_on_all(features: &FeatureTable, target: &[f64], method: Method, folds: &[Vec<usize>]) -> LeftOut {
+    let everything = Standardized::new(features, &all(features));
+    let choice = Prepared::new(&everything, method).choose(&everything, target);
+    let mut left_out = LeftOut::default();
+    for fold in folds {
+        for (texture, raw) in fold.iter().zip(fold_predictions(features, target, method, &choice, fold)) {
+            left_out.add(*texture, target[*texture], raw.clamp(0.0, 100.0));
+        }
+    }
+    left_out
+}
+
+/// Positions of the textures of a fold, not clipped, by a model with these features that was fitted to the others.
+pub(super) fn fold_predictions(
+    features: &FeatureTable,
+    target: &[f64],
+    method: Method,
+    choice: &Choice,
+    fold: &[usize],
+) -> Vec<f64> {
+    let textures = outside(fold, target.len());
+    let train = Standardized::new(features, &textures);
+    let known: Vec<f64> = textures.iter().map(|t| target[*t]).collect();
+    let model = Prepared::new(&train, method).estimate(&train, &known, choice);
+    fold.iter().map(|texture| position(&model, features, *texture)).collect()
+}
+
+fn position(model: &AxisModel, features: &FeatureTable, texture: usize) -> f64 {
+    model.raw(|feature| features.value(texture, feature))
+}
+
+/// Sums of the correlation about the means of the training textures.
+#[derive(Clone, Copy, Default)]
+struct FromMeans {
+    product: f64,
+    predicted: f64,
+    target: f64,
+}
+
+impl FromMeans {
+    fn add(&mut self, predicted: f64, target: f64) {
+        self.product += predicted * target;
+        self.predicted += predicted * predicted;
+        self.target += target * target;
+    }
+
+    fn r(&self) -> f64 {
+        // Predictions that differ from the mean by rounding differ by nothing: positions run to 100.
+        if self.predicted <= 1e-18 * self.target {
+            return 0.0;
+        }
+        self.product / (self.predicted * self.target).sqrt()
+    }
+}
+
+/// Positions and predictions of textures that were left out.
+#[derive(Default)]
+pub(super) struct LeftOut {
+    textures: Vec<usize>,
+    targets: Vec<f64>,
+    predictions: Vec<f64>,
+}
+
+impl LeftOut {
+    fn add(&mut self, texture: usize, target: f64, prediction: f64) {
+        self.textures.push(texture);
+        self.targets.push(target);
+        self.predictions.push(prediction);
+    }
+
+    fn rms_percent(&self) -> f64 {
+        rms_percent(&self.targets, &self.predictions)
+    }
+
+    fn by_texture(&self, n: usize) -> Vec<f64> {
+        let mut sums = vec![(0.0, 0.0); n];
+        for (texture, prediction) in self.textures.iter().zip(&self.predictions) {
+            sums[*texture].0 += prediction;
+            sums[*texture].1 += 1.0;
+        }
+        sums.into_iter().map(|(sum, count)| sum / count).collect()
+    }
+}
+
+/// Range-normalized accuracy `100 (1 - RMSE / range)`, in percent. The published "root-mean-squared value of 91.59 %"
+/// is consistent with the published correlation under this definition alone.
+pub(super) fn rms_percent(targets: &[f64], predictions: &[f64]) -> f64 {
+    let squares: Vec<f64> = targets.iter().zip(predictions).map(|(t, p)| (t - p) * (t - p)).collect();
+    let high = targets.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = targets.iter().copied().fold(f64::INFINITY, f64::min);
+    100.0 * (1.0 - mean(&squares).sqrt() / (high - low))
+}
