@@ -110,6 +110,27 @@ pub fn per_pattern(
     cepstral(textures, plan, how, &names, &values)
 }
 
+impl FeatureTable {
+    /// These features and then `other`'s, of the same textures.
+    ///
+    /// # Panics
+    /// If the textures are not the same.
+    #[must_use]
+    pub fn beside(&self, other: &Self) -> Self {
+        assert_eq!(self.textures, other.textures, "features of the same textures");
+        let rows = self.values.rows().into_iter().zip(other.values.rows());
+        let values = rows.flat_map(|(a, b)| a.iter().chain(b).copied().collect::<Vec<_>>()).collect();
+        let names: Vec<String> = self.names.iter().chain(&other.names).cloned().collect();
+        Self {
+            label: format!("{}; {}", self.label, other.label),
+            textures: self.textures.clone(),
+            values: table(self.textures.len(), names.len(), values),
+            names,
+            warnings: self.warnings.iter().chain(&other.warnings).cloned().collect(),
+        }
+    }
+}
+
 /// A table of what `values` makes of the coefficients of each pattern, with the names that `names` makes of the pattern's
 /// own, its frames and its coefficients.
 fn cepstral(

@@ -58,6 +58,7 @@ pub mod selection;
 pub mod shading;
 pub mod sorting;
 pub mod space;
+pub mod space_build;
 pub mod spectrum;
 pub mod starter;
 pub mod statistics;

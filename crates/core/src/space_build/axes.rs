@@ -1,0 +1,158 @@
+//! The two axes of an authoring space: which pairs they are, where textures fall on them, what predicts that.
+
+use crate::features::FeatureTable;
+use crate::property::{ZeroAt, angle_degrees, axis_positions, orthogonal_to, project};
+use crate::ratings::AdjectivePair;
+use crate::selection::{self, AxisModel, STANDARD, Scheme, Validation, fit_axis, validate};
+use crate::space_build::{Adjective, SpaceBuildError, SpaceOptions};
+
+/// An axis of an authoring space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The pair, the pole at 0 first.
+    pub pair: AdjectivePair,
+    /// Its place among the adjectives.
+    pub adjective: usize,
+    /// Unit vector in the perceptual space along which the axis grows.
+    pub direction: Vec<f64>,
+    /// Where each texture falls on it, 0..100.
+    pub felt: Vec<f64>,
+    /// What its features make of each texture, 0..100: by a model that has seen it.
+    pub predicted: Vec<f64>,
+    /// The model of features.
+    pub model: AxisModel,
+    /// Names of the features that the model uses.
+    pub features: Vec<String>,
+    /// What the model is worth on textures that it has not seen.
+    pub validation: Validation,
+}
+
+/// Poles of the axes of choice.
+const USUAL: [[&str; 2]; 2] = [["rough", "smooth"], ["hard", "soft"]];
+
+/// The axes, and the angle of their lines in degrees.
+pub(super) fn fit_axes(
+    adjectives: &[Adjective],
+    points: &[Vec<f64>],
+    features: &FeatureTable,
+    options: &SpaceOptions,
+    begin: &mut dyn FnMut(usize) -> Result<(), SpaceBuildError>,
+) -> Result<([Axis; 2], f64), SpaceBuildError> {
+    let chosen = choose(adjectives, options)?;
+    let oriented = chosen.map(|(index, zero_at)| {
+        let line = adjectives[index].line.as_ref().map_or_else(|_| Vec::new(), |line| line.direction.clone());
+        match zero_at {
+            ZeroAt::LowRatings => line,
+            ZeroAt::HighRatings => line.iter().map(|x| -x).collect(),
+        }
+    });
+    let angle = angle_degrees(&oriented[0], &oriented[1]);
+    let [first, mut second] = oriented;
+    if options.is_orthogonal {
+        second = orthogonal_to(&second, std::slice::from_ref(&first))
+            .map_err(|source| SpaceBuildError::Axis { pair: adjectives[chosen[1].0].pair.name(), source })?;
+    }
+    let rows: Vec<Vec<f64>> = features.values.rows().into_iter().map(|row| row.to_vec()).collect();
+    let mut fit = |at: usize, direction: Vec<f64>| -> Result<Axis, SpaceBuildError> {
+        begin(at)?;
+        let (adjective, zero_at) = chosen[at];
+        let pair = as_axis(&adjectives[adjective].pair, zero_at);
+        let felt = axis_positions(&project(points, &direction), ZeroAt::LowRatings)
+            .ok_or_else(|| SpaceBuildError::FlatAxis { pair: pair.name() })?;
+        let failed = |source| SpaceBuildError::Selection { pair: pair.name(), source };
+        let columns = selection::FeatureTable::from_rows(&rows).map_err(failed)?;
+        let model = fit_axis(&columns, &felt, options.method).map_err(failed)?;
+        let scheme = Scheme { n_permutations: options.n_permutations, seed: options.seed, ..STANDARD };
+        let validation = validate(&columns, &felt, options.method, &scheme).map_err(failed)?;
+        let mut used: Vec<usize> = model.features().collect();
+        used.sort_unstable();
+        used.dedup();
+        Ok(Axis {
+            features: used.into_iter().map(|feature| features.names[feature].clone()).collect(),
+            // Features of a table are finite, so a model has an answer for every row.
+            predicted: rows.iter().map(|row| model.predict(row).unwrap_or(50.0)).collect(),
+            pair,
+            adjective,
+            direction,
+            felt,
+            model,
+            validation,
+        })
+    };
+    Ok(([fit(0, first)?, fit(1, second)?], angle))
+}
+
+/// The pair with the pole first that lies at 0.
+fn as_axis(pair: &AdjectivePair, zero_at: ZeroAt) -> AdjectivePair {
+    match zero_at {
+        ZeroAt::LowRatings => pair.clone(),
+        ZeroAt::HighRatings => AdjectivePair { low: pair.high.clone(), high: pair.low.clone() },
+    }
+}
+
+/// Which adjectives are the axes, and which of their ends is 0.
+fn choose(adjectives: &[Adjective], options: &SpaceOptions) -> Result<[(usize, ZeroAt); 2], SpaceBuildError> {
+    if let Some([first, second]) = &options.axes {
+        let axes = [named(adjectives, first)?, named(adjectives, second)?];
+        if axes[0].0 == axes[1].0 {
+            return Err(no_such_axis(adjectives, second, "it is the other axis already"));
+        }
+        return Ok(axes);
+    }
+    let usable: Vec<usize> =
+        (0..adjectives.len()).filter(|i| adjectives[*i].usable_line().is_some()).collect();
+    if usable.len() < 2 {
+        return Err(SpaceBuildError::TooFewPairs { n_pairs: usable.len() });
+    }
+    let usual = USUAL.map(|poles| find(adjectives, poles).filter(|(index, _)| usable.contains(index)));
+    if let [Some(first), Some(second)] = usual {
+        return Ok([first, second]);
+    }
+    let mut chosen: Vec<(usize, ZeroAt)> = Vec::new();
+    for dimension in 0..2 {
+        let strength = |i: &usize| {
+            let line = adjectives[*i].usable_line();
+            line.and_then(|line| *line.correlations.get(dimension)?).map_or(0.0, f64::abs)
+        };
+        let free = usable.iter().filter(|i| chosen.iter().all(|(taken, _)| taken != *i));
+        let best = free.max_by(|a, b| strength(a).total_cmp(&strength(b)));
+        chosen.extend(best.map(|index| (*index, ZeroAt::LowRatings)));
+    }
+    match chosen[..] {
+        [first, second] => Ok([first, second]),
+        _ => Err(SpaceBuildError::TooFewPairs { n_pairs: chosen.len() }),
+    }
+}
+
+/// The adjective with these poles, the one at 0 first.
+fn find(adjectives: &[Adjective], [low, high]: [&str; 2]) -> Option<(usize, ZeroAt)> {
+    let is = |a: &str, b: &str| a.trim().eq_ignore_ascii_case(b.trim());
+    adjectives.iter().enumerate().find_map(|(index, Adjective { pair, .. })| {
+        if is(&pair.low, low) && is(&pair.high, high) {
+            Some((index, ZeroAt::LowRatings))
+        } else if is(&pair.low, high) && is(&pair.high, low) {
+            Some((index, ZeroAt::HighRatings))
+        } else {
+            None
+        }
+    })
+}
+
+fn named(adjectives: &[Adjective], pair: &AdjectivePair) -> Result<(usize, ZeroAt), SpaceBuildError> {
+    let Some((index, zero_at)) = find(adjectives, [&pair.low, &pair.high]) else {
+        return Err(no_such_axis(adjectives, pair, "it was not rated"));
+    };
+    if !adjectives[index].is_relevant {
+        return Err(no_such_axis(adjectives, pair, "too few find it relevant"));
+    }
+    match &adjectives[index].line {
+        Ok(_) => Ok((index, zero_at)),
+        Err(source) => Err(SpaceBuildError::Axis { pair: pair.name(), source: source.clone() }),
+    }
+}
+
+fn no_such_axis(adjectives: &[Adjective], pair: &AdjectivePair, reason: &'static str) -> SpaceBuildError {
+    let usable = adjectives.iter().filter(|a| a.usable_line().is_some());
+    let pairs: Vec<String> = usable.map(|a| a.pair.name()).collect();
+    SpaceBuildError::NoSuchAxis { pair: pair.name(), reason, pairs: pairs.join(", ") }
+}

@@ -1,0 +1,239 @@
+use super::{
+    FeatureKind, Placement, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space,
+};
+use crate::features::NamedTexture;
+use crate::panel::{PanelConfig, simulated_ratings, simulated_sorts};
+use crate::ratings::{AdjectivePair, Rating, RelevanceVote};
+use crate::sorting::{Placement as Sorted, Sort};
+use crate::space::LabelSource;
+use crate::space_build::verdict;
+use crate::statistics::correlation;
+use crate::texture::{GrainNode, TextureModel};
+use crate::units::{Hertz, MetersPerSecond, Newtons};
+
+const N: usize = 14;
+
+/// Labels of made-up textures, spread over the square.
+fn labels() -> Vec<Vec<f64>> {
+    let place = |i: usize| vec![(i * 37 % N) as f64 * 100.0 / (N - 1) as f64, (i * 53 % 100) as f64];
+    (0..N).map(place).collect()
+}
+
+/// Textures whose level falls with the first label and whose resonance falls with the second.
+fn models() -> Vec<(String, TextureModel)> {
+    let model = |label: &Vec<f64>| {
+        let frequency = 2.0 * (1.0 - 0.008 * label[1]);
+        let node = |speed_mps: f64, force_n: f64| GrainNode {
+            speed: MetersPerSecond(speed_mps),
+            force: Newtons(force_n),
+            lsf: vec![frequency - 0.1, frequency + 0.1],
+            level_mps2: (2.0 - 0.03 * label[0]).exp() * (speed_mps / 0.1) * force_n.powf(0.3),
+        };
+        let nodes = vec![node(0.03, 0.1), node(0.25, 0.1), node(0.03, 0.5), node(0.25, 0.5)];
+        TextureModel::new(Hertz(1000.0), nodes, Some(0.3)).unwrap()
+    };
+    labels().iter().enumerate().map(|(i, label)| (format!("t{i:02}"), model(label))).collect()
+}
+
+fn pair(name: &str) -> AdjectivePair {
+    name.parse().unwrap()
+}
+
+/// A simulated panel on the labels; `pairs` are rated, those after the second at random.
+fn judgements(pairs: &[&str]) -> (Vec<Sort>, Vec<Rating>) {
+    let config = PanelConfig {
+        n_participants: 8,
+        noise_points: 8.0,
+        bias_points: 5.0,
+        scale_log_spread: 0.1,
+        seed: 3,
+    };
+    let names: Vec<String> = models().into_iter().map(|(name, _)| name).collect();
+    let placements = |groups: &[usize]| {
+        let placed = names.iter().zip(groups);
+        placed.map(|(t, group)| Sorted { texture: t.clone(), group: group.to_string() }).collect()
+    };
+    let sorts = simulated_sorts(&labels(), &[3, 5, 7], &config).unwrap().into_iter().map(|sort| Sort {
+        participant: sort.participant,
+        trial: sort.n_groups.to_string(),
+        n_groups: Some(sort.n_groups),
+        placements: placements(&sort.groups),
+    });
+    let mut values = labels();
+    for (i, row) in values.iter_mut().enumerate() {
+        row.extend((2..pairs.len()).map(|p| (i * 29 * p % 101) as f64));
+    }
+    let pairs: Vec<AdjectivePair> = pairs.iter().map(|name| pair(name)).collect();
+    (sorts.collect(), simulated_ratings(&names, &values, &pairs, &config).unwrap())
+}
+
+fn quick() -> SpaceOptions {
+    SpaceOptions { n_permutations: 19, ..SpaceOptions::usual(1) }
+}
+
+fn build(
+    (sorts, ratings): (Vec<Sort>, Vec<Rating>),
+    options: &SpaceOptions,
+) -> Result<SpaceBuild, SpaceBuildError> {
+    build_with_votes(sorts, ratings, Vec::new(), options)
+}
+
+fn build_with_votes(
+    sorts: Vec<Sort>,
+    ratings: Vec<Rating>,
+    votes: Vec<RelevanceVote>,
+    options: &SpaceOptions,
+) -> Result<SpaceBuild, SpaceBuildError> {
+    let models = models();
+    let textures = models.iter().map(|(name, model)| NamedTexture { name, model }).collect();
+    let data = SpaceData { textures, sorts, ratings, votes, source: LabelSource::SimulatedRaters };
+    build_space(&data, options, &mut |_| true)
+}
+
+#[test]
+fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
+    let built = build(judgements(&["rough-smooth", "hard-soft", "sticky-slippery"]), &quick()).unwrap();
+    assert_eq!(built.textures.len(), N);
+    assert!(built.perceptual.stress < 0.15 && built.stress.windows(2).all(|w| w[1] <= w[0] + 1e-9));
+    for (axis, name) in built.axes.iter().zip(["rough-smooth", "hard-soft"]) {
+        assert_eq!(axis.pair.name(), name);
+        let index = usize::from(name == "hard-soft");
+        let truth: Vec<f64> = labels().iter().map(|label| label[index]).collect();
+        assert!(correlation(&axis.felt, &truth).unwrap() > 0.9, "{name}: {:?}", axis.felt);
+        // The features hold the label; and the figure that counts is there beside the published one.
+        assert!(axis.validation.nested_cv_r > 0.7, "{name}: {:?}", axis.validation);
+        assert_eq!(axis.validation.permutation_p, Some(0.05), "{name}");
+        assert!(!axis.features.is_empty() && axis.predicted.iter().all(|p| (0.0..=100.0).contains(p)));
+    }
+    assert!((60.0..120.0).contains(&built.angle_degrees), "{}", built.angle_degrees);
+    // Ratings at random lie along no line.
+    let random = built.adjectives[2].line.as_ref().unwrap();
+    assert!(random.r_squared < 0.5 && built.adjectives[0].line.as_ref().unwrap().r_squared > 0.8);
+    assert_eq!(built.positions[3].rough_smooth, built.axes[0].felt[3]);
+    let said = verdict(&built).join("\n");
+    for words in
+        ["simulated raters: nobody felt anything", "nested cross-validation", "19 permutations", "ICC"]
+    {
+        assert!(said.contains(words), "{words} is not in {said}");
+    }
+}
+
+#[test]
+fn an_axis_may_be_named_the_other_way_round() {
+    let turned = build(judgements(&["smooth-rough", "hard-soft"]), &quick()).unwrap();
+    // The panel rates by the labels, so that what is called rough now lies at 100 and is turned back to 0.
+    let straight = build(judgements(&["rough-smooth", "hard-soft"]), &quick()).unwrap();
+    assert_eq!(turned.axes[0].pair, pair("rough-smooth"));
+    for (a, b) in turned.axes[0].felt.iter().zip(&straight.axes[0].felt) {
+        assert!((a - (100.0 - b)).abs() < 1e-9, "{a} and {b}");
+    }
+    let options = SpaceOptions { axes: Some([pair("hard-soft"), pair("rough-smooth")]), ..quick() };
+    let swapped = build(judgements(&["rough-smooth", "hard-soft"]), &options).unwrap();
+    assert_eq!(swapped.axes[0].felt, straight.axes[1].felt);
+}
+
+#[test]
+fn axes_are_the_best_of_each_dimension_where_none_is_usual_and_turned_on_request() {
+    let options = SpaceOptions { is_orthogonal: true, placement: Placement::Predicted, ..quick() };
+    let built = build(judgements(&["warm-cold", "dull-sharp", "one-two"]), &options).unwrap();
+    let mut names = built.axes.each_ref().map(|axis| axis.pair.name());
+    names.sort();
+    assert_eq!(names, ["dull-sharp", "warm-cold"], "the third was rated at random");
+    let across: f64 = built.axes[0].direction.iter().zip(&built.axes[1].direction).map(|(a, b)| a * b).sum();
+    assert!(across.abs() < 1e-12);
+    assert_eq!(built.positions[5].hard_soft, built.axes[1].predicted[5]);
+}
+
+#[test]
+fn what_is_missing_is_said_and_lived_with() {
+    let (mut sorts, mut ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    for sort in &mut sorts {
+        sort.placements.retain(|placement| placement.texture != "t13");
+    }
+    ratings.retain(|rating| {
+        rating.texture != "t00" && !(rating.participant == "simulated-02" && rating.texture == "t05")
+    });
+    ratings[0].value = None;
+    let built = build((sorts, ratings), &quick()).unwrap();
+    assert_eq!((built.not_sorted, built.textures.len()), (vec!["t13".to_owned()], N - 1));
+    assert!(built.adjectives[0].ratings[0].mean.is_none());
+    assert!(built.n_missing_ratings >= 3);
+    let findings = built.findings.join("\n");
+    assert!(findings.contains("nobody rated them: t00"), "{findings}");
+    assert!(findings.contains("rated but not sorted, and so without a place: t13"), "{findings}");
+}
+
+#[test]
+fn a_pair_that_too_few_find_relevant_is_no_axis() {
+    let (sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    let vote = |participant: &str, adjective: &str, relevant: bool| RelevanceVote {
+        participant: participant.to_owned(),
+        texture: None,
+        adjective: adjective.to_owned(),
+        relevant,
+    };
+    let votes = vec![
+        vote("a", "hard", true),
+        vote("b", "hard", false),
+        vote("c", "hard", false),
+        vote("a", "rough", true),
+    ];
+    let error = build_with_votes(sorts, ratings, votes, &quick()).unwrap_err();
+    assert_eq!(error, SpaceBuildError::TooFewPairs { n_pairs: 1 });
+}
+
+type Change = dyn Fn(&mut Vec<Sort>, &mut Vec<Rating>, &mut SpaceOptions);
+
+#[test]
+fn what_makes_no_space_says_why() {
+    let good = || judgements(&["rough-smooth", "hard-soft"]);
+    let check = |change: &Change, words: &str| {
+        let ((mut sorts, mut ratings), mut options) = (good(), quick());
+        change(&mut sorts, &mut ratings, &mut options);
+        let message = build((sorts, ratings), &options).unwrap_err().to_string();
+        assert!(message.contains(words), "{message}");
+    };
+    check(&|_, _, options| options.n_dims = 1, "2 to 10");
+    check(&|sorts, _, _| sorts[0].placements[0].texture = "corkk".to_owned(), "\"corkk\" was sorted");
+    check(&|_, ratings, _| ratings[0].texture = "corkk".to_owned(), "\"corkk\" was rated");
+    check(&|sorts, _, _| sorts.push(sorts[0].clone()), "has trial \"3\" twice");
+    check(&|_, ratings, _| ratings.push(ratings[0].clone()), "twice on rough");
+    check(&|_, ratings, _| ratings[4].value = Some(140.0), "140");
+    check(&|_, ratings, _| ratings.retain(|r| r.pair.low == "rough"), "two are needed");
+    check(&|_, _, options| options.axes = Some([pair("warm-cold"), pair("hard-soft")]), "it was not rated");
+    check(&|_, _, options| options.axes = Some([pair("hard-soft"), pair("soft-hard")]), "other axis already");
+    let keep = |n: usize| {
+        move |sorts: &mut Vec<Sort>, _: &mut Vec<Rating>, _: &mut SpaceOptions| {
+            for sort in sorts {
+                sort.placements.truncate(n);
+            }
+        }
+    };
+    check(&keep(2), "at least 3 textures");
+    check(&keep(6), "too few to predict");
+    let same = |_: &mut Vec<Sort>, ratings: &mut Vec<Rating>, _: &mut SpaceOptions| {
+        for rating in ratings.iter_mut().filter(|r| r.pair.low == "rough") {
+            rating.pair = pair("hard-Hard");
+        }
+    };
+    check(&same, "no two poles");
+}
+
+#[test]
+fn steps_are_told_in_order_and_can_be_stopped() {
+    let (sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    let models = models();
+    let textures = models.iter().map(|(name, model)| NamedTexture { name, model }).collect();
+    let data =
+        SpaceData { textures, sorts, ratings, votes: Vec::new(), source: LabelSource::SimulatedRaters };
+    let options = SpaceOptions { features: FeatureKind::Physical, ..quick() };
+    let mut told = Vec::new();
+    build_space(&data, &options, &mut |step| {
+        told.push(step.index());
+        true
+    })
+    .unwrap();
+    assert_eq!(told, (0..Step::COUNT).collect::<Vec<_>>());
+    let stopped = build_space(&data, &options, &mut |step| step != Step::Features);
+    assert_eq!(stopped, Err(SpaceBuildError::Stopped));
+}

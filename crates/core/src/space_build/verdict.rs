@@ -1,0 +1,119 @@
+//! How far a space can be believed, in sentences.
+
+use crate::space::LabelSource;
+use crate::space_build::{Axis, Placement, SpaceBuild};
+
+/// Goodness of fit of an adjective's line below which it is called weak: less than half of what was rated lies along it.
+const WEAK_R_SQUARED: f64 = 0.5;
+/// Deviation from a right angle from which axes are called oblique, in degrees.
+const OBLIQUE_DEGREES: f64 = 15.0;
+/// Intraclass correlation of the mean rater below which agreement is called poor (Koo and Li 2016).
+const POOR_ICC: f64 = 0.5;
+/// Chance from which a prediction may be luck.
+const CHANCE: f64 = 0.05;
+
+/// What Kruskal (1964) calls a stress-1.
+pub fn kruskal_word(stress: f64) -> &'static str {
+    match stress {
+        s if s < 0.0125 => "nearly perfect",
+        s if s < 0.0375 => "excellent",
+        s if s < 0.075 => "good",
+        s if s < 0.15 => "fair",
+        _ => "poor",
+    }
+}
+
+/// Sentences on how far the space can be believed, the most general first, then what was found on the way.
+pub fn verdict(build: &SpaceBuild) -> Vec<String> {
+    let mut said = vec![
+        format!(
+            "{} textures, from {}{}.",
+            build.textures.len(),
+            build.source.label(),
+            if build.source == LabelSource::SimulatedRaters { ": nobody felt anything" } else { "" }
+        ),
+        format!(
+            "Stress of the {}-dimensional perceptual space: {:.3}, {} after Kruskal.",
+            build.options.n_dims,
+            build.perceptual.stress,
+            kruskal_word(build.perceptual.stress)
+        ),
+        angle(build),
+    ];
+    for axis in &build.axes {
+        said.extend(line(build, axis));
+        said.push(prediction(axis));
+    }
+    said.push(match build.options.placement {
+        Placement::Felt => "Textures lie where they were felt.".to_owned(),
+        Placement::Predicted => {
+            "Textures lie where their features predict, by models that have seen them.".to_owned()
+        }
+    });
+    let outlying: Vec<&str> =
+        build.raters.iter().filter(|(_, fit)| fit.outlying).map(|(name, _)| name.as_str()).collect();
+    if !outlying.is_empty() {
+        said.push(format!("Rated unlike the others, and kept: {}.", outlying.join(", ")));
+    }
+    if build.n_missing_ratings > 0 {
+        said.push(format!(
+            "{} ratings are missing; averages are over those who rated.",
+            build.n_missing_ratings
+        ));
+    }
+    if !build.not_sorted.is_empty() {
+        said.push(format!("Not sorted, and so without a place: {}.", build.not_sorted.join(", ")));
+    }
+    said.extend(build.findings.iter().cloned());
+    said
+}
+
+fn angle(build: &SpaceBuild) -> String {
+    let names = build.axes.each_ref().map(|axis| axis.pair.to_string());
+    let degrees = build.angle_degrees;
+    let meets = format!("{} and {} meet at {degrees:.1}° in the perceptual space", names[0], names[1]);
+    if build.options.is_orthogonal {
+        format!("{meets}; the second axis was turned at right angles to the first.")
+    } else if (degrees - 90.0).abs() > OBLIQUE_DEGREES {
+        format!("{meets}: they are not independent, and the square shows them as if they were.")
+    } else {
+        format!("{meets}.")
+    }
+}
+
+/// How well the line of an axis fits, and how far its raters agree.
+fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
+    let adjective = &build.adjectives[axis.adjective];
+    let line = adjective.line.as_ref().ok()?;
+    let weak = if line.r_squared < WEAK_R_SQUARED { ", a weak line" } else { "" };
+    let agreement = adjective.agreement.as_ref().map_or_else(
+        |reason| format!("agreement of raters is not known ({reason})"),
+        |agreement| {
+            let icc = agreement.average.value;
+            let poor = if icc < POOR_ICC { ", poor" } else { "" };
+            format!("ICC of the mean rater {icc:.2}{poor}")
+        },
+    );
+    Some(format!("{}: R² {:.2} in the perceptual space{weak}; {agreement}.", axis.pair, line.r_squared))
+}
+
+/// What the prediction of an axis is worth: the published figure never without the one that counts.
+fn prediction(axis: &Axis) -> String {
+    let v = &axis.validation;
+    let chance = v.permutation_p.map_or_else(
+        || "no null distribution was asked for".to_owned(),
+        |p| {
+            let luck = if p >= CHANCE { ": may be luck" } else { "" };
+            format!("chance {p:.3} over {} permutations{luck}", v.n_permutations)
+        },
+    );
+    format!(
+        "{}: predicted from {} features, nested cross-validation r {:.2} ({:.1} %; {chance}); as published, with features chosen on all textures, r {:.2} ({:.1} %).",
+        axis.pair,
+        axis.features.len(),
+        v.nested_cv_r,
+        v.nested_cv_rms_percent,
+        v.cv_r,
+        v.cv_rms_percent
+    )
+}
