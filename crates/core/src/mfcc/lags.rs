@@ -72,7 +72,10 @@ impl LagFilters {
             };
             let of_block = of_block.slice_axis_move(Axis(1), Slice::from(..n_block));
             general_mat_mul(1.0, &of_block.t(), &self.weights, 0.0, &mut block);
-            let rows = block.as_slice().unwrap_or_default().chunks_exact(self.trusted.len());
+            let Some(block) = block.as_slice() else {
+                unreachable!("rows of a matrix in its standard order follow each other")
+            };
+            let rows = block.chunks_exact(self.trusted.len());
             for (i, (row, energy)) in rows.zip(&lags[..n_block]).enumerate() {
                 let is_doubtful = |(sum, least): (&f64, &f64)| *sum < energy * least;
                 // Counted to the end: a loop that may stop early is not worked on several values at once.

@@ -127,8 +127,12 @@ impl MfccPlan {
     /// [`MfccError::TooShort`] where there is not one frame, [`MfccError::Sample`] where a sample is not a finite number or
     /// exceeds [`MAX_SAMPLE`].
     pub fn coefficients(&self, signal: &[f64]) -> Result<Array2<f64>, MfccError> {
-        if let Some(index) = signal.iter().position(|x| x.is_nan() || x.abs() > MAX_SAMPLE) {
-            return Err(MfccError::Sample { index, value: signal[index] });
+        let is_bad = |x: &f64| x.is_nan() | (x.abs() > MAX_SAMPLE);
+        // Counted to the end: a search that may stop early is not worked on several samples at once.
+        if signal.iter().map(|x| usize::from(is_bad(x))).sum::<usize>() > 0 {
+            let found = signal.iter().copied().enumerate().find(|(_, x)| is_bad(x));
+            let (index, value) = found.unwrap_or_default();
+            return Err(MfccError::Sample { index, value });
         }
         let n_frames = self.n_frames(signal.len());
         if n_frames == 0 {
@@ -186,15 +190,18 @@ impl MfccPlan {
         let mut scratch = self.transform.scratch();
         for frame_idx in one_by_one {
             let frame = &padded[frame_idx * self.n_hop..][..self.n_frame];
-            if let Some(row) = sums.row_mut(frame_idx).as_slice_mut() {
-                self.transform.sums(frame, &mut scratch, row);
+            match sums.row_mut(frame_idx).as_slice_mut() {
+                Some(row) => self.transform.sums(frame, &mut scratch, row),
+                None => unreachable!("a row of a matrix in its standard order is a slice"),
             }
         }
     }
 
     /// Sums to natural logarithms, those of zero and below the floor as the options say.
     fn take_logarithms(&self, sums: &mut ArrayViewMut2<'_, f64>) {
-        let values = sums.as_slice_mut().unwrap_or_default();
+        let Some(values) = sums.as_slice_mut() else {
+            unreachable!("rows of a matrix in its standard order follow each other")
+        };
         match self.logarithm {
             Logarithm::Floored { floor } | Logarithm::Decibels { floor, .. } => {
                 ln_all(values, |sum| if sum > floor { sum } else { floor });
