@@ -7,14 +7,14 @@
 use std::f64::consts::TAU;
 
 use ndarray::linalg::general_mat_mul;
-use ndarray::{Array2, ArrayView1, Axis, Slice};
+use ndarray::{Array2, ArrayView1, ArrayView2, ArrayViewMut2, Axis, Slice};
 
 /// Longest frame for which this way is faster than a transform.
-pub(super) const MAX_FRAME: usize = 64;
+pub(super) const MAX_FRAME: usize = 48;
 
 /// Frames whose products are formed side by side, and frames whose lags are kept at once.
 const LANES: usize = 16;
-const BLOCK: usize = 16 * LANES;
+pub(super) const BLOCK: usize = 16 * LANES;
 
 /// The least sum that is trusted, as a share of what the terms that it is the sum of could add up to: their roundings of
 /// about 1e-16 are then at most 1e-10 of it. Frames with less in a filter are left to the transform, which adds squares.
@@ -33,10 +33,11 @@ pub(super) struct LagFilters {
 impl LagFilters {
     /// The same as `filters`, one row of weights for the bins of a transform each.
     pub(super) fn new(window: &[f64], n_transform: usize, filters: &Array2<f64>) -> Self {
+        let cosines: Vec<f64> =
+            (0..n_transform).map(|i| (TAU * i as f64 / n_transform as f64).cos()).collect();
         let weight = |(lag, filter): (usize, usize)| {
-            // The angle repeats, and a small one has the more exact cosine.
-            let cosine = |bin: usize| (TAU * (bin * lag % n_transform) as f64 / n_transform as f64).cos();
-            let sum: f64 = filters.row(filter).iter().enumerate().map(|(bin, w)| w * cosine(bin)).sum();
+            let term = |(bin, w): (usize, &f64)| w * cosines[bin * lag % n_transform];
+            let sum: f64 = filters.row(filter).iter().enumerate().map(term).sum();
             if lag == 0 { sum } else { 2.0 * sum }
         };
         let weights = Array2::from_shape_fn((window.len(), filters.nrows()), weight);
@@ -45,35 +46,42 @@ impl LagFilters {
         Self { window: window.to_vec(), weights, trusted }
     }
 
-    /// Fills `sums` (`frames × filters`) for the frames that begin every `hop` samples of `signal`, and gives back the
-    /// indices of those frames that it cannot be trusted with.
-    pub(super) fn fill(&self, signal: &[f64], hop: usize, sums: &mut Array2<f64>) -> Vec<usize> {
+    /// Fills `sums` (`frames × filters`, rows one after the other) for the frames that begin every `hop` samples of
+    /// `signal`, and gives back the indices of those frames that it cannot be trusted with.
+    pub(super) fn fill(&self, signal: &[f64], hop: usize, sums: &mut ArrayViewMut2<'_, f64>) -> Vec<usize> {
         let n_lags = self.window.len();
-        let mut all_lags = Array2::zeros((n_lags, BLOCK));
+        let mut lags = vec![0.0; n_lags * BLOCK];
         let mut windowed = vec![[0.0; LANES]; n_lags];
         let mut doubtful = Vec::new();
         for (block_idx, mut block) in sums.axis_chunks_iter_mut(Axis(0), BLOCK).enumerate() {
             let first = block_idx * BLOCK;
             let n_block = block.nrows();
             for offset in (0..n_block).step_by(LANES) {
-                let n_lanes = LANES.min(n_block - offset);
-                let from = &signal[(first + offset) * hop..];
-                for (t, (samples, w)) in windowed.iter_mut().zip(&self.window).enumerate() {
-                    for (lane, sample) in samples[..n_lanes].iter_mut().enumerate() {
-                        *sample = w * from[lane * hop + t];
+                for lane in 0..LANES.min(n_block - offset) {
+                    let frame = &signal[(first + offset + lane) * hop..][..n_lags];
+                    for ((samples, x), w) in windowed.iter_mut().zip(frame).zip(&self.window) {
+                        samples[lane] = w * x;
                     }
                 }
-                for (lag, mut row) in all_lags.rows_mut().into_iter().enumerate() {
-                    for (value, product) in row.iter_mut().skip(offset).zip(products(&windowed, lag)) {
-                        *value = product;
-                    }
+                for (lag, row) in lags.chunks_exact_mut(BLOCK).enumerate() {
+                    row[offset..offset + LANES].copy_from_slice(&products(&windowed, lag));
                 }
             }
-            let lags = all_lags.slice_axis(Axis(1), Slice::from(..n_block));
-            general_mat_mul(1.0, &lags.t(), &self.weights, 0.0, &mut block);
-            for (i, (row, energy)) in block.rows().into_iter().zip(lags.row(0)).enumerate() {
+            let Ok(of_block) = ArrayView2::from_shape((n_lags, BLOCK), &lags) else {
+                unreachable!("the lags were made for this shape")
+            };
+            let of_block = of_block.slice_axis_move(Axis(1), Slice::from(..n_block));
+            general_mat_mul(1.0, &of_block.t(), &self.weights, 0.0, &mut block);
+            let Some(block) = block.as_slice() else {
+                unreachable!("rows of a matrix in its standard order follow each other")
+            };
+            let rows = block.chunks_exact(self.trusted.len());
+            for (i, (row, energy)) in rows.zip(&lags[..n_block]).enumerate() {
                 let is_doubtful = |(sum, least): (&f64, &f64)| *sum < energy * least;
-                if row.iter().zip(&self.trusted).filter(|pair| is_doubtful(*pair)).count() > 0 {
+                // Counted to the end: a loop that may stop early is not worked on several values at once.
+                let n_doubtful: u32 =
+                    row.iter().zip(&self.trusted).map(|pair| u32::from(is_doubtful(pair))).sum();
+                if n_doubtful > 0 {
                     doubtful.push(first + i);
                 }
             }

@@ -1,9 +1,10 @@
 //! What does not depend on the signal, worked out once.
 
+use std::borrow::Cow;
 use std::f64::consts::{LN_10, PI, TAU};
 
 use ndarray::linalg::general_mat_mul;
-use ndarray::{Array2, Axis, Slice};
+use ndarray::{Array2, ArrayViewMut2, Axis, Slice};
 
 use crate::mfcc::error::{MfccError, MfccPlanError};
 use crate::mfcc::filter_bank::filter_bank;
@@ -126,23 +127,39 @@ impl MfccPlan {
     /// [`MfccError::TooShort`] where there is not one frame, [`MfccError::Sample`] where a sample is not a finite number or
     /// exceeds [`MAX_SAMPLE`].
     pub fn coefficients(&self, signal: &[f64]) -> Result<Array2<f64>, MfccError> {
-        if let Some(index) = signal.iter().position(|x| x.is_nan() || x.abs() > MAX_SAMPLE) {
-            return Err(MfccError::Sample { index, value: signal[index] });
+        let is_bad = |x: &f64| x.is_nan() | (x.abs() > MAX_SAMPLE);
+        // Counted to the end: a search that may stop early is not worked on several samples at once.
+        if signal.iter().map(|x| usize::from(is_bad(x))).sum::<usize>() > 0 {
+            let found = signal.iter().copied().enumerate().find(|(_, x)| is_bad(x));
+            let (index, value) = found.unwrap_or_default();
+            return Err(MfccError::Sample { index, value });
         }
         let n_frames = self.n_frames(signal.len());
         if n_frames == 0 {
             let needed = if self.framing == Framing::Whole { self.n_frame } else { 1 };
             return Err(MfccError::TooShort { n: signal.len(), needed });
         }
-        let mut sums = self.sums(&self.padded(signal, n_frames), n_frames);
-        self.take_logarithms(&mut sums);
+        let padded = self.padded(signal, n_frames);
+        // What is relative to the highest of the signal needs all of it; else a little at a time stays in the cache.
+        let is_relative = matches!(self.logarithm, Logarithm::Decibels { .. });
+        let n_at_once = if is_relative { n_frames } else { n_frames.min(lags::BLOCK) };
+        let mut sums = Array2::zeros((n_at_once, self.cosines.nrows()));
         let mut coefficients = Array2::zeros((n_frames, self.n_coefficients()));
-        general_mat_mul(1.0, &sums, &self.cosines, 0.0, &mut coefficients);
+        for (part_idx, mut part) in coefficients.axis_chunks_iter_mut(Axis(0), n_at_once).enumerate() {
+            let from = &padded[part_idx * n_at_once * self.n_hop..];
+            let mut sums = sums.slice_axis_mut(Axis(0), Slice::from(..part.nrows()));
+            self.fill(from, &mut sums);
+            self.take_logarithms(&mut sums);
+            general_mat_mul(1.0, &sums, &self.cosines, 0.0, &mut part);
+        }
         Ok(coefficients)
     }
 
     /// The signal with its emphasis, and zeros around it as frames need them.
-    fn padded(&self, signal: &[f64], n_frames: usize) -> Vec<f64> {
+    fn padded<'a>(&self, signal: &'a [f64], n_frames: usize) -> Cow<'a, [f64]> {
+        if self.framing == Framing::Whole && self.pre_emphasis == 0.0 {
+            return Cow::Borrowed(signal);
+        }
         // The frame lies in the middle of its transform.
         let n_before = match self.framing {
             Framing::Whole | Framing::PaddedEnd => 0,
@@ -158,41 +175,41 @@ impl MfccPlan {
             }
         }
         padded.resize(n_needed.max(padded.len()), 0.0);
-        padded
+        Cow::Owned(padded)
     }
 
-    /// Sums of the filters, `frames × filters`.
-    fn sums(&self, padded: &[f64], n_frames: usize) -> Array2<f64> {
-        let mut sums = Array2::zeros((n_frames, self.cosines.nrows()));
-        let one_by_one: Vec<usize> = match &self.lag_filters {
-            Some(lag_filters) => lag_filters.fill(padded, self.n_hop, &mut sums),
-            None => (0..n_frames).collect(),
+    /// Sums of the filters for the frames from the start of `padded` on; rows of `sums` follow each other.
+    fn fill(&self, padded: &[f64], sums: &mut ArrayViewMut2<'_, f64>) {
+        let one_by_one = match &self.lag_filters {
+            Some(lag_filters) => lag_filters.fill(padded, self.n_hop, sums),
+            None => (0..sums.nrows()).collect(),
         };
+        if one_by_one.is_empty() {
+            return;
+        }
         let mut scratch = self.transform.scratch();
         for frame_idx in one_by_one {
             let frame = &padded[frame_idx * self.n_hop..][..self.n_frame];
-            let mut row = sums.row_mut(frame_idx);
-            // A row of a matrix in its standard order is a slice.
-            if let Some(row) = row.as_slice_mut() {
-                self.transform.sums(frame, &mut scratch, row);
+            match sums.row_mut(frame_idx).as_slice_mut() {
+                Some(row) => self.transform.sums(frame, &mut scratch, row),
+                None => unreachable!("a row of a matrix in its standard order is a slice"),
             }
         }
-        sums
     }
 
     /// Sums to natural logarithms, those of zero and below the floor as the options say.
-    fn take_logarithms(&self, sums: &mut Array2<f64>) {
+    fn take_logarithms(&self, sums: &mut ArrayViewMut2<'_, f64>) {
+        let Some(values) = sums.as_slice_mut() else {
+            unreachable!("rows of a matrix in its standard order follow each other")
+        };
         match self.logarithm {
             Logarithm::Floored { floor } | Logarithm::Decibels { floor, .. } => {
-                sums.mapv_inplace(|sum| if sum > floor { sum } else { floor });
+                ln_all(values, |sum| if sum > floor { sum } else { floor });
             }
             // What is smaller than a normal number has lost its digits, and counts as zero.
             Logarithm::ZeroReplaced { instead } => {
-                sums.mapv_inplace(|sum| if sum >= f64::MIN_POSITIVE { sum } else { instead });
+                ln_all(values, |sum| if sum >= f64::MIN_POSITIVE { sum } else { instead });
             }
-        }
-        if let Some(values) = sums.as_slice_mut() {
-            ln_all(values);
         }
         if let Logarithm::Decibels { top_db, .. } = self.logarithm {
             let mut of_filters = sums.slice_axis_mut(Axis(1), Slice::from(..self.n_filters));

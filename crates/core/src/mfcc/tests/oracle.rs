@@ -26,7 +26,7 @@ fn oracle(options: &MfccOptions, rate: Hertz, x: &[f64]) -> Array2<f64> {
         Framing::PaddedEnd => (1 + (x.len().max(n) - n).div_ceil(hop), 0),
         Framing::Centered => (
             (x.len() + 2 * (n_transform / 2) - n_transform) / hop + 1,
-            (n_transform / 2) as isize - ((n_transform - n) / 2) as isize,
+            (n_transform / 2 - (n_transform - n) / 2).cast_signed(),
         ),
     };
     let window = |i: usize| match options.window {
@@ -38,7 +38,8 @@ fn oracle(options: &MfccOptions, rate: Hertz, x: &[f64]) -> Array2<f64> {
     let n_filters = options.n_filters;
     let (mut logs, mut energies) = (Array2::zeros((n_frames, n_filters)), Vec::new());
     for frame in 0..n_frames {
-        let samples: Vec<f64> = (0..n).map(|i| window(i) * at((frame * hop + i) as isize - first)).collect();
+        let samples: Vec<f64> =
+            (0..n).map(|i| window(i) * at((frame * hop + i).cast_signed() - first)).collect();
         let bin = |k: usize| {
             let angle = |i: usize| TAU * (k * i % n_transform) as f64 / n_transform as f64;
             let re: f64 = samples.iter().enumerate().map(|(i, s)| s * angle(i).cos()).sum();
@@ -119,7 +120,7 @@ fn every_framing_and_transform() {
             for window in [Window::Rectangular, Window::Hamming, Window::Hann] {
                 for spectrum in [Spectrum::Magnitude, Spectrum::Power, Spectrum::PowerPerSample] {
                     let transform = TransformLength::Samples(n_transform);
-                    let options = MfccOptions { framing, transform, window, spectrum, ..recommended() };
+                    let options = MfccOptions { framing, window, transform, spectrum, ..recommended() };
                     check(&options, Hertz(1000.0), &x);
                 }
             }
