@@ -3,6 +3,7 @@ use super::{
     averages, rater_fits, relevances,
 };
 use crate::rng::Random;
+use crate::statistics::correlation;
 
 fn pair(low: &str, high: &str) -> AdjectivePair {
     AdjectivePair { low: low.into(), high: high.into() }
@@ -197,4 +198,18 @@ fn raters_who_rate_otherwise_are_reported() {
     assert!(fits[6].outlying);
     assert!(fits[7].by_pair[0].unwrap() > 0.8 && fits[7].by_pair[1].unwrap() < -0.8 && fits[7].outlying);
     assert!(fits[8].outlying && fits[8].correlation.is_none() && fits[8].n_ratings == 25);
+}
+
+#[test]
+fn a_rater_is_compared_with_the_others_alone() {
+    let rows: [&[f64]; 4] =
+        [&[10.0, 30.0, 20.0], &[40.0, 20.0, 60.0], &[90.0, 50.0, 60.0], &[70.0, 95.0, 50.0]];
+    let fits = rater_fits(&table(&rows));
+    for (rater, fit) in fits.iter().enumerate() {
+        let own: Vec<f64> = rows.iter().map(|row| row[rater]).collect();
+        let others: Vec<f64> = rows.iter().map(|row| (row.iter().sum::<f64>() - row[rater]) / 2.0).collect();
+        let expected = correlation(&own, &others).unwrap();
+        assert!((fit.correlation.unwrap() - expected).abs() < 1e-12, "{fit:?} is not {expected}");
+        assert!((fit.by_pair[0].unwrap() - expected).abs() < 1e-12);
+    }
 }
