@@ -226,7 +226,8 @@ fn what_cannot_be_used_is_refused_with_the_place() {
     check_error("<SampleRate>1000", "<SampleRate>nan", "\"nan\" in SampleRate in line 5");
     check_error("<SampleRate>1000", "<SampleRate>1e999", "not a finite number");
     check_error("<SampleRate>1000", "<SampleRate>44100", "44100");
-    check_error("<mu>0.25", "<mu>-1", "friction");
+    check_error("<SampleRate>1000", "<SampleRate>0", "200 and 4000 Hz, got 0; correct SampleRate");
+    check_error("<mu>0.25", "<mu>-5", "friction coefficient is -5; it must not be negative; correct mu");
     check_error("<var>0</var>", "<var>-1</var>", "variance");
     check_error("<var>0</var>", "", "var is missing");
     check_error("<gain value=\"2\"/>", "", "gain is missing");

@@ -163,7 +163,7 @@ fn stuck_clipped_and_missing_rows_are_left_out() {
     assert!(recording.usable_seconds() < 1.5 && recording.usable_seconds() > 1.0);
     // Silence throughout is no texture.
     let silence = Recording::from_raw(with_axis(|axis| axis.fill(0.0))).expect_err("silence");
-    assert_eq!((silence.faults[0].name(), silence.findings[0].name()), ("nothing usable", "dead axis"));
+    assert_eq!((silence.faults[0].name(), silence.findings[0].name()), ("no signal", "dead axis"));
 }
 
 #[test]
