@@ -174,6 +174,13 @@ fn check_warning(change: impl Fn(String) -> String, expected: &str) {
     assert!(imported.warnings.iter().any(|w| w.contains(expected)), "{expected:?}: {:?}", imported.warnings);
 }
 
+/// Speeds in m/s where mm/s is stated.
+fn in_meters_per_second(_: String) -> String {
+    let mut slow = nodes(6, 4);
+    slow.iter_mut().for_each(|node| node.speed.0 *= 1e-3);
+    file(&slow, Spelling::Spaces)
+}
+
 #[test]
 fn what_is_odd_is_said_and_used() {
     let replace = |from: &'static str, to: &'static str| move |text: String| text.replacen(from, to, 1);
@@ -192,6 +199,7 @@ fn what_is_odd_is_said_and_used() {
     check_warning(replace("<maxSpeed>200", "<maxSpeed>150"), "maxSpeed says 150");
     check_warning(replace("<maxSpeed>200", "<maxSpeed>240"), "models of the boundary are added");
     check_warning(replace("<material>Made Up</material>", ""), "no name");
+    check_warning(in_meters_per_second, "the highest speed is 0.200 mm/s");
     check_warning(replace("<mu>", "<tri>1 2 9</tri><mu>"), "1 triangles name models that are not there");
     check_warning(replace("<mu>", "<tri>1 2 3</tri><mu>"), "cover 50.0 %");
     check_warning(replace("<mu>", "<tri>1 2 3</tri><tri>2 3 4</tri><tri>2</tri><mu>"), "fewer than three");

@@ -226,6 +226,32 @@ fn speed_and_force_of_slower_sensors_are_on_lines_between_their_values() {
 }
 
 #[test]
+fn glitches_are_left_out_and_do_not_hide_what_is_clipped() {
+    let recording = check_findings(with_axis(|axis| axis[300] = -250.0), &["spikes"], 1.999);
+    assert_eq!(recording.usable, [0..300, 301..2000]);
+    // A swing of 3 m/s² on a sensor that ends at 2.5, and a glitch beyond.
+    let clipped = with_axis(|axis| {
+        for (row, value) in axis.iter_mut().enumerate() {
+            *value = (3.0 * (TAU * 10.0 * row as f64 / RATE_HZ).sin() + 0.01 * *value).clamp(-2.5, 2.5);
+        }
+        axis[1000] = 900.0;
+    });
+    assert_eq!(read(clipped).1, ["spikes", "clipping", "fragments"]);
+    // Each axis says its own.
+    let mut three = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
+    three.acceleration_mps2 = (1..4).map(|seed| lcg_noise(2000, seed)).collect();
+    three.acceleration_mps2.iter_mut().for_each(|axis| axis[700] = 99.0);
+    check_findings(three, &["spikes", "spikes", "spikes", "axes combined"], 1.999);
+    let (_, findings) = Recording::from_raw(with_axis(|axis| axis[300] = -250.0)).expect("a recording");
+    let said = findings[0].to_string();
+    for words in
+        ["1 glitch", "acceleration, up to -250.0 m/s²", "1 of 2000 rows, first at 0.300 s", "left out"]
+    {
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+#[test]
 fn values_that_cannot_be_are_left_out() {
     check_findings(with_axis(|axis| axis[300] = 1e308), &["impossible values"], 1.999);
 }
