@@ -7,6 +7,12 @@ use crate::texture::{FORCES_N, LEVELS_MPS2, SPEEDS_MPS};
 
 /// Largest magnitude, in any SI unit, that is a number between which others can lie.
 const MOST: f64 = 1e9;
+/// Rows a step, from which on a sensor is slower than the file and not one that lost values.
+const SLOW_ROWS: f64 = 1.5;
+/// Slowest sensor, in Hz, between whose values straight lines say what a hand did.
+const SLOWEST_HZ: f64 = 25.0;
+/// A time between two values that is longer than so many steps of their sensor is a gap.
+const GAP_STEPS: f64 = 3.0;
 
 /// The largest magnitude that a quantity can have.
 pub(super) struct Bound {
@@ -21,12 +27,6 @@ pub(super) const ACCELERATION: Bound = Bound { most: *LEVELS_MPS2.end(), unit: "
 pub(super) const SPEED: Bound = Bound { most: *SPEEDS_MPS.end(), unit: "m/s" };
 pub(super) const FORCE: Bound = Bound { most: *FORCES_N.end(), unit: "N" };
 pub(super) const POSITION: Bound = Bound { most: MOST, unit: "m" };
-/// Rows a step, from which on a sensor is slower than the file and not one that lost values.
-const SLOW_ROWS: f64 = 1.5;
-/// Slowest sensor, in Hz, between whose values straight lines say what a hand did.
-const SLOWEST_HZ: f64 = 25.0;
-/// A time between two values that is longer than so many steps of their sensor is a gap.
-const GAP_STEPS: f64 = 3.0;
 
 /// Marks rows where one of `columns` has no finite number, or one beyond `bound`.
 pub(super) fn mark_missing(

@@ -12,6 +12,8 @@ use crate::spectrum::median;
 
 /// Least height of a glitch, in robust standard deviations of what is around it.
 const HEIGHT: f64 = 20.0;
+/// Below this rate in Hz a tap may be as narrow as a glitch.
+const LEAST_RATE_HZ: f64 = 900.0;
 /// Most rows of a glitch.
 const WIDTH_ROWS: usize = 3;
 /// What is around a glitch stays below so many robust standard deviations, or below this share of its height: noise does
@@ -62,6 +64,9 @@ pub(super) fn mark_spikes(
     findings: &mut Vec<Finding>,
 ) -> Vec<bool> {
     let mut is_spike = vec![false; timeline.rows.len()];
+    if timeline.rate_hz < LEAST_RATE_HZ {
+        return is_spike;
+    }
     let signal = Signal::new(axis.values, timeline, step);
     let events = signal.events();
     let spikes = spikes(&events, timeline);
@@ -160,7 +165,9 @@ impl<'a> Signal<'a> {
             end += 1;
         }
         let n_alone = ((CALM_SECS * self.timeline.rate_hz).ceil() as usize).max(CALM_ROWS);
-        let sides = [self.calm_before(start, n_alone, calm), self.calm_after(end, n_alone, calm)];
+        let before = (0..start).rev().map(|place| (place, place + 1));
+        let after = (end..self.values.len()).map(|place| (place, place));
+        let sides = [self.n_calm(before, n_alone, calm), self.n_calm(after, n_alone, calm)];
         // Between two gaps there is too little to be far above.
         if sides == [None, None] || sides.iter().flatten().any(|n| *n < CALM_ROWS) {
             return None;
@@ -173,28 +180,12 @@ impl<'a> Signal<'a> {
         Some(Event { start, end, peak, height: off / deviation, is_alone })
     }
 
-    /// How many places before one are calm, up to `most`; nothing where a gap or the start comes first.
-    fn calm_before(&self, start: usize, most: usize, calm: f64) -> Option<usize> {
+    /// How many places on one side are calm, up to `most`; nothing where a gap or an end comes first. Beside each of
+    /// `places` stands the later one of it and the one before it.
+    fn n_calm(&self, places: impl Iterator<Item = (usize, usize)>, most: usize, calm: f64) -> Option<usize> {
         let mut n = 0;
-        while n < most {
-            let place = start - n;
-            if !self.follows(place) {
-                return None;
-            }
-            if self.off(place - 1) > calm {
-                return Some(n);
-            }
-            n += 1;
-        }
-        Some(n)
-    }
-
-    /// How many places from one on are calm, up to `most`; nothing where a gap or the end comes first.
-    fn calm_after(&self, end: usize, most: usize, calm: f64) -> Option<usize> {
-        let mut n = 0;
-        while n < most {
-            let place = end + n;
-            if place == self.values.len() || !self.follows(place) {
+        for (place, later) in places.take(most) {
+            if !self.follows(later) {
                 return None;
             }
             if self.off(place) > calm {
@@ -202,7 +193,7 @@ impl<'a> Signal<'a> {
             }
             n += 1;
         }
-        Some(n)
+        (n == most).then_some(n)
     }
 }
 

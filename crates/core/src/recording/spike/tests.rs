@@ -121,6 +121,15 @@ fn a_glitch_at_the_edge_of_a_recording_or_among_taps_is_one() {
     }
 }
 
+#[test]
+fn at_a_rate_where_a_tap_is_as_narrow_nothing_is_found() {
+    for (rate_hz, expected) in [(800.0, None), (1000.0, Some((1, 1, 400.0)))] {
+        let mut values = smooth_noise(rate_hz, 3.0, 2);
+        values[1000] = 400.0;
+        assert_eq!(found(rate_hz, values), expected);
+    }
+}
+
 /// What must not be taken for glitches.
 #[test]
 fn textures_are_no_glitches() {
