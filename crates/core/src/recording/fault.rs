@@ -106,6 +106,13 @@ impl Fault {
     }
 }
 
+impl Fault {
+    /// Whether it is the reason that too little is usable, so that this needs not be said.
+    pub(super) fn leaves_nothing(&self) -> bool {
+        matches!(self, Self::NoSignal { .. } | Self::RateTooHigh { .. } | Self::TooFewRows { .. })
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.name())?;

@@ -90,7 +90,7 @@ impl Recording {
         let stretches = if acceleration_mps2.is_empty() { Vec::new() } else { stretches };
         let usable_secs =
             stretches.iter().map(|stretch| stretch.samples.len()).sum::<usize>() as f64 / timeline.rate_hz;
-        let is_told = faults.iter().any(|fault| matches!(fault, Fault::NoSignal { .. }));
+        let is_told = faults.iter().any(Fault::leaves_nothing);
         if usable_secs < MIN_USABLE_SECS && !is_told {
             faults.push(Fault::NothingUsable { usable_secs });
         }

@@ -24,7 +24,8 @@ pub(super) fn check_plausible(recording: &Recording, findings: &mut Vec<Finding>
     }
     let moving = speeds_mps.into_iter().filter(|speed| *speed > MOVING_SHARE * most_mps);
     let median_mps = median(moving.collect());
-    if median_mps < SLOWEST_MPS || median_mps > FASTEST_MPS {
+    // A tip that never moves has no such speed, and there are no strokes then.
+    if median_mps.is_finite() && !(SLOWEST_MPS..=FASTEST_MPS).contains(&median_mps) {
         findings.push(Finding::ImplausibleSpeed { median_mps });
     }
     let most_n = inside(&recording.force_n).into_iter().fold(0.0, f64::max);

@@ -177,7 +177,9 @@ fn check_warning(change: impl Fn(String) -> String, expected: &str) {
 /// Speeds in m/s where mm/s is stated.
 fn in_meters_per_second(_: String) -> String {
     let mut slow = nodes(6, 4);
-    slow.iter_mut().for_each(|node| node.speed.0 *= 1e-3);
+    for node in &mut slow {
+        node.speed.0 *= 1e-3;
+    }
     file(&slow, Spelling::Spaces)
 }
 

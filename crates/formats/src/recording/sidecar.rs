@@ -133,6 +133,7 @@ fn error(reason: String) -> RecordingFileError {
 
 /// Names the keys of a sidecar written by hand that say nothing: they may be misspelled.
 fn name_unknown(bytes: &[u8], inquiry: &mut Inquiry) {
+    #[expect(clippy::zero_sized_map_values, reason = "serde_json reads an object as a map only")]
     // A list has no keys.
     let keys: BTreeMap<String, IgnoredAny> = serde_json::from_slice(bytes).unwrap_or_default();
     let unknown: Vec<String> =

@@ -138,11 +138,11 @@ fn what_a_sidecar_says_in_vain_is_said() {
         let said = warnings(sidecar, &[(what, answer)]);
         assert!(said.len() == 1 && said[0].contains(words), "{said:?}");
     }
-    let odd = sidecar.replace("{", r#"{"ful_scale": 3, "sensor": {"name": "x"}, "rate_hz": 44100, "#);
+    let odd = sidecar.replace('{', r#"{"ful_scale": 3, "sensor": {"name": "x"}, "rate_hz": 44100, "#);
     let said = warnings(&odd, &[]);
     assert!(said[0].contains("\"ful_scale\", \"sensor\"; known are format"), "{said:?}");
     assert!(said[1].contains("the sidecar says 44100 Hz, the WAV file 8000 Hz"), "{said:?}");
     // Signals of this program have more keys, and they are known.
-    let ours = sidecar.replace("{", r#"{"format": "shagreen-signal", "version": "1.0", "seed": 3, "#);
+    let ours = sidecar.replace('{', r#"{"format": "shagreen-signal", "version": "1.0", "seed": 3, "#);
     assert_eq!(warnings(&ours, &[]), [""; 0]);
 }
