@@ -246,6 +246,78 @@ fn a_rendered_file_with_its_sidecar_needs_no_answers() {
     assert!(done["textures"][0]["gfc_median"].as_f64().unwrap() > 0.9, "{done}");
 }
 
+/// Three seconds of noise as a table, under this header, with a glitch.
+fn glitched(header: &str) -> String {
+    let mut table = format!("{header}\n");
+    for i in 0..3000 {
+        let (t, a) = (f64::from(i) / 1000.0, (f64::from(i * i % 1999) * 0.37).sin());
+        writeln!(table, "{t:.3},{:.5},100,1.5", if i == 1234 { 480.0 } else { a }).unwrap();
+    }
+    table
+}
+
+#[test]
+fn what_is_odd_in_a_recording_is_said() {
+    let bench = Bench::new();
+    bench.write("a.csv", glitched("Time in s,Acceleration in m/s^2,Speed in mm/s,Force in N"));
+    let said = bench.run("import recording a.csv --out a.json");
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    for words in ["spikes: 1 glitch of the electronics in acceleration, up to 480.0 m/s²", "first at 1.234 s"]
+    {
+        assert!(said.stderr.contains(words), "{}", said.stderr);
+    }
+    bench.write("map.toml", "speed = \"w\"\n");
+    let said = bench.run(
+        "import recording a.csv --out b.json --map map.toml --set speed=100mm/s --set acceleration_unit=g",
+    );
+    for words in [
+        "note: --set speed=100mm/s overrules \"w\" of the map",
+        "the unit of Acceleration in m/s^2 is m/s^2, the map says g, which counts",
+        "\"Speed in mm/s\" is not used, since a constant speed was stated",
+    ] {
+        assert!(said.stderr.contains(words), "{}", said.stderr);
+    }
+    // Without a header, what is guessed is said even where more has to be asked.
+    bench.write("bare.csv", glitched("").trim_start());
+    let said = bench.run("import recording bare.csv --out c.json");
+    assert!(said.code == 1 && said.stderr.contains("guessed time: which column is time"), "{}", said.stderr);
+    // A reason stands in one place, and what was found beside it.
+    bench.write("zero.csv", format!("t_s,a [g],v [mm/s],F [N]\n{}", "0,0,100,1\n0.001,0,100,1\n"));
+    let done = bench.run("import recording zero.csv --out d.json --json");
+    let done: Value = serde_json::from_str(&done.stdout).unwrap();
+    let reason = done["failed"][0]["reason"].as_str().unwrap();
+    assert!(reason.starts_with("no signal: ") && !reason.contains("dead axis"), "{reason}");
+    assert!(done["warnings"].to_string().contains("dead axis"), "{done}");
+}
+
+#[test]
+fn a_folder_is_the_recordings_in_it() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path("strokes")).unwrap();
+    std::fs::create_dir(bench.path("empty")).unwrap();
+    let table = glitched("t_s,a [m/s^2],v [mm/s],F [N]");
+    bench.write("strokes/b.csv", &table);
+    bench.write("strokes/c.TXT", &table);
+    bench.json("render --texture cork --speed 90 --force 1 --seconds 3 --rate 1000 -o strokes/a.wav");
+    bench.write("strokes/notes.md", "not a recording");
+    assert!(bench.path("strokes/a.json").exists());
+    let done = bench.json("import recording strokes --out lib.json");
+    let ids: Vec<&str> =
+        done["textures"].as_array().unwrap().iter().map(|t| t["id"].as_str().unwrap()).collect();
+    assert_eq!((ids, done["failed"].as_array().unwrap().len()), (vec!["a", "b", "c"], 0), "{done}");
+    let done = bench.json("import recording strokes --name All --out one.json");
+    assert_eq!((&done["imported"], done["textures"][0]["files"].as_array().unwrap().len()), (&1.into(), 3));
+    bench.fails("import recording empty --out none.json", 1, &["the folder holds no recording", "empty"]);
+    for out in [".", "strokes"] {
+        bench.fails(
+            &format!("import recording strokes/b.csv --out {out}"),
+            2,
+            &["--out is a folder", "mine.json"],
+        );
+    }
+    bench.fails("import recording strokes --out strokes/b.csv", 1, &["write over"]);
+}
+
 /// Real recordings that lack what a model needs: every reason is named, and nothing is made up.
 #[test]
 fn real_recordings_that_cannot_be_modelled_say_why() {

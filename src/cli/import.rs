@@ -43,6 +43,14 @@ impl<'a> Outcome<'a> {
     pub(crate) fn new(destination: &'a Destination, inputs: &[PathBuf]) -> anyhow::Result<Self> {
         let inputs: Vec<Option<&Path>> = inputs.iter().map(|path| Some(path.as_path())).collect();
         refuse_inputs(&[&destination.out], &inputs)?;
+        if destination.out.is_dir() {
+            let example = destination.out.join("mine.json");
+            bail!(output::Usage(format!(
+                "--out is a folder and has to be a file in it, such as {}: {}",
+                example.display(),
+                destination.out.display()
+            )));
+        }
         let library = existing(&destination.out)?;
         let (claimed, imported, failed, warnings) = Default::default();
         Ok(Self { destination, library, claimed, imported, failed, warnings })
@@ -136,6 +144,20 @@ impl<'a> Outcome<'a> {
         }
         Ok(())
     }
+}
+
+/// The files in a folder with one of these endings, in the order of their names.
+pub(crate) fn files_in(folder: &Path, endings: &[&str]) -> anyhow::Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(folder)
+        .context("cannot list the folder; check its name and your rights")
+        .with_context(|| output::in_file(folder))?;
+    let is_wanted = |path: &PathBuf| {
+        path.extension().is_some_and(|ending| endings.iter().any(|e| ending.eq_ignore_ascii_case(e)))
+            && !path.is_dir()
+    };
+    let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(is_wanted).collect();
+    found.sort();
+    Ok(found)
 }
 
 /// The library at `path`, or a new one.

@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use serde_json::json;
 use shagreen_formats::hatt::read_hatt;
 use shagreen_formats::library::{Provenance, name_from_file};
 
-use crate::cli::import::{Destination, Outcome};
+use crate::cli::import::{Destination, Outcome, files_in};
 use crate::cli::output::{self, Progress, file_name};
 
 /// Imports texture models in the XML of the Penn Haptic Texture Toolkit (HaTT).
@@ -77,15 +77,10 @@ fn model_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
             files.push(path.clone());
             continue;
         }
-        let entries = std::fs::read_dir(path)
-            .context("cannot list the folder; check its name and your rights")
-            .with_context(|| output::in_file(path))?;
-        let is_xml = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xml"));
-        let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(is_xml).collect();
+        let found = files_in(path, &["xml"])?;
         if found.is_empty() {
             bail!("the folder holds no .xml file; name the folder of the models: {}", path.display());
         }
-        found.sort();
         files.extend(found);
     }
     Ok(files)

@@ -15,7 +15,7 @@ use shagreen_formats::recording::{Ask, ColumnMap, Question, RecordingFileError, 
 use shagreen_formats::{atomic, wav};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::import::{Destination, Outcome};
+use crate::cli::import::{Destination, Outcome, files_in};
 use crate::cli::output::{self, Progress, file_name};
 
 /// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as a table.
@@ -24,7 +24,7 @@ use crate::cli::output::{self, Progress, file_name};
 /// guessed and said; else the file is refused until --map or --set answers. No number is ever made up.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Recordings: .wav, or tables such as .csv and .txt. Each becomes a texture.
+    /// Recordings: .wav, or tables such as .csv and .txt; of a folder, those in it. Each becomes a texture.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -55,6 +55,9 @@ pub(crate) struct Args {
     report: Option<PathBuf>,
 }
 
+/// Endings of recordings in a folder.
+const ENDINGS: [&str; 4] = ["wav", "csv", "tsv", "txt"];
+
 /// What a texture is made of.
 struct Job<'a> {
     name: String,
@@ -62,7 +65,8 @@ struct Job<'a> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let mut outcome = Outcome::new(&args.destination, &args.files)?;
+    let paths = recording_files(&args.files)?;
+    let mut outcome = Outcome::new(&args.destination, &paths)?;
     let map = map(args)?;
     if let Some(folder) = &args.report {
         std::fs::create_dir_all(folder)
@@ -70,26 +74,46 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             .with_context(|| output::in_file(folder))?;
     }
     let jobs: Vec<Job<'_>> = match &args.name {
-        Some(name) => vec![Job { name: name.clone(), files: &args.files }],
-        None => args
-            .files
-            .chunks(1)
-            .map(|files| Job { name: name_from_file(&file_name(&files[0])), files })
-            .collect(),
+        Some(name) => vec![Job { name: name.clone(), files: &paths }],
+        None => {
+            paths.chunks(1).map(|files| Job { name: name_from_file(&file_name(&files[0])), files }).collect()
+        }
     };
     let mut questions = Vec::new();
     let progress = Progress::new("recordings", jobs.len());
     for job in &jobs {
-        import(args, &map, job, &mut outcome, &mut questions)?;
+        import(args, &paths, &map, job, &mut outcome, &mut questions)?;
         progress.step();
     }
     progress.finish();
     outcome.finish(json!({"questions": questions}))
 }
 
+/// The files named, and the recordings in the folders named, in the order of their names.
+fn recording_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let found = files_in(path, &ENDINGS)?;
+        if found.is_empty() {
+            bail!(
+                "the folder holds no recording (.{}); name the folder of the recordings: {}",
+                ENDINGS.join(", ."),
+                path.display()
+            );
+        }
+        files.extend(found);
+    }
+    Ok(files)
+}
+
 /// Fits the texture of a job, or says why not.
 fn import(
     args: &Args,
+    paths: &[PathBuf],
     map: &ColumnMap,
     job: &Job<'_>,
     outcome: &mut Outcome<'_>,
@@ -131,7 +155,7 @@ fn import(
     }
     let id = outcome.claim_id(&job.name);
     if let Some(folder) = &args.report {
-        write_report(args, folder, &id, &job.name, &fitted)?;
+        write_report(args, paths, (folder, &id), &job.name, &fitted)?;
     }
     let figures = figures(&files, &fitted);
     let texture = TextureEntry {
@@ -144,10 +168,15 @@ fn import(
 }
 
 /// Writes the page of plots and the table of segments, but never over what was read.
-fn write_report(args: &Args, folder: &Path, id: &str, name: &str, fitted: &Fitted) -> anyhow::Result<()> {
+fn write_report(
+    args: &Args,
+    paths: &[PathBuf],
+    (folder, id): (&Path, &str),
+    name: &str,
+    fitted: &Fitted,
+) -> anyhow::Result<()> {
     let (page, table) = (folder.join(format!("{id}.svg")), folder.join(format!("{id}.csv")));
-    let inputs: Vec<Option<&Path>> =
-        args.files.iter().chain(&args.map).map(|path| Some(path.as_path())).collect();
+    let inputs: Vec<Option<&Path>> = paths.iter().chain(&args.map).map(|path| Some(path.as_path())).collect();
     refuse_inputs(&[&page, &table], &inputs)?;
     refuse_foreign(&page, "a page of plots", is_fit_report_svg)?;
     refuse_foreign(&table, "a table of segments", is_fit_report_csv)?;
@@ -179,6 +208,9 @@ fn read(
     let read = read_recording(&file_name(file), &bytes, sidecar.as_deref(), map).map_err(|error| {
         if let RecordingFileError::NeedsAnswers(needed) = &error {
             ask(&needed.questions);
+            for question in needed.questions.iter().filter(|question| question.guess.is_some()) {
+                outcome.warn(file, &format!("guessed {question}"));
+            }
             for warning in &needed.warnings {
                 outcome.warn(file, warning);
             }
@@ -193,12 +225,14 @@ fn read(
     for warning in &read.warnings {
         outcome.warn(file, warning);
     }
-    // What was found stands in the error too.
-    let (recording, findings) = Recording::from_raw(read.raw).map_err(|error| error.to_string())?;
+    let (recording, findings) = match Recording::from_raw(read.raw) {
+        Ok((recording, findings)) => (Ok(recording), findings),
+        Err(error) => (Err(error.to_string()), error.findings),
+    };
     for finding in &findings {
         outcome.warn(file, &finding.to_string());
     }
-    Ok(recording)
+    recording
 }
 
 /// The bytes of the file of units beside a WAV file; most have none.
@@ -253,7 +287,13 @@ fn map(args: &Args) -> anyhow::Result<ColumnMap> {
         {
             bail!(output::Usage(format!("--set says two things of {}: {other} and {answer}", what.key())));
         }
+        let before = map.clone();
         map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
+        for (column, now) in [(before.speed, &map.speed), (before.force, &map.force)] {
+            if let (Some(column), None) = (column, now) {
+                output::note(&format!("--set {}={answer} overrules {column} of the map", what.key()));
+            }
+        }
     }
     Ok(map)
 }

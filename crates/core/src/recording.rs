@@ -7,13 +7,16 @@ mod finding;
 mod from_raw;
 mod missing;
 mod motion;
+mod plausible;
 mod raw;
 mod resample;
+mod spike;
 mod stretch;
 
 use std::ops::Range;
 
 pub use crate::recording::clock::check_clock;
+pub use crate::recording::dropout::check_signal;
 pub use crate::recording::fault::{Fault, MAX_RATE_HZ, MIN_RATE_HZ, MIN_USABLE_SECS, RecordingError};
 pub use crate::recording::finding::{Finding, Where};
 pub use crate::recording::motion::{SPEED_CUTOFF_HZ, speed_from_positions};

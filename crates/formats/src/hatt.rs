@@ -144,8 +144,17 @@ pub enum HattError {
         order: usize,
     },
     /// The numbers are no texture.
-    #[error("the texture cannot be used: {0}; nodes count from zero in the order of the file")]
+    #[error("the texture cannot be used: {0}; {hint}", hint = hint(.0))]
     Model(#[from] TextureModelError),
+}
+
+/// What to do about numbers that are no texture.
+fn hint(error: &TextureModelError) -> &'static str {
+    match error {
+        TextureModelError::Rate { .. } => "correct SampleRate",
+        TextureModelError::Friction { .. } => "correct mu",
+        _ => "correct it; nodes count from zero in the order of the file",
+    }
 }
 
 #[cfg(test)]

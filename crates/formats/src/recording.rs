@@ -101,11 +101,13 @@ pub struct NeedsAnswers {
 impl fmt::Display for NeedsAnswers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let open = self.questions.iter().filter(|question| question.guess.is_none());
-        let mut sentences: Vec<String> = open.map(Question::to_string).collect();
-        let noun = if sentences.len() == 1 { "answer is" } else { "answers are" };
-        write!(f, "{} {noun} needed: ", sentences.len())?;
-        sentences.extend(self.faults.iter().map(Fault::to_string));
-        f.write_str(&sentences.join("; "))
+        let questions: Vec<String> = open.map(Question::to_string).collect();
+        // What no answer mends comes first.
+        for fault in &self.faults {
+            write!(f, "{fault}; ")?;
+        }
+        let noun = if questions.len() == 1 { "answer is" } else { "answers are" };
+        write!(f, "{} {noun} needed: {}", questions.len(), questions.join("; "))
     }
 }
 

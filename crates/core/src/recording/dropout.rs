@@ -1,6 +1,7 @@
-//! Rows in which an axis of acceleration was not really measured: stuck, clipped or held.
+//! Rows in which an axis of acceleration was not really measured: glitches, stuck, clipped or held.
 
 use crate::recording::clock::{Count, Timeline};
+use crate::recording::spike::mark_spikes;
 use crate::recording::{Fault, Finding, MIN_RATE_HZ};
 
 /// Least length of a stretch of equal values that is suspicious, in seconds and in rows.
@@ -61,8 +62,10 @@ pub(super) fn mark_dropouts(
 ) {
     let column = || axis.column.to_owned();
     let of_rows = axis.values.len();
-    let runs = runs(axis.values, timeline);
-    let step = converter_step(&runs);
+    let step = converter_step(&runs(axis.values, timeline, &[]));
+    let is_spike = mark_spikes(axis, timeline, step, usable, findings);
+    // A glitch is beyond what the sensor clips at, and says nothing of its range.
+    let runs = runs(axis.values, timeline, &is_spike);
     let mut clipped = Count::default();
     let mut clipped_value = 0.0_f64;
     let extremes = extremes(&runs);
@@ -102,19 +105,26 @@ pub(super) fn mark_dropouts(
     }
 }
 
+/// What is wrong with axes of acceleration that never change, in whatever unit.
+pub fn check_signal(axes: &[Vec<f64>]) -> Option<Fault> {
+    let values: Option<Vec<f64>> = axes.iter().map(|axis| dead_value(axis.iter().copied())).collect();
+    let values = values.filter(|values| !values.is_empty())?;
+    Some(Fault::NoSignal { is_zero: values.iter().all(|value| *value == 0.0) })
+}
+
 /// The value of an axis that never changes. Rows that lack a value say nothing of it.
-pub(super) fn dead_value(values: &[f64], timeline: &Timeline) -> Option<f64> {
-    let mut finite = timeline.rows.iter().map(|row| values[*row]).filter(|value| value.is_finite());
+pub(super) fn dead_value(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut finite = values.filter(|value| value.is_finite());
     let (first, second) = (finite.next()?, finite.next()?);
     (first == second && finite.all(|value| value == first)).then_some(first)
 }
 
-/// Runs of equal finite values; NaN is in no run.
-fn runs(values: &[f64], timeline: &Timeline) -> Vec<Run> {
+/// Runs of equal finite values; NaN is in no run, nor is a place that is left out.
+fn runs(values: &[f64], timeline: &Timeline, is_left_out: &[bool]) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for (place, row) in timeline.rows.iter().enumerate() {
         let value = values[*row];
-        if !value.is_finite() {
+        if !value.is_finite() || is_left_out.get(place) == Some(&true) {
             continue;
         }
         match runs.last_mut() {

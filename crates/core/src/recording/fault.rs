@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::recording::Finding;
+use crate::recording::missing::SPEED;
 
 /// Lowest rate that a model can be fitted at.
 pub const MIN_RATE_HZ: f64 = 500.0;
@@ -56,6 +57,18 @@ pub enum Fault {
         what: &'static str,
         /// Its value.
         value: f64,
+        /// The highest that it can have.
+        most: f64,
+    },
+    /// No axis of acceleration ever changes.
+    NoSignal {
+        /// Whether all of them are 0.
+        is_zero: bool,
+    },
+    /// Positions change faster than anything that could have been measured.
+    ImpossibleSpeed {
+        /// The highest speed, in m/s.
+        most_mps: f64,
     },
     /// Too little is left of the recording when what cannot be used is taken away.
     NothingUsable {
@@ -64,7 +77,7 @@ pub enum Fault {
     },
 }
 
-/// All that keeps a recording from being used, and what else was found on the way.
+/// All that keeps a recording from being used, and what else was found on the way, which is not part of the sentence.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct RecordingError {
     /// At least one.
@@ -86,8 +99,17 @@ impl Fault {
             Self::RateTooHigh { .. } => "rate too high",
             Self::BadClock { .. } => "bad clock",
             Self::BadConstant { .. } => "bad constant",
+            Self::NoSignal { .. } => "no signal",
+            Self::ImpossibleSpeed { .. } => "impossible speed",
             Self::NothingUsable { .. } => "nothing usable",
         }
+    }
+}
+
+impl Fault {
+    /// Whether it is the reason that too little is usable, so that this needs not be said.
+    pub(super) fn leaves_nothing(&self) -> bool {
+        matches!(self, Self::NoSignal { .. } | Self::RateTooHigh { .. } | Self::TooFewRows { .. })
     }
 }
 
@@ -103,23 +125,41 @@ impl fmt::Display for Fault {
                 write!(f, "{column} has {n_rows} rows, the recording {of_rows}")
             }
             Self::RateTooLow { rate_hz } => {
-                write!(f, "{} Hz, a model needs at least {MIN_RATE_HZ} Hz; record faster", tenths(*rate_hz))
+                write!(
+                    f,
+                    "{} Hz, a model needs at least {MIN_RATE_HZ} Hz; correct the unit of time or the rate if one is wrong, else record faster",
+                    tenths(*rate_hz)
+                )
             }
             Self::RateTooHigh { rate_hz } => {
                 write!(
                     f,
-                    "{} Hz, at most {MAX_RATE_HZ} Hz are read; resample the recording",
+                    "{} Hz, at most {MAX_RATE_HZ} Hz are read; correct the unit of time or the rate if one is wrong, else resample the recording",
                     tenths(*rate_hz)
                 )
             }
             Self::BadClock { reason } => {
                 write!(f, "{reason}; record with a clock of the sensor, or state the rate if it is known")
             }
-            Self::BadConstant { what, value } => {
-                write!(f, "{what} is {value}, needs a finite number from 0 up")
+            Self::BadConstant { what, value, most } => {
+                write!(f, "{what} is {}, needs a number from 0 to {most}", micro(*value))
+            }
+            Self::NoSignal { is_zero } => {
+                let value = if *is_zero { "is 0" } else { "has one value" };
+                write!(f, "acceleration {value} in every row; check the sensor, its cable and the column")
+            }
+            Self::ImpossibleSpeed { most_mps } => {
+                write!(
+                    f,
+                    "by its positions the tip reaches {most_mps:.0} m/s, at most {} m/s can be; correct the unit of the positions or of time",
+                    SPEED.most
+                )
             }
             Self::NothingUsable { usable_secs } => {
-                write!(f, "{usable_secs:.3} s are left, needs at least {MIN_USABLE_SECS} s")
+                write!(
+                    f,
+                    "{usable_secs:.3} s are left without what cannot be used, needs at least {MIN_USABLE_SECS} s; record longer, or correct what was found"
+                )
             }
         }
     }
@@ -127,12 +167,7 @@ impl fmt::Display for Fault {
 
 impl fmt::Display for RecordingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sentences: Vec<String> = self
-            .faults
-            .iter()
-            .map(Fault::to_string)
-            .chain(self.findings.iter().map(Finding::to_string))
-            .collect();
+        let sentences: Vec<String> = self.faults.iter().map(Fault::to_string).collect();
         f.write_str(&sentences.join("; "))
     }
 }
@@ -140,4 +175,9 @@ impl fmt::Display for RecordingError {
 /// Rounded to tenths, so that a measured rate reads as a person says it.
 fn tenths(value: f64) -> f64 {
     (10.0 * value).round() / 10.0
+}
+
+/// Rounded to millionths, so that a converted number has no dust.
+pub(super) fn micro(value: f64) -> f64 {
+    (1e6 * value).round() * 1e-6
 }

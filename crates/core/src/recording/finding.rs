@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::recording::fault::micro;
+
 /// How much of a recording something concerns, and where it happens first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Where {
@@ -54,8 +56,23 @@ pub enum Finding {
         column: String,
         /// Where.
         at: Where,
-        /// The largest magnitude that is taken, in the SI unit of the column.
+        /// The largest magnitude that is taken, in `unit`.
         most: f64,
+        /// The SI unit of the column.
+        unit: &'static str,
+    },
+    /// Glitches: a few rows far above everything around them, that do not ring as what a tip feels does. Left out.
+    Spikes {
+        /// The column.
+        column: String,
+        /// How many glitches.
+        n: usize,
+        /// Their rows.
+        at: Where,
+        /// The value of the highest, in m/s².
+        value: f64,
+        /// How many robust standard deviations it is away from what is around it.
+        times: f64,
     },
     /// A column of speed, position or force has values in some of the rows only, as a slower sensor has; straight lines
     /// were put between them.
@@ -104,6 +121,18 @@ pub enum Finding {
     },
     /// Speeds have a sign; their magnitude was taken.
     SignedSpeed(Where),
+    /// Force is below zero, and not just about it.
+    SignedForce(Where),
+    /// Speeds that no hand strokes a surface at: their unit may be wrong.
+    ImplausibleSpeed {
+        /// Median while the tip moves, in m/s.
+        median_mps: f64,
+    },
+    /// Forces that no stylus is pressed with: their unit may be wrong.
+    ImplausibleForce {
+        /// The highest, in N.
+        most_n: f64,
+    },
     /// Stretches too short to say anything about low frequencies; they are left out.
     Fragments {
         /// How many.
@@ -133,6 +162,7 @@ impl Finding {
             Self::Drift { .. } => "clock drift",
             Self::NotANumber { .. } => "not a number",
             Self::Impossible { .. } => "impossible values",
+            Self::Spikes { .. } => "spikes",
             Self::SlowerTrack { .. } => "slower track",
             Self::Stuck { .. } => "stuck sensor",
             Self::Held { .. } => "repeated values",
@@ -140,6 +170,9 @@ impl Finding {
             Self::Clipped { .. } => "clipping",
             Self::AxesCombined { .. } => "axes combined",
             Self::SignedSpeed(_) => "signed speed",
+            Self::SignedForce(_) => "signed force",
+            Self::ImplausibleSpeed { .. } => "implausible speed",
+            Self::ImplausibleForce { .. } => "implausible force",
             Self::Fragments { .. } => "fragments",
             Self::SpeedFromPositions => "speed from positions",
             Self::Constant { .. } => "constant",
@@ -178,8 +211,16 @@ impl fmt::Display for Finding {
                 write!(f, "{column} is {value} in every row; it was not taken as an axis")
             }
             Self::NotANumber { column, at } => write!(f, "{column}, {at}; those rows were left out"),
-            Self::Impossible { column, at, most } => {
-                write!(f, "{column} is beyond {most:e} in SI units, {at}; those rows were left out")
+            Self::Impossible { column, at, most, unit } => write!(
+                f,
+                "{column} is beyond {most} {unit}, {at}; those rows were left out; where they are many, the unit is wrong"
+            ),
+            Self::Spikes { column, n, at, value, times } => {
+                let glitches = if *n == 1 { "1 glitch" } else { &format!("{n} glitches") };
+                write!(
+                    f,
+                    "{glitches} of the electronics in {column}, up to {value:.1} m/s², {times:.0} times what is around, {at}; left out"
+                )
             }
             Self::SlowerTrack { column, rate_hz } => {
                 write!(f, "{column} has values at {rate_hz:.1} Hz only; straight lines were put between them")
@@ -190,6 +231,18 @@ impl fmt::Display for Finding {
             }
             Self::AxesCombined { n_axes } => write!(f, "{n_axes} axes became one by DFT321"),
             Self::SignedSpeed(at) => write!(f, "below 0 in {at}; the magnitude was taken"),
+            Self::SignedForce(at) => write!(
+                f,
+                "below 0 in {at}; the tip counts as lifted there; check the zero and the direction of the sensor"
+            ),
+            Self::ImplausibleSpeed { median_mps } => write!(
+                f,
+                "half of the time that the tip moves it is slower than {:.3} mm/s, the other half faster; hands stroke at 10 to 1000 mm/s, check the unit",
+                1e3 * median_mps
+            ),
+            Self::ImplausibleForce { most_n } => {
+                write!(f, "it reaches {most_n:.0} N; a stylus is pressed with up to 10 N, check the unit")
+            }
             Self::Fragments { n, seconds } => {
                 write!(
                     f,
@@ -197,7 +250,7 @@ impl fmt::Display for Finding {
                 )
             }
             Self::SpeedFromPositions => write!(f, "the file has no speed; it follows from the positions"),
-            Self::Constant { what, value } => write!(f, "{what} was taken as {value} throughout"),
+            Self::Constant { what, value } => write!(f, "{what} was taken as {} throughout", micro(*value)),
         }
     }
 }

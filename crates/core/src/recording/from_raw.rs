@@ -4,14 +4,20 @@ use std::slice::from_mut;
 
 use crate::dft321::dft321;
 use crate::recording::clock::{Count, Timeline, read_clock};
-use crate::recording::dropout::{Axis, dead_value, is_rest, mark_dropouts};
-use crate::recording::missing::{fill_slower, mark_missing};
+use crate::recording::dropout::{Axis, check_signal, dead_value, is_rest, mark_dropouts};
+use crate::recording::missing::{ACCELERATION, FORCE, POSITION, SPEED, fill_slower, mark_missing};
 use crate::recording::motion::speed_from_positions;
+use crate::recording::plausible::check_plausible;
 use crate::recording::stretch::{Stretch, fast, lay_out, slow};
 use crate::recording::{
     Fault, Finding, MIN_USABLE_SECS, RawClock, RawMotion, RawRecording, RawTrack, Recording, RecordingError,
+    Where,
 };
+use crate::segment::MIN_FORCE;
 use crate::units::Hertz;
+
+/// A force below zero in more than this share of the rows is no chance.
+const SIGNED_SHARE: f64 = 0.01;
 
 impl Recording {
     /// The recording on one regular clock, and what was not as it should be in it.
@@ -51,22 +57,22 @@ impl Recording {
         let mut axes: Vec<(String, Vec<f64>)> = names.into_iter().zip(acceleration_mps2).collect();
         // Before rows are marked: what a dead axis lacks is no loss.
         axes.retain(|(name, values)| {
-            let dead = dead_value(values, &timeline);
+            let dead = dead_value(timeline.rows.iter().map(|row| values[*row]));
             findings.extend(dead.map(|value| Finding::DeadAxis { column: name.clone(), value }));
             dead.is_none()
         });
         for (name, values) in &axes {
-            mark_missing(name, &[values], &timeline, &mut usable, &mut findings);
+            mark_missing(name, &ACCELERATION, &[values], &timeline, &mut usable, &mut findings);
         }
         if let Some(values) = speed_rows {
-            mark_missing("speed", &[values], &timeline, &mut usable, &mut findings);
+            mark_missing("speed", &SPEED, &[values], &timeline, &mut usable, &mut findings);
         }
         if let RawMotion::Positions(axes) = &motion {
             let axes: Vec<&[f64]> = axes.iter().map(Vec::as_slice).collect();
-            mark_missing("positions", &axes, &timeline, &mut usable, &mut findings);
+            mark_missing("positions", &POSITION, &axes, &timeline, &mut usable, &mut findings);
         }
         if let Some(values) = force_rows {
-            mark_missing("force", &[values], &timeline, &mut usable, &mut findings);
+            mark_missing("force", &FORCE, &[values], &timeline, &mut usable, &mut findings);
         }
 
         let at_rest = |row: usize| is_rest(speed_rows.map(|v| v[row]), force_rows.map(|v| v[row]));
@@ -84,7 +90,8 @@ impl Recording {
         let stretches = if acceleration_mps2.is_empty() { Vec::new() } else { stretches };
         let usable_secs =
             stretches.iter().map(|stretch| stretch.samples.len()).sum::<usize>() as f64 / timeline.rate_hz;
-        if usable_secs < MIN_USABLE_SECS {
+        let is_told = faults.iter().any(Fault::leaves_nothing);
+        if usable_secs < MIN_USABLE_SECS && !is_told {
             faults.push(Fault::NothingUsable { usable_secs });
         }
         say_motion(&motion, &force_n, &timeline, &mut findings);
@@ -115,7 +122,10 @@ impl Recording {
             recording.speed_mps[at.clone()].copy_from_slice(&speed_of(&motion, &timeline, stretch));
             recording.force_n[at].copy_from_slice(&track_of(&force_n, &timeline, stretch));
         }
-        Ok((recording, findings))
+        match check_plausible(&recording, &mut findings) {
+            None => Ok((recording, findings)),
+            Some(fault) => Err(RecordingError { faults: vec![fault], findings }),
+        }
     }
 }
 
@@ -137,6 +147,7 @@ fn rows_of_speed(motion: &RawMotion) -> Option<&[f64]> {
 
 /// What is wrong with the columns before a number in them is looked at.
 fn check_columns(raw: &RawRecording, n_rows: usize, faults: &mut Vec<Fault>) {
+    faults.extend(check_signal(&raw.acceleration_mps2));
     if raw.acceleration_mps2.is_empty() {
         faults.push(Fault::NoAcceleration);
     } else if n_rows < 2 {
@@ -151,7 +162,7 @@ fn check_columns(raw: &RawRecording, n_rows: usize, faults: &mut Vec<Fault>) {
     }
     match &raw.motion {
         RawMotion::Speed(track) => {
-            check_track(track, "speed in m/s", Fault::NoSpeed, faults);
+            check_track(track, ("speed in mm/s", 1e3), SPEED.most, Fault::NoSpeed, faults);
             columns.extend(column_of(track).map(|values| ("speed".to_owned(), values.len())));
         }
         RawMotion::Positions(axes) if axes.is_empty() => faults.push(Fault::NoSpeed),
@@ -159,7 +170,7 @@ fn check_columns(raw: &RawRecording, n_rows: usize, faults: &mut Vec<Fault>) {
             columns.extend(axes.iter().map(|values| ("positions".to_owned(), values.len())));
         }
     }
-    check_track(&raw.force_n, "force in N", Fault::NoForce, faults);
+    check_track(&raw.force_n, ("force in N", 1.0), FORCE.most, Fault::NoForce, faults);
     columns.extend(column_of(&raw.force_n).map(|values| ("force".to_owned(), values.len())));
     if raw.acceleration_mps2.is_empty() {
         return;
@@ -168,11 +179,19 @@ fn check_columns(raw: &RawRecording, n_rows: usize, faults: &mut Vec<Fault>) {
     faults.extend(unequal.map(|(column, n)| Fault::UnequalColumns { column, n_rows: n, of_rows: n_rows }));
 }
 
-fn check_track(track: &RawTrack, what: &'static str, missing: Fault, faults: &mut Vec<Fault>) {
+/// What is wrong with a track of at most `most` in its SI unit; `what` names it in a usual unit, `per_si` of which are one
+/// of the SI unit.
+fn check_track(
+    track: &RawTrack,
+    (what, per_si): (&'static str, f64),
+    most: f64,
+    missing: Fault,
+    faults: &mut Vec<Fault>,
+) {
     match track {
         RawTrack::Missing => faults.push(missing),
-        RawTrack::Constant(value) if !(value.is_finite() && *value >= 0.0) => {
-            faults.push(Fault::BadConstant { what, value: *value });
+        RawTrack::Constant(value) if !(0.0..=most).contains(value) => {
+            faults.push(Fault::BadConstant { what, value: per_si * value, most: per_si * most });
         }
         RawTrack::Constant(_) | RawTrack::Column(_) => {}
     }
@@ -183,22 +202,33 @@ fn say_motion(motion: &RawMotion, force: &RawTrack, timeline: &Timeline, finding
     match motion {
         RawMotion::Positions(_) => findings.push(Finding::SpeedFromPositions),
         RawMotion::Speed(RawTrack::Constant(value)) => {
-            findings.push(Finding::Constant { what: "speed in m/s", value: *value });
+            findings.push(Finding::Constant { what: "speed in mm/s", value: 1e3 * value });
         }
         RawMotion::Speed(RawTrack::Column(values)) => {
-            let mut negative = Count::default();
-            for (row, time) in timeline.rows.iter().zip(&timeline.times) {
-                if values[*row] < 0.0 {
-                    negative.add(*time);
-                }
-            }
-            findings.extend(negative.found(timeline.rows.len()).map(Finding::SignedSpeed));
+            findings.extend(rows_below(values, 0.0, timeline).map(Finding::SignedSpeed));
         }
         RawMotion::Speed(RawTrack::Missing) => {}
     }
-    if let RawTrack::Constant(value) = force {
-        findings.push(Finding::Constant { what: "force in N", value: *value });
+    match force {
+        RawTrack::Constant(value) => findings.push(Finding::Constant { what: "force in N", value: *value }),
+        RawTrack::Column(values) => {
+            let below = rows_below(values, -MIN_FORCE.0, timeline);
+            let is_often = |at: &Where| at.n_rows as f64 > SIGNED_SHARE * at.of_rows as f64;
+            findings.extend(below.filter(is_often).map(Finding::SignedForce));
+        }
+        RawTrack::Missing => {}
     }
+}
+
+/// The rows of a column below `least`.
+fn rows_below(values: &[f64], least: f64, timeline: &Timeline) -> Option<Where> {
+    let mut below = Count::default();
+    for (row, time) in timeline.rows.iter().zip(&timeline.times) {
+        if values[*row] < least {
+            below.add(*time);
+        }
+    }
+    below.found(timeline.rows.len())
 }
 
 fn track_of(track: &RawTrack, timeline: &Timeline, stretch: &Stretch) -> Vec<f64> {

@@ -3,9 +3,9 @@
 use crate::recording::Finding;
 use crate::recording::clock::{Count, Timeline};
 use crate::spectrum::median;
+use crate::texture::{FORCES_N, LEVELS_MPS2, SPEEDS_MPS};
 
-/// Largest magnitude, in the SI unit of its column, that a value can have. Nothing measured comes near, and the squares of
-/// more would not be numbers.
+/// Largest magnitude, in any SI unit, that is a number between which others can lie.
 const MOST: f64 = 1e9;
 /// Rows a step, from which on a sensor is slower than the file and not one that lost values.
 const SLOW_ROWS: f64 = 1.5;
@@ -14,9 +14,24 @@ const SLOWEST_HZ: f64 = 25.0;
 /// A time between two values that is longer than so many steps of their sensor is a gap.
 const GAP_STEPS: f64 = 3.0;
 
-/// Marks rows where one of `columns` has no finite number, or one that nothing could have measured.
+/// The largest magnitude that a quantity can have.
+pub(super) struct Bound {
+    /// In `unit`.
+    pub(super) most: f64,
+    /// The SI unit.
+    pub(super) unit: &'static str,
+}
+
+/// Above these a model cannot be rendered.
+pub(super) const ACCELERATION: Bound = Bound { most: *LEVELS_MPS2.end(), unit: "m/s²" };
+pub(super) const SPEED: Bound = Bound { most: *SPEEDS_MPS.end(), unit: "m/s" };
+pub(super) const FORCE: Bound = Bound { most: *FORCES_N.end(), unit: "N" };
+pub(super) const POSITION: Bound = Bound { most: MOST, unit: "m" };
+
+/// Marks rows where one of `columns` has no finite number, or one beyond `bound`.
 pub(super) fn mark_missing(
     name: &str,
+    bound: &Bound,
     columns: &[&[f64]],
     timeline: &Timeline,
     usable: &mut [bool],
@@ -27,7 +42,7 @@ pub(super) fn mark_missing(
         if columns.iter().any(|values| !values[*row].is_finite()) {
             missing.add(*time);
             *usable = false;
-        } else if columns.iter().any(|values| values[*row].abs() > MOST) {
+        } else if columns.iter().any(|values| values[*row].abs() > bound.most) {
             impossible.add(*time);
             *usable = false;
         }
@@ -35,7 +50,12 @@ pub(super) fn mark_missing(
     let at = missing.found(timeline.rows.len());
     findings.extend(at.map(|at| Finding::NotANumber { column: name.to_owned(), at }));
     let at = impossible.found(timeline.rows.len());
-    findings.extend(at.map(|at| Finding::Impossible { column: name.to_owned(), at, most: MOST }));
+    findings.extend(at.map(|at| Finding::Impossible {
+        column: name.to_owned(),
+        at,
+        most: bound.most,
+        unit: bound.unit,
+    }));
 }
 
 /// Puts straight lines between the values of sensors that were slower than the file, which left the rows between empty

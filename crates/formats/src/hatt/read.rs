@@ -13,6 +13,8 @@ use crate::library::Provenance;
 
 /// Share of the plane that the triangles of a file may miss before it is said: corners have rounded decimals.
 const COVERAGE_TOLERANCE: f64 = 1e-3;
+/// Below this highest speed in mm/s the unit is most likely another one.
+const SLOW_MM_PER_S: f64 = 1.0;
 /// Most that six decimals move a frequency.
 const SIX_DECIMALS: f64 = 1e-6;
 
@@ -35,6 +37,12 @@ pub fn read_hatt(bytes: &[u8]) -> Result<Imported<HattTexture>, HattError> {
     let mut nodes: Vec<PublishedNode> = file.models.iter().map(node).collect();
     let highest = highest(&file, &nodes, &mut warnings);
     check_triangles(&file, highest, &mut warnings);
+    let fastest_mm_per_s = highest.speed.mm_per_s();
+    if fastest_mm_per_s < SLOW_MM_PER_S {
+        warnings.push(format!(
+            "the highest speed is {fastest_mm_per_s:.3} mm/s, slower than any stroke: if the speeds are in m/s, convert them"
+        ));
+    }
     if !is_closed(&nodes, highest) {
         let n_before = nodes.len();
         close(&mut nodes, highest);

@@ -174,6 +174,15 @@ fn check_warning(change: impl Fn(String) -> String, expected: &str) {
     assert!(imported.warnings.iter().any(|w| w.contains(expected)), "{expected:?}: {:?}", imported.warnings);
 }
 
+/// Speeds in m/s where mm/s is stated.
+fn in_meters_per_second(_: String) -> String {
+    let mut slow = nodes(6, 4);
+    for node in &mut slow {
+        node.speed.0 *= 1e-3;
+    }
+    file(&slow, Spelling::Spaces)
+}
+
 #[test]
 fn what_is_odd_is_said_and_used() {
     let replace = |from: &'static str, to: &'static str| move |text: String| text.replacen(from, to, 1);
@@ -192,6 +201,7 @@ fn what_is_odd_is_said_and_used() {
     check_warning(replace("<maxSpeed>200", "<maxSpeed>150"), "maxSpeed says 150");
     check_warning(replace("<maxSpeed>200", "<maxSpeed>240"), "models of the boundary are added");
     check_warning(replace("<material>Made Up</material>", ""), "no name");
+    check_warning(in_meters_per_second, "the highest speed is 0.200 mm/s");
     check_warning(replace("<mu>", "<tri>1 2 9</tri><mu>"), "1 triangles name models that are not there");
     check_warning(replace("<mu>", "<tri>1 2 3</tri><mu>"), "cover 50.0 %");
     check_warning(replace("<mu>", "<tri>1 2 3</tri><tri>2 3 4</tri><tri>2</tri><mu>"), "fewer than three");
@@ -226,7 +236,8 @@ fn what_cannot_be_used_is_refused_with_the_place() {
     check_error("<SampleRate>1000", "<SampleRate>nan", "\"nan\" in SampleRate in line 5");
     check_error("<SampleRate>1000", "<SampleRate>1e999", "not a finite number");
     check_error("<SampleRate>1000", "<SampleRate>44100", "44100");
-    check_error("<mu>0.25", "<mu>-1", "friction");
+    check_error("<SampleRate>1000", "<SampleRate>0", "200 and 4000 Hz, got 0; correct SampleRate");
+    check_error("<mu>0.25", "<mu>-5", "friction coefficient is -5; it must not be negative; correct mu");
     check_error("<var>0</var>", "<var>-1</var>", "variance");
     check_error("<var>0</var>", "", "var is missing");
     check_error("<gain value=\"2\"/>", "", "gain is missing");

@@ -11,9 +11,12 @@ use crate::recording::inquiry::Inquiry;
 use crate::recording::names::{Meaning, meaning_of};
 use crate::recording::question::Ask;
 use crate::recording::table::Table;
-use crate::recording::told::{goes_on, likely_time_unit};
+use crate::recording::told::{goes_on, likely_time_unit, other_time_unit, rate_of};
 use crate::recording::units::{AccelerationUnit, TimeUnit};
 use crate::recording::{RecordingFile, RecordingFileError};
+
+/// Rates that differ by less than this share are the same: clocks are not exact.
+const SAME_RATE_SHARE: f64 = 0.01;
 
 /// Reads the recording out of a table.
 pub(super) fn recording_of_table(table: Table, map: &ColumnMap) -> Result<RecordingFile, RecordingFileError> {
@@ -112,6 +115,14 @@ impl Reading {
     fn take(&mut self, place: usize, si: f64) -> Result<Vec<f64>, RecordingFileError> {
         self.used.push(place);
         let cells = self.table.not_numbers[place];
+        let n_rows = self.table.columns[place].len();
+        if self.inquiry.map.decimal_comma == Some(true) && 2 * cells.n > n_rows {
+            let problem = format!(
+                "by decimal_comma = true, {} of {n_rows} cells of {:?} are no numbers, the first in line {}; take it away, or say the separator",
+                cells.n, self.table.names[place], cells.first_line
+            );
+            return Err(RecordingFileError::Map { problem });
+        }
         if cells.n > 0 {
             let name = &self.table.names[place];
             self.inquiry.warnings.push(format!(
@@ -136,7 +147,15 @@ impl Reading {
             let time = self.meant(|meaning| matches!(meaning, Meaning::Time(_)));
             if let Some(place) = time.first() {
                 let name = &self.table.names[*place];
-                self.inquiry.warnings.push(format!("{name:?} is not used, since the rate was stated"));
+                let unit = self.inquiry.map.time_unit.or(match self.meanings[*place] {
+                    Some(Meaning::Time(unit)) => unit,
+                    _ => None,
+                });
+                let by_times_hz = unit.map(|unit| rate_of(&self.table.columns[*place], unit.si()));
+                let differs = by_times_hz.filter(|hz| (hz / rate_hz - 1.0).abs() > SAME_RATE_SHARE);
+                let more = differs.map(|hz| format!("; its times say {hz:.1} Hz, the map {rate_hz} Hz"));
+                let more = more.unwrap_or_default();
+                self.inquiry.warnings.push(format!("{name:?} is not used, since the rate was stated{more}"));
                 self.used.push(*place);
             }
             return Ok(Some(RawClock::Rate(Hertz(rate_hz))));
@@ -162,12 +181,12 @@ impl Reading {
             Some(Meaning::Time(unit)) => unit,
             _ => None,
         };
-        if self.inquiry.map.time_unit.is_none() {
-            self.inquiry.map.time_unit = by_name;
-        }
+        let (name, stated) = (self.name(&[place]), self.inquiry.map.time_unit);
+        self.inquiry.map.time_unit =
+            self.inquiry
+                .settle(&format!("the unit of {name}"), stated, by_name, |unit| unit.name().to_owned());
         let names: Vec<&str> = TimeUnit::ALL.iter().map(|unit| unit.name()).collect();
         if self.inquiry.map.time_unit.is_none() {
-            let name = self.name(&[place]);
             let text = format!("the unit of {name} is not stated");
             match likely_time_unit(&self.table.columns[place]) {
                 Some((unit, why)) => {
@@ -175,6 +194,10 @@ impl Reading {
                 }
                 None => self.inquiry.ask(Ask::TimeUnit, &names, text),
             }
+        }
+        if let Some(unit) = self.inquiry.map.time_unit {
+            let hint = other_time_unit(&self.table.columns[place], unit);
+            self.inquiry.warnings.extend(hint.map(|hint| format!("the times of {name} {hint}")));
         }
         let si = self.inquiry.map.time_unit.map_or(1.0, TimeUnit::si);
         let start = self.table.columns[place].iter().copied().find(|time| time.is_finite()).unwrap_or(0.0);

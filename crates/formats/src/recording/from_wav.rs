@@ -21,8 +21,12 @@ pub(super) fn recording_of_wav(
     let WavSamples { rate_hz, mut channels, float, warnings } = read_wav(bytes)?;
     let mut inquiry = Inquiry::new(map.clone());
     inquiry.warnings = warnings;
-    let trace = sidecar.map(|bytes| read_sidecar(bytes, &mut inquiry.map)).transpose()?.flatten();
-    let rate_hz = *inquiry.map.rate_hz.get_or_insert(f64::from(rate_hz));
+    let rate_hz = f64::from(rate_hz);
+    let trace = sidecar.map(|bytes| read_sidecar(bytes, rate_hz, &mut inquiry)).transpose()?.flatten();
+    name_columns(&mut inquiry);
+    let stated = inquiry.map.rate_hz;
+    inquiry.map.rate_hz = inquiry.settle("the rate", stated, Some(rate_hz), |rate| format!("{rate} Hz"));
+    let rate_hz = inquiry.map.rate_hz.unwrap_or(rate_hz);
     let clock = RawClock::Rate(Hertz(rate_hz));
     // Channels are emptied as they are taken.
     let n_samples = channels.first().map_or(0, Vec::len);
@@ -97,6 +101,23 @@ pub(super) fn recording_of_wav(
         full_scale_mps2: (!float).then_some(full_scale_mps2),
     };
     inquiry.close(Some(raw), faults)
+}
+
+/// Says which columns of a map a WAV file cannot have.
+fn name_columns(inquiry: &mut Inquiry) {
+    let map = &inquiry.map;
+    let named = [
+        ("time", map.time.is_some()),
+        ("acceleration", map.acceleration.is_some()),
+        ("speed", map.speed.is_some()),
+        ("positions", map.positions.is_some()),
+        ("force", map.force.is_some()),
+    ];
+    let named: Vec<&str> = named.iter().filter(|(_, is_named)| *is_named).map(|(key, _)| *key).collect();
+    if !named.is_empty() {
+        let text = format!("the map names columns ({}), a WAV file has channels instead", named.join(", "));
+        inquiry.warnings.push(text);
+    }
 }
 
 /// What the channels are; nothing where that has to be asked.

@@ -1,6 +1,6 @@
 //! What is asked while a file is read.
 
-use shagreen_core::recording::{Fault, RawRecording};
+use shagreen_core::recording::{Fault, RawRecording, check_signal};
 
 use crate::recording::column_map::ColumnMap;
 use crate::recording::question::{Ask, Question};
@@ -32,13 +32,35 @@ impl Inquiry {
         taken
     }
 
+    /// What the map states counts more than what the file does; where they differ, that is said. `name` writes a value down.
+    pub(super) fn settle<T: PartialEq>(
+        &mut self,
+        what: &str,
+        by_map: Option<T>,
+        by_file: Option<T>,
+        name: impl Fn(&T) -> String,
+    ) -> Option<T> {
+        if let (Some(ours), Some(theirs)) = (&by_map, &by_file)
+            && ours != theirs
+        {
+            let (ours, theirs) = (name(ours), name(theirs));
+            self.warnings
+                .push(format!("the file says that {what} is {theirs}, the map says {ours}, which counts"));
+        }
+        by_map.or(by_file)
+    }
+
     /// The recording, where nothing is left to be answered.
     pub(super) fn close(
         self,
         raw: Option<RawRecording>,
-        faults: Vec<Fault>,
+        mut faults: Vec<Fault>,
     ) -> Result<RecordingFile, RecordingFileError> {
         let Self { map, questions, warnings } = self;
+        // Nothing else is worth saying first.
+        if let Some(fault) = raw.as_ref().and_then(|raw| check_signal(&raw.acceleration_mps2)) {
+            faults.insert(0, fault);
+        }
         match raw {
             Some(raw) if questions.iter().all(|question| question.guess.is_some()) => {
                 Ok(RecordingFile { raw, map, questions, warnings })

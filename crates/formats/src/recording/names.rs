@@ -17,11 +17,14 @@ pub(super) enum Meaning {
     ForceZ(Option<ForceUnit>),
 }
 
-/// The meaning of a name such as `t`, `Time (ms)`, `acc_x [g]`, `ax (m/s^2)`, `speed_mm_per_s`; none where it has a unit
+/// The meaning of a name such as `t`, `Time (ms)`, `acc_x [g]`, `Speed in cm/s`, `speed_mm_per_s`; none where it has a unit
 /// that is none of its quantity, which would be silently wrong by a factor.
 pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
     if let Some((word, unit)) = name.split_once(['[', '(']) {
-        return meaning(&letters(word), &letters(unit));
+        let word = word.trim_end();
+        let bare = word.len().checked_sub(3).and_then(|at| word.split_at_checked(at));
+        let word = bare.filter(|(_, end)| end.eq_ignore_ascii_case(" in")).map_or(word, |(bare, _)| bare);
+        return meaning(&letters(word), &letters(unit.trim_start().trim_start_matches("in ")));
     }
     let words: Vec<String> = name
         .split(|c: char| !c.is_alphanumeric() && c != '²')
@@ -31,7 +34,13 @@ pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
     if words.len() > MAX_WORDS {
         return None;
     }
-    (1..=words.len()).rev().find_map(|n| meaning(&words[..n].concat(), &words[n..].concat()))
+    (1..=words.len()).rev().find_map(|n| {
+        let unit = match &words[n..] {
+            [word, unit @ ..] if word == "in" && !unit.is_empty() => unit,
+            unit => unit,
+        };
+        meaning(&words[..n].concat(), &unit.concat())
+    })
 }
 
 /// Words of a name beyond which it is a sentence and says nothing.
@@ -129,6 +138,19 @@ mod tests {
             ("Normal force [N]", Some(Meaning::Force(Some(ForceUnit::Newtons)))),
             ("force_mN", Some(Meaning::Force(Some(ForceUnit::Millinewtons)))),
             ("Fz", Some(Meaning::ForceZ(None))),
+            ("Speed in cm/s", Some(Meaning::Speed(Some(SpeedUnit::CentimetersPerSecond)))),
+            ("Speed in (cm/s)", Some(Meaning::Speed(Some(SpeedUnit::CentimetersPerSecond)))),
+            ("speed [in mm/s]", Some(Meaning::Speed(Some(SpeedUnit::MillimetersPerSecond)))),
+            ("Force in N", Some(Meaning::Force(Some(ForceUnit::Newtons)))),
+            ("normal force in mN", Some(Meaning::Force(Some(ForceUnit::Millinewtons)))),
+            ("acceleration (m/s^2)", Some(Meaning::Acceleration(si))),
+            ("acceleration in m/s^2", Some(Meaning::Acceleration(si))),
+            ("time in ms", Some(Meaning::Time(Some(TimeUnit::Milliseconds)))),
+            ("TIME IN [S]", Some(Meaning::Time(Some(TimeUnit::Seconds)))),
+            ("x in mm", Some(Meaning::Position(Some(PositionUnit::Millimeters)))),
+            // Inches are not read.
+            ("x in", None),
+            ("force in lbf", None),
             ("acc_x [V]", None),
             ("gyro_x", None),
             ("Fx", None),

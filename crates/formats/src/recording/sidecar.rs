@@ -1,13 +1,17 @@
 //! What the `.json` beside a WAV file says: ours ([`crate::wav::SidecarV1`]) or one written by hand.
 //!
 //! Beside `units` (of acceleration), `full_scale` and `channels` it may have `speed_unit`, `speed_full_scale`, `force_unit` and
-//! `force_full_scale`; `acceleration_unit` is `units` under the name that a map has for it.
+//! `force_full_scale`, `speed_mm_per_s` and `force_n`; `acceleration_unit` is `units` under the name that a map has for it.
+
+use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::{Channel, ColumnMap};
+use crate::recording::inquiry::Inquiry;
 use crate::recording::units::{AccelerationUnit, ForceUnit, SpeedUnit};
 use crate::wav::{FORMAT, TraceV1, VERSION};
 
@@ -20,6 +24,7 @@ struct Wire {
     units: Option<String>,
     full_scale: Option<f64>,
     channels: Option<Vec<String>>,
+    rate_hz: Option<f64>,
     #[serde(alias = "speed_unit")]
     speed_units: Option<String>,
     speed_full_scale: Option<f64>,
@@ -31,9 +36,33 @@ struct Wire {
     trace: Option<TraceV1>,
 }
 
-/// What a sidecar adds to a map, where the map does not say otherwise; and the trace of speed and force.
-pub(super) fn read_sidecar(bytes: &[u8], map: &mut ColumnMap) -> Result<Option<TraceV1>, RecordingFileError> {
-    let error = |reason: String| RecordingFileError::Sidecar { reason };
+/// Keys that a sidecar written by hand may have: those of [`Wire`].
+const KEYS: [&str; 16] = [
+    "format",
+    "version",
+    "units",
+    "acceleration_unit",
+    "full_scale",
+    "channels",
+    "rate_hz",
+    "speed_units",
+    "speed_unit",
+    "speed_full_scale",
+    "force_units",
+    "force_unit",
+    "force_full_scale",
+    "speed_mm_per_s",
+    "force_n",
+    "trace",
+];
+
+/// What a sidecar adds to the map, where the map does not say otherwise; and the trace of speed and force. `rate_hz` is
+/// that of the WAV file.
+pub(super) fn read_sidecar(
+    bytes: &[u8],
+    rate_hz: f64,
+    inquiry: &mut Inquiry,
+) -> Result<Option<TraceV1>, RecordingFileError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let wire: Wire = serde_json::from_slice(bytes).map_err(|failure| error(failure.to_string()))?;
     if wire.format.as_deref() == Some(FORMAT) {
@@ -42,41 +71,52 @@ pub(super) fn read_sidecar(bytes: &[u8], map: &mut ColumnMap) -> Result<Option<T
         if major(&version) != major(VERSION) {
             return Err(error(format!("it has version {version:?}, this program reads {VERSION}")));
         }
+    } else {
+        name_unknown(bytes, inquiry);
     }
-    let positive = |key: &str, value: Option<f64>| match value {
-        Some(value) if !(value.is_finite() && value > 0.0) => {
-            Err(error(format!("{key} is {value}, needs a number above 0")))
-        }
-        other => Ok(other),
+    if let Some(stated) = wire.rate_hz.filter(|stated| *stated != rate_hz) {
+        let text = format!("the sidecar says {stated} Hz, the WAV file {rate_hz} Hz, which counts");
+        inquiry.warnings.push(text);
+    }
+    settle_units(
+        inquiry,
+        "acceleration",
+        AccelerationUnit::parse,
+        AccelerationUnit::name,
+        wire.units,
+        |map| &mut map.acceleration_unit,
+    )?;
+    settle_scale(inquiry, "full_scale", wire.full_scale, |map| &mut map.full_scale)?;
+    settle_units(inquiry, "speed", SpeedUnit::parse, SpeedUnit::name, wire.speed_units, |map| {
+        &mut map.speed_unit
+    })?;
+    settle_scale(inquiry, "speed_full_scale", wire.speed_full_scale, |map| &mut map.speed_full_scale)?;
+    settle_units(inquiry, "force", ForceUnit::parse, ForceUnit::name, wire.force_units, |map| {
+        &mut map.force_unit
+    })?;
+    settle_scale(inquiry, "force_full_scale", wire.force_full_scale, |map| &mut map.force_full_scale)?;
+    let channel = |name: &String| {
+        Channel::parse(&name.to_lowercase())
+            .ok_or_else(|| error(format!("the channel {name:?} is not known")))
     };
-    let unknown = |key: &str, text: &str| error(format!("{key} is {text:?}, which is no unit that is known"));
-    let unit = wire.units.map(|text| AccelerationUnit::parse(&text).ok_or_else(|| unknown("units", &text)));
-    map.acceleration_unit = map.acceleration_unit.or(unit.transpose()?);
-    map.full_scale = map.full_scale.or(positive("full_scale", wire.full_scale)?);
-    let unit =
-        wire.speed_units.map(|text| SpeedUnit::parse(&text).ok_or_else(|| unknown("speed_units", &text)));
-    map.speed_unit = map.speed_unit.or(unit.transpose()?);
-    map.speed_full_scale = map.speed_full_scale.or(positive("speed_full_scale", wire.speed_full_scale)?);
-    let unit =
-        wire.force_units.map(|text| ForceUnit::parse(&text).ok_or_else(|| unknown("force_units", &text)));
-    map.force_unit = map.force_unit.or(unit.transpose()?);
-    map.force_full_scale = map.force_full_scale.or(positive("force_full_scale", wire.force_full_scale)?);
-    if let (None, Some(names)) = (&map.channels, wire.channels) {
-        let channel = |name: &String| {
-            Channel::parse(&name.to_lowercase())
-                .ok_or_else(|| error(format!("the channel {name:?} is not known")))
-        };
-        map.channels = Some(names.iter().map(channel).collect::<Result<_, _>>()?);
-    }
+    let channels = wire.channels.map(|names| names.iter().map(channel).collect::<Result<Vec<_>, _>>());
+    let stated = inquiry.map.channels.take();
+    inquiry.map.channels =
+        inquiry.settle("the list of channels", stated, channels.transpose()?, |channels| {
+            channels.iter().map(|channel| channel.name()).collect::<Vec<_>>().join(", ")
+        });
     // What was measured counts more than what was said, unless the map says otherwise.
-    let has = |kind: Channel| map.channels.iter().flatten().any(|channel| *channel == kind);
-    let (has_speed, has_force) =
-        (map.speed.is_some() || has(Channel::Speed), map.force.is_some() || has(Channel::Force));
-    if !has_speed {
-        map.constant_speed = map.constant_speed.or(wire.speed_mm_per_s.map(MetersPerSecond::from_mm_per_s));
+    let has = |map: &ColumnMap, kind: Channel| map.channels.iter().flatten().any(|channel| *channel == kind);
+    if !has(&inquiry.map, Channel::Speed) {
+        let (stated, said) =
+            (inquiry.map.constant_speed, wire.speed_mm_per_s.map(MetersPerSecond::from_mm_per_s));
+        inquiry.map.constant_speed =
+            inquiry.settle("the constant speed", stated, said, |speed| format!("{} mm/s", speed.mm_per_s()));
     }
-    if !has_force {
-        map.constant_force = map.constant_force.or(wire.force_n.map(Newtons));
+    if !has(&inquiry.map, Channel::Force) {
+        let (stated, said) = (inquiry.map.constant_force, wire.force_n.map(Newtons));
+        inquiry.map.constant_force =
+            inquiry.settle("the constant force", stated, said, |force| format!("{} N", force.0));
     }
     let Some(trace) = wire.trace.filter(|trace| !trace.time_s.is_empty()) else { return Ok(None) };
     let n = trace.time_s.len();
@@ -85,4 +125,59 @@ pub(super) fn read_sidecar(bytes: &[u8], map: &mut ColumnMap) -> Result<Option<T
         return Err(error("the columns of the trace differ in length, or its times go back".to_owned()));
     }
     Ok(Some(trace))
+}
+
+fn error(reason: String) -> RecordingFileError {
+    RecordingFileError::Sidecar { reason }
+}
+
+/// Names the keys of a sidecar written by hand that say nothing: they may be misspelled.
+fn name_unknown(bytes: &[u8], inquiry: &mut Inquiry) {
+    #[expect(clippy::zero_sized_map_values, reason = "serde_json reads an object as a map only")]
+    // A list has no keys.
+    let keys: BTreeMap<String, IgnoredAny> = serde_json::from_slice(bytes).unwrap_or_default();
+    let unknown: Vec<String> =
+        keys.keys().filter(|key| !KEYS.contains(&key.as_str())).map(|key| format!("{key:?}")).collect();
+    if !unknown.is_empty() {
+        let text = format!(
+            "the sidecar has keys that are not known and say nothing: {}; known are {}",
+            unknown.join(", "),
+            KEYS.join(", ")
+        );
+        inquiry.warnings.push(text);
+    }
+}
+
+/// The unit of a quantity in the map, or in the sidecar.
+fn settle_units<T: Copy + PartialEq>(
+    inquiry: &mut Inquiry,
+    what: &str,
+    parse: impl Fn(&str) -> Option<T>,
+    name: impl Fn(T) -> &'static str,
+    text: Option<String>,
+    slot: impl Fn(&mut ColumnMap) -> &mut Option<T>,
+) -> Result<(), RecordingFileError> {
+    let unknown =
+        |text: &str| error(format!("the unit of {what} is {text:?}, which is no unit that is known"));
+    let unit = text.map(|text| parse(&text).ok_or_else(|| unknown(&text))).transpose()?;
+    let stated = *slot(&mut inquiry.map);
+    let settled = inquiry.settle(&format!("the unit of {what}"), stated, unit, |unit| name(*unit).to_owned());
+    *slot(&mut inquiry.map) = settled;
+    Ok(())
+}
+
+/// A full scale in the map, or in the sidecar.
+fn settle_scale(
+    inquiry: &mut Inquiry,
+    key: &str,
+    value: Option<f64>,
+    slot: impl Fn(&mut ColumnMap) -> &mut Option<f64>,
+) -> Result<(), RecordingFileError> {
+    if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+        return Err(error(format!("{key} is {value}, needs a number above 0")));
+    }
+    let stated = *slot(&mut inquiry.map);
+    let settled = inquiry.settle(key, stated, value, f64::to_string);
+    *slot(&mut inquiry.map) = settled;
+    Ok(())
 }

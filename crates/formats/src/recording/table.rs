@@ -152,8 +152,12 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
             continue;
         }
         if record.iter().skip(table.names.len()).any(|field| !field.is_empty()) {
-            let problem =
-                format!("{} values where the table has {} columns", record.len(), table.names.len());
+            let problem = format!(
+                "{} values where the table has {} columns{}",
+                record.len(),
+                table.names.len(),
+                comma_hint(map)
+            );
             return Err(RecordingFileError::Table { problem, line: Some(line) });
         }
         if record.len() < table.names.len() {
@@ -171,8 +175,9 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
     }
     if table.columns.first().is_none_or(Vec::is_empty) {
         let problem = format!(
-            "the table has no rows of numbers where columns are parted by {}; if they are parted otherwise, say the separator",
-            separator.name()
+            "the table has no rows of numbers where columns are parted by {}; if they are parted otherwise, say the separator{}",
+            separator.name(),
+            comma_hint(map)
         );
         return Err(RecordingFileError::Table { problem, line: None });
     }
@@ -185,6 +190,15 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
         ));
     }
     Ok(table)
+}
+
+/// What may be wrong where a map says that numbers have a decimal comma.
+fn comma_hint(map: &ColumnMap) -> &'static str {
+    if map.decimal_comma == Some(true) {
+        "; decimal_comma = true may be wrong, or needs the separator stated"
+    } else {
+        ""
+    }
 }
 
 /// Runs of spaces and tabs as one tab each, none at the ends of lines.

@@ -1,14 +1,20 @@
 //! What numbers tell of themselves: units, by physics.
 
+use shagreen_core::recording::{MAX_RATE_HZ, MIN_RATE_HZ};
 use shagreen_core::spectrum::median;
 
-use crate::recording::units::{AccelerationUnit, TimeUnit};
+use crate::recording::units::{AccelerationUnit, ForceUnit, TimeUnit};
 
 /// Rates that a recording can have, in Hz, where only the unit of time decides.
 const LIKELY_RATES_HZ: [f64; 2] = [20.0, 48_500.0];
 /// How near to gravity the mean vector is, and how much smaller what moves is, where gravity tells the unit.
 const GRAVITY_SHARE: f64 = 0.06;
 const MOVING_SHARE: f64 = 0.5;
+
+/// A tip that presses with less touches nothing, in N.
+const TOUCH_N: f64 = 0.02;
+/// What is well above zero, as a share of the largest, and what is a good part of the time.
+const ALTERNATING_SHARE: f64 = 0.1;
 
 /// Largest magnitude of the numbers.
 pub(super) fn largest(values: &[f64]) -> f64 {
@@ -32,8 +38,7 @@ pub(super) fn likely_time_unit(times: &[f64]) -> Option<(TimeUnit, String)> {
     if let Some(unit) = epoch {
         return Some((*unit, format!("{first} is a date, counted in {}", unit.name())));
     }
-    let steps = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0 && step.is_finite());
-    let step = median(steps.collect());
+    let step = middle_step(times);
     let [low, high] = LIKELY_RATES_HZ;
     let rate_hz = |unit: &TimeUnit| 1.0 / (step * unit.si());
     let mut units = TimeUnit::ALL.iter().filter(|unit| (low..high).contains(&rate_hz(unit)));
@@ -45,6 +50,51 @@ pub(super) fn likely_time_unit(times: &[f64]) -> Option<(TimeUnit, String)> {
         unit,
         format!("the middle step is {step:.6}, which is {:.1} Hz in {}", rate_hz(&unit), unit.name()),
     ))
+}
+
+/// The middle step of times; NaN where there is none.
+fn middle_step(times: &[f64]) -> f64 {
+    let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
+    median(steps.filter(|step| *step > 0.0 && step.is_finite()).collect())
+}
+
+/// The rate in Hz of times in a unit of `si` seconds.
+pub(super) fn rate_of(times: &[f64], si: f64) -> f64 {
+    1.0 / (si * middle_step(times))
+}
+
+/// What is odd about times in a unit in which they have a rate that no recording has, where they have one in another.
+pub(super) fn other_time_unit(times: &[f64], unit: TimeUnit) -> Option<String> {
+    let is_rate = |rate_hz: f64| (MIN_RATE_HZ..=MAX_RATE_HZ).contains(&rate_hz);
+    let rate_hz = rate_of(times, unit.si());
+    if rate_hz.is_nan() || is_rate(rate_hz) {
+        return None;
+    }
+    let others = TimeUnit::ALL.iter().map(|other| (other, rate_of(times, other.si())));
+    let others: Vec<String> = others
+        .filter(|(_, rate_hz)| is_rate(*rate_hz))
+        .map(|(other, rate_hz)| format!("{rate_hz:.1} Hz in {}", other.name()))
+        .collect();
+    let hint =
+        format!("mean {rate_hz:.1} Hz in {}, and {}; check the unit of time", unit.name(), others.join(", "));
+    (!others.is_empty()).then_some(hint)
+}
+
+/// Whether numbers of a force can be nothing but newtons: no counts, no shares of a range, and in other units too light to
+/// touch anything.
+pub(super) fn is_newtons(values: &[f64]) -> bool {
+    let most = largest(values);
+    let is_counts = values.iter().all(|value| value.fract() == 0.0 || value.is_nan());
+    let lighter = ForceUnit::ALL.iter().filter(|unit| **unit != ForceUnit::Newtons);
+    most > 1.0 && !is_counts && lighter.into_iter().all(|unit| most * unit.si() < TOUCH_N)
+}
+
+/// Whether a force is well above and well below zero for a good part of the time each.
+pub(super) fn alternates(values: &[f64]) -> bool {
+    let least = ALTERNATING_SHARE * largest(values);
+    let n_above = values.iter().filter(|value| **value > least).count();
+    let n_below = values.iter().filter(|value| **value < -least).count();
+    n_above.min(n_below) as f64 > ALTERNATING_SHARE * values.len() as f64
 }
 
 /// The unit in which the mean of three axes is as long as gravity while the rest is small, and that length.

@@ -110,10 +110,7 @@ fn too_bad_a_clock_is_an_error_by_name() {
         assert!(message.contains("bad clock") && message.contains(words), "{message}");
     }
     assert_eq!(fault_names(noise(2000, RawClock::Rate(Hertz(f64::NAN)))), ["rate too high"]);
-    assert_eq!(
-        fault_names(noise(2000, RawClock::Rate(Hertz(96_000.0)))),
-        ["rate too high", "nothing usable"]
-    );
+    assert_eq!(fault_names(noise(2000, RawClock::Rate(Hertz(96_000.0)))), ["rate too high"]);
 }
 
 #[test]
@@ -130,7 +127,7 @@ fn all_faults_are_told_at_once() {
     raw.force_n = RawTrack::Column(vec![1.0; 999]);
     raw.motion = RawMotion::Speed(RawTrack::Constant(f64::NAN));
     assert_eq!(fault_names(raw), ["bad constant", "unequal columns"]);
-    assert_eq!(fault_names(noise(1, RawClock::Rate(Hertz(RATE_HZ)))), ["too few rows", "nothing usable"]);
+    assert_eq!(fault_names(noise(1, RawClock::Rate(Hertz(RATE_HZ)))), ["too few rows"]);
     assert_eq!(check_clock(&RawClock::Rate(Hertz(100.0))).1, [Fault::RateTooLow { rate_hz: 100.0 }]);
 }
 
@@ -163,7 +160,7 @@ fn stuck_clipped_and_missing_rows_are_left_out() {
     assert!(recording.usable_seconds() < 1.5 && recording.usable_seconds() > 1.0);
     // Silence throughout is no texture.
     let silence = Recording::from_raw(with_axis(|axis| axis.fill(0.0))).expect_err("silence");
-    assert_eq!((silence.faults[0].name(), silence.findings[0].name()), ("nothing usable", "dead axis"));
+    assert_eq!((silence.faults[0].name(), silence.findings[0].name()), ("no signal", "dead axis"));
 }
 
 #[test]
@@ -223,6 +220,32 @@ fn speed_and_force_of_slower_sensors_are_on_lines_between_their_values() {
     // Values that are too rare say too little.
     raw.force_n = RawTrack::Column(slow(100, &|_| 1.5));
     assert_eq!(fault_names(raw), ["nothing usable"]);
+}
+
+#[test]
+fn glitches_are_left_out_and_do_not_hide_what_is_clipped() {
+    let recording = check_findings(with_axis(|axis| axis[300] = -250.0), &["spikes"], 1.999);
+    assert_eq!(recording.usable, [0..300, 301..2000]);
+    // A swing of 3 m/s² on a sensor that ends at 2.5, and a glitch beyond.
+    let clipped = with_axis(|axis| {
+        for (row, value) in axis.iter_mut().enumerate() {
+            *value = (3.0 * (TAU * 10.0 * row as f64 / RATE_HZ).sin() + 0.01 * *value).clamp(-2.5, 2.5);
+        }
+        axis[1000] = 900.0;
+    });
+    assert_eq!(read(clipped).1, ["spikes", "clipping", "fragments"]);
+    // Each axis says its own.
+    let mut three = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
+    three.acceleration_mps2 = (1..4).map(|seed| lcg_noise(2000, seed)).collect();
+    three.acceleration_mps2.iter_mut().for_each(|axis| axis[700] = 99.0);
+    check_findings(three, &["spikes", "spikes", "spikes", "axes combined"], 1.999);
+    let (_, findings) = Recording::from_raw(with_axis(|axis| axis[300] = -250.0)).expect("a recording");
+    let said = findings[0].to_string();
+    for words in
+        ["1 glitch", "acceleration, up to -250.0 m/s²", "1 of 2000 rows, first at 0.300 s", "left out"]
+    {
+        assert!(said.contains(words), "{said}");
+    }
 }
 
 #[test]

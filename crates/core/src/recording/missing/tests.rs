@@ -1,4 +1,4 @@
-use super::{MOST, fill, fill_slower, mark_missing};
+use super::{FORCE, MOST, fill, fill_slower, mark_missing};
 use crate::recording::clock::{Timeline, read_clock};
 use crate::recording::{Finding, RawClock};
 use crate::units::Hertz;
@@ -66,7 +66,7 @@ fn what_cannot_be_is_said_and_never_filled() {
     (values[15], values[25], values[50]) = (f64::INFINITY, -2.0 * MOST, 1e308);
     let (clock, mut findings, mut usable) = (timeline(101), Vec::new(), vec![true; 101]);
     fill_slower("force", std::slice::from_mut(&mut values), &clock, &mut findings);
-    mark_missing("force", &[&values], &clock, &mut usable, &mut findings);
+    mark_missing("force", &FORCE, &[&values], &clock, &mut usable, &mut findings);
     assert_eq!(
         findings.iter().map(Finding::name).collect::<Vec<_>>(),
         ["slower track", "not a number", "impossible values"]

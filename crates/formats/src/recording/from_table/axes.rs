@@ -70,14 +70,16 @@ impl Reading {
     }
 
     pub(super) fn acceleration(&mut self, places: &[usize]) -> Result<Vec<Vec<f64>>, RecordingFileError> {
-        if self.inquiry.map.acceleration_unit.is_none() {
-            let mut units = places.iter().map(|place| match self.meanings[*place] {
-                Some(Meaning::Acceleration(unit)) => unit,
-                _ => None,
-            });
-            let first = units.next().flatten();
-            self.inquiry.map.acceleration_unit = first.filter(|first| units.all(|unit| unit == Some(*first)));
-        }
+        let mut units = places.iter().map(|place| match self.meanings[*place] {
+            Some(Meaning::Acceleration(unit)) => unit,
+            _ => None,
+        });
+        let first = units.next().flatten();
+        let by_name = first.filter(|first| units.all(|unit| unit == Some(*first)));
+        let (what, stated) =
+            (format!("the unit of {}", self.name(places)), self.inquiry.map.acceleration_unit);
+        self.inquiry.map.acceleration_unit =
+            self.inquiry.settle(&what, stated, by_name, |unit| unit.name().to_owned());
         if self.inquiry.map.acceleration_unit.is_none() {
             let names: Vec<&str> = AccelerationUnit::ALL.iter().map(|unit| unit.name()).collect();
             let text = format!("the unit of {} is not stated", self.name(places));

@@ -6,29 +6,29 @@ use crate::recording::RecordingFileError;
 use crate::recording::from_table::Reading;
 use crate::recording::names::Meaning;
 use crate::recording::question::Ask;
-use crate::recording::told::{largest, median_of};
+use crate::recording::told::{alternates, is_newtons, largest, median_of};
 use crate::recording::units::{ForceUnit, PositionUnit, SpeedUnit};
 
 /// Speeds of hands: none is above this in m/s, and a stroke is not below this in mm/s.
 const FASTEST_MPS: f64 = 2.0;
-/// No stylus is pressed harder, in N.
-const STRONGEST_N: f64 = 50.0;
 
 impl Reading {
     pub(super) fn motion(&mut self, positions: &[usize]) -> Result<RawMotion, RecordingFileError> {
-        if let Some(speed) = self.inquiry.map.constant_speed {
-            return Ok(RawMotion::Speed(RawTrack::Constant(speed.0)));
-        }
         let named = self.inquiry.map.speed.clone().map(|column| self.place(&column)).transpose()?;
         let meant = self.meant(|meaning| matches!(meaning, Meaning::Speed(_)));
+        if let Some(speed) = self.inquiry.map.constant_speed {
+            self.leave_out(named.or(meant.first().copied()), "a constant speed");
+            return Ok(RawMotion::Speed(RawTrack::Constant(speed.0)));
+        }
         if named.is_none() && !positions.is_empty() {
             let by_name = positions.iter().find_map(|place| match self.meanings[*place] {
                 Some(Meaning::Position(unit)) => unit,
                 _ => None,
             });
-            if self.inquiry.map.position_unit.is_none() {
-                self.inquiry.map.position_unit = by_name;
-            }
+            let (what, stated) =
+                (format!("the unit of {}", self.name(positions)), self.inquiry.map.position_unit);
+            self.inquiry.map.position_unit =
+                self.inquiry.settle(&what, stated, by_name, |unit| unit.name().to_owned());
             if self.inquiry.map.position_unit.is_none() {
                 let names: Vec<&str> = PositionUnit::ALL.iter().map(|unit| unit.name()).collect();
                 let text = format!("the unit of {} is not stated", self.name(positions));
@@ -44,8 +44,11 @@ impl Reading {
             return Ok(RawMotion::Speed(RawTrack::Missing));
         };
         self.inquiry.map.speed = Some(self.column(place));
-        if let (None, Some(Meaning::Speed(unit))) = (self.inquiry.map.speed_unit, self.meanings[place]) {
-            self.inquiry.map.speed_unit = unit;
+        if let Some(Meaning::Speed(unit)) = self.meanings[place] {
+            let (what, stated) =
+                (format!("the unit of {}", self.name(&[place])), self.inquiry.map.speed_unit);
+            self.inquiry.map.speed_unit =
+                self.inquiry.settle(&what, stated, unit, |unit| unit.name().to_owned());
         }
         if self.inquiry.map.speed_unit.is_none() {
             let names: Vec<&str> = SpeedUnit::ALL.iter().map(|unit| unit.name()).collect();
@@ -65,12 +68,21 @@ impl Reading {
         Ok(RawMotion::Speed(RawTrack::Column(self.take(place, si)?)))
     }
 
+    /// Says that a column is not used, since something else was said.
+    fn leave_out(&mut self, place: Option<usize>, said: &str) {
+        let Some(place) = place else { return };
+        self.used.push(place);
+        let name = &self.table.names[place];
+        self.inquiry.warnings.push(format!("{name:?} is not used, since {said} was stated"));
+    }
+
     pub(super) fn force(&mut self) -> Result<RawTrack, RecordingFileError> {
-        if let Some(force) = self.inquiry.map.constant_force {
-            return Ok(RawTrack::Constant(force.0));
-        }
         let named = self.inquiry.map.force.clone().map(|column| self.place(&column)).transpose()?;
         let meant = self.meant(|meaning| matches!(meaning, Meaning::Force(_)));
+        if let Some(force) = self.inquiry.map.constant_force {
+            self.leave_out(named.or(meant.first().copied()), "a constant force");
+            return Ok(RawTrack::Constant(force.0));
+        }
         let along_z = self.meant(|meaning| matches!(meaning, Meaning::ForceZ(_)));
         let Some(place) = named.or(meant.first().copied()).or(along_z.first().copied()) else {
             let text =
@@ -83,27 +95,37 @@ impl Reading {
             self.inquiry.guess(Ask::Force, &(place + 1).to_string(), &[], text);
         }
         self.inquiry.map.force = Some(self.column(place));
-        if let (None, Some(Meaning::Force(unit) | Meaning::ForceZ(unit))) =
-            (self.inquiry.map.force_unit, self.meanings[place])
-        {
-            self.inquiry.map.force_unit = unit;
+        if let Some(Meaning::Force(unit) | Meaning::ForceZ(unit)) = self.meanings[place] {
+            let (what, stated) =
+                (format!("the unit of {}", self.name(&[place])), self.inquiry.map.force_unit);
+            self.inquiry.map.force_unit =
+                self.inquiry.settle(&what, stated, unit, |unit| unit.name().to_owned());
         }
         let most = largest(&self.table.columns[place]);
         if self.inquiry.map.force_unit.is_none() {
             let names: Vec<&str> = ForceUnit::ALL.iter().map(|unit| unit.name()).collect();
             let text = format!("the unit of {} is not stated; it goes up to {most:.3}", self.name(&[place]));
-            if most <= STRONGEST_N {
+            if is_newtons(&self.table.columns[place]) {
+                let text =
+                    format!("{text}, too light to touch in other units, and neither counts nor shares");
                 self.inquiry.guess(Ask::ForceUnit, ForceUnit::Newtons.name(), &names, text);
             } else {
-                self.inquiry.ask(Ask::ForceUnit, &names, format!("{text}, more than a stylus bears in N"));
+                self.inquiry.ask(Ask::ForceUnit, &names, text);
             }
         }
         let si = self.inquiry.map.force_unit.map_or(1.0, ForceUnit::si);
         let column = &self.table.columns[place];
-        if self.inquiry.map.pressing_is_negative.is_none() && median_of(column) < -0.01 * most {
-            let text =
-                format!("{} is below 0 most of the time, so pressing is negative", self.name(&[place]));
-            self.inquiry.guess(Ask::PressingIsNegative, "yes", &["yes", "no"], text);
+        if self.inquiry.map.pressing_is_negative.is_none() {
+            let name = self.name(&[place]);
+            if alternates(column) {
+                let text = format!(
+                    "{name} is above 0 for a part of the time and below 0 for another; say whether pressing is negative, and check that this is the normal force"
+                );
+                self.inquiry.ask(Ask::PressingIsNegative, &["yes", "no"], text);
+            } else if median_of(column) < -0.01 * most {
+                let text = format!("{name} is below 0 most of the time, so pressing is negative");
+                self.inquiry.guess(Ask::PressingIsNegative, "yes", &["yes", "no"], text);
+            }
         }
         let sign = if self.inquiry.map.pressing_is_negative == Some(true) { -1.0 } else { 1.0 };
         Ok(RawTrack::Column(self.take(place, sign * si)?))

@@ -1,0 +1,158 @@
+//! Speeds and forces that no hand has: then a unit may be wrong, and nothing else would tell.
+
+use crate::recording::missing::SPEED;
+use crate::recording::{Fault, Finding, Recording};
+use crate::spectrum::median;
+
+/// Below this share of its highest speed a tip rests or turns.
+const MOVING_SHARE: f64 = 0.05;
+/// Median speeds in m/s between which hands stroke.
+const SLOWEST_MPS: f64 = 5e-4;
+const FASTEST_MPS: f64 = 5.0;
+/// Highest force in N that a stylus is pressed with, and much more.
+const STRONGEST_N: f64 = 100.0;
+
+/// Says what is implausible in the motion of a recording; gives what is impossible.
+pub(super) fn check_plausible(recording: &Recording, findings: &mut Vec<Finding>) -> Option<Fault> {
+    let inside = |values: &[f64]| -> Vec<f64> {
+        recording.usable.iter().flat_map(|range| values[range.clone()].iter().copied()).collect()
+    };
+    let speeds_mps = inside(&recording.speed_mps);
+    let most_mps = speeds_mps.iter().copied().fold(0.0, f64::max);
+    if most_mps > SPEED.most {
+        return Some(Fault::ImpossibleSpeed { most_mps });
+    }
+    let moving = speeds_mps.into_iter().filter(|speed| *speed > MOVING_SHARE * most_mps);
+    let median_mps = median(moving.collect());
+    // A tip that never moves has no such speed, and there are no strokes then.
+    if median_mps.is_finite() && !(SLOWEST_MPS..=FASTEST_MPS).contains(&median_mps) {
+        findings.push(Finding::ImplausibleSpeed { median_mps });
+    }
+    let most_n = inside(&recording.force_n).into_iter().fold(0.0, f64::max);
+    if most_n > STRONGEST_N {
+        findings.push(Finding::ImplausibleForce { most_n });
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::recording::{Fault, RawClock, RawMotion, RawRecording, RawTrack, Recording};
+    use crate::rng::lcg_noise;
+    use crate::units::Hertz;
+
+    const N_ROWS: usize = 2000;
+
+    fn raw(motion: RawMotion, force_n: RawTrack) -> RawRecording {
+        RawRecording {
+            clock: RawClock::Rate(Hertz(1000.0)),
+            acceleration_mps2: vec![lcg_noise(N_ROWS, 7)],
+            motion,
+            force_n,
+            full_scale_mps2: None,
+        }
+    }
+
+    /// The sentences on a motion and a force, but those on constants.
+    fn sentences(motion: RawMotion, force_n: RawTrack) -> Vec<String> {
+        let (_, findings) = Recording::from_raw(raw(motion, force_n)).expect("a recording");
+        findings.iter().map(ToString::to_string).filter(|text| !text.starts_with("constant")).collect()
+    }
+
+    fn swing(highest: f64) -> RawTrack {
+        RawTrack::Column((0..N_ROWS).map(|row| highest * (row as f64 * 0.01).sin().abs()).collect())
+    }
+
+    #[test]
+    fn speeds_and_forces_of_hands_are_plausible() {
+        for (speed_mps, force_n) in [(0.005, 0.1), (0.1, 1.0), (2.0, 90.0)] {
+            assert_eq!(sentences(RawMotion::Speed(swing(speed_mps)), swing(force_n)), [""; 0]);
+        }
+        let constant = RawMotion::Speed(RawTrack::Constant(0.0005));
+        assert_eq!(sentences(constant, RawTrack::Constant(100.0)), [""; 0]);
+    }
+
+    #[test]
+    fn others_are_said() {
+        let steady = || RawTrack::Constant(1.0);
+        for (speed, words) in [
+            (swing(0.0004), "slower than 0.2"),
+            (swing(30.0), "slower than 21"),
+            (RawTrack::Constant(0.0001), "slower than 0.100 mm/s"),
+            (RawTrack::Constant(6.0), "slower than 6000.000 mm/s"),
+        ] {
+            let said = sentences(RawMotion::Speed(speed), steady());
+            assert!(
+                said.len() == 1 && said[0].starts_with("implausible speed: ") && said[0].contains(words),
+                "{said:?}"
+            );
+        }
+        let said = sentences(RawMotion::Speed(RawTrack::Constant(0.1)), swing(980.0));
+        assert!(said.len() == 1 && said[0].starts_with("implausible force: it reaches 980 N"), "{said:?}");
+    }
+
+    #[test]
+    fn what_cannot_be_is_an_error_that_names_the_unit() {
+        let faults = |motion, force_n| {
+            let error = Recording::from_raw(raw(motion, force_n)).expect_err("no recording");
+            assert!(!error.to_string().contains("node"), "{error}");
+            error
+        };
+        let error = faults(RawMotion::Speed(RawTrack::Constant(200.0)), RawTrack::Constant(1.0));
+        assert_eq!(
+            error.to_string(),
+            "bad constant: speed in mm/s is 200000, needs a number from 0 to 100000"
+        );
+        let error = faults(RawMotion::Speed(RawTrack::Column(vec![200.0; N_ROWS])), RawTrack::Constant(1.0));
+        assert_eq!(error.faults[0].name(), "nothing usable");
+        let said = error.findings[0].to_string();
+        assert!(
+            said.contains("speed is beyond 100 m/s, 2000 of 2000 rows") && said.contains("unit"),
+            "{said}"
+        );
+        let positions = (0..N_ROWS).map(|row| 0.2 * row as f64).collect();
+        let error = faults(RawMotion::Positions(vec![positions]), RawTrack::Constant(1.0));
+        assert!(matches!(error.faults[..], [Fault::ImpossibleSpeed { .. }]), "{error}");
+        assert!(error.to_string().contains("reaches 200 m/s"), "{error}");
+    }
+
+    #[test]
+    fn forces_below_zero_are_said() {
+        let force = |least: f64| {
+            RawTrack::Column((0..N_ROWS).map(|row| if row % 4 == 0 { least } else { 1.0 }).collect())
+        };
+        let speed = || RawMotion::Speed(RawTrack::Constant(0.1));
+        let said = sentences(speed(), force(-0.5));
+        assert!(
+            said.len() == 1 && said[0].starts_with("signed force: below 0 in 500 of 2000 rows"),
+            "{said:?}"
+        );
+        // The zero of a sensor drifts by as much.
+        assert_eq!(sentences(speed(), force(-0.04)), [""; 0]);
+    }
+
+    #[test]
+    fn an_error_says_what_is_wrong_and_not_all_that_was_found() {
+        let mut silent = raw(RawMotion::Speed(RawTrack::Constant(0.1)), RawTrack::Missing);
+        silent.acceleration_mps2[0].fill(0.0);
+        let error = Recording::from_raw(silent).expect_err("silence");
+        let message = error.to_string();
+        assert!(message.starts_with("no signal: acceleration is 0 in every row"), "{message}");
+        assert_eq!(error.faults.iter().map(Fault::name).collect::<Vec<_>>(), ["no signal", "no force"]);
+        assert!(!error.findings.is_empty() && !message.contains("dead axis"), "{message}");
+    }
+
+    #[test]
+    fn a_constant_speed_is_said_as_people_say_it() {
+        let constants = raw(RawMotion::Speed(RawTrack::Constant(0.07)), RawTrack::Constant(1.5));
+        let (_, findings) = Recording::from_raw(constants).expect("a recording");
+        let said: Vec<String> = findings.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            said,
+            [
+                "constant: speed in mm/s was taken as 70 throughout",
+                "constant: force in N was taken as 1.5 throughout"
+            ]
+        );
+    }
+}
