@@ -5,6 +5,7 @@
 
 use crate::ratings::{AdjectivePair, Rating};
 use crate::rng::{Random, derive_seed};
+use crate::sorting::{Placement, Sort};
 
 /// Rounds of grouping after which a simulated participant leaves the groups as they are.
 const MAX_ROUNDS: usize = 50;
@@ -22,17 +23,6 @@ pub struct PanelConfig {
     pub scale_log_spread: f64,
     /// Seed: the same panel says the same.
     pub seed: u64,
-}
-
-/// Textures as one simulated participant grouped them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SimulatedSort {
-    /// Who.
-    pub participant: String,
-    /// Into how many groups; none of them is empty.
-    pub n_groups: usize,
-    /// The group of each texture, below `n_groups`, numbered by first appearance.
-    pub groups: Vec<usize>,
 }
 
 /// Why there is no panel.
@@ -100,9 +90,7 @@ pub fn simulated_ratings(
     pairs: &[AdjectivePair],
     config: &PanelConfig,
 ) -> Result<Vec<Rating>, PanelError> {
-    if textures.len() != labels.len() {
-        return Err(PanelError::Names { n_names: textures.len(), n_labels: labels.len() });
-    }
+    check_names(textures, labels)?;
     check(labels, pairs.len(), config)?;
     let mut ratings = Vec::with_capacity(config.n_participants * textures.len() * pairs.len());
     for participant in participants(config) {
@@ -126,15 +114,18 @@ pub fn simulated_ratings(
     Ok(ratings)
 }
 
-/// Every participant sorts the textures once for each number of groups, by what is felt of them that time.
+/// Every participant sorts the textures once for each number of groups, by what is felt of them that time. No group is
+/// empty; groups are numbered by first appearance.
 ///
 /// # Errors
 /// See [`PanelError`].
 pub fn simulated_sorts(
+    textures: &[String],
     labels: &[Vec<f64>],
     numbers_of_groups: &[usize],
     config: &PanelConfig,
-) -> Result<Vec<SimulatedSort>, PanelError> {
+) -> Result<Vec<Sort>, PanelError> {
+    check_names(textures, labels)?;
     check(labels, labels.first().map_or(0, Vec::len), config)?;
     let n_textures = labels.len();
     if let Some(n_groups) = numbers_of_groups.iter().copied().find(|n| *n == 0 || *n > n_textures) {
@@ -150,7 +141,16 @@ pub fn simulated_sorts(
                 .collect();
             let first = ((random.uniform() * n_textures as f64) as usize).min(n_textures - 1);
             let groups = by_first_appearance(&group(&felt, n_groups, first));
-            sorts.push(SimulatedSort { participant: participant.clone(), n_groups, groups });
+            let place = |(texture, group): (&String, usize)| Placement {
+                texture: texture.clone(),
+                group: (group + 1).to_string(),
+            };
+            sorts.push(Sort {
+                participant: participant.clone(),
+                trial: format!("{n_groups} groups"),
+                n_groups: Some(n_groups),
+                placements: textures.iter().zip(groups).map(place).collect(),
+            });
         }
     }
     Ok(sorts)
@@ -158,6 +158,11 @@ pub fn simulated_sorts(
 
 fn participants(config: &PanelConfig) -> impl Iterator<Item = String> {
     (1..=config.n_participants).map(|number| format!("simulated-{number:02}"))
+}
+
+fn check_names(textures: &[String], labels: &[Vec<f64>]) -> Result<(), PanelError> {
+    let (n_names, n_labels) = (textures.len(), labels.len());
+    if n_names == n_labels { Ok(()) } else { Err(PanelError::Names { n_names, n_labels }) }
 }
 
 fn check(labels: &[Vec<f64>], n_labels: usize, config: &PanelConfig) -> Result<(), PanelError> {

@@ -1,6 +1,7 @@
 use super::{PanelConfig, PanelError, simulated_ratings, simulated_sorts};
 use crate::ratings::{AdjectivePair, RatingTable, agreement, averages, rater_fits};
 use crate::rng::Random;
+use crate::sorting::Sort;
 
 const PANEL: PanelConfig =
     PanelConfig { n_participants: 10, noise_points: 8.0, bias_points: 6.0, scale_log_spread: 0.2, seed: 5 };
@@ -17,6 +18,11 @@ fn pairs() -> [AdjectivePair; 2] {
 
 fn names(n: usize) -> Vec<String> {
     (0..n).map(|t| format!("texture {t}")).collect()
+}
+
+/// The group of each texture, from 0.
+fn groups(sort: &Sort) -> Vec<usize> {
+    sort.placements.iter().map(|p| p.group.parse::<usize>().unwrap() - 1).collect()
 }
 
 #[test]
@@ -46,41 +52,47 @@ fn a_panel_without_noise_says_the_labels_and_sorts_what_is_apart() {
         assert!((rating.value.unwrap() - label).abs() < 1e-12);
     }
     let apart: Vec<Vec<f64>> = [3.0, 50.0, 96.0, 4.0, 52.0, 97.0, 49.0].map(|v| vec![v, 10.0]).to_vec();
-    for sort in simulated_sorts(&apart, &[3], &exact).unwrap() {
-        assert_eq!(sort.groups, [0, 1, 2, 0, 1, 2, 1]);
+    for sort in simulated_sorts(&names(7), &apart, &[3], &exact).unwrap() {
+        assert_eq!(groups(&sort), [0, 1, 2, 0, 1, 2, 1]);
     }
 }
 
 #[test]
 fn every_group_has_a_texture_and_near_ones_meet_more_often() {
     let labels = labels(25, 3);
-    let sorts = simulated_sorts(&labels, &[3, 6, 9], &PANEL).unwrap();
+    let sorts = simulated_sorts(&names(25), &labels, &[3, 6, 9], &PANEL).unwrap();
     assert_eq!(sorts.len(), 30);
     let (mut near, mut far) = ((0.0, 0.0), (0.0, 0.0));
     for sort in &sorts {
-        assert!((0..sort.n_groups).all(|g| sort.groups.contains(&g)));
-        assert!(sort.groups.iter().all(|g| *g < sort.n_groups));
+        let (n_groups, groups) = (sort.n_groups.unwrap(), groups(sort));
+        assert!((0..n_groups).all(|g| groups.contains(&g)));
+        assert!(groups.iter().all(|g| *g < n_groups));
         for i in 0..25 {
             for j in 0..i {
                 let distance = super::squared_distance(&labels[i], &labels[j]).sqrt();
                 let count = if distance < 15.0 { &mut near } else { &mut far };
-                count.0 += f64::from(u8::from(sort.groups[i] == sort.groups[j]));
+                count.0 += f64::from(u8::from(groups[i] == groups[j]));
                 count.1 += 1.0;
             }
         }
     }
     assert!(near.0 / near.1 > 2.0 * far.0 / far.1, "{near:?} {far:?}");
     // Equal textures leave groups to fill.
-    let equal = simulated_sorts(&vec![vec![50.0]; 6], &[4, 6], &PanelConfig { noise_points: 0.0, ..PANEL });
+    let equal = simulated_sorts(
+        &names(6),
+        &vec![vec![50.0]; 6],
+        &[4, 6],
+        &PanelConfig { noise_points: 0.0, ..PANEL },
+    );
     for sort in equal.unwrap() {
-        assert!((0..sort.n_groups).all(|g| sort.groups.contains(&g)), "{sort:?}");
+        assert!((0..sort.n_groups.unwrap()).all(|g| groups(&sort).contains(&g)), "{sort:?}");
     }
 }
 
 #[test]
 fn the_same_seed_is_the_same_panel() {
     let labels = labels(12, 4);
-    let sorts = |seed| simulated_sorts(&labels, &[3], &PanelConfig { seed, ..PANEL }).unwrap();
+    let sorts = |seed| simulated_sorts(&names(12), &labels, &[3], &PanelConfig { seed, ..PANEL }).unwrap();
     assert_eq!(sorts(1), sorts(1));
     assert_ne!(sorts(1), sorts(2));
 }
@@ -89,7 +101,8 @@ fn the_same_seed_is_the_same_panel() {
 fn panels_without_a_meaning_are_refused_by_name() {
     let labels = labels(5, 6);
     let refused = |labels: &[Vec<f64>], groups: usize, config: PanelConfig, words: &str| {
-        let error = simulated_sorts(labels, &[groups], &config).unwrap_err().to_string();
+        let error =
+            simulated_sorts(&names(labels.len()), labels, &[groups], &config).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     };
     refused(&labels, 6, PANEL, "5 textures cannot be sorted into 6");

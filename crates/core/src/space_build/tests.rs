@@ -4,7 +4,7 @@ use super::{
 use crate::features::NamedTexture;
 use crate::panel::{PanelConfig, simulated_ratings, simulated_sorts};
 use crate::ratings::{AdjectivePair, Rating, RelevanceVote};
-use crate::sorting::{Placement as Sorted, Sort};
+use crate::sorting::Sort;
 use crate::space::LabelSource;
 use crate::space_build::verdict;
 use crate::statistics::correlation;
@@ -49,22 +49,13 @@ fn judgements(pairs: &[&str]) -> (Vec<Sort>, Vec<Rating>) {
         seed: 3,
     };
     let names: Vec<String> = models().into_iter().map(|(name, _)| name).collect();
-    let placements = |groups: &[usize]| {
-        let placed = names.iter().zip(groups);
-        placed.map(|(t, group)| Sorted { texture: t.clone(), group: group.to_string() }).collect()
-    };
-    let sorts = simulated_sorts(&labels(), &[3, 5, 7], &config).unwrap().into_iter().map(|sort| Sort {
-        participant: sort.participant,
-        trial: sort.n_groups.to_string(),
-        n_groups: Some(sort.n_groups),
-        placements: placements(&sort.groups),
-    });
+    let sorts = simulated_sorts(&names, &labels(), &[3, 5, 7], &config).unwrap();
     let mut values = labels();
     for (i, row) in values.iter_mut().enumerate() {
         row.extend((2..pairs.len()).map(|p| (i * 29 * p % 101) as f64));
     }
     let pairs: Vec<AdjectivePair> = pairs.iter().map(|name| pair(name)).collect();
-    (sorts.collect(), simulated_ratings(&names, &values, &pairs, &config).unwrap())
+    (sorts, simulated_ratings(&names, &values, &pairs, &config).unwrap())
 }
 
 fn quick() -> SpaceOptions {
@@ -196,7 +187,7 @@ fn what_makes_no_space_says_why() {
     check(&|_, _, options| options.n_dims = 1, "2 to 10");
     check(&|sorts, _, _| sorts[0].placements[0].texture = "corkk".to_owned(), "\"corkk\" was sorted");
     check(&|_, ratings, _| ratings[0].texture = "corkk".to_owned(), "\"corkk\" was rated");
-    check(&|sorts, _, _| sorts.push(sorts[0].clone()), "has trial \"3\" twice");
+    check(&|sorts, _, _| sorts.push(sorts[0].clone()), "has trial \"3 groups\" twice");
     check(&|_, ratings, _| ratings.push(ratings[0].clone()), "twice on rough");
     check(&|_, ratings, _| ratings[4].value = Some(140.0), "140");
     check(&|_, ratings, _| ratings.retain(|r| r.pair.low == "rough"), "two are needed");
