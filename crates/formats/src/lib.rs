@@ -35,6 +35,7 @@ pub mod places_csv;
 pub mod ratings_csv;
 pub mod recording;
 pub mod sorting_csv;
+pub mod space_report;
 pub mod starter;
 pub mod stroke;
 pub mod stroke_csv;

@@ -180,6 +180,11 @@ impl<'a> RowOf<'a> {
 }
 
 impl<'a> Field<'a> {
+    /// Where it stands, from one.
+    pub(crate) fn line(self) -> u64 {
+        self.row.line
+    }
+
     /// What stands there, perhaps nothing.
     pub(crate) fn text(self) -> &'a str {
         &self.row.fields[self.column]

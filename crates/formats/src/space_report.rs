@@ -1,0 +1,314 @@
+//! What building a space came to: a JSON report for scripts, figures for people, and the library with its places.
+
+use serde_json::{Value, json};
+use shagreen_core::property::correlation_table;
+use shagreen_core::ratings::Agreement;
+use shagreen_core::space_build::{Adjective, Axis, Placement, SpaceBuild, kruskal_word, verdict};
+
+use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
+use crate::library::{Attribute, Attributes, Library, Place};
+
+/// What the field `format` of a report holds.
+pub const FORMAT: &str = "shagreen-space-report";
+/// Version of the report.
+const VERSION: &str = "1.0";
+
+/// The report: everything that was measured on the way, in one object.
+pub fn space_report(build: &SpaceBuild) -> Value {
+    let options = &build.options;
+    json!({
+        "format": FORMAT,
+        "version": VERSION,
+        "label_source": build.source.id(),
+        "textures": build.textures.len(),
+        "not_placed": build.not_sorted,
+        "dimensions": options.n_dims,
+        "stress": build.stress,
+        "stress_chosen": build.perceptual.stress,
+        "stress_in_words": kruskal_word(build.perceptual.stress),
+        "adjectives": build.adjectives.iter().map(adjective).collect::<Vec<_>>(),
+        "axes": build.axes.iter().map(|axis| self::axis(build, axis)).collect::<Vec<_>>(),
+        "angle_degrees": build.angle_degrees,
+        "axes_turned_orthogonal": options.is_orthogonal,
+        "features": {"kind": options.features.id(), "label": build.features.label, "n": build.features.names.len()},
+        "selection": options.method.id(),
+        "placed_by": options.placement.id(),
+        "positions": positions(build),
+        "raters": build.raters.iter().map(|(name, fit)| json!({
+            "participant": name,
+            "ratings": fit.n_ratings,
+            "correlation_with_others": fit.correlation,
+            "outlying": fit.outlying,
+        })).collect::<Vec<_>>(),
+        "sorters": build.similarity.agreements.iter().map(|agreement| json!({
+            "participant": agreement.participant,
+            "correlation_with_others": agreement.correlation,
+        })).collect::<Vec<_>>(),
+        "missing_ratings": build.n_missing_ratings,
+        "seed": options.seed,
+        "verdict": verdict(build),
+    })
+}
+
+fn adjective(adjective: &Adjective) -> Value {
+    let line = adjective.line.as_ref().ok();
+    let agreement = adjective.agreement.as_ref().ok();
+    let icc = |of: fn(&Agreement) -> [f64; 3]| agreement.map(of);
+    json!({
+        "name": adjective.pair.name(),
+        "direction": line.map(|line| &line.direction),
+        "r2": line.map(|line| line.r_squared),
+        "p": line.map(|line| line.p_value),
+        "correlation": line.map(|line| &line.correlations),
+        "why_no_line": adjective.line.as_ref().err().map(ToString::to_string),
+        "relevance": adjective.relevance,
+        "relevant": adjective.is_relevant,
+        "icc_single": icc(|a| [a.single.value, a.single.low, a.single.high]),
+        "icc_mean": icc(|a| [a.average.value, a.average.low, a.average.high]),
+    })
+}
+
+fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
+    let v = &axis.validation;
+    json!({
+        "name": axis.pair.name(),
+        "direction": axis.direction,
+        "r2": build.adjectives[axis.adjective].line.as_ref().ok().map(|line| line.r_squared),
+        "features": axis.features,
+        "cv_r": v.cv_r,
+        "cv_rms_percent": v.cv_rms_percent,
+        "nested_cv_r": v.nested_cv_r,
+        "nested_cv_rms_percent": v.nested_cv_rms_percent,
+        "mean_rms_percent": v.mean_rms_percent,
+        "permutation_p": v.permutation_p,
+        "permutations": v.n_permutations,
+        "null_r_95": v.null_r_95,
+        "folds": v.scheme.n_folds,
+        "repeats": v.scheme.n_repeats,
+    })
+}
+
+fn positions(build: &SpaceBuild) -> Vec<Value> {
+    let [first, second] = &build.axes;
+    let position = |(i, id): (usize, &String)| {
+        json!({
+            "id": id,
+            "at": [build.positions[i].rough_smooth, build.positions[i].hard_soft],
+            "felt": [first.felt[i], second.felt[i]],
+            "predicted": [first.predicted[i], second.predicted[i]],
+            "nested_predicted": [first.validation.predicted[i], second.validation.predicted[i]],
+            "perceptual": build.perceptual.points[i],
+        })
+    };
+    build.textures.iter().enumerate().map(position).collect()
+}
+
+/// The library with the places and attributes of the space, and its report. Textures that are not in the space lose their
+/// place: positions of two origins mean little beside each other.
+pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
+    let mut placed = library.clone();
+    for texture in &mut placed.textures {
+        let index = build.textures.iter().position(|id| *id == texture.id);
+        texture.place = index.map(|i| Place { at: build.positions[i], source: build.source });
+        texture.attributes = index.map(|i| attributes(build, i)).filter(|a| !a.values.is_empty());
+    }
+    placed.space_report = Some(space_report(build));
+    placed
+}
+
+/// Mean ratings of a texture on every pair that counts, as they were given.
+fn attributes(build: &SpaceBuild, texture: usize) -> Attributes {
+    let counted = build.adjectives.iter().filter(|adjective| adjective.is_relevant);
+    let values = counted.filter_map(|adjective| {
+        Some(Attribute { name: adjective.pair.name(), value: adjective.ratings[texture].mean? })
+    });
+    Attributes { source: build.source, values: values.collect() }
+}
+
+/// The figures that papers print, each under a short name that serves for files.
+pub fn space_figures(build: &SpaceBuild) -> Vec<(&'static str, Figure)> {
+    vec![
+        ("stress", stress(build)),
+        ("perceptual-space", perceptual(build)),
+        ("correlations", correlations(build)),
+        ("adjectives", adjectives(build)),
+        ("predicted-1", predicted(build, &build.axes[0])),
+        ("predicted-2", predicted(build, &build.axes[1])),
+        ("authoring-space", authoring(build)),
+        ("shepard", shepard(build)),
+    ]
+}
+
+/// What all figures rest on, in a line.
+pub fn space_subtitle(build: &SpaceBuild) -> String {
+    format!(
+        "{} textures, {}; {} by {}, selection {}",
+        build.textures.len(),
+        build.source.label(),
+        match build.options.placement {
+            Placement::Felt => "placed where they were felt, predicted",
+            Placement::Predicted => "placed",
+        },
+        build.features.label,
+        build.options.method.id()
+    )
+}
+
+fn series(name: &str, mark: Mark, tone: Tone, points: Vec<Point>) -> Series {
+    Series { name: name.to_owned(), mark, tone, points }
+}
+
+fn chart(title: String, [x_label, y_label]: [&str; 2], is_isotropic: bool, series: Vec<Series>) -> Figure {
+    Figure::Chart(Chart {
+        title,
+        x_label: x_label.to_owned(),
+        y_label: y_label.to_owned(),
+        is_isotropic,
+        series,
+    })
+}
+
+fn stress(build: &SpaceBuild) -> Figure {
+    let last = build.stress.len() as f64;
+    let limit = |stress: f64| {
+        let ends = vec![Point::new(1.0, stress), Point::new(last, stress)];
+        series(kruskal_word(stress), Mark::Segments, Tone::Faint, ends)
+    };
+    let by_dims: Vec<Point> = (1..).zip(&build.stress).map(|(d, s)| Point::new(f64::from(d), *s)).collect();
+    let chosen = Point::named(
+        build.options.n_dims as f64,
+        build.perceptual.stress,
+        format!("{:.3}", build.perceptual.stress),
+    );
+    chart(
+        "Stress by dimension".to_owned(),
+        ["dimensions", "stress-1"],
+        false,
+        vec![
+            limit(0.1),
+            limit(0.05),
+            series("stress", Mark::Line, Tone::Main, by_dims),
+            series("chosen", Mark::Dots, Tone::Second, vec![chosen]),
+        ],
+    )
+}
+
+fn perceptual(build: &SpaceBuild) -> Figure {
+    let points = &build.perceptual.points;
+    let reach = points.iter().flat_map(|p| [p[0].abs(), p[1].abs()]).fold(0.0, f64::max);
+    let mut all = Vec::new();
+    for (index, adjective) in build.adjectives.iter().enumerate() {
+        let Ok(line) = &adjective.line else { continue };
+        let end = |sign: f64, pole: &str| {
+            let length = sign * line.r_squared * reach;
+            Point::named(length * line.direction[0], length * line.direction[1], pole)
+        };
+        let is_axis = build.axes.iter().any(|axis| axis.adjective == index);
+        let tone = if is_axis { Tone::Second } else { Tone::Third };
+        let ends = vec![end(-1.0, &adjective.pair.low), end(1.0, &adjective.pair.high)];
+        all.push(series(&adjective.pair.name(), Mark::Segments, tone, ends));
+    }
+    let dots =
+        build.textures.iter().zip(points).map(|(id, point)| Point::named(point[0], point[1], id)).collect();
+    all.push(series("textures", Mark::Dots, Tone::Main, dots));
+    chart(
+        format!("Perceptual space, stress {:.3}; lines as long as their R²", build.perceptual.stress),
+        ["dimension 1", "dimension 2"],
+        true,
+        all,
+    )
+}
+
+fn correlations(build: &SpaceBuild) -> Figure {
+    let n_dims = build.options.n_dims;
+    let row = |adjective: &Adjective| {
+        let line = adjective.line.as_ref().ok();
+        let icc = adjective.agreement.as_ref().ok().map(|agreement| agreement.average.value);
+        let of_dims = (0..n_dims).map(|d| line.and_then(|line| line.correlations[d]));
+        (adjective.pair.name(), of_dims.chain([line.map(|line| line.r_squared), icc]).collect())
+    };
+    let dims = (1..=n_dims).map(|d| format!("dim. {d}"));
+    Figure::Table(Table {
+        title: "Adjectives and dimensions: correlation, R², agreement".to_owned(),
+        columns: dims.chain(["R²".to_owned(), "ICC(2,k)".to_owned()]).collect(),
+        rows: build.adjectives.iter().map(row).collect(),
+        decimals: 3,
+    })
+}
+
+fn adjectives(build: &SpaceBuild) -> Figure {
+    let rated_on_all: Vec<usize> = (0..build.textures.len())
+        .filter(|texture| build.adjectives.iter().all(|a| a.ratings[*texture].mean.is_some()))
+        .collect();
+    let columns: Vec<Vec<f64>> = build
+        .adjectives
+        .iter()
+        .map(|a| rated_on_all.iter().filter_map(|texture| a.ratings[*texture].mean).collect())
+        .collect();
+    let names: Vec<String> = build.adjectives.iter().map(|a| a.pair.name()).collect();
+    Figure::Table(Table {
+        title: "Adjectives among themselves: correlation of mean ratings".to_owned(),
+        columns: names.clone(),
+        rows: names.into_iter().zip(correlation_table(&columns, &columns)).collect(),
+        decimals: 2,
+    })
+}
+
+fn predicted(build: &SpaceBuild, axis: &Axis) -> Figure {
+    let v = &axis.validation;
+    let dots = build.textures.iter().enumerate();
+    let dots = dots.map(|(i, id)| Point::named(axis.felt[i], v.predicted[i], id)).collect();
+    let seen = axis.felt.iter().zip(&axis.predicted).map(|(felt, p)| Point::new(*felt, *p)).collect();
+    let chance = v.permutation_p.map_or_else(String::new, |p| format!(", chance {p:.3}"));
+    chart(
+        format!("{}: nested r {:.2}{chance}; as published {:.2}", axis.pair, v.nested_cv_r, v.cv_r),
+        ["felt, 0 to 100", "predicted, 0 to 100"],
+        false,
+        vec![
+            series("as felt", Mark::Line, Tone::Faint, vec![Point::new(0.0, 0.0), Point::new(100.0, 100.0)]),
+            series("model that has seen it", Mark::Dots, Tone::Faint, seen),
+            series("not seen by its model", Mark::Dots, Tone::Main, dots),
+        ],
+    )
+}
+
+fn authoring(build: &SpaceBuild) -> Figure {
+    let at = |i: usize| {
+        let place = build.positions[i];
+        Point::new(place.rough_smooth, place.hard_soft)
+    };
+    let edges = build.space.triangles().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut edges: Vec<[usize; 2]> = edges.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let dots = build.textures.iter().enumerate().map(|(i, id)| Point::named(at(i).x, at(i).y, id)).collect();
+    let hull: Vec<Point> = build.space.hull().flat_map(|edge| edge.map(at)).collect();
+    let [first, second] = build.axes.each_ref().map(|axis| axis.pair.to_string());
+    chart(
+        format!("Authoring space ({})", build.source.label()),
+        [&format!("{first}, 0 to 100"), &format!("{second}, 0 to 100")],
+        true,
+        vec![
+            series("triangles", Mark::Segments, Tone::Faint, edges.into_iter().flatten().map(at).collect()),
+            series("hull", Mark::Segments, Tone::Third, hull),
+            series("textures", Mark::Dots, Tone::Main, dots),
+        ],
+    )
+}
+
+fn shepard(build: &SpaceBuild) -> Figure {
+    let pairs = &build.shepard;
+    let distances = pairs.iter().map(|p| Point::new(p.dissimilarity, p.distance)).collect();
+    let mut disparities: Vec<Point> =
+        pairs.iter().map(|p| Point::new(p.dissimilarity, p.disparity)).collect();
+    disparities.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    chart(
+        "Shepard diagram".to_owned(),
+        ["dissimilarity, 0 to 100", "distance"],
+        false,
+        vec![
+            series("pairs", Mark::Dots, Tone::Faint, distances),
+            series("disparities", Mark::Line, Tone::Main, disparities),
+        ],
+    )
+}
