@@ -20,7 +20,7 @@ use shagreen_core::dissimilarities::Dissimilarities;
 use shagreen_core::mds::{MdsOptions, nonmetric_from};
 use shagreen_core::rng::lcg_noise;
 
-/// Fall of stress at which peers stop too.
+/// Fall of stress in a step at which to stop: all of the digits that the note shows.
 const TOLERANCE: f64 = 1e-7;
 
 fn floats(path: &Path) -> Vec<f64> {

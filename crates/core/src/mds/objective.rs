@@ -55,15 +55,11 @@ impl<'a> Objective<'a> {
     pub(super) fn shepard(&self) -> Vec<ShepardPair> {
         let pair = |((items, distance), disparity): ((&[u16; 2], &f64), f64)| ShepardPair {
             items: items.map(usize::from),
-            dissimilarity: self.value(*items),
+            dissimilarity: value_of(self.dissimilarities, *items),
             distance: *distance,
             disparity,
         };
         self.pairs.iter().zip(&self.distances).zip(self.pools.fitted()).map(pair).collect()
-    }
-
-    fn value(&self, pair: [u16; 2]) -> f64 {
-        value_of(self.dissimilarities, pair)
     }
 
     fn evaluate_in<const DIMS: usize>(&mut self, points: &[f64], gradient: &mut [f64]) -> Evaluation {
