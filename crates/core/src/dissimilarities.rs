@@ -150,9 +150,13 @@ impl Dissimilarities {
 
     /// Every pair that was compared, with its dissimilarity: (first, second, dissimilarity), first < second, in order.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
-        let all =
-            (0..self.n_items).flat_map(|first| (first + 1..self.n_items).map(move |second| (first, second)));
-        all.zip(&self.condensed).filter_map(|((first, second), value)| value.map(|v| (first, second, v)))
+        let mut rest = &self.condensed[..];
+        (0..self.n_items).flat_map(move |first| {
+            let (row, after) = rest.split_at(self.n_items - first - 1);
+            rest = after;
+            let pair = move |(k, value): (usize, &Option<f64>)| value.map(|v| (first, first + 1 + k, v));
+            row.iter().enumerate().filter_map(pair)
+        })
     }
 
     /// An item that no chain of compared pairs joins to item 0.

@@ -281,13 +281,16 @@ fn best(
         let end = descend(&mut points, stop, |at, gradient| objective.evaluate(dims, at, gradient));
         found.push((end, points));
     }
-    let stress_by_start = found.iter().map(|(end, _)| end.value.sqrt()).collect();
-    let (end, points) =
-        found.into_iter().min_by(|(a, _), (b, _)| a.value.total_cmp(&b.value)).ok_or(MdsError::OnePoint)?;
-    let points = settle(&points, dims, objective.size(dims, &points));
+    let stress_by_start = found.iter().map(|(end, _)| end.at.value.sqrt()).collect();
+    let (end, points) = found
+        .into_iter()
+        .min_by(|(a, _), (b, _)| a.at.value.total_cmp(&b.at.value))
+        .ok_or(MdsError::OnePoint)?;
+    let squares = dissimilarities.pairs().fold(0.0, |sum, (_, _, value)| sum + value * value);
+    let points = settle(&points, dims, (squares / end.at.size).sqrt());
     Ok(Mds {
         points,
-        stress: end.value.sqrt(),
+        stress: end.at.value.sqrt(),
         converged: end.converged,
         n_steps: end.n_steps,
         stress_by_start,

@@ -17,7 +17,7 @@
 //! `groups` is how many groups were to be made; without it those that were made are counted. Without `trial` the number of
 //! groups tells the sorts of a participant apart. A texture whose group is left empty was not sorted.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use shagreen_core::sorting::{Placement, Sort};
 
@@ -120,11 +120,11 @@ struct Columns {
 
 /// Textures in the order of their first appearance.
 #[derive(Default)]
-struct Names(Vec<String>, HashMap<String, ()>);
+struct Names(Vec<String>, HashSet<String>);
 
 impl Names {
     fn add(&mut self, name: &str) {
-        if self.1.insert(name.to_owned(), ()).is_none() {
+        if self.1.insert(name.to_owned()) {
             self.0.push(name.to_owned());
         }
     }
@@ -196,13 +196,13 @@ fn by_sort(table: &NamedTable, columns: &Columns) -> Result<SortingTable, Sortin
     for column in &textures {
         names.add(&table.columns[*column]);
     }
-    let mut seen = HashMap::new();
+    let mut seen = HashSet::new();
     let mut sorts = Vec::new();
     for row in table.rows() {
         let participant = row.at(columns.participant).word()?.to_owned();
         let n_groups = count(columns.groups.map(|column| row.at(column)))?;
         let trial = trial_name(columns.trial.map(|column| row.at(column)), n_groups)?;
-        if seen.insert((participant.clone(), trial.clone()), ()).is_some() {
+        if !seen.insert((participant.clone(), trial.clone())) {
             return Err(SortingCsvError::SortTwice { participant, trial, line: row.line() });
         }
         let fields = textures.iter().map(|column| row.at(*column)).filter(|field| !field.text().is_empty());

@@ -9,6 +9,8 @@ pub(super) struct Evaluation {
     pub(super) value: f64,
     /// What the gradient is multiplied with to make the step of the Guttman transform, which is sure to descend.
     pub(super) guttman: f64,
+    /// Sum of the squared distances of the points.
+    pub(super) size: f64,
 }
 
 /// When to stop.
@@ -23,8 +25,8 @@ pub(super) struct Stop {
 /// Where a descent ended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
-    /// The value there.
-    pub(super) value: f64,
+    /// The function there.
+    pub(super) at: Evaluation,
     /// Whether it stands still there.
     pub(super) converged: bool,
     /// Steps taken.
@@ -71,7 +73,7 @@ pub(super) fn descend(
             if memory.steps.is_empty() {
                 // Not even the step that is sure to descend does: there is nothing left but rounding.
                 let promised = 0.5 * at.guttman * dot(&gradient, &gradient);
-                return End { value: at.value, converged: promised <= ROUNDING * at.value, n_steps };
+                return End { at, converged: promised <= ROUNDING * at.value, n_steps };
             }
             memory.steps.clear();
             continue;
@@ -84,10 +86,10 @@ pub(super) fn descend(
         let (fell, promised) = (at.value - next.value, 0.5 * next.guttman * dot(&gradient, &gradient));
         at = next;
         if fell <= still && promised <= still {
-            return End { value: at.value, converged: true, n_steps };
+            return End { at, converged: true, n_steps };
         }
     }
-    End { value: at.value, converged: at.value <= PERFECT, n_steps }
+    End { at, converged: at.value <= PERFECT, n_steps }
 }
 
 /// A point that a step leads to, and the gradient there.

@@ -5,47 +5,30 @@
 
 use crate::ar::sum_of;
 use crate::dissimilarities::Dissimilarities;
-use crate::isotonic::{Pool, pool};
+use crate::isotonic::{Pool, Pools};
 use crate::mds::descent::Evaluation;
 use crate::mds::{ShepardPair, Ties};
 
+/// Pairs that are worked on together, so that what is between two steps stays near.
+const N_TOGETHER: usize = 256;
+
 /// Pairs in the order of dissimilarity, and room for what is worked out of a configuration.
-pub(super) struct Objective {
+pub(super) struct Objective<'a> {
+    dissimilarities: &'a Dissimilarities,
     ties: Ties,
-    n_items: usize,
-    dissimilarities: Vec<f64>,
     pairs: Vec<[u16; 2]>,
     /// Where runs of equal dissimilarity begin and end, those of one pair left out.
     tied: Vec<(usize, usize)>,
     distances: Vec<f64>,
-    /// What the difference of a pair's points is weighted with in the gradient.
-    pulls: Vec<f64>,
-    pools: Vec<Pool>,
+    pools: Pools,
 }
 
-impl Objective {
+impl<'a> Objective<'a> {
     /// The objective of these dissimilarities, of at most [`crate::mds::MAX_ITEMS`] items.
-    pub(super) fn new(dissimilarities: &Dissimilarities, ties: Ties) -> Self {
-        let (values, pairs) = in_order(dissimilarities);
-        let n = pairs.len();
-        let mut tied = Vec::new();
-        let mut from = 0;
-        for run in values.chunk_by(|a, b| a == b) {
-            if run.len() > 1 {
-                tied.push((from, from + run.len()));
-            }
-            from += run.len();
-        }
-        Self {
-            ties,
-            n_items: dissimilarities.n_items(),
-            dissimilarities: values,
-            pairs,
-            tied,
-            distances: vec![0.0; n],
-            pulls: vec![0.0; n],
-            pools: Vec::with_capacity(n),
-        }
+    pub(super) fn new(dissimilarities: &'a Dissimilarities, ties: Ties) -> Self {
+        let (pairs, tied) = in_order(dissimilarities);
+        let distances = vec![0.0; pairs.len()];
+        Self { dissimilarities, ties, pairs, tied, distances, pools: Pools::default() }
     }
 
     /// Stress squared at `points`, `dims` coordinates each, and its gradient into `gradient`.
@@ -68,131 +51,170 @@ impl Objective {
         }
     }
 
-    /// Root of the squares of dissimilarities over those of the distances of `points`.
-    pub(super) fn size(&mut self, dims: usize, points: &[f64]) -> f64 {
-        let mut gradient = vec![0.0; points.len()];
-        self.evaluate(dims, points, &mut gradient);
-        (sum_of_squares(&self.dissimilarities) / sum_of_squares(&self.distances)).sqrt()
-    }
-
     /// The pairs as they were evaluated last.
     pub(super) fn shepard(&self) -> Vec<ShepardPair> {
-        let disparities =
-            self.pools.iter().flat_map(|p| std::iter::repeat_n(p.sum / p.weight, p.weight as usize));
-        let measured = self.dissimilarities.iter().zip(&self.distances).zip(disparities);
-        let pair = |(items, ((dissimilarity, distance), disparity)): (&[u16; 2], ((&f64, &f64), f64))| {
-            let items = items.map(usize::from);
-            ShepardPair { items, dissimilarity: *dissimilarity, distance: *distance, disparity }
+        let pair = |((items, distance), disparity): ((&[u16; 2], &f64), f64)| ShepardPair {
+            items: items.map(usize::from),
+            dissimilarity: value_of(self.dissimilarities, *items),
+            distance: *distance,
+            disparity,
         };
-        self.pairs.iter().zip(measured).map(pair).collect()
+        self.pairs.iter().zip(&self.distances).zip(self.pools.fitted()).map(pair).collect()
     }
 
     fn evaluate_in<const DIMS: usize>(&mut self, points: &[f64], gradient: &mut [f64]) -> Evaluation {
         let (points, _) = points.as_chunks::<DIMS>();
         let (gradient, _) = gradient.as_chunks_mut::<DIMS>();
-        self.measure(points);
+        let size = self.measure(points);
         self.regress();
-        let size = sum_of_squares(&self.distances);
-        let value = self.misfit() / size;
-        // Points that coincide have no direction to part in.
-        for (pull, distance) in self.pulls.iter_mut().zip(&self.distances) {
-            *pull = if *distance > 0.0 { *pull / distance - value } else { 0.0 };
-        }
         gradient.fill([0.0; DIMS]);
-        self.pull(points, gradient);
+        let value = self.pull(points, gradient) / size;
+        if !value.is_finite() {
+            return Evaluation { value: f64::INFINITY, guttman: 0.0, size };
+        }
+        self.pull_alike(points, gradient, value);
         for g in gradient.as_flattened_mut() {
             *g *= 2.0 / size;
         }
-        if !value.is_finite() {
-            return Evaluation { value: f64::INFINITY, guttman: 0.0 };
-        }
-        Evaluation { value, guttman: size / (2.0 * self.n_items as f64 * (1.0 - value)) }
+        Evaluation { value, guttman: size / (2.0 * points.len() as f64 * (1.0 - value)), size }
     }
 
-    fn measure<const DIMS: usize>(&mut self, points: &[[f64; DIMS]]) {
-        for (distance, pair) in self.distances.iter_mut().zip(&self.pairs) {
-            let [p, q] = pair.map(|item| &points[usize::from(item)]);
-            *distance = (0..DIMS).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum();
+    /// Works the distances out, and the sum of their squares.
+    fn measure<const DIMS: usize>(&mut self, points: &[[f64; DIMS]]) -> f64 {
+        let mut size = 0.0;
+        let together = self.distances.chunks_mut(N_TOGETHER).zip(self.pairs.chunks(N_TOGETHER));
+        for (distances, pairs) in together {
+            for (distance, pair) in distances.iter_mut().zip(pairs) {
+                let [p, q] = pair.map(|item| &points[usize::from(item)]);
+                *distance = (0..DIMS).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum();
+            }
+            size += sum_of(distances, |square| square);
+            for distance in distances {
+                *distance = distance.sqrt();
+            }
         }
-        // A pass of its own, because roots of neighbors are taken at once.
-        for distance in &mut self.distances {
-            *distance = distance.sqrt();
-        }
+        size
     }
 
     /// Pools of the distances, in the order of dissimilarity.
     fn regress(&mut self) {
-        match self.ties {
-            Ties::Primary => {
-                for &(from, to) in &self.tied {
-                    sort_together(&mut self.distances[from..to], &mut self.pairs[from..to]);
+        self.pools.clear();
+        let mut from = 0;
+        for &(tied, free) in &self.tied {
+            match self.ties {
+                // In the order of distance, ties are no constraint.
+                Ties::Primary => sort_together(&mut self.distances[tied..free], &mut self.pairs[tied..free]),
+                Ties::Secondary => {
+                    let run = &self.distances[tied..free];
+                    self.pools.extend(&self.distances[from..tied]);
+                    self.pools.push(Pool { sum: run.iter().sum(), weight: run.len() as f64 });
+                    from = free;
                 }
-                let each = self.distances.iter().map(|d| Pool { sum: *d, weight: 1.0 });
-                pool(each, &mut self.pools);
-            }
-            Ties::Secondary => {
-                let mut rest = &self.distances[..];
-                let runs = self.dissimilarities.chunk_by(|a, b| a == b).map(|run| {
-                    let (tied, after) = rest.split_at(run.len());
-                    rest = after;
-                    Pool { sum: tied.iter().sum(), weight: tied.len() as f64 }
-                });
-                pool(runs, &mut self.pools);
             }
         }
+        self.pools.extend(&self.distances[from..]);
     }
 
-    /// Sum of the squared differences of distances and disparities; the differences are left in `pulls`.
-    fn misfit(&mut self) -> f64 {
+    /// Adds `(d - d̂) / d (x_i - x_j)` to the gradient at `i` for every `j`, and gives the sum of `(d - d̂)²`.
+    fn pull<const DIMS: usize>(&self, points: &[[f64; DIMS]], gradient: &mut [[f64; DIMS]]) -> f64 {
+        let mut shares = [0.0; N_TOGETHER];
+        let mut misfit = 0.0;
         let mut from = 0;
-        for pool in &self.pools {
+        for pool in self.pools.as_slice() {
             let to = from + pool.weight as usize;
             let disparity = pool.sum / pool.weight;
-            for (pull, distance) in self.pulls[from..to].iter_mut().zip(&self.distances[from..to]) {
-                *pull = distance - disparity;
+            let together =
+                self.distances[from..to].chunks(N_TOGETHER).zip(self.pairs[from..to].chunks(N_TOGETHER));
+            for (distances, pairs) in together {
+                misfit += sum_of(distances, |distance| (distance - disparity) * (distance - disparity));
+                for (share, distance) in shares.iter_mut().zip(distances) {
+                    // Points that coincide have no direction to part in.
+                    *share = if *distance > 0.0 { (distance - disparity) / distance } else { 0.0 };
+                }
+                for (share, pair) in shares.iter().zip(pairs) {
+                    pull_pair(points, gradient, *pair, *share);
+                }
             }
             from = to;
         }
-        sum_of_squares(&self.pulls)
+        misfit
     }
 
-    fn pull<const DIMS: usize>(&self, points: &[[f64; DIMS]], gradient: &mut [[f64; DIMS]]) {
-        for (pull, pair) in self.pulls.iter().zip(&self.pairs) {
-            let [i, j] = pair.map(usize::from);
-            for axis in 0..DIMS {
-                let force = pull * (points[i][axis] - points[j][axis]);
-                gradient[i][axis] += force;
-                gradient[j][axis] -= force;
+    /// Takes `share (x_i - x_j)` from the gradient at `i` for every `j`.
+    fn pull_alike<const DIMS: usize>(
+        &self,
+        points: &[[f64; DIMS]],
+        gradient: &mut [[f64; DIMS]],
+        share: f64,
+    ) {
+        let n = points.len();
+        if self.pairs.len() < n * (n - 1) / 2 {
+            for pair in &self.pairs {
+                pull_pair(points, gradient, *pair, -share);
+            }
+            return;
+        }
+        // With every pair there, the sum is known without them.
+        for axis in 0..DIMS {
+            let sum: f64 = points.iter().map(|p| p[axis]).sum();
+            for (g, p) in gradient.iter_mut().zip(points) {
+                g[axis] -= share * (n as f64 * p[axis] - sum);
             }
         }
     }
 }
 
-/// Every compared pair in the order of dissimilarity, then of items: dissimilarities and items.
-fn in_order(dissimilarities: &Dissimilarities) -> (Vec<f64>, Vec<[u16; 2]>) {
+fn pull_pair<const DIMS: usize>(
+    points: &[[f64; DIMS]],
+    gradient: &mut [[f64; DIMS]],
+    pair: [u16; 2],
+    share: f64,
+) {
+    let [i, j] = pair.map(usize::from);
+    for axis in 0..DIMS {
+        let force = share * (points[i][axis] - points[j][axis]);
+        gradient[i][axis] += force;
+        gradient[j][axis] -= force;
+    }
+}
+
+/// Every compared pair in the order of dissimilarity, then of items, and where those of equal dissimilarity begin and end.
+fn in_order(dissimilarities: &Dissimilarities) -> (Vec<[u16; 2]>, Vec<(usize, usize)>) {
     // Whole numbers sort several times faster than pairs with their dissimilarity. One of 64 bits holds the dissimilarity
     // to 32 bits and both items; those whose 32 bits are equal are sorted exactly afterwards.
     let highest = dissimilarities.pairs().map(|(_, _, value)| value).fold(0.0, f64::max);
     let scale = f64::from(u32::MAX) / highest;
-    let key = |(first, second, value): (usize, usize, f64)| {
-        u64::from((value * scale) as u32) << 32 | (first as u64) << 16 | second as u64
-    };
-    let mut keys: Vec<u64> = dissimilarities.pairs().map(key).collect();
+    let mut keys: Vec<u64> = Vec::with_capacity(dissimilarities.n_items().pow(2) / 2);
+    // Not collected: an iterator of many parts runs faster from within.
+    dissimilarities.pairs().for_each(|(first, second, value)| {
+        keys.push(u64::from((value * scale) as u32) << 32 | (first as u64) << 16 | second as u64);
+    });
     keys.sort_unstable();
-    let items = |key: &u64| [(key >> 16) as u16, *key as u16];
-    let value = |[first, second]: [u16; 2]| {
-        // A pair with a key was compared.
-        dissimilarities.between(usize::from(first), usize::from(second)).unwrap_or_default()
-    };
-    let mut pairs: Vec<[u16; 2]> = keys.iter().map(items).collect();
-    let mut values: Vec<f64> = pairs.iter().map(|pair| value(*pair)).collect();
+    let mut pairs: Vec<[u16; 2]> = keys.iter().map(|key| [(key >> 16) as u16, *key as u16]).collect();
+    let mut tied = Vec::new();
     let mut from = 0;
     for run in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
         let to = from + run.len();
-        sort_together(&mut values[from..to], &mut pairs[from..to]);
+        if run.len() > 1 {
+            let pairs = &mut pairs[from..to];
+            let mut values: Vec<f64> = pairs.iter().map(|pair| value_of(dissimilarities, *pair)).collect();
+            sort_together(&mut values, pairs);
+            let mut begin = from;
+            for equal in values.chunk_by(|a, b| a == b) {
+                if equal.len() > 1 {
+                    tied.push((begin, begin + equal.len()));
+                }
+                begin += equal.len();
+            }
+        }
         from = to;
     }
-    (values, pairs)
+    (pairs, tied)
+}
+
+/// The dissimilarity of a pair that was compared.
+fn value_of(dissimilarities: &Dissimilarities, [first, second]: [u16; 2]) -> f64 {
+    dissimilarities.between(usize::from(first), usize::from(second)).unwrap_or_default()
 }
 
 /// Sorts `values`, and puts `pairs` into the same order.
@@ -206,8 +228,4 @@ fn sort_together(values: &mut [f64], pairs: &mut [[u16; 2]]) {
     for ((value, pair), sorted) in values.iter_mut().zip(pairs).zip(both) {
         (*value, *pair) = sorted;
     }
-}
-
-fn sum_of_squares(values: &[f64]) -> f64 {
-    sum_of(values, |v| v * v)
 }

@@ -43,7 +43,8 @@ fn noisy(n: usize, seed: u64, levels: f64) -> Dissimilarities {
 fn the_gradient_is_the_slope() {
     for ties in [Ties::Primary, Ties::Secondary] {
         for (dims, levels) in [(1, 2.0), (2, 2.0), (3, 1e6), (10, 5.0)] {
-            let mut objective = Objective::new(&noisy(14, 5, levels), ties);
+            let items = noisy(14, 5, levels);
+            let mut objective = Objective::new(&items, ties);
             let at = lcg_noise(14 * dims, 77);
             let mut gradient = vec![0.0; at.len()];
             objective.evaluate(dims, &at, &mut gradient);
