@@ -16,6 +16,8 @@ mod motion;
 mod output;
 mod play;
 mod render;
+mod space_build;
+mod space_panel;
 mod space_place;
 mod stroke;
 mod target;
@@ -75,6 +77,8 @@ enum ImportCommand {
 
 #[derive(clap::Subcommand)]
 enum SpaceCommand {
+    Build(Box<space_build::Args>),
+    Panel(space_panel::Args),
     Place(space_place::Args),
 }
 
@@ -99,6 +103,8 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
         Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Space(SpaceCommand::Build(args))) => space_build::run(args),
+        Some(Command::Space(SpaceCommand::Panel(args))) => space_panel::run(args),
         Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Devices(args)) => {
