@@ -11,6 +11,7 @@ mod import_hatt;
 mod import_recording;
 mod library_list;
 mod library_make;
+mod library_places;
 mod library_source;
 mod motion;
 mod output;
@@ -67,6 +68,7 @@ enum LibraryCommand {
     /// Lists the textures of a library.
     List(library_list::Args),
     Make(library_make::Args),
+    Places(library_places::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -99,6 +101,7 @@ pub(crate) fn run() -> ExitCode {
         None => window::run(&cli.window, started),
         Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
         Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
+        Some(Command::Library(LibraryCommand::Places(args))) => library_places::run(args),
         Some(Command::Export(args)) => export::run(args),
         Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
         Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
