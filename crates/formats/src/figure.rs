@@ -1,5 +1,6 @@
 //! Figures as data: what is drawn in the window and what is saved as SVG or CSV is one and the same.
 
+mod labels;
 mod svg;
 
 use crate::named_table::write_table;
