@@ -42,6 +42,7 @@ pub mod lsf;
 pub mod material;
 pub mod mds;
 pub mod mfcc;
+pub mod natural_neighbor;
 pub mod panel;
 pub mod patterns;
 pub mod plane;

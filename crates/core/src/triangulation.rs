@@ -32,9 +32,9 @@ pub enum TriangulationError {
 }
 
 /// A site that remembers its index.
-struct Site {
+pub(crate) struct Site {
     position: Point2<f64>,
-    index: usize,
+    pub(crate) index: usize,
 }
 
 impl HasPosition for Site {
@@ -45,6 +45,23 @@ impl HasPosition for Site {
     }
 }
 
+/// The points, separated where they are equal, and their triangulation.
+pub(crate) fn delaunay(points: &[Xy]) -> Result<(Vec<Xy>, DelaunayTriangulation<Site>), TriangulationError> {
+    if let Some(index) = points.iter().position(|p| p.iter().any(|c| !c.is_finite() || c.abs() > 1e12)) {
+        return Err(TriangulationError::Coordinate { index });
+    }
+    // Numbers below 1e-140 overflow the exact predicates, and are zero for every purpose here; so is minus zero. Before
+    // points are separated, since they may make points equal.
+    let plain = |c: f64| if c.abs() < 1e-100 { 0.0 } else { c };
+    let points = separated(&points.iter().map(|p| p.map(plain)).collect::<Vec<_>>());
+    let mut delaunay = DelaunayTriangulation::<Site>::new();
+    for (index, [x, y]) in points.iter().enumerate() {
+        let site = Site { position: Point2::new(*x, *y), index };
+        delaunay.insert(site).map_err(|_| TriangulationError::Coordinate { index })?;
+    }
+    Ok((points, delaunay))
+}
+
 impl Triangulation {
     /// The Delaunay triangulation of `points`. Equal points are moved apart by about 1e-9 of their size, each by its
     /// own index, so that none is lost.
@@ -52,18 +69,7 @@ impl Triangulation {
     /// # Errors
     /// A coordinate that is not finite or exceeds 1e12.
     pub fn new(points: &[Xy]) -> Result<Self, TriangulationError> {
-        if let Some(index) = points.iter().position(|p| p.iter().any(|c| !c.is_finite() || c.abs() > 1e12)) {
-            return Err(TriangulationError::Coordinate { index });
-        }
-        // Numbers below 1e-140 overflow the exact predicates, and are zero for every purpose here; so is minus zero. Before
-        // points are separated, since they may make points equal.
-        let plain = |c: f64| if c.abs() < 1e-100 { 0.0 } else { c };
-        let points = separated(&points.iter().map(|p| p.map(plain)).collect::<Vec<_>>());
-        let mut delaunay = DelaunayTriangulation::<Site>::new();
-        for (index, [x, y]) in points.iter().enumerate() {
-            let site = Site { position: Point2::new(*x, *y), index };
-            delaunay.insert(site).map_err(|_| TriangulationError::Coordinate { index })?;
-        }
+        let (points, delaunay) = delaunay(points)?;
         let mut triangle_of_face = std::collections::BTreeMap::new();
         let mut triangles = Vec::new();
         for face in delaunay.inner_faces() {
