@@ -113,11 +113,10 @@ fn judgements_that_make_no_space_say_why_and_write_nothing() {
     changed("r.csv", "r-again.csv", &|text| text.replace("hard-soft", "Smooth-Rough"));
     changed("r.csv", "r-twice.csv", &|text| format!("{text}simulated-01,cork,rough-smooth,5\n"));
     changed("r.csv", "r-one.csv", &|text| {
-        text.lines()
-            .filter(|l| l.starts_with("part") || l.contains("rough-smooth"))
-            .map(|l| format!("{l}\n"))
-            .collect()
+        let kept = text.lines().filter(|l| l.starts_with("part") || l.contains("rough-smooth"));
+        kept.collect::<Vec<_>>().join("\n")
     });
+    changed("r.csv", "r-mixed.csv", &|text| text.replace("simulated-02", "anna"));
     let files = bench.files();
     let check = |arguments: &str, code: i32, words: &str| {
         let said = bench.run(&format!("space build {arguments} --out l.json --permutations 5"));
@@ -134,6 +133,8 @@ fn judgements_that_make_no_space_say_why_and_write_nothing() {
     check("--sorting r.csv --ratings r.csv", 1, "r.csv");
     check("--sorting s.csv --ratings s.csv", 1, "s.csv");
     check("--sorting s.csv --ratings r.csv --source human", 1, "is simulated");
+    check("--sorting s.csv --ratings r-mixed.csv", 1, "both simulated participants and others");
+    check("--sorting s.csv --ratings r.csv --figures s.csv", 1, "s.csv");
     check("--sorting s.csv --ratings r.csv --axes rough-smooth", 2, "two pairs");
     check("--sorting s.csv --ratings r.csv --axes warm-cold,hard-soft", 1, "it was not rated");
 }

@@ -6,7 +6,8 @@ use anyhow::{Context as _, bail};
 use shagreen_core::features::NamedTexture;
 use shagreen_core::mds::{MAX_DIMS, Ties};
 use shagreen_core::mfcc::{MfccOptions, htk, paper, recommended};
-use shagreen_core::ratings::{AdjectivePair, Rating};
+use shagreen_core::panel::is_simulated;
+use shagreen_core::ratings::{AdjectivePair, Rating, RelevanceVote};
 use shagreen_core::selection::Method;
 use shagreen_core::sorting::Sort;
 use shagreen_core::space::LabelSource;
@@ -14,11 +15,13 @@ use shagreen_core::space_build::{
     FeatureKind, Placement, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
 };
 use shagreen_formats::atomic;
-use shagreen_formats::figure::{figure_csv, figure_svg, page_svg};
+use shagreen_formats::figure::{figure_csv, figure_svg, is_figure_csv, page_svg};
 use shagreen_formats::library::write_library;
 use shagreen_formats::ratings_csv::{read_ratings_csv, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
-use shagreen_formats::space_report::{FORMAT, placed_library, space_figures, space_report, space_subtitle};
+use shagreen_formats::space_report::{
+    FIGURES, FORMAT, placed_library, space_figures, space_report, space_subtitle,
+};
 
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
@@ -110,6 +113,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "the library", is_library)?;
     refuse_foreign(&report_json, "the report", |bytes| has_format(bytes, FORMAT))?;
     refuse_foreign(&report_svg, "the page of plots", |bytes| bytes.starts_with(b"<svg"))?;
+    if let Some(folder) = &args.figures {
+        check_figures(folder, &inputs)?;
+    }
+    // Before minutes of work, not after them.
+    if let Some(folder) = [&args.out, &report_json, &report_svg].into_iter().find(|path| path.is_dir()) {
+        bail!("this is a folder; name a file to write: {}", folder.display());
+    }
     let library = load(&args.library)?;
     let sorts = read(&args.sorting, |bytes| Ok(read_sorting_csv(bytes)?.sorts))?;
     let ratings = read(&args.ratings, |bytes| Ok(read_ratings_csv(bytes)?))?;
@@ -117,7 +127,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(path) => read(path, |bytes| Ok(read_relevance_csv(bytes)?))?,
         None => Vec::new(),
     };
-    let source = source(args, &sorts, &ratings)?;
+    let source = source(args, &sorts, &ratings, &votes)?;
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
     let options = options(args)?;
@@ -159,10 +169,37 @@ fn read<T>(path: &Path, reader: impl FnOnce(&[u8]) -> anyhow::Result<T>) -> anyh
     reader(&bytes).with_context(|| output::in_file(path))
 }
 
+/// Figures must not replace what is read, nor somebody's files.
+fn check_figures(folder: &Path, inputs: &[Option<&Path>]) -> anyhow::Result<()> {
+    if folder.exists() && !folder.is_dir() {
+        bail!("figures go into a folder, and this is a file; name another: {}", folder.display());
+    }
+    for name in FIGURES {
+        let [svg, csv] = ["svg", "csv"].map(|ending| folder.join(format!("{name}.{ending}")));
+        refuse_inputs(&[&svg, &csv], inputs)?;
+        refuse_foreign(&svg, "a figure", |bytes| bytes.starts_with(b"<svg"))?;
+        refuse_foreign(&csv, "the numbers of a figure", is_figure_csv)?;
+    }
+    Ok(())
+}
+
 /// Who judged. What calls itself simulated is never taken for people.
-fn source(args: &Args, sorts: &[Sort], ratings: &[Rating]) -> anyhow::Result<LabelSource> {
-    let names = sorts.iter().map(|s| &s.participant).chain(ratings.iter().map(|r| &r.participant));
-    let simulated = names.into_iter().find(|name| name.to_lowercase().contains("simulated"));
+fn source(
+    args: &Args,
+    sorts: &[Sort],
+    ratings: &[Rating],
+    votes: &[RelevanceVote],
+) -> anyhow::Result<LabelSource> {
+    let sorted = sorts.iter().map(|sort| &sort.participant);
+    let names =
+        sorted.chain(ratings.iter().map(|r| &r.participant)).chain(votes.iter().map(|v| &v.participant));
+    let (simulated, others): (Vec<&String>, Vec<&String>) = names.partition(|name| is_simulated(name));
+    if let ([one, ..], [other, ..]) = (&simulated[..], &others[..]) {
+        bail!(
+            "there are both simulated participants and others (\"{one}\" and \"{other}\"): a space of both means nothing; leave one kind out"
+        )
+    }
+    let simulated = simulated.first();
     match (args.source.as_deref(), simulated) {
         (Some("human"), Some(name)) => {
             bail!(
@@ -170,6 +207,10 @@ fn source(args: &Args, sorts: &[Sort], ratings: &[Rating]) -> anyhow::Result<Lab
             )
         }
         (Some("simulated"), _) | (None, Some(_)) => Ok(LabelSource::SimulatedRaters),
+        (None, None) => {
+            output::note("the participants are taken for people; if they are not, say --source simulated");
+            Ok(LabelSource::HumanRatings)
+        }
         _ => Ok(LabelSource::HumanRatings),
     }
 }

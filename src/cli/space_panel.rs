@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use serde_json::json;
-use shagreen_core::panel::{PanelConfig, simulated_ratings, simulated_sorts};
+use shagreen_core::panel::{PanelConfig, is_simulated, simulated_ratings, simulated_sorts};
 use shagreen_core::ratings::AdjectivePair;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::atomic;
@@ -100,8 +100,4 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     Ok(())
-}
-
-fn is_simulated(participant: &str) -> bool {
-    participant.starts_with("simulated-")
 }

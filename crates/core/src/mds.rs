@@ -176,30 +176,27 @@ pub fn nonmetric_from(
     best(dissimilarities, start[0].len(), &MdsOptions { n_random_starts: 0, ..options.clone() }, vec![flat])
 }
 
-/// Stress-1 of the best configuration in each number of dimensions; the best of one dimension fewer is a start too, so
-/// that stress does not rise with dimensions.
+/// The best configuration in each number of dimensions; the best of one dimension fewer is a start too, so that stress
+/// does not rise with dimensions.
 ///
 /// # Errors
 /// See [`MdsError`].
-pub fn stress_by_dimension(
+pub fn by_dimension(
     dissimilarities: &Dissimilarities,
     dims: RangeInclusive<usize>,
     options: &MdsOptions,
-) -> Result<Vec<f64>, MdsError> {
-    let mut stress = Vec::new();
-    let mut before: Option<Mds> = None;
+) -> Result<Vec<Mds>, MdsError> {
+    let mut all: Vec<Mds> = Vec::new();
     for dims in dims {
         check(dissimilarities, dims)?;
         let seed = derive_seed(options.seed, "classical start");
         let mut starts = vec![start::classical(dissimilarities, dims, seed)];
-        if let Some(before) = before {
+        if let Some(before) = all.last() {
             starts.push(start::with_axis(&before.points, derive_seed(options.seed, "another axis")));
         }
-        let found = best(dissimilarities, dims, options, starts)?;
-        stress.push(found.stress);
-        before = Some(found);
+        all.push(best(dissimilarities, dims, options, starts)?);
     }
-    Ok(stress)
+    Ok(all)
 }
 
 /// Every compared pair in the order of dissimilarity, with distance and disparity in a configuration.

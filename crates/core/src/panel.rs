@@ -7,6 +7,11 @@ use crate::ratings::{AdjectivePair, Rating};
 use crate::rng::{Random, derive_seed};
 use crate::sorting::{Placement, Sort};
 
+/// Whether a participant calls itself simulated: what it says is never taken for a person's.
+pub fn is_simulated(participant: &str) -> bool {
+    participant.to_lowercase().contains("simulated")
+}
+
 /// Rounds of grouping after which a simulated participant leaves the groups as they are.
 const MAX_ROUNDS: usize = 50;
 
@@ -80,7 +85,7 @@ pub enum PanelError {
 
 /// Ratings of textures by a panel: `labels` are those of each texture, 0..100, one a pair.
 ///
-/// A rating is `50 + scale (label - 50) + bias + noise`, kept within 0..100.
+/// A rating is `50 + scale (label + noise - 50) + bias`, kept within 0..100.
 ///
 /// # Errors
 /// See [`PanelError`].

@@ -13,7 +13,7 @@
 //!
 //! A model that has found nothing predicts the mean of its training textures. That mean is low exactly where the
 //! left-out texture is high, so the usual correlation of predictions with targets is -1 for such a model with one
-//! texture left out, and below zero with more: an artefact, not a finding. Here both are measured from the mean of the
+//! texture left out, and below zero with more: an artifact, not a finding. Here both are measured from the mean of the
 //! training textures, `q = prediction - mean`, `t = target - mean`, and `r = Σ q t / sqrt(Σ q² Σ t²)` over all
 //! left-out textures of all repeats. Under the null a left-out target says nothing about `q`, so `Σ q t` is zero on
 //! average; a model that predicts its mean has `q = 0` and gets `r = 0`.

@@ -139,6 +139,7 @@ pub fn similarity(textures: &[String], sorts: &[Sort]) -> Result<Similarity, Sor
     }
     let mut trials = BTreeSet::new();
     let mut names: Vec<&str> = Vec::new();
+    let mut index_of_name: BTreeMap<&str, usize> = BTreeMap::new();
     let mut tallies: Vec<Tally> = Vec::new();
     let mut findings = Vec::new();
     for sort in sorts {
@@ -148,7 +149,7 @@ pub fn similarity(textures: &[String], sorts: &[Sort]) -> Result<Similarity, Sor
         }
         let groups = groups_of(sort, &index)?;
         findings.extend(findings_of_sort(sort, &groups));
-        let at = names.iter().position(|name| *name == sort.participant).unwrap_or_else(|| {
+        let at = *index_of_name.entry(&sort.participant).or_insert_with(|| {
             names.push(&sort.participant);
             tallies.push(Tally::new(n));
             names.len() - 1
@@ -222,6 +223,16 @@ impl Tally {
             for (to, from) in to.iter_mut().zip(from) {
                 *to += from;
             }
+        }
+    }
+
+    /// What is left when `part` of it is taken away.
+    fn without(&self, part: &Self) -> Self {
+        let less = |all: &[f64], part: &[f64]| all.iter().zip(part).map(|(a, p)| a - p).collect();
+        Self {
+            n_textures: self.n_textures,
+            score: less(&self.score, &part.score),
+            most: less(&self.most, &part.most),
         }
     }
 

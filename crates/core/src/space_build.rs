@@ -13,11 +13,13 @@ mod axes;
 mod error;
 mod verdict;
 
+use std::collections::BTreeSet;
+
 use crate::dissimilarities::Dissimilarities;
 use crate::features::{
     FeaturePlan, FeatureTable, NamedTexture, Statistic, per_frame, per_pattern, physical_table,
 };
-use crate::mds::{MAX_DIMS, Mds, MdsOptions, ShepardPair, nonmetric, shepard, stress_by_dimension};
+use crate::mds::{MAX_DIMS, Mds, MdsOptions, ShepardPair, by_dimension, shepard};
 use crate::mfcc::MfccOptions;
 use crate::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns};
 use crate::ratings::{AdjectivePair, RaterFit, Rating, RatingTable, RelevanceVote, rater_fits};
@@ -32,6 +34,9 @@ pub use crate::space_build::verdict::{kruskal_word, verdict};
 
 use crate::space_build::adjectives::fit_adjectives;
 use crate::space_build::axes::fit_axes;
+
+/// Participants below whom a perceptual space is mostly chance.
+const MIN_SORTERS: usize = 5;
 
 /// What a space is made of.
 #[derive(Clone, Debug)]
@@ -199,11 +204,12 @@ pub fn build_space(
     if !(2..=MAX_DIMS).contains(&options.n_dims) {
         return Err(SpaceBuildError::Dims { n_dims: options.n_dims });
     }
+    check_names(data)?;
     let table = RatingTable::new(&data.ratings)?;
-    check_names(data, &table)?;
-    let is_sorted = |id: &str| data.sorts.iter().any(|s| s.placements.iter().any(|p| p.texture == id));
+    let in_sorts: BTreeSet<&str> =
+        data.sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| p.texture.as_str())).collect();
     let (sorted, not_sorted): (Vec<NamedTexture<'_>>, Vec<_>) =
-        data.textures.iter().partition(|texture| is_sorted(texture.name));
+        data.textures.iter().partition(|texture| in_sorts.contains(texture.name));
     let textures: Vec<String> = sorted.iter().map(|texture| texture.name.to_owned()).collect();
     let similarity = similarity(&textures, &data.sorts)?;
     let dissimilarities: Dissimilarities = similarity.dissimilarities()?;
@@ -211,12 +217,22 @@ pub fn build_space(
     begin(Step::Scaling)?;
     // A space cannot have as many dimensions as textures.
     let most_dims = MAX_DIMS.min(textures.len().saturating_sub(2)).max(options.n_dims);
-    let stress = stress_by_dimension(&dissimilarities, 1..=most_dims, &options.mds)?;
-    let perceptual = nonmetric(&dissimilarities, options.n_dims, &options.mds)?;
+    let all_dims = by_dimension(&dissimilarities, 1..=most_dims, &options.mds)?;
+    let stress: Vec<f64> = all_dims.iter().map(|mds| mds.stress).collect();
+    let perceptual = all_dims[options.n_dims - 1].clone();
     let shepard = shepard(&dissimilarities, &perceptual.points, options.mds.ties)?;
 
     begin(Step::Adjectives)?;
     let mut findings: Vec<String> = similarity.findings.iter().map(ToString::to_string).collect();
+    let n_sorters = similarity.agreements.len();
+    if n_sorters < MIN_SORTERS {
+        findings.push(format!(
+            "only {n_sorters} participants sorted: most dissimilarities are equal, so the perceptual space depends on chance however low its stress is; ten are usual"
+        ));
+    }
+    if !perceptual.converged {
+        findings.push("the perceptual space was still moving when its steps ran out: allow more".to_owned());
+    }
     let adjectives = fit_adjectives(&table, &data.votes, &textures, &perceptual.points, &mut findings)?;
     let raters: Vec<(String, RaterFit)> =
         table.participants().iter().cloned().zip(rater_fits(&table)).collect();
@@ -227,6 +243,9 @@ pub fn build_space(
 
     let (axes, angle_degrees) =
         fit_axes(&adjectives, &perceptual.points, &features, options, &mut |axis| begin(Step::Axis(axis)))?;
+    if let Some(unusual) = unusual_axes(&axes) {
+        findings.push(unusual);
+    }
     let positions = positions(&axes, options.placement);
     let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
     Ok(SpaceBuild {
@@ -251,22 +270,21 @@ pub fn build_space(
 }
 
 /// Sortings and ratings must be of textures that there are, each of which has a name of its own.
-fn check_names(data: &SpaceData<'_>, table: &RatingTable) -> Result<(), SpaceBuildError> {
-    let mut known = std::collections::BTreeSet::new();
+fn check_names(data: &SpaceData<'_>) -> Result<(), SpaceBuildError> {
+    let mut known = BTreeSet::new();
     if let Some(twice) = data.textures.iter().find(|texture| !known.insert(texture.name)) {
         return Err(SpaceBuildError::TextureTwice { texture: twice.name.to_owned() });
     }
     let unknown = |texture: &&String| !known.contains(texture.as_str());
-    let sorted = data.sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| &p.texture));
-    for (judged, what) in
-        [(sorted.clone().find(unknown), "sorted"), (table.textures().iter().find(unknown), "rated")]
-    {
+    let sorted = || data.sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| &p.texture));
+    let rated = || data.ratings.iter().map(|rating| &rating.texture);
+    for (judged, what) in [(sorted().find(unknown), "sorted"), (rated().find(unknown), "rated")] {
         if let Some(texture) = judged {
             return Err(SpaceBuildError::UnknownTexture { texture: texture.clone(), what });
         }
     }
-    let is_sorted: std::collections::BTreeSet<&String> = sorted.collect();
-    if !table.textures().iter().any(|texture| is_sorted.contains(texture)) {
+    let in_sorts: BTreeSet<&String> = sorted().collect();
+    if !data.ratings.is_empty() && !rated().any(|texture| in_sorts.contains(texture)) {
         return Err(SpaceBuildError::NothingShared);
     }
     Ok(())
@@ -284,6 +302,17 @@ fn features(textures: &[NamedTexture<'_>], options: &SpaceOptions) -> Result<Fea
         FeatureKind::MfccAndPhysical => {
             per_pattern(textures, &plan, Statistic::Mean)?.beside(&physical_table(textures, &contacts)?)
         }
+    })
+}
+
+/// What is to be known where the axes are not those that the square is named by.
+fn unusual_axes(axes: &[Axis; 2]) -> Option<String> {
+    let names = axes.each_ref().map(|axis| axis.pair.name().to_lowercase());
+    (names != ["rough-smooth", "hard-soft"]).then(|| {
+        format!(
+            "the axes are {} and {}: they take the places of rough-smooth and hard-soft in the library, where 0 is {} and {}",
+            names[0], names[1], axes[0].pair.low, axes[1].pair.low
+        )
     })
 }
 

@@ -29,6 +29,8 @@ pub struct Chart {
     pub is_isotropic: bool,
     /// What is drawn, the last on top.
     pub series: Vec<Series>,
+    /// Who or what it comes from, shown with it and saved with every number; may be empty.
+    pub source: String,
 }
 
 /// Points that belong together.
@@ -90,6 +92,8 @@ pub struct Table {
     pub rows: Vec<(String, Vec<Option<f64>>)>,
     /// Decimals that mean something.
     pub decimals: usize,
+    /// As [`Chart::source`].
+    pub source: String,
 }
 
 impl Point {
@@ -105,11 +109,20 @@ impl Point {
 }
 
 impl Figure {
-    /// What it shows, in a line.
-    pub fn title(&self) -> &str {
+    /// What it shows and whom it comes from, in a line.
+    pub fn title(&self) -> String {
+        let (title, source) = match self {
+            Self::Chart(chart) => (&chart.title, &chart.source),
+            Self::Table(table) => (&table.title, &table.source),
+        };
+        if source.is_empty() { title.clone() } else { format!("{title} ({source})") }
+    }
+
+    /// Says whom it comes from.
+    pub fn set_source(&mut self, source: &str) {
         match self {
-            Self::Chart(chart) => &chart.title,
-            Self::Table(table) => &table.title,
+            Self::Chart(chart) => source.clone_into(&mut chart.source),
+            Self::Table(table) => source.clone_into(&mut table.source),
         }
     }
 }
@@ -140,7 +153,7 @@ impl Chart {
 }
 
 /// The first line of a chart's table.
-const CHART_COLUMNS: [&str; 4] = ["series", "label", "x", "y"];
+const CHART_COLUMNS: [&str; 5] = ["series", "label", "x", "y", "source"];
 
 /// The numbers of a figure as CSV: of a chart one point a line, of a table its own rows.
 pub fn figure_csv(figure: &Figure) -> Vec<u8> {
@@ -148,25 +161,35 @@ pub fn figure_csv(figure: &Figure) -> Vec<u8> {
         Figure::Chart(chart) => {
             let rows = chart.series.iter().flat_map(|series| {
                 series.points.iter().map(|Point { x, y, label }| {
-                    vec![series.name.clone(), label.clone(), format!("{x}"), format!("{y}")]
+                    let source = chart.source.clone();
+                    vec![series.name.clone(), label.clone(), format!("{x}"), format!("{y}"), source]
                 })
             });
             write_table(std::iter::once(CHART_COLUMNS.map(str::to_owned).to_vec()).chain(rows))
         }
         Figure::Table(table) => {
-            let first = std::iter::once(String::new()).chain(table.columns.iter().cloned());
+            let first = std::iter::once("row".to_owned()).chain(table.columns.iter().cloned());
+            let first = first.chain(["source".to_owned()]);
             let rows = table.rows.iter().map(|(name, values)| {
                 let shown = values.iter().map(|v| v.map_or_else(String::new, |value| format!("{value}")));
-                std::iter::once(name.clone()).chain(shown).collect()
+                std::iter::once(name.clone()).chain(shown).chain([table.source.clone()]).collect()
             });
             write_table(std::iter::once(first.collect()).chain(rows))
         }
     }
 }
 
+/// Whether bytes are a table that [`figure_csv`] wrote.
+pub fn is_figure_csv(bytes: &[u8]) -> bool {
+    let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    first == CHART_COLUMNS.join(",").as_bytes() || first.starts_with(b"row,") && first.ends_with(b",source")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Chart, Figure, Mark, Point, Series, Table, Tone, figure_csv, figure_svg, page_svg};
+    use super::{
+        Chart, Figure, Mark, Point, Series, Table, Tone, figure_csv, figure_svg, is_figure_csv, page_svg,
+    };
 
     fn chart() -> Chart {
         let series = |name: &str, mark: Mark, tone: Tone| Series {
@@ -180,6 +203,7 @@ mod tests {
             x_label: "x".to_owned(),
             y_label: "y".to_owned(),
             is_isotropic: false,
+            source: "simulated raters".to_owned(),
             series: vec![
                 series("edges", Mark::Segments, Tone::Faint),
                 series("line", Mark::Line, Tone::Second),
@@ -194,17 +218,20 @@ mod tests {
             columns: vec!["one".to_owned(), "two".to_owned()],
             rows: vec![("rough-smooth".to_owned(), vec![Some(-0.756_51), None])],
             decimals: 3,
+            source: "simulated raters".to_owned(),
         }
     }
 
     #[test]
     fn a_figure_is_saved_with_all_its_numbers() {
         let csv = String::from_utf8(figure_csv(&Figure::Chart(chart()))).unwrap();
-        assert_eq!(csv.lines().next(), Some("series,label,x,y"));
-        assert_eq!(csv.lines().nth(1), Some("edges,\"a, \"\"b\"\"\",1,2"));
+        assert_eq!(csv.lines().next(), Some("series,label,x,y,source"));
+        assert!(is_figure_csv(csv.as_bytes()) && !is_figure_csv(b"participant,texture\n"));
+        assert_eq!(csv.lines().nth(1), Some("edges,\"a, \"\"b\"\"\",1,2,simulated raters"));
         assert_eq!(csv.lines().count(), 1 + 6);
         let csv = String::from_utf8(figure_csv(&Figure::Table(table()))).unwrap();
-        assert_eq!(csv, ",one,two\nrough-smooth,-0.75651,\n");
+        assert_eq!(csv, "row,one,two,source\nrough-smooth,-0.75651,,simulated raters\n");
+        assert!(is_figure_csv(csv.as_bytes()));
     }
 
     #[test]

@@ -256,9 +256,10 @@ pub(crate) fn line_of(text: &str, record: &csv::StringRecord) -> u64 {
     position.line() + rest.lines().take_while(is_skipped).count() as u64
 }
 
-/// The delimiter of the first line that has any: a semicolon or tab is never part of a number.
+/// The delimiter of the first line that is neither empty nor a comment: a semicolon or tab is never part of a number.
 pub(crate) fn delimiter_of(text: &str) -> u8 {
-    let line = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
+    let is_content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+    let line = text.lines().find(is_content).unwrap_or("");
     if line.contains(';') {
         b';'
     } else if line.contains('\t') {
@@ -293,6 +294,7 @@ mod tests {
         assert_eq!(table.others(&[Some(0), None]), [1]);
         let spreadsheet = read("id,rs,,\na,1,,\n").unwrap();
         assert_eq!(spreadsheet.others(&[Some(0)]), [1]);
+        assert_eq!(read("# a; b\nid,rs\na,1\n").unwrap().columns, ["id", "rs"]);
     }
 
     #[test]

@@ -126,7 +126,7 @@ pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<
         let mut values = Vec::new();
         for (name, value) in [(ROUGH_SMOOTH, point.rough_smooth), (HARD_SOFT, point.hard_soft)] {
             // A table may have the attribute beside the place: what was rated is not where it was put.
-            if others.iter().all(|column| row.at(*column).name() != name) {
+            if others.iter().all(|column| !row.at(*column).name().eq_ignore_ascii_case(name)) {
                 values.push(axis(name, value));
             }
         }

@@ -1,6 +1,7 @@
 //! What building a space came to: a JSON report for scripts, figures for people, and the library with its places.
 
 use serde_json::{Value, json};
+use shagreen_core::mds::Ties;
 use shagreen_core::property::correlation_table;
 use shagreen_core::ratings::Agreement;
 use shagreen_core::space_build::{Adjective, Axis, Placement, SpaceBuild, kruskal_word, verdict};
@@ -10,6 +11,18 @@ use crate::library::{Attribute, Attributes, Library, Place};
 
 /// What the field `format` of a report holds.
 pub const FORMAT: &str = "shagreen-space-report";
+/// Names of the figures, in their order.
+pub const FIGURES: [&str; 8] = [
+    "stress",
+    "perceptual-space",
+    "correlations",
+    "adjectives",
+    "predicted-1",
+    "predicted-2",
+    "authoring-space",
+    "shepard",
+];
+
 /// Version of the report.
 const VERSION: &str = "1.0";
 
@@ -25,6 +38,11 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         "dimensions": options.n_dims,
         "stress": build.stress,
         "stress_chosen": build.perceptual.stress,
+        "ties": match options.mds.ties {
+            Ties::Primary => "primary",
+            Ties::Secondary => "secondary",
+        },
+        "converged": build.perceptual.converged,
         "stress_in_words": kruskal_word(build.perceptual.stress),
         "adjectives": build.adjectives.iter().map(adjective).collect::<Vec<_>>(),
         "axes": build.axes.iter().map(|axis| self::axis(build, axis)).collect::<Vec<_>>(),
@@ -112,7 +130,14 @@ pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
         texture.place = index.map(|i| Place { at: build.positions[i], source: build.source });
         texture.attributes = index.map(|i| attributes(build, i)).filter(|a| !a.values.is_empty());
     }
-    placed.space_report = Some(space_report(build));
+    let mut report = space_report(build);
+    if let Value::Object(report) = &mut report {
+        // A library is passed on: who took part stays with those who asked them.
+        for field in ["raters", "sorters", "verdict"] {
+            report.remove(field);
+        }
+    }
+    placed.space_report = Some(report);
     placed
 }
 
@@ -127,16 +152,21 @@ fn attributes(build: &SpaceBuild, texture: usize) -> Attributes {
 
 /// The figures that papers print, each under a short name that serves for files.
 pub fn space_figures(build: &SpaceBuild) -> Vec<(&'static str, Figure)> {
-    vec![
-        ("stress", stress(build)),
-        ("perceptual-space", perceptual(build)),
-        ("correlations", correlations(build)),
-        ("adjectives", adjectives(build)),
-        ("predicted-1", predicted(build, &build.axes[0])),
-        ("predicted-2", predicted(build, &build.axes[1])),
-        ("authoring-space", authoring(build)),
-        ("shepard", shepard(build)),
-    ]
+    let figures = [
+        stress(build),
+        perceptual(build),
+        correlations(build),
+        adjectives(build),
+        predicted(build, &build.axes[0]),
+        predicted(build, &build.axes[1]),
+        authoring(build),
+        shepard(build),
+    ];
+    let mut figures: Vec<(&'static str, Figure)> = FIGURES.into_iter().zip(figures).collect();
+    for (_, figure) in &mut figures {
+        figure.set_source(build.source.label());
+    }
+    figures
 }
 
 /// What all figures rest on, in a line.
@@ -165,6 +195,7 @@ fn chart(title: String, [x_label, y_label]: [&str; 2], is_isotropic: bool, serie
         y_label: y_label.to_owned(),
         is_isotropic,
         series,
+        source: String::new(),
     })
 }
 
@@ -234,6 +265,7 @@ fn correlations(build: &SpaceBuild) -> Figure {
         columns: dims.chain(["R²".to_owned(), "ICC(2,k)".to_owned()]).collect(),
         rows: build.adjectives.iter().map(row).collect(),
         decimals: 3,
+        source: String::new(),
     })
 }
 
@@ -252,6 +284,7 @@ fn adjectives(build: &SpaceBuild) -> Figure {
         columns: names.clone(),
         rows: names.into_iter().zip(correlation_table(&columns, &columns)).collect(),
         decimals: 2,
+        source: String::new(),
     })
 }
 
@@ -260,9 +293,9 @@ fn predicted(build: &SpaceBuild, axis: &Axis) -> Figure {
     let dots = build.textures.iter().enumerate();
     let dots = dots.map(|(i, id)| Point::named(axis.felt[i], v.predicted[i], id)).collect();
     let seen = axis.felt.iter().zip(&axis.predicted).map(|(felt, p)| Point::new(*felt, *p)).collect();
-    let chance = v.permutation_p.map_or_else(String::new, |p| format!(", chance {p:.3}"));
+    let chance = v.permutation_p.map_or_else(String::new, |p| format!(", p = {p:.3}"));
     chart(
-        format!("{}: nested r {:.2}{chance}; as published {:.2}", axis.pair, v.nested_cv_r, v.cv_r),
+        format!("{}: nested r {:.2}{chance}; features chosen on all {:.2}", axis.pair, v.nested_cv_r, v.cv_r),
         ["felt, 0 to 100", "predicted, 0 to 100"],
         false,
         vec![
@@ -286,7 +319,7 @@ fn authoring(build: &SpaceBuild) -> Figure {
     let hull: Vec<Point> = build.space.hull().flat_map(|edge| edge.map(at)).collect();
     let [first, second] = build.axes.each_ref().map(|axis| axis.pair.to_string());
     chart(
-        format!("Authoring space ({})", build.source.label()),
+        "Authoring space".to_owned(),
         [&format!("{first}, 0 to 100"), &format!("{second}, 0 to 100")],
         true,
         vec![

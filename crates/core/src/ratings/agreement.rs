@@ -56,6 +56,9 @@ pub enum AgreementError {
     /// Nobody rates two textures differently.
     #[error("every participant gave all textures the same rating: there is nothing to agree on")]
     Constant,
+    /// What some rate high, others rate low, so that a share of common variance has no meaning.
+    #[error("the raters contradict each other: what some rate high, others rate low; look for swapped poles")]
+    Contradictory,
 }
 
 /// The agreement on one pair over complete ratings: while any is missing, the participant or the texture with the
@@ -83,10 +86,15 @@ pub fn agreement(table: &RatingTable, pair: usize) -> Result<Agreement, Agreemen
     let dof = [n - 1, (n - 1) * (k - 1)];
     let f = if squares.error > NO_VARIANCE { squares.textures / squares.error } else { f64::INFINITY };
     let p_value = f_upper_tail(f, dof[0] as f64, dof[1] as f64);
-    let single = squares.single();
-    let of_mean = |r: f64| k as f64 * r / (1.0 + (k as f64 - 1.0) * r);
+    let contradict = AgreementError::Contradictory;
+    let single = squares.single().ok_or(contradict)?;
+    // Spearman and Brown; an end below their pole has no counterpart above minus infinity.
+    let of_mean = |r: f64| {
+        let denominator = 1.0 + (k as f64 - 1.0) * r;
+        if denominator > 0.0 { k as f64 * r / denominator } else { f64::NEG_INFINITY }
+    };
     let average = IntraclassCorrelation {
-        value: squares.average(),
+        value: squares.average().ok_or(contradict)?,
         low: of_mean(single.low),
         high: of_mean(single.high),
     };
@@ -150,25 +158,35 @@ impl MeanSquares {
         }
     }
 
-    fn average(&self) -> f64 {
-        (self.textures - self.error) / (self.textures + (self.raters - self.error) / self.n)
+    /// ICC(2,k); `None` where the variance that it is a share of would not be positive.
+    fn average(&self) -> Option<f64> {
+        let whole = self.textures + (self.raters - self.error) / self.n;
+        (whole > NO_VARIANCE).then(|| (self.textures - self.error) / whole)
     }
 
-    fn single(&self) -> IntraclassCorrelation {
+    /// ICC(2,1) with the interval of McGraw and Wong (1996); `None` where it has no meaning.
+    fn single(&self) -> Option<IntraclassCorrelation> {
         let Self { n, k, textures, raters, error } = *self;
-        let value = (textures - error) / (textures + (k - 1.0) * error + k * (raters - error) / n);
+        let whole = textures + (k - 1.0) * error + k * (raters - error) / n;
+        if whole <= NO_VARIANCE {
+            return None;
+        }
+        let value = (textures - error) / whole;
         if error <= NO_VARIANCE {
             // Raters differ by constants alone: the interval's degrees of freedom have no value there.
-            return IntraclassCorrelation { value, low: value, high: value };
+            return Some(IntraclassCorrelation { value, low: value, high: value });
         }
         let (a, b) = (k * value / (n * (1.0 - value)), 1.0 + k * value * (n - 1.0) / (n * (1.0 - value)));
         let dof = (a * raters + b * error).powi(2)
             / ((a * raters).powi(2) / (k - 1.0) + (b * error).powi(2) / ((n - 1.0) * (k - 1.0)));
         let of_raters = k * raters + (k * n - k - n) * error;
+        if !(dof.is_finite() && dof > 0.0) {
+            return None;
+        }
         let f_low = f_quantile_above(0.025, n - 1.0, dof);
         let f_high = f_quantile_above(0.025, dof, n - 1.0);
         let low = n * (textures - f_low * error) / (f_low * of_raters + n * textures);
         let high = n * (f_high * textures - error) / (of_raters + n * f_high * textures);
-        IntraclassCorrelation { value, low, high }
+        Some(IntraclassCorrelation { value, low, high })
     }
 }

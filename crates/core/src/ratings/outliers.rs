@@ -22,7 +22,7 @@ pub struct RaterFit {
     pub correlation: Option<f64>,
     /// The same pair by pair: clearly negative on one pair alone says that its poles were swapped.
     pub by_pair: Vec<Option<f64>>,
-    /// Whether the correlation is below [`OUTLIER_LIMIT`], or there is none.
+    /// Whether the correlation is known and below [`OUTLIER_LIMIT`].
     pub outlying: bool,
 }
 
@@ -53,6 +53,6 @@ fn rater_fit(table: &RatingTable, participant: usize) -> RaterFit {
     }
     let enough = all_own.len() >= MIN_SHARED && !is_constant(&all_own) && by_pair.iter().any(Option::is_some);
     let correlation = if enough { correlation(&all_own, &all_others) } else { None };
-    let outlying = correlation.is_none_or(|r| r < OUTLIER_LIMIT);
+    let outlying = correlation.is_some_and(|r| r < OUTLIER_LIMIT);
     RaterFit { participant, n_ratings, correlation, by_pair, outlying }
 }

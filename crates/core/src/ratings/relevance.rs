@@ -47,7 +47,8 @@ pub enum VoteError {
     },
 }
 
-/// The relevance of every adjective, in the order of first appearance. A vote that was not cast does not count.
+/// The relevance of every adjective, in the order of first appearance and as it is spelled there: case does not matter. A
+/// vote that was not cast does not count.
 ///
 /// # Errors
 /// A vote that was cast twice.
@@ -55,7 +56,8 @@ pub fn relevances(votes: &[RelevanceVote]) -> Result<Vec<Relevance>, VoteError> 
     let mut cast = std::collections::BTreeSet::new();
     let mut counts: Vec<(String, usize, usize)> = Vec::new();
     for vote in votes {
-        if !cast.insert((&vote.participant, &vote.texture, &vote.adjective)) {
+        let plain = vote.adjective.trim().to_lowercase();
+        if !cast.insert((&vote.participant, &vote.texture, plain.clone())) {
             return Err(VoteError::Twice {
                 participant: vote.participant.clone(),
                 texture: vote.texture.clone(),
@@ -63,7 +65,7 @@ pub fn relevances(votes: &[RelevanceVote]) -> Result<Vec<Relevance>, VoteError> 
             });
         }
         let relevant = usize::from(vote.relevant);
-        match counts.iter_mut().find(|(adjective, ..)| *adjective == vote.adjective) {
+        match counts.iter_mut().find(|(adjective, ..)| adjective.trim().to_lowercase() == plain) {
             Some((_, n_votes, n_relevant)) => {
                 *n_votes += 1;
                 *n_relevant += relevant;

@@ -14,6 +14,12 @@ pub struct RatingTable {
     values: Vec<Option<f64>>,
 }
 
+/// The most adjective pairs of a table: more are columns of something else.
+pub const MAX_PAIRS: usize = 1000;
+
+/// The most ratings that a table has room for: a thousand people, a hundred textures and a hundred pairs.
+pub const MAX_CELLS: usize = 10_000_000;
+
 /// Why ratings make no table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -45,6 +51,26 @@ pub enum RatingsError {
         /// The rating.
         value: f64,
     },
+    /// There are more pairs than anybody rates.
+    #[error(
+        "{n_pairs} adjective pairs are more than the {MAX_PAIRS} that a table takes; check which column names the pair"
+    )]
+    TooManyPairs {
+        /// The pairs.
+        n_pairs: usize,
+    },
+    /// The table would be too large.
+    #[error(
+        "{n_participants} participants, {n_textures} textures and {n_pairs} pairs make more than the {MAX_CELLS} ratings that a table takes; check which column is which"
+    )]
+    TooMany {
+        /// The participants.
+        n_participants: usize,
+        /// The textures.
+        n_textures: usize,
+        /// The pairs.
+        n_pairs: usize,
+    },
     /// Both poles of a pair are one word, or one is empty.
     #[error("the pair \"{}\"\u{2013}\"{}\" has no two poles; name two different adjectives", .0.low, .0.high)]
     Poles(AdjectivePair),
@@ -68,16 +94,25 @@ impl RatingTable {
             return Err(RatingsError::Empty);
         }
         let mut pairs: Vec<AdjectivePair> = Vec::new();
-        for rating in ratings {
-            if !pairs.contains(&rating.pair) {
-                pairs.push(rating.pair.clone());
-            }
+        let mut index_of_pair: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+        for AdjectivePair { low, high } in ratings.iter().map(|rating| &rating.pair) {
+            index_of_pair.entry((low, high)).or_insert_with(|| {
+                pairs.push(AdjectivePair { low: low.clone(), high: high.clone() });
+                pairs.len() - 1
+            });
+        }
+        if pairs.len() > MAX_PAIRS {
+            return Err(RatingsError::TooManyPairs { n_pairs: pairs.len() });
         }
         check_pairs(&pairs)?;
-        let pair_index = |pair: &AdjectivePair| pairs.iter().position(|p| p == pair).unwrap_or_default();
+        let pair_index = |pair: &AdjectivePair| index_of_pair[&(pair.low.as_str(), pair.high.as_str())];
         let (participants, participant_index) = names(ratings, |r| &r.participant);
         let (textures, texture_index) = names(ratings, |r| &r.texture);
-        let n_cells = participants.len() * textures.len() * pairs.len();
+        let n_cells = participants.len().saturating_mul(textures.len()).saturating_mul(pairs.len());
+        if n_cells > MAX_CELLS {
+            let (n_participants, n_textures) = (participants.len(), textures.len());
+            return Err(RatingsError::TooMany { n_participants, n_textures, n_pairs: pairs.len() });
+        }
         let (mut values, mut seen) = (vec![None; n_cells], vec![false; n_cells]);
         for rating in ratings {
             let (participant, texture) = (rating.participant.clone(), rating.texture.clone());

@@ -31,7 +31,11 @@ const NEAR: f64 = 0.2;
 const NORMAL: f64 = 1.4826;
 
 pub(super) fn agreement(names: &[&str], tallies: &[Tally]) -> Vec<Agreement> {
-    let correlations: Vec<Option<f64>> = (0..tallies.len()).map(|i| with_others(i, tallies)).collect();
+    let mut all = Tally::new(tallies.first().map_or(0, |tally| tally.n_textures));
+    for tally in tallies {
+        all.merge(tally);
+    }
+    let correlations: Vec<Option<f64>> = tallies.iter().map(|own| with_others(own, &all)).collect();
     let known: Vec<f64> = correlations.iter().flatten().copied().collect();
     let middle = median(known.clone());
     let deviation = NORMAL * median(known.iter().map(|c| (c - middle).abs()).collect());
@@ -43,16 +47,11 @@ pub(super) fn agreement(names: &[&str], tallies: &[Tally]) -> Vec<Agreement> {
     names.iter().zip(correlations).map(one).collect()
 }
 
-/// Correlation of the similarities of participant `i` with those of the others together.
-fn with_others(i: usize, tallies: &[Tally]) -> Option<f64> {
-    let n = tallies[i].n_textures;
-    let mut others = Tally::new(n);
-    for (j, tally) in tallies.iter().enumerate() {
-        if i != j {
-            others.merge(tally);
-        }
-    }
-    let [own, others] = [tallies[i].scores(), others.scores()];
+/// Correlation of the similarities of one participant with those of the others together: of `all`, less `own`.
+fn with_others(own: &Tally, all: &Tally) -> Option<f64> {
+    let n = own.n_textures;
+    // Scores are whole numbers, so what is left is exact.
+    let [own, others] = [own.scores(), all.without(own).scores()];
     let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
     let both: Vec<(f64, f64)> = pairs.filter_map(|(i, j)| own[i][j].zip(others[i][j])).collect();
     correlation(&both)

@@ -36,6 +36,15 @@ impl Adjective {
     }
 }
 
+/// What a vote on a pair may call it: either pole, or both in either order.
+fn words_of(pair: &AdjectivePair) -> [String; 4] {
+    let turned = AdjectivePair { low: pair.high.clone(), high: pair.low.clone() };
+    [pair.low.clone(), pair.high.clone(), pair.name(), turned.name()]
+}
+
+/// Highest rating at which a scale of 0 to 100 looks like another one.
+const SHORT_SCALE: f64 = 10.0;
+
 /// All pairs of the table, textures in the order of `textures`, which lie at `points`.
 pub(super) fn fit_adjectives(
     table: &RatingTable,
@@ -49,6 +58,29 @@ pub(super) fn fit_adjectives(
         let is_it = |name: &str| name.trim().eq_ignore_ascii_case(word.trim());
         relevances.iter().find(|r| is_it(&r.adjective)).map(|r| (r.share, r.kept))
     };
+    let words = || table.pairs().iter().flat_map(words_of);
+    let is_in_a_pair =
+        |adjective: &str| words().any(|word| word.trim().eq_ignore_ascii_case(adjective.trim()));
+    let stray: Vec<&str> = relevances
+        .iter()
+        .map(|r| r.adjective.as_str())
+        .filter(|adjective| !is_in_a_pair(adjective))
+        .collect();
+    if !stray.is_empty() {
+        findings.push(format!("voted on, but in no pair that was rated: {}", stray.join(", ")));
+    }
+    let values = (0..table.participants().len()).flat_map(|p| {
+        let of = move |texture: usize| {
+            (0..table.pairs().len()).filter_map(move |pair| table.value(p, texture, pair))
+        };
+        (0..table.textures().len()).flat_map(of)
+    });
+    let highest = values.fold(0.0, f64::max);
+    if highest <= SHORT_SCALE {
+        findings.push(format!(
+            "no rating is above {highest}: ratings are taken to run from 0 to 100; bring another scale to it first"
+        ));
+    }
     let row_of: Vec<Option<usize>> =
         textures.iter().map(|id| table.textures().iter().position(|t| t == id)).collect();
     let unrated: Vec<&str> =
@@ -62,8 +94,7 @@ pub(super) fn fit_adjectives(
         findings.push(format!("rated but not sorted, and so without a place: {}", unsorted.join(", ")));
     }
     let adjectives = table.pairs().iter().enumerate().map(|(index, pair)| {
-        let votes: Vec<(f64, bool)> =
-            [&pair.low, &pair.high, &pair.name()].into_iter().filter_map(|word| share(word)).collect();
+        let votes: Vec<(f64, bool)> = words_of(pair).iter().filter_map(|word| share(word)).collect();
         let in_table = averages(table, index);
         let none = Average { n_raters: 0, mean: None, half_width: None };
         let ratings: Vec<Average> = row_of.iter().map(|row| row.map_or(none, |row| in_table[row])).collect();

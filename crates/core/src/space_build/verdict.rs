@@ -104,15 +104,16 @@ fn prediction(axis: &Axis) -> String {
         || "no null distribution was asked for".to_owned(),
         |p| {
             let luck = if p >= CHANCE { ": may be luck" } else { "" };
-            format!("chance {p:.3} over {} permutations{luck}", v.n_permutations)
+            format!("p = {p:.3} over {} permutations{luck}", v.n_permutations)
         },
     );
     format!(
-        "{}: predicted from {} features, nested cross-validation r {:.2} ({:.1} %; {chance}); as published, with features chosen on all textures, r {:.2} ({:.1} %).",
+        "{}: predicted from {} features, nested cross-validation r {:.2} (accuracy {:.1} %, where guessing the mean has {:.1} %; {chance}); with features chosen on all textures, as is usually published, r {:.2} ({:.1} %).",
         axis.pair,
         axis.features.len(),
         v.nested_cv_r,
         v.nested_cv_rms_percent,
+        v.mean_rms_percent,
         v.cv_r,
         v.cv_rms_percent
     )

@@ -65,8 +65,8 @@ fn drawn(size: (u32, u32), draw: impl FnOnce(&Page<'_>) -> Drawn) -> String {
 
 fn panel(page: &Page<'_>, figure: &Figure) -> Drawn {
     match figure {
-        Figure::Chart(chart) => draw_chart(page, chart),
-        Figure::Table(table) => draw_table(page, table),
+        Figure::Chart(chart) => draw_chart(page, chart, &figure.title()),
+        Figure::Table(table) => draw_table(page, table, &figure.title()),
     }
 }
 
@@ -83,7 +83,7 @@ fn color(tone: Tone) -> RGBColor {
     }
 }
 
-fn draw_chart(page: &Page<'_>, chart: &Chart) -> Drawn {
+fn draw_chart(page: &Page<'_>, chart: &Chart, title: &str) -> Drawn {
     let [mut x, mut y] = chart.bounds();
     let (width, height) = page.dim_in_pixel();
     let inner =
@@ -98,7 +98,7 @@ fn draw_chart(page: &Page<'_>, chart: &Chart) -> Drawn {
     }
     let mut context = ChartBuilder::on(page)
         .margin(16)
-        .caption(&chart.title, text(16.0, INK))
+        .caption(title, text(16.0, INK))
         .x_label_area_size(42)
         .y_label_area_size(52)
         .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
@@ -186,8 +186,8 @@ fn free_corner(points: &[(f64, f64)], (width, height): (f64, f64)) -> SeriesLabe
     corners.into_iter().min_by_key(|(n, _)| *n).map_or(SeriesLabelPosition::UpperRight, |(_, corner)| corner)
 }
 
-fn draw_table(page: &Page<'_>, table: &Table) -> Drawn {
-    page.draw_text(&table.title, &text(16.0, INK), (28, 16))?;
+fn draw_table(page: &Page<'_>, table: &Table, title: &str) -> Drawn {
+    page.draw_text(title, &text(16.0, INK), (28, 16))?;
     let width = page.dim_in_pixel().0.cast_signed();
     let n_columns = i32::try_from(table.columns.len().max(1)).unwrap_or(i32::MAX);
     let first = (width / 3).min(220);
