@@ -4,6 +4,7 @@ use egui::{Label, Rect, RichText, Role, Sense, Slider, TextEdit, Ui, WidgetInfo,
 use shagreen_core::blend::Mode;
 use shagreen_core::space::SpacePoint;
 
+use crate::axes_choice::axes_choice_ui;
 use crate::command::Command;
 use crate::library_panel::picture_ui;
 use crate::panel::Panel;
@@ -28,7 +29,8 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         commands.push(Command::Edit(Edit::Rename(name)));
     }
     ui.add_space(GAP);
-    commands.extend(sliders(ui, panel.project.point));
+    commands.extend(axes_choice_ui(ui, panel));
+    commands.extend(sliders(ui, panel.project.point, panel.session.poles()));
     ui.add_space(GROUP_GAP);
     commands.extend(blend_ui(ui, panel.project.mode));
     ui.add_space(GROUP_GAP);
@@ -37,33 +39,18 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 }
 
 /// The two axes, bound to the point both ways.
-fn sliders(ui: &mut Ui, point: SpacePoint) -> Option<Command> {
+fn sliders(ui: &mut Ui, point: SpacePoint, [across, up]: &[[String; 2]; 2]) -> Option<Command> {
     let (mut rough_smooth, mut hard_soft) = (point.rough_smooth, point.hard_soft);
-    let changed = [
-        axis_slider(
-            ui,
-            &mut rough_smooth,
-            [strings::ROUGH, strings::SMOOTH],
-            strings::ROUGH_SMOOTH,
-            strings::ROUGH_SMOOTH_HELP,
-        ),
-        axis_slider(
-            ui,
-            &mut hard_soft,
-            [strings::HARD, strings::SOFT],
-            strings::HARD_SOFT,
-            strings::HARD_SOFT_HELP,
-        ),
-    ];
+    let changed = [axis_slider(ui, &mut rough_smooth, across), axis_slider(ui, &mut hard_soft, up)];
     changed.contains(&true).then_some(Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })))
 }
 
-fn axis_slider(ui: &mut Ui, value: &mut f64, ends: [&str; 2], name: &str, help: &str) -> bool {
+fn axis_slider(ui: &mut Ui, value: &mut f64, ends: &[String; 2]) -> bool {
     let t = tokens(ui.ctx());
     ui.horizontal(|ui| {
-        ui.add(Label::new(RichText::new(ends[0]).color(t.text_weak)).selectable(false));
+        ui.add(Label::new(RichText::new(&ends[0]).color(t.text_weak)).selectable(false));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.add(Label::new(RichText::new(ends[1]).color(t.text_weak)).selectable(false));
+            ui.add(Label::new(RichText::new(&ends[1]).color(t.text_weak)).selectable(false));
         });
     });
     let width = ui.available_width();
@@ -71,7 +58,7 @@ fn axis_slider(ui: &mut Ui, value: &mut f64, ends: [&str; 2], name: &str, help: 
     // Shown with one decimal, not rounded to it: a slider that rounds would edit the project by itself.
     let one_decimal = |value: f64, _| format!("{value:.1}");
     let slider = Slider::new(value, 0.0..=100.0).custom_formatter(one_decimal).smart_aim(false);
-    ui.add(slider).accessible_name(name).on_hover_text(help).changed()
+    ui.add(slider).accessible_name(strings::axis(ends)).on_hover_text(strings::axis_help(ends)).changed()
 }
 
 fn blend_ui(ui: &mut Ui, mode: Mode) -> Option<Command> {

@@ -18,7 +18,7 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
-use support::{Author, author, click, wait, window};
+use support::{Author, author, choose, click, wait, window};
 
 fn names(harness: &Author) -> Vec<String> {
     window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()
@@ -47,14 +47,6 @@ fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
     });
     harness.input_mut().dropped_files.extend(handles);
     harness.run_steps(2);
-}
-
-/// Opens a choice and takes one of it.
-fn choose(harness: &mut Author, name: &str, choice: &str) {
-    harness.get_by_role_and_label(Role::ComboBox, name).click();
-    harness.run_steps(3);
-    harness.get_by_role_and_label(Role::Button, choice).click();
-    harness.run_steps(3);
 }
 
 fn starter(id: &str) -> TextureEntry {

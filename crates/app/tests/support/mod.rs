@@ -1,9 +1,12 @@
 //! What the tests of the window share: the window on the starter library, and a person's moves.
 
+#![allow(dead_code, reason = "each test uses some of it")]
+
 use std::time::{Duration, Instant};
 
+use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::session::OutputChoice;
 use shagreen_app::window::Window;
 use shagreen_formats::starter::starter_library;
@@ -49,4 +52,34 @@ pub(crate) fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> b
 pub(crate) fn click(harness: &mut Author, name: &str) {
     harness.get_by_label(name).click();
     harness.run_steps(2);
+}
+
+/// Opens a choice and takes one of it.
+pub(crate) fn choose(harness: &mut Author, name: &str, choice: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, name).click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, choice).click();
+    harness.run_steps(3);
+}
+
+/// Controls that a keyboard or screen reader reaches but that have no name.
+pub(crate) fn unnamed_controls<State>(harness: &Harness<'_, State>) -> Vec<String> {
+    let is_control = |role: Role| {
+        matches!(
+            role,
+            Role::Button
+                | Role::Slider
+                | Role::SpinButton
+                | Role::TextInput
+                | Role::ComboBox
+                | Role::CheckBox
+                | Role::Canvas
+        )
+    };
+    let nodes = harness.root().children_recursive();
+    let unnamed = nodes.filter(|n| {
+        let node = n.accesskit_node();
+        is_control(node.role()) && node.label().is_none_or(|l| l.trim().is_empty())
+    });
+    unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
 }
