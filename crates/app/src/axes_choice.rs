@@ -1,47 +1,41 @@
 //! Which attributes are the axes, where textures have more than the two of their places.
 
-use egui::{ComboBox, Label, RichText, Ui};
+use egui::{ComboBox, Ui};
 
 use crate::command::Command;
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
-use crate::theme::{GAP, tokens};
 
-/// Draws the choice where there is one, and returns what the user asked of it.
-pub(crate) fn axes_choice_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
+/// Width of a choice, in points.
+const WIDTH: f32 = 132.0;
+
+/// Draws the choice for the axis across (0) or up (1), where there is one, into a row that has the word at the low end,
+/// and returns what the user asked of it.
+pub(crate) fn axis_choice_ui(ui: &mut Ui, panel: &Panel<'_>, axis: usize) -> Option<Command> {
     let names: Vec<String> = panel.session.attribute_names().into_iter().map(str::to_owned).collect();
-    if names.len() < 3 && panel.project.axes.is_none() {
+    let current = panel.project.axes.as_ref();
+    if names.len() < 3 && current.is_none() {
         return None;
     }
-    let t = tokens(ui.ctx());
-    let current = panel.project.axes.as_ref();
+    let name = if axis == 0 { strings::AXIS_ACROSS } else { strings::AXIS_UP };
+    let shown = current.map_or(strings::AXES_AS_PLACED, |axes| axes[axis].as_str());
     let mut chosen = None;
-    let wide = 0.5 * (ui.available_width() - GAP);
-    ui.horizontal(|ui| {
-        for (axis, label, name) in
-            [(0, strings::ACROSS, strings::AXIS_ACROSS), (1, strings::UP, strings::AXIS_UP)]
-        {
-            ui.vertical(|ui| {
-                ui.set_width(wide);
-                ui.add(Label::new(RichText::new(label).small().color(t.text_weak)).selectable(false));
-                let shown = current.map_or(strings::AXES_AS_PLACED, |axes| axes[axis].as_str());
-                let combo = ComboBox::from_id_salt(name).width(wide).truncate().selected_text(shown);
-                let combo = combo.show_ui(ui, |ui| {
-                    if ui.selectable_label(current.is_none(), strings::AXES_AS_PLACED).clicked() {
-                        chosen = Some(None);
-                    }
-                    for each in &names {
-                        if ui.selectable_label(current.is_some() && shown == each, each).clicked() {
-                            chosen = Some(with_axis(current, &names, axis, each));
-                        }
-                    }
-                });
-                combo.response.accessible_name(name).on_hover_text(strings::AXES_HELP);
-            });
+    // In the middle, however long the words at the ends of the axis are.
+    let row = ui.max_rect();
+    ui.add_space((row.center().x - 0.5 * WIDTH - ui.cursor().left()).max(0.0));
+    let combo = ComboBox::from_id_salt(name).width(WIDTH).truncate().selected_text(shown);
+    let combo = combo.show_ui(ui, |ui| {
+        if ui.selectable_label(current.is_none(), strings::AXES_AS_PLACED).clicked() {
+            chosen = Some(None);
+        }
+        for each in &names {
+            if ui.selectable_label(current.is_some() && shown == each, each).clicked() {
+                chosen = Some(with_axis(current, &names, axis, each));
+            }
         }
     });
-    ui.add_space(GAP);
+    combo.response.accessible_name(name).on_hover_text(strings::AXES_HELP);
     chosen.map(|axes| Command::Edit(Edit::SetAxes(axes)))
 }
 

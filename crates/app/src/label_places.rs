@@ -12,6 +12,8 @@ pub(crate) struct Wish {
     pub(crate) dot: usize,
     /// How large it is, in points.
     pub(crate) size: Vec2,
+    /// On which side of the dot it is best; zero where that does not matter.
+    pub(crate) side: Vec2,
     /// Whether it is shown even where that covers something.
     pub(crate) is_needed: bool,
 }
@@ -30,13 +32,14 @@ pub(crate) fn label_places(
     let mut taken: Vec<Rect> = circles.chain(taken.iter().copied()).collect();
     let reach = radius + DISTANCE;
     let mut place = |wish: &Wish| {
-        let places = [
+        let mut sides = [
             (vec2(0.0, reach), Align2::CENTER_TOP),
             (vec2(0.0, -reach), Align2::CENTER_BOTTOM),
             (vec2(reach + DISTANCE, 0.0), Align2::LEFT_CENTER),
             (vec2(-reach - DISTANCE, 0.0), Align2::RIGHT_CENTER),
-        ]
-        .map(|(offset, align)| align.anchor_size(dots[wish.dot] + offset, wish.size));
+        ];
+        sides.sort_by(|a, b| b.0.normalized().dot(wish.side).total_cmp(&a.0.normalized().dot(wish.side)));
+        let places = sides.map(|(offset, align)| align.anchor_size(dots[wish.dot] + offset, wish.size));
         let is_free = |area: &&Rect| {
             let mut others = taken.iter().enumerate().filter(|(k, _)| *k >= n_dots || *k != wish.dot);
             clip.contains_rect(**area) && !others.any(|(_, other)| other.intersects(**area))
@@ -52,16 +55,16 @@ pub(crate) fn label_places(
 #[cfg(test)]
 mod tests {
     use super::{Wish, label_places};
-    use egui::{Pos2, Rect, pos2, vec2};
+    use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
     fn wish(dot: usize) -> Wish {
-        Wish { dot, size: vec2(30.0, 10.0), is_needed: false }
+        Wish { dot, size: vec2(30.0, 10.0), side: Vec2::ZERO, is_needed: false }
     }
 
     #[test]
     fn names_cover_neither_each_other_nor_a_dot() {
         let dots: Vec<Pos2> =
-            (0..40_u8).map(|i| pos2(f32::from(i * 37 % 100) * 3.0, f32::from(i * 53 % 100) * 2.0)).collect();
+            (0..40_u16).map(|i| pos2(f32::from(i * 37 % 100) * 3.0, f32::from(i * 53 % 100) * 2.0)).collect();
         let wishes: Vec<Wish> = (0..dots.len()).map(wish).collect();
         let clip = Rect::from_min_max(pos2(-40.0, -20.0), pos2(340.0, 220.0));
         let places = label_places(&dots, 4.0, &wishes, &[], clip);
@@ -86,6 +89,8 @@ mod tests {
         let beside = label_places(&dots, 4.0, &[wish(0)], &[below], clip)[0].unwrap();
         assert!(below.center().y > 50.0 && beside.center().y < 50.0);
         assert_eq!(label_places(&dots, 4.0, &[wish(0)], &[clip], clip), [None]);
+        let left = Wish { side: vec2(-2.0, 1.0), ..wish(0) };
+        assert!(label_places(&dots, 4.0, &[left], &[], clip)[0].unwrap().right() < 50.0);
         let needed = Wish { is_needed: true, ..wish(0) };
         assert_eq!(label_places(&dots, 4.0, &[needed], &[clip], clip), [Some(below)]);
     }

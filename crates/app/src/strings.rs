@@ -27,10 +27,6 @@ pub const HARD_SOFT_HELP: &str = "0 is the hardest texture of the space, 100 the
 pub const AXIS_ACROSS: &str = "Axis across";
 /// Accessible name of the choice of the axis up.
 pub const AXIS_UP: &str = "Axis up";
-/// Label of the choice of the axis across.
-pub const ACROSS: &str = "Across";
-/// Label of the choice of the axis up.
-pub const UP: &str = "Up";
 /// What the choice of axes does.
 pub const AXES_HELP: &str = "Any two attributes that the textures were rated on can be the axes. Textures that lack one of them have no place then.";
 /// The axes are those of the places.

@@ -38,6 +38,14 @@ fn built() -> Author {
     harness
 }
 
+/// Puts the space to use and goes where it is felt.
+fn use_space(harness: &mut Author) {
+    click(harness, build::USE_SPACE);
+    harness.run_steps(2);
+    click(harness, build::GO_TO_AUTHOR);
+    harness.run_steps(2);
+}
+
 fn set_number(harness: &mut Author, name: &str, value: f64) {
     harness.get_by_role_and_label(Role::SpinButton, name).set_value_accesskit(value);
     harness.run_steps(2);
@@ -131,8 +139,7 @@ fn a_space_is_built_looked_at_used_and_undone() {
 #[test]
 fn two_attributes_of_a_space_become_the_axes() {
     let mut harness = built();
-    click(&mut harness, build::USE_SPACE);
-    click(&mut harness, build::GO_TO_AUTHOR);
+    use_space(&mut harness);
     let places = window(&harness).session().space().clone();
     choose(&mut harness, strings::AXIS_UP, "sticky-slippery");
     let session = window(&harness).session();
@@ -174,8 +181,7 @@ fn figures_and_the_library_are_saved_and_nothing_else_is_replaced() {
     assert!(says(&harness, &folder.path().join("simulated-stress.csv").display().to_string()));
     click(&mut harness, import::CANCEL);
 
-    click(&mut harness, build::USE_SPACE);
-    click(&mut harness, build::GO_TO_AUTHOR);
+    use_space(&mut harness);
     let path = folder.path().join("library.json");
     click(&mut harness, strings::SAVE_LIBRARY);
     harness.run_steps(2);
@@ -219,7 +225,8 @@ fn a_bad_table_says_why_and_nothing_is_lost() {
     assert!(says(&harness, "\"moon-dust\" was rated, but no texture of the library has this id"));
     assert!(window(&harness).build().built().is_none());
     click(&mut harness, &build::remove(build::RATINGS));
-    assert!(says(&harness, build::NEEDS_BOTH));
+    harness.run_steps(2);
+    assert!(says(&harness, build::NEEDS_BOTH), "{:?}", shown(&harness));
 }
 
 #[test]

@@ -1,8 +1,11 @@
 //! A chart of a figure: points, lines and their names, in the colors of the theme.
 
-use egui::{Color32, FontId, Label, Pos2, Rect, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
-use egui_plot::{HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
-use shagreen_formats::figure::{Chart, Mark, Series, Tone};
+use egui::{
+    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
+};
+use egui_plot::{HoverPosition, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
+use shagreen_formats::figure::{Chart, Mark, Point, Series, Tone};
 
 use crate::label_places::{Wish, label_places};
 use crate::scope::fixed;
@@ -27,6 +30,7 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
             }
             HoverPosition::Elsewhere { .. } => None,
         })
+        .grid_spacing(Rangef::new(10.0, 70.0))
         .height(ui.available_height());
     if chart.is_isotropic {
         plot = plot.data_aspect(1.0);
@@ -43,16 +47,16 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
                         Points::new("", PlotPoints::from(points)).color(color).radius(radius(series)),
                     );
                 }
+                // Pieces one by one: the joins of a line that turns back on itself would be wider than the line.
                 Mark::Line => {
-                    plot.line(
-                        Line::new("", PlotPoints::from(points)).color(color).width(2.0).allow_hover(false),
-                    );
+                    for ends in thinned(&points, [x, y]).windows(2) {
+                        plot.line(piece(ends, 2.0, color));
+                    }
                 }
                 Mark::Segments => {
                     let width = if series.tone == Tone::Faint { 1.0 } else { 2.0 };
                     for ends in points.as_chunks::<2>().0 {
-                        let line = Line::new("", PlotPoints::from(ends.to_vec())).color(color).width(width);
-                        plot.line(line.style(LineStyle::Solid).allow_hover(false));
+                        plot.line(piece(ends, width, color));
                     }
                 }
             }
@@ -64,6 +68,10 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
     if let Some(label) = near {
         shown.response.on_hover_text_at_pointer(label);
     }
+}
+
+fn piece(ends: &[[f64; 2]], width: f32, color: Color32) -> Line<'static> {
+    Line::new("", PlotPoints::from(ends.to_vec())).color(color).width(width).allow_hover(false)
 }
 
 /// What is compared is larger than what only helps reading.
@@ -84,7 +92,8 @@ fn color_of(tone: Tone, t: &Tokens) -> Color32 {
 /// What the marks are, in a row above the plot where they cover nothing. Lines whose ends are named need no more.
 fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
     let is_named = |series: &&Series| {
-        series.mark == Mark::Segments && series.points.iter().any(|point| !point.label.is_empty())
+        let has_labels = series.points.iter().any(|point| !point.label.is_empty());
+        series.mark == Mark::Segments && (has_labels || is_single_line(series))
     };
     ui.horizontal_wrapped(|ui| {
         for series in chart.series.iter().filter(|series| !is_named(series)) {
@@ -113,34 +122,64 @@ fn names_ui(ui: &Ui, chart: &Chart, area: Rect, transform: &PlotTransform, t: &T
     let painter = ui.painter_at(area);
     let (mut dots, mut named) = (Vec::new(), Vec::new());
     for series in &chart.series {
-        for point in &series.points {
-            let at = on_screen(transform, point.x, point.y);
+        let at = |point: &Point| on_screen(transform, point.x, point.y);
+        for (i, point) in series.points.iter().enumerate() {
+            // A name at the end of a line goes on where the line ends.
+            let beyond = match series.mark {
+                Mark::Segments => series.points.get(i ^ 1).map_or(Vec2::ZERO, |other| at(point) - at(other)),
+                Mark::Dots | Mark::Line => Vec2::ZERO,
+            };
             if !point.label.is_empty() {
-                named.push((dots.len(), series, point.label.as_str()));
+                named.push((dots.len(), series, point.label.as_str(), beyond));
+            } else if is_single_line(series) && i == 1 {
+                named.push((dots.len(), series, series.name.as_str(), vec2(0.0, -1.0)));
+            } else if series.mark != Mark::Dots || series.tone == Tone::Faint {
+                // What only helps reading may be covered, and lines have no dots to cover.
+                continue;
             }
-            // What only helps reading may be covered, and lines have no dots to cover.
-            if !point.label.is_empty() || (series.mark == Mark::Dots && series.tone != Tone::Faint) {
-                dots.push(at);
-            }
+            dots.push(at(point));
         }
     }
-    named.sort_by_key(|(_, series, _)| series.mark == Mark::Dots);
+    named.sort_by_key(|(_, series, ..)| series.mark == Mark::Dots);
     let (mut wishes, mut galleys) = (Vec::new(), Vec::new());
-    for (dot, series, label) in named {
+    for (dot, series, label, side) in named {
         let is_end = series.mark != Mark::Dots;
-        let (size, color) = if is_end { (13.0, color_of(series.tone, t)) } else { (11.0, t.text) };
+        let (size, color) = match (is_end, series.tone) {
+            (true, Tone::Faint) => (11.0, t.text_weak),
+            (true, tone) => (13.0, color_of(tone, t)),
+            (false, _) => (11.0, t.text),
+        };
         let galley = painter.layout_no_wrap(label.to_owned(), FontId::proportional(size), color);
-        wishes.push(Wish { dot, size: galley.size(), is_needed: is_end });
+        wishes.push(Wish { dot, size: galley.size(), side, is_needed: is_end });
         galleys.push((galley, color));
     }
     let places = label_places(&dots, DOT, &wishes, &[], area);
-    for ((wish, (galley, color)), place) in wishes.iter().zip(galleys).zip(places) {
+    for ((galley, color), place) in galleys.into_iter().zip(places) {
         let Some(place) = place else { continue };
-        if wish.is_needed {
-            painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 3.0, t.background.gamma_multiply(0.8));
-        }
+        painter.rect_filled(place.expand2(vec2(2.0, -1.0)), 3.0, t.background.gamma_multiply(0.7));
         painter.galley(place.min, galley, color);
     }
+}
+
+/// Whether a series is one line without names at its ends: then its own name stands at the second.
+fn is_single_line(series: &Series) -> bool {
+    series.mark == Mark::Segments
+        && series.points.len() == 2
+        && series.points.iter().all(|p| p.label.is_empty())
+}
+
+/// The points of a line without those that lie on the one before, by a thousandth of the plot: between them there is
+/// too little to be seen.
+fn thinned(points: &[[f64; 2]], [x, y]: [(f64, f64); 2]) -> Vec<[f64; 2]> {
+    let share = |a: f64, b: f64, (low, high): (f64, f64)| (a - b).abs() / (high - low);
+    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
+    for point in points {
+        let is_there = |last: &[f64; 2]| share(last[0], point[0], x).max(share(last[1], point[1], y)) < 1e-3;
+        if !kept.last().is_some_and(is_there) {
+            kept.push(*point);
+        }
+    }
+    kept
 }
 
 fn on_screen(transform: &PlotTransform, x: f64, y: f64) -> Pos2 {
@@ -155,4 +194,17 @@ fn nearest<'a>(chart: &'a Chart, transform: &PlotTransform, at: Pos2) -> Option<
     let by_distance = points.map(|point| (on_screen(transform, point.x, point.y).distance(at), &point.label));
     let (distance, label) = by_distance.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (distance < REACH).then_some(label.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::thinned;
+
+    #[test]
+    fn a_line_keeps_its_ends_and_loses_what_cannot_be_seen() {
+        let points = [[0.0, 0.0], [0.0, 1e-6], [0.5, 0.5], [0.5, 0.500_2], [0.5, 0.6], [1.0, 1.0]];
+        let bounds = [(0.0, 1.0), (0.0, 1.0)];
+        assert_eq!(thinned(&points, bounds), [[0.0, 0.0], [0.5, 0.5], [0.5, 0.6], [1.0, 1.0]]);
+        assert_eq!(thinned(&[], bounds), Vec::<[f64; 2]>::new());
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align, Layout, Ui, UiBuilder};
+use egui::{Align, Layout, Ui, UiBuilder, vec2};
 use shagreen_core::space::LabelSource;
 
 use crate::build::figure_ui::figure_ui;
@@ -18,7 +18,8 @@ const FOOT: f32 = 28.0;
 /// Draws the tabs and the figure that is `shown`, and returns what the user asked of it.
 pub(super) fn figures_ui(ui: &mut Ui, built: &Built, shown: &mut usize) -> Option<Command> {
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
+        ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
+        ui.spacing_mut().button_padding.x = 7.0;
         for (index, (name, _)) in built.figures.iter().enumerate() {
             ui.selectable_value(shown, index, strings::figure(name));
         }

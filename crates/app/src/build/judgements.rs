@@ -40,6 +40,7 @@ pub struct Slot<T> {
 }
 
 /// All judgements that a space is made of.
+#[derive(Default)]
 pub struct Judgements {
     /// Textures in groups.
     pub sorting: Slot<Sort>,
@@ -94,19 +95,6 @@ impl<T> Slot<T> {
             Err(reason) => self.failure = Some(format!("{name}: {reason}")),
         }
         self.failure.is_none()
-    }
-}
-
-impl Default for Judgements {
-    fn default() -> Self {
-        Self {
-            sorting: Slot::default(),
-            ratings: Slot::default(),
-            votes: Slot::default(),
-            reading: Vec::new(),
-            n_tickets: 0,
-            generation: 0,
-        }
     }
 }
 
@@ -212,20 +200,18 @@ fn content(source: &Source, kind: Option<Kind>) -> Content {
     .unwrap_or_else(|(kind, reason)| Content::Failed(kind, reason))
 }
 
-/// What a file holds, by its columns. Votes with a column for each adjective look like a sorting, so that their name has
-/// to say what they are; the name decides too where the columns fit nothing.
+/// What a file holds, by its columns. Almost any table may be a sorting with a column for each texture, votes with a
+/// column for each adjective too, so that a name that says what it is goes first.
 fn kind_of(name: &str, bytes: &[u8]) -> Kind {
     let name = name.to_lowercase();
     if ["vote", "relevan"].iter().any(|word| name.contains(word)) {
         Kind::Votes
-    } else if read_ratings_csv(bytes).is_ok() {
+    } else if read_ratings_csv(bytes).is_ok() || name.contains("rating") {
         Kind::Ratings
     } else if read_sorting_csv(bytes).is_ok() {
         Kind::Sorting
     } else if read_relevance_csv(bytes).is_ok() {
         Kind::Votes
-    } else if name.contains("rating") {
-        Kind::Ratings
     } else {
         Kind::Sorting
     }

@@ -11,7 +11,7 @@ use crate::strings::build as strings;
 use crate::theme::{GAP, tokens};
 
 /// Width of the controls, in points.
-const CONTROL_WIDTH: f32 = 190.0;
+const CONTROL_WIDTH: f32 = 182.0;
 /// The most permutations that can be asked for: a chance is then known to a ten thousandth.
 const MAX_PERMUTATIONS: usize = 10_000;
 

@@ -23,14 +23,17 @@ use crate::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, VERDICT_WIDTH, tokens};
 
 pub use crate::build::job::Built;
 
+/// Width that is left to the bar that scrolls, in points.
+const SCROLL_BAR: i8 = 8;
+
 /// The state of the workspace.
 pub struct BuildPage {
     judgements: Judgements,
     paths: Paths,
     options: SpaceOptions,
     job: Option<(Job, Recipe)>,
-    /// Why the last attempt came to nothing.
-    failure: Option<String>,
+    /// Why the last attempt came to nothing, and of what it was made.
+    failure: Option<(String, Recipe)>,
     built: Option<(Built, Recipe)>,
     /// Which figure is shown.
     shown: usize,
@@ -85,7 +88,7 @@ impl BuildPage {
         let Some((_, recipe)) = self.job.take() else { return };
         match outcome {
             Ok(built) => (self.built, self.failure) = (Some((built, recipe)), None),
-            Err(reason) => self.failure = Some(reason),
+            Err(reason) => self.failure = Some((reason, recipe)),
         }
     }
 
@@ -124,6 +127,7 @@ impl BuildPage {
             },
         );
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
             ui.add_space(GAP);
             if inputs_ui(ui, &mut self.judgements, &mut self.paths, session) {
                 let textures: Vec<_> = session.textures_as_opened().collect();
@@ -132,7 +136,7 @@ impl BuildPage {
                         self.judgements.simulate(simulated);
                         self.failure = None;
                     }
-                    Err(reason) => self.failure = Some(reason),
+                    Err(reason) => self.failure = Some((reason, self.recipe())),
                 }
             }
             ui.add_space(GROUP_GAP);
@@ -167,7 +171,9 @@ impl BuildPage {
             }
             return;
         }
-        if let Some(reason) = &self.failure {
+        if let Some((reason, recipe)) = &self.failure
+            && *recipe == self.recipe()
+        {
             ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
         }
         let can_build = self.judgements.sorting.read.is_some() && self.judgements.ratings.read.is_some();

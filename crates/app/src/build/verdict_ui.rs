@@ -13,6 +13,9 @@ use crate::strings::build as strings;
 use crate::theme::{GAP, tokens};
 use crate::workspace::Workspace;
 
+/// Height of the foot with the button, in points.
+const FOOT: f32 = 72.0;
+
 /// Draws the column and returns what the user asked of it.
 pub(super) fn verdict_ui(
     ui: &mut Ui,
@@ -23,7 +26,8 @@ pub(super) fn verdict_ui(
     let t = tokens(ui.ctx());
     let mut asked = None;
     if let Some(built) = built {
-        Side::bottom("use").frame(Frame::new().inner_margin(Margin::symmetric(0, 8))).show(ui, |ui| {
+        let frame = Frame::new().inner_margin(Margin::symmetric(0, 8));
+        Side::bottom("use").exact_size(FOOT).frame(frame).show(ui, |ui| {
             asked = use_ui(ui, panel, built);
         });
     }
@@ -63,6 +67,8 @@ fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &Built) -> Option<Command> {
             .clicked()
             .then_some(Command::Show(Workspace::Author));
     }
+    let note = RichText::new(strings::USE_NOTE).color(t.text_weak);
+    ui.add(Label::new(note).truncate().selectable(false));
     let text = RichText::new(strings::USE_SPACE).color(t.on_accent);
     let is_wanted =
         ui.add_sized(size, Button::new(text).fill(t.accent)).on_hover_text(strings::USE_HELP).clicked();

@@ -123,6 +123,8 @@ pub const NO_VERDICT: &str =
 pub const USE_SPACE: &str = "Use this space";
 /// What using a space does.
 pub const USE_HELP: &str = "Gives the textures their places and ratings of this space. Undo brings the old ones back; “Save as…” in Author writes them into a file, with the report.";
+/// Above the button that puts a space to use.
+pub const USE_NOTE: &str = "Undo brings the old places back.";
 /// The space is in use.
 pub const IN_USE: &str = "In use";
 /// Goes to the workspace where the space is felt.
@@ -272,12 +274,12 @@ pub fn placement(placement: Placement) -> &'static str {
 pub fn figure(name: &str) -> &str {
     match name {
         "stress" => "Stress",
-        "perceptual-space" => "Perceptual space",
+        "perceptual-space" => "Perceptual",
         "correlations" => "Correlations",
         "adjectives" => "Adjectives",
         "predicted-1" => "Predicted across",
         "predicted-2" => "Predicted up",
-        "authoring-space" => "Authoring space",
+        "authoring-space" => "Authoring",
         "shepard" => "Shepard",
         other => other,
     }
