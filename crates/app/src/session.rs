@@ -464,3 +464,6 @@ fn prepare_ahead(planes: Vec<(usize, Arc<Plane>)>, sender: Sender<Ahead>) {
         }
     });
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,7 @@ use egui::{
     Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2,
     vec2,
 };
-use egui_plot::{HoverPosition, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
+use egui_plot::{AxisHints, HoverPosition, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
 use shagreen_formats::figure::{Chart, Mark, Point, Series, Tone};
 
 use crate::label_places::{Wish, label_places};
@@ -21,8 +21,11 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
     let t = tokens(ui.ctx());
     legend_ui(ui, chart, t);
     let [x, y] = chart.bounds();
+    // Numbers stand as close as they can be read.
+    let across = AxisHints::new_x().label(RichText::new(&chart.x_label).small());
+    let across = across.label_spacing(Rangef::new(34.0, 46.0));
     let mut plot = fixed(Plot::new(name.to_owned()), t.line)
-        .x_axis_label(RichText::new(&chart.x_label).small())
+        .custom_x_axes(vec![across])
         .y_axis_label(RichText::new(&chart.y_label).small())
         .label_formatter(|hover: &HoverPosition<'_>| match hover {
             HoverPosition::NearDataPoint { position, .. } => {

@@ -19,12 +19,14 @@ use crate::import::source::Source;
 use crate::panel::Panel;
 use crate::session::Session;
 use crate::strings::build as strings;
-use crate::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, VERDICT_WIDTH, tokens};
+use crate::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, RADIUS, VERDICT_WIDTH, tokens};
 
 pub use crate::build::job::Built;
 
+/// Width of what stands there before a space is built, in points.
+const EMPTY_WIDTH: f32 = 520.0;
 /// Width that is left to the bar that scrolls, in points.
-const SCROLL_BAR: i8 = 8;
+const SCROLL_BAR: f32 = 8.0;
 
 /// The state of the workspace.
 pub struct BuildPage {
@@ -127,7 +129,7 @@ impl BuildPage {
             },
         );
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
+            narrow(ui);
             ui.add_space(GAP);
             if inputs_ui(ui, &mut self.judgements, &mut self.paths, session) {
                 let textures: Vec<_> = session.textures_as_opened().collect();
@@ -210,29 +212,38 @@ impl BuildPage {
 
 /// What stands there before a space is built.
 fn empty_ui(ui: &mut Ui) {
-    let t = tokens(ui.ctx());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(0.1 * ui.clip_rect().height());
-        let side = (0.5 * (ui.available_width() - 520.0)).max(GROUP_GAP);
-        Frame::new().inner_margin(Margin::symmetric(side as i8, 0)).show(ui, |ui| {
-            ui.add(Label::new(RichText::new(strings::EMPTY_TITLE).heading().strong()).selectable(false));
-            ui.add_space(GAP);
-            for (number, step) in (1..).zip(strings::EMPTY_STEPS) {
-                ui.add(Label::new(RichText::new(format!("{number}.  {step}")).color(t.text_weak)).wrap());
-            }
-            for (title, example) in [
-                (strings::SORTING_EXAMPLE_TITLE, strings::SORTING_EXAMPLE),
-                (strings::RATINGS_EXAMPLE_TITLE, strings::RATINGS_EXAMPLE),
-            ] {
-                ui.add_space(GROUP_GAP);
-                ui.add(Label::new(title).wrap().selectable(false));
-                Frame::new().fill(t.background).corner_radius(5.0).inner_margin(GROUP_GAP).show(ui, |ui| {
-                    ui.set_width(ui.available_width());
-                    ui.add(Label::new(RichText::new(example).monospace()).wrap());
-                });
-            }
-            ui.add_space(GAP);
-            ui.add(Label::new(RichText::new(strings::EXAMPLE_NOTE).small().color(t.text_weak)).wrap());
+        let width = ui.available_width().min(EMPTY_WIDTH);
+        ui.horizontal_top(|ui| {
+            ui.add_space(0.5 * (ui.available_width() - width));
+            ui.vertical(|ui| {
+                ui.set_max_width(width);
+                lesson_ui(ui);
+            });
         });
     });
+}
+
+/// What to do, and what the tables look like.
+fn lesson_ui(ui: &mut Ui) {
+    let t = tokens(ui.ctx());
+    ui.add(Label::new(RichText::new(strings::EMPTY_TITLE).heading().strong()).selectable(false));
+    ui.add_space(GAP);
+    for (number, step) in (1..).zip(strings::EMPTY_STEPS) {
+        ui.add(Label::new(RichText::new(format!("{number}.  {step}")).color(t.text_weak)).wrap());
+    }
+    for (title, example) in [
+        (strings::SORTING_EXAMPLE_TITLE, strings::SORTING_EXAMPLE),
+        (strings::RATINGS_EXAMPLE_TITLE, strings::RATINGS_EXAMPLE),
+    ] {
+        ui.add_space(GROUP_GAP);
+        ui.add(Label::new(title).wrap().selectable(false));
+        Frame::new().fill(t.background).corner_radius(RADIUS).inner_margin(GROUP_GAP).show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            ui.add(Label::new(RichText::new(example).monospace()).wrap());
+        });
+    }
+    ui.add_space(GAP);
+    ui.add(Label::new(RichText::new(strings::EXAMPLE_NOTE).small().color(t.text_weak)).wrap());
 }
