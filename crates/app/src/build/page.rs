@@ -26,7 +26,7 @@ pub use crate::build::job::Built;
 /// Width of what stands there before a space is built, in points.
 const EMPTY_WIDTH: f32 = 520.0;
 /// Width that is left to the bar that scrolls, in points.
-const SCROLL_BAR: f32 = 8.0;
+const SCROLL_BAR: i8 = 8;
 
 /// The state of the workspace.
 pub struct BuildPage {
@@ -122,14 +122,14 @@ impl BuildPage {
     }
 
     fn left_ui(&mut self, ui: &mut Ui, session: &Session) {
-        Side::bottom("build button").frame(Frame::new().inner_margin(Margin::symmetric(0, 8))).show(
-            ui,
-            |ui| {
-                self.build_ui(ui, session);
-            },
-        );
+        // The bar that scrolls lies over what is at its side.
+        let beside_bar = Frame::new().inner_margin(Margin { right: SCROLL_BAR, ..Margin::ZERO });
+        let frame = Frame::new().inner_margin(Margin::symmetric(0, 8));
+        Side::bottom("build button").frame(frame).show(ui, |ui| {
+            beside_bar.show(ui, |ui| self.build_ui(ui, session));
+        });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            narrow(ui);
+            ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
             ui.add_space(GAP);
             if inputs_ui(ui, &mut self.judgements, &mut self.paths, session) {
                 let textures: Vec<_> = session.textures_as_opened().collect();
