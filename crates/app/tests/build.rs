@@ -10,11 +10,15 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings::{self, build, import};
 use shagreen_app::workspace::Workspace;
+use shagreen_core::panel::{PanelConfig, simulated_ratings, simulated_sorts};
 use shagreen_core::space::LabelSource;
 use shagreen_core::space_build::FeatureKind;
 use shagreen_formats::library::read_library;
+use shagreen_formats::ratings_csv::ratings_csv;
+use shagreen_formats::sorting_csv::sorting_csv;
+use shagreen_formats::starter::starter_library;
 
-use support::{Author, author, choose, click, unnamed_controls, wait, window};
+use support::{Author, author, choose, click, drop_files, unnamed_controls, wait, window};
 
 /// Goes to the workspace.
 fn builder() -> Author {
@@ -134,6 +138,56 @@ fn a_space_is_built_looked_at_used_and_undone() {
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);
     assert_eq!(window(&harness).session().label_source(), "simulated raters");
+}
+
+/// Tables of sortings and ratings, whose participants are called as people are, or as simulated ones.
+fn tables(prefix: &str) -> [Vec<u8>; 2] {
+    let library = starter_library().unwrap();
+    let placed = library.textures.iter().map(|t| (t.id.clone(), t.at().unwrap()));
+    let (names, labels): (Vec<String>, Vec<Vec<f64>>) =
+        placed.map(|(id, at)| (id, vec![at.rough_smooth, at.hard_soft])).unzip();
+    let config = PanelConfig {
+        n_participants: 4,
+        noise_points: 5.0,
+        bias_points: 2.0,
+        scale_log_spread: 0.1,
+        seed: 9,
+    };
+    let pairs = ["rough-smooth", "hard-soft"].map(|name| name.parse().unwrap());
+    let mut sorts = simulated_sorts(&names, &labels, &[4, 8], &config).unwrap();
+    let mut ratings = simulated_ratings(&names, &labels, &pairs, &config).unwrap();
+    for name in
+        sorts.iter_mut().map(|s| &mut s.participant).chain(ratings.iter_mut().map(|r| &mut r.participant))
+    {
+        *name = name.replace("simulated-", prefix);
+    }
+    [sorting_csv(&sorts), ratings_csv(&ratings)]
+}
+
+/// Tables dropped on the workspace are known by their columns; who judged is known by the names of the participants.
+#[test]
+fn dropped_tables_become_a_space_that_says_who_judged() {
+    for (prefix, source) in [("person ", "human ratings"), ("simulated-", "simulated raters")] {
+        let mut harness = builder();
+        let [sorting, ratings] = tables(prefix);
+        drop_files(&mut harness, &[("b.csv", &ratings), ("a.csv", &sorting)]);
+        wait(&mut harness, "both are read", |h| !window(h).build().judgements().is_reading());
+        harness.run_steps(2);
+        assert!(window(&harness).import().is_none(), "they are no recordings");
+        assert!(says(&harness, "4 participants, 8 sorts, 25 textures"));
+        assert!(says(&harness, "4 participants, 200 ratings, 25 textures, 2 pairs"));
+        set_number(&mut harness, build::PERMUTATIONS, 0.0);
+        choose(&mut harness, build::FEATURES, build::features(FeatureKind::Physical));
+        click(&mut harness, build::BUILD_SPACE);
+        wait(&mut harness, "the space is built", |h| !window(h).build().is_building());
+        harness.run_steps(2);
+        assert!(window(&harness).build().built().is_some(), "{:?}", shown(&harness));
+        let is_simulated = source == "simulated raters";
+        let figures = &window(&harness).build().built().unwrap().figures;
+        assert!(figures.iter().all(|(_, figure)| figure.title().contains("simulated") == is_simulated));
+        use_space(&mut harness);
+        assert!(says(&harness, &format!("positions: {source}")));
+    }
 }
 
 #[test]

@@ -2,8 +2,11 @@
 
 #![allow(dead_code, reason = "each test uses some of it")]
 
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use egui::DroppedFile;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -82,4 +85,30 @@ pub(crate) fn unnamed_controls<State>(harness: &Harness<'_, State>) -> Vec<Strin
         is_control(node.role()) && node.label().is_none_or(|l| l.trim().is_empty())
     });
     unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
+}
+
+/// A file in memory, as a windowing system would hand it over.
+#[derive(Debug)]
+struct InMemory {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl DroppedFile for InMemory {
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Ok(self.bytes.clone())
+    }
+}
+
+/// Drops files of these names and bytes on the window.
+pub(crate) fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
+    let handles = files.iter().map(|(name, bytes)| {
+        Arc::new(InMemory { path: PathBuf::from(name), bytes: bytes.to_vec() }) as egui::DroppedFileHandle
+    });
+    harness.input_mut().dropped_files.extend(handles);
+    harness.run_steps(2);
 }
