@@ -11,11 +11,14 @@ mod import_hatt;
 mod import_recording;
 mod library_list;
 mod library_make;
+mod library_places;
 mod library_source;
 mod motion;
 mod output;
 mod play;
 mod render;
+mod space_build;
+mod space_panel;
 mod space_place;
 mod stroke;
 mod target;
@@ -65,6 +68,7 @@ enum LibraryCommand {
     /// Lists the textures of a library.
     List(library_list::Args),
     Make(library_make::Args),
+    Places(library_places::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -75,6 +79,8 @@ enum ImportCommand {
 
 #[derive(clap::Subcommand)]
 enum SpaceCommand {
+    Build(Box<space_build::Args>),
+    Panel(space_panel::Args),
     Place(space_place::Args),
 }
 
@@ -95,10 +101,13 @@ pub(crate) fn run() -> ExitCode {
         None => window::run(&cli.window, started),
         Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
         Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
+        Some(Command::Library(LibraryCommand::Places(args))) => library_places::run(args),
         Some(Command::Export(args)) => export::run(args),
         Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
         Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Space(SpaceCommand::Build(args))) => space_build::run(args),
+        Some(Command::Space(SpaceCommand::Panel(args))) => space_panel::run(args),
         Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Devices(args)) => {

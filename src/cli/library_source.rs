@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use shagreen_core::space::LabelSource;
 use shagreen_formats::library::{Library, LibraryError, TextureEntry, read_library};
-use shagreen_formats::starter::starter_library;
+use shagreen_formats::starter::{simulated_library, starter_library};
 
 use crate::cli::output;
 
 #[derive(clap::Args)]
 pub(crate) struct LibraryArgs {
-    /// Library file, or a folder of them; without it the starter library.
+    /// Library file, or a folder of them; without it the starter library. "simulated" is the starter library as a
+    /// simulated panel sorted and rated it.
     #[arg(long, value_name = "L")]
     library: Option<PathBuf>,
 }
@@ -29,10 +30,14 @@ impl LibraryArgs {
     }
 }
 
+/// The name of the second library that is built into the program.
+const SIMULATED: &str = "simulated";
+
 /// The library that the arguments name; what is odd about it is said.
 pub(crate) fn load(args: &LibraryArgs) -> anyhow::Result<Library> {
     let library = match &args.library {
         None => starter_library()?,
+        Some(path) if path == Path::new(SIMULATED) && !path.exists() => simulated_library()?,
         Some(path) if path.is_dir() => load_folder(path)?,
         Some(path) => load_file(path)?.with_context(|| output::in_file(path))?,
     };

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use anyhow::Context as _;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
+use shagreen_formats::library::{Library, Provenance};
 
 /// The program and its version, for the files that it writes.
 pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION"));
@@ -33,6 +34,14 @@ pub(crate) fn warn(message: &str) {
 /// Says what the person would like to know.
 pub(crate) fn note(message: &str) {
     say(format_args!("note: {message}"));
+}
+
+/// Says which textures of a library that is written may not be passed on.
+pub(crate) fn warn_of_restricted(library: &Library) {
+    let restricted: Vec<&str> = library.restricted().map(|texture| texture.name.as_str()).collect();
+    if let Some(warning) = Provenance::warning(&restricted) {
+        warn(&warning);
+    }
 }
 
 /// That the arguments do not fit together: wrong usage, not a failure.

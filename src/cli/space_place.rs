@@ -6,12 +6,12 @@ use anyhow::{Context as _, bail};
 use serde_json::json;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::atomic;
-use shagreen_formats::library::{Provenance, write_library};
+use shagreen_formats::library::write_library;
 use shagreen_formats::places_csv::read_places_csv;
 
 use crate::cli::guard::{is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::output;
+use crate::cli::output::{self, warn_of_restricted};
 
 /// Places textures where a table says.
 ///
@@ -74,10 +74,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if sources.len() > 1 {
         output::warn("the places come from different sources; what lies between them means little");
     }
-    let restricted: Vec<&str> = library.restricted().map(|texture| texture.name.as_str()).collect();
-    if let Some(warning) = Provenance::warning(&restricted) {
-        output::warn(&warning);
-    }
+    warn_of_restricted(&library);
     atomic::write(&args.out, &write_library(&library))?;
     let n_placed = placements.len();
     output::print(

@@ -154,7 +154,8 @@ pub fn axis_positions(projections: &[f64], zero_at: ZeroAt) -> Option<Vec<f64>> 
         ZeroAt::LowRatings => 100.0 * (t - low) / (high - low),
         ZeroAt::HighRatings => 100.0 * (high - t) / (high - low),
     };
-    Some(projections.iter().map(place).collect())
+    // Rounding may carry an end past its end.
+    Some(projections.iter().map(|t| place(t).clamp(0.0, 100.0)).collect())
 }
 
 /// The angle between two unit vectors, in degrees, 0 to 180.

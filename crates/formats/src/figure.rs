@@ -1,6 +1,9 @@
 //! Figures as data: what is drawn in the window and what is saved as SVG or CSV is one and the same.
 
+mod labels;
 mod svg;
+
+use crate::named_table::write_table;
 
 pub use crate::figure::svg::{figure_svg, page_svg};
 
@@ -141,31 +144,24 @@ const CHART_COLUMNS: [&str; 4] = ["series", "label", "x", "y"];
 
 /// The numbers of a figure as CSV: of a chart one point a line, of a table its own rows.
 pub fn figure_csv(figure: &Figure) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut write = |fields: Vec<String>| {
-        // Memory takes all text.
-        let written = writer.write_record(&fields);
-        assert!(written.is_ok(), "rows of a figure are as long as its first: {written:?}");
-    };
     match figure {
         Figure::Chart(chart) => {
-            write(CHART_COLUMNS.map(str::to_owned).to_vec());
-            for series in &chart.series {
-                for point in &series.points {
-                    let numbers = [point.x, point.y].map(|value| format!("{value}"));
-                    write([series.name.clone(), point.label.clone()].into_iter().chain(numbers).collect());
-                }
-            }
+            let rows = chart.series.iter().flat_map(|series| {
+                series.points.iter().map(|Point { x, y, label }| {
+                    vec![series.name.clone(), label.clone(), format!("{x}"), format!("{y}")]
+                })
+            });
+            write_table(std::iter::once(CHART_COLUMNS.map(str::to_owned).to_vec()).chain(rows))
         }
         Figure::Table(table) => {
-            write([String::new()].into_iter().chain(table.columns.iter().cloned()).collect());
-            for (name, values) in &table.rows {
+            let first = std::iter::once(String::new()).chain(table.columns.iter().cloned());
+            let rows = table.rows.iter().map(|(name, values)| {
                 let shown = values.iter().map(|v| v.map_or_else(String::new, |value| format!("{value}")));
-                write([name.clone()].into_iter().chain(shown).collect());
-            }
+                std::iter::once(name.clone()).chain(shown).collect()
+            });
+            write_table(std::iter::once(first.collect()).chain(rows))
         }
     }
-    writer.into_inner().unwrap_or_default()
 }
 
 #[cfg(test)]

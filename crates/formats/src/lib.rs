@@ -30,6 +30,7 @@ pub mod library;
 pub mod map_toml;
 pub mod materials_toml;
 pub mod named_table;
+pub mod panel_labels;
 pub mod picture;
 pub mod places_csv;
 pub mod ratings_csv;

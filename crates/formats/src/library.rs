@@ -59,8 +59,8 @@ pub use crate::library::error::LibraryError;
 pub use crate::library::id::{free_id, id_from_name, name_from_file};
 pub use crate::library::provenance::Provenance;
 pub use crate::library::read::read_library;
-pub(crate) use crate::library::write::frequencies;
 pub use crate::library::write::write_library;
+pub(crate) use crate::library::write::{DIGITS, digits, frequencies};
 
 /// What the field `format` of a library holds.
 pub const FORMAT: &str = "shagreen-library";

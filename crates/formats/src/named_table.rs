@@ -39,6 +39,12 @@ pub enum NamedTableError {
         /// The name.
         name: String,
     },
+    /// A column has no name.
+    #[error("line {line} has something in a column without a name; name the column in the first line")]
+    Unnamed {
+        /// The first such line, from one.
+        line: u64,
+    },
     /// A row has too few or too many fields.
     #[error("line {line} has {found} fields, the first line names {expected} columns; correct the line")]
     Fields {
@@ -137,8 +143,14 @@ impl NamedTable {
         }
         let columns = columns.filter(|_| !rows.is_empty()).ok_or(NamedTableError::Empty { wanted, of })?;
         let mut names = HashSet::new();
-        if let Some(name) = columns.iter().find(|name| !names.insert(plain(name))) {
+        if let Some(name) = columns.iter().find(|name| !name.is_empty() && !names.insert(plain(name))) {
             return Err(NamedTableError::TwoColumns { name: name.clone() });
+        }
+        // Spreadsheets leave empty columns behind; one that holds something needs a name.
+        let is_lost =
+            |row: &&Row| row.fields.iter().zip(&columns).any(|(f, name)| name.is_empty() && !f.is_empty());
+        if let Some(row) = rows.iter().find(is_lost) {
+            return Err(NamedTableError::Unnamed { line: row.line });
         }
         Ok(Self { columns, rows, delimiter })
     }
@@ -156,9 +168,10 @@ impl NamedTable {
         })
     }
 
-    /// The columns that are none of these.
+    /// The columns that are none of these and have a name.
     pub(crate) fn others(&self, taken: &[Option<usize>]) -> Vec<usize> {
-        (0..self.columns.len()).filter(|i| !taken.contains(&Some(*i))).collect()
+        let is_other = |i: &usize| !taken.contains(&Some(*i)) && !self.columns[*i].is_empty();
+        (0..self.columns.len()).filter(is_other).collect()
     }
 
     /// The rows.
@@ -218,6 +231,17 @@ impl<'a> Field<'a> {
     }
 }
 
+/// A table of these rows, the first line among them, all as long, that [`NamedTable::read`] takes back.
+pub(crate) fn write_table(rows: impl IntoIterator<Item = Vec<String>>) -> Vec<u8> {
+    let mut writer = csv::WriterBuilder::new().comment(Some(b'#')).from_writer(Vec::new());
+    for row in rows {
+        // Memory takes all text.
+        let written = writer.write_record(&row);
+        assert!(written.is_ok(), "rows are all as long: {written:?}");
+    }
+    writer.into_inner().unwrap_or_default()
+}
+
 /// A name as it is compared.
 fn plain(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, ' ' | '_' | '-' | '\u{2013}')).collect::<String>().to_lowercase()
@@ -267,6 +291,8 @@ mod tests {
             table.rows().map(|r| (r.at(0).word().unwrap(), r.at(1).number().unwrap(), r.line())).collect();
         assert_eq!(values, [("cork", Some(40.5), 2), ("felt", None, 5)]);
         assert_eq!(table.others(&[Some(0), None]), [1]);
+        let spreadsheet = read("id,rs,,\na,1,,\n").unwrap();
+        assert_eq!(spreadsheet.others(&[Some(0)]), [1]);
     }
 
     #[test]
@@ -279,6 +305,7 @@ mod tests {
         check("id,rs\n", "no rows");
         check("id,rs\na,1,2\n", "line 2 has 3 fields");
         check("id,ID\na,1\n", "two columns");
+        check("id,,\na,,\nb,,1\n", "line 3 has something in a column without a name");
         assert!(NamedTable::read(b"id\n\xff\n", "id", "texture").is_err());
         let table = read("id,rs\n,x1\n").unwrap();
         let row = table.rows().next().unwrap();

@@ -13,8 +13,8 @@ use std::collections::HashMap;
 
 use shagreen_core::space::{LabelSource, SpacePoint, SpacePointError};
 
-use crate::library::{Attribute, Attributes, Place};
-use crate::named_table::{Field, NamedTable, NamedTableError};
+use crate::library::{Attribute, Attributes, DIGITS, Library, Place, digits};
+use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 
 /// Where a texture lies, and its attributes.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,7 +123,13 @@ pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<
             None => source.ok_or(PlacesCsvError::NoSource)?,
         };
         let axis = |name: &str, value: f64| Attribute { name: name.to_owned(), value };
-        let mut values = vec![axis(ROUGH_SMOOTH, point.rough_smooth), axis(HARD_SOFT, point.hard_soft)];
+        let mut values = Vec::new();
+        for (name, value) in [(ROUGH_SMOOTH, point.rough_smooth), (HARD_SOFT, point.hard_soft)] {
+            // A table may have the attribute beside the place: what was rated is not where it was put.
+            if others.iter().all(|column| row.at(*column).name() != name) {
+                values.push(axis(name, value));
+            }
+        }
         for column in &others {
             let field = row.at(*column);
             let Some(value) = field.number()? else { continue };
@@ -138,9 +144,37 @@ pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<
     Ok(placements)
 }
 
+/// The places and attributes of a library as such a table, with the attributes in the order of their first appearance.
+/// Textures without a place are not in it.
+pub fn places_csv(library: &Library) -> Vec<u8> {
+    let placed = || library.textures.iter().filter_map(|texture| Some((texture, texture.place?)));
+    let mut names: Vec<&str> = Vec::new();
+    for attribute in placed().flat_map(|(texture, _)| texture.attributes.iter().flat_map(|a| &a.values)) {
+        if !names.contains(&attribute.name.as_str()) {
+            names.push(&attribute.name);
+        }
+    }
+    let number = |value: f64| format!("{}", digits(value, DIGITS));
+    let first = ["id", "rs", "hs", "source"].into_iter().chain(names.iter().copied());
+    let rows = placed().map(|(texture, place)| {
+        let fixed = [
+            texture.id.clone(),
+            number(place.at.rough_smooth),
+            number(place.at.hard_soft),
+            place.source.id().to_owned(),
+        ];
+        let value = |name: &&str| {
+            texture.attributes.as_ref().and_then(|a| a.get(name)).map_or_else(String::new, number)
+        };
+        fixed.into_iter().chain(names.iter().map(value)).collect()
+    });
+    write_table(std::iter::once(first.map(str::to_owned).collect()).chain(rows))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::read_places_csv;
+    use super::{places_csv, read_places_csv};
+    use crate::starter::starter_library;
     use shagreen_core::space::LabelSource;
 
     #[test]
@@ -157,6 +191,22 @@ mod tests {
         let by_poles = "texture;Rough-Smooth;Hard-Soft\ncork;40,5;71\n";
         let placements = read_places_csv(by_poles.as_bytes(), Some(LabelSource::HumanRatings)).unwrap();
         assert_eq!(placements[0].place.at.rough_smooth, 40.5);
+    }
+
+    #[test]
+    fn a_library_is_placed_again_by_its_own_table() {
+        let text =
+            "id,rs,hs,source,rough-smooth,flat-bumpy\ncork,40.5,71,human,39,33\nfelt,90,95,simulated,,12.5\n";
+        let placements = read_places_csv(text.as_bytes(), None).unwrap();
+        assert_eq!(placements[0].attributes.get("rough-smooth"), Some(39.0));
+        let mut library = starter_library().unwrap();
+        for texture in &mut library.textures {
+            let found = placements.iter().find(|placement| placement.id == texture.id);
+            texture.place = found.map(|placement| placement.place);
+            texture.attributes = found.map(|placement| placement.attributes.clone());
+        }
+        let again = read_places_csv(&places_csv(&library), None).unwrap();
+        assert_eq!(again, placements);
     }
 
     #[test]

@@ -11,7 +11,7 @@
 
 use shagreen_core::ratings::{AdjectivePair, PairNameError, Rating, RelevanceVote};
 
-use crate::named_table::{Field, NamedTable, NamedTableError};
+use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::sorting_csv::{PARTICIPANT, TEXTURE};
 
 /// Why a table holds no ratings.
@@ -151,18 +151,12 @@ fn vote(field: Field<'_>) -> Result<Option<bool>, RatingsCsvError> {
 
 /// The ratings as a table with a line each.
 pub fn ratings_csv(ratings: &[Rating]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut write = |fields: [&str; 4]| {
-        // Memory takes all text.
-        let written = writer.write_record(fields);
-        assert!(written.is_ok(), "rows are all as long: {written:?}");
-    };
-    write(["participant", "texture", "adjective", "value"]);
-    for rating in ratings {
-        let value = rating.value.map_or_else(String::new, |value| format!("{value}"));
-        write([&rating.participant, &rating.texture, &rating.pair.name(), &value]);
-    }
-    writer.into_inner().unwrap_or_default()
+    let first = ["participant", "texture", "adjective", "value"].map(str::to_owned).to_vec();
+    let rows = ratings.iter().map(|Rating { participant, texture, pair, value }| {
+        let value = value.map_or_else(String::new, |value| format!("{value}"));
+        vec![participant.clone(), texture.clone(), pair.name(), value]
+    });
+    write_table(std::iter::once(first).chain(rows))
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ use std::collections::{HashMap, HashSet};
 
 use shagreen_core::sorting::{Placement, Sort};
 
-use crate::named_table::{Field, NamedTable, NamedTableError};
+use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 
 /// Sorts, and all textures that they name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -215,20 +215,20 @@ fn by_sort(table: &NamedTable, columns: &Columns) -> Result<SortingTable, Sortin
 
 /// The sortings as a table with a line for each texture of each sort.
 pub fn sorting_csv(sorts: &[Sort]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut write = |fields: [&str; 5]| {
-        // Memory takes all text.
-        let written = writer.write_record(fields);
-        assert!(written.is_ok(), "rows are all as long: {written:?}");
-    };
-    write(["participant", "trial", "groups", "texture", "group"]);
-    for sort in sorts {
+    let first = ["participant", "trial", "groups", "texture", "group"].map(str::to_owned).to_vec();
+    let rows = sorts.iter().flat_map(|sort| {
         let n_groups = sort.n_groups.map_or_else(String::new, |n| n.to_string());
-        for Placement { texture, group } in &sort.placements {
-            write([&sort.participant, &sort.trial, &n_groups, texture, group]);
-        }
-    }
-    writer.into_inner().unwrap_or_default()
+        sort.placements.iter().map(move |Placement { texture, group }| {
+            vec![
+                sort.participant.clone(),
+                sort.trial.clone(),
+                n_groups.clone(),
+                texture.clone(),
+                group.clone(),
+            ]
+        })
+    });
+    write_table(std::iter::once(first).chain(rows))
 }
 
 #[cfg(test)]

@@ -200,7 +200,8 @@ fn perceptual(build: &SpaceBuild) -> Figure {
     for (index, adjective) in build.adjectives.iter().enumerate() {
         let Ok(line) = &adjective.line else { continue };
         let end = |sign: f64, pole: &str| {
-            let length = sign * line.r_squared * reach;
+            // Within what the textures take up.
+            let length = 0.9 * sign * line.r_squared * reach;
             Point::named(length * line.direction[0], length * line.direction[1], pole)
         };
         let is_axis = build.axes.iter().any(|axis| axis.adjective == index);

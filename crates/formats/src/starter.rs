@@ -1,8 +1,11 @@
-//! The library that is built into the program.
+//! The libraries that are built into the program.
 
 use crate::library::{Library, LibraryError, read_library};
+use crate::places_csv::{PlacesCsvError, read_places_csv};
 
 const BYTES: &[u8] = include_bytes!("../../../assets/starter/starter.json");
+const SIMULATED_PLACES: &[u8] = include_bytes!("../../../assets/starter/simulated.csv");
+const SIMULATED_REPORT: &[u8] = include_bytes!("../../../assets/starter/simulated.report.json");
 
 /// The starter library: simulated everyday surfaces, placed by physical labels.
 ///
@@ -12,6 +15,39 @@ pub fn starter_library() -> Result<Library, LibraryError> {
     read_library(BYTES).map(|imported| imported.value)
 }
 
+/// Why the second library cannot be had.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulatedLibraryError {
+    /// The starter library is damaged.
+    #[error(transparent)]
+    Library(#[from] LibraryError),
+    /// Its places are damaged.
+    #[error(transparent)]
+    Places(#[from] PlacesCsvError),
+    /// Its report is damaged.
+    #[error(transparent)]
+    Report(#[from] serde_json::Error),
+}
+
+/// The textures of the starter library, placed by a simulated panel through the whole pipeline of sorting and rating, with
+/// five attributes each. Nobody felt anything.
+///
+/// # Errors
+/// None, as long as the committed files are sound, which a test holds.
+pub fn simulated_library() -> Result<Library, SimulatedLibraryError> {
+    let mut library = starter_library()?;
+    let placements = read_places_csv(SIMULATED_PLACES, None)?;
+    for texture in &mut library.textures {
+        let found = placements.iter().find(|placement| placement.id == texture.id);
+        texture.place = found.map(|placement| placement.place);
+        texture.attributes = found.map(|placement| placement.attributes.clone());
+    }
+    "Starter, simulated raters".clone_into(&mut library.name);
+    library.space_report = Some(serde_json::from_slice(SIMULATED_REPORT)?);
+    Ok(library)
+}
+
 /// The file of the starter library, as it was written.
 pub fn starter_bytes() -> &'static [u8] {
     BYTES
@@ -19,7 +55,7 @@ pub fn starter_bytes() -> &'static [u8] {
 
 #[cfg(test)]
 mod tests {
-    use super::{BYTES, starter_library};
+    use super::{BYTES, simulated_library, starter_library};
     use crate::library::{read_library, write_library};
     use crate::picture::decode;
     use shagreen_core::space::LabelSource;
@@ -33,6 +69,23 @@ mod tests {
         assert!(library.textures.iter().all(|t| t.place.is_some() && t.physical.is_some()));
         for texture in &library.textures {
             decode(texture.picture.as_ref().unwrap()).unwrap();
+        }
+    }
+
+    #[test]
+    fn the_second_library_says_that_its_raters_are_simulated() {
+        let library = simulated_library().unwrap();
+        assert_eq!(library.label_source(), Some(LabelSource::SimulatedRaters));
+        assert!(library.name.contains("simulated"));
+        let report = library.space_report.as_ref().unwrap();
+        assert_eq!(report["label_source"], "simulated");
+        for (i, texture) in library.textures.iter().enumerate() {
+            let at = texture.at().unwrap();
+            let reported = &report["positions"][i];
+            assert_eq!(reported["id"], texture.id.as_str());
+            assert!((reported["at"][0].as_f64().unwrap() - at.rough_smooth).abs() < 1e-3);
+            let attributes = texture.attributes.as_ref().unwrap();
+            assert_eq!((attributes.values.len(), attributes.source), (5, LabelSource::SimulatedRaters));
         }
     }
 

@@ -3,12 +3,13 @@
 use plotters::chart::{ChartBuilder, SeriesLabelPosition};
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;
-use plotters::element::{Circle, PathElement, Text};
+use plotters::element::{Circle, EmptyElement, PathElement, Text};
 use plotters::prelude::{DrawingArea, IntoDrawingArea as _, IntoFont as _, RGBColor, SVGBackend, TextStyle};
 use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::figure::{Chart, Figure, Mark, Table, Tone};
+use crate::figure::labels::offsets;
+use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
 
 /// Size of a figure by itself, in pixels.
 const SIZE: (u32, u32) = (760, 620);
@@ -17,7 +18,7 @@ const PANEL: (u32, u32) = (600, 500);
 /// Figures beside each other on a page.
 const COLUMNS: usize = 2;
 /// Height of the lines above a page, in pixels.
-const HEAD: u32 = 84;
+const HEAD: u32 = 100;
 /// Height of a row of a table, in pixels.
 const ROW: i32 = 24;
 
@@ -40,7 +41,9 @@ pub fn page_svg(title: &str, subtitle: &str, figures: &[Figure]) -> String {
     drawn(size, |page| {
         let (head, rest) = page.split_vertically(HEAD);
         head.draw_text(title, &text(26.0, INK), (28, 16))?;
-        head.draw_text(subtitle, &text(14.0, WEAK), (28, 52))?;
+        for (line, part) in (0..).zip(subtitle.split("; ")) {
+            head.draw_text(part, &text(14.0, WEAK), (28, 52 + 18 * line))?;
+        }
         for (area, figure) in rest.split_evenly((n_rows, COLUMNS)).iter().zip(figures) {
             panel(area, figure)?;
         }
@@ -138,24 +141,49 @@ fn draw_chart(page: &Page<'_>, chart: &Chart) -> Drawn {
                     .legend(move |(x, y)| Circle::new((x + 7, y), 4, tone.filled()));
             }
         }
-        let (size, tone) = if series.mark == Mark::Dots { (11.0, WEAK) } else { (13.0, tone) };
-        let style = text(size, tone).pos(Pos::new(HPos::Left, VPos::Bottom));
-        let named = series.points.iter().filter(|point| !point.label.is_empty());
-        // A space keeps it off its dot.
-        context.draw_series(
-            named.map(|point| Text::new(format!(" {}", point.label), (point.x, point.y), style.clone())),
-        )?;
     }
+    let (left, top) = page.get_base_pixel();
+    let pixel = |point: &Point| {
+        let (x, y) = context.backend_coord(&(point.x, point.y));
+        (f64::from(x - left), f64::from(y - top))
+    };
+    let all = || chart.series.iter().flat_map(|s| s.points.iter().map(move |point| (s, point)));
+    let labeled: Vec<(&Series, &Point)> = all().filter(|(_, point)| !point.label.is_empty()).collect();
+    let words: Vec<(&str, (f64, f64))> =
+        labeled.iter().map(|(_, point)| (point.label.as_str(), pixel(point))).collect();
+    let dots: Vec<(f64, f64)> =
+        all().filter(|(s, _)| s.mark == Mark::Dots).map(|(_, point)| pixel(point)).collect();
+    let offsets = offsets(&words, &dots, (f64::from(width), f64::from(height)));
+    let corner = free_corner(&dots, (f64::from(width), f64::from(height)));
+    context.draw_series(labeled.iter().zip(offsets).map(|((series, point), offset)| {
+        let tone = if series.mark == Mark::Dots { WEAK } else { color(series.tone) };
+        EmptyElement::at((point.x, point.y)) + Text::new(point.label.clone(), offset, text(11.0, tone))
+    }))?;
     if chart.series.len() > 1 {
         context
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(corner)
             .background_style(plotters::style::WHITE.mix(0.8))
             .border_style(FAINT)
             .label_font(text(12.0, INK))
             .draw()?;
     }
     Ok(())
+}
+
+/// The corner of a picture of this size with the fewest points in it.
+fn free_corner(points: &[(f64, f64)], (width, height): (f64, f64)) -> SeriesLabelPosition {
+    let n_near = |right: bool, bottom: bool| {
+        let near = |x: f64, length: f64, far: bool| if far { x > 0.62 * length } else { x < 0.42 * length };
+        points.iter().filter(|(x, y)| near(*x, width, right) && near(*y, height, bottom)).count()
+    };
+    let corners = [
+        (n_near(true, false), SeriesLabelPosition::UpperRight),
+        (n_near(false, false), SeriesLabelPosition::UpperLeft),
+        (n_near(true, true), SeriesLabelPosition::LowerRight),
+        (n_near(false, true), SeriesLabelPosition::LowerLeft),
+    ];
+    corners.into_iter().min_by_key(|(n, _)| *n).map_or(SeriesLabelPosition::UpperRight, |(_, corner)| corner)
 }
 
 fn draw_table(page: &Page<'_>, table: &Table) -> Drawn {
@@ -167,10 +195,13 @@ fn draw_table(page: &Page<'_>, table: &Table) -> Drawn {
     let rights = || (1..).map(|column| 28 + first + step * column);
     let at_right = |size: f64, tone: RGBColor| text(size, tone).pos(Pos::new(HPos::Right, VPos::Top));
     for (right, name) in rights().zip(&table.columns) {
-        page.draw_text(name, &at_right(12.0, WEAK), (right, 52))?;
+        // Both poles of a pair, one above the other.
+        for (line, pole) in (0..).zip(name.split_inclusive('-')) {
+            page.draw_text(pole, &at_right(12.0, WEAK), (right, 44 + 14 * line))?;
+        }
     }
     for (row, (name, values)) in (1..).zip(&table.rows) {
-        let top = 52 + ROW * row;
+        let top = 60 + ROW * row;
         page.draw_text(name, &text(13.0, INK), (28, top))?;
         for (right, value) in rights().zip(values) {
             page.draw_text(&table.shown(*value), &at_right(13.0, INK), (right, top))?;

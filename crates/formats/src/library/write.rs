@@ -33,7 +33,7 @@ const DECIMALS: usize = 6;
 /// thousandth if they were rounded, and by a gap that a model must keep.
 const CLOSE_RAD: f64 = 1e-3;
 /// Significant digits of levels and labels in a file: far finer than anyone can measure.
-pub(super) const DIGITS: usize = 6;
+pub(crate) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
 pub(super) const CONVERSION_DIGITS: usize = 12;
 
@@ -142,7 +142,7 @@ fn decimals(value: f64) -> f64 {
 }
 
 /// The nearest number of so many significant digits.
-pub(super) fn digits(value: f64, n: usize) -> f64 {
+pub(crate) fn digits(value: f64, n: usize) -> f64 {
     let after_point = n - 1;
     format!("{value:.after_point$e}").parse().unwrap_or(value)
 }

@@ -116,12 +116,26 @@ impl Reading {
         self.used.push(place);
         let cells = self.table.not_numbers[place];
         let n_rows = self.table.columns[place].len();
-        if self.inquiry.map.decimal_comma == Some(true) && 2 * cells.n > n_rows {
+        // Read again with the map that this reading comes to, the file must fare the same: a guess counts as if stated.
+        if self.table.decimal_comma && 2 * cells.n > n_rows {
+            let is_stated = self.inquiry.map.decimal_comma.is_some();
             let problem = format!(
-                "by decimal_comma = true, {} of {n_rows} cells of {:?} are no numbers, the first in line {}; take it away, or say the separator",
-                cells.n, self.table.names[place], cells.first_line
+                "{}, {} of {n_rows} cells of {:?} are no numbers, the first in line {}; {}, or say the separator",
+                if is_stated {
+                    "by decimal_comma = true"
+                } else {
+                    "with the decimal commas that there seem to be"
+                },
+                cells.n,
+                self.table.names[place],
+                cells.first_line,
+                if is_stated { "take it away" } else { "say decimal_comma = false" },
             );
-            return Err(RecordingFileError::Map { problem });
+            return Err(if is_stated {
+                RecordingFileError::Map { problem }
+            } else {
+                RecordingFileError::Table { problem, line: None }
+            });
         }
         if cells.n > 0 {
             let name = &self.table.names[place];

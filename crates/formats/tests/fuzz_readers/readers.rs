@@ -9,6 +9,10 @@ use shagreen_formats::stroke_csv::read_stroke_csv;
 use shagreen_formats::svc::{PenFlavor, PenMapping, pen_samples, read_svc};
 use shagreen_formats::wav::SidecarV1;
 
+use crate::judgements::{
+    places_seeds, ratings_seeds, read_a_sorting, read_some_places, read_some_ratings, sorting_seeds,
+    table_bombs as judgement_bombs,
+};
 use crate::mutate::repair_png;
 use crate::recordings::{
     map_seeds, read_a_map, read_a_table, read_a_wav, read_a_wav_sidecar, sidecar_seeds as wav_sidecar_seeds,
@@ -80,6 +84,27 @@ pub(crate) const READERS: &[Reader] = &[
         repair: None,
         bombs: table_bombs,
         read: read_a_table,
+    },
+    Reader {
+        name: "sorting",
+        seeds: sorting_seeds,
+        repair: None,
+        bombs: judgement_bombs,
+        read: read_a_sorting,
+    },
+    Reader {
+        name: "ratings",
+        seeds: ratings_seeds,
+        repair: None,
+        bombs: judgement_bombs,
+        read: read_some_ratings,
+    },
+    Reader {
+        name: "places",
+        seeds: places_seeds,
+        repair: None,
+        bombs: judgement_bombs,
+        read: read_some_places,
     },
     Reader { name: "recording_wav", seeds: wav_seeds, repair: None, bombs: wav_bombs, read: read_a_wav },
     Reader {

@@ -1,0 +1,128 @@
+//! What a simulated panel perceives of a library: the places and attributes that its textures have, and what follows from
+//! their models.
+//!
+//! The five pairs of "Predicting Perceptual Haptic Attributes of Textured Surface from Tactile Data Based on Deep CNN-LSTM
+//! Network" (VRST 2023) are always there. Where a library has no attribute of that name, the simulation assumes:
+//!
+//! - `sticky-slippery` falls with the coefficient of friction, over the range of the library;
+//! - `flat-bumpy` falls with the logarithm of the spectral centroid: long waves are bumps;
+//! - `irritating-pleasant` is seven parts `rough-smooth` and three parts `hard-soft`.
+//!
+//! No person said so: these are assumptions of a simulation, there to try a pipeline with.
+
+use shagreen_core::features::{Physical, physical};
+use shagreen_core::patterns::paper_patterns;
+use shagreen_core::property::{ZeroAt, axis_positions};
+use shagreen_core::ratings::{AdjectivePair, PairNameError};
+
+use crate::library::{Library, TextureEntry};
+use crate::places_csv::{HARD_SOFT, ROUGH_SMOOTH};
+
+/// Labels of the textures that have a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PanelLabels {
+    /// The adjective pairs: both axes, further attributes that all these textures have, and what is assumed.
+    pub pairs: Vec<AdjectivePair>,
+    /// Identifiers of the textures.
+    pub ids: Vec<String>,
+    /// Values of each texture, 0..100, one a pair.
+    pub labels: Vec<Vec<f64>>,
+}
+
+/// Why there is nothing to perceive.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PanelLabelsError {
+    /// No texture has a place.
+    #[error(
+        "no texture of the library has a place, so a simulated panel has nothing to perceive; place some by a table"
+    )]
+    NoPlaces,
+    /// An attribute is no pair of adjectives.
+    #[error(transparent)]
+    Pair(#[from] PairNameError),
+}
+
+/// The labels of a library.
+///
+/// # Errors
+/// See [`PanelLabelsError`].
+pub fn panel_labels(library: &Library) -> Result<PanelLabels, PanelLabelsError> {
+    let placed: Vec<&TextureEntry> = library.textures.iter().filter(|t| t.place.is_some()).collect();
+    let first = placed.first().ok_or(PanelLabelsError::NoPlaces)?;
+    let is_known_to_all =
+        |name: &&str| placed.iter().all(|t| t.attributes.as_ref().is_some_and(|a| a.get(name).is_some()));
+    let names = first.attributes.iter().flat_map(|a| &a.values).map(|a| a.name.as_str());
+    let further: Vec<&str> =
+        names.filter(|name| ![ROUGH_SMOOTH, HARD_SOFT].contains(name)).filter(is_known_to_all).collect();
+    let pairs = [ROUGH_SMOOTH, HARD_SOFT].iter().chain(&further).map(|name| name.parse());
+    let of = |texture: &&TextureEntry| -> Option<Vec<f64>> {
+        let at = texture.at()?;
+        let attributes = further.iter().filter_map(|name| texture.attributes.as_ref()?.get(name));
+        Some([at.rough_smooth, at.hard_soft].into_iter().chain(attributes).collect())
+    };
+    let mut perceived = PanelLabels {
+        pairs: pairs.collect::<Result<_, _>>()?,
+        ids: placed.iter().map(|texture| texture.id.clone()).collect(),
+        labels: placed.iter().filter_map(of).collect(),
+    };
+    for (name, values) in assumed(&placed) {
+        let is_known = perceived.pairs.iter().any(|pair| pair.name() == name);
+        let Some(values) = values.filter(|_| !is_known) else { continue };
+        perceived.pairs.push(name.parse()?);
+        for (labels, value) in perceived.labels.iter_mut().zip(values) {
+            labels.push(value);
+        }
+    }
+    Ok(perceived)
+}
+
+/// What the simulation assumes of textures that have a place, 0..100; `None` where a quantity is missing or the same for
+/// all.
+fn assumed(placed: &[&TextureEntry]) -> [(&'static str, Option<Vec<f64>>); 3] {
+    let contacts = paper_patterns();
+    let physical: Vec<Physical> = placed.iter().map(|texture| physical(&texture.model, &contacts)).collect();
+    let falling = |quantity: fn(&Physical) -> Option<f64>| {
+        let values: Option<Vec<f64>> = physical.iter().map(quantity).collect();
+        axis_positions(&values?, ZeroAt::HighRatings)
+    };
+    let pleasant = placed.iter().map(|t| t.at().map(|at| 0.7 * at.rough_smooth + 0.3 * at.hard_soft));
+    [
+        ("flat-bumpy", falling(|p| p.centroid_hz.map(f64::ln))),
+        ("sticky-slippery", falling(|p| p.friction)),
+        ("irritating-pleasant", pleasant.collect()),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PanelLabelsError, panel_labels};
+    use crate::library::{Attribute, Attributes, Library};
+    use crate::starter::starter_library;
+    use shagreen_core::space::LabelSource;
+
+    #[test]
+    fn places_and_shared_attributes_are_perceived() {
+        let mut library = starter_library().unwrap();
+        library.textures[3].place = None;
+        for (i, texture) in library.textures.iter_mut().enumerate() {
+            let value = |name: &str| Attribute { name: name.to_owned(), value: i as f64 };
+            let mut values = vec![value("hard-soft"), value("flat-bumpy")];
+            values.extend((i != 5).then(|| value("warm-cold")));
+            texture.attributes = Some(Attributes { source: LabelSource::PhysicalLabels, values });
+        }
+        let labels = panel_labels(&library).unwrap();
+        let names: Vec<String> =
+            labels.pairs.iter().map(shagreen_core::ratings::AdjectivePair::name).collect();
+        let five = ["rough-smooth", "hard-soft", "flat-bumpy", "sticky-slippery", "irritating-pleasant"];
+        assert_eq!(names, five);
+        assert_eq!((labels.ids.len(), labels.labels.len(), labels.labels[0].len()), (24, 24, 5));
+        assert!(labels.labels.iter().flatten().all(|value| (0.0..=100.0).contains(value)), "{labels:?}");
+        let slippery: Vec<f64> = labels.labels.iter().map(|of| of[3]).collect();
+        assert!(slippery.contains(&0.0) && slippery.contains(&100.0));
+        // The place counts, not the attribute of its name.
+        assert_eq!(labels.labels[4][1], library.textures[5].at().unwrap().hard_soft);
+        assert_eq!(labels.labels[4][2], 5.0);
+        assert_eq!(panel_labels(&Library::default()), Err(PanelLabelsError::NoPlaces));
+    }
+}

@@ -1,0 +1,74 @@
+//! Tables of judgements and places: small good files, and what must hold of what is read from changed ones.
+
+use shagreen_core::space::LabelSource;
+use shagreen_formats::places_csv::read_places_csv;
+use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv, read_relevance_csv};
+use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
+
+pub(crate) fn sorting_seeds() -> Vec<Vec<u8>> {
+    let long = "participant,trial,groups,texture,group\np1,1,2,cork,a\np1,1,2,felt,a\np1,1,2,glass,b\n";
+    let wide = "subject;trial;n groups;cork;felt;glass\np1;1;2;a;a;b\np2;1;2;x;;y\n# note\n";
+    [long, wide].map(|text| text.as_bytes().to_vec()).to_vec()
+}
+
+pub(crate) fn ratings_seeds() -> Vec<Vec<u8>> {
+    let long =
+        "participant,texture,adjective,value\np1,cork,rough-smooth,41\np2,\"cork, old\",hard - soft,\n";
+    let wide = "subject\ttexture id\trough-smooth\thard-soft\np1\tcork\t41\t70,5\np2\tcork\tNA\t60\n";
+    let votes = "participant,adjective,relevant\np1,rough,yes\np1,warm,0\n";
+    [long, wide, votes].map(|text| text.as_bytes().to_vec()).to_vec()
+}
+
+pub(crate) fn places_seeds() -> Vec<Vec<u8>> {
+    let plain = "id,rs,hs,flat-bumpy,source\ncork,40.5,71,33,human\nfelt,90,95,,\n";
+    let by_poles = "texture;Rough-Smooth;Hard-Soft\ncork;40,5;71\n";
+    [plain, by_poles].map(|text| text.as_bytes().to_vec()).to_vec()
+}
+
+/// Tables that are small and ask for much: many columns, many lines, many names.
+pub(crate) fn table_bombs() -> Vec<Vec<u8>> {
+    let columns = |first: &str| {
+        format!("{first},{}\n", (0..100_000).map(|i| i.to_string()).collect::<Vec<_>>().join(","))
+    };
+    let wide = format!("{}{}\n", columns("participant"), ",".repeat(100_000));
+    let long = "participant,texture,adjective,value\n".to_owned() + &"p,t,a-b,1\n".repeat(1 << 16);
+    let lines = |line: &dyn Fn(u32) -> String| (0..1 << 15).map(line).collect::<Vec<_>>().join("\n");
+    let sorts = "participant,trial,texture,group\n".to_owned() + &lines(&|i| format!("p{i},1,t{i},g"));
+    let places = "id,rs,hs\n".to_owned() + &lines(&|i| format!("t{i},1,2"));
+    [",".repeat(1 << 20), "\n".repeat(1 << 20), wide, long, sorts, places].map(String::into_bytes).to_vec()
+}
+
+/// What was read can be written, and read again as the same.
+pub(crate) fn read_a_sorting(bytes: &[u8]) -> Result<(), String> {
+    let Ok(table) = read_sorting_csv(bytes) else { return Ok(()) };
+    let mut sorts = table.sorts;
+    // A sort of nothing has no line.
+    sorts.retain(|sort| !sort.placements.is_empty());
+    if sorts.is_empty() {
+        return Ok(());
+    }
+    let again = read_sorting_csv(&sorting_csv(&sorts)).map_err(|error| error.to_string())?;
+    if again.sorts == sorts { Ok(()) } else { Err(format!("{sorts:?} became {:?}", again.sorts)) }
+}
+
+pub(crate) fn read_some_ratings(bytes: &[u8]) -> Result<(), String> {
+    let votes = read_relevance_csv(bytes);
+    if let Some(vote) = votes.iter().flatten().find(|vote| vote.participant.is_empty()) {
+        return Err(format!("nobody voted: {vote:?}"));
+    }
+    let Ok(ratings) = read_ratings_csv(bytes) else { return Ok(()) };
+    let again = read_ratings_csv(&ratings_csv(&ratings)).map_err(|error| error.to_string())?;
+    if again == ratings { Ok(()) } else { Err(format!("{ratings:?} became {again:?}")) }
+}
+
+pub(crate) fn read_some_places(bytes: &[u8]) -> Result<(), String> {
+    let Ok(placements) = read_places_csv(bytes, Some(LabelSource::HumanRatings)) else { return Ok(()) };
+    let is_inside = |value: f64| (0.0..=100.0).contains(&value);
+    let outside = placements.iter().find(|p| {
+        let at = p.place.at;
+        !(is_inside(at.rough_smooth)
+            && is_inside(at.hard_soft)
+            && p.attributes.values.iter().all(|a| is_inside(a.value)))
+    });
+    outside.map_or(Ok(()), |placement| Err(format!("{placement:?}")))
+}

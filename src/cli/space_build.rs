@@ -1,0 +1,213 @@
+//! `shagreen space build`: an authoring space from sortings and ratings.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use shagreen_core::features::NamedTexture;
+use shagreen_core::mds::{MAX_DIMS, Ties};
+use shagreen_core::mfcc::{MfccOptions, htk, paper, recommended};
+use shagreen_core::ratings::{AdjectivePair, Rating};
+use shagreen_core::selection::Method;
+use shagreen_core::sorting::Sort;
+use shagreen_core::space::LabelSource;
+use shagreen_core::space_build::{
+    FeatureKind, Placement, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
+};
+use shagreen_formats::atomic;
+use shagreen_formats::figure::{figure_csv, figure_svg, page_svg};
+use shagreen_formats::library::write_library;
+use shagreen_formats::ratings_csv::{read_ratings_csv, read_relevance_csv};
+use shagreen_formats::sorting_csv::read_sorting_csv;
+use shagreen_formats::space_report::{FORMAT, placed_library, space_figures, space_report, space_subtitle};
+
+use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
+
+/// Builds an authoring space from what people felt and what was measured.
+///
+/// Sortings make a perceptual space, ratings point into it, and textures fall onto the lines of two adjective pairs.
+/// Features of the textures' vibrations predict these axes; what that is worth is reported with nested cross-validation
+/// and a null distribution. Beside the library, a report (L2.report.json) and a page of plots (L2.report.svg) are written.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// CSV with a line for each texture of each sort (participant, trial, groups, texture, group), or a column for each
+    /// texture.
+    #[arg(long, value_name = "S.csv")]
+    sorting: PathBuf,
+    /// CSV with a line for each rating (participant, texture, adjective, value), or a column for each adjective pair.
+    #[arg(long, value_name = "R.csv")]
+    ratings: PathBuf,
+    /// CSV of votes on which adjectives are relevant (participant, adjective, relevant): pairs below half are left out.
+    #[arg(long, value_name = "V.csv")]
+    relevance: Option<PathBuf>,
+    /// Library file to write.
+    #[arg(long, value_name = "L2")]
+    out: PathBuf,
+    /// The two pairs that become the axes; without it rough-smooth and hard-soft, or the pair that correlates best with
+    /// each dimension.
+    #[arg(long, value_name = "A,B", value_parser = parse_axes)]
+    axes: Option<Axes>,
+    /// Dimensions of the perceptual space.
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=MAX_DIMS as i64))]
+    dimensions: u8,
+    /// What becomes of equal dissimilarities: primary may part them, secondary keeps them equal.
+    #[arg(long, default_value = "primary", value_parser = ["primary", "secondary"])]
+    ties: String,
+    /// Turn the second axis at right angles to the first.
+    #[arg(long)]
+    orthogonal: bool,
+    /// What is taken from the vibrations.
+    #[arg(long, default_value = "mfcc", value_parser = FeatureKind::ALL.map(FeatureKind::id))]
+    features: String,
+    /// How coefficients are taken.
+    #[arg(long, default_value = "recommended", value_parser = ["recommended", "paper", "htk"])]
+    mfcc: String,
+    /// How an axis is predicted from features: as in the paper, or better.
+    #[arg(long, default_value = "practical", value_parser = Method::ALL.map(Method::id))]
+    selection: String,
+    /// Where textures are put: where they were felt, or where their features predict, as in the paper.
+    #[arg(long, default_value = "felt", value_parser = ["felt", "predicted"])]
+    placement: String,
+    /// Permutations of the null distribution.
+    #[arg(long, default_value_t = 1000, value_name = "N")]
+    permutations: usize,
+    /// Who judged, where names of participants do not say it: human or simulated.
+    #[arg(long, value_name = "SOURCE", value_parser = ["human", "simulated"])]
+    source: Option<String>,
+    /// Folder for each figure as SVG and CSV.
+    #[arg(long, value_name = "FOLDER")]
+    figures: Option<PathBuf>,
+    /// Makes everything that is random repeat exactly.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print one JSON object: the report.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Two adjective pairs.
+#[derive(Clone, Debug)]
+struct Axes([AdjectivePair; 2]);
+
+fn parse_axes(text: &str) -> Result<Axes, String> {
+    let pairs: Vec<AdjectivePair> = text
+        .split(',')
+        .map(|name| name.parse().map_err(|error: shagreen_core::ratings::PairNameError| error.to_string()))
+        .collect::<Result<_, String>>()?;
+    <[AdjectivePair; 2]>::try_from(pairs)
+        .map(Axes)
+        .map_err(|_| "give two pairs, as rough-smooth,hard-soft".to_owned())
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let [report_json, report_svg] =
+        ["report.json", "report.svg"].map(|ending| args.out.with_extension(ending));
+    let inputs = [Some(&*args.sorting), Some(&*args.ratings), args.relevance.as_deref(), args.library.path()];
+    refuse_inputs(&[&args.out, &report_json, &report_svg], &inputs)?;
+    refuse_foreign(&args.out, "the library", is_library)?;
+    refuse_foreign(&report_json, "the report", |bytes| has_format(bytes, FORMAT))?;
+    refuse_foreign(&report_svg, "the page of plots", |bytes| bytes.starts_with(b"<svg"))?;
+    let library = load(&args.library)?;
+    let sorts = read(&args.sorting, |bytes| Ok(read_sorting_csv(bytes)?.sorts))?;
+    let ratings = read(&args.ratings, |bytes| Ok(read_ratings_csv(bytes)?))?;
+    let votes = match &args.relevance {
+        Some(path) => read(path, |bytes| Ok(read_relevance_csv(bytes)?))?,
+        None => Vec::new(),
+    };
+    let source = source(args, &sorts, &ratings)?;
+    let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
+    let data = SpaceData { textures, sorts, ratings, votes, source };
+    let options = options(args)?;
+    let progress = Progress::new("steps", Step::COUNT);
+    let built = build_space(&data, &options, &mut |step| {
+        if step.index() > 0 {
+            progress.step();
+        }
+        true
+    })?;
+    progress.finish();
+    let report = space_report(&built);
+    let figures = space_figures(&built);
+    let mut placed = placed_library(&library, &built);
+    output::CREATED_BY.clone_into(&mut placed.created_by);
+    warn_of_restricted(&placed);
+    if let Some(folder) = &args.figures {
+        std::fs::create_dir_all(folder)
+            .context("cannot make the folder; choose another")
+            .with_context(|| output::in_file(folder))?;
+        for (name, figure) in &figures {
+            atomic::write(&folder.join(format!("{name}.svg")), figure_svg(figure).as_bytes())?;
+            atomic::write(&folder.join(format!("{name}.csv")), &figure_csv(figure))?;
+        }
+    }
+    let on_page: Vec<_> = figures.into_iter().map(|(_, figure)| figure).collect();
+    let page = page_svg("Authoring space", &space_subtitle(&built), &on_page);
+    let mut text = serde_json::to_string_pretty(&report)?;
+    text.push('\n');
+    atomic::write(&report_json, text.as_bytes())?;
+    atomic::write(&report_svg, page.as_bytes())?;
+    atomic::write(&args.out, &write_library(&placed))?;
+    output::print(args.json, &report, || in_words(args, &built));
+    Ok(())
+}
+
+fn read<T>(path: &Path, reader: impl FnOnce(&[u8]) -> anyhow::Result<T>) -> anyhow::Result<T> {
+    let bytes = output::read_file(path)?;
+    reader(&bytes).with_context(|| output::in_file(path))
+}
+
+/// Who judged. What calls itself simulated is never taken for people.
+fn source(args: &Args, sorts: &[Sort], ratings: &[Rating]) -> anyhow::Result<LabelSource> {
+    let names = sorts.iter().map(|s| &s.participant).chain(ratings.iter().map(|r| &r.participant));
+    let simulated = names.into_iter().find(|name| name.to_lowercase().contains("simulated"));
+    match (args.source.as_deref(), simulated) {
+        (Some("human"), Some(name)) => {
+            bail!(
+                "participant \"{name}\" is simulated, so the space is not of human ratings; leave --source out"
+            )
+        }
+        (Some("simulated"), _) | (None, Some(_)) => Ok(LabelSource::SimulatedRaters),
+        _ => Ok(LabelSource::HumanRatings),
+    }
+}
+
+fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
+    let unknown = |what: &str| Usage(format!("{what} is not known"));
+    let usual = SpaceOptions::usual(args.seed);
+    let mut mds = usual.mds.clone();
+    mds.ties = if args.ties == "secondary" { Ties::Secondary } else { Ties::Primary };
+    Ok(SpaceOptions {
+        n_dims: usize::from(args.dimensions),
+        mds,
+        axes: args.axes.clone().map(|axes| axes.0),
+        is_orthogonal: args.orthogonal,
+        features: FeatureKind::from_id(&args.features).ok_or_else(|| unknown(&args.features))?,
+        mfcc: mfcc(&args.mfcc),
+        method: Method::from_id(&args.selection).ok_or_else(|| unknown(&args.selection))?,
+        placement: Placement::from_id(&args.placement).ok_or_else(|| unknown(&args.placement))?,
+        n_permutations: args.permutations,
+        ..usual
+    })
+}
+
+fn mfcc(name: &str) -> MfccOptions {
+    match name {
+        "paper" => paper(),
+        "htk" => htk(),
+        _ => recommended(),
+    }
+}
+
+fn in_words(args: &Args, built: &SpaceBuild) -> String {
+    let mut lines = vec![format!(
+        "Built a space of {} textures ({}): {}",
+        built.textures.len(),
+        built.source.label(),
+        args.out.display()
+    )];
+    lines.extend(verdict(built));
+    lines.join("\n")
+}
