@@ -159,9 +159,11 @@ impl Session {
     }
 
     /// The textures with the places that their files gave them, whatever space is in use.
-    pub fn textures_as_opened(&self) -> impl Iterator<Item = (&TextureEntry, Option<Place>)> {
-        let places = self.opened.places().chain(self.added.iter().map(|entry| entry.place));
-        self.library.textures.iter().zip(places)
+    pub fn library_as_opened(&self) -> Library {
+        let mut library = self.library.clone();
+        self.opened.restore(&mut library);
+        library.textures.extend(self.added.iter().map(|entry| TextureEntry::clone(entry)));
+        library
     }
 
     /// The blend at the point.

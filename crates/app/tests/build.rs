@@ -32,6 +32,8 @@ fn builder() -> Author {
 fn built() -> Author {
     let mut harness = builder();
     click(&mut harness, build::SIMULATE);
+    wait(&mut harness, "the panel has judged", |h| !window(h).build().judgements().is_reading());
+    harness.run_steps(2);
     set_number(&mut harness, build::PERMUTATIONS, 19.0);
     choose(&mut harness, build::FEATURES, build::features(FeatureKind::Physical));
     click(&mut harness, build::BUILD_SPACE);

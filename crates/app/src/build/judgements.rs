@@ -7,10 +7,11 @@ use egui::Context;
 use shagreen_core::ratings::{Rating, RelevanceVote};
 use shagreen_core::sorting::Sort;
 use shagreen_core::space::LabelSource;
+use shagreen_formats::library::Library;
 use shagreen_formats::ratings_csv::{read_ratings_csv, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
-use crate::build::panel_truth::Simulated;
+use crate::build::panel_truth::{Simulated, simulate};
 use crate::import::source::Source;
 use crate::strings::build as strings;
 
@@ -64,6 +65,7 @@ enum Content {
     Sorting(Vec<Sort>),
     Ratings(Vec<Rating>),
     Votes(Vec<RelevanceVote>),
+    Simulated(Simulated),
     Failed(Kind, String),
 }
 
@@ -102,17 +104,31 @@ impl Judgements {
     /// Reads files in the background, as `kind`, or as what they turn out to be.
     pub fn read(&mut self, sources: Vec<Source>, kind: Option<Kind>, ctx: &Context) {
         for source in sources {
-            self.n_tickets += 1;
-            let (sender, receiver) = channel();
-            let (ticket, ctx) = (self.n_tickets, ctx.clone());
-            std::thread::spawn(move || {
-                // The window may have closed meanwhile: then nobody asks any more.
-                let _ =
-                    sender.send((ticket, Outcome { name: source.name(), content: content(&source, kind) }));
-                ctx.request_repaint();
-            });
-            self.reading.push(receiver);
+            self.begin(ctx, move || Outcome { name: source.name(), content: content(&source, kind) });
         }
+    }
+
+    /// Puts a simulated panel in the place of people, in the background.
+    pub fn simulate(&mut self, library: Library, seed: u64, ctx: &Context) {
+        self.begin(ctx, move || {
+            let content = match simulate(&library, seed) {
+                Ok(simulated) => Content::Simulated(simulated),
+                Err(reason) => Content::Failed(Kind::Sorting, reason),
+            };
+            Outcome { name: strings::SIMULATED_PANEL.to_owned(), content }
+        });
+    }
+
+    fn begin(&mut self, ctx: &Context, work: impl FnOnce() -> Outcome + Send + 'static) {
+        self.n_tickets += 1;
+        let (sender, receiver) = channel();
+        let (ticket, ctx) = (self.n_tickets, ctx.clone());
+        std::thread::spawn(move || {
+            // The window may have closed meanwhile: then nobody asks any more.
+            let _ = sender.send((ticket, work()));
+            ctx.request_repaint();
+        });
+        self.reading.push(receiver);
     }
 
     /// Takes in what has been read.
@@ -130,21 +146,17 @@ impl Judgements {
                 Content::Sorting(sorts) => self.sorting.take(ticket, &name, Ok(sorts)),
                 Content::Ratings(ratings) => self.ratings.take(ticket, &name, Ok(ratings)),
                 Content::Votes(votes) => self.votes.take(ticket, &name, Ok(votes)),
+                Content::Simulated(Simulated { sorts, ratings }) => {
+                    self.votes = Slot { ticket: ticket.max(self.votes.ticket), ..Slot::default() };
+                    let has_sorts = self.sorting.take(ticket, &name, Ok(sorts));
+                    self.ratings.take(ticket, &name, Ok(ratings)) || has_sorts
+                }
                 Content::Failed(Kind::Sorting, reason) => self.sorting.take(ticket, &name, Err(reason)),
                 Content::Failed(Kind::Ratings, reason) => self.ratings.take(ticket, &name, Err(reason)),
                 Content::Failed(Kind::Votes, reason) => self.votes.take(ticket, &name, Err(reason)),
             };
             self.generation += u64::from(is_new);
         }
-    }
-
-    /// Puts a simulated panel in the place of people.
-    pub(super) fn simulate(&mut self, simulated: Simulated) {
-        self.n_tickets += 1;
-        self.sorting.take(self.n_tickets, strings::SIMULATED_PANEL, Ok(simulated.sorts));
-        self.ratings.take(self.n_tickets, strings::SIMULATED_PANEL, Ok(simulated.ratings));
-        self.votes = Slot { ticket: self.n_tickets, ..Slot::default() };
-        self.generation += 1;
     }
 
     /// Takes judgements of one kind away.

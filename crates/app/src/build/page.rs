@@ -12,7 +12,6 @@ use crate::build::input_ui::{Paths, inputs_ui};
 use crate::build::job::{Job, Order};
 use crate::build::judgements::Judgements;
 use crate::build::options_ui::options_ui;
-use crate::build::panel_truth::simulate;
 use crate::build::verdict_ui::verdict_ui;
 use crate::command::Command;
 use crate::import::source::Source;
@@ -132,14 +131,8 @@ impl BuildPage {
             ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
             ui.add_space(GAP);
             if inputs_ui(ui, &mut self.judgements, &mut self.paths, session) {
-                let textures: Vec<_> = session.textures_as_opened().collect();
-                match simulate(&textures, self.options.seed) {
-                    Ok(simulated) => {
-                        self.judgements.simulate(simulated);
-                        self.failure = None;
-                    }
-                    Err(reason) => self.failure = Some((reason, self.recipe())),
-                }
+                let library = session.library_as_opened();
+                self.judgements.simulate(library, self.options.seed, ui.ctx());
             }
             ui.add_space(GROUP_GAP);
             options_ui(ui, &mut self.options, self.judgements.ratings.values());

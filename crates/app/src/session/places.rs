@@ -34,10 +34,6 @@ impl Opened {
         self.textures.len()
     }
 
-    pub(super) fn places(&self) -> impl Iterator<Item = Option<Place>> {
-        self.textures.iter().map(|(place, _)| *place)
-    }
-
     /// Takes away what joined the library, and gives the rest its places and attributes back.
     pub(super) fn restore(&self, library: &mut Library) {
         let mut textures = std::mem::take(&mut library.textures);

@@ -34,7 +34,7 @@ pub const READING: &str = "Reading…";
 /// Lets a simulated panel judge.
 pub const SIMULATE: &str = "Try with a simulated panel";
 /// What a simulated panel is.
-pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate by the places of the library's textures, with noise. For trying the way, never for conclusions.";
+pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate by the places, attributes and physics of the library's textures, with noise. For trying the way, never for conclusions.";
 /// Name of what a simulated panel said.
 pub const SIMULATED_PANEL: &str = "simulated raters";
 /// Heading of the options.
@@ -145,11 +145,6 @@ pub const SAVE_HINT: &str = "/path/to/figure";
 pub const DROP_HERE: &str = "Drop sortings, ratings or votes";
 /// What can be dropped.
 pub const DROP_KINDS: &str = "CSV tables of what people sorted, rated and voted";
-/// Pole of the pair that simulated raters judge by friction.
-pub const STICKY: &str = "sticky";
-/// The other pole.
-pub const SLIPPERY: &str = "slippery";
-
 /// How many textures the library has.
 pub fn of_the_library(n_textures: usize) -> String {
     format!("{n_textures} textures of the open library")
@@ -215,11 +210,6 @@ pub fn not_in_library(names: &[&str]) -> String {
         "Not in the library: {}{and_more}. Correct the names, or import the textures.",
         names[..names.len() - more].join(", ")
     )
-}
-
-/// Too few textures have a place for a simulated panel.
-pub fn too_few_places(n_placed: usize, n_needed: usize) -> String {
-    format!("{n_placed} textures have a place; a simulated panel needs {n_needed} to judge by")
 }
 
 /// A step of building.
