@@ -37,13 +37,13 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
     let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 24.0), outer.max - vec2(36.0, 48.0)) };
-    grid(ui, axes, outer, t);
+    let words = grid(ui, axes, outer, panel.session.poles(), t);
     triangles(ui, axes, panel, t);
     let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
     if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
-    commands.extend(sites_ui(ui, axes, panel, t));
+    commands.extend(sites_ui(ui, axes, panel, &words, t));
     if panel.session.space().sites().is_empty() {
         let font = FontId::proportional(15.0);
         let message =
@@ -63,7 +63,8 @@ fn move_to(point: SpacePoint) -> Command {
     Command::Edit(Edit::MovePoint(point))
 }
 
-fn grid(ui: &Ui, axes: Axes, outer: Rect, t: &Tokens) {
+/// Draws lines and the words at the ends of the axes, and returns where these stand.
+fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &Tokens) -> Vec<Rect> {
     let painter = ui.painter();
     painter.rect_filled(outer, f32::from(crate::theme::RADIUS), t.background);
     let faint = Stroke::new(1.0, t.line.gamma_multiply(0.5));
@@ -74,20 +75,23 @@ fn grid(ui: &Ui, axes: Axes, outer: Rect, t: &Tokens) {
         painter.hline(r.x_range(), r.top() + share * r.height(), faint);
     }
     let font = FontId::proportional(13.0);
-    let label = |pos: Pos2, align: Align2, text: &str| {
-        painter.text(pos, align, text, font.clone(), t.text_weak);
-    };
+    let label =
+        |pos: Pos2, align: Align2, text: &str| painter.text(pos, align, text, font.clone(), t.text_weak);
     let r = axes.rect;
-    label(pos2(r.left(), outer.bottom() - 6.0), Align2::LEFT_BOTTOM, strings::ROUGH);
-    label(pos2(r.right(), outer.bottom() - 6.0), Align2::RIGHT_BOTTOM, strings::SMOOTH);
-    for (text, y) in [(strings::SOFT, r.top()), (strings::HARD, r.bottom())] {
-        let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), t.text_weak);
-        let at_top = y == r.top();
-        let y = if at_top { y + galley.size().x } else { y };
-        let shape = egui::epaint::TextShape::new(pos2(outer.left() + 8.0, y), galley, t.text_weak)
-            .with_angle(-std::f32::consts::FRAC_PI_2);
-        painter.add(Shape::Text(shape));
+    let mut words = vec![
+        label(pos2(r.left(), outer.bottom() - 6.0), Align2::LEFT_BOTTOM, &across[0]),
+        label(pos2(r.right(), outer.bottom() - 6.0), Align2::RIGHT_BOTTOM, &across[1]),
+    ];
+    for (text, y) in [(&up[1], r.top()), (&up[0], r.bottom())] {
+        let galley = painter.layout_no_wrap(text.clone(), font.clone(), t.text_weak);
+        let size = galley.size();
+        let y = if y == r.top() { y + size.x } else { y };
+        let pos = pos2(outer.left() + 8.0, y);
+        let shape = egui::epaint::TextShape::new(pos, galley, t.text_weak);
+        painter.add(Shape::Text(shape.with_angle(-std::f32::consts::FRAC_PI_2)));
+        words.push(Rect::from_min_max(pos2(pos.x, y - size.x), pos2(pos.x + size.y, y)));
     }
+    words
 }
 
 fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
@@ -125,8 +129,8 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
     }
 }
 
-/// The textures: a click moves the point there.
-fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Command> {
+/// The textures: a click moves the point there. Their names keep off the `words` at the axes.
+fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Tokens) -> Vec<Command> {
     let mut commands = Vec::new();
     let sites = panel.session.space().sites();
     let with_pictures = sites.len() <= MAX_PICTURES;
@@ -152,7 +156,7 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
         .filter(|(texture, _)| with_pictures || rank(*texture).is_some())
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
         .collect();
-    site_labels(ui, panel, &named, radius, t);
+    site_labels(ui, panel, &named, radius, words, t);
     commands
 }
 
@@ -188,7 +192,7 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
     let id = point_id();
     let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo {
-        current_text_value: Some(strings::place_in_words(point)),
+        current_text_value: Some(strings::place_in_words(point, panel.session.poles())),
         ..WidgetInfo::labeled(Role::Slider, true, strings::POINT)
     });
     let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);

@@ -4,6 +4,8 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::import::source::Source;
 use crate::project::Edit;
+use crate::save::FigureFile;
+use crate::workspace::Workspace;
 
 /// A request of the user, carried out after the frame.
 #[derive(Clone, Debug)]
@@ -14,6 +16,8 @@ pub enum Command {
     Undo,
     /// Make it again.
     Redo,
+    /// Show a workspace.
+    Show(Workspace),
     /// Start or stop the automatic hand.
     ToggleHand,
     /// Silence the output, or sound again.
@@ -30,15 +34,26 @@ pub enum Command {
     OpenImport,
     /// Import these files, in the sheet.
     Import(Vec<Source>),
+    /// Read these files as sortings, ratings or votes.
+    ReadJudgements(Vec<Source>),
     /// Open the sheet that saves the library.
     OpenSave,
+    /// Open the sheet that saves a figure.
+    SaveFigure(FigureFile),
     /// Close the sheet that is open.
     CloseSheet,
 }
 
 /// The commands that have a key.
-pub const WITH_KEYS: [Command; 5] =
-    [Command::Undo, Command::Redo, Command::ToggleHand, Command::ToggleMute, Command::ToggleTheme];
+pub const WITH_KEYS: [Command; 7] = [
+    Command::Undo,
+    Command::Redo,
+    Command::Show(Workspace::Author),
+    Command::Show(Workspace::Build),
+    Command::ToggleHand,
+    Command::ToggleMute,
+    Command::ToggleTheme,
+];
 
 impl Command {
     /// The keys that ask for it.
@@ -46,6 +61,8 @@ impl Command {
         let (modifiers, key) = match self {
             Self::Undo => (Modifiers::COMMAND, Key::Z),
             Self::Redo => (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z),
+            Self::Show(Workspace::Author) => (Modifiers::COMMAND, Key::Num1),
+            Self::Show(Workspace::Build) => (Modifiers::COMMAND, Key::Num2),
             Self::ToggleHand => (Modifiers::NONE, Key::Space),
             Self::ToggleMute => (Modifiers::NONE, Key::M),
             Self::ToggleTheme => (Modifiers::COMMAND, Key::T),

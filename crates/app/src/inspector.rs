@@ -4,6 +4,7 @@ use egui::{Label, Rect, RichText, Role, Sense, Slider, TextEdit, Ui, WidgetInfo,
 use shagreen_core::blend::Mode;
 use shagreen_core::space::SpacePoint;
 
+use crate::axes_choice::axis_choice_ui;
 use crate::command::Command;
 use crate::library_panel::picture_ui;
 use crate::panel::Panel;
@@ -28,7 +29,7 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         commands.push(Command::Edit(Edit::Rename(name)));
     }
     ui.add_space(GAP);
-    commands.extend(sliders(ui, panel.project.point));
+    commands.extend(sliders(ui, panel));
     ui.add_space(GROUP_GAP);
     commands.extend(blend_ui(ui, panel.project.mode));
     ui.add_space(GROUP_GAP);
@@ -37,41 +38,46 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 }
 
 /// The two axes, bound to the point both ways.
-fn sliders(ui: &mut Ui, point: SpacePoint) -> Option<Command> {
-    let (mut rough_smooth, mut hard_soft) = (point.rough_smooth, point.hard_soft);
-    let changed = [
-        axis_slider(
-            ui,
-            &mut rough_smooth,
-            [strings::ROUGH, strings::SMOOTH],
-            strings::ROUGH_SMOOTH,
-            strings::ROUGH_SMOOTH_HELP,
-        ),
-        axis_slider(
-            ui,
-            &mut hard_soft,
-            [strings::HARD, strings::SOFT],
-            strings::HARD_SOFT,
-            strings::HARD_SOFT_HELP,
-        ),
-    ];
-    changed.contains(&true).then_some(Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })))
+fn sliders(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let SpacePoint { mut rough_smooth, mut hard_soft } = panel.project.point;
+    let [across, up] = panel.session.poles();
+    let mut is_changed = false;
+    for (axis, value, ends) in [(0, &mut rough_smooth, across), (1, &mut hard_soft, up)] {
+        let (changed, choice) = axis_slider(ui, panel, axis, value, ends);
+        is_changed |= changed;
+        commands.extend(choice);
+    }
+    if is_changed {
+        commands.push(Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })));
+    }
+    commands
 }
 
-fn axis_slider(ui: &mut Ui, value: &mut f64, ends: [&str; 2], name: &str, help: &str) -> bool {
+/// The slider of one axis under the words at its ends; returns whether it was moved, and which axis was chosen instead.
+fn axis_slider(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    axis: usize,
+    value: &mut f64,
+    ends: &[String; 2],
+) -> (bool, Option<Command>) {
     let t = tokens(ui.ctx());
-    ui.horizontal(|ui| {
-        ui.add(Label::new(RichText::new(ends[0]).color(t.text_weak)).selectable(false));
+    let choice = ui.horizontal(|ui| {
+        ui.add(Label::new(RichText::new(&ends[0]).color(t.text_weak)).selectable(false));
+        let choice = axis_choice_ui(ui, panel, axis);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.add(Label::new(RichText::new(ends[1]).color(t.text_weak)).selectable(false));
+            ui.add(Label::new(RichText::new(&ends[1]).color(t.text_weak)).selectable(false));
         });
+        choice
     });
     let width = ui.available_width();
     ui.spacing_mut().slider_width = width - 66.0;
     // Shown with one decimal, not rounded to it: a slider that rounds would edit the project by itself.
     let one_decimal = |value: f64, _| format!("{value:.1}");
     let slider = Slider::new(value, 0.0..=100.0).custom_formatter(one_decimal).smart_aim(false);
-    ui.add(slider).accessible_name(name).on_hover_text(help).changed()
+    let slider = ui.add(slider).accessible_name(strings::axis(ends)).on_hover_text(strings::axis_help(ends));
+    (slider.changed(), choice.inner)
 }
 
 fn blend_ui(ui: &mut Ui, mode: Mode) -> Option<Command> {

@@ -22,12 +22,15 @@ use shagreen_formats::library::Library;
 use crate::session::OutputChoice;
 
 pub mod axes;
+mod axes_choice;
+pub mod build;
 pub mod canvas;
 pub mod command;
 mod drag;
 pub mod history;
 pub mod import;
 pub mod inspector;
+mod label_places;
 pub mod library_panel;
 pub mod pad;
 pub mod panel;
@@ -43,6 +46,7 @@ mod stopwatch;
 pub mod strings;
 pub mod theme;
 pub mod window;
+pub mod workspace;
 
 /// How the window starts.
 #[derive(Clone, Debug)]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use shagreen_core::blend::Mode;
 use shagreen_core::space::SpacePoint;
+use shagreen_core::space_build::SpaceBuild;
 use shagreen_formats::library::TextureEntry;
 
 /// An authored texture in the making.
@@ -19,6 +20,20 @@ pub struct Project {
     pub added: Vec<Arc<TextureEntry>>,
     /// The texture that is heard alone instead of the blend, by its place in the list.
     pub solo: Option<usize>,
+    /// The space that gives the textures their places and attributes; `None` leaves them as their files have them.
+    pub space: Option<UsedSpace>,
+    /// Names of the attributes across and up, where they are the axes; `None` takes the places.
+    pub axes: Option<[String; 2]>,
+}
+
+/// A space that is in use. It never changes, so two are equal where they are the same one.
+#[derive(Clone, Debug)]
+pub struct UsedSpace(pub Arc<SpaceBuild>);
+
+impl PartialEq for UsedSpace {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 impl Default for Project {
@@ -29,6 +44,8 @@ impl Default for Project {
             mode: Mode::default(),
             added: Vec::new(),
             solo: None,
+            space: None,
+            axes: None,
         }
     }
 }
@@ -46,6 +63,10 @@ pub enum Edit {
     AddTextures(Vec<Arc<TextureEntry>>),
     /// One texture of the list is heard alone, until the point moves.
     Solo(usize),
+    /// A space that was built gives the textures their places and attributes.
+    UseSpace(Arc<SpaceBuild>),
+    /// Two attributes become the axes, across and up; `None` takes the places.
+    SetAxes(Option<[String; 2]>),
 }
 
 impl Edit {
@@ -57,6 +78,8 @@ impl Edit {
             Self::Rename(_) => "Rename",
             Self::AddTextures(_) => "Add textures",
             Self::Solo(_) => "Hear one texture",
+            Self::UseSpace(_) => "Use space",
+            Self::SetAxes(_) => "Choose axes",
         }
     }
 }
@@ -72,6 +95,8 @@ impl Project {
             Edit::Rename(name) => project.name = name,
             Edit::AddTextures(entries) => project.added.extend(entries),
             Edit::Solo(texture) => project.solo = Some(texture),
+            Edit::UseSpace(build) => (project.space, project.axes) = (Some(UsedSpace(build)), None),
+            Edit::SetAxes(axes) => project.axes = axes,
         }
         project
     }

@@ -1,4 +1,7 @@
-//! Saving the library: a path, a word before a file is replaced, and a warning about textures that may not be passed on.
+//! Saving the library or a figure: a path, a word before a file is replaced, and a warning about textures that may not be
+//! passed on.
+
+mod figure_file;
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -8,12 +11,15 @@ use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
 
 use crate::command::Command;
-use crate::strings::import as strings;
+use crate::strings::{build, import as strings};
 use crate::theme::{GAP, tokens};
 
+pub use crate::save::figure_file::{FigureFile, FigureFormat};
+
 /// The sheet, as long as it is open.
-#[derive(Default)]
 pub struct SaveSheet {
+    /// `None` saves the library.
+    figure: Option<FigureFile>,
     path: String,
     state: State,
     is_focused: bool,
@@ -38,7 +44,30 @@ enum Outcome {
     Failed(String),
 }
 
+/// What goes into the file.
+enum Content {
+    Library(Box<Library>),
+    Figure(FigureFile),
+}
+
 impl SaveSheet {
+    /// A sheet that saves the library.
+    pub fn library() -> Self {
+        Self { figure: None, path: String::new(), state: State::default(), is_focused: false }
+    }
+
+    /// A sheet that saves a figure, in `folder` unless another path is chosen.
+    pub fn figure(figure: FigureFile, folder: &Path) -> Self {
+        let path = folder.join(figure.file_name()).display().to_string();
+        Self { figure: Some(figure), path, state: State::default(), is_focused: false }
+    }
+
+    /// The folder that a figure was saved in.
+    pub fn folder_of_figure(&self) -> Option<&Path> {
+        let State::Saved(path) = &self.state else { return None };
+        self.figure.as_ref().and_then(|_| Path::new(path).parent())
+    }
+
     /// Whether the file is on its way: the sheet stays until its outcome has been shown.
     pub fn is_saving(&self) -> bool {
         matches!(self.state, State::Saving(_))
@@ -64,26 +93,39 @@ impl SaveSheet {
     fn content_ui(&mut self, ui: &mut Ui, library: &Library) -> Vec<Command> {
         let t = tokens(ui.ctx());
         let mut commands = Vec::new();
-        ui.add(Label::new(RichText::new(strings::SAVE_TITLE).heading().strong()).selectable(false));
+        let (title, field_name, hint) = match &self.figure {
+            None => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
+            Some(_) => (build::SAVE_TITLE, build::SAVE_PATH, build::SAVE_HINT),
+        };
+        ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
         // What is being saved is what the outcome is told of.
         let is_saving = self.is_saving();
-        let field =
-            TextEdit::singleline(&mut self.path).hint_text(strings::SAVE_HINT).desired_width(f32::INFINITY);
-        let field = ui.add_enabled(!is_saving, field).accessible_name(strings::SAVE_PATH);
+        let field = TextEdit::singleline(&mut self.path).hint_text(hint).desired_width(f32::INFINITY);
+        let field = ui.add_enabled(!is_saving, field).accessible_name(field_name);
         if !is_saving && !std::mem::replace(&mut self.is_focused, true) {
             field.request_focus();
         }
         if field.changed() {
             self.state = State::Asking;
         }
-        let restricted: Vec<&str> = library.restricted().map(|entry| entry.name.as_str()).collect();
+        // A figure holds names and numbers of textures, but none of them.
+        let restricted: Vec<&str> = match &self.figure {
+            None => library.restricted().map(|entry| entry.name.as_str()).collect(),
+            Some(_) => Vec::new(),
+        };
         if let Some(warning) = Provenance::warning(&restricted) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
         }
         let (text, color) = match &self.state {
-            State::Asking => (strings::to_save(library.textures.len()), t.text_weak),
-            State::Exists(_) => (strings::EXISTS.to_owned(), t.warning),
+            State::Asking => match &self.figure {
+                None => (strings::to_save(library.textures.len()), t.text_weak),
+                Some(figure) => (build::to_save(figure.title(), figure.format.word()), t.text_weak),
+            },
+            State::Exists(_) => match &self.figure {
+                None => (strings::EXISTS.to_owned(), t.warning),
+                Some(figure) => (build::exists(figure.format.word()), t.warning),
+            },
             State::Saving(_) => (strings::SAVING.to_owned(), t.text_weak),
             State::Saved(path) => (strings::saved(path), t.accent),
             State::Failed(reason) => (reason.clone(), t.error),
@@ -111,14 +153,17 @@ impl SaveSheet {
     /// Writes in a thread of its own, and not over a file that is there unless `replaces`.
     fn save(&mut self, path: &str, library: &Library, replaces: bool, ctx: &Context) {
         let (sender, receiver) = channel();
-        let library = Library {
-            created_by: concat!("Shagreen ", env!("CARGO_PKG_VERSION")).to_owned(),
-            ..library.clone()
+        let content = match &self.figure {
+            None => Content::Library(Box::new(Library {
+                created_by: concat!("Shagreen ", env!("CARGO_PKG_VERSION")).to_owned(),
+                ..library.clone()
+            })),
+            Some(figure) => Content::Figure(figure.clone()),
         };
         let (path, ctx) = (PathBuf::from(path), ctx.clone());
         std::thread::spawn(move || {
             // The program may have ended meanwhile: then nobody asks any more.
-            let _ = sender.send(write(&path, &library, replaces));
+            let _ = sender.send(write(&path, &content, replaces));
             ctx.request_repaint();
         });
         self.state = State::Saving(receiver);
@@ -139,49 +184,69 @@ impl SaveSheet {
     }
 }
 
-fn write(path: &Path, library: &Library, replaces: bool) -> Outcome {
+impl Content {
+    fn bytes(&self) -> Vec<u8> {
+        match self {
+            Self::Library(library) => write_library(library),
+            Self::Figure(figure) => figure.bytes(),
+        }
+    }
+
+    /// Why a file of these bytes must not be replaced by this; `None` where it is of the same kind, of whatever version
+    /// and with whatever mistakes in it.
+    fn refusal(&self, bytes: &[u8]) -> Option<String> {
+        match self {
+            Self::Library(_) => match read_library(bytes) {
+                Err(error @ (LibraryError::Format { .. } | LibraryError::Damaged { texture: None, .. })) => {
+                    Some(strings::no_library(&error.to_string()))
+                }
+                _ => None,
+            },
+            Self::Figure(figure) => (!figure.is_like(bytes)).then(|| build::no_figure(figure.format.word())),
+        }
+    }
+}
+
+fn write(path: &Path, content: &Content, replaces: bool) -> Outcome {
     if path.symlink_metadata().is_ok() {
         // What is there may be another file than it was when the user was asked.
-        match refusal(path) {
+        match refusal(path, content) {
             Some(reason) => return Outcome::Failed(reason),
             None if !replaces => return Outcome::Exists,
             None => {}
         }
     }
-    match atomic::write(path, &write_library(library)) {
+    match atomic::write(path, &content.bytes()) {
         Ok(()) => Outcome::Saved,
         Err(error) => Outcome::Failed(error.to_string()),
     }
 }
 
-/// Why what is at this path must not be replaced; `None` where it is a library, of whatever version and with whatever
-/// mistakes in it.
-fn refusal(path: &Path) -> Option<String> {
+/// Why what is at this path must not be replaced.
+fn refusal(path: &Path, content: &Content) -> Option<String> {
     let bytes = match path.metadata() {
         // A pipe or device would be read for ever.
         Ok(metadata) if !metadata.is_file() => return Some(strings::no_library(strings::NO_FILE)),
         Ok(_) => std::fs::read(path),
         Err(error) => Err(error),
     };
-    match bytes.map(|bytes| read_library(&bytes)) {
+    match bytes {
         Err(error) => Some(strings::cannot_be_checked(&error.to_string())),
-        Ok(Err(error @ (LibraryError::Format { .. } | LibraryError::Damaged { texture: None, .. }))) => {
-            Some(strings::no_library(&error.to_string()))
-        }
-        Ok(_) => None,
+        Ok(bytes) => content.refusal(&bytes),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Outcome, write};
+    use super::{Content, Outcome, write};
     use shagreen_formats::library::{Library, read_library};
 
     #[test]
     fn only_a_library_is_replaced_and_only_when_that_was_said() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.json");
-        let library = |name: &str| Library { name: name.to_owned(), ..Library::default() };
+        let library =
+            |name: &str| Content::Library(Box::new(Library { name: name.to_owned(), ..Library::default() }));
         let name = || read_library(&std::fs::read(&path).unwrap()).unwrap().value.name;
         assert_eq!(write(&path, &library("one"), false), Outcome::Saved);
         assert_eq!(write(&path, &library("two"), false), Outcome::Exists);

@@ -2,6 +2,7 @@
 //!
 //! Nothing here is undone; everything here follows from the project, the library and the hands of the user.
 
+mod places;
 mod player;
 
 use std::sync::Arc;
@@ -12,21 +13,23 @@ use anyhow::Context as _;
 use shagreen_core::blend::{Authored, author, mixture_psd};
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::rate::{at_rate, highest_rate};
-use shagreen_core::space::{Location, Space};
+use shagreen_core::space::{Location, Space, SpacePoint};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
 use shagreen_device::output::OutputInfo;
 use shagreen_device::status::Status;
 use shagreen_device::touch::Touch;
-use shagreen_formats::library::{Library, TextureEntry};
+use shagreen_formats::library::{Library, Place, TextureEntry};
+use shagreen_formats::space_report::placed_library;
 
 use crate::pad::MouseReport;
-use crate::project::Project;
+use crate::project::{Project, UsedSpace};
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
 
 pub use self::player::OutputChoice;
 
+use self::places::{Opened, attribute_names, places, poles_of};
 use self::player::Player;
 
 /// Range of frequencies over which spectra are drawn, in Hz.
@@ -48,10 +51,19 @@ pub struct Spectra {
 /// Everything that is not undone.
 pub struct Session {
     library: Library,
-    /// How many textures the library was opened with; those after them are the project's.
-    n_opened: usize,
+    /// What the library said of its places when it was opened. The textures after its own are the project's.
+    opened: Opened,
     added: Vec<Arc<TextureEntry>>,
+    /// The space that gave the textures their places, and the attributes that are the axes.
+    used: Option<UsedSpace>,
+    axes: Option<[String; 2]>,
+    /// Where each texture lies on the canvas.
+    places: Vec<Option<Place>>,
+    /// Words at the low and the high end of the axis across, then of the one up.
+    poles: [[String; 2]; 2],
+    /// The textures over speed and force, and the rate in Hz that each has there.
     planes: Vec<Arc<Plane>>,
+    rates_hz: Vec<f64>,
     /// What the output takes, worked out ahead by a worker: a drag into textures not yet heard must not wait for it.
     prepared: Vec<Option<Prepared>>,
     incoming: Receiver<Ahead>,
@@ -77,20 +89,29 @@ impl Session {
     /// # Errors
     /// The positions cannot be triangulated, or a texture cannot be had at the highest rate of them.
     pub fn new(library: Library) -> anyhow::Result<Self> {
-        let rate = rate_of_space(library.textures.iter());
+        let places = places(&library.textures, None);
+        let rate = rate_of_space(&library.textures, &places);
         let rate_hz = rate.0;
-        let planes = library.textures.iter().map(|t| Ok(Arc::new(plane_of(t, rate)?)));
-        let planes = planes.collect::<anyhow::Result<Vec<Arc<Plane>>>>()?;
+        let mut planes = Vec::with_capacity(places.len());
+        for (texture, place) in library.textures.iter().zip(&places) {
+            planes.push(Arc::new(plane_of(texture, rate_in(texture, place.as_ref(), rate))?));
+        }
+        let rates = library.textures.iter().zip(&places).map(|(t, place)| rate_in(t, place.as_ref(), rate).0);
         let (sender, incoming) = channel();
         prepare_ahead(planes.iter().cloned().enumerate().collect(), sender.clone());
         Ok(Self {
-            space: Space::new(&library.positions())?,
+            space: Space::new(&positions(&places))?,
             prepared: vec![None; planes.len()],
             incoming,
             sender,
             player: Player::new(library.textures.len()),
-            n_opened: library.textures.len(),
+            opened: Opened::new(&library),
             added: Vec::new(),
+            used: None,
+            axes: None,
+            poles: poles_of(&library, None),
+            rates_hz: rates.collect(),
+            places,
             planes,
             library,
             authored: None,
@@ -119,11 +140,30 @@ impl Session {
 
     /// In words, where the positions come from.
     pub fn label_source(&self) -> &'static str {
-        match self.library.label_source() {
-            Some(source) => source.label(),
-            None if self.space.sites().is_empty() => strings::NO_SOURCE,
-            None => strings::MIXED_SOURCES,
+        let mut sources = self.places.iter().flatten().map(|place| place.source);
+        match sources.next() {
+            None => strings::NO_SOURCE,
+            Some(first) if sources.all(|source| source == first) => first.label(),
+            Some(_) => strings::MIXED_SOURCES,
         }
+    }
+
+    /// Words at the low and the high end of the axis across, then of the one up.
+    pub fn poles(&self) -> &[[String; 2]; 2] {
+        &self.poles
+    }
+
+    /// Names of the attributes that the textures are rated on, each once.
+    pub fn attribute_names(&self) -> Vec<&str> {
+        attribute_names(&self.library.textures)
+    }
+
+    /// The textures with the places that their files gave them, whatever space is in use.
+    pub fn library_as_opened(&self) -> Library {
+        let mut library = self.library.clone();
+        self.opened.restore(&mut library);
+        library.textures.extend(self.added.iter().map(|entry| TextureEntry::clone(entry)));
+        library
     }
 
     /// The blend at the point.
@@ -160,8 +200,9 @@ impl Session {
     pub fn follow(&mut self, project: &Project, ctx: &egui::Context) {
         let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
         let n_same = self.added.iter().zip(&project.added).take_while(|pair| is_same(*pair)).count();
-        if n_same < self.added.len() || n_same < project.added.len() {
-            self.take_added(&project.added, n_same);
+        let has_same_textures = n_same == self.added.len() && n_same == project.added.len();
+        if !has_same_textures || self.used != project.space || self.axes != project.axes {
+            self.take(project, self.opened.n_textures() + n_same);
         }
         let wanted = (project.point, project.mode, project.solo);
         if self.player.wanted != Some(wanted) {
@@ -183,44 +224,70 @@ impl Session {
         }
     }
 
-    /// Replaces the textures after the first `n_same` that joined by those of the project.
-    fn take_added(&mut self, added: &[Arc<TextureEntry>], n_same: usize) {
-        let kept = self.n_opened + n_same;
-        self.library.textures.truncate(kept);
-        self.planes.truncate(kept);
-        self.prepared.truncate(kept);
-        self.added = added.to_vec();
-        if self.library.label_sources().is_empty() {
-            // Those that bring the first places bring the rate of the space too.
-            let all = self.library.textures.iter().chain(added[n_same..].iter().map(|entry| &**entry));
-            self.space_rate_hz = rate_of_space(all).0;
+    /// Takes over textures, places and axes of the project; the first `n_same` textures are those that are there.
+    fn take(&mut self, project: &Project, n_same: usize) {
+        self.opened.restore(&mut self.library);
+        self.library.textures.extend(project.added.iter().map(|entry| TextureEntry::clone(entry)));
+        if let Some(UsedSpace(build)) = &project.space {
+            self.library = placed_library(&self.library, build);
         }
-        for entry in &added[n_same..] {
-            let mut entry = TextureEntry::clone(entry);
-            let plane = plane_of(&entry, Hertz(self.space_rate_hz)).unwrap_or_else(|error| {
-                // Not to be blended then, but still to be heard alone.
-                self.player.message = Some(format!("{error:#}"));
-                entry.place = None;
-                Plane::new(&entry.model)
-            });
-            self.planes.push(Arc::new(plane));
-            self.prepared.push(None);
-            self.library.textures.push(entry);
+        let axes = project.axes.as_ref();
+        self.places = places(&self.library.textures, axes);
+        self.space_rate_hz = self.rate_of_places(project).0;
+        let mut is_kept = vec![false; self.places.len()];
+        let (mut planes, mut prepared, mut rates_hz) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, entry) in self.library.textures.iter_mut().enumerate() {
+            let mut rate = rate_in(entry, self.places[i].as_ref(), Hertz(self.space_rate_hz));
+            if i < n_same && self.rates_hz[i] == rate.0 {
+                is_kept[i] = true;
+                planes.push(Arc::clone(&self.planes[i]));
+                prepared.push(self.prepared[i].take());
+            } else {
+                let plane = plane_of(entry, rate).unwrap_or_else(|error| {
+                    // Not to be blended then, but still to be heard alone.
+                    self.player.message = Some(format!("{error:#}"));
+                    self.places[i] = None;
+                    if axes.is_none() {
+                        entry.place = None;
+                    }
+                    rate = entry.model.rate();
+                    Plane::new(&entry.model)
+                });
+                planes.push(Arc::new(plane));
+                prepared.push(None);
+            }
+            rates_hz.push(rate.0);
         }
-        let fresh = self.planes.iter().cloned().enumerate().skip(kept).collect();
+        (self.planes, self.prepared, self.rates_hz) = (planes, prepared, rates_hz);
+        let fresh = self.planes.iter().cloned().enumerate().filter(|(i, _)| !is_kept[*i]).collect();
         prepare_ahead(fresh, self.sender.clone());
-        self.player.keep(kept, self.planes.len());
-        match Space::new(&self.library.positions()) {
+        self.player.keep(&is_kept);
+        match Space::new(&positions(&self.places)) {
             Ok(space) => self.space = space,
             Err(error) => self.player.message = Some(error.to_string()),
         }
+        self.poles = poles_of(&self.library, axes);
+        (self.added, self.used, self.axes) =
+            (project.added.clone(), project.space.clone(), project.axes.clone());
         self.player.wanted = None;
+    }
+
+    /// The rate of the space: as the library was opened, its textures bring it, and those that join fit in or stay out.
+    fn rate_of_places(&self, project: &Project) -> Hertz {
+        let is_as_opened = project.space.is_none() && project.axes.is_none();
+        let n_opened = self.opened.n_textures();
+        let n_deciding = if is_as_opened && self.places[..n_opened].iter().any(Option::is_some) {
+            n_opened
+        } else {
+            self.places.len()
+        };
+        rate_of_space(&self.library.textures[..n_deciding], &self.places[..n_deciding])
     }
 
     /// What is heard alone may have another rate than the space: then the output is opened again, at that rate.
     fn follow_rate(&mut self, solo: Option<usize>, ctx: &egui::Context) {
-        let alone = solo.map(|texture| &self.library.textures[texture]).filter(|t| t.place.is_none());
-        let rate_hz = alone.map_or(self.space_rate_hz, |texture| texture.model.rate().0);
+        let alone = solo.filter(|texture| self.places[*texture].is_none());
+        let rate_hz = alone.map_or(self.space_rate_hz, |texture| self.rates_hz[texture]);
         if rate_hz != self.rate_hz {
             self.rate_hz = rate_hz;
             self.spectra = Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() };
@@ -352,20 +419,30 @@ impl Session {
 
 /// The rate of the textures in the space, which is the highest of them: voices of different rates cannot be mixed. Where
 /// none has a place, that of the first.
-fn rate_of_space<'a, I: Iterator<Item = &'a TextureEntry> + Clone>(textures: I) -> Hertz {
-    let first = textures.clone().next().map(|t| t.model.rate());
-    let placed = textures.filter(|t| t.place.is_some()).map(|t| &t.model);
+fn rate_of_space(textures: &[TextureEntry], places: &[Option<Place>]) -> Hertz {
+    let first = textures.first().map(|texture| texture.model.rate());
+    let placed = textures.iter().zip(places).filter(|(_, place)| place.is_some()).map(|(t, _)| &t.model);
     highest_rate(placed).or(first).unwrap_or(Hertz(1000.0))
 }
 
-/// The plane of a texture: at the rate of the space where it has a place there, else at its own, since it is heard alone.
-fn plane_of(texture: &TextureEntry, rate_of_space: Hertz) -> anyhow::Result<Plane> {
-    if texture.place.is_none() {
+/// The rate at which a texture is heard: that of the space where it has a place there, else its own, since it is heard
+/// alone.
+fn rate_in(texture: &TextureEntry, place: Option<&Place>, rate_of_space: Hertz) -> Hertz {
+    place.map_or(texture.model.rate(), |_| rate_of_space)
+}
+
+/// The plane of a texture at a rate.
+fn plane_of(texture: &TextureEntry, rate: Hertz) -> anyhow::Result<Plane> {
+    if texture.model.rate() == rate {
         return Ok(Plane::new(&texture.model));
     }
-    let converted = at_rate(&texture.model, rate_of_space)
-        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate_of_space}", texture.id))?;
+    let converted = at_rate(&texture.model, rate)
+        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
     Ok(Plane::new(&converted.model))
+}
+
+fn positions(places: &[Option<Place>]) -> Vec<Option<SpacePoint>> {
+    places.iter().map(|place| place.map(|place| place.at)).collect()
 }
 
 /// Where spectra of a model are drawn: beyond half its rate it only repeats itself.
@@ -389,3 +466,6 @@ fn prepare_ahead(planes: Vec<(usize, Arc<Plane>)>, sender: Sender<Ahead>) {
         }
     });
 }
+
+#[cfg(test)]
+mod tests;

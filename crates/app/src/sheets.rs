@@ -7,8 +7,9 @@ use crate::import::sheet::{ImportSheet, Surroundings};
 use crate::import::source::Source;
 use crate::save::SaveSheet;
 use crate::session::Session;
-use crate::strings::import as strings;
+use crate::strings;
 use crate::theme::{RADIUS, tokens};
+use crate::workspace::Workspace;
 
 /// The sheet that is open, if one is.
 #[derive(Default)]
@@ -18,7 +19,7 @@ pub(crate) enum Sheet {
     Closed,
     /// Files become textures.
     Import(Box<ImportSheet>),
-    /// The library goes into a file.
+    /// The library or a figure goes into a file.
     Save(SaveSheet),
 }
 
@@ -38,7 +39,8 @@ impl Sheet {
     }
 
     /// Draws the sheet over the window, and where files would go that hover over it; returns what the user asked for.
-    pub(crate) fn show(&mut self, ctx: &Context, session: &Session) -> Vec<Command> {
+    /// Files dropped on the workspace Build are judgements, others are imported.
+    pub(crate) fn show(&mut self, ctx: &Context, session: &Session, workspace: Workspace) -> Vec<Command> {
         let mut commands = match self {
             Self::Closed => Vec::new(),
             Self::Import(sheet) => {
@@ -52,19 +54,30 @@ impl Sheet {
             // It stays until its outcome has been shown.
             return commands;
         }
+        let are_judgements = workspace == Workspace::Build && !matches!(self, Self::Import(_));
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         if !dropped.is_empty() {
-            commands.push(Command::Import(dropped.into_iter().map(Source::Dropped).collect()));
+            let sources = dropped.into_iter().map(Source::Dropped).collect();
+            commands.push(if are_judgements {
+                Command::ReadJudgements(sources)
+            } else {
+                Command::Import(sources)
+            });
         }
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
-            drop_here(ctx);
+            let (here, kinds) = if are_judgements {
+                (strings::build::DROP_HERE, strings::build::DROP_KINDS)
+            } else {
+                (strings::import::DROP_HERE, strings::import::DROP_KINDS)
+            };
+            drop_here(ctx, here, kinds);
         }
         commands
     }
 }
 
 /// Says over the whole window what may be dropped.
-fn drop_here(ctx: &Context) {
+fn drop_here(ctx: &Context, here: &str, kinds: &str) {
     let t = tokens(ctx);
     let painter = ctx.layer_painter(LayerId::new(Order::Tooltip, Id::unique("drop here")));
     let area = ctx.content_rect();
@@ -72,7 +85,7 @@ fn drop_here(ctx: &Context) {
     let stroke = Stroke::new(2.0, t.accent);
     painter.rect_stroke(area.shrink(18.0), f32::from(RADIUS), stroke, StrokeKind::Inside);
     let center = area.center();
-    painter.text(center, Align2::CENTER_BOTTOM, strings::DROP_HERE, FontId::proportional(24.0), t.text);
+    painter.text(center, Align2::CENTER_BOTTOM, here, FontId::proportional(24.0), t.text);
     let below = center + egui::vec2(0.0, 12.0);
-    painter.text(below, Align2::CENTER_TOP, strings::DROP_KINDS, FontId::proportional(13.5), t.text_weak);
+    painter.text(below, Align2::CENTER_TOP, kinds, FontId::proportional(13.5), t.text_weak);
 }

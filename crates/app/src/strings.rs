@@ -2,6 +2,7 @@
 
 use shagreen_core::space::SpacePoint;
 
+pub mod build;
 pub mod import;
 
 /// Name of the program.
@@ -22,6 +23,22 @@ pub const ROUGH_SMOOTH_HELP: &str = "0 is the roughest texture of the space, 100
 pub const HARD_SOFT: &str = "Hard to soft";
 /// What the second slider does.
 pub const HARD_SOFT_HELP: &str = "0 is the hardest texture of the space, 100 the softest.";
+/// Accessible name of the choice of the axis across.
+pub const AXIS_ACROSS: &str = "Axis across";
+/// Accessible name of the choice of the axis up.
+pub const AXIS_UP: &str = "Axis up";
+/// What the choice of axes does.
+pub const AXES_HELP: &str = "Any two attributes that the textures were rated on can be the axes. Textures that lack one of them have no place then.";
+/// The axes are those of the places.
+pub const AXES_AS_PLACED: &str = "as placed";
+/// Name of the first workspace.
+pub const AUTHOR: &str = "Author";
+/// What the first workspace is for.
+pub const AUTHOR_HELP: &str = "Find a texture in the space and feel it";
+/// Name of the second workspace.
+pub const BUILD: &str = "Build";
+/// What the second workspace is for.
+pub const BUILD_HELP: &str = "Make a space of what people sorted and rated";
 /// Heading of the column of textures.
 pub const LIBRARY: &str = "Textures";
 /// Accessible name of the search field.
@@ -162,9 +179,25 @@ pub const CIRCLE: &str = "circle";
 /// The path of the hand that covers the pad.
 pub const SCRIBBLE: &str = "scribble";
 
+/// Accessible name of an axis by the words at its ends: [`ROUGH_SMOOTH`] and [`HARD_SOFT`] are two of them.
+pub fn axis([low, high]: &[String; 2]) -> String {
+    let words = if high.is_empty() { low.clone() } else { format!("{low} to {high}") };
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// What the slider of an axis does.
+pub fn axis_help(ends: &[String; 2]) -> String {
+    match ends.each_ref().map(String::as_str) {
+        [ROUGH, SMOOTH] => ROUGH_SMOOTH_HELP.to_owned(),
+        [HARD, SOFT] => HARD_SOFT_HELP.to_owned(),
+        [low, high] => format!("0 is the most {low} of the space, 100 the most {high}."),
+    }
+}
+
 /// A place in the space, as a screen reader says it.
-pub fn place_in_words(point: SpacePoint) -> String {
-    format!("{ROUGH_SMOOTH} {:.0}, {HARD_SOFT} {:.0}", point.rough_smooth, point.hard_soft)
+pub fn place_in_words(point: SpacePoint, [across, up]: &[[String; 2]; 2]) -> String {
+    format!("{} {:.0}, {} {:.0}", axis(across), point.rough_smooth, axis(up), point.hard_soft)
 }
 
 /// Accessible name of a texture on the canvas: a click moves the point there.

@@ -1,9 +1,12 @@
 //! The window itself: lays out the panels, carries out commands, keeps the frame going.
 
+use std::path::PathBuf;
+
 use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::library::Library;
 
+use crate::build::page::BuildPage;
 use crate::canvas::{canvas_ui, point_id};
 use crate::command::{Command, pressed};
 use crate::history::{Gesture, History};
@@ -21,6 +24,7 @@ use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
 use crate::strings;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, STAGE_HEIGHT, install, tokens};
+use crate::workspace::Workspace;
 
 /// The program with its window.
 pub struct Window {
@@ -35,6 +39,10 @@ pub struct Window {
     gesture: u64,
     was_holding: bool,
     sheet: Sheet,
+    workspace: Workspace,
+    build: BuildPage,
+    /// Where figures are saved unless another path is chosen.
+    figures_folder: PathBuf,
 }
 
 impl Window {
@@ -61,6 +69,10 @@ impl Window {
             gesture: 0,
             was_holding: false,
             sheet: Sheet::Closed,
+            workspace: Workspace::default(),
+            build: BuildPage::default(),
+            // Where there is none, the path is one to be completed.
+            figures_folder: std::env::current_dir().unwrap_or_default(),
         })
     }
 
@@ -72,6 +84,16 @@ impl Window {
     /// What is open and what sounds.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// The workspace that is shown.
+    pub fn workspace(&self) -> Workspace {
+        self.workspace
+    }
+
+    /// The workspace where spaces are built.
+    pub fn build(&self) -> &BuildPage {
+        &self.build
     }
 
     /// The import sheet, where it is open.
@@ -91,7 +113,12 @@ impl Window {
         let hand = self.pad.hand;
         self.session
             .update(Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n)));
+        self.build.collect();
         let mut commands = if self.sheet.is_open() { Vec::new() } else { pressed(&ctx, point_id()) };
+        if self.workspace == Workspace::Build && !self.session.hand_is_running() {
+            // Where nothing shows the hand it can be stopped, but does not start unseen.
+            commands.retain(|command| !matches!(command, Command::ToggleHand));
+        }
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
         Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
@@ -100,27 +127,20 @@ impl Window {
             .exact_size(32.0)
             .frame(bar(2))
             .show(ui, |ui| commands.extend(status_ui(ui, &panel)));
-        self.stage_ui(ui, &ctx, &mut commands);
-        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
-        let (search, reveal) = (&mut self.search, &mut self.reveal);
-        Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
-            commands.extend(library_ui(ui, &panel, search, reveal));
-        });
-        Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
-            commands.extend(inspector_ui(ui, &panel));
-        });
-        CentralPanel::default().frame(Frame::new().fill(t.panel).inner_margin(Margin::same(6))).show(
-            ui,
-            |ui| {
-                commands.extend(canvas_ui(ui, &panel));
-            },
-        );
+        match self.workspace {
+            Workspace::Author => self.author_ui(ui, &ctx, &mut commands),
+            Workspace::Build => {
+                let panel =
+                    Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+                commands.extend(self.build.show(ui, &panel));
+            }
+        }
 
         if self.sheet.is_open() {
             // What lies below a sheet goes on as it was.
             commands.clear();
         }
-        commands.extend(self.sheet.show(&ctx, &self.session));
+        commands.extend(self.sheet.show(&ctx, &self.session, self.workspace));
         for command in commands {
             self.carry_out(command, &ctx);
         }
@@ -137,6 +157,15 @@ impl Window {
                 egui::Label::new(RichText::new(strings::APP).heading().strong().color(t.accent))
                     .selectable(false),
             );
+            ui.add_space(10.0);
+            for workspace in Workspace::ALL {
+                let command = Command::Show(workspace);
+                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let tab = ui.selectable_label(self.workspace == workspace, workspace.name());
+                if tab.on_hover_text(format!("{} ({keys})", workspace.help())).clicked() {
+                    commands.push(command);
+                }
+            }
             ui.add_space(10.0);
             for (command, name, label) in [
                 (Command::Undo, strings::UNDO, self.history.undo_label()),
@@ -161,6 +190,21 @@ impl Window {
             });
         });
         commands
+    }
+
+    /// The workspace Author.
+    fn author_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        self.stage_ui(ui, ctx, commands);
+        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+        let (search, reveal) = (&mut self.search, &mut self.reveal);
+        Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
+            commands.extend(library_ui(ui, &panel, search, reveal));
+        });
+        Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
+            commands.extend(inspector_ui(ui, &panel));
+        });
+        let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
+        CentralPanel::default().frame(frame).show(ui, |ui| commands.extend(canvas_ui(ui, &panel)));
     }
 
     /// The row at the foot: pad and scope.
@@ -220,8 +264,20 @@ impl Window {
             Command::ResetLimiter => self.session.reset_limiter(),
             Command::OpenImport => self.sheet.import(Vec::new(), ctx),
             Command::Import(sources) => self.sheet.import(sources, ctx),
-            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::default()),
-            Command::CloseSheet => self.sheet = Sheet::Closed,
+            Command::Show(workspace) => self.workspace = workspace,
+            Command::ReadJudgements(sources) => self.build.read(sources, ctx),
+            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
+            Command::SaveFigure(figure) => {
+                self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.figures_folder));
+            }
+            Command::CloseSheet => {
+                if let Sheet::Save(sheet) = &self.sheet
+                    && let Some(folder) = sheet.folder_of_figure()
+                {
+                    self.figures_folder = folder.to_owned();
+                }
+                self.sheet = Sheet::Closed;
+            }
         }
     }
 

@@ -12,7 +12,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings;
 use shagreen_core::blend::Mode;
 
-use support::{Author, author, click, wait, window};
+use support::{Author, author, click, unnamed_controls, wait, window};
 
 /// Lets the texture sound for a while.
 fn listen(harness: &mut Author, seconds: f64) {
@@ -79,28 +79,6 @@ fn every_control_has_a_name() {
     for texture in window(&harness).session().textures() {
         assert!(harness.query_by_label(&format!("Go to {}", texture.name)).is_some());
     }
-}
-
-/// Controls that a keyboard or screen reader reaches but that have no name.
-fn unnamed_controls<State>(harness: &Harness<'_, State>) -> Vec<String> {
-    let is_control = |role: Role| {
-        matches!(
-            role,
-            Role::Button
-                | Role::Slider
-                | Role::SpinButton
-                | Role::TextInput
-                | Role::ComboBox
-                | Role::CheckBox
-                | Role::Canvas
-        )
-    };
-    let nodes = harness.root().children_recursive();
-    let unnamed = nodes.filter(|n| {
-        let node = n.accesskit_node();
-        is_control(node.role()) && node.label().is_none_or(|l| l.trim().is_empty())
-    });
-    unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
 }
 
 #[test]

@@ -4,11 +4,10 @@
 mod support;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 
 use egui::accesskit::Role;
-use egui::{DroppedFile, Key, Modifiers};
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings::{self, import};
 use shagreen_core::blend::Mode;
@@ -18,43 +17,10 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
-use support::{Author, author, click, wait, window};
+use support::{Author, author, choose, click, drop_files, wait, window};
 
 fn names(harness: &Author) -> Vec<String> {
     window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()
-}
-
-/// A file in memory, as a windowing system would hand it over.
-#[derive(Debug)]
-struct InMemory {
-    path: PathBuf,
-    bytes: Vec<u8>,
-}
-
-impl DroppedFile for InMemory {
-    fn path(&self) -> &Path {
-        &self.path
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        Ok(self.bytes.clone())
-    }
-}
-
-fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
-    let handles = files.iter().map(|(name, bytes)| {
-        Arc::new(InMemory { path: PathBuf::from(name), bytes: bytes.to_vec() }) as egui::DroppedFileHandle
-    });
-    harness.input_mut().dropped_files.extend(handles);
-    harness.run_steps(2);
-}
-
-/// Opens a choice and takes one of it.
-fn choose(harness: &mut Author, name: &str, choice: &str) {
-    harness.get_by_role_and_label(Role::ComboBox, name).click();
-    harness.run_steps(3);
-    harness.get_by_role_and_label(Role::Button, choice).click();
-    harness.run_steps(3);
 }
 
 fn starter(id: &str) -> TextureEntry {

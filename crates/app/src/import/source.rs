@@ -29,7 +29,7 @@ impl Source {
     }
 
     /// Its bytes, or what kept it from being read.
-    pub(super) fn bytes(&self) -> Result<Vec<u8>, String> {
+    pub(crate) fn bytes(&self) -> Result<Vec<u8>, String> {
         match self {
             Self::Path(path) => std::fs::read(path).map_err(|error| {
                 format!("the file cannot be read ({error}); check its path and permissions")
@@ -41,7 +41,7 @@ impl Source {
     }
 
     /// The last part of its path.
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         name_of(self.path())
     }
 

@@ -230,14 +230,16 @@ impl Player {
         }
     }
 
-    /// Lets go of all textures but the first `n_kept`, and makes room for `n_textures`.
-    pub(super) fn keep(&mut self, n_kept: usize, n_textures: usize) {
-        for (id, _) in self.slots.drain(n_kept.min(self.slots.len())..).flatten() {
-            if let Some(handle) = &mut self.handle {
+    /// Lets go of the textures that are not kept, and makes room for as many as are asked about.
+    pub(super) fn keep(&mut self, is_kept: &[bool]) {
+        self.slots.resize(self.slots.len().max(is_kept.len()), None);
+        for (texture, slot) in self.slots.iter_mut().enumerate() {
+            let is_gone = !is_kept.get(texture).copied().unwrap_or(false);
+            if let (Some((id, _)), Some(handle)) = (slot.take_if(|_| is_gone), &mut self.handle) {
                 handle.unload(id);
             }
         }
-        self.slots.resize(n_textures, None);
+        self.slots.truncate(is_kept.len());
     }
 
     fn slot_of(&mut self, texture: usize, ahead: &[Option<Prepared>]) -> Option<TextureId> {

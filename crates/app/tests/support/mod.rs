@@ -1,9 +1,15 @@
 //! What the tests of the window share: the window on the starter library, and a person's moves.
 
+#![allow(dead_code, reason = "each test uses some of it")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use egui::DroppedFile;
+use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::session::OutputChoice;
 use shagreen_app::window::Window;
 use shagreen_formats::starter::starter_library;
@@ -48,5 +54,61 @@ pub(crate) fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> b
 /// Presses the control of this name.
 pub(crate) fn click(harness: &mut Author, name: &str) {
     harness.get_by_label(name).click();
+    harness.run_steps(2);
+}
+
+/// Opens a choice and takes one of it.
+pub(crate) fn choose(harness: &mut Author, name: &str, choice: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, name).click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, choice).click();
+    harness.run_steps(3);
+}
+
+/// Controls that a keyboard or screen reader reaches but that have no name.
+pub(crate) fn unnamed_controls<State>(harness: &Harness<'_, State>) -> Vec<String> {
+    let is_control = |role: Role| {
+        matches!(
+            role,
+            Role::Button
+                | Role::Slider
+                | Role::SpinButton
+                | Role::TextInput
+                | Role::ComboBox
+                | Role::CheckBox
+                | Role::Canvas
+        )
+    };
+    let nodes = harness.root().children_recursive();
+    let unnamed = nodes.filter(|n| {
+        let node = n.accesskit_node();
+        is_control(node.role()) && node.label().is_none_or(|l| l.trim().is_empty())
+    });
+    unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
+}
+
+/// A file in memory, as a windowing system would hand it over.
+#[derive(Debug)]
+struct InMemory {
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl DroppedFile for InMemory {
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Ok(self.bytes.clone())
+    }
+}
+
+/// Drops files of these names and bytes on the window.
+pub(crate) fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
+    let handles = files.iter().map(|(name, bytes)| {
+        Arc::new(InMemory { path: PathBuf::from(name), bytes: bytes.to_vec() }) as egui::DroppedFileHandle
+    });
+    harness.input_mut().dropped_files.extend(handles);
     harness.run_steps(2);
 }

@@ -1,0 +1,213 @@
+//! A chart of a figure: points, lines and their names, in the colors of the theme.
+
+use egui::{
+    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
+};
+use egui_plot::{AxisHints, HoverPosition, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
+use shagreen_formats::figure::{Chart, Mark, Point, Series, Tone};
+
+use crate::label_places::{Wish, label_places};
+use crate::scope::fixed;
+use crate::theme::{GAP, Tokens, tokens};
+
+/// Radius of a dot in points.
+const DOT: f32 = 3.5;
+/// How near the pointer has to be to a dot that it asks about, in points.
+const REACH: f32 = 9.0;
+
+/// Draws the chart into the space that there is; `name` tells it from the others.
+pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
+    let t = tokens(ui.ctx());
+    legend_ui(ui, chart, t);
+    let [x, y] = chart.bounds();
+    // Numbers stand as close as they can be read.
+    let across = AxisHints::new_x().label(RichText::new(&chart.x_label).small());
+    let across = across.label_spacing(Rangef::new(34.0, 46.0));
+    let mut plot = fixed(Plot::new(name.to_owned()), t.line)
+        .custom_x_axes(vec![across])
+        .y_axis_label(RichText::new(&chart.y_label).small())
+        .label_formatter(|hover: &HoverPosition<'_>| match hover {
+            HoverPosition::NearDataPoint { position, .. } => {
+                Some(format!("{:.2}, {:.2}", position.x, position.y))
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+        .grid_spacing(Rangef::new(10.0, 70.0))
+        .height(ui.available_height());
+    if chart.is_isotropic {
+        plot = plot.data_aspect(1.0);
+    }
+    let shown = plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(x.0..=x.1);
+        plot.set_plot_bounds_y(y.0..=y.1);
+        for series in &chart.series {
+            let color = color_of(series.tone, t);
+            let points: Vec<[f64; 2]> = series.points.iter().map(|p| [p.x, p.y]).collect();
+            match series.mark {
+                Mark::Dots => {
+                    plot.points(
+                        Points::new("", PlotPoints::from(points)).color(color).radius(radius(series)),
+                    );
+                }
+                // Pieces one by one: the joins of a line that turns back on itself would be wider than the line.
+                Mark::Line => {
+                    for ends in thinned(&points, [x, y]).windows(2) {
+                        plot.line(piece(ends, 2.0, color));
+                    }
+                }
+                Mark::Segments => {
+                    let width = if series.tone == Tone::Faint { 1.0 } else { 2.0 };
+                    for ends in points.as_chunks::<2>().0 {
+                        plot.line(piece(ends, width, color));
+                    }
+                }
+            }
+        }
+    });
+    shown.response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &chart.title));
+    names_ui(ui, chart, shown.response.rect, &shown.transform, t);
+    let near = shown.response.hover_pos().and_then(|at| nearest(chart, &shown.transform, at));
+    if let Some(label) = near {
+        shown.response.on_hover_text_at_pointer(label);
+    }
+}
+
+fn piece(ends: &[[f64; 2]], width: f32, color: Color32) -> Line<'static> {
+    Line::new("", PlotPoints::from(ends.to_vec())).color(color).width(width).allow_hover(false)
+}
+
+/// What is compared is larger than what only helps reading.
+fn radius(series: &Series) -> f32 {
+    if series.tone == Tone::Faint { 0.65 * DOT } else { DOT }
+}
+
+/// The color of a part, told apart by readers of any color vision.
+fn color_of(tone: Tone, t: &Tokens) -> Color32 {
+    match tone {
+        Tone::Main => t.accent,
+        Tone::Second => t.parents[0],
+        Tone::Third => t.parents[1],
+        Tone::Faint => t.text_weak.gamma_multiply(0.55),
+    }
+}
+
+/// What the marks are, in a row above the plot where they cover nothing. Lines whose ends are named need no more.
+fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
+    let is_named = |series: &&Series| {
+        let has_labels = series.points.iter().any(|point| !point.label.is_empty());
+        series.mark == Mark::Segments && (has_labels || is_single_line(series))
+    };
+    ui.horizontal_wrapped(|ui| {
+        for series in chart.series.iter().filter(|series| !is_named(series)) {
+            let color = color_of(series.tone, t);
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 5.0;
+                let (area, _) = ui.allocate_exact_size(vec2(16.0, 14.0), Sense::hover());
+                match series.mark {
+                    Mark::Dots => {
+                        ui.painter().circle_filled(area.center(), radius(series), color);
+                    }
+                    Mark::Line | Mark::Segments => {
+                        ui.painter().hline(area.x_range(), area.center().y, Stroke::new(2.0, color));
+                    }
+                }
+                let text = RichText::new(&series.name).small().color(t.text_weak);
+                ui.add(Label::new(text).selectable(false));
+            });
+            ui.add_space(GAP);
+        }
+    });
+}
+
+/// The names of points, where they cover nothing: ends of lines first, then dots.
+fn names_ui(ui: &Ui, chart: &Chart, area: Rect, transform: &PlotTransform, t: &Tokens) {
+    let painter = ui.painter_at(area);
+    let (mut dots, mut named) = (Vec::new(), Vec::new());
+    for series in &chart.series {
+        let at = |point: &Point| on_screen(transform, point.x, point.y);
+        for (i, point) in series.points.iter().enumerate() {
+            // A name at the end of a line goes on where the line ends.
+            let beyond = match series.mark {
+                Mark::Segments => series.points.get(i ^ 1).map_or(Vec2::ZERO, |other| at(point) - at(other)),
+                Mark::Dots | Mark::Line => Vec2::ZERO,
+            };
+            if !point.label.is_empty() {
+                named.push((dots.len(), series, point.label.as_str(), beyond));
+            } else if is_single_line(series) && i == 1 {
+                named.push((dots.len(), series, series.name.as_str(), vec2(0.0, -1.0)));
+            } else if series.mark != Mark::Dots || series.tone == Tone::Faint {
+                // What only helps reading may be covered, and lines have no dots to cover.
+                continue;
+            }
+            dots.push(at(point));
+        }
+    }
+    named.sort_by_key(|(_, series, ..)| series.mark == Mark::Dots);
+    let (mut wishes, mut galleys) = (Vec::new(), Vec::new());
+    for (dot, series, label, side) in named {
+        let is_end = series.mark != Mark::Dots;
+        let (size, color) = match (is_end, series.tone) {
+            (true, Tone::Faint) => (11.0, t.text_weak),
+            (true, tone) => (13.0, color_of(tone, t)),
+            (false, _) => (11.0, t.text),
+        };
+        let galley = painter.layout_no_wrap(label.to_owned(), FontId::proportional(size), color);
+        wishes.push(Wish { dot, size: galley.size(), side, is_needed: is_end });
+        galleys.push((galley, color));
+    }
+    let places = label_places(&dots, DOT, &wishes, &[], area);
+    for ((galley, color), place) in galleys.into_iter().zip(places) {
+        let Some(place) = place else { continue };
+        painter.rect_filled(place.expand2(vec2(2.0, -1.0)), 3.0, t.background.gamma_multiply(0.7));
+        painter.galley(place.min, galley, color);
+    }
+}
+
+/// Whether a series is one line without names at its ends: then its own name stands at the second.
+fn is_single_line(series: &Series) -> bool {
+    series.mark == Mark::Segments
+        && series.points.len() == 2
+        && series.points.iter().all(|p| p.label.is_empty())
+}
+
+/// The points of a line without those that lie on the one before, by a thousandth of the plot: between them there is
+/// too little to be seen.
+fn thinned(points: &[[f64; 2]], [x, y]: [(f64, f64); 2]) -> Vec<[f64; 2]> {
+    let share = |a: f64, b: f64, (low, high): (f64, f64)| (a - b).abs() / (high - low);
+    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
+    for point in points {
+        let is_there = |last: &[f64; 2]| share(last[0], point[0], x).max(share(last[1], point[1], y)) < 1e-3;
+        if !kept.last().is_some_and(is_there) {
+            kept.push(*point);
+        }
+    }
+    kept
+}
+
+fn on_screen(transform: &PlotTransform, x: f64, y: f64) -> Pos2 {
+    let pos = transform.position_from_point(&PlotPoint::new(x, y));
+    pos2(pos.x, pos.y)
+}
+
+/// The name of the point under the pointer.
+fn nearest<'a>(chart: &'a Chart, transform: &PlotTransform, at: Pos2) -> Option<&'a str> {
+    let points =
+        chart.series.iter().flat_map(|series| &series.points).filter(|point| !point.label.is_empty());
+    let by_distance = points.map(|point| (on_screen(transform, point.x, point.y).distance(at), &point.label));
+    let (distance, label) = by_distance.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (distance < REACH).then_some(label.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::thinned;
+
+    #[test]
+    fn a_line_keeps_its_ends_and_loses_what_cannot_be_seen() {
+        let points = [[0.0, 0.0], [0.0, 1e-6], [0.5, 0.5], [0.5, 0.500_2], [0.5, 0.6], [1.0, 1.0]];
+        let bounds = [(0.0, 1.0), (0.0, 1.0)];
+        assert_eq!(thinned(&points, bounds), [[0.0, 0.0], [0.5, 0.5], [0.5, 0.6], [1.0, 1.0]]);
+        assert_eq!(thinned(&[], bounds), Vec::<[f64; 2]>::new());
+    }
+}

@@ -1,0 +1,158 @@
+//! What the space is made of: the tables that were read, and fields to read others.
+
+use std::collections::BTreeSet;
+
+use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
+
+use crate::build::judgements::{Judgements, Kind};
+use crate::import::source::paths_in;
+use crate::session::Session;
+use crate::strings::build as strings;
+use crate::theme::{GAP, GROUP_GAP, tokens};
+
+/// What is written in the fields.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Paths {
+    sorting: String,
+    ratings: String,
+    votes: String,
+}
+
+/// What is said of one table.
+struct Said {
+    /// What was read, in figures.
+    read: Option<String>,
+    name: String,
+    failure: Option<String>,
+    unknown: Option<String>,
+}
+
+/// What the user asked of one table.
+#[derive(Default)]
+struct Asked {
+    read: bool,
+    clear: bool,
+}
+
+/// Draws the tables; returns whether a simulated panel is asked for.
+pub(super) fn inputs_ui(
+    ui: &mut Ui,
+    judgements: &mut Judgements,
+    paths: &mut Paths,
+    session: &Session,
+) -> bool {
+    let t = tokens(ui.ctx());
+    ui.heading(strings::MADE_OF);
+    let n_textures = strings::of_the_library(session.textures().len());
+    ui.add(Label::new(RichText::new(n_textures).color(t.text_weak)).selectable(false));
+    for kind in [Kind::Sorting, Kind::Ratings, Kind::Votes] {
+        ui.add_space(GAP);
+        let said = said(judgements, kind, session);
+        let path = match kind {
+            Kind::Sorting => &mut paths.sorting,
+            Kind::Ratings => &mut paths.ratings,
+            Kind::Votes => &mut paths.votes,
+        };
+        let asked = table_ui(ui, kind, path, &said);
+        if asked.read {
+            judgements.read(paths_in(path), Some(kind), ui.ctx());
+        }
+        if asked.clear {
+            judgements.clear(kind);
+            path.clear();
+        }
+    }
+    if judgements.is_reading() {
+        ui.add(Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false));
+    }
+    ui.add_space(GROUP_GAP);
+    let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+    ui.add_sized(size, Button::new(strings::SIMULATE)).on_hover_text(strings::SIMULATE_HELP).clicked()
+}
+
+fn table_ui(ui: &mut Ui, kind: Kind, path: &mut String, said: &Said) -> Asked {
+    let t = tokens(ui.ctx());
+    let mut asked = Asked::default();
+    let (title, help, nothing) = match kind {
+        Kind::Sorting => (strings::SORTING, strings::SORTING_HELP, strings::NOTHING_YET),
+        Kind::Ratings => (strings::RATINGS, strings::RATINGS_HELP, strings::NOTHING_YET),
+        Kind::Votes => (strings::VOTES, strings::VOTES_HELP, strings::OPTIONAL),
+    };
+    ui.horizontal(|ui| {
+        ui.add(Label::new(RichText::new(title).strong()).selectable(false)).on_hover_text(help);
+        if said.read.is_none() {
+            ui.add(Label::new(RichText::new(nothing).small().color(t.text_weak)).selectable(false));
+            return;
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let cross = Button::new(RichText::new("×").color(t.text_weak)).frame(false);
+            let name = strings::remove(title);
+            asked.clear = ui.add(cross).accessible_name(&name).on_hover_text(&name).clicked();
+            let name = Label::new(RichText::new(&said.name).small().color(t.text_weak)).truncate();
+            ui.add(name.selectable(false)).on_hover_text(&said.name);
+        });
+    });
+    ui.horizontal(|ui| {
+        let button_width = 54.0;
+        let field = TextEdit::singleline(path)
+            .hint_text(strings::PATH_HINT)
+            .desired_width(ui.available_width() - button_width - GAP);
+        let field = ui.add(field).accessible_name(strings::path_of(title)).on_hover_text(help);
+        let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+        let button = Button::new(crate::strings::import::READ).min_size(egui::vec2(button_width, 0.0));
+        let is_wanted =
+            ui.add_enabled(!path.trim().is_empty(), button).accessible_name(strings::read(title)).clicked();
+        asked.read = is_wanted || (is_entered && !path.trim().is_empty());
+    });
+    let line = |ui: &mut Ui, text: &str, color| {
+        ui.add(Label::new(RichText::new(text).small().color(color)).wrap());
+    };
+    if let Some(read) = &said.read {
+        line(ui, read, t.text);
+    }
+    if let Some(unknown) = &said.unknown {
+        line(ui, unknown, t.warning);
+    }
+    if let Some(failure) = &said.failure {
+        line(ui, failure, t.error);
+    }
+    asked
+}
+
+fn said(judgements: &Judgements, kind: Kind, session: &Session) -> Said {
+    let unknown = |names: BTreeSet<&str>| {
+        let known = |name: &&str| session.library().index_of(name).is_some();
+        let unknown: Vec<&str> = names.into_iter().filter(|name| !known(name)).collect();
+        (!unknown.is_empty()).then(|| strings::not_in_library(&unknown))
+    };
+    match kind {
+        Kind::Sorting => {
+            let slot = &judgements.sorting;
+            let placements = slot.values().iter().flat_map(|sort| &sort.placements);
+            Said {
+                read: slot.read.as_ref().map(|(_, sorts)| strings::sorting(sorts)),
+                name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
+                failure: slot.failure.clone(),
+                unknown: unknown(placements.map(|placement| placement.texture.as_str()).collect()),
+            }
+        }
+        Kind::Ratings => {
+            let slot = &judgements.ratings;
+            Said {
+                read: slot.read.as_ref().map(|(_, ratings)| strings::ratings(ratings)),
+                name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
+                failure: slot.failure.clone(),
+                unknown: unknown(slot.values().iter().map(|rating| rating.texture.as_str()).collect()),
+            }
+        }
+        Kind::Votes => {
+            let slot = &judgements.votes;
+            Said {
+                read: slot.read.as_ref().map(|(_, votes)| strings::votes(votes)),
+                name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
+                failure: slot.failure.clone(),
+                unknown: None,
+            }
+        }
+    }
+}

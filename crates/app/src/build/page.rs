@@ -1,0 +1,242 @@
+//! The page: what is read, what is being built, what was built.
+
+use egui::{
+    Align, Button, CentralPanel, Context, Frame, Label, Layout, Margin, Panel as Side, ProgressBar, RichText,
+    ScrollArea, Ui, vec2,
+};
+use shagreen_core::mds::MdsOptions;
+use shagreen_core::space_build::{SpaceOptions, Step};
+
+use crate::build::figures_ui::figures_ui;
+use crate::build::input_ui::{Paths, inputs_ui};
+use crate::build::job::{Job, Order};
+use crate::build::judgements::Judgements;
+use crate::build::options_ui::options_ui;
+use crate::build::verdict_ui::verdict_ui;
+use crate::command::Command;
+use crate::import::source::Source;
+use crate::panel::Panel;
+use crate::session::Session;
+use crate::strings::build as strings;
+use crate::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, RADIUS, VERDICT_WIDTH, tokens};
+
+pub use crate::build::job::Built;
+
+/// Width of what stands there before a space is built, in points.
+const EMPTY_WIDTH: f32 = 520.0;
+/// Width that is left to the bar that scrolls, in points.
+const SCROLL_BAR: i8 = 8;
+
+/// The state of the workspace.
+pub struct BuildPage {
+    judgements: Judgements,
+    paths: Paths,
+    options: SpaceOptions,
+    job: Option<(Job, Recipe)>,
+    /// Why the last attempt came to nothing, and of what it was made.
+    failure: Option<(String, Recipe)>,
+    built: Option<(Built, Recipe)>,
+    /// Which figure is shown.
+    shown: usize,
+}
+
+/// What a space is made of, to tell whether it has changed since.
+#[derive(Clone, Debug, PartialEq)]
+struct Recipe {
+    judgements: u64,
+    options: SpaceOptions,
+}
+
+impl Default for BuildPage {
+    fn default() -> Self {
+        Self {
+            judgements: Judgements::default(),
+            paths: Paths::default(),
+            options: SpaceOptions::usual(1),
+            job: None,
+            failure: None,
+            built: None,
+            shown: 0,
+        }
+    }
+}
+
+impl BuildPage {
+    /// What people said.
+    pub fn judgements(&self) -> &Judgements {
+        &self.judgements
+    }
+
+    /// The space that was built last.
+    pub fn built(&self) -> Option<&Built> {
+        self.built.as_ref().map(|(built, _)| built)
+    }
+
+    /// Whether a space is being built.
+    pub fn is_building(&self) -> bool {
+        self.job.is_some()
+    }
+
+    /// Reads files that were dropped, as what they turn out to be.
+    pub fn read(&mut self, sources: Vec<Source>, ctx: &Context) {
+        self.judgements.read(sources, None, ctx);
+    }
+
+    /// Takes in what the workers have done.
+    pub fn collect(&mut self) {
+        self.judgements.collect();
+        let Some(outcome) = self.job.as_mut().and_then(|(job, _)| job.collect()) else { return };
+        let Some((_, recipe)) = self.job.take() else { return };
+        match outcome {
+            Ok(built) => (self.built, self.failure) = (Some((built, recipe)), None),
+            Err(reason) => self.failure = Some((reason, recipe)),
+        }
+    }
+
+    /// Draws the page and returns what the user asked of the rest.
+    pub(crate) fn show(&mut self, ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let t = tokens(ui.ctx());
+        Side::left("build inputs").exact_size(BUILD_INPUTS_WIDTH).resizable(false).show(ui, |ui| {
+            self.left_ui(ui, panel.session);
+        });
+        Side::right("verdict").exact_size(VERDICT_WIDTH).resizable(false).show(ui, |ui| {
+            commands.extend(verdict_ui(ui, panel, self.built(), self.has_changed()));
+        });
+        let frame = Frame::new().fill(t.panel).inner_margin(Margin::same(10));
+        CentralPanel::default().frame(frame).show(ui, |ui| match &self.built {
+            Some((built, _)) => commands.extend(figures_ui(ui, built, &mut self.shown)),
+            None => empty_ui(ui),
+        });
+        commands
+    }
+
+    fn recipe(&self) -> Recipe {
+        Recipe { judgements: self.judgements.generation(), options: self.options.clone() }
+    }
+
+    /// Whether judgements or options are others than those of the space that is shown.
+    fn has_changed(&self) -> bool {
+        self.built.as_ref().is_some_and(|(_, recipe)| *recipe != self.recipe())
+    }
+
+    fn left_ui(&mut self, ui: &mut Ui, session: &Session) {
+        // The bar that scrolls lies over what is at its side.
+        let beside_bar = Frame::new().inner_margin(Margin { right: SCROLL_BAR, ..Margin::ZERO });
+        let frame = Frame::new().inner_margin(Margin::symmetric(0, 8));
+        Side::bottom("build button").frame(frame).show(ui, |ui| {
+            beside_bar.show(ui, |ui| self.build_ui(ui, session));
+        });
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
+            ui.add_space(GAP);
+            if inputs_ui(ui, &mut self.judgements, &mut self.paths, session) {
+                let library = session.library_as_opened();
+                self.judgements.simulate(library, self.options.seed, ui.ctx());
+            }
+            ui.add_space(GROUP_GAP);
+            options_ui(ui, &mut self.options, self.judgements.ratings.values());
+            ui.add_space(GAP);
+        });
+    }
+
+    /// The button, or how far building has come.
+    fn build_ui(&mut self, ui: &mut Ui, session: &Session) {
+        let t = tokens(ui.ctx());
+        let weak = |ui: &mut Ui, text: &str, color| {
+            ui.add(Label::new(RichText::new(text).small().color(color)).wrap());
+        };
+        if let Some((job, _)) = &self.job {
+            let (step, secs) = (job.step(), job.elapsed().as_secs());
+            let share = (step.index() as f32 + 0.5) / Step::COUNT as f32;
+            ui.add(ProgressBar::new(share).desired_height(8.0).fill(t.accent));
+            let mut is_cancelled = false;
+            ui.horizontal(|ui| {
+                ui.add(Label::new(RichText::new(strings::step(step)).small()).selectable(false));
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    is_cancelled = ui.button(strings::CANCEL).on_hover_text(strings::CANCEL_HELP).clicked();
+                    ui.add(
+                        Label::new(RichText::new(format!("{secs} s")).small().color(t.text_weak))
+                            .selectable(false),
+                    );
+                });
+            });
+            if is_cancelled {
+                self.job = None;
+            }
+            return;
+        }
+        if let Some((reason, recipe)) = &self.failure
+            && *recipe == self.recipe()
+        {
+            ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
+        }
+        let can_build = self.judgements.sorting.read.is_some() && self.judgements.ratings.read.is_some();
+        let name = if self.has_changed() { strings::BUILD_AGAIN } else { strings::BUILD_SPACE };
+        let text = RichText::new(name).color(if can_build { t.on_accent } else { t.text_weak });
+        let button = Button::new(text);
+        let button = if can_build { button.fill(t.accent) } else { button };
+        let size = vec2(ui.available_width(), 30.0);
+        let is_wanted = ui.add_enabled_ui(can_build, |ui| ui.add_sized(size, button).clicked()).inner;
+        if is_wanted {
+            self.start(session, ui.ctx());
+        }
+        if !can_build {
+            weak(ui, strings::NEEDS_BOTH, t.text_weak);
+        }
+    }
+
+    fn start(&mut self, session: &Session, ctx: &Context) {
+        let seed = self.options.seed;
+        let options =
+            SpaceOptions { mds: MdsOptions { seed, ..self.options.mds.clone() }, ..self.options.clone() };
+        let order = Order {
+            textures: session.textures().iter().map(|t| (t.id.clone(), t.model.clone())).collect(),
+            sorts: self.judgements.sorting.shared(),
+            ratings: self.judgements.ratings.shared(),
+            votes: self.judgements.votes.shared(),
+            source: self.judgements.source(),
+            options,
+        };
+        self.failure = None;
+        self.job = Some((Job::start(order, ctx), self.recipe()));
+    }
+}
+
+/// What stands there before a space is built.
+fn empty_ui(ui: &mut Ui) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.add_space(0.1 * ui.clip_rect().height());
+        let width = ui.available_width().min(EMPTY_WIDTH);
+        ui.horizontal_top(|ui| {
+            ui.add_space(0.5 * (ui.available_width() - width));
+            ui.vertical(|ui| {
+                ui.set_max_width(width);
+                lesson_ui(ui);
+            });
+        });
+    });
+}
+
+/// What to do, and what the tables look like.
+fn lesson_ui(ui: &mut Ui) {
+    let t = tokens(ui.ctx());
+    ui.add(Label::new(RichText::new(strings::EMPTY_TITLE).heading().strong()).selectable(false));
+    ui.add_space(GAP);
+    for (number, step) in (1..).zip(strings::EMPTY_STEPS) {
+        ui.add(Label::new(RichText::new(format!("{number}.  {step}")).color(t.text_weak)).wrap());
+    }
+    for (title, example) in [
+        (strings::SORTING_EXAMPLE_TITLE, strings::SORTING_EXAMPLE),
+        (strings::RATINGS_EXAMPLE_TITLE, strings::RATINGS_EXAMPLE),
+    ] {
+        ui.add_space(GROUP_GAP);
+        ui.add(Label::new(title).wrap().selectable(false));
+        Frame::new().fill(t.background).corner_radius(RADIUS).inner_margin(GROUP_GAP).show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            ui.add(Label::new(RichText::new(example).monospace()).wrap());
+        });
+    }
+    ui.add_space(GAP);
+    ui.add(Label::new(RichText::new(strings::EXAMPLE_NOTE).small().color(t.text_weak)).wrap());
+}

@@ -1,0 +1,76 @@
+//! How far the space can be believed, and the button that puts it to use.
+
+use std::sync::Arc;
+
+use egui::{Button, Frame, Label, Margin, Panel as Side, RichText, ScrollArea, Ui, vec2};
+use shagreen_core::space::LabelSource;
+
+use crate::build::page::Built;
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::project::{Edit, UsedSpace};
+use crate::strings::build as strings;
+use crate::theme::{GAP, tokens};
+use crate::workspace::Workspace;
+
+/// Height of the foot with the button, in points.
+const FOOT: f32 = 72.0;
+
+/// Draws the column and returns what the user asked of it.
+pub(super) fn verdict_ui(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    built: Option<&Built>,
+    has_changed: bool,
+) -> Option<Command> {
+    let t = tokens(ui.ctx());
+    let mut asked = None;
+    if let Some(built) = built {
+        let frame = Frame::new().inner_margin(Margin::symmetric(0, 8));
+        Side::bottom("use").exact_size(FOOT).frame(frame).show(ui, |ui| {
+            asked = use_ui(ui, panel, built);
+        });
+    }
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.add_space(GAP);
+        ui.add(Label::new(RichText::new(strings::VERDICT).heading()).wrap().selectable(false));
+        let Some(built) = built else {
+            ui.add(Label::new(RichText::new(strings::NO_VERDICT).color(t.text_weak)).wrap());
+            return;
+        };
+        if built.build.source != LabelSource::HumanRatings {
+            let source = RichText::new(built.build.source.label()).strong().color(t.warning);
+            ui.add(Label::new(source).selectable(false));
+        }
+        if has_changed {
+            ui.add(Label::new(RichText::new(strings::CHANGED).color(t.warning)).wrap());
+        }
+        for sentence in &built.verdict {
+            ui.add_space(2.0);
+            ui.add(Label::new(sentence).wrap());
+        }
+        ui.add_space(GAP);
+    });
+    asked
+}
+
+fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &Built) -> Option<Command> {
+    let t = tokens(ui.ctx());
+    let is_in_use =
+        panel.project.space.as_ref().is_some_and(|UsedSpace(used)| Arc::ptr_eq(used, &built.build));
+    let size = vec2(ui.available_width(), 30.0);
+    if is_in_use {
+        let text = RichText::new(format!("{}: {}", strings::IN_USE, built.build.source.label()));
+        ui.add(Label::new(text.color(t.accent)).selectable(false));
+        return ui
+            .add_sized(size, Button::new(strings::GO_TO_AUTHOR))
+            .clicked()
+            .then_some(Command::Show(Workspace::Author));
+    }
+    let note = RichText::new(strings::USE_NOTE).color(t.text_weak);
+    ui.add(Label::new(note).truncate().selectable(false));
+    let text = RichText::new(strings::USE_SPACE).color(t.on_accent);
+    let is_wanted =
+        ui.add_sized(size, Button::new(text).fill(t.accent)).on_hover_text(strings::USE_HELP).clicked();
+    is_wanted.then(|| Command::Edit(Edit::UseSpace(Arc::clone(&built.build))))
+}

@@ -1,0 +1,71 @@
+use std::sync::Arc;
+
+use shagreen_core::rate::at_rate;
+use shagreen_core::space::LabelSource;
+use shagreen_core::units::Hertz;
+use shagreen_formats::library::{Attribute, Attributes, Library};
+use shagreen_formats::starter::starter_library;
+
+use super::Session;
+use crate::project::{Edit, Project};
+
+/// The starter library, whose first six textures are rated, and the last of these is twice as fast and has no place.
+fn mixed_library() -> Library {
+    let mut library = starter_library().unwrap();
+    library.textures.truncate(8);
+    for (i, texture) in library.textures[..6].iter_mut().enumerate() {
+        let value = |name: &str, value: usize| Attribute { name: name.to_owned(), value: value as f64 };
+        let values = vec![value("flat-bumpy", i * 17 % 100), value("warm-cold", i * 61 % 100)];
+        texture.attributes = Some(Attributes { source: LabelSource::HumanRatings, values });
+    }
+    let fast = &mut library.textures[5];
+    fast.place = None;
+    fast.model = at_rate(&fast.model, Hertz(2000.0)).unwrap().model;
+    library
+}
+
+/// The axes decide which textures are blended, and so the rate of all; undo brings everything back as it was.
+#[test]
+fn axes_take_places_and_rate_along_and_give_them_back() {
+    let ctx = egui::Context::default();
+    let mut session = Session::new(mixed_library()).unwrap();
+    let placed = Project::default();
+    session.follow(&placed, &ctx);
+    let (library, space) = (session.library().clone(), session.space().clone());
+    let planes = session.planes.clone();
+    assert_eq!((session.space_rate_hz(), session.rate_hz), (1000.0, 1000.0));
+    assert_eq!(session.label_source(), "physical labels");
+
+    let axes = Some(["warm-cold", "flat-bumpy"].map(str::to_owned));
+    let turned = placed.edited(Edit::SetAxes(axes));
+    session.follow(&turned, &ctx);
+    assert_eq!((session.space_rate_hz(), session.rate_hz), (2000.0, 2000.0));
+    assert_eq!(session.label_source(), "human ratings");
+    let sites: Vec<usize> = session.space().sites().iter().map(|(texture, _)| *texture).collect();
+    assert_eq!(sites, [0, 1, 2, 3, 4, 5]);
+    assert_eq!(session.poles(), &[["warm", "cold"], ["flat", "bumpy"]]);
+    assert_eq!(session.library(), &library, "what a file of it holds is as it was");
+    assert!(Arc::ptr_eq(&session.planes[5], &planes[5]), "this one has the rate already");
+    assert!(!Arc::ptr_eq(&session.planes[0], &planes[0]));
+
+    session.follow(&placed, &ctx);
+    assert_eq!((session.library(), session.space()), (&library, &space));
+    assert_eq!((session.space_rate_hz(), session.rate_hz), (1000.0, 1000.0));
+}
+
+/// A texture that joins and is too fast for the space stays out of it, and says so.
+#[test]
+fn a_texture_too_fast_for_the_space_stays_out() {
+    let ctx = egui::Context::default();
+    let mut library = mixed_library();
+    let mut fast = library.textures.remove(5);
+    fast.place = library.textures[0].place;
+    let mut session = Session::new(library).unwrap();
+    let project = Project::default().edited(Edit::AddTextures(vec![Arc::new(fast)]));
+    session.follow(&project, &ctx);
+    assert_eq!(session.space().position(7), None);
+    assert_eq!(session.space_rate_hz(), 1000.0);
+    assert!(session.output_message().is_some_and(|message| message.contains("cannot be mixed")));
+    session.follow(&Project::default(), &ctx);
+    assert_eq!(session.textures().len(), 7);
+}

@@ -1,0 +1,34 @@
+//! The workspaces of the window, in the order of the work.
+
+use crate::strings;
+
+/// A workspace.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Workspace {
+    /// A texture is found in the space and felt.
+    #[default]
+    Author,
+    /// A space is made of what people sorted and rated.
+    Build,
+}
+
+impl Workspace {
+    /// All workspaces, in the order of their tabs.
+    pub const ALL: [Self; 2] = [Self::Author, Self::Build];
+
+    /// Name on its tab.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Author => strings::AUTHOR,
+            Self::Build => strings::BUILD,
+        }
+    }
+
+    /// What it is for.
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Author => strings::AUTHOR_HELP,
+            Self::Build => strings::BUILD_HELP,
+        }
+    }
+}

@@ -1,0 +1,334 @@
+//! The workspace Build, used as a person would: judgements given, a space built, looked at, saved, used and undone.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use std::path::Path;
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+use shagreen_app::strings::{self, build, import};
+use shagreen_app::workspace::Workspace;
+use shagreen_core::panel::{PanelConfig, simulated_ratings, simulated_sorts};
+use shagreen_core::space::LabelSource;
+use shagreen_core::space_build::FeatureKind;
+use shagreen_formats::library::read_library;
+use shagreen_formats::ratings_csv::ratings_csv;
+use shagreen_formats::sorting_csv::sorting_csv;
+use shagreen_formats::starter::starter_library;
+
+use support::{Author, author, choose, click, drop_files, unnamed_controls, wait, window};
+
+/// Goes to the workspace.
+fn builder() -> Author {
+    let mut harness = author();
+    click(&mut harness, strings::BUILD);
+    assert_eq!(window(&harness).workspace(), Workspace::Build);
+    harness
+}
+
+/// A simulated panel judges, and a space is made of it in the quickest way.
+fn built() -> Author {
+    let mut harness = builder();
+    click(&mut harness, build::SIMULATE);
+    wait(&mut harness, "the panel has judged", |h| !window(h).build().judgements().is_reading());
+    harness.run_steps(2);
+    set_number(&mut harness, build::PERMUTATIONS, 19.0);
+    choose(&mut harness, build::FEATURES, build::features(FeatureKind::Physical));
+    click(&mut harness, build::BUILD_SPACE);
+    assert!(window(&harness).build().is_building());
+    wait(&mut harness, "the space is built", |h| !window(h).build().is_building());
+    assert!(window(&harness).build().built().is_some(), "{:?}", shown(&harness));
+    harness.run_steps(2);
+    harness
+}
+
+/// Puts the space to use and goes where it is felt.
+fn use_space(harness: &mut Author) {
+    click(harness, build::USE_SPACE);
+    harness.run_steps(2);
+    click(harness, build::GO_TO_AUTHOR);
+    harness.run_steps(2);
+}
+
+fn set_number(harness: &mut Author, name: &str, value: f64) {
+    harness.get_by_role_and_label(Role::SpinButton, name).set_value_accesskit(value);
+    harness.run_steps(2);
+}
+
+/// All words on the screen.
+fn shown(harness: &Author) -> Vec<String> {
+    let nodes = harness.root().children_recursive();
+    nodes.filter_map(|n| n.accesskit_node().value().or(n.accesskit_node().label())).collect()
+}
+
+fn says(harness: &Author, words: &str) -> bool {
+    shown(harness).iter().any(|text| text.contains(words))
+}
+
+/// Saves the figure that is shown, in this file.
+fn save(harness: &mut Author, button: &str, path: &Path) {
+    click(harness, button);
+    harness.run_steps(2);
+    let field = harness.get_by_role_and_label(Role::TextInput, build::SAVE_PATH);
+    field.focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run_steps(1);
+    harness.get_by_role_and_label(Role::TextInput, build::SAVE_PATH).type_text(&path.display().to_string());
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+}
+
+/// Types a path into the field of a table, and reads it.
+fn read(harness: &mut Author, what: &str, path: &Path) {
+    let field = build::path_of(what);
+    harness.get_by_role_and_label(Role::TextInput, &field).focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run_steps(1);
+    harness.get_by_role_and_label(Role::TextInput, &field).type_text(&path.display().to_string());
+    harness.run_steps(2);
+    click(harness, &build::read(what));
+    wait(harness, "the table is read", |h| !window(h).build().judgements().is_reading());
+    harness.run_steps(2);
+}
+
+/// The main job: from judgements to a space that is felt, and back.
+#[test]
+fn a_space_is_built_looked_at_used_and_undone() {
+    let mut harness = built();
+    let space = window(&harness).build().built().unwrap().build.clone();
+    assert_eq!(space.source, LabelSource::SimulatedRaters);
+    for (name, _) in window(&harness).build().built().unwrap().figures.clone() {
+        click(&mut harness, build::figure(name));
+        let (_, figure) =
+            window(&harness).build().built().unwrap().figures.iter().find(|f| f.0 == name).unwrap().clone();
+        assert!(says(&harness, figure.title()), "{name} is not shown");
+        assert!(figure.title().contains("simulated raters"), "{}", figure.title());
+    }
+    assert!(says(&harness, "nested cross-validation") && says(&harness, "nobody felt anything"));
+
+    let before = window(&harness).session().library().clone();
+    let (space_before, source_before) =
+        (window(&harness).session().space().clone(), window(&harness).session().label_source());
+    click(&mut harness, build::USE_SPACE);
+    harness.run_steps(2);
+    let session = window(&harness).session();
+    assert_eq!(session.label_source(), "simulated raters");
+    assert!(says(&harness, "positions: simulated raters"));
+    for (index, texture) in session.textures().iter().enumerate() {
+        let at = space.textures.iter().position(|id| *id == texture.id).map(|i| space.positions[i]);
+        assert_eq!(session.space().position(index), at);
+        assert!(texture.attributes.as_ref().is_some_and(|a| a.source == LabelSource::SimulatedRaters));
+    }
+    assert!(session.library().space_report.is_some());
+
+    // It is felt: the blend at the point is of the new neighbors, and sounds.
+    click(&mut harness, build::GO_TO_AUTHOR);
+    assert_eq!(window(&harness).workspace(), Workspace::Author);
+    click(&mut harness, strings::HAND_START);
+    wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 1e-4);
+    click(&mut harness, strings::HAND_STOP);
+
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    let session = window(&harness).session();
+    assert_eq!(*session.library(), before, "places, attributes and report are as they were");
+    assert_eq!((session.space(), session.label_source()), (&space_before, source_before));
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).session().label_source(), "simulated raters");
+}
+
+/// Tables of sortings and ratings, whose participants are called as people are, or as simulated ones.
+fn tables(prefix: &str) -> [Vec<u8>; 2] {
+    let library = starter_library().unwrap();
+    let placed = library.textures.iter().map(|t| (t.id.clone(), t.at().unwrap()));
+    let (names, labels): (Vec<String>, Vec<Vec<f64>>) =
+        placed.map(|(id, at)| (id, vec![at.rough_smooth, at.hard_soft])).unzip();
+    let config = PanelConfig {
+        n_participants: 4,
+        noise_points: 5.0,
+        bias_points: 2.0,
+        scale_log_spread: 0.1,
+        seed: 9,
+    };
+    let pairs = ["rough-smooth", "hard-soft"].map(|name| name.parse().unwrap());
+    let mut sorts = simulated_sorts(&names, &labels, &[4, 8], &config).unwrap();
+    let mut ratings = simulated_ratings(&names, &labels, &pairs, &config).unwrap();
+    for name in
+        sorts.iter_mut().map(|s| &mut s.participant).chain(ratings.iter_mut().map(|r| &mut r.participant))
+    {
+        *name = name.replace("simulated-", prefix);
+    }
+    [sorting_csv(&sorts), ratings_csv(&ratings)]
+}
+
+/// Tables dropped on the workspace are known by their columns; who judged is known by the names of the participants.
+#[test]
+fn dropped_tables_become_a_space_that_says_who_judged() {
+    for (prefix, source) in [("person ", "human ratings"), ("simulated-", "simulated raters")] {
+        let mut harness = builder();
+        let [sorting, ratings] = tables(prefix);
+        drop_files(&mut harness, &[("b.csv", &ratings), ("a.csv", &sorting)]);
+        wait(&mut harness, "both are read", |h| !window(h).build().judgements().is_reading());
+        harness.run_steps(2);
+        assert!(window(&harness).import().is_none(), "they are no recordings");
+        assert!(says(&harness, "4 participants, 8 sorts, 25 textures"));
+        assert!(says(&harness, "4 participants, 200 ratings, 25 textures, 2 pairs"));
+        set_number(&mut harness, build::PERMUTATIONS, 0.0);
+        choose(&mut harness, build::FEATURES, build::features(FeatureKind::Physical));
+        click(&mut harness, build::BUILD_SPACE);
+        wait(&mut harness, "the space is built", |h| !window(h).build().is_building());
+        harness.run_steps(2);
+        assert!(window(&harness).build().built().is_some(), "{:?}", shown(&harness));
+        let is_simulated = source == "simulated raters";
+        let figures = &window(&harness).build().built().unwrap().figures;
+        assert!(figures.iter().all(|(_, figure)| figure.title().contains("simulated") == is_simulated));
+        use_space(&mut harness);
+        assert!(says(&harness, &format!("positions: {source}")));
+    }
+}
+
+#[test]
+fn two_attributes_of_a_space_become_the_axes() {
+    let mut harness = built();
+    use_space(&mut harness);
+    let places = window(&harness).session().space().clone();
+    choose(&mut harness, strings::AXIS_UP, "sticky-slippery");
+    let session = window(&harness).session();
+    assert_eq!(window(&harness).project().axes, Some(["rough-smooth", "sticky-slippery"].map(str::to_owned)));
+    assert_eq!(session.poles(), &[["rough", "smooth"], ["sticky", "slippery"]]);
+    for (index, texture) in session.textures().iter().enumerate() {
+        let at = session.space().position(index).unwrap();
+        let attributes = texture.attributes.as_ref().unwrap();
+        assert_eq!(Some(at.rough_smooth), attributes.get("rough-smooth"));
+        assert_eq!(Some(at.hard_soft), attributes.get("sticky-slippery"));
+    }
+    assert!(harness.query_by_role_and_label(Role::Slider, "Sticky to slippery").is_some());
+    assert!(harness.query_by_role_and_label(Role::Slider, strings::HARD_SOFT).is_none());
+    click(&mut harness, strings::UNDO);
+    assert_eq!(*window(&harness).session().space(), places);
+    assert!(harness.query_by_role_and_label(Role::Slider, strings::HARD_SOFT).is_some());
+}
+
+#[test]
+fn figures_and_the_library_are_saved_and_nothing_else_is_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = built();
+    let (svg, csv) = (folder.path().join("stress.svg"), folder.path().join("stress.csv"));
+    for (button, path) in [(build::SAVE_SVG, &svg), (build::SAVE_CSV, &csv)] {
+        save(&mut harness, button, path);
+        let saved = import::saved(&path.display().to_string());
+        wait(&mut harness, "it is saved", |h| h.query_by_label(&saved).is_some());
+        click(&mut harness, import::CLOSE);
+    }
+    assert!(std::fs::read_to_string(&svg).unwrap().contains("simulated raters"));
+    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y\n"));
+    // Another file is left alone, and the folder is remembered.
+    save(&mut harness, build::SAVE_SVG, &csv);
+    wait(&mut harness, "it refuses", |h| says(h, &build::no_figure("SVG")));
+    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y\n"));
+    click(&mut harness, import::CANCEL);
+    click(&mut harness, build::SAVE_CSV);
+    harness.run_steps(2);
+    assert!(says(&harness, &folder.path().join("simulated-stress.csv").display().to_string()));
+    click(&mut harness, import::CANCEL);
+
+    use_space(&mut harness);
+    let path = folder.path().join("library.json");
+    click(&mut harness, strings::SAVE_LIBRARY);
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::TextInput, import::SAVE_PATH).type_text(&path.display().to_string());
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "the library is saved", |h| h.query_by_label(&saved).is_some());
+    let library = read_library(&std::fs::read(&path).unwrap()).unwrap().value;
+    assert_eq!(library.label_source(), Some(LabelSource::SimulatedRaters));
+    assert!(library.space_report.is_some() && library.textures[0].attributes.is_some());
+}
+
+#[test]
+fn a_bad_table_says_why_and_nothing_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = builder();
+    assert!(says(&harness, build::SORTING_EXAMPLE), "an example is shown");
+    let good = folder.path().join("good.csv");
+    std::fs::write(&good, "participant,trial,groups,cork,felt,glass\np1,1,2,a,a,b\np2,1,2,x,,y\n").unwrap();
+    read(&mut harness, build::SORTING, &good);
+    assert!(says(&harness, "2 participants, 2 sorts, 3 textures"));
+    let bad = folder.path().join("bad.csv");
+    std::fs::write(&bad, "participant,trial,groups,cork\np,1,many,a\n").unwrap();
+    read(&mut harness, build::SORTING, &bad);
+    assert!(says(&harness, "groups in line 2 is \"many\""), "{:?}", shown(&harness));
+    assert!(says(&harness, "2 participants, 2 sorts, 3 textures"), "what was read stays");
+    assert_eq!(window(&harness).build().judgements().sorting.values().len(), 2);
+    read(&mut harness, build::RATINGS, &folder.path().join("nowhere.csv"));
+    assert!(says(&harness, "cannot be read"));
+
+    // A texture that the library has not is named, and building says so too.
+    let unknown = folder.path().join("unknown.csv");
+    std::fs::write(&unknown, "participant,texture,rough-smooth,hard-soft\np1,cork,3,4\np1,moon-dust,5,6\n")
+        .unwrap();
+    read(&mut harness, build::RATINGS, &unknown);
+    assert!(says(&harness, "moon-dust"));
+    click(&mut harness, build::BUILD_SPACE);
+    wait(&mut harness, "it fails", |h| !window(h).build().is_building());
+    harness.run_steps(2);
+    assert!(says(&harness, "\"moon-dust\" was rated, but no texture of the library has this id"));
+    assert!(window(&harness).build().built().is_none());
+    click(&mut harness, &build::remove(build::RATINGS));
+    harness.run_steps(2);
+    assert!(says(&harness, build::NEEDS_BOTH), "{:?}", shown(&harness));
+}
+
+#[test]
+fn building_can_be_cancelled_and_what_was_built_stays() {
+    let mut harness = built();
+    let before = window(&harness).build().built().unwrap().build.clone();
+    set_number(&mut harness, build::SEED, 7.0);
+    set_number(&mut harness, build::PERMUTATIONS, 10_000.0);
+    assert!(says(&harness, build::CHANGED));
+    click(&mut harness, build::BUILD_AGAIN);
+    assert!(window(&harness).build().is_building());
+    click(&mut harness, build::CANCEL);
+    assert!(!window(&harness).build().is_building());
+    for _ in 0..30 {
+        harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let now = window(&harness).build().built().unwrap().build.clone();
+    assert!(std::sync::Arc::ptr_eq(&before, &now), "what is late reaches nobody");
+}
+
+#[test]
+fn the_keyboard_changes_workspaces_and_the_hand_does_not_start_unseen() {
+    let mut harness = author();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    harness.run_steps(2);
+    assert_eq!(window(&harness).workspace(), Workspace::Build);
+    harness.key_press(Key::Space);
+    harness.run_steps(2);
+    assert!(!window(&harness).session().hand_is_running());
+    assert!(harness.query_by_role_and_label(Role::ComboBox, strings::OUTPUT).is_some(), "the status stays");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
+    harness.run_steps(2);
+    assert_eq!(window(&harness).workspace(), Workspace::Author);
+}
+
+#[test]
+fn every_control_has_a_name() {
+    let harness = builder();
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    for name in [build::TIES, build::FIRST_AXIS, build::SECOND_AXIS, build::FEATURES, build::SELECTION] {
+        assert!(harness.query_by_role_and_label(Role::ComboBox, name).is_some(), "{name}");
+    }
+    for name in [build::DIMENSIONS, build::PERMUTATIONS, build::SEED] {
+        assert!(harness.query_by_role_and_label(Role::SpinButton, name).is_some(), "{name}");
+    }
+    let harness = built();
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+}
