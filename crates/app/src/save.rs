@@ -120,7 +120,7 @@ impl SaveSheet {
         let (text, color) = match &self.state {
             State::Asking => match &self.figure {
                 None => (strings::to_save(library.textures.len()), t.text_weak),
-                Some(figure) => (build::to_save(figure.title(), figure.format.word()), t.text_weak),
+                Some(figure) => (build::to_save(&figure.title(), figure.format.word()), t.text_weak),
             },
             State::Exists(_) => match &self.figure {
                 None => (strings::EXISTS.to_owned(), t.warning),

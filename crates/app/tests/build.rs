@@ -105,7 +105,7 @@ fn a_space_is_built_looked_at_used_and_undone() {
         click(&mut harness, build::figure(name));
         let (_, figure) =
             window(&harness).build().built().unwrap().figures.iter().find(|f| f.0 == name).unwrap().clone();
-        assert!(says(&harness, figure.title()), "{name} is not shown");
+        assert!(says(&harness, &figure.title()), "{name} is not shown");
         assert!(figure.title().contains("simulated raters"), "{}", figure.title());
     }
     assert!(says(&harness, "nested cross-validation") && says(&harness, "nobody felt anything"));

@@ -118,39 +118,7 @@ fn carry_out(
     let figures = space_figures(&build).into_iter();
     Ok(Built {
         verdict: verdict(&build),
-        figures: figures.map(|(name, figure)| (name, Arc::new(with_source(figure, build.source)))).collect(),
+        figures: figures.map(|(name, figure)| (name, Arc::new(figure))).collect(),
         build: Arc::new(build),
     })
-}
-
-/// The figure whose title says who judged, where those were no people.
-fn with_source(mut figure: Figure, source: LabelSource) -> Figure {
-    let title = match &mut figure {
-        Figure::Chart(chart) => &mut chart.title,
-        Figure::Table(table) => &mut table.title,
-    };
-    if source != LabelSource::HumanRatings && !title.contains(source.label()) {
-        *title = format!("{title} ({})", source.label());
-    }
-    figure
-}
-
-#[cfg(test)]
-mod tests {
-    use super::with_source;
-    use shagreen_core::space::LabelSource;
-    use shagreen_formats::figure::{Figure, Table};
-
-    #[test]
-    fn a_figure_says_once_that_raters_were_simulated() {
-        let titled = |title: &str| {
-            Figure::Table(Table { title: title.to_owned(), columns: vec![], rows: vec![], decimals: 0 })
-        };
-        let check = |title: &str, source: LabelSource, expected: &str| {
-            assert_eq!(with_source(titled(title), source).title(), expected);
-        };
-        check("Stress", LabelSource::SimulatedRaters, "Stress (simulated raters)");
-        check("Space (simulated raters)", LabelSource::SimulatedRaters, "Space (simulated raters)");
-        check("Stress", LabelSource::HumanRatings, "Stress");
-    }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use egui::Context;
+use shagreen_core::panel::is_simulated;
 use shagreen_core::ratings::{Rating, RelevanceVote};
 use shagreen_core::sorting::Sort;
 use shagreen_core::space::LabelSource;
@@ -14,9 +15,6 @@ use shagreen_formats::sorting_csv::read_sorting_csv;
 use crate::build::panel_truth::{Simulated, simulate};
 use crate::import::source::Source;
 use crate::strings::build as strings;
-
-/// How the names of simulated participants begin.
-const SIMULATED: &str = "simulated-";
 
 /// What a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -185,7 +183,7 @@ impl Judgements {
     pub fn source(&self) -> LabelSource {
         let sorters = self.sorting.values().iter().map(|sort| &sort.participant);
         let raters = self.ratings.values().iter().map(|rating| &rating.participant);
-        if sorters.chain(raters).any(|name| name.starts_with(SIMULATED)) {
+        if sorters.chain(raters).any(|name| is_simulated(name)) {
             LabelSource::SimulatedRaters
         } else {
             LabelSource::HumanRatings

@@ -49,7 +49,7 @@ impl FigureFile {
     }
 
     /// What the figure shows, in a line.
-    pub fn title(&self) -> &str {
+    pub fn title(&self) -> String {
         self.figure.title()
     }
 
@@ -90,6 +90,7 @@ mod tests {
                 columns: vec![name.to_owned()],
                 rows: vec![("a".to_owned(), vec![Some(1.0)])],
                 decimals: 1,
+                source: String::new(),
             })
         };
         let file =
