@@ -226,11 +226,11 @@ fn figures_and_the_library_are_saved_and_nothing_else_is_replaced() {
         click(&mut harness, import::CLOSE);
     }
     assert!(std::fs::read_to_string(&svg).unwrap().contains("simulated raters"));
-    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y\n"));
+    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y,source\n"));
     // Another file is left alone, and the folder is remembered.
     save(&mut harness, build::SAVE_SVG, &csv);
     wait(&mut harness, "it refuses", |h| says(h, &build::no_figure("SVG")));
-    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y\n"));
+    assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y,source\n"));
     click(&mut harness, import::CANCEL);
     click(&mut harness, build::SAVE_CSV);
     harness.run_steps(2);
