@@ -7,7 +7,7 @@ use serde_json::json;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::atomic;
 use shagreen_formats::library::write_library;
-use shagreen_formats::places_csv::read_places_csv;
+use shagreen_formats::places_csv::{place_textures, read_places_csv};
 
 use crate::cli::guard::{is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
@@ -55,15 +55,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             args.attributes.display()
         );
     }
-    let mut missing = Vec::new();
-    for texture in &mut library.textures {
-        let found = placements.iter().find(|placement| placement.id == texture.id);
-        texture.place = found.map(|placement| placement.place);
-        texture.attributes = found.map(|placement| placement.attributes.clone());
-        if found.is_none() {
-            missing.push(texture.id.clone());
-        }
-    }
+    let missing = place_textures(&mut library, &placements);
     // The report was on other places.
     library.space_report = None;
     output::CREATED_BY.clone_into(&mut library.created_by);

@@ -17,7 +17,7 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
-use support::{Author, author, choose, click, drop_files, wait, window};
+use support::{Author, author, choose, click, drop_files, unnamed_controls, wait, window};
 
 fn names(harness: &Author) -> Vec<String> {
     window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()
@@ -212,28 +212,6 @@ fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
     choose(&mut harness, &unit, "m/s²");
     wait(&mut harness, "the fit", |h| h.query_by_label(import::GFC_MEDIAN).is_some());
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
-}
-
-/// Controls that a keyboard or screen reader reaches but that have no name.
-fn unnamed_controls(harness: &Author) -> Vec<String> {
-    let is_control = |role: Role| {
-        matches!(
-            role,
-            Role::Button
-                | Role::Slider
-                | Role::SpinButton
-                | Role::TextInput
-                | Role::ComboBox
-                | Role::CheckBox
-                | Role::Canvas
-        )
-    };
-    let nodes = harness.root().children_recursive();
-    let unnamed = nodes.filter(|n| {
-        let node = n.accesskit_node();
-        is_control(node.role()) && node.label().is_none_or(|l| l.trim().is_empty())
-    });
-    unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
 }
 
 /// Saving asks before it replaces a library, replaces nothing else, and what it writes is the whole list.

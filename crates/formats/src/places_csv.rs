@@ -144,6 +144,21 @@ pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<
     Ok(placements)
 }
 
+/// Puts the textures of a library where a table says; returns the identifiers of those that are not in it, which lose
+/// their place and attributes.
+pub fn place_textures(library: &mut Library, placements: &[Placement]) -> Vec<String> {
+    let mut missing = Vec::new();
+    for texture in &mut library.textures {
+        let found = placements.iter().find(|placement| placement.id == texture.id);
+        texture.place = found.map(|placement| placement.place);
+        texture.attributes = found.map(|placement| placement.attributes.clone());
+        if found.is_none() {
+            missing.push(texture.id.clone());
+        }
+    }
+    missing
+}
+
 /// The places and attributes of a library as such a table, with the attributes in the order of their first appearance.
 /// Textures without a place are not in it.
 pub fn places_csv(library: &Library) -> Vec<u8> {
@@ -173,7 +188,7 @@ pub fn places_csv(library: &Library) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{places_csv, read_places_csv};
+    use super::{place_textures, places_csv, read_places_csv};
     use crate::starter::starter_library;
     use shagreen_core::space::LabelSource;
 
@@ -200,11 +215,8 @@ mod tests {
         let placements = read_places_csv(text.as_bytes(), None).unwrap();
         assert_eq!(placements[0].attributes.get("rough-smooth"), Some(39.0));
         let mut library = starter_library().unwrap();
-        for texture in &mut library.textures {
-            let found = placements.iter().find(|placement| placement.id == texture.id);
-            texture.place = found.map(|placement| placement.place);
-            texture.attributes = found.map(|placement| placement.attributes.clone());
-        }
+        let missing = place_textures(&mut library, &placements);
+        assert_eq!((missing.len(), missing.contains(&"cork".to_owned())), (23, false));
         let again = read_places_csv(&places_csv(&library), None).unwrap();
         assert_eq!(again, placements);
     }

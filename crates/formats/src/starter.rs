@@ -1,7 +1,7 @@
 //! The libraries that are built into the program.
 
 use crate::library::{Library, LibraryError, read_library};
-use crate::places_csv::{PlacesCsvError, read_places_csv};
+use crate::places_csv::{PlacesCsvError, place_textures, read_places_csv};
 
 const BYTES: &[u8] = include_bytes!("../../../assets/starter/starter.json");
 const SIMULATED_PLACES: &[u8] = include_bytes!("../../../assets/starter/simulated.csv");
@@ -38,11 +38,7 @@ pub enum SimulatedLibraryError {
 pub fn simulated_library() -> Result<Library, SimulatedLibraryError> {
     let mut library = starter_library()?;
     let placements = read_places_csv(SIMULATED_PLACES, None)?;
-    for texture in &mut library.textures {
-        let found = placements.iter().find(|placement| placement.id == texture.id);
-        texture.place = found.map(|placement| placement.place);
-        texture.attributes = found.map(|placement| placement.attributes.clone());
-    }
+    place_textures(&mut library, &placements);
     "Starter, simulated raters".clone_into(&mut library.name);
     library.space_report = Some(serde_json::from_slice(SIMULATED_REPORT)?);
     Ok(library)
