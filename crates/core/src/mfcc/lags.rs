@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 use ndarray::linalg::general_mat_mul;
 use ndarray::{Array2, ArrayView1, ArrayView2, ArrayViewMut2, Axis, Slice};
+use pulp::{Arch, Simd, WithSimd};
 
 /// Longest frame for which this way is faster than a transform.
 pub(super) const MAX_FRAME: usize = 48;
@@ -35,9 +36,14 @@ impl LagFilters {
     pub(super) fn new(window: &[f64], n_transform: usize, filters: &Array2<f64>) -> Self {
         let cosines: Vec<f64> =
             (0..n_transform).map(|i| (TAU * i as f64 / n_transform as f64).cos()).collect();
+        // Most bins count for none but two of the filters.
+        let counting = |row: ArrayView1<'_, f64>| -> Vec<(usize, f64)> {
+            row.iter().copied().enumerate().filter(|(_, w)| *w != 0.0).collect()
+        };
+        let counting: Vec<_> = filters.rows().into_iter().map(counting).collect();
         let weight = |(lag, filter): (usize, usize)| {
-            let term = |(bin, w): (usize, &f64)| w * cosines[bin * lag % n_transform];
-            let sum: f64 = filters.row(filter).iter().enumerate().map(term).sum();
+            let term = |(bin, w): &(usize, f64)| w * cosines[bin * lag % n_transform];
+            let sum: f64 = counting[filter].iter().map(term).sum();
             if lag == 0 { sum } else { 2.0 * sum }
         };
         let weights = Array2::from_shape_fn((window.len(), filters.nrows()), weight);
@@ -52,21 +58,20 @@ impl LagFilters {
         let n_lags = self.window.len();
         let mut lags = vec![0.0; n_lags * BLOCK];
         let mut windowed = vec![[0.0; LANES]; n_lags];
+        let arch = Arch::new();
         let mut doubtful = Vec::new();
         for (block_idx, mut block) in sums.axis_chunks_iter_mut(Axis(0), BLOCK).enumerate() {
             let first = block_idx * BLOCK;
             let n_block = block.nrows();
-            for offset in (0..n_block).step_by(LANES) {
-                for lane in 0..LANES.min(n_block - offset) {
-                    let frame = &signal[(first + offset + lane) * hop..][..n_lags];
-                    for ((samples, x), w) in windowed.iter_mut().zip(frame).zip(&self.window) {
-                        samples[lane] = w * x;
-                    }
-                }
-                for (lag, row) in lags.chunks_exact_mut(BLOCK).enumerate() {
-                    row[offset..offset + LANES].copy_from_slice(&products(&windowed, lag));
-                }
-            }
+            let from = &signal[first * hop..];
+            arch.dispatch(Products {
+                signal: from,
+                hop,
+                n_block,
+                window: &self.window,
+                windowed: &mut windowed,
+                lags: &mut lags,
+            });
             let Ok(of_block) = ArrayView2::from_shape((n_lags, BLOCK), &lags) else {
                 unreachable!("the lags were made for this shape")
             };
@@ -90,13 +95,41 @@ impl LagFilters {
     }
 }
 
-/// `Σ y[t] y[t + lag]` of every lane.
-fn products(y: &[[f64; LANES]], lag: usize) -> [f64; LANES] {
-    let mut sums = [0.0; LANES];
-    for (now, later) in y.iter().zip(&y[lag..]) {
-        for (sum, (a, b)) in sums.iter_mut().zip(now.iter().zip(later)) {
-            *sum += a * b;
+/// The lags of the `n_block` frames that begin every `hop` samples of `signal`: `lags × BLOCK`.
+struct Products<'a> {
+    signal: &'a [f64],
+    hop: usize,
+    n_block: usize,
+    window: &'a [f64],
+    /// Room for the samples of [`LANES`] frames.
+    windowed: &'a mut [[f64; LANES]],
+    lags: &'a mut [f64],
+}
+
+impl WithSimd for Products<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { signal, hop, n_block, window, windowed, lags } = self;
+        for offset in (0..n_block).step_by(LANES) {
+            for lane in 0..LANES.min(n_block - offset) {
+                let frame = &signal[(offset + lane) * hop..][..window.len()];
+                for ((samples, x), w) in windowed.iter_mut().zip(frame).zip(window) {
+                    samples[lane] = w * x;
+                }
+            }
+            for (lag, row) in lags.chunks_exact_mut(BLOCK).enumerate() {
+                // `Σ y[t] y[t + lag]` of every lane.
+                let mut sums = [0.0; LANES];
+                for (now, later) in windowed.iter().zip(&windowed[lag..]) {
+                    for (sum, (a, b)) in sums.iter_mut().zip(now.iter().zip(later)) {
+                        *sum += a * b;
+                    }
+                }
+                row[offset..offset + LANES].copy_from_slice(&sums);
+            }
         }
     }
-    sums
 }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, LN_2};
 
+use pulp::{Arch, Simd, WithSimd};
+
 const MANTISSA: u64 = (1 << 52) - 1;
 /// Bits of 2⁵²: an integer below that in the mantissa is that many more.
 const TWO_POW_52: u64 = 0x4330_0000_0000_0000;
@@ -12,14 +14,31 @@ const TWO_POW_52: u64 = 0x4330_0000_0000_0000;
 /// Straight through without a branch or a table, so that compilers work on several values side by side: half the time of
 /// one call after the other. Logarithms are half of the work for coefficients of short frames.
 pub(super) fn ln_all(values: &mut [f64], mended: impl Fn(f64) -> f64) {
-    for value in values {
-        *value = ln(mended(*value));
+    Arch::new().dispatch(LnAll { values, mended });
+}
+
+struct LnAll<'a, F> {
+    values: &'a mut [f64],
+    mended: F,
+}
+
+impl<F: Fn(f64) -> f64> WithSimd for LnAll<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { values, mended } = self;
+        for value in values {
+            *value = ln(mended(*value));
+        }
     }
 }
 
 /// `x = 2ᵉ m` with `m` in √½ .. √2, and `ln m = 2 artanh s = 2 (s + s³/3 + s⁵/5 + …)` for `s = (m - 1) / (m + 1)`, at
 /// most 0.172: eleven terms leave `2 s²³/23`, 2e-19.
-#[inline]
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
 fn ln(x: f64) -> f64 {
     let lowest = FRAC_1_SQRT_2.to_bits();
     let bits = x.to_bits() + (1.0_f64.to_bits() - lowest);
