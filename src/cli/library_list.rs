@@ -19,7 +19,11 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let library = load(&args.library)?;
     let textures: Vec<Value> = library.textures.iter().map(|texture| describe(&library, texture)).collect();
-    output::print(args.json, &json!({"library": library.name, "textures": textures}), || table(&library));
+    output::print(
+        args.json,
+        &json!({"library": library.name, "axes": library.axis_names(), "textures": textures}),
+        || table(&library),
+    );
     Ok(())
 }
 
@@ -55,7 +59,9 @@ fn table(library: &Library) -> String {
             model.rate()
         )
     };
-    let mut lines = vec![format!("{}: {} textures", library.name, library.textures.len())];
+    let [across, up] = library.axis_names();
+    let head = format!("{}: {} textures, placed by {across} and {up}", library.name, library.textures.len());
+    let mut lines = vec![head];
     lines.extend(library.textures.iter().map(line));
     lines.join("\n")
 }

@@ -132,9 +132,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let data = SpaceData { textures, sorts, ratings, votes, source };
     let options = options(args)?;
     let progress = Progress::new("steps", Step::COUNT);
+    let mut n_done = 0;
     let built = build_space(&data, &options, &mut |step| {
-        if step.index() > 0 {
+        while n_done < step.index() {
             progress.step();
+            n_done += 1;
         }
         true
     })?;

@@ -63,12 +63,14 @@ pub struct FeatureTable {
 ///
 /// Grain is noise: all but the first few coefficients of one frame say nothing about the texture, and what is selected
 /// from tens of thousands of them for 25 textures is selected by chance. [`per_pattern`] is the one to use.
+/// `go_on` is asked before every texture.
 ///
 /// # Errors
 /// See [`FeatureError`].
 pub fn per_frame(
     textures: &[NamedTexture<'_>],
     plan: &FeaturePlan<'_>,
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<FeatureTable, FeatureError> {
     let names = |pattern: &str, n_frames: usize, n_coefficients: usize| {
         let of_frame = |frame: usize| {
@@ -77,10 +79,11 @@ pub fn per_frame(
         (0..n_frames).flat_map(of_frame).collect()
     };
     let values = |coefficients: &Array2<f64>| coefficients.iter().copied().collect();
-    cepstral(textures, plan, "every frame", &names, &values)
+    cepstral(textures, plan, "every frame", &names, &values, go_on)
 }
 
-/// The mean, or mean and deviation, of every coefficient over the frames of every pattern.
+/// The mean, or mean and deviation, of every coefficient over the frames of every pattern. `go_on` is asked before every
+/// texture.
 ///
 /// # Errors
 /// See [`FeatureError`].
@@ -88,6 +91,7 @@ pub fn per_pattern(
     textures: &[NamedTexture<'_>],
     plan: &FeaturePlan<'_>,
     statistic: Statistic,
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<FeatureTable, FeatureError> {
     let with_deviation = statistic == Statistic::MeanAndDeviation;
     let names = |pattern: &str, _: usize, n_coefficients: usize| {
@@ -107,7 +111,7 @@ pub fn per_pattern(
         coefficients.columns().into_iter().flat_map(value).collect()
     };
     let how = if with_deviation { "mean and s.d. of frames" } else { "mean of frames" };
-    cepstral(textures, plan, how, &names, &values)
+    cepstral(textures, plan, how, &names, &values, go_on)
 }
 
 impl FeatureTable {
@@ -139,6 +143,7 @@ fn cepstral(
     how: &str,
     names: &dyn Fn(&str, usize, usize) -> Vec<String>,
     values: &dyn Fn(&Array2<f64>) -> Vec<f64>,
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<FeatureTable, FeatureError> {
     check_names(textures)?;
     let PatternPlan { contacts, seconds, rate, seed } = plan.patterns;
@@ -150,6 +155,9 @@ fn cepstral(
     }
     let mut all = Vec::new();
     for texture in textures {
+        if !go_on() {
+            return Err(FeatureError::Stopped);
+        }
         let patterns = PatternPlan { seed: derive_seed(seed, texture.name), ..plan.patterns };
         let of_texture = |source| FeatureError::Patterns { texture: texture.name.to_owned(), source };
         let Patterns { signals, warnings: found } =

@@ -85,6 +85,9 @@ pub struct ShepardPair {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MdsError {
+    /// It was asked to stop.
+    #[error("the configuration was not finished")]
+    Stopped,
     /// More or fewer dimensions than can be asked for.
     #[error("{dims} dimensions cannot be scaled to; ask for 1 to {MAX_DIMS}")]
     Dims {
@@ -159,7 +162,7 @@ pub fn nonmetric(
 ) -> Result<Mds, MdsError> {
     check(dissimilarities, dims)?;
     let classical = start::classical(dissimilarities, dims, derive_seed(options.seed, "classical start"));
-    best(dissimilarities, dims, options, vec![classical])
+    best(dissimilarities, dims, options, vec![classical], &mut || true)
 }
 
 /// The configuration that one start, a row for each item, descends to; `options` names no other start.
@@ -173,11 +176,12 @@ pub fn nonmetric_from(
 ) -> Result<Mds, MdsError> {
     let flat = flat(dissimilarities, start)?;
     check(dissimilarities, start[0].len())?;
-    best(dissimilarities, start[0].len(), &MdsOptions { n_random_starts: 0, ..options.clone() }, vec![flat])
+    let options = MdsOptions { n_random_starts: 0, ..options.clone() };
+    best(dissimilarities, start[0].len(), &options, vec![flat], &mut || true)
 }
 
 /// The best configuration in each number of dimensions; the best of one dimension fewer is a start too, so that stress
-/// does not rise with dimensions.
+/// does not rise with dimensions. `go_on` is asked before every step of every descent.
 ///
 /// # Errors
 /// See [`MdsError`].
@@ -185,6 +189,7 @@ pub fn by_dimension(
     dissimilarities: &Dissimilarities,
     dims: RangeInclusive<usize>,
     options: &MdsOptions,
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Vec<Mds>, MdsError> {
     let mut all: Vec<Mds> = Vec::new();
     for dims in dims {
@@ -194,7 +199,7 @@ pub fn by_dimension(
         if let Some(before) = all.last() {
             starts.push(start::with_axis(&before.points, derive_seed(options.seed, "another axis")));
         }
-        all.push(best(dissimilarities, dims, options, starts)?);
+        all.push(best(dissimilarities, dims, options, starts, go_on)?);
     }
     Ok(all)
 }
@@ -268,6 +273,7 @@ fn best(
     dims: usize,
     options: &MdsOptions,
     mut starts: Vec<Vec<f64>>,
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Mds, MdsError> {
     let n_items = dissimilarities.n_items();
     starts.extend((0..options.n_random_starts).map(|i| start::random(n_items, dims, options.seed, i)));
@@ -275,7 +281,10 @@ fn best(
     let mut objective = Objective::new(dissimilarities, options.ties);
     let mut found = Vec::with_capacity(starts.len());
     for mut points in starts {
-        let end = descend(&mut points, stop, |at, gradient| objective.evaluate(dims, at, gradient));
+        let end = descend(&mut points, stop, go_on, |at, gradient| objective.evaluate(dims, at, gradient));
+        if end.was_stopped {
+            return Err(MdsError::Stopped);
+        }
         found.push((end, points));
     }
     let stress_by_start = found.iter().map(|(end, _)| end.at.value.sqrt()).collect();

@@ -38,6 +38,17 @@ pub enum ZeroAt {
     HighRatings,
 }
 
+impl ZeroAt {
+    /// A direction in which ratings grow, turned so that it grows away from this end.
+    #[must_use]
+    pub fn oriented(self, direction: Vec<f64>) -> Vec<f64> {
+        match self {
+            Self::LowRatings => direction,
+            Self::HighRatings => direction.into_iter().map(|x| -x).collect(),
+        }
+    }
+}
+
 /// Why an adjective has no line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

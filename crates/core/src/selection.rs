@@ -115,13 +115,23 @@ pub fn paper_chain(
 ) -> Result<PaperChain, SelectionError> {
     error::check(features, target)?;
     let train = Standardized::new(features, &all(features));
-    let forward = forward::select(&train, target, order, most_features(train.n));
-    let thresholds = &mut Thresholds::new(PARALLEL_SEED);
-    let parallel = parallel::analyze(&train, target, &forward.features, thresholds);
+    let (forward, parallel) = select_and_group(&train, target, order, &mut Thresholds::new(PARALLEL_SEED));
     let kept = parallel.as_ref().map_or(&forward.features, |p| &p.kept);
     let explained = component::first(&train, kept).map_or(0.0, |c| c.explained);
     let model = component::cubic_model(&train, target, kept);
     Ok(PaperChain { forward, parallel, explained, model })
+}
+
+/// The first two steps of the published chain.
+fn select_and_group(
+    train: &Standardized,
+    target: &[f64],
+    order: Order,
+    thresholds: &mut Thresholds,
+) -> (Forward, Option<Parallel>) {
+    let forward = forward::select(train, target, order, most_features(train.n));
+    let parallel = parallel::analyze(train, target, &forward.features, thresholds);
+    (forward, parallel)
 }
 
 fn all(features: &FeatureTable) -> Vec<usize> {
@@ -152,9 +162,8 @@ impl Prepared {
     fn choose(&mut self, train: &Standardized, target: &[f64]) -> Choice {
         match self {
             Self::Paper { order, thresholds } => {
-                let selected = forward::select(train, target, *order, most_features(train.n)).features;
-                let parallel = parallel::analyze(train, target, &selected, thresholds);
-                Choice(vec![parallel.map_or(selected, |p| p.kept)])
+                let (forward, parallel) = select_and_group(train, target, *order, thresholds);
+                Choice(vec![parallel.map_or(forward.features, |p| p.kept)])
             }
             Self::Practical { .. } => Choice(ridge::groups(train, target)),
         }

@@ -17,7 +17,7 @@ pub use crate::sorting::finding::Finding;
 
 use crate::dissimilarities::{Dissimilarities, DissimilaritiesError};
 use crate::sorting::agreement::agreement;
-use crate::sorting::finding::{findings_of_pairs, findings_of_sort};
+use crate::sorting::finding::{finding_of_pairs, findings_of_sort};
 
 /// One sorting of textures by one participant.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -161,7 +161,7 @@ pub fn similarity(textures: &[String], sorts: &[Sort]) -> Result<Similarity, Sor
         all.merge(tally);
     }
     let scores = all.scores();
-    findings.extend(findings_of_pairs(textures, &scores));
+    findings.extend(finding_of_pairs(textures, &scores));
     let seen = |i: usize, j: usize| tallies.iter().filter(|t| t.most[i * n + j] > 0.0).count();
     let agreements = agreement(&names, &tallies);
     findings.extend(finding::findings_of_agreements(&agreements));

@@ -11,6 +11,7 @@
 mod adjectives;
 mod axes;
 mod error;
+mod stability;
 mod verdict;
 
 use std::collections::BTreeSet;
@@ -23,17 +24,19 @@ use crate::mds::{MAX_DIMS, Mds, MdsOptions, ShepardPair, by_dimension, shepard};
 use crate::mfcc::MfccOptions;
 use crate::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns};
 use crate::ratings::{AdjectivePair, RaterFit, Rating, RatingTable, RelevanceVote, rater_fits};
-use crate::selection::Method;
-use crate::sorting::{Similarity, Sort, similarity};
+use crate::selection::{MIN_TEXTURES, Method};
+use crate::sorting::{Similarity, Sort, SortingError, similarity};
 use crate::space::{LabelSource, Space, SpacePoint};
 
 pub use crate::space_build::adjectives::Adjective;
-pub use crate::space_build::axes::Axis;
+pub use crate::space_build::axes::{Axis, Prediction};
 pub use crate::space_build::error::SpaceBuildError;
+pub use crate::space_build::stability::{MIN_DRAWN, Stability};
 pub use crate::space_build::verdict::{kruskal_word, verdict};
 
 use crate::space_build::adjectives::fit_adjectives;
-use crate::space_build::axes::fit_axes;
+use crate::space_build::axes::{Axes, fit_axes};
+use crate::space_build::stability::{Drawn, stability};
 
 /// Participants below whom a perceptual space is mostly chance.
 const MIN_SORTERS: usize = 5;
@@ -75,7 +78,9 @@ pub struct SpaceOptions {
     pub placement: Placement,
     /// How often positions are exchanged for the null distribution.
     pub n_permutations: usize,
-    /// Seed of scaling, noise, folds and permutations.
+    /// How often participants are drawn anew, to see how far places hang on who took part.
+    pub n_draws: usize,
+    /// Seed of scaling, noise, folds, permutations and draws.
     pub seed: u64,
 }
 
@@ -132,6 +137,9 @@ pub struct SpaceBuild {
     pub angle_degrees: f64,
     /// Features by name, of which axes use some.
     pub features: FeatureTable,
+    /// How far the places where textures were felt move when participants are drawn anew; `None` without draws, or with
+    /// fewer than [`MIN_DRAWN`] participants.
+    pub stability: Option<Stability>,
     /// Where each texture lies.
     pub positions: Vec<SpacePoint>,
     /// The same, triangulated.
@@ -140,7 +148,7 @@ pub struct SpaceBuild {
     pub findings: Vec<String>,
 }
 
-/// A step on the way, as it begins.
+/// A step on the way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// Sortings are put together.
@@ -153,11 +161,13 @@ pub enum Step {
     Features,
     /// An axis is predicted and tested: the first or the second.
     Axis(usize),
+    /// Participants are drawn anew.
+    Stability,
 }
 
 impl Step {
     /// How many steps there are.
-    pub const COUNT: usize = 6;
+    pub const COUNT: usize = 7;
 
     /// Its place among them, from 0.
     pub fn index(self) -> usize {
@@ -167,13 +177,14 @@ impl Step {
             Self::Adjectives => 2,
             Self::Features => 3,
             Self::Axis(axis) => 4 + axis.min(1),
+            Self::Stability => 6,
         }
     }
 }
 
 impl SpaceOptions {
     /// Two dimensions, mean coefficients in the recommended way, the practical prediction, places as they were felt, a
-    /// thousand permutations.
+    /// thousand permutations, a hundred draws.
     pub fn usual(seed: u64) -> Self {
         Self {
             n_dims: 2,
@@ -185,12 +196,13 @@ impl SpaceOptions {
             method: Method::Practical,
             placement: Placement::Felt,
             n_permutations: 1000,
+            n_draws: 100,
             seed,
         }
     }
 }
 
-/// Builds the space. `on_step` hears of every step as it begins and says whether to go on.
+/// Builds the space. `on_step` hears of every step, many times while it lasts, and says whether to go on.
 ///
 /// # Errors
 /// See [`SpaceBuildError`]; what can be lived with is among the findings.
@@ -199,30 +211,35 @@ pub fn build_space(
     options: &SpaceOptions,
     on_step: &mut dyn FnMut(Step) -> bool,
 ) -> Result<SpaceBuild, SpaceBuildError> {
-    let mut begin = |step: Step| if on_step(step) { Ok(()) } else { Err(SpaceBuildError::Stopped) };
-    begin(Step::Sorting)?;
+    begin(on_step, Step::Sorting)?;
     if !(2..=MAX_DIMS).contains(&options.n_dims) {
         return Err(SpaceBuildError::Dims { n_dims: options.n_dims });
     }
     check_names(data)?;
     let table = RatingTable::new(&data.ratings)?;
+    if data.sorts.is_empty() {
+        return Err(SortingError::NoSorts.into());
+    }
     let in_sorts: BTreeSet<&str> =
         data.sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| p.texture.as_str())).collect();
     let (sorted, not_sorted): (Vec<NamedTexture<'_>>, Vec<_>) =
         data.textures.iter().partition(|texture| in_sorts.contains(texture.name));
     let textures: Vec<String> = sorted.iter().map(|texture| texture.name.to_owned()).collect();
+    if textures.len() < options.n_dims + 2 {
+        return Err(SpaceBuildError::TooFewTextures { n_textures: textures.len(), n_dims: options.n_dims });
+    }
     let similarity = similarity(&textures, &data.sorts)?;
     let dissimilarities: Dissimilarities = similarity.dissimilarities()?;
 
-    begin(Step::Scaling)?;
     // A space cannot have as many dimensions as textures.
     let most_dims = MAX_DIMS.min(textures.len().saturating_sub(2)).max(options.n_dims);
-    let all_dims = by_dimension(&dissimilarities, 1..=most_dims, &options.mds)?;
+    let mut go_on = || on_step(Step::Scaling);
+    let all_dims = by_dimension(&dissimilarities, 1..=most_dims, &options.mds, &mut go_on)?;
     let stress: Vec<f64> = all_dims.iter().map(|mds| mds.stress).collect();
     let perceptual = all_dims[options.n_dims - 1].clone();
     let shepard = shepard(&dissimilarities, &perceptual.points, options.mds.ties)?;
 
-    begin(Step::Adjectives)?;
+    begin(on_step, Step::Adjectives)?;
     let mut findings: Vec<String> = similarity.findings.iter().map(ToString::to_string).collect();
     let n_sorters = similarity.agreements.len();
     if n_sorters < MIN_SORTERS {
@@ -237,16 +254,33 @@ pub fn build_space(
     let raters: Vec<(String, RaterFit)> =
         table.participants().iter().cloned().zip(rater_fits(&table)).collect();
 
-    begin(Step::Features)?;
-    let features = features(&sorted, options)?;
+    begin(on_step, Step::Features)?;
+    let features = features(&sorted, options, &mut || on_step(Step::Features))?;
     findings.extend(features.warnings.iter().map(ToString::to_string));
 
-    let (axes, angle_degrees) =
-        fit_axes(&adjectives, &perceptual.points, &features, options, &mut |axis| begin(Step::Axis(axis)))?;
-    if let Some(unusual) = unusual_axes(&axes) {
-        findings.push(unusual);
+    let mut go_on = |axis| on_step(Step::Axis(axis));
+    let Axes { fitted: axes, angle_degrees, chosen } =
+        fit_axes(&adjectives, &perceptual.points, &features, options, &mut go_on)?;
+    if axes.iter().any(|axis| axis.prediction.is_none()) {
+        findings.push(format!(
+            "{} textures are too few to say what predicts an axis: {MIN_TEXTURES} are the least, 25 are usual",
+            textures.len()
+        ));
     }
+    begin(on_step, Step::Stability)?;
+    let drawn = Drawn {
+        textures: &textures,
+        sorts: &data.sorts,
+        ratings: &table,
+        // Adjectives are in the order of the table.
+        axes: chosen,
+        n_dims: options.n_dims,
+        is_orthogonal: options.is_orthogonal,
+        mds: &options.mds,
+    };
+    let stability = stability(&drawn, options.n_draws, options.seed, &mut || on_step(Step::Stability))?;
     let positions = positions(&axes, options.placement);
+    findings.extend(coincident(&textures, &positions));
     let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
     Ok(SpaceBuild {
         textures,
@@ -263,6 +297,7 @@ pub fn build_space(
         axes,
         angle_degrees,
         features,
+        stability,
         positions,
         space,
         findings,
@@ -290,36 +325,55 @@ fn check_names(data: &SpaceData<'_>) -> Result<(), SpaceBuildError> {
     Ok(())
 }
 
-fn features(textures: &[NamedTexture<'_>], options: &SpaceOptions) -> Result<FeatureTable, SpaceBuildError> {
+/// Goes on with a step, or not.
+fn begin(on_step: &mut dyn FnMut(Step) -> bool, step: Step) -> Result<(), SpaceBuildError> {
+    if on_step(step) { Ok(()) } else { Err(SpaceBuildError::Stopped) }
+}
+
+fn features(
+    textures: &[NamedTexture<'_>],
+    options: &SpaceOptions,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<FeatureTable, SpaceBuildError> {
     let contacts = paper_patterns();
     let patterns =
         PatternPlan { contacts: &contacts, seconds: PAPER_SECS, rate: PAPER_RATE, seed: options.seed };
     let plan = FeaturePlan { patterns, mfcc: &options.mfcc };
     Ok(match options.features {
-        FeatureKind::Mfcc => per_pattern(textures, &plan, Statistic::Mean)?,
-        FeatureKind::MfccFrames => per_frame(textures, &plan)?,
+        FeatureKind::Mfcc => per_pattern(textures, &plan, Statistic::Mean, go_on)?,
+        FeatureKind::MfccFrames => per_frame(textures, &plan, go_on)?,
         FeatureKind::Physical => physical_table(textures, &contacts)?,
-        FeatureKind::MfccAndPhysical => {
-            per_pattern(textures, &plan, Statistic::Mean)?.beside(&physical_table(textures, &contacts)?)
-        }
+        FeatureKind::MfccAndPhysical => per_pattern(textures, &plan, Statistic::Mean, go_on)?
+            .beside(&physical_table(textures, &contacts)?),
     })
 }
 
-/// What is to be known where the axes are not those that the square is named by.
-fn unusual_axes(axes: &[Axis; 2]) -> Option<String> {
-    let names = axes.each_ref().map(|axis| axis.pair.name().to_lowercase());
-    (names != ["rough-smooth", "hard-soft"]).then(|| {
-        format!(
-            "the axes are {} and {}: they take the places of rough-smooth and hard-soft in the library, where 0 is {} and {}",
-            names[0], names[1], axes[0].pair.low, axes[1].pair.low
-        )
-    })
+/// Distance in points of 100 below which two textures cannot be told apart in the space.
+const COINCIDENT: f64 = 0.5;
+
+/// What is to be known of textures at one place.
+fn coincident(textures: &[String], positions: &[SpacePoint]) -> Option<String> {
+    let pairs = (0..textures.len()).flat_map(|i| (i + 1..textures.len()).map(move |j| (i, j)));
+    let same: Vec<(usize, usize)> =
+        pairs.filter(|(i, j)| positions[*i].distance(positions[*j]) < COINCIDENT).collect();
+    let (i, j) = *same.first()?;
+    let more = match same.len() {
+        1 => String::new(),
+        n => format!(" (and {} more pairs)", n - 1),
+    };
+    Some(format!(
+        "{} and {}{more} lie at one place, closer than {COINCIDENT} points: a point there is a blend of both",
+        textures[i], textures[j]
+    ))
 }
 
 fn positions([first, second]: &[Axis; 2], placement: Placement) -> Vec<SpacePoint> {
     let of = |axis: &Axis| match placement {
         Placement::Felt => axis.felt.clone(),
-        Placement::Predicted => axis.predicted.clone(),
+        // Without a prediction there would have been an error.
+        Placement::Predicted => {
+            axis.prediction.as_ref().map_or_else(|| axis.felt.clone(), |p| p.predicted.clone())
+        }
     };
     let pairs = of(first).into_iter().zip(of(second));
     pairs.map(|(rough_smooth, hard_soft)| SpacePoint { rough_smooth, hard_soft }).collect()

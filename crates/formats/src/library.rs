@@ -34,6 +34,11 @@
 //!
 //! - `"space_report": {…}`: how its space was made and how far it can be believed, as `shagreen space build` prints it.
 //!
+//! Version 1.3 added, to the library:
+//!
+//! - `"axes": ["warm-cold", "flat-bumpy"]`: the attributes that `rough_smooth` and `hard_soft` of every place stand for,
+//!   where they are others than their names say.
+//!
 //! A file says the lowest version that has all it uses.
 //!
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
@@ -67,7 +72,9 @@ pub const FORMAT: &str = "shagreen-library";
 /// Major version that is read and written: files of another one are refused.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written: fields may be added by a higher one.
-pub const VERSION_MINOR: u32 = 2;
+pub const VERSION_MINOR: u32 = 3;
+/// Names of the two axes of a space, where a library names no others.
+pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
 /// Textures that belong together.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -84,6 +91,9 @@ pub struct Library {
     pub created_by: String,
     /// Seed of all that is random in it, where it was made by a program.
     pub seed: Option<u64>,
+    /// Names of the attributes that the two coordinates of its places stand for, each by its two poles, the one at 0
+    /// first; `None` for [`USUAL_AXES`]. Neither empty nor the same.
+    pub axes: Option<[String; 2]>,
     /// How its space was made and how far it can be believed: a JSON object, as `shagreen space build` prints it.
     pub space_report: Option<Value>,
     /// The textures. Identifiers are unique; a texture is known by its index here.
@@ -198,6 +208,11 @@ impl Library {
     /// Index of the texture with this identifier.
     pub fn index_of(&self, id: &str) -> Option<usize> {
         self.textures.iter().position(|texture| texture.id == id)
+    }
+
+    /// Names of the attributes that the two coordinates of its places stand for.
+    pub fn axis_names(&self) -> [&str; 2] {
+        self.axes.as_ref().map_or(USUAL_AXES, |axes| axes.each_ref().map(String::as_str))
     }
 
     /// Positions of all textures, indexed as [`Library::textures`]: what a space is made of.

@@ -4,10 +4,11 @@ use serde_json::{Value, json};
 use shagreen_core::mds::Ties;
 use shagreen_core::property::correlation_table;
 use shagreen_core::ratings::Agreement;
-use shagreen_core::space_build::{Adjective, Axis, Placement, SpaceBuild, kruskal_word, verdict};
+use shagreen_core::selection::PaperChain;
+use shagreen_core::space_build::{Adjective, Axis, Placement, Prediction, SpaceBuild, kruskal_word, verdict};
 
 use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
-use crate::library::{Attribute, Attributes, Library, Place};
+use crate::library::{Attribute, Attributes, Library, Place, USUAL_AXES};
 
 /// What the field `format` of a report holds.
 pub const FORMAT: &str = "shagreen-space-report";
@@ -24,7 +25,7 @@ pub const FIGURES: [&str; 8] = [
 ];
 
 /// Version of the report.
-const VERSION: &str = "1.0";
+const VERSION: &str = "1.1";
 
 /// The report: everything that was measured on the way, in one object.
 pub fn space_report(build: &SpaceBuild) -> Value {
@@ -48,6 +49,12 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         "axes": build.axes.iter().map(|axis| self::axis(build, axis)).collect::<Vec<_>>(),
         "angle_degrees": build.angle_degrees,
         "axes_turned_orthogonal": options.is_orthogonal,
+        "stability": build.stability.as_ref().map(|stability| json!({
+            "draws": stability.n_draws,
+            "failed_draws": stability.n_failed,
+            "deviation": stability.typical,
+            "angle_deviation_degrees": stability.angle_deviation_degrees,
+        })),
         "features": {"kind": options.features.id(), "label": build.features.label, "n": build.features.names.len()},
         "selection": options.method.id(),
         "placed_by": options.placement.id(),
@@ -81,40 +88,68 @@ fn adjective(adjective: &Adjective) -> Value {
         "why_no_line": adjective.line.as_ref().err().map(ToString::to_string),
         "relevance": adjective.relevance,
         "relevant": adjective.is_relevant,
+        "means": adjective.ratings.iter().map(|average| average.mean).collect::<Vec<_>>(),
+        "half_widths_95": adjective.ratings.iter().map(|average| average.half_width).collect::<Vec<_>>(),
         "icc_single": icc(|a| [a.single.value, a.single.low, a.single.high]),
         "icc_mean": icc(|a| [a.average.value, a.average.low, a.average.high]),
     })
 }
 
+/// Fields of a prediction that was not made are null.
 fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
-    let v = &axis.validation;
+    let prediction = axis.prediction.as_ref();
+    let v = prediction.map(|prediction| &prediction.validation);
+    let chain = prediction.and_then(|prediction| prediction.chain.as_ref());
     json!({
         "name": axis.pair.name(),
         "direction": axis.direction,
         "r2": build.adjectives[axis.adjective].line.as_ref().ok().map(|line| line.r_squared),
-        "features": axis.features,
-        "cv_r": v.cv_r,
-        "cv_rms_percent": v.cv_rms_percent,
-        "nested_cv_r": v.nested_cv_r,
-        "nested_cv_rms_percent": v.nested_cv_rms_percent,
-        "mean_rms_percent": v.mean_rms_percent,
-        "permutation_p": v.permutation_p,
-        "permutations": v.n_permutations,
-        "null_r_95": v.null_r_95,
-        "folds": v.scheme.n_folds,
-        "repeats": v.scheme.n_repeats,
+        "features": prediction.map_or(&[][..], |prediction| &prediction.features),
+        "cv_r": v.map(|v| v.cv_r),
+        "cv_rms_percent": v.map(|v| v.cv_rms_percent),
+        "nested_cv_r": v.map(|v| v.nested_cv_r),
+        "nested_cv_plain_r": v.map(|v| v.nested_cv_plain_r),
+        "nested_cv_rms_percent": v.map(|v| v.nested_cv_rms_percent),
+        "mean_rms_percent": v.map(|v| v.mean_rms_percent),
+        "permutation_p": v.and_then(|v| v.permutation_p),
+        "permutations": v.map_or(0, |v| v.n_permutations),
+        "null_r_95": v.and_then(|v| v.null_r_95),
+        "folds": v.map(|v| v.scheme.n_folds),
+        "repeats": v.map(|v| v.scheme.n_repeats),
+        "chain": chain.map(|chain| self::chain(build, chain)),
+    })
+}
+
+/// The steps of the published selection.
+fn chain(build: &SpaceBuild, chain: &PaperChain) -> Value {
+    let name = |feature: &usize| &build.features.names[*feature];
+    json!({
+        "selected": chain.forward.features.iter().map(name).collect::<Vec<_>>(),
+        "partial_f_p": chain.forward.p_values,
+        "parallel": chain.parallel.as_ref().map(|parallel| json!({
+            "threshold": parallel.threshold,
+            "winning_groups": parallel.n_winning,
+            "counts": parallel.counts,
+            "kept": parallel.kept.iter().map(name).collect::<Vec<_>>(),
+        })),
+        "explained": chain.explained,
     })
 }
 
 fn positions(build: &SpaceBuild) -> Vec<Value> {
     let [first, second] = &build.axes;
+    let of_both = |of: &dyn Fn(&Prediction) -> f64| {
+        let [first, second] = [first, second].map(|axis| axis.prediction.as_ref().map(of));
+        first.zip(second).map(|(first, second)| [first, second])
+    };
     let position = |(i, id): (usize, &String)| {
         json!({
             "id": id,
             "at": [build.positions[i].rough_smooth, build.positions[i].hard_soft],
             "felt": [first.felt[i], second.felt[i]],
-            "predicted": [first.predicted[i], second.predicted[i]],
-            "nested_predicted": [first.validation.predicted[i], second.validation.predicted[i]],
+            "deviation": build.stability.as_ref().map(|stability| stability.deviations[i]),
+            "predicted": of_both(&|prediction| prediction.predicted[i]),
+            "nested_predicted": of_both(&|prediction| prediction.validation.predicted[i]),
             "perceptual": build.perceptual.points[i],
         })
     };
@@ -138,6 +173,9 @@ pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
         }
     }
     placed.space_report = Some(report);
+    let names = build.axes.each_ref().map(|axis| axis.pair.name());
+    let is_usual = (0..2).all(|axis| names[axis].eq_ignore_ascii_case(USUAL_AXES[axis]));
+    placed.axes = (!is_usual).then_some(names);
     placed
 }
 
@@ -289,13 +327,20 @@ fn adjectives(build: &SpaceBuild) -> Figure {
 }
 
 fn predicted(build: &SpaceBuild, axis: &Axis) -> Figure {
-    let v = &axis.validation;
-    let dots = build.textures.iter().enumerate();
-    let dots = dots.map(|(i, id)| Point::named(axis.felt[i], v.predicted[i], id)).collect();
-    let seen = axis.felt.iter().zip(&axis.predicted).map(|(felt, p)| Point::new(*felt, *p)).collect();
-    let chance = v.permutation_p.map_or_else(String::new, |p| format!(", p = {p:.3}"));
+    let (mut dots, mut seen) = (Vec::new(), Vec::new());
+    let mut title = format!("{}: not predicted from so few textures", axis.pair);
+    if let Some(Prediction { validation: v, predicted, .. }) = &axis.prediction {
+        let named = build.textures.iter().enumerate();
+        dots = named.map(|(i, id)| Point::named(axis.felt[i], v.predicted[i], id)).collect();
+        seen = axis.felt.iter().zip(predicted).map(|(felt, p)| Point::new(*felt, *p)).collect();
+        let chance = v.permutation_p.map_or_else(String::new, |p| format!(", p = {p:.3}"));
+        title = format!(
+            "{}: nested r {:.2}{chance}; features chosen on all {:.2}",
+            axis.pair, v.nested_cv_r, v.cv_r
+        );
+    }
     chart(
-        format!("{}: nested r {:.2}{chance}; features chosen on all {:.2}", axis.pair, v.nested_cv_r, v.cv_r),
+        title,
         ["felt, 0 to 100", "predicted, 0 to 100"],
         false,
         vec![

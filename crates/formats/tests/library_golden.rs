@@ -15,6 +15,7 @@ use shagreen_formats::picture::{PictureFormat, decode};
 const V1_0: &[u8] = include_bytes!("golden/library-1.0.json");
 const V1_1: &[u8] = include_bytes!("golden/library-1.1.json");
 const V1_2: &[u8] = include_bytes!("golden/library-1.2.json");
+const V1_3: &[u8] = include_bytes!("golden/library-1.3.json");
 
 /// Reads without a warning.
 fn read(bytes: &[u8]) -> Library {
@@ -108,8 +109,28 @@ fn version_1_2() {
 }
 
 #[test]
+fn version_1_3() {
+    let library = read(V1_3);
+    check_head(&library, "1.3");
+    check_cork(&library.textures[0]);
+    assert_eq!(library.axis_names(), ["warm-cold", "flat-bumpy"]);
+    assert_eq!(read(V1_2).axis_names(), ["rough-smooth", "hard-soft"]);
+    assert_eq!(library.textures[0].attributes, read(V1_2).textures[0].attributes);
+}
+
+#[test]
+fn axes_are_two_attributes() {
+    for axes in [json!(["warm-cold"]), json!(["a-b", "a-b"]), json!(["", "a-b"]), json!(["a", "b", "c"])] {
+        let mut value: Value = serde_json::from_slice(V1_3).unwrap();
+        value["axes"] = axes;
+        let message = read_library(value.to_string().as_bytes()).unwrap_err().to_string();
+        assert!(message.contains("two attributes that differ"), "{message}");
+    }
+}
+
+#[test]
 fn what_is_not_known_is_written_back() {
-    for golden in [V1_0, V1_1, V1_2] {
+    for golden in [V1_0, V1_1, V1_2, V1_3] {
         let before: Value = serde_json::from_slice(golden).unwrap();
         let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
         assert_eq!(after, before);
@@ -122,7 +143,9 @@ fn a_library_says_the_lowest_version_that_has_what_it_uses() {
         let value: Value = serde_json::from_slice(&write_library(library)).unwrap();
         value["version"].as_str().unwrap().to_owned()
     };
-    let mut library = read(V1_2);
+    let mut library = read(V1_3);
+    assert_eq!(version(&library), "1.3");
+    library.axes = None;
     assert_eq!(version(&library), "1.2");
     library.space_report = None;
     assert_eq!(version(&library), "1.2");

@@ -22,6 +22,7 @@ impl Opened {
             license: library.license.clone(),
             created_by: library.created_by.clone(),
             seed: library.seed,
+            axes: library.axes.clone(),
             space_report: library.space_report.clone(),
             textures: Vec::new(),
             unknown: library.unknown.clone(),

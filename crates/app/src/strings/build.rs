@@ -221,6 +221,7 @@ pub fn step(step: Step) -> String {
         Step::Features => "stroking textures",
         Step::Axis(0) => "predicting the axis across",
         Step::Axis(_) => "predicting the axis up",
+        Step::Stability => "drawing participants anew",
     };
     format!("{} of {}: {what}", step.index() + 1, Step::COUNT)
 }

@@ -9,6 +9,9 @@ use crate::patterns::{PatternError, PatternWarning};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FeatureError {
+    /// It was asked to stop.
+    #[error("the features were not finished")]
+    Stopped,
     /// There are no textures.
     #[error("there are no textures to take features of")]
     NoTextures,

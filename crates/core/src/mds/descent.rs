@@ -31,6 +31,8 @@ pub(super) struct End {
     pub(super) converged: bool,
     /// Steps taken.
     pub(super) n_steps: usize,
+    /// Whether it was asked to stop before its end.
+    pub(super) was_stopped: bool,
 }
 
 /// Steps whose curvature is remembered.
@@ -49,10 +51,11 @@ const MAX_SHORTENED: usize = 20;
 const ROUNDING: f64 = 1e-10;
 
 /// Moves `points` down to where the value stands still: a step brings less than the tolerance, and the Guttman
-/// transform promises no more than that either.
+/// transform promises no more than that either. `go_on` is asked before every step.
 pub(super) fn descend(
     points: &mut [f64],
     stop: Stop,
+    go_on: &mut dyn FnMut() -> bool,
     mut evaluate: impl FnMut(&[f64], &mut [f64]) -> Evaluation,
 ) -> End {
     let mut gradient = vec![0.0; points.len()];
@@ -62,6 +65,9 @@ pub(super) fn descend(
     let mut at = evaluate(points, &mut gradient);
     let mut n_steps = 0;
     while n_steps < stop.max_steps && at.value > PERFECT && at.value.is_finite() {
+        if !go_on() {
+            return End { at, converged: false, n_steps, was_stopped: true };
+        }
         memory.direct(&gradient, at.guttman, &mut direction);
         let mut slope = -dot(&gradient, &direction);
         if slope.is_nan() || slope >= 0.0 {
@@ -73,7 +79,7 @@ pub(super) fn descend(
             if memory.steps.is_empty() {
                 // Not even the step that is sure to descend does: there is nothing left but rounding.
                 let promised = 0.5 * at.guttman * dot(&gradient, &gradient);
-                return End { at, converged: promised <= ROUNDING * at.value, n_steps };
+                return End { at, converged: promised <= ROUNDING * at.value, n_steps, was_stopped: false };
             }
             memory.steps.clear();
             continue;
@@ -86,10 +92,10 @@ pub(super) fn descend(
         let (fell, promised) = (at.value - next.value, 0.5 * next.guttman * dot(&gradient, &gradient));
         at = next;
         if fell <= still && promised <= still {
-            return End { at, converged: true, n_steps };
+            return End { at, converged: true, n_steps, was_stopped: false };
         }
     }
-    End { at, converged: at.value <= PERFECT, n_steps }
+    End { at, converged: at.value <= PERFECT, n_steps, was_stopped: false }
 }
 
 /// A point that a step leads to, and the gradient there.

@@ -159,7 +159,8 @@ fn stress_is_what_the_result_says() {
         let found = nonmetric(&items, 2, &MdsOptions { ties, ..MdsOptions::usual(1) }).unwrap();
         // The points were turned and scaled meanwhile.
         assert!((stress(&items, &found.points, ties).unwrap() - found.stress).abs() < 1e-12);
-        let by_dims = by_dimension(&items, 1..=4, &MdsOptions { ties, ..MdsOptions::usual(1) }).unwrap();
+        let by_dims =
+            by_dimension(&items, 1..=4, &MdsOptions { ties, ..MdsOptions::usual(1) }, &mut || true).unwrap();
         let by_dims: Vec<f64> = by_dims.iter().map(|mds| mds.stress).collect();
         assert!(by_dims.is_sorted_by(|a, b| a >= b) && by_dims[1] <= found.stress, "{by_dims:?}");
     }

@@ -7,6 +7,9 @@ use crate::statistics::is_constant;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SelectionError {
+    /// It was asked to stop.
+    #[error("the validation was not finished")]
+    Stopped,
     /// There is no feature, or no texture.
     #[error("there are no features")]
     NoFeatures,

@@ -36,6 +36,9 @@ pub struct Validation {
     /// Correlation where features are selected inside each fold, both sides measured from the mean of the training
     /// textures (see [`crate::selection`]); 0 where nothing but that mean was ever predicted.
     pub nested_cv_r: f64,
+    /// Plain correlation of the same predictions with positions: the definition of [`Validation::cv_r`], to be compared
+    /// with it. Below zero by nature where nothing is found (see [`crate::selection`]); 0 as above.
+    pub nested_cv_plain_r: f64,
     /// Range-normalized accuracy of the same, in percent.
     pub nested_cv_rms_percent: f64,
     /// What predicting the mean of the training textures has as range-normalized accuracy, in percent: what any model
@@ -55,6 +58,7 @@ pub struct Validation {
 /// Validates a method on features and positions, 0..100. The same seed gives the same result.
 ///
 /// Takes folds × repeats × permutations fits: with 25 textures and 325 features, a few seconds in a release build.
+/// `go_on` is asked before every fit.
 ///
 /// # Errors
 /// See [`SelectionError`].
@@ -63,6 +67,7 @@ pub fn validate(
     target: &[f64],
     method: Method,
     scheme: &Scheme,
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Validation, SelectionError> {
     error::check(features, target)?;
     let n = target.len();
@@ -82,6 +87,9 @@ pub fn validate(
         let train = Standardized::new(features, &textures);
         let mut prepared = Prepared::new(&train, method);
         for (index, (target, product)) in targets.iter().zip(&mut products).enumerate() {
+            if !go_on() {
+                return Err(SelectionError::Stopped);
+            }
             let known: Vec<f64> = textures.iter().map(|t| target[*t]).collect();
             let choice = prepared.choose(&train, &known);
             let model = prepared.estimate(&train, &known, &choice);
@@ -101,13 +109,16 @@ pub fn validate(
     let as_high = null.iter().filter(|r| **r >= observed).count();
     let chosen = chosen_on_all(features, target, method, &folds);
     // Means of the training textures alone are no prediction, whatever their correlation (see the module above).
-    let found = chosen.predictions != flat.predictions;
-    let cv_r = if found { correlation(&chosen.targets, &chosen.predictions).unwrap_or(0.0) } else { 0.0 };
+    let plain_r = |left_out: &LeftOut| {
+        let found = left_out.predictions != flat.predictions;
+        if found { correlation(&left_out.targets, &left_out.predictions).unwrap_or(0.0) } else { 0.0 }
+    };
     Ok(Validation {
         scheme: *scheme,
-        cv_r,
+        cv_r: plain_r(&chosen),
         cv_rms_percent: chosen.rms_percent(),
         nested_cv_r: observed,
+        nested_cv_plain_r: plain_r(&nested),
         nested_cv_rms_percent: nested.rms_percent(),
         mean_rms_percent: flat.rms_percent(),
         permutation_p: (!null.is_empty()).then(|| (1 + as_high) as f64 / (1 + null.len()) as f64),

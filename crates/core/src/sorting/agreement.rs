@@ -2,6 +2,7 @@
 
 use crate::sorting::Tally;
 use crate::spectrum::median;
+use crate::statistics::correlation;
 
 /// How a participant agrees with the others.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,35 +54,6 @@ fn with_others(own: &Tally, all: &Tally) -> Option<f64> {
     // Scores are whole numbers, so what is left is exact.
     let [own, others] = [own.scores(), all.without(own).scores()];
     let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
-    let both: Vec<(f64, f64)> = pairs.filter_map(|(i, j)| own[i][j].zip(others[i][j])).collect();
-    correlation(&both)
-}
-
-fn correlation(pairs: &[(f64, f64)]) -> Option<f64> {
-    if pairs.len() < MIN_PAIRS {
-        return None;
-    }
-    let n = pairs.len() as f64;
-    let (sum_x, sum_y) = pairs.iter().fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x, sy + y));
-    let sum = |of: &dyn Fn(f64, f64) -> f64| {
-        pairs.iter().map(|(x, y)| of(x - sum_x / n, y - sum_y / n)).sum::<f64>()
-    };
-    let (xx, xy, yy) = (sum(&|x, _| x * x), sum(&|x, y| x * y), sum(&|_, y| y * y));
-    // Scores are percentages: what is left of equal ones is rounding.
-    let constant = |square: f64| square <= n * 1e-20;
-    (!constant(xx) && !constant(yy)).then(|| xy / (xx * yy).sqrt())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::correlation;
-
-    #[test]
-    fn correlations_by_hand() {
-        assert_eq!(correlation(&[(1.0, 2.0), (2.0, 4.0)]), None);
-        assert_eq!(correlation(&[(1.0, 2.0), (1.0, 4.0), (1.0, 3.0)]), None);
-        assert_eq!(correlation(&[(1.0, 2.0), (2.0, 4.0), (3.0, 6.0)]), Some(1.0));
-        // Deviations (-1, 0, 1) and (0, -1, 1): product 1, squares 2 and 2.
-        assert_eq!(correlation(&[(1.0, 1.0), (2.0, 0.0), (3.0, 2.0)]), Some(0.5));
-    }
+    let (own, others): (Vec<f64>, Vec<f64>) = pairs.filter_map(|(i, j)| own[i][j].zip(others[i][j])).unzip();
+    if own.len() < MIN_PAIRS { None } else { correlation(&own, &others) }
 }

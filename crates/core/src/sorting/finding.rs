@@ -41,12 +41,10 @@ pub enum Finding {
         /// Which sort.
         trial: String,
     },
-    /// No sort has both textures of a pair; their similarity is not known.
+    /// No sort has both textures of some pairs; their similarities are not known.
     NeverTogether {
-        /// Name of a texture.
-        first: String,
-        /// Name of the other.
-        second: String,
+        /// Names of the textures of each pair.
+        pairs: Vec<[String; 2]>,
     },
     /// A participant sorted unlike the others.
     Outlying {
@@ -58,6 +56,9 @@ pub enum Finding {
         median: f64,
     },
 }
+
+/// Pairs that a sentence names before it counts the rest.
+const N_NAMED: usize = 3;
 
 impl Finding {
     /// A short name that scripts can look for.
@@ -93,8 +94,17 @@ impl fmt::Display for Finding {
             Self::NoPair { participant, trial } => {
                 write!(f, "participant {participant:?}, trial {trial:?} has fewer than two textures")
             }
-            Self::NeverTogether { first, second } => {
-                write!(f, "{first:?} and {second:?} are in no sort together; their similarity is not known")
+            Self::NeverTogether { pairs } => {
+                let named = pairs.iter().take(N_NAMED).map(|[a, b]| format!("{a:?} and {b:?}"));
+                let more = match pairs.len().saturating_sub(N_NAMED) {
+                    0 => String::new(),
+                    n => format!(", and {n} more pairs"),
+                };
+                write!(
+                    f,
+                    "{}{more} are in no sort together; their similarity is not known",
+                    named.collect::<Vec<_>>().join(", ")
+                )
             }
             Self::Outlying { participant, correlation, median } => write!(
                 f,
@@ -129,14 +139,11 @@ pub(super) fn findings_of_sort(sort: &Sort, groups: &BTreeMap<&str, Vec<usize>>)
 }
 
 /// Pairs that have no score.
-pub(super) fn findings_of_pairs(textures: &[String], scores: &[Vec<Option<f64>>]) -> Vec<Finding> {
+pub(super) fn finding_of_pairs(textures: &[String], scores: &[Vec<Option<f64>>]) -> Option<Finding> {
     let pairs = (0..textures.len()).flat_map(|i| (i + 1..textures.len()).map(move |j| (i, j)));
     let unknown = pairs.filter(|(i, j)| scores[*i][*j].is_none());
-    let finding = |(i, j): (usize, usize)| Finding::NeverTogether {
-        first: textures[i].clone(),
-        second: textures[j].clone(),
-    };
-    unknown.map(finding).collect()
+    let pairs: Vec<[String; 2]> = unknown.map(|(i, j)| [textures[i].clone(), textures[j].clone()]).collect();
+    (!pairs.is_empty()).then_some(Finding::NeverTogether { pairs })
 }
 
 /// Participants that sorted unlike the others.

@@ -159,7 +159,7 @@ fn sorts_that_say_nothing_are_found() {
 #[test]
 fn pairs_that_nobody_sorted_together_are_named() {
     let found = of(4, &[sort("a", "1", 2, "xx.y"), sort("b", "1", 2, ".xxy")]);
-    let pair = Finding::NeverTogether { first: "texture 0".to_owned(), second: "texture 2".to_owned() };
+    let pair = Finding::NeverTogether { pairs: vec![["texture 0".to_owned(), "texture 2".to_owned()]] };
     assert_eq!(found.findings, [pair]);
     assert_eq!((found.scores[0][2], found.n_participants[0][2]), (None, 0));
     assert_eq!(found.dissimilarities().unwrap().between(0, 2), None);

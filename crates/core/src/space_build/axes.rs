@@ -3,8 +3,11 @@
 use crate::features::FeatureTable;
 use crate::property::{ZeroAt, angle_degrees, axis_positions, orthogonal_to, project};
 use crate::ratings::AdjectivePair;
-use crate::selection::{self, AxisModel, STANDARD, Scheme, Validation, fit_axis, validate};
-use crate::space_build::{Adjective, SpaceBuildError, SpaceOptions};
+use crate::selection::{
+    self, AxisModel, Method, PaperChain, STANDARD, Scheme, SelectionError, Validation, fit_axis, paper_chain,
+    validate,
+};
+use crate::space_build::{Adjective, Placement, SpaceBuildError, SpaceOptions};
 
 /// An axis of an authoring space.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,69 +20,104 @@ pub struct Axis {
     pub direction: Vec<f64>,
     /// Where each texture falls on it, 0..100.
     pub felt: Vec<f64>,
-    /// What its features make of each texture, 0..100: by a model that has seen it.
+    /// What features make of it; `None` with fewer textures than [`selection::MIN_TEXTURES`].
+    pub prediction: Option<Prediction>,
+}
+
+/// What the features of textures make of their places on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prediction {
+    /// The place of each texture, 0..100, by a model that has seen it.
     pub predicted: Vec<f64>,
     /// The model of features.
     pub model: AxisModel,
+    /// The steps that led to it, by [`Method::Paper`].
+    pub chain: Option<PaperChain>,
     /// Names of the features that the model uses.
     pub features: Vec<String>,
     /// What the model is worth on textures that it has not seen.
     pub validation: Validation,
 }
 
+/// The axes, and what they were made from.
+pub(super) struct Axes {
+    pub(super) fitted: [Axis; 2],
+    /// The angle of the lines of the two pairs, in degrees.
+    pub(super) angle_degrees: f64,
+    /// Indices of the pairs among the adjectives, and which of their ends is 0.
+    pub(super) chosen: [(usize, ZeroAt); 2],
+}
+
 /// Poles of the axes of choice.
 const USUAL: [[&str; 2]; 2] = [["rough", "smooth"], ["hard", "soft"]];
 
-/// The axes, and the angle of their lines in degrees.
+/// The axes. `go_on` is asked before every fit, with the index of the axis.
 pub(super) fn fit_axes(
     adjectives: &[Adjective],
     points: &[Vec<f64>],
     features: &FeatureTable,
     options: &SpaceOptions,
-    begin: &mut dyn FnMut(usize) -> Result<(), SpaceBuildError>,
-) -> Result<([Axis; 2], f64), SpaceBuildError> {
+    go_on: &mut dyn FnMut(usize) -> bool,
+) -> Result<Axes, SpaceBuildError> {
     let chosen = choose(adjectives, options)?;
     let oriented = chosen.map(|(index, zero_at)| {
         let line = adjectives[index].line.as_ref().map_or_else(|_| Vec::new(), |line| line.direction.clone());
-        match zero_at {
-            ZeroAt::LowRatings => line,
-            ZeroAt::HighRatings => line.iter().map(|x| -x).collect(),
-        }
+        zero_at.oriented(line)
     });
-    let angle = angle_degrees(&oriented[0], &oriented[1]);
+    let angle_degrees = angle_degrees(&oriented[0], &oriented[1]);
     let [first, mut second] = oriented;
     if options.is_orthogonal {
         second = orthogonal_to(&second, std::slice::from_ref(&first))
             .map_err(|source| SpaceBuildError::Axis { pair: adjectives[chosen[1].0].pair.name(), source })?;
     }
-    let rows: Vec<Vec<f64>> = features.values.rows().into_iter().map(|row| row.to_vec()).collect();
     let mut fit = |at: usize, direction: Vec<f64>| -> Result<Axis, SpaceBuildError> {
-        begin(at)?;
         let (adjective, zero_at) = chosen[at];
         let pair = as_axis(&adjectives[adjective].pair, zero_at);
         let felt = axis_positions(&project(points, &direction), ZeroAt::LowRatings)
             .ok_or_else(|| SpaceBuildError::FlatAxis { pair: pair.name() })?;
-        let failed = |source| SpaceBuildError::Selection { pair: pair.name(), source };
-        let columns = selection::FeatureTable::from_rows(&rows).map_err(failed)?;
-        let model = fit_axis(&columns, &felt, options.method).map_err(failed)?;
-        let scheme = Scheme { n_permutations: options.n_permutations, seed: options.seed, ..STANDARD };
-        let validation = validate(&columns, &felt, options.method, &scheme).map_err(failed)?;
-        let mut used: Vec<usize> = model.features().collect();
-        used.sort_unstable();
-        used.dedup();
-        Ok(Axis {
-            features: used.into_iter().map(|feature| features.names[feature].clone()).collect(),
-            // Features of a table are finite, so a model has an answer for every row.
-            predicted: rows.iter().map(|row| model.predict(row).unwrap_or(50.0)).collect(),
-            pair,
-            adjective,
-            direction,
-            felt,
-            model,
-            validation,
-        })
+        let prediction = match predict(features, &felt, options, &mut || go_on(at)) {
+            Ok(prediction) => Some(prediction),
+            Err(SelectionError::Stopped) => return Err(SpaceBuildError::Stopped),
+            // A space of few textures is a space all the same.
+            Err(SelectionError::TooFew { .. }) if options.placement == Placement::Felt => None,
+            Err(source) => return Err(SpaceBuildError::Selection { pair: pair.name(), source }),
+        };
+        Ok(Axis { pair, adjective, direction, felt, prediction })
     };
-    Ok(([fit(0, first)?, fit(1, second)?], angle))
+    Ok(Axes { fitted: [fit(0, first)?, fit(1, second)?], angle_degrees, chosen })
+}
+
+fn predict(
+    features: &FeatureTable,
+    felt: &[f64],
+    options: &SpaceOptions,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Prediction, SelectionError> {
+    if !go_on() {
+        return Err(SelectionError::Stopped);
+    }
+    let rows: Vec<Vec<f64>> = features.values.rows().into_iter().map(|row| row.to_vec()).collect();
+    let columns = selection::FeatureTable::from_rows(&rows)?;
+    let (model, chain) = match options.method {
+        Method::Paper(order) => {
+            let chain = paper_chain(&columns, felt, order)?;
+            (chain.model.clone(), Some(chain))
+        }
+        Method::Practical => (fit_axis(&columns, felt, options.method)?, None),
+    };
+    let scheme = Scheme { n_permutations: options.n_permutations, seed: options.seed, ..STANDARD };
+    let validation = validate(&columns, felt, options.method, &scheme, go_on)?;
+    let mut used: Vec<usize> = model.features().collect();
+    used.sort_unstable();
+    used.dedup();
+    Ok(Prediction {
+        // Features of a table are finite, so a model has an answer for every row.
+        predicted: rows.iter().map(|row| model.predict(row).unwrap_or(50.0)).collect(),
+        features: used.into_iter().map(|feature| features.names[feature].clone()).collect(),
+        model,
+        chain,
+        validation,
+    })
 }
 
 /// The pair with the pole first that lies at 0.

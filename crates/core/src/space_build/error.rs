@@ -22,6 +22,17 @@ pub enum SpaceBuildError {
         /// The dimensions asked for.
         n_dims: usize,
     },
+    /// Too few textures.
+    #[error(
+        "{n_textures} textures were sorted: {n_dims} dimensions and the directions of adjectives in them need at least {}",
+        .n_dims + 2
+    )]
+    TooFewTextures {
+        /// Textures that were sorted.
+        n_textures: usize,
+        /// The dimensions asked for.
+        n_dims: usize,
+    },
     /// Two textures have one identifier.
     #[error("two textures are called \"{texture}\"; give one of them another id")]
     TextureTwice {
@@ -49,7 +60,7 @@ pub enum SpaceBuildError {
     Dissimilarities(#[from] DissimilaritiesError),
     /// There is no perceptual space.
     #[error(transparent)]
-    Mds(#[from] MdsError),
+    Mds(MdsError),
     /// The ratings make no table.
     #[error(transparent)]
     Ratings(#[from] RatingsError),
@@ -90,7 +101,7 @@ pub enum SpaceBuildError {
     },
     /// The textures cannot be described.
     #[error(transparent)]
-    Features(#[from] FeatureError),
+    Features(FeatureError),
     /// An axis cannot be predicted.
     #[error("\"{pair}\" cannot be predicted: {source}")]
     Selection {
@@ -102,4 +113,22 @@ pub enum SpaceBuildError {
     /// The places make no triangles.
     #[error(transparent)]
     Triangulation(#[from] TriangulationError),
+}
+
+impl From<MdsError> for SpaceBuildError {
+    fn from(error: MdsError) -> Self {
+        match error {
+            MdsError::Stopped => Self::Stopped,
+            other => Self::Mds(other),
+        }
+    }
+}
+
+impl From<FeatureError> for SpaceBuildError {
+    fn from(error: FeatureError) -> Self {
+        match error {
+            FeatureError::Stopped => Self::Stopped,
+            other => Self::Features(other),
+        }
+    }
 }

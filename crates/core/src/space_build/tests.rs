@@ -2,6 +2,7 @@ use super::{
     FeatureKind, Placement, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space,
 };
 use crate::features::NamedTexture;
+use crate::mds::{MdsOptions, Ties};
 use crate::panel::{PanelConfig, simulated_ratings, simulated_sorts};
 use crate::ratings::{AdjectivePair, Rating, RelevanceVote};
 use crate::sorting::Sort;
@@ -39,15 +40,13 @@ fn pair(name: &str) -> AdjectivePair {
     name.parse().unwrap()
 }
 
+fn panel() -> PanelConfig {
+    PanelConfig { n_participants: 8, noise_points: 8.0, bias_points: 5.0, scale_log_spread: 0.1, seed: 3 }
+}
+
 /// A simulated panel on the labels; `pairs` are rated, those after the second at random.
 fn judgements(pairs: &[&str]) -> (Vec<Sort>, Vec<Rating>) {
-    let config = PanelConfig {
-        n_participants: 8,
-        noise_points: 8.0,
-        bias_points: 5.0,
-        scale_log_spread: 0.1,
-        seed: 3,
-    };
+    let config = panel();
     let names: Vec<String> = models().into_iter().map(|(name, _)| name).collect();
     let sorts = simulated_sorts(&names, &labels(), &[3, 5, 7], &config).unwrap();
     let mut values = labels();
@@ -92,9 +91,11 @@ fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
         let truth: Vec<f64> = labels().iter().map(|label| label[index]).collect();
         assert!(correlation(&axis.felt, &truth).unwrap() > 0.9, "{name}: {:?}", axis.felt);
         // The features hold the label; and the figure that counts is there beside the published one.
-        assert!(axis.validation.nested_cv_r > 0.7, "{name}: {:?}", axis.validation);
-        assert_eq!(axis.validation.permutation_p, Some(0.05), "{name}");
-        assert!(!axis.features.is_empty() && axis.predicted.iter().all(|p| (0.0..=100.0).contains(p)));
+        let prediction = axis.prediction.as_ref().unwrap();
+        assert!(prediction.validation.nested_cv_r > 0.7, "{name}: {:?}", prediction.validation);
+        assert_eq!(prediction.validation.permutation_p, Some(0.05), "{name}");
+        assert!(!prediction.features.is_empty());
+        assert!(prediction.predicted.iter().all(|p| (0.0..=100.0).contains(p)));
     }
     assert!((60.0..120.0).contains(&built.angle_degrees), "{}", built.angle_degrees);
     // Ratings at random lie along no line.
@@ -132,7 +133,7 @@ fn axes_are_the_best_of_each_dimension_where_none_is_usual_and_turned_on_request
     assert_eq!(names, ["dull-sharp", "warm-cold"], "the third was rated at random");
     let across: f64 = built.axes[0].direction.iter().zip(&built.axes[1].direction).map(|(a, b)| a * b).sum();
     assert!(across.abs() < 1e-12);
-    assert_eq!(built.positions[5].hard_soft, built.axes[1].predicted[5]);
+    assert_eq!(built.positions[5].hard_soft, built.axes[1].prediction.as_ref().unwrap().predicted[5]);
 }
 
 #[test]
@@ -152,6 +153,52 @@ fn what_is_missing_is_said_and_lived_with() {
     let findings = built.findings.join("\n");
     assert!(findings.contains("nobody rated them: t00"), "{findings}");
     assert!(findings.contains("rated but not sorted, and so without a place: t13"), "{findings}");
+}
+
+#[test]
+fn few_textures_have_a_space_and_no_prediction() {
+    let (mut sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    for sort in &mut sorts {
+        sort.placements.retain(|placement| placement.texture < "t05".to_owned());
+    }
+    let built = build((sorts, ratings), &quick()).unwrap();
+    assert_eq!(built.textures.len(), 5);
+    assert!(built.axes.iter().all(|axis| axis.prediction.is_none() && axis.felt.len() == 5));
+    assert!(verdict(&built).join("\n").contains("5 textures are too few to say what predicts an axis"));
+}
+
+#[test]
+fn textures_that_nobody_parts_are_named() {
+    let (mut sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    for sort in &mut sorts {
+        let group = sort.placements[0].group.clone();
+        sort.placements[1].group = group;
+    }
+    let options = SpaceOptions { mds: MdsOptions { ties: Ties::Secondary, ..quick().mds }, ..quick() };
+    let built = build((sorts, ratings), &options).unwrap();
+    let findings = built.findings.join("\n");
+    assert!(findings.contains("t00 and t01 lie at one place"), "{findings}");
+}
+
+#[test]
+fn places_are_steadier_with_more_participants() {
+    let typical = |n_participants: usize| {
+        let config = PanelConfig { n_participants, noise_points: 15.0, ..panel() };
+        let names: Vec<String> = models().into_iter().map(|(name, _)| name).collect();
+        let pairs = [pair("rough-smooth"), pair("hard-soft")];
+        let sorts = simulated_sorts(&names, &labels(), &[3, 5, 7], &config).unwrap();
+        let ratings = simulated_ratings(&names, &labels(), &pairs, &config).unwrap();
+        let options = SpaceOptions { features: FeatureKind::Physical, n_permutations: 0, ..quick() };
+        build((sorts, ratings), &options).unwrap().stability.unwrap()
+    };
+    let [few, many] = [4, 40].map(typical);
+    assert_eq!((few.n_draws + few.n_failed, few.deviations.len()), (100, N));
+    for axis in 0..2 {
+        // Ten times the participants: a third of the deviation, if it were a mean.
+        let ratio = few.typical[axis] / many.typical[axis];
+        assert!((1.7..6.0).contains(&ratio), "{few:?} and {many:?}");
+    }
+    assert_eq!(typical(4), few, "the same seed draws the same");
 }
 
 #[test]
@@ -200,8 +247,15 @@ fn what_makes_no_space_says_why() {
             }
         }
     };
-    check(&keep(2), "at least 3 textures");
-    check(&keep(6), "too few to predict");
+    check(
+        &keep(3),
+        "3 textures were sorted: 2 dimensions and the directions of adjectives in them need at least 4",
+    );
+    let predicted_of_few = |sorts: &mut Vec<Sort>, _: &mut Vec<Rating>, options: &mut SpaceOptions| {
+        sorts.iter_mut().for_each(|sort| sort.placements.truncate(6));
+        options.placement = Placement::Predicted;
+    };
+    check(&predicted_of_few, "too few to predict");
     let same = |_: &mut Vec<Sort>, ratings: &mut Vec<Rating>, _: &mut SpaceOptions| {
         for rating in ratings.iter_mut().filter(|r| r.pair.low == "rough") {
             rating.pair = pair("hard-Hard");
@@ -224,7 +278,23 @@ fn steps_are_told_in_order_and_can_be_stopped() {
         true
     })
     .unwrap();
+    assert!(told.is_sorted());
+    // Long steps ask often, so that they can be stopped in their middle.
+    let n_times = |step: Step| told.iter().filter(|index| **index == step.index()).count();
+    assert!(n_times(Step::Scaling) > 100 && n_times(Step::Axis(1)) > options.n_permutations);
+    assert_eq!(n_times(Step::Stability), 1 + options.n_draws);
+    told.dedup();
     assert_eq!(told, (0..Step::COUNT).collect::<Vec<_>>());
-    let stopped = build_space(&data, &options, &mut |step| step != Step::Features);
-    assert_eq!(stopped, Err(SpaceBuildError::Stopped));
+    for step in [Step::Sorting, Step::Scaling, Step::Features, Step::Axis(0), Step::Axis(1), Step::Stability]
+    {
+        let mut n_left = 3;
+        let stopped = build_space(&data, &options, &mut |now| {
+            n_left -= usize::from(now == step);
+            n_left > 1
+        });
+        // Short steps are asked once; features of physics are quick.
+        let is_short = matches!(step, Step::Sorting | Step::Features);
+        assert_eq!(stopped.is_ok(), is_short, "{step:?}");
+        assert!(is_short || stopped == Err(SpaceBuildError::Stopped), "{step:?}");
+    }
 }

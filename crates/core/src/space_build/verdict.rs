@@ -42,8 +42,9 @@ pub fn verdict(build: &SpaceBuild) -> Vec<String> {
     ];
     for axis in &build.axes {
         said.extend(line(build, axis));
-        said.push(prediction(axis));
+        said.extend(prediction(axis));
     }
+    said.extend(stability(build));
     said.push(match build.options.placement {
         Placement::Felt => "Textures lie where they were felt.".to_owned(),
         Placement::Predicted => {
@@ -97,9 +98,34 @@ fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
     Some(format!("{}: R² {:.2} in the perceptual space{weak}; {agreement}.", axis.pair, line.r_squared))
 }
 
+/// How far places hang on who took part.
+fn stability(build: &SpaceBuild) -> Option<String> {
+    let stability = build.stability.as_ref()?;
+    let loose = |[first, second]: &[f64; 2]| first.hypot(*second);
+    let mut by_deviation: Vec<(&String, f64)> =
+        build.textures.iter().zip(stability.deviations.iter().map(loose)).collect();
+    by_deviation.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let least: Vec<&str> = by_deviation.iter().take(3).map(|(id, _)| id.as_str()).collect();
+    let failed = match stability.n_failed {
+        0 => String::new(),
+        n => format!("; {n} more draws made no space"),
+    };
+    Some(format!(
+        "With participants drawn anew, {} times, places move by {:.1} points of 100 along {} and {:.1} along {} (standard deviation), most of all {}; the angle by {:.0}°{failed}.",
+        stability.n_draws,
+        stability.typical[0],
+        build.axes[0].pair,
+        stability.typical[1],
+        build.axes[1].pair,
+        least.join(", "),
+        stability.angle_deviation_degrees,
+    ))
+}
+
 /// What the prediction of an axis is worth: the published figure never without the one that counts.
-fn prediction(axis: &Axis) -> String {
-    let v = &axis.validation;
+fn prediction(axis: &Axis) -> Option<String> {
+    let prediction = axis.prediction.as_ref()?;
+    let v = &prediction.validation;
     let chance = v.permutation_p.map_or_else(
         || "no null distribution was asked for".to_owned(),
         |p| {
@@ -107,14 +133,15 @@ fn prediction(axis: &Axis) -> String {
             format!("p = {p:.3} over {} permutations{luck}", v.n_permutations)
         },
     );
-    format!(
-        "{}: predicted from {} features, nested cross-validation r {:.2} (accuracy {:.1} %, where guessing the mean has {:.1} %; {chance}); with features chosen on all textures, as is usually published, r {:.2} ({:.1} %).",
+    Some(format!(
+        "{}: predicted from {} features, nested cross-validation r {:.2} (accuracy {:.1} %, where guessing the mean has {:.1} %; {chance}). Plain correlation: nested {:.2}, with features chosen on all textures, as is usually published, {:.2} ({:.1} %).",
         axis.pair,
-        axis.features.len(),
+        prediction.features.len(),
         v.nested_cv_r,
         v.nested_cv_rms_percent,
         v.mean_rms_percent,
+        v.nested_cv_plain_r,
         v.cv_r,
         v.cv_rms_percent
-    )
+    ))
 }

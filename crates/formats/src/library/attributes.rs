@@ -78,6 +78,14 @@ pub(super) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 
     }
 }
 
+/// The names of the axes, as a file has them.
+pub(super) fn axes(wire: Option<Vec<String>>) -> Result<Option<[String; 2]>, LibraryError> {
+    let Some(names) = wire else { return Ok(None) };
+    let axes: [String; 2] = names.try_into().map_err(|_| LibraryError::Axes)?;
+    let is_empty = axes.iter().any(|name| name.trim().is_empty());
+    if is_empty || axes[0] == axes[1] { Err(LibraryError::Axes) } else { Ok(Some(axes)) }
+}
+
 /// What a file says of how its space was made: an object, or nothing.
 pub(super) fn report(wire: Option<Value>) -> Result<Option<Value>, LibraryError> {
     match wire {

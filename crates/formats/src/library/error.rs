@@ -39,6 +39,11 @@ pub enum LibraryError {
         /// The version of the file.
         found: String,
     },
+    /// The axes are not two attributes.
+    #[error(
+        "`axes` must be the names of two attributes that differ; correct them, or leave them out for rough-smooth and hard-soft"
+    )]
+    Axes,
     /// The report on the space is no object.
     #[error("`space_report` is not an object; leave it out, or build the space again")]
     Report,

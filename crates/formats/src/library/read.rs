@@ -66,6 +66,7 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
             warnings.push(format!("the picture of texture \"{id}\" cannot be shown: {error}"));
         }
     }
+    let axes = attributes::axes(wire.axes)?;
     let space_report = attributes::report(wire.space_report)?;
     let library = Library {
         name: wire.name,
@@ -74,6 +75,7 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
         license: wire.licence,
         created_by: wire.created_by,
         seed: wire.seed,
+        axes,
         space_report,
         textures,
         unknown: UnknownOfLibrary { library: wire.unknown, units: wire.units.unknown },

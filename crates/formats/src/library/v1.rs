@@ -1,4 +1,4 @@
-//! The wire format of a library, versions 1.0 to 1.2.
+//! The wire format of a library, versions 1.0 to 1.3.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -28,6 +28,9 @@ pub(super) struct LibraryV1 {
     pub(super) created_by: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) seed: Option<u64>,
+    /// Since 1.3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) axes: Option<Vec<String>>,
     /// Since 1.2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) space_report: Option<Value>,

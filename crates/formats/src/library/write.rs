@@ -37,6 +37,9 @@ pub(crate) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
 pub(super) const CONVERSION_DIGITS: usize = 12;
 
+/// The minor version that brought attributes and the report of a space.
+const WITH_ATTRIBUTES: u32 = 2;
+
 /// Writes a library, with numbers as long as they mean something: line spectral frequencies to six decimals, levels to
 /// six digits. Reading it back and writing it again gives the same bytes.
 pub fn write_library(library: &Library) -> Vec<u8> {
@@ -60,6 +63,7 @@ pub fn write_library(library: &Library) -> Vec<u8> {
         licence: library.license.clone(),
         created_by: library.created_by.clone(),
         seed: library.seed,
+        axes: library.axes.clone().map(Vec::from),
         space_report: library.space_report.clone(),
         unknown: library.unknown.library.clone(),
         textures: library.textures.iter().map(texture).collect(),
@@ -108,8 +112,11 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
 
 /// The lowest minor version that has all that a library uses: older programs read what they can.
 fn minor_version(library: &Library) -> u32 {
-    if library.space_report.is_some() || library.textures.iter().any(|entry| entry.attributes.is_some()) {
+    if library.axes.is_some() {
         return VERSION_MINOR;
+    }
+    if library.space_report.is_some() || library.textures.iter().any(|entry| entry.attributes.is_some()) {
+        return WITH_ATTRIBUTES;
     }
     let is_new = |entry: &TextureEntry| {
         entry.provenance != Provenance::Free

@@ -1,0 +1,153 @@
+//! How far places would move with other participants: the bootstrap of Efron (1979).
+//!
+//! Participants are drawn anew from those that there were, with replacement, as often as there were; sorts and ratings go
+//! with them. What they make is scaled, pointed into and projected as the space itself was, and the deviation of each
+//! texture's place over many draws says how much of it hangs on who happened to take part. Places run from 0 to 100
+//! between the outermost textures of every draw, so those two hardly move by definition.
+
+use std::collections::BTreeMap;
+
+use crate::mds::{MdsOptions, nonmetric};
+use crate::property::{ZeroAt, angle_degrees, axis_positions, fit_property, orthogonal_to, project};
+use crate::ratings::RatingTable;
+use crate::rng::{Random, derive_seed};
+use crate::sorting::{Sort, similarity};
+use crate::statistics::{mean, standard_deviation};
+
+/// Fewest participants of whom some can be drawn instead of others.
+pub const MIN_DRAWN: usize = 3;
+
+/// Random starts of each scaling beside the classical one: textures of a good space get there from most starts.
+const N_RANDOM_STARTS: usize = 4;
+
+/// How far places move when participants are drawn anew.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stability {
+    /// Draws that made a space.
+    pub n_draws: usize,
+    /// Draws that made none: nobody who parts two textures, or an adjective that points nowhere.
+    pub n_failed: usize,
+    /// Standard deviation of each texture's place along both axes, in points of 100.
+    pub deviations: Vec<[f64; 2]>,
+    /// Their root mean square over the textures.
+    pub typical: [f64; 2],
+    /// Standard deviation of the angle between the two lines, in degrees.
+    pub angle_deviation_degrees: f64,
+}
+
+/// What is drawn from.
+pub(super) struct Drawn<'a> {
+    /// The textures of the space.
+    pub(super) textures: &'a [String],
+    pub(super) sorts: &'a [Sort],
+    pub(super) ratings: &'a RatingTable,
+    /// Indices into the pairs of the table, and which end of each is 0.
+    pub(super) axes: [(usize, ZeroAt); 2],
+    pub(super) n_dims: usize,
+    pub(super) is_orthogonal: bool,
+    pub(super) mds: &'a MdsOptions,
+}
+
+/// `None` with fewer than [`MIN_DRAWN`] participants, no draws, or none that made a space; an error where `go_on` says no.
+pub(super) fn stability(
+    drawn: &Drawn<'_>,
+    n_draws: usize,
+    seed: u64,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Option<Stability>, super::SpaceBuildError> {
+    let strata = strata(drawn);
+    if strata.iter().map(Vec::len).sum::<usize>() < MIN_DRAWN {
+        return Ok(None);
+    }
+    let mut random = Random::new(derive_seed(seed, "participants"));
+    let mut places: Vec<Places> = Vec::new();
+    for draw in 0..n_draws {
+        if !go_on() {
+            return Err(super::SpaceBuildError::Stopped);
+        }
+        let pick = |stratum: &Vec<String>, random: &mut Random| -> Vec<String> {
+            let n = stratum.len();
+            (0..n).map(|_| stratum[((random.uniform() * n as f64) as usize).min(n - 1)].clone()).collect()
+        };
+        let participants: Vec<String> =
+            strata.iter().flat_map(|stratum| pick(stratum, &mut random)).collect();
+        places.extend(places_by(drawn, &participants, derive_seed(seed, &format!("draw {draw}"))));
+    }
+    if places.len() < 2 {
+        return Ok(None);
+    }
+    let over_draws = |of: &dyn Fn(&Places) -> f64| {
+        let values: Vec<f64> = places.iter().map(of).collect();
+        standard_deviation(&values)
+    };
+    let deviations: Vec<[f64; 2]> =
+        (0..drawn.textures.len()).map(|t| [0, 1].map(|axis| over_draws(&|p| p.along[axis][t]))).collect();
+    let typical = [0, 1].map(|axis| {
+        let squares: Vec<f64> = deviations.iter().map(|d| d[axis] * d[axis]).collect();
+        mean(&squares).sqrt()
+    });
+    Ok(Some(Stability {
+        n_draws: places.len(),
+        n_failed: n_draws - places.len(),
+        deviations,
+        typical,
+        angle_deviation_degrees: over_draws(&|p| p.angle_degrees),
+    }))
+}
+
+/// Where the textures lie by one draw.
+struct Places {
+    /// Along each axis, 0..100.
+    along: [Vec<f64>; 2],
+    angle_degrees: f64,
+}
+
+/// Participants by what they did: some may have sorted only, or rated only, and stand for others who did.
+fn strata(drawn: &Drawn<'_>) -> Vec<Vec<String>> {
+    let mut did: BTreeMap<&str, [bool; 2]> = BTreeMap::new();
+    for sort in drawn.sorts {
+        did.entry(&sort.participant).or_default()[0] = true;
+    }
+    for participant in drawn.ratings.participants() {
+        did.entry(participant).or_default()[1] = true;
+    }
+    let mut strata: BTreeMap<[bool; 2], Vec<String>> = BTreeMap::new();
+    for (participant, what) in did {
+        strata.entry(what).or_default().push(participant.to_owned());
+    }
+    strata.into_values().collect()
+}
+
+/// What the space is by these participants; `None` where they make none.
+fn places_by(drawn: &Drawn<'_>, participants: &[String], seed: u64) -> Option<Places> {
+    let mut sorts = Vec::new();
+    for (copy, participant) in participants.iter().enumerate() {
+        let own = drawn.sorts.iter().filter(|sort| sort.participant == *participant);
+        // Somebody drawn twice counts as two.
+        sorts.extend(own.map(|sort| Sort { participant: copy.to_string(), ..sort.clone() }));
+    }
+    let dissimilarities = similarity(drawn.textures, &sorts).ok()?.dissimilarities().ok()?;
+    let options = MdsOptions { n_random_starts: N_RANDOM_STARTS, seed, ..drawn.mds.clone() };
+    let points = nonmetric(&dissimilarities, drawn.n_dims, &options).ok()?.points;
+    let raters: Vec<usize> = participants
+        .iter()
+        .filter_map(|name| drawn.ratings.participants().iter().position(|p| p == name))
+        .collect();
+    let line = |(pair, zero_at): (usize, ZeroAt)| -> Option<Vec<f64>> {
+        let rated = drawn.textures.iter().zip(&points).filter_map(|(texture, point)| {
+            let row = drawn.ratings.textures().iter().position(|t| t == texture)?;
+            let values: Vec<f64> =
+                raters.iter().filter_map(|rater| drawn.ratings.value(*rater, row, pair)).collect();
+            (!values.is_empty()).then(|| (point.clone(), mean(&values)))
+        });
+        let (points, means): (Vec<Vec<f64>>, Vec<f64>) = rated.unzip();
+        Some(zero_at.oriented(fit_property(&points, &means).ok()?.direction))
+    };
+    let [first, mut second] = [line(drawn.axes[0])?, line(drawn.axes[1])?];
+    let angle_degrees = angle_degrees(&first, &second);
+    if drawn.is_orthogonal {
+        second = orthogonal_to(&second, std::slice::from_ref(&first)).ok()?;
+    }
+    let along = |direction: &[f64]| axis_positions(&project(&points, direction), ZeroAt::LowRatings);
+    Some(Places { along: [along(&first)?, along(&second)?], angle_degrees })
+}
