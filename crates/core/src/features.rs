@@ -130,8 +130,37 @@ impl FeatureTable {
             textures: self.textures.clone(),
             values: table(self.textures.len(), names.len(), values),
             names,
-            warnings: self.warnings.iter().chain(&other.warnings).cloned().collect(),
+            // Patterns beyond a texture are beyond it for both.
+            warnings: self
+                .warnings
+                .iter()
+                .chain(other.warnings.iter().filter(|warning| !self.warnings.contains(warning)))
+                .cloned()
+                .collect(),
         }
+    }
+
+    /// The warnings in sentences; what is the same of several textures is said once.
+    pub fn findings(&self) -> Vec<String> {
+        let mut said: Vec<(String, Vec<&str>)> = Vec::new();
+        for warning in &self.warnings {
+            let (sentence, texture) = match warning {
+                FeatureWarning::Pattern { texture, warning } => (warning.to_string(), Some(texture.as_str())),
+                other => (other.to_string(), None),
+            };
+            match said.iter_mut().find(|(known, _)| *known == sentence) {
+                Some((_, textures)) => textures.extend(texture),
+                None => said.push((sentence, texture.into_iter().collect())),
+            }
+        }
+        let named = |(sentence, textures): (String, Vec<&str>)| match textures[..] {
+            [] => sentence,
+            [first, second, third, _, ..] => {
+                format!("{first}, {second}, {third} and {} more: {sentence}", textures.len() - 3)
+            }
+            _ => format!("{}: {sentence}", textures.join(", ")),
+        };
+        said.into_iter().map(named).collect()
     }
 }
 

@@ -30,6 +30,16 @@ pub struct PanelConfig {
     pub seed: u64,
 }
 
+/// Groups that a participant makes, a sort each, as in the authoring paper.
+pub const USUAL_GROUPS: [usize; 3] = [3, 6, 9];
+
+impl PanelConfig {
+    /// Ten participants who perceive to 8 points, err by 6 and use the scale differently by a fifth.
+    pub fn usual(seed: u64) -> Self {
+        Self { n_participants: 10, noise_points: 8.0, bias_points: 6.0, scale_log_spread: 0.2, seed }
+    }
+}
+
 /// Why there is no panel.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

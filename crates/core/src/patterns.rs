@@ -198,14 +198,7 @@ pub fn render_patterns(model: &TextureModel, plan: &PatternPlan<'_>) -> Result<P
         Plane::new(model).prepare()
     };
     let n_patterns = plan.contacts.len();
-    let (speed_max, force_max) = (model.speed_max(), model.force_max());
-    // A highest speed that was read from a file may differ from the one asked for by a rounding.
-    let is_beyond =
-        |c: &&Contact| c.speed.0 > speed_max.0 * (1.0 + 1e-9) || c.force.0 > force_max.0 * (1.0 + 1e-9);
-    let n_beyond = plan.contacts.iter().filter(is_beyond).count();
-    if n_beyond > 0 {
-        warnings.push(PatternWarning::Clamped { n: n_beyond, n_patterns, speed_max, force_max });
-    }
+    warnings.extend(clamped(model, plan.contacts));
     let signals = plan
         .contacts
         .iter()
@@ -219,6 +212,20 @@ pub fn render_patterns(model: &TextureModel, plan: &PatternPlan<'_>) -> Result<P
         warnings.push(PatternWarning::Silent { n: n_silent, n_patterns });
     }
     Ok(Patterns { signals, warnings })
+}
+
+/// Whether a pattern lies within what is known of a texture.
+pub(crate) fn is_within(model: &TextureModel, contact: Contact) -> bool {
+    // A highest speed that was read from a file may differ from the one asked for by a rounding.
+    contact.speed.0 <= model.speed_max().0 * (1.0 + 1e-9)
+        && contact.force.0 <= model.force_max().0 * (1.0 + 1e-9)
+}
+
+/// What is to be said where patterns lie beyond a texture.
+pub(crate) fn clamped(model: &TextureModel, contacts: &[Contact]) -> Option<PatternWarning> {
+    let (speed_max, force_max, n_patterns) = (model.speed_max(), model.force_max(), contacts.len());
+    let n = contacts.iter().filter(|contact| !is_within(model, **contact)).count();
+    (n > 0).then_some(PatternWarning::Clamped { n, n_patterns, speed_max, force_max })
 }
 
 fn check(plan: &PatternPlan<'_>) -> Result<(), PatternError> {

@@ -11,7 +11,7 @@ mod table;
 
 pub use agreement::{Agreement, AgreementError, IntraclassCorrelation, agreement};
 pub use outliers::{OUTLIER_LIMIT, RaterFit, rater_fits};
-pub use pair_name::PairNameError;
+pub use pair_name::{PairNameError, poles};
 pub use relevance::{RELEVANCE_LIMIT, Relevance, RelevanceVote, VoteError, relevances};
 pub use table::{MAX_CELLS, MAX_PAIRS, RatingTable, RatingsError};
 

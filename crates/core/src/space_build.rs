@@ -256,7 +256,7 @@ pub fn build_space(
 
     begin(on_step, Step::Features)?;
     let features = features(&sorted, options, &mut || on_step(Step::Features))?;
-    findings.extend(features.warnings.iter().map(ToString::to_string));
+    findings.extend(features.findings());
 
     let mut go_on = |axis| on_step(Step::Axis(axis));
     let Axes { fitted: axes, angle_degrees, chosen } =

@@ -1,8 +1,8 @@
 //! Where textures lie: as their file has it, as a space puts them, or by two of their attributes.
 
-use shagreen_core::ratings::AdjectivePair;
+use shagreen_core::ratings::poles;
 use shagreen_core::space::SpacePoint;
-use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, poles};
+use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, USUAL_AXES};
 
 use crate::strings;
 
@@ -71,19 +71,12 @@ pub(super) fn attribute_names(textures: &[TextureEntry]) -> Vec<&str> {
 /// built on, else the usual ones.
 pub(super) fn poles_of(library: &Library, axes: Option<&[String; 2]>) -> [[String; 2]; 2] {
     let usual = [[strings::ROUGH, strings::SMOOTH], [strings::HARD, strings::SOFT]];
-    [0, 1].map(|axis| {
-        let built_on = library.space_report.as_ref().and_then(|report| report["axes"][axis]["name"].as_str());
-        let name = axes.map(|axes| axes[axis].as_str()).or(built_on);
-        name.map_or_else(|| usual[axis].map(str::to_owned), ends)
+    let named = library.axis_names();
+    [0, 1].map(|axis| match axes {
+        Some(axes) => poles(&axes[axis]),
+        None if named == USUAL_AXES => usual[axis].map(str::to_owned),
+        None => poles(named[axis]),
     })
-}
-
-/// The words at both ends of an attribute; the second is empty where it has only one.
-fn ends(name: &str) -> [String; 2] {
-    match name.parse() {
-        Ok(AdjectivePair { low, high }) => [low, high],
-        Err(_) => <[&str; 2]>::from(poles(name)).map(str::to_owned),
-    }
 }
 
 #[cfg(test)]
@@ -115,6 +108,8 @@ mod tests {
         let odd = ["non-stick - sticky".to_owned(), "warm".to_owned()];
         assert_eq!(poles_of(&library, Some(&odd)), [["non-stick", "sticky"], ["warm", ""]]);
         assert_eq!(poles_of(&library, None), [["rough", "smooth"], ["hard", "soft"]]);
+        library.axes = Some(axes);
+        assert_eq!(poles_of(&library, None), [["warm", "cold"], ["flat", "bumpy"]]);
     }
 
     #[test]

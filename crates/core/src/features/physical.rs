@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::features::error::{FeatureError, FeatureWarning};
 use crate::features::{FeatureTable, NamedTexture, check_names, table};
+use crate::patterns::{clamped, is_within};
 use crate::plane::Plane;
 use crate::spectrum;
 use crate::tap::Tap;
@@ -43,8 +44,7 @@ pub struct Physical {
 /// not count.
 pub fn physical(model: &TextureModel, contacts: &[Contact]) -> Physical {
     let plane = Plane::new(model);
-    let is_within = |c: &&Contact| c.speed.0 <= model.speed_max().0 && c.force.0 <= model.force_max().0;
-    let within: Vec<Contact> = contacts.iter().filter(is_within).copied().collect();
+    let within: Vec<Contact> = contacts.iter().copied().filter(|c| is_within(model, *c)).collect();
     let exponents = level_exponents(&plane, &within);
     Physical {
         level_db: level_db(&plane, contacts),
@@ -79,7 +79,12 @@ pub fn physical_table(
     ];
     check_names(textures)?;
     let of_textures: Vec<Physical> = textures.iter().map(|t| physical(t.model, contacts)).collect();
-    let (mut names, mut columns, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut names, mut columns) = (Vec::new(), Vec::new());
+    let beyond = |texture: &NamedTexture<'_>| {
+        let warning = clamped(texture.model, contacts)?;
+        Some(FeatureWarning::Pattern { texture: texture.name.to_owned(), warning })
+    };
+    let mut warnings: Vec<FeatureWarning> = textures.iter().filter_map(beyond).collect();
     for (feature, take) in features {
         let column: Vec<f64> = of_textures.iter().filter_map(take).collect();
         if column.len() == textures.len() {

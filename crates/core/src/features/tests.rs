@@ -114,6 +114,28 @@ fn warnings_name_the_texture() {
 }
 
 #[test]
+fn what_is_the_same_of_several_textures_is_said_once() {
+    let small = two_resonances(&[0.05, 0.1], &[0.1, 0.2]);
+    let names: Vec<String> = (0..5).map(|i| format!("lace{i}")).collect();
+    let textures: Vec<NamedTexture<'_>> =
+        names.iter().map(|name| NamedTexture { name, model: &small }).collect();
+    let sentence =
+        "21 of 25 patterns lie beyond the texture and are stroked at its highest, 100 mm/s and 0.20 N";
+    let mfcc = recommended();
+    let cepstral =
+        per_pattern(&textures, &plan(&paper_patterns(), &mfcc), Statistic::Mean, &mut || true).unwrap();
+    let physical = physical_table(&textures, &paper_patterns()).unwrap();
+    // Quantities that no such texture has are left out, which is said too.
+    for table in [cepstral.clone(), physical.clone(), cepstral.beside(&physical)] {
+        let of_patterns: Vec<String> =
+            table.findings().into_iter().filter(|said| said.contains("patterns")).collect();
+        assert_eq!(of_patterns, [format!("lace0, lace1, lace2 and 2 more: {sentence}")]);
+    }
+    let two = physical_table(&textures[..2], &paper_patterns()).unwrap();
+    assert_eq!(two.findings()[0], format!("lace0, lace1: {sentence}"));
+}
+
+#[test]
 fn nonsense_is_refused() {
     let (models, contacts, mfcc) = (textures(), paper_patterns(), recommended());
     let plan = plan(&contacts, &mfcc);

@@ -57,6 +57,11 @@ impl FromStr for AdjectivePair {
     }
 }
 
+/// The words at both ends of an attribute: the poles of a pair; of a name that is none, itself and nothing.
+pub fn poles(name: &str) -> [String; 2] {
+    name.parse().map_or_else(|_| [name.to_owned(), String::new()], |AdjectivePair { low, high }| [low, high])
+}
+
 impl AdjectivePair {
     /// The pair as one name that [`FromStr`] reads back.
     pub fn name(&self) -> String {
@@ -71,7 +76,7 @@ impl AdjectivePair {
 
 #[cfg(test)]
 mod tests {
-    use super::{AdjectivePair, PairNameError};
+    use super::{AdjectivePair, PairNameError, poles};
 
     #[test]
     fn names_are_parted_and_put_together() {
@@ -93,5 +98,13 @@ mod tests {
         for name in ["non-stick-sticky", "a - b - c"] {
             assert!(matches!(name.parse::<AdjectivePair>(), Err(PairNameError::Ambiguous { .. })), "{name}");
         }
+    }
+
+    #[test]
+    fn an_attribute_has_two_ends_or_one() {
+        assert_eq!(poles("rough-smooth"), ["rough", "smooth"]);
+        assert_eq!(poles("not hard - very soft"), ["not hard", "very soft"]);
+        assert_eq!(poles("warm"), ["warm", ""]);
+        assert_eq!(poles("a-b-c"), ["a-b-c", ""]);
     }
 }

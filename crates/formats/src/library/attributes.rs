@@ -32,11 +32,6 @@ impl Attributes {
     }
 }
 
-/// The two poles of an attribute's name; the second is empty where the name has only one word.
-pub fn poles(name: &str) -> (&str, &str) {
-    name.split_once('-').map_or((name, ""), |(low, high)| (low.trim(), high.trim()))
-}
-
 /// The attributes of a file, checked.
 pub(super) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Result<Attributes, LibraryError> {
     let source = LabelSource::from_id(&wire.label_source)
@@ -91,17 +86,5 @@ pub(super) fn report(wire: Option<Value>) -> Result<Option<Value>, LibraryError>
     match wire {
         None | Some(Value::Object(_)) => Ok(wire),
         Some(_) => Err(LibraryError::Report),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::poles;
-
-    #[test]
-    fn a_name_says_its_poles() {
-        assert_eq!(poles("rough-smooth"), ("rough", "smooth"));
-        assert_eq!(poles("not hard - very soft"), ("not hard", "very soft"));
-        assert_eq!(poles("warm"), ("warm", ""));
     }
 }
