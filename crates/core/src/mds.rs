@@ -143,6 +143,20 @@ pub enum MdsError {
 
 impl MdsOptions {
     /// Primary ties, twenty random starts, and steps until stress stands still to ten digits.
+    ///
+    /// Sorts make many ties. On simulated panels over 25 textures with five labels, places along the two axes correlate
+    /// with the labels, on average over both axes and eight panels (twelve without noise), by:
+    ///
+    /// | noise | participants | primary | secondary |
+    /// |---|---|---|---|
+    /// | 8 points | 3 | .85 | .90 |
+    /// | 8 points | 5 | .92 | .92 |
+    /// | 8 points | 10 | .94 | .93 |
+    /// | 8 points | 20 | .93 | .93 |
+    /// | none | 10 | .75 | .87 |
+    ///
+    /// So secondary ties are the better ones where few take part or all agree; they move less between panels, and have two
+    /// to three times the stress.
     pub fn usual(seed: u64) -> Self {
         Self { ties: Ties::Primary, n_random_starts: 20, seed, tolerance: 1e-10, max_steps: 2000 }
     }

@@ -20,7 +20,7 @@ use crate::dissimilarities::Dissimilarities;
 use crate::features::{
     FeaturePlan, FeatureTable, NamedTexture, Statistic, per_frame, per_pattern, physical_table,
 };
-use crate::mds::{MAX_DIMS, Mds, MdsOptions, ShepardPair, by_dimension, shepard};
+use crate::mds::{MAX_DIMS, Mds, MdsOptions, ShepardPair, Ties, by_dimension, shepard};
 use crate::mfcc::MfccOptions;
 use crate::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns};
 use crate::ratings::{AdjectivePair, RaterFit, Rating, RatingTable, RelevanceVote, rater_fits};
@@ -243,8 +243,12 @@ pub fn build_space(
     let mut findings: Vec<String> = similarity.findings.iter().map(ToString::to_string).collect();
     let n_sorters = similarity.agreements.len();
     if n_sorters < MIN_SORTERS {
+        let advice = match options.mds.ties {
+            Ties::Primary => "; secondary ties suit so few better",
+            Ties::Secondary => "",
+        };
         findings.push(format!(
-            "only {n_sorters} participants sorted: most dissimilarities are equal, so the perceptual space depends on chance however low its stress is; ten are usual"
+            "only {n_sorters} sorted: most dissimilarities are equal, so the perceptual space depends on chance however low its stress is; ten participants are usual{advice}"
         ));
     }
     if !perceptual.converged {

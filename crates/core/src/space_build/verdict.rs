@@ -12,7 +12,8 @@ const POOR_ICC: f64 = 0.5;
 /// Chance from which a prediction may be luck.
 const CHANCE: f64 = 0.05;
 
-/// What Kruskal (1964) calls a stress-1.
+/// What Kruskal (1964) calls a stress-1. He has words for 0, 0.025, 0.05, 0.1 and 0.2; here each reaches halfway to the
+/// next, so that his are given back at his values.
 pub fn kruskal_word(stress: f64) -> &'static str {
     match stress {
         s if s < 0.0125 => "nearly perfect",
