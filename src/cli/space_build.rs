@@ -2,22 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, anyhow, bail};
 use shagreen_core::features::NamedTexture;
 use shagreen_core::mds::{MAX_DIMS, Ties};
 use shagreen_core::mfcc::{MfccOptions, htk, paper, recommended};
 use shagreen_core::panel::is_simulated;
-use shagreen_core::ratings::{AdjectivePair, Rating, RelevanceVote};
+use shagreen_core::ratings::{AdjectivePair, OUTLIER_LIMIT, Rating, RelevanceVote};
 use shagreen_core::selection::Method;
-use shagreen_core::sorting::Sort;
+use shagreen_core::sorting::{Finding, Sort};
 use shagreen_core::space::LabelSource;
 use shagreen_core::space_build::{
-    FeatureKind, Placement, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
+    FeatureKind, Placement, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space, verdict,
 };
 use shagreen_formats::atomic;
 use shagreen_formats::figure::{figure_csv, figure_svg, is_figure_csv, page_svg};
-use shagreen_formats::library::write_library;
-use shagreen_formats::ratings_csv::{read_ratings_csv, read_relevance_csv};
+use shagreen_formats::imported::Imported;
+use shagreen_formats::library::{Library, write_library};
+use shagreen_formats::look_alikes::look_alikes;
+use shagreen_formats::ratings_csv::{read_ratings, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 use shagreen_formats::space_report::{
     FIGURES, FORMAT, placed_library, space_figures, space_report, space_subtitle,
@@ -25,7 +27,8 @@ use shagreen_formats::space_report::{
 
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
+use crate::cli::output::{self, Progress, Usage, counted, warn_of_restricted};
+use crate::cli::target::meant;
 
 /// Builds an authoring space from what people felt and what was measured.
 ///
@@ -65,9 +68,9 @@ pub(crate) struct Args {
     /// What is taken from the vibrations.
     #[arg(long, default_value = "mfcc", value_parser = FeatureKind::ALL.map(FeatureKind::id))]
     features: String,
-    /// How coefficients are taken.
-    #[arg(long, default_value = "recommended", value_parser = ["recommended", "paper", "htk"])]
-    mfcc: String,
+    /// How coefficients are taken, where features are made of them [default: recommended].
+    #[arg(long, value_parser = ["recommended", "paper", "htk"])]
+    mfcc: Option<String>,
     /// How an axis is predicted from features: as in the paper, or better.
     #[arg(long, default_value = "practical", value_parser = Method::ALL.map(Method::id))]
     selection: String,
@@ -106,6 +109,7 @@ fn parse_axes(text: &str) -> Result<Axes, String> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let options = options(args)?;
     let [report_json, report_svg] =
         ["report.json", "report.svg"].map(|ending| args.out.with_extension(ending));
     let inputs = [Some(&*args.sorting), Some(&*args.ratings), args.relevance.as_deref(), args.library.path()];
@@ -121,52 +125,129 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("this is a folder; name a file to write: {}", folder.display());
     }
     let library = load(&args.library)?;
-    let sorts = read(&args.sorting, |bytes| Ok(read_sorting_csv(bytes)?.sorts))?;
-    let ratings = read(&args.ratings, |bytes| Ok(read_ratings_csv(bytes)?))?;
+    let mut warnings = Vec::new();
+    let sorts = read(&args.sorting, &mut warnings, |bytes| {
+        let table = read_sorting_csv(bytes)?;
+        Ok(Imported { value: table.sorts, warnings: table.warnings })
+    })?;
+    let ratings = read(&args.ratings, &mut warnings, |bytes| Ok(read_ratings(bytes)?))?;
     let votes = match &args.relevance {
-        Some(path) => read(path, |bytes| Ok(read_relevance_csv(bytes)?))?,
+        Some(path) => read(path, &mut warnings, |bytes| {
+            Ok(Imported { value: read_relevance_csv(bytes)?, warnings: Vec::new() })
+        })?,
         None => Vec::new(),
     };
+    warnings.extend(look_alikes(&participants(&sorts, &ratings, &votes), "participants"));
+    warnings.iter().for_each(|warning| output::warn(warning));
     let source = source(args, &sorts, &ratings, &votes)?;
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
-    let options = options(args)?;
     let progress = Progress::new("steps", Step::COUNT);
     let built = build_space(&data, &options, &mut |step| {
         if step.index() > 0 {
             progress.step();
         }
         true
-    })?;
+    })
+    .map_err(|error| in_its_files(error, args, &library))?;
     progress.finish();
-    let report = space_report(&built);
+    let mut report = space_report(&built);
+    report["warnings"] = warnings.into();
     let figures = space_figures(&built);
     let mut placed = placed_library(&library, &built);
     output::CREATED_BY.clone_into(&mut placed.created_by);
     warn_of_restricted(&placed);
+    let mut text = serde_json::to_string_pretty(&report)?;
+    text.push('\n');
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     if let Some(folder) = &args.figures {
-        std::fs::create_dir_all(folder)
-            .context("cannot make the folder; choose another")
-            .with_context(|| output::in_file(folder))?;
         for (name, figure) in &figures {
-            atomic::write(&folder.join(format!("{name}.svg")), figure_svg(figure).as_bytes())?;
-            atomic::write(&folder.join(format!("{name}.csv")), &figure_csv(figure))?;
+            files.push((folder.join(format!("{name}.svg")), figure_svg(figure).into_bytes()));
+            files.push((folder.join(format!("{name}.csv")), figure_csv(figure)));
         }
     }
     let on_page: Vec<_> = figures.into_iter().map(|(_, figure)| figure).collect();
     let page = page_svg("Authoring space", &space_subtitle(&built), &on_page);
-    let mut text = serde_json::to_string_pretty(&report)?;
-    text.push('\n');
-    atomic::write(&report_json, text.as_bytes())?;
-    atomic::write(&report_svg, page.as_bytes())?;
-    atomic::write(&args.out, &write_library(&placed))?;
+    files.push((report_json, text.into_bytes()));
+    files.push((report_svg, page.into_bytes()));
+    files.push((args.out.clone(), write_library(&placed)));
+    write_together(&files, args.figures.as_deref())?;
     output::print(args.json, &report, || in_words(args, &built));
     Ok(())
 }
 
-fn read<T>(path: &Path, reader: impl FnOnce(&[u8]) -> anyhow::Result<T>) -> anyhow::Result<T> {
+/// Writes all files or none, into a folder of figures among others that is made for them.
+fn write_together(files: &[(PathBuf, Vec<u8>)], folder: Option<&Path>) -> anyhow::Result<()> {
+    // The outermost first: those that are made here go away again where nothing is written.
+    let mut made: Vec<&Path> =
+        folder.into_iter().flat_map(Path::ancestors).take_while(|path| !path.exists()).collect();
+    made.retain(|path| !path.as_os_str().is_empty());
+    let write = || {
+        if let Some(folder) = folder {
+            std::fs::create_dir_all(folder)
+                .context("cannot make the folder; choose another")
+                .with_context(|| output::in_file(folder))?;
+        }
+        let files: Vec<(&Path, &[u8])> = files.iter().map(|(path, bytes)| (&**path, &**bytes)).collect();
+        Ok(atomic::write_all(&files)?)
+    };
+    write().inspect_err(|_| {
+        for path in made {
+            // The error is told; a folder that somebody else fills meanwhile stays.
+            let _ = std::fs::remove_dir(path);
+        }
+    })
+}
+
+/// Reads a file of judgements; what was odd in it is added to `warnings`.
+fn read<T>(
+    path: &Path,
+    warnings: &mut Vec<String>,
+    reader: impl FnOnce(&[u8]) -> anyhow::Result<Imported<T>>,
+) -> anyhow::Result<T> {
     let bytes = output::read_file(path)?;
-    reader(&bytes).with_context(|| output::in_file(path))
+    let imported = reader(&bytes).with_context(|| output::in_file(path))?;
+    warnings.extend(imported.warnings.iter().map(|warning| format!("{warning}: {}", path.display())));
+    Ok(imported.value)
+}
+
+/// Why judgements make no space, with the files in which that is to be mended.
+fn in_its_files(error: SpaceBuildError, args: &Args, library: &Library) -> anyhow::Error {
+    let (sorting, ratings) = (Some(&*args.sorting), Some(&*args.ratings));
+    let files = match &error {
+        SpaceBuildError::UnknownTexture { what: "sorted", .. }
+        | SpaceBuildError::Sorting(_)
+        | SpaceBuildError::Dissimilarities(_)
+        | SpaceBuildError::Mds(_) => [sorting, None],
+        SpaceBuildError::UnknownTexture { .. }
+        | SpaceBuildError::Ratings(_)
+        | SpaceBuildError::TooFewPairs { .. }
+        | SpaceBuildError::NoSuchAxis { .. }
+        | SpaceBuildError::Axis { .. } => [ratings, None],
+        SpaceBuildError::Votes(_) => [args.relevance.as_deref(), None],
+        SpaceBuildError::TextureTwice { .. } | SpaceBuildError::Features(_) => [args.library.path(), None],
+        SpaceBuildError::NothingShared
+        | SpaceBuildError::FlatAxis { .. }
+        | SpaceBuildError::Selection { .. }
+        | SpaceBuildError::Triangulation(_) => [sorting, ratings],
+        _ => [None, None],
+    };
+    let error = match &error {
+        SpaceBuildError::UnknownTexture { texture, .. } => {
+            let hint = meant(library, texture);
+            anyhow!("{error}, or remove the column where it names something else; {hint}")
+        }
+        _ => error.into(),
+    };
+    // The last context is shown first.
+    files.into_iter().rev().flatten().fold(error, |error, path| error.context(output::in_file(path)))
+}
+
+/// Names of all who sorted, rated or voted, as often as they did.
+fn participants<'a>(sorts: &'a [Sort], ratings: &'a [Rating], votes: &'a [RelevanceVote]) -> Vec<&'a str> {
+    let sorted = sorts.iter().map(|sort| &*sort.participant);
+    let rated = ratings.iter().map(|rating| &*rating.participant);
+    sorted.chain(rated).chain(votes.iter().map(|vote| &*vote.participant)).collect()
 }
 
 /// Figures must not replace what is read, nor somebody's files.
@@ -190,10 +271,8 @@ fn source(
     ratings: &[Rating],
     votes: &[RelevanceVote],
 ) -> anyhow::Result<LabelSource> {
-    let sorted = sorts.iter().map(|sort| &sort.participant);
-    let names =
-        sorted.chain(ratings.iter().map(|r| &r.participant)).chain(votes.iter().map(|v| &v.participant));
-    let (simulated, others): (Vec<&String>, Vec<&String>) = names.partition(|name| is_simulated(name));
+    let names = participants(sorts, ratings, votes);
+    let (simulated, others): (Vec<&str>, Vec<&str>) = names.into_iter().partition(|name| is_simulated(name));
     if let ([one, ..], [other, ..]) = (&simulated[..], &others[..]) {
         bail!(
             "there are both simulated participants and others (\"{one}\" and \"{other}\"): a space of both means nothing; leave one kind out"
@@ -218,6 +297,13 @@ fn source(
 fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
     let unknown = |what: &str| Usage(format!("{what} is not known"));
     let usual = SpaceOptions::usual(args.seed);
+    let features = FeatureKind::from_id(&args.features).ok_or_else(|| unknown(&args.features))?;
+    if let (Some(mfcc), FeatureKind::Physical) = (&args.mfcc, features) {
+        let text = format!(
+            "--mfcc {mfcc} changes nothing where --features is physical: leave it out, or say --features mfcc+physical"
+        );
+        return Err(Usage(text).into());
+    }
     let mut mds = usual.mds.clone();
     mds.ties = if args.ties == "secondary" { Ties::Secondary } else { Ties::Primary };
     Ok(SpaceOptions {
@@ -225,8 +311,8 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         mds,
         axes: args.axes.clone().map(|axes| axes.0),
         is_orthogonal: args.orthogonal,
-        features: FeatureKind::from_id(&args.features).ok_or_else(|| unknown(&args.features))?,
-        mfcc: mfcc(&args.mfcc),
+        features,
+        mfcc: mfcc(args.mfcc.as_deref()),
         method: Method::from_id(&args.selection).ok_or_else(|| unknown(&args.selection))?,
         placement: Placement::from_id(&args.placement).ok_or_else(|| unknown(&args.placement))?,
         n_permutations: args.permutations,
@@ -234,21 +320,38 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
     })
 }
 
-fn mfcc(name: &str) -> MfccOptions {
+fn mfcc(name: Option<&str>) -> MfccOptions {
     match name {
-        "paper" => paper(),
-        "htk" => htk(),
+        Some("paper") => paper(),
+        Some("htk") => htk(),
         _ => recommended(),
     }
 }
 
 fn in_words(args: &Args, built: &SpaceBuild) -> String {
-    let mut lines = vec![format!(
-        "Built a space of {} textures ({}): {}",
-        built.textures.len(),
-        built.source.label(),
-        args.out.display()
-    )];
+    let pairs: Vec<String> = built.adjectives.iter().map(|adjective| adjective.pair.name()).collect();
+    let mut lines = vec![
+        format!(
+            "Built a space of {} ({}): {}",
+            counted(built.textures.len(), "texture"),
+            built.source.label(),
+            args.out.display()
+        ),
+        format!("Rated on {}: {}.", counted(pairs.len(), "adjective pair"), pairs.join(", ")),
+    ];
     lines.extend(verdict(built));
+    lines.extend(outliers_explained(built));
     lines.join("\n")
+}
+
+/// What it means that somebody judged unlike the others, where somebody did.
+fn outliers_explained(built: &SpaceBuild) -> Option<String> {
+    let is_rater = built.raters.iter().any(|(_, fit)| fit.outlying);
+    let is_sorter =
+        built.similarity.findings.iter().any(|finding| matches!(finding, Finding::Outlying { .. }));
+    (is_rater || is_sorter).then(|| {
+        format!(
+            "To judge unlike the others is to correlate with their mean far less than they do (ratings: by less than {OUTLIER_LIMIT}). Nobody is left out for it: look for swapped poles or mixed-up names, and build again without them to see what they change."
+        )
+    })
 }
