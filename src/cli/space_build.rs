@@ -2,25 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, anyhow, bail};
+use anyhow::{Context as _, bail};
 use shagreen_core::features::NamedTexture;
 use shagreen_core::mds::{MAX_DIMS, Ties};
 use shagreen_core::mfcc::{MfccOptions, htk, paper, recommended};
-use shagreen_core::panel::is_simulated;
-use shagreen_core::ratings::{AdjectivePair, OUTLIER_LIMIT, Rating, RelevanceVote};
+use shagreen_core::ratings::{AdjectivePair, OUTLIER_LIMIT};
 use shagreen_core::selection::Method;
-use shagreen_core::sorting::{Finding, Sort};
-use shagreen_core::space::LabelSource;
+use shagreen_core::sorting::Finding;
 use shagreen_core::space_build::{
-    FeatureKind, Placement, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space, verdict,
+    FeatureKind, Placement, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
 };
 use shagreen_formats::atomic;
 use shagreen_formats::figure::{figure_csv, figure_svg, is_figure_csv, page_svg};
-use shagreen_formats::imported::Imported;
-use shagreen_formats::library::{Library, write_library};
-use shagreen_formats::look_alikes::look_alikes;
-use shagreen_formats::ratings_csv::{read_ratings, read_relevance_csv};
-use shagreen_formats::sorting_csv::read_sorting_csv;
+use shagreen_formats::library::write_library;
 use shagreen_formats::space_report::{
     FIGURES, FORMAT, placed_library, space_figures, space_report, space_subtitle,
 };
@@ -28,7 +22,7 @@ use shagreen_formats::space_report::{
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output::{self, Progress, Usage, counted, warn_of_restricted};
-use crate::cli::target::meant;
+use crate::cli::space_judgements::{JudgementArgs, Judgements};
 
 /// Builds an authoring space from what people felt and what was measured.
 ///
@@ -39,16 +33,8 @@ use crate::cli::target::meant;
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// CSV with a line for each texture of each sort (participant, trial, groups, texture, group), or a column for each
-    /// texture.
-    #[arg(long, value_name = "S.csv")]
-    sorting: PathBuf,
-    /// CSV with a line for each rating (participant, texture, adjective, value), or a column for each adjective pair.
-    #[arg(long, value_name = "R.csv")]
-    ratings: PathBuf,
-    /// CSV of votes on which adjectives are relevant (participant, adjective, relevant): pairs below half are left out.
-    #[arg(long, value_name = "V.csv")]
-    relevance: Option<PathBuf>,
+    #[command(flatten)]
+    judgements: JudgementArgs,
     /// Library file to write.
     #[arg(long, value_name = "L2")]
     out: PathBuf,
@@ -80,9 +66,6 @@ pub(crate) struct Args {
     /// Permutations of the null distribution.
     #[arg(long, default_value_t = 1000, value_name = "N")]
     permutations: usize,
-    /// Who judged, where names of participants do not say it: human or simulated.
-    #[arg(long, value_name = "SOURCE", value_parser = ["human", "simulated"])]
-    source: Option<String>,
     /// Folder for each figure as SVG and CSV.
     #[arg(long, value_name = "FOLDER")]
     figures: Option<PathBuf>,
@@ -112,7 +95,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let options = options(args)?;
     let [report_json, report_svg] =
         ["report.json", "report.svg"].map(|ending| args.out.with_extension(ending));
-    let inputs = [Some(&*args.sorting), Some(&*args.ratings), args.relevance.as_deref(), args.library.path()];
+    let [sorting, ratings, relevance] = args.judgements.paths();
+    let inputs = [sorting, ratings, relevance, args.library.path()];
     refuse_inputs(&[&args.out, &report_json, &report_svg], &inputs)?;
     refuse_foreign(&args.out, "the library", is_library)?;
     refuse_foreign(&report_json, "the report", |bytes| has_format(bytes, FORMAT))?;
@@ -125,21 +109,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("this is a folder; name a file to write: {}", folder.display());
     }
     let library = load(&args.library)?;
-    let mut warnings = Vec::new();
-    let sorts = read(&args.sorting, &mut warnings, |bytes| {
-        let table = read_sorting_csv(bytes)?;
-        Ok(Imported { value: table.sorts, warnings: table.warnings })
-    })?;
-    let ratings = read(&args.ratings, &mut warnings, |bytes| Ok(read_ratings(bytes)?))?;
-    let votes = match &args.relevance {
-        Some(path) => read(path, &mut warnings, |bytes| {
-            Ok(Imported { value: read_relevance_csv(bytes)?, warnings: Vec::new() })
-        })?,
-        None => Vec::new(),
-    };
-    warnings.extend(look_alikes(&participants(&sorts, &ratings, &votes), "participants"));
-    warnings.iter().for_each(|warning| output::warn(warning));
-    let source = source(args, &sorts, &ratings, &votes)?;
+    let Judgements { sorts, ratings, votes, source, warnings } = args.judgements.read()?;
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
     let progress = Progress::new("steps", Step::COUNT);
@@ -149,7 +119,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         true
     })
-    .map_err(|error| in_its_files(error, args, &library))?;
+    .map_err(|error| args.judgements.in_files(error, &library, &args.library))?;
     progress.finish();
     let mut report = space_report(&built);
     report["warnings"] = warnings.into();
@@ -199,57 +169,6 @@ fn write_together(files: &[(PathBuf, Vec<u8>)], folder: Option<&Path>) -> anyhow
     })
 }
 
-/// Reads a file of judgements; what was odd in it is added to `warnings`.
-fn read<T>(
-    path: &Path,
-    warnings: &mut Vec<String>,
-    reader: impl FnOnce(&[u8]) -> anyhow::Result<Imported<T>>,
-) -> anyhow::Result<T> {
-    let bytes = output::read_file(path)?;
-    let imported = reader(&bytes).with_context(|| output::in_file(path))?;
-    warnings.extend(imported.warnings.iter().map(|warning| format!("{warning}: {}", path.display())));
-    Ok(imported.value)
-}
-
-/// Why judgements make no space, with the files in which that is to be mended.
-fn in_its_files(error: SpaceBuildError, args: &Args, library: &Library) -> anyhow::Error {
-    let (sorting, ratings) = (Some(&*args.sorting), Some(&*args.ratings));
-    let files = match &error {
-        SpaceBuildError::UnknownTexture { what: "sorted", .. }
-        | SpaceBuildError::Sorting(_)
-        | SpaceBuildError::Dissimilarities(_)
-        | SpaceBuildError::Mds(_) => [sorting, None],
-        SpaceBuildError::UnknownTexture { .. }
-        | SpaceBuildError::Ratings(_)
-        | SpaceBuildError::TooFewPairs { .. }
-        | SpaceBuildError::NoSuchAxis { .. }
-        | SpaceBuildError::Axis { .. } => [ratings, None],
-        SpaceBuildError::Votes(_) => [args.relevance.as_deref(), None],
-        SpaceBuildError::TextureTwice { .. } | SpaceBuildError::Features(_) => [args.library.path(), None],
-        SpaceBuildError::NothingShared
-        | SpaceBuildError::FlatAxis { .. }
-        | SpaceBuildError::Selection { .. }
-        | SpaceBuildError::Triangulation(_) => [sorting, ratings],
-        _ => [None, None],
-    };
-    let error = match &error {
-        SpaceBuildError::UnknownTexture { texture, .. } => {
-            let hint = meant(library, texture);
-            anyhow!("{error}, or remove the column where it names something else; {hint}")
-        }
-        _ => error.into(),
-    };
-    // The last context is shown first.
-    files.into_iter().rev().flatten().fold(error, |error, path| error.context(output::in_file(path)))
-}
-
-/// Names of all who sorted, rated or voted, as often as they did.
-fn participants<'a>(sorts: &'a [Sort], ratings: &'a [Rating], votes: &'a [RelevanceVote]) -> Vec<&'a str> {
-    let sorted = sorts.iter().map(|sort| &*sort.participant);
-    let rated = ratings.iter().map(|rating| &*rating.participant);
-    sorted.chain(rated).chain(votes.iter().map(|vote| &*vote.participant)).collect()
-}
-
 /// Figures must not replace what is read, nor somebody's files.
 fn check_figures(folder: &Path, inputs: &[Option<&Path>]) -> anyhow::Result<()> {
     if folder.exists() && !folder.is_dir() {
@@ -262,36 +181,6 @@ fn check_figures(folder: &Path, inputs: &[Option<&Path>]) -> anyhow::Result<()> 
         refuse_foreign(&csv, "the numbers of a figure", is_figure_csv)?;
     }
     Ok(())
-}
-
-/// Who judged. What calls itself simulated is never taken for people.
-fn source(
-    args: &Args,
-    sorts: &[Sort],
-    ratings: &[Rating],
-    votes: &[RelevanceVote],
-) -> anyhow::Result<LabelSource> {
-    let names = participants(sorts, ratings, votes);
-    let (simulated, others): (Vec<&str>, Vec<&str>) = names.into_iter().partition(|name| is_simulated(name));
-    if let ([one, ..], [other, ..]) = (&simulated[..], &others[..]) {
-        bail!(
-            "there are both simulated participants and others (\"{one}\" and \"{other}\"): a space of both means nothing; leave one kind out"
-        )
-    }
-    let simulated = simulated.first();
-    match (args.source.as_deref(), simulated) {
-        (Some("human"), Some(name)) => {
-            bail!(
-                "participant \"{name}\" is simulated, so the space is not of human ratings; leave --source out"
-            )
-        }
-        (Some("simulated"), _) | (None, Some(_)) => Ok(LabelSource::SimulatedRaters),
-        (None, None) => {
-            output::note("the participants are taken for people; if they are not, say --source simulated");
-            Ok(LabelSource::HumanRatings)
-        }
-        _ => Ok(LabelSource::HumanRatings),
-    }
 }
 
 fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
