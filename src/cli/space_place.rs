@@ -59,7 +59,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = output::read_file(&args.attributes)?;
     let read = read_places(&bytes, args.source, args.scale.unwrap_or(Scale::OF_SPACE))
         .map_err(|error| match error {
-            PlacesCsvError::Range { .. } => anyhow!("{error}, as --scale 1,7"),
+            PlacesCsvError::Range { .. } => anyhow!("{error} by --scale LOW,HIGH"),
             error => error.into(),
         })
         .with_context(|| output::in_file(&args.attributes))?;

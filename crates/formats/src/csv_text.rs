@@ -32,15 +32,14 @@ pub enum TableTextError {
 
 /// Text of bytes without its mark: UTF-8, or UTF-16 of either order with a mark, as spreadsheets call "Unicode text".
 pub(crate) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, TableTextError> {
-    let text = match wide_units(bytes) {
-        Some(units) => Cow::Owned(narrow(units, bytes.len() % 2 == 1)?),
-        None => {
-            let utf8 = std::str::from_utf8(bytes).map_err(|error| {
-                let byte = error.valid_up_to();
-                TableTextError::Utf8 { line: line_at(&bytes[..byte]), byte }
-            })?;
-            Cow::Borrowed(utf8.trim_start_matches('\u{feff}'))
-        }
+    let text = if let Some(units) = wide_units(bytes) {
+        Cow::Owned(narrow(units, bytes.len() % 2 == 1)?)
+    } else {
+        let utf8 = std::str::from_utf8(bytes).map_err(|error| {
+            let byte = error.valid_up_to();
+            TableTextError::Utf8 { line: line_at(&bytes[..byte]), byte }
+        })?;
+        Cow::Borrowed(utf8.trim_start_matches('\u{feff}'))
     };
     match text.find('\0') {
         Some(at) => Err(TableTextError::Zero { line: line_at(&text.as_bytes()[..at]) }),
@@ -81,7 +80,7 @@ fn narrow(units: impl Iterator<Item = u16>, is_cut: bool) -> Result<String, Tabl
 
 /// The line, from one, on which stands what follows `before`.
 fn line_at(before: &[u8]) -> u64 {
-    1 + before.iter().filter(|byte| **byte == b'\n').count() as u64
+    before.split(|byte| *byte == b'\n').count() as u64
 }
 
 /// What a first line `sep=;` says that columns are parted by, and the text after it.

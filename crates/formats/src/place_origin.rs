@@ -24,18 +24,14 @@ pub(crate) fn state_origin_of_places(library: &mut Library) {
     if let Some(at) = library.origin.rfind(POSITIONS).filter(|at| is_ours(&library.origin[*at..])) {
         library.origin.truncate(at);
     }
-    let mut origin = library.origin.trim_end().to_owned();
-    if !sources.is_empty() {
-        if origin.ends_with(char::is_alphanumeric) {
-            origin.push('.');
-        }
-        if !origin.is_empty() {
-            origin.push(' ');
-        }
-        let labels: Vec<&str> = sources.into_iter().map(LabelSource::label).collect();
-        origin.push_str(&format!("{POSITIONS}{}.", labels.join(" and ")));
-    }
-    library.origin = origin;
+    let rest = library.origin.trim_end();
+    let stop = if rest.ends_with(char::is_alphanumeric) { "." } else { "" };
+    let space = if rest.is_empty() { "" } else { " " };
+    let labels: Vec<&str> = sources.into_iter().map(LabelSource::label).collect();
+    library.origin = match &labels[..] {
+        [] => rest.to_owned(),
+        labels => format!("{rest}{stop}{space}{POSITIONS}{}.", labels.join(" and ")),
+    };
 }
 
 /// Whether this is a sentence of [`state_origin_of_places`], and no other follows.
