@@ -68,7 +68,9 @@ impl JudgementArgs {
         };
         let names = participants(&sorts, &ratings, &votes);
         warnings.extend(look_alikes(&names, "participants"));
-        warnings.iter().for_each(|warning| output::warn(warning));
+        for warning in &warnings {
+            output::warn(warning);
+        }
         let source = self.source(&names)?;
         Ok(Judgements { sorts, ratings, votes, source, warnings })
     }

@@ -86,7 +86,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             .push("the places come from different sources; what lies between them means little".to_owned());
     }
     warnings.extend(old_report(&args.out));
-    warnings.iter().for_each(|warning| output::warn(warning));
+    for warning in &warnings {
+        output::warn(warning);
+    }
     warn_of_restricted(&library);
     atomic::write(&args.out, &write_library(&library))?;
     let n_placed = placements.len();

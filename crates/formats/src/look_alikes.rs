@@ -21,12 +21,12 @@ pub fn look_alikes(names: &[&str], what: &str) -> Vec<String> {
     groups.into_values().filter(|names| names.len() > 1).map(sentence).collect()
 }
 
-/// What look-alikes share: neither case nor spaces, hyphens and underscores count, nor zeros ahead of a number.
+/// What look-alikes share: neither case nor blanks, hyphens and underscores count, nor zeros ahead of a number.
 fn likeness(name: &str) -> String {
     let mut likeness = String::new();
     let mut in_number = false;
     let plain = plain(name);
-    let mut characters = plain.chars().peekable();
+    let mut characters = plain.chars().filter(|c| !is_unseen(*c)).peekable();
     while let Some(c) = characters.next() {
         let is_padding = c == '0' && !in_number && characters.peek().is_some_and(char::is_ascii_digit);
         if !is_padding {
@@ -35,6 +35,11 @@ fn likeness(name: &str) -> String {
         }
     }
     likeness
+}
+
+/// Whether a character leaves no mark: blanks of all kinds, some of no width.
+fn is_unseen(c: char) -> bool {
+    c.is_whitespace() || matches!(c, '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}')
 }
 
 #[cfg(test)]
@@ -47,6 +52,7 @@ mod tests {
         assert_eq!(told.len(), 1);
         assert!(told[0].starts_with("the participants \"P1\", \"p 01\", \"p1\" look alike"), "{told:?}");
         assert_eq!(look_alikes(&["a_b", "A-B", "x", "X"], "participants").len(), 2);
+        assert_eq!(look_alikes(&["a b", "a\u{a0}b", "c", "c\u{200b}"], "participants").len(), 2);
         let different = ["p1", "p10", "p100", "p0", "p00x", "p", "1p", "p1a"];
         assert_eq!(look_alikes(&different, "participants"), [] as [&str; 0]);
     }
