@@ -6,26 +6,23 @@ use anyhow::{Context as _, bail};
 use shagreen_core::features::NamedTexture;
 use shagreen_core::mds::{MAX_DIMS, Ties};
 use shagreen_core::mfcc::{MfccOptions, htk, paper, recommended};
-use shagreen_core::panel::is_simulated;
-use shagreen_core::ratings::{AdjectivePair, Rating, RelevanceVote};
+use shagreen_core::ratings::{AdjectivePair, OUTLIER_LIMIT};
 use shagreen_core::selection::Method;
-use shagreen_core::sorting::Sort;
-use shagreen_core::space::LabelSource;
+use shagreen_core::sorting::Finding;
 use shagreen_core::space_build::{
     FeatureKind, Placement, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
 };
 use shagreen_formats::atomic;
 use shagreen_formats::figure::{figure_csv, figure_svg, is_figure_csv, page_svg};
 use shagreen_formats::library::write_library;
-use shagreen_formats::ratings_csv::{read_ratings_csv, read_relevance_csv};
-use shagreen_formats::sorting_csv::read_sorting_csv;
 use shagreen_formats::space_report::{
     FIGURES, FORMAT, placed_library, space_figures, space_report, space_subtitle,
 };
 
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
+use crate::cli::output::{self, Progress, Usage, counted, warn_of_restricted};
+use crate::cli::space_judgements::{JudgementArgs, Judgements};
 
 /// Builds an authoring space from what people felt and what was measured.
 ///
@@ -36,16 +33,8 @@ use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// CSV with a line for each texture of each sort (participant, trial, groups, texture, group), or a column for each
-    /// texture.
-    #[arg(long, value_name = "S.csv")]
-    sorting: PathBuf,
-    /// CSV with a line for each rating (participant, texture, adjective, value), or a column for each adjective pair.
-    #[arg(long, value_name = "R.csv")]
-    ratings: PathBuf,
-    /// CSV of votes on which adjectives are relevant (participant, adjective, relevant): pairs below half are left out.
-    #[arg(long, value_name = "V.csv")]
-    relevance: Option<PathBuf>,
+    #[command(flatten)]
+    judgements: JudgementArgs,
     /// Library file to write.
     #[arg(long, value_name = "L2")]
     out: PathBuf,
@@ -65,9 +54,9 @@ pub(crate) struct Args {
     /// What is taken from the vibrations.
     #[arg(long, default_value = "mfcc", value_parser = FeatureKind::ALL.map(FeatureKind::id))]
     features: String,
-    /// How coefficients are taken.
-    #[arg(long, default_value = "recommended", value_parser = ["recommended", "paper", "htk"])]
-    mfcc: String,
+    /// How coefficients are taken, where features are made of them [default: recommended].
+    #[arg(long, value_parser = ["recommended", "paper", "htk"])]
+    mfcc: Option<String>,
     /// How an axis is predicted from features: as in the paper, or better.
     #[arg(long, default_value = "practical", value_parser = Method::ALL.map(Method::id))]
     selection: String,
@@ -77,9 +66,6 @@ pub(crate) struct Args {
     /// Permutations of the null distribution.
     #[arg(long, default_value_t = 1000, value_name = "N")]
     permutations: usize,
-    /// Who judged, where names of participants do not say it: human or simulated.
-    #[arg(long, value_name = "SOURCE", value_parser = ["human", "simulated"])]
-    source: Option<String>,
     /// Folder for each figure as SVG and CSV.
     #[arg(long, value_name = "FOLDER")]
     figures: Option<PathBuf>,
@@ -106,9 +92,11 @@ fn parse_axes(text: &str) -> Result<Axes, String> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let options = options(args)?;
     let [report_json, report_svg] =
         ["report.json", "report.svg"].map(|ending| args.out.with_extension(ending));
-    let inputs = [Some(&*args.sorting), Some(&*args.ratings), args.relevance.as_deref(), args.library.path()];
+    let [sorting, ratings, relevance] = args.judgements.paths();
+    let inputs = [sorting, ratings, relevance, args.library.path()];
     refuse_inputs(&[&args.out, &report_json, &report_svg], &inputs)?;
     refuse_foreign(&args.out, "the library", is_library)?;
     refuse_foreign(&report_json, "the report", |bytes| has_format(bytes, FORMAT))?;
@@ -121,16 +109,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("this is a folder; name a file to write: {}", folder.display());
     }
     let library = load(&args.library)?;
-    let sorts = read(&args.sorting, |bytes| Ok(read_sorting_csv(bytes)?.sorts))?;
-    let ratings = read(&args.ratings, |bytes| Ok(read_ratings_csv(bytes)?))?;
-    let votes = match &args.relevance {
-        Some(path) => read(path, |bytes| Ok(read_relevance_csv(bytes)?))?,
-        None => Vec::new(),
-    };
-    let source = source(args, &sorts, &ratings, &votes)?;
+    let Judgements { sorts, ratings, votes, source, warnings } = args.judgements.read()?;
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
-    let options = options(args)?;
     let progress = Progress::new("steps", Step::COUNT);
     let mut n_done = 0;
     let built = build_space(&data, &options, &mut |step| {
@@ -139,36 +120,55 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             n_done += 1;
         }
         true
-    })?;
+    })
+    .map_err(|error| args.judgements.in_files(error, &library, &args.library))?;
     progress.finish();
-    let report = space_report(&built);
+    let mut report = space_report(&built);
+    report["warnings"] = warnings.into();
     let figures = space_figures(&built);
     let mut placed = placed_library(&library, &built);
     output::CREATED_BY.clone_into(&mut placed.created_by);
     warn_of_restricted(&placed);
+    let mut text = serde_json::to_string_pretty(&report)?;
+    text.push('\n');
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     if let Some(folder) = &args.figures {
-        std::fs::create_dir_all(folder)
-            .context("cannot make the folder; choose another")
-            .with_context(|| output::in_file(folder))?;
         for (name, figure) in &figures {
-            atomic::write(&folder.join(format!("{name}.svg")), figure_svg(figure).as_bytes())?;
-            atomic::write(&folder.join(format!("{name}.csv")), &figure_csv(figure))?;
+            files.push((folder.join(format!("{name}.svg")), figure_svg(figure).into_bytes()));
+            files.push((folder.join(format!("{name}.csv")), figure_csv(figure)));
         }
     }
     let on_page: Vec<_> = figures.into_iter().map(|(_, figure)| figure).collect();
     let page = page_svg("Authoring space", &space_subtitle(&built), &on_page);
-    let mut text = serde_json::to_string_pretty(&report)?;
-    text.push('\n');
-    atomic::write(&report_json, text.as_bytes())?;
-    atomic::write(&report_svg, page.as_bytes())?;
-    atomic::write(&args.out, &write_library(&placed))?;
+    files.push((report_json, text.into_bytes()));
+    files.push((report_svg, page.into_bytes()));
+    files.push((args.out.clone(), write_library(&placed)));
+    write_together(&files, args.figures.as_deref())?;
     output::print(args.json, &report, || in_words(args, &built));
     Ok(())
 }
 
-fn read<T>(path: &Path, reader: impl FnOnce(&[u8]) -> anyhow::Result<T>) -> anyhow::Result<T> {
-    let bytes = output::read_file(path)?;
-    reader(&bytes).with_context(|| output::in_file(path))
+/// Writes all files or none, into a folder of figures among others that is made for them.
+fn write_together(files: &[(PathBuf, Vec<u8>)], folder: Option<&Path>) -> anyhow::Result<()> {
+    // The outermost first: those that are made here go away again where nothing is written.
+    let mut made: Vec<&Path> =
+        folder.into_iter().flat_map(Path::ancestors).take_while(|path| !path.exists()).collect();
+    made.retain(|path| !path.as_os_str().is_empty());
+    let write = || {
+        if let Some(folder) = folder {
+            std::fs::create_dir_all(folder)
+                .context("cannot make the folder; choose another")
+                .with_context(|| output::in_file(folder))?;
+        }
+        let files: Vec<(&Path, &[u8])> = files.iter().map(|(path, bytes)| (&**path, &**bytes)).collect();
+        Ok(atomic::write_all(&files)?)
+    };
+    write().inspect_err(|_| {
+        for path in made {
+            // The error is told; a folder that somebody else fills meanwhile stays.
+            let _ = std::fs::remove_dir(path);
+        }
+    })
 }
 
 /// Figures must not replace what is read, nor somebody's files.
@@ -185,41 +185,16 @@ fn check_figures(folder: &Path, inputs: &[Option<&Path>]) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// Who judged. What calls itself simulated is never taken for people.
-fn source(
-    args: &Args,
-    sorts: &[Sort],
-    ratings: &[Rating],
-    votes: &[RelevanceVote],
-) -> anyhow::Result<LabelSource> {
-    let sorted = sorts.iter().map(|sort| &sort.participant);
-    let names =
-        sorted.chain(ratings.iter().map(|r| &r.participant)).chain(votes.iter().map(|v| &v.participant));
-    let (simulated, others): (Vec<&String>, Vec<&String>) = names.partition(|name| is_simulated(name));
-    if let ([one, ..], [other, ..]) = (&simulated[..], &others[..]) {
-        bail!(
-            "there are both simulated participants and others (\"{one}\" and \"{other}\"): a space of both means nothing; leave one kind out"
-        )
-    }
-    let simulated = simulated.first();
-    match (args.source.as_deref(), simulated) {
-        (Some("human"), Some(name)) => {
-            bail!(
-                "participant \"{name}\" is simulated, so the space is not of human ratings; leave --source out"
-            )
-        }
-        (Some("simulated"), _) | (None, Some(_)) => Ok(LabelSource::SimulatedRaters),
-        (None, None) => {
-            output::note("the participants are taken for people; if they are not, say --source simulated");
-            Ok(LabelSource::HumanRatings)
-        }
-        _ => Ok(LabelSource::HumanRatings),
-    }
-}
-
 fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
     let unknown = |what: &str| Usage(format!("{what} is not known"));
     let usual = SpaceOptions::usual(args.seed);
+    let features = FeatureKind::from_id(&args.features).ok_or_else(|| unknown(&args.features))?;
+    if let (Some(mfcc), FeatureKind::Physical) = (&args.mfcc, features) {
+        let text = format!(
+            "--mfcc {mfcc} changes nothing where --features is physical: leave it out, or say --features mfcc+physical"
+        );
+        return Err(Usage(text).into());
+    }
     let mut mds = usual.mds.clone();
     mds.ties = if args.ties == "secondary" { Ties::Secondary } else { Ties::Primary };
     Ok(SpaceOptions {
@@ -227,8 +202,8 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         mds,
         axes: args.axes.clone().map(|axes| axes.0),
         is_orthogonal: args.orthogonal,
-        features: FeatureKind::from_id(&args.features).ok_or_else(|| unknown(&args.features))?,
-        mfcc: mfcc(&args.mfcc),
+        features,
+        mfcc: mfcc(args.mfcc.as_deref()),
         method: Method::from_id(&args.selection).ok_or_else(|| unknown(&args.selection))?,
         placement: Placement::from_id(&args.placement).ok_or_else(|| unknown(&args.placement))?,
         n_permutations: args.permutations,
@@ -236,21 +211,38 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
     })
 }
 
-fn mfcc(name: &str) -> MfccOptions {
+fn mfcc(name: Option<&str>) -> MfccOptions {
     match name {
-        "paper" => paper(),
-        "htk" => htk(),
+        Some("paper") => paper(),
+        Some("htk") => htk(),
         _ => recommended(),
     }
 }
 
 fn in_words(args: &Args, built: &SpaceBuild) -> String {
-    let mut lines = vec![format!(
-        "Built a space of {} textures ({}): {}",
-        built.textures.len(),
-        built.source.label(),
-        args.out.display()
-    )];
+    let pairs: Vec<String> = built.adjectives.iter().map(|adjective| adjective.pair.name()).collect();
+    let mut lines = vec![
+        format!(
+            "Built a space of {} ({}): {}",
+            counted(built.textures.len(), "texture"),
+            built.source.label(),
+            args.out.display()
+        ),
+        format!("Rated on {}: {}.", counted(pairs.len(), "adjective pair"), pairs.join(", ")),
+    ];
     lines.extend(verdict(built));
+    lines.extend(outliers_explained(built));
     lines.join("\n")
+}
+
+/// What it means that somebody judged unlike the others, where somebody did.
+fn outliers_explained(built: &SpaceBuild) -> Option<String> {
+    let is_rater = built.raters.iter().any(|(_, fit)| fit.outlying);
+    let is_sorter =
+        built.similarity.findings.iter().any(|finding| matches!(finding, Finding::Outlying { .. }));
+    (is_rater || is_sorter).then(|| {
+        format!(
+            "To judge unlike the others is to correlate with their mean far less than they do (ratings: by less than {OUTLIER_LIMIT}). Nobody is left out for it: look for swapped poles or mixed-up names, and build again without them to see what they change."
+        )
+    })
 }

@@ -14,7 +14,7 @@ use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::output;
+use crate::cli::output::{self, counted};
 
 /// Simulates participants who sort and rate the textures of a library, to try `space build` without people.
 ///
@@ -75,8 +75,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     let sorts = simulated_sorts(&ids, &labels, &args.groups, &config)?;
     let ratings = simulated_ratings(&ids, &labels, &pairs, &config)?;
-    atomic::write(&args.sorting, &sorting_csv(&sorts))?;
-    atomic::write(&args.ratings, &ratings_csv(&ratings))?;
+    atomic::write_all(&[(&args.sorting, &sorting_csv(&sorts)), (&args.ratings, &ratings_csv(&ratings))])?;
     let names: Vec<String> = pairs.iter().map(AdjectivePair::name).collect();
     let (n_sorts, n_ratings) = (sorts.len(), ratings.len());
     output::print(
@@ -92,9 +91,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "Simulated {} participants on {} textures: {n_sorts} sorts and {n_ratings} ratings of {}",
-                args.participants,
-                ids.len(),
+                "Simulated {} on {}: {} and {} of {}",
+                counted(args.participants, "participant"),
+                counted(ids.len(), "texture"),
+                counted(n_sorts, "sort"),
+                counted(n_ratings, "rating"),
                 names.join(", ")
             )
         },

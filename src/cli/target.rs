@@ -177,13 +177,17 @@ impl Chosen {
 
 /// That there is no such texture, and which have a name like it.
 pub(crate) fn unknown_texture(library: &Library, id: &str) -> String {
+    format!("the library has no texture \"{id}\"; {}", meant(library, id))
+}
+
+/// Which textures may have been meant by what is the name of none.
+pub(crate) fn meant(library: &Library, id: &str) -> String {
     let near = near_ids(library, id);
-    let hint = if near.is_empty() {
+    if near.is_empty() {
         "`shagreen library list` shows what there is".to_owned()
     } else {
         format!("did you mean {}?", near.join(", "))
-    };
-    format!("the library has no texture \"{id}\"; {hint}")
+    }
 }
 
 /// Up to three identifiers like `id`, the nearest first.

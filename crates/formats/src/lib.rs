@@ -21,17 +21,21 @@
 )]
 
 pub mod atomic;
+pub mod csv_text;
 pub mod figure;
 pub mod fit_report;
 pub mod hatt;
 pub mod imported;
 mod layout;
 pub mod library;
+pub mod look_alikes;
 pub mod map_toml;
 pub mod materials_toml;
 pub mod named_table;
+mod pair_columns;
 pub mod panel_labels;
 pub mod picture;
+mod place_origin;
 pub mod places_csv;
 pub mod ratings_csv;
 pub mod recording;

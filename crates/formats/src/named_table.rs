@@ -1,9 +1,12 @@
 //! Tables of words and numbers with a first line that names their columns: judgements of people, places of textures.
 //!
-//! Columns are parted by commas, semicolons or tabs; a decimal comma is understood where commas do not part the columns.
-//! Names of columns are compared without case, spaces, underscores and hyphens.
+//! Columns are parted by commas, semicolons or tabs, or by what a first line such as `sep=|` says; a decimal comma is
+//! understood, in quotes where commas part the columns. Names of columns are compared without case, spaces, underscores
+//! and hyphens.
 
 use std::collections::HashSet;
+
+use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
 
 /// Why bytes are no such table, or a field of it cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -20,11 +23,8 @@ pub enum NamedTableError {
         of: &'static str,
     },
     /// Not text.
-    #[error("the file is no UTF-8 text (byte {byte}); save the table as CSV in UTF-8")]
-    NotText {
-        /// The first byte that is none.
-        byte: usize,
-    },
+    #[error(transparent)]
+    Text(#[from] TableTextError),
     /// A column is missing.
     #[error("no column is named {wanted}; the columns are {found}; name it in the first line")]
     Missing {
@@ -46,7 +46,9 @@ pub enum NamedTableError {
         line: u64,
     },
     /// A row has too few or too many fields.
-    #[error("line {line} has {found} fields, the first line names {expected} columns; correct the line")]
+    #[error(
+        "line {line} has {found} fields, the first line names {expected} columns; correct the line{hint}"
+    )]
     Fields {
         /// The line, from one.
         line: u64,
@@ -54,6 +56,8 @@ pub enum NamedTableError {
         found: usize,
         /// The columns.
         expected: usize,
+        /// What else may help.
+        hint: &'static str,
     },
     /// A field is empty that must not be.
     #[error("line {line} has no {column}; fill it in, or remove the line")]
@@ -64,7 +68,9 @@ pub enum NamedTableError {
         column: String,
     },
     /// A field is not a finite number.
-    #[error("{column} in line {line} is \"{found}\", not a number; correct the line")]
+    #[error(
+        "{column} in line {line} is \"{found}\", not a number; correct the line, or leave the field empty"
+    )]
     Number {
         /// The line, from one.
         line: u64,
@@ -79,8 +85,9 @@ pub enum NamedTableError {
 pub(crate) struct NamedTable {
     /// Names of the columns as they are written.
     pub(crate) columns: Vec<String>,
+    /// Where they are named, from one.
+    pub(crate) first_line: u64,
     rows: Vec<Row>,
-    delimiter: u8,
 }
 
 /// A row and where it stands.
@@ -111,18 +118,12 @@ impl NamedTable {
         wanted: &'static str,
         of: &'static str,
     ) -> Result<Self, NamedTableError> {
-        let text = std::str::from_utf8(bytes)
-            .map_err(|error| NamedTableError::NotText { byte: error.valid_up_to() })?;
-        let text = text.trim_start_matches('\u{feff}');
-        let delimiter = delimiter_of(text);
-        let mut reader = csv::ReaderBuilder::new()
-            .delimiter(delimiter)
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
+        let text = csv_text::text(bytes)?;
+        let (stated, text) = stated_delimiter(&text);
+        let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
+        let mut reader = csv_text::rows(delimiter).comment(Some(b'#')).from_reader(text.as_bytes());
         let mut columns: Option<Vec<String>> = None;
+        let mut first_line = 1;
         let mut rows = Vec::new();
         let mut record = csv::StringRecord::new();
         // Text in memory with rows of any length: there is nothing left that the parser could refuse.
@@ -133,10 +134,16 @@ impl NamedTable {
             }
             let fields: Vec<String> = record.iter().map(str::to_owned).collect();
             match &columns {
-                None => columns = Some(fields),
+                None => (columns, first_line) = (Some(fields), line),
                 Some(columns) if columns.len() != fields.len() => {
                     let (found, expected) = (fields.len(), columns.len());
-                    return Err(NamedTableError::Fields { line, found, expected });
+                    let is_comma = delimiter == b',' && found > expected;
+                    let hint = if is_comma {
+                        "; a decimal comma needs quotes where commas part the columns"
+                    } else {
+                        ""
+                    };
+                    return Err(NamedTableError::Fields { line, found, expected, hint });
                 }
                 Some(_) => rows.push(Row { line, fields }),
             }
@@ -152,7 +159,7 @@ impl NamedTable {
         if let Some(row) = rows.iter().find(is_lost) {
             return Err(NamedTableError::Unnamed { line: row.line });
         }
-        Ok(Self { columns, rows, delimiter })
+        Ok(Self { columns, first_line, rows })
     }
 
     /// The column of the first of these names that there is.
@@ -218,7 +225,7 @@ impl<'a> Field<'a> {
         if matches!(text.to_ascii_lowercase().as_str(), "" | "-" | "na" | "n/a" | "nan" | "null" | "none") {
             return Ok(None);
         }
-        number(text, self.table.delimiter).map(Some).ok_or_else(|| NamedTableError::Number {
+        number(text).map(Some).ok_or_else(|| NamedTableError::Number {
             line: self.row.line,
             column: self.name().to_owned(),
             found: text.to_owned(),
@@ -243,37 +250,8 @@ pub(crate) fn write_table(rows: impl IntoIterator<Item = Vec<String>>) -> Vec<u8
 }
 
 /// A name as it is compared.
-fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, ' ' | '_' | '-' | '\u{2013}')).collect::<String>().to_lowercase()
-}
-
-/// The line, from one, on which a record of `text` stands: the reader counts from the end of the record before it, and
-/// there may be empty lines and comments between.
-pub(crate) fn line_of(text: &str, record: &csv::StringRecord) -> u64 {
-    let Some(position) = record.position() else { return 0 };
-    let rest = usize::try_from(position.byte()).ok().and_then(|byte| text.get(byte..)).unwrap_or("");
-    let is_skipped = |line: &&str| line.trim().is_empty() || line.starts_with('#');
-    position.line() + rest.lines().take_while(is_skipped).count() as u64
-}
-
-/// The delimiter of the first line that is neither empty nor a comment: a semicolon or tab is never part of a number.
-pub(crate) fn delimiter_of(text: &str) -> u8 {
-    let is_content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
-    let line = text.lines().find(is_content).unwrap_or("");
-    if line.contains(';') {
-        b';'
-    } else if line.contains('\t') {
-        b'\t'
-    } else {
-        b','
-    }
-}
-
-/// The number in a field, if it is a finite one.
-pub(crate) fn number(field: &str, delimiter: u8) -> Option<f64> {
-    let parsed = if delimiter == b',' { field.parse() } else { field.replace(',', ".").parse() };
-    // What is no number is the caller's to name.
-    parsed.ok().filter(|value: &f64| value.is_finite())
 }
 
 #[cfg(test)]
@@ -298,6 +276,33 @@ mod tests {
     }
 
     #[test]
+    fn tables_of_spreadsheets_say_the_same() {
+        let plain = "id,rs\ncork,3.5\n\nfelt,40\n";
+        let wide = |order: fn(u16) -> [u8; 2]| -> Vec<u8> {
+            "\u{feff}id\trs\r\ncork\t3,5\r\n\r\nfelt\t40\r\n".encode_utf16().flat_map(order).collect()
+        };
+        let values = |bytes: &[u8]| {
+            let table = NamedTable::read(bytes, "id", "texture").unwrap();
+            assert_eq!(table.columns, ["id", "rs"]);
+            table.rows().map(|row| (row.at(1).number().unwrap(), row.line())).collect::<Vec<_>>()
+        };
+        assert_eq!(values(plain.as_bytes()), [(Some(3.5), 2), (Some(40.0), 4)]);
+        for bytes in
+            [wide(u16::to_le_bytes), wide(u16::to_be_bytes), b"id,rs\ncork,\"3,5\"\n\nfelt,40\n".to_vec()]
+        {
+            assert_eq!(values(&bytes), values(plain.as_bytes()));
+        }
+        for (mark, comma) in [(';', ','), ('|', ','), ('\t', ','), (',', '.')] {
+            let text =
+                format!("sep={mark}\r\nid{mark}rs\r\n# note\r\ncork{mark}3{comma}5\r\nfelt{mark}40\r\n");
+            assert_eq!(values(text.as_bytes()), [(Some(3.5), 4), (Some(40.0), 5)], "{text:?}");
+        }
+        let table = read("id,rs\ncork,\"1,234,5\"\n").unwrap();
+        let message = table.rows().next().unwrap().at(1).number().unwrap_err().to_string();
+        assert!(message.contains("rs in line 2 is \"1,234,5\", not a number"), "{message}");
+    }
+
+    #[test]
     fn what_cannot_be_used_says_where() {
         let check = |text: &str, words: &str| {
             let message = read(text).err().unwrap();
@@ -305,10 +310,20 @@ mod tests {
         };
         check("", "no rows");
         check("id,rs\n", "no rows");
-        check("id,rs\na,1,2\n", "line 2 has 3 fields");
+        check(
+            "id,rs\na,1,2\n",
+            "line 2 has 3 fields, the first line names 2 columns; correct the line; a decimal",
+        );
+        check("id;rs\na;1;2\n", "names 2 columns; correct the line");
         check("id,ID\na,1\n", "two columns");
         check("id,,\na,,\nb,,1\n", "line 3 has something in a column without a name");
-        assert!(NamedTable::read(b"id\n\xff\n", "id", "texture").is_err());
+        assert!(
+            NamedTable::read(b"id\na\xff\n", "id", "texture")
+                .err()
+                .unwrap()
+                .to_string()
+                .contains("line 2 is no")
+        );
         let table = read("id,rs\n,x1\n").unwrap();
         let row = table.rows().next().unwrap();
         assert!(row.at(0).word().unwrap_err().to_string().contains("line 2 has no id"));

@@ -7,14 +7,65 @@
 //!
 //! `source` says what the places were derived from: `human`, `simulated` or `physical`; where there is no such column, the
 //! whole table has the one that the caller states. Without `rs` and `hs`, the columns `rough-smooth` and `hard-soft` are
-//! the place.
+//! the place. A table on another [`Scale`] is brought to 0 to 100. Columns that are none of these are not used.
 
 use std::collections::HashMap;
 
-use shagreen_core::space::{LabelSource, SpacePoint, SpacePointError};
+use shagreen_core::ratings::PairNameError;
+use shagreen_core::space::{LabelSource, SpacePoint};
 
+use crate::imported::Imported;
 use crate::library::{Attribute, Attributes, DIGITS, Library, Place, digits};
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
+use crate::pair_columns::{NAME_BOTH_POLES, pair_columns, unused_warning};
+use crate::place_origin::state_origin_of_places;
+
+/// The scale on which values of a table were given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    low: f64,
+    high: f64,
+}
+
+/// Why two numbers are no scale.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("a scale runs from a number to a higher one, not from {low} to {high}")]
+pub struct ScaleError {
+    /// The first number.
+    pub low: f64,
+    /// The second.
+    pub high: f64,
+}
+
+impl Scale {
+    /// The scale of a space, from 0 to 100.
+    pub const OF_SPACE: Self = Self { low: 0.0, high: 100.0 };
+
+    /// A scale from `low` to `high`.
+    ///
+    /// # Errors
+    /// [`ScaleError`] unless both are finite, and so is what lies between them, which is not nothing.
+    pub fn new(low: f64, high: f64) -> Result<Self, ScaleError> {
+        if (high - low).is_finite() && high > low {
+            Ok(Self { low, high })
+        } else {
+            Err(ScaleError { low, high })
+        }
+    }
+
+    fn contains(self, value: f64) -> bool {
+        (self.low..=self.high).contains(&value)
+    }
+
+    /// A value of the scale as one from 0 to 100.
+    fn to_space(self, value: f64) -> f64 {
+        if self == Self::OF_SPACE {
+            return value;
+        }
+        // Rounding must not lead out of the square.
+        (100.0 * ((value - self.low) / (self.high - self.low))).clamp(0.0, 100.0)
+    }
+}
 
 /// Where a texture lies, and its attributes.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,16 +105,10 @@ pub enum PlacesCsvError {
         /// The line, from one.
         line: u64,
     },
-    /// A place lies outside the square.
-    #[error("line {line}: {source}")]
-    Place {
-        /// The line, from one.
-        line: u64,
-        /// What is wrong.
-        source: SpacePointError,
-    },
-    /// An attribute lies outside its range.
-    #[error("{column} in line {line} is {value}; it must lie between 0 and 100")]
+    /// A value lies outside the scale.
+    #[error(
+        "{column} in line {line} is {value}; it must lie between {low} and {high}, or the scale of the table must be stated"
+    )]
     Range {
         /// Name of the column.
         column: String,
@@ -71,6 +116,30 @@ pub enum PlacesCsvError {
         line: u64,
         /// The value.
         value: f64,
+        /// The low end of the scale.
+        low: f64,
+        /// The high end of the scale.
+        high: f64,
+    },
+    /// What should be a value of an attribute is none.
+    #[error(
+        "{column} in line {line} is \"{found}\", not a number; if the column is no adjective pair, remove it, or name it by one word"
+    )]
+    NotAValue {
+        /// Name of the column.
+        column: String,
+        /// The line, from one.
+        line: u64,
+        /// What stands there.
+        found: String,
+    },
+    /// A name could be several pairs.
+    #[error("line {line}: {source}")]
+    Pair {
+        /// The line, from one.
+        line: u64,
+        /// What is wrong.
+        source: PairNameError,
     },
     /// A source is not known.
     #[error("source in line {line} is \"{found}\"; say human, simulated or physical")]
@@ -92,17 +161,25 @@ pub const ROUGH_SMOOTH: &str = "rough-smooth";
 /// Name of the second axis as an attribute.
 pub const HARD_SOFT: &str = "hard-soft";
 
-/// Reads a table of places; `source` is that of rows that do not state their own.
+/// Reads a table of places on a scale; `source` is that of rows that do not state their own. Columns that are not used
+/// are a warning.
 ///
 /// # Errors
 /// See [`PlacesCsvError`].
-pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<Placement>, PlacesCsvError> {
+pub fn read_places(
+    bytes: &[u8],
+    source: Option<LabelSource>,
+    scale: Scale,
+) -> Result<Imported<Vec<Placement>>, PlacesCsvError> {
     let table = NamedTable::read(bytes, "id, rs, hs", "texture")?;
     let id_column = table.need(&["id", "texture", "texture_id", "name"])?;
     let rs_column = table.need(&["rs", ROUGH_SMOOTH])?;
     let hs_column = table.need(&["hs", HARD_SOFT])?;
     let source_column = table.find(&["source", "label_source"]);
     let others = table.others(&[Some(id_column), Some(rs_column), Some(hs_column), source_column]);
+    let columns = pair_columns(&table, &others, |field| value(field, scale).is_ok())
+        .map_err(|source| PlacesCsvError::Pair { line: table.first_line, source })?;
+    let attribute_columns: Vec<usize> = columns.pairs.iter().map(|(column, _)| *column).collect();
     let mut placements = Vec::new();
     let mut lines: HashMap<&str, u64> = HashMap::new();
     for row in table.rows() {
@@ -112,10 +189,10 @@ pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<
         }
         let needed = |field: Field<'_>| -> Result<f64, PlacesCsvError> {
             let blank = || PlacesCsvError::Blank { id: id.to_owned(), column: field.name().to_owned(), line };
-            field.number()?.ok_or_else(blank)
+            in_scale(field, field.number()?.ok_or_else(blank)?, scale)
         };
-        let point = SpacePoint::new(needed(row.at(rs_column))?, needed(row.at(hs_column))?)
-            .map_err(|source| PlacesCsvError::Place { line, source })?;
+        let point =
+            SpacePoint { rough_smooth: needed(row.at(rs_column))?, hard_soft: needed(row.at(hs_column))? };
         let stated = source_column.map(|column| row.at(column).text()).filter(|text| !text.is_empty());
         let source = match stated {
             Some(text) => LabelSource::from_id(&text.to_lowercase())
@@ -126,26 +203,63 @@ pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<
         let mut values = Vec::new();
         for (name, value) in [(ROUGH_SMOOTH, point.rough_smooth), (HARD_SOFT, point.hard_soft)] {
             // A table may have the attribute beside the place: what was rated is not where it was put.
-            if others.iter().all(|column| !row.at(*column).name().eq_ignore_ascii_case(name)) {
+            if attribute_columns.iter().all(|column| !row.at(*column).name().eq_ignore_ascii_case(name)) {
                 values.push(axis(name, value));
             }
         }
-        for column in &others {
+        for column in &attribute_columns {
             let field = row.at(*column);
-            let Some(value) = field.number()? else { continue };
-            if !(0.0..=100.0).contains(&value) {
-                return Err(PlacesCsvError::Range { column: field.name().to_owned(), line, value });
+            if let Some(value) = value(field, scale)? {
+                values.push(axis(field.name(), value));
             }
-            values.push(axis(field.name(), value));
         }
         let attributes = Attributes { source, values };
         placements.push(Placement { id: id.to_owned(), place: Place { at: point, source }, attributes });
     }
-    Ok(placements)
+    let warning = unused_warning(&table, &columns.unused, NAME_BOTH_POLES);
+    Ok(Imported { value: placements, warnings: warning.into_iter().collect() })
+}
+
+/// The value of an attribute, 0 to 100; `None` where it is left empty.
+fn value(field: Field<'_>, scale: Scale) -> Result<Option<f64>, PlacesCsvError> {
+    let number = field.number().map_err(|_| PlacesCsvError::NotAValue {
+        column: field.name().to_owned(),
+        line: field.line(),
+        found: field.text().to_owned(),
+    })?;
+    number.map(|value| in_scale(field, value, scale)).transpose()
+}
+
+/// What a field holds, from 0 to 100.
+fn in_scale(field: Field<'_>, value: f64, scale: Scale) -> Result<f64, PlacesCsvError> {
+    if scale.contains(value) {
+        return Ok(scale.to_space(value));
+    }
+    let (column, line, Scale { low, high }) = (field.name().to_owned(), field.line(), scale);
+    Err(PlacesCsvError::Range { column, line, value, low, high })
+}
+
+/// The placements of [`read_places`] from 0 to 100 alone.
+///
+/// # Errors
+/// See [`PlacesCsvError`].
+pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<Placement>, PlacesCsvError> {
+    read_places(bytes, source, Scale::OF_SPACE).map(|imported| imported.value)
+}
+
+/// Highest value of a table at which a scale of 0 to 100 looks like another one.
+const SHORT_SCALE: f64 = 10.0;
+
+/// The lowest and the highest coordinate of several placements, where they look as if they were on another scale than
+/// 0 to 100: none is above 10.
+pub fn looks_rescaled(placements: &[Placement]) -> Option<(f64, f64)> {
+    let all = placements.iter().flat_map(|p| [p.place.at.rough_smooth, p.place.at.hard_soft]);
+    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
+    (placements.len() > 1 && high <= SHORT_SCALE).then_some((low, high))
 }
 
 /// Puts the textures of a library where a table says; returns the identifiers of those that are not in it, which lose
-/// their place and attributes.
+/// their place and attributes. The origin of the library says what the positions come from.
 pub fn place_textures(library: &mut Library, placements: &[Placement]) -> Vec<String> {
     let mut missing = Vec::new();
     for texture in &mut library.textures {
@@ -156,6 +270,7 @@ pub fn place_textures(library: &mut Library, placements: &[Placement]) -> Vec<St
             missing.push(texture.id.clone());
         }
     }
+    state_origin_of_places(library);
     missing
 }
 
@@ -188,7 +303,7 @@ pub fn places_csv(library: &Library) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{place_textures, places_csv, read_places_csv};
+    use super::{Scale, looks_rescaled, place_textures, places_csv, read_places, read_places_csv};
     use crate::starter::starter_library;
     use shagreen_core::space::LabelSource;
 
@@ -222,6 +337,41 @@ mod tests {
     }
 
     #[test]
+    fn another_scale_is_brought_to_that_of_the_space() {
+        let text = "id,rs,hs,flat-bumpy\ncork,1,7,\nfelt,4,\"2,5\",6\n";
+        let read = |scale| read_places(text.as_bytes(), Some(LabelSource::HumanRatings), scale);
+        let placements = read(Scale::new(1.0, 7.0).unwrap()).unwrap().value;
+        let at = |i: usize| (placements[i].place.at.rough_smooth, placements[i].place.at.hard_soft);
+        assert_eq!((at(0), at(1)), ((0.0, 100.0), (50.0, 25.0)));
+        assert_eq!(placements[1].attributes.get("rough-smooth"), Some(50.0));
+        assert!((placements[1].attributes.get("flat-bumpy").unwrap() - 500.0 / 6.0).abs() < 1e-12);
+        assert_eq!(looks_rescaled(&placements), None);
+        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value), Some((1.0, 7.0)));
+        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value[..1]), None);
+        let message = read(Scale::new(1.0, 6.0).unwrap()).unwrap_err().to_string();
+        assert!(message.contains("hs in line 2 is 7; it must lie between 1 and 6"), "{message}");
+        for (low, high) in [(7.0, 1.0), (1.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (-1e308, 1e308)] {
+            assert!(Scale::new(low, high).is_err(), "{low} {high}");
+        }
+        // No rounding leads out of the square, and none of the table's own scale.
+        let odd = Scale::new(0.1, 0.7).unwrap();
+        assert_eq!((odd.to_space(0.1), odd.to_space(0.7)), (0.0, 100.0));
+        assert_eq!(Scale::OF_SPACE.to_space(28.999_999_999_999_996), 28.999_999_999_999_996);
+    }
+
+    #[test]
+    fn other_columns_are_named_and_not_used() {
+        let text = "id,rs,hs,color,flat-bumpy,start-time,warmth\ncork,40,71,red,33,12:30,5\n";
+        let read = read_places(text.as_bytes(), Some(LabelSource::HumanRatings), Scale::OF_SPACE).unwrap();
+        let names: Vec<&str> = read.value[0].attributes.values.iter().map(|a| a.name.as_str()).collect();
+        assert_eq!(names, ["rough-smooth", "hard-soft", "flat-bumpy"]);
+        assert!(
+            read.warnings[0].starts_with("the columns color, start-time, warmth are not used;"),
+            "{read:?}"
+        );
+    }
+
+    #[test]
     fn what_places_nothing_says_why() {
         let check = |text: &str, words: &str| {
             let message = read_places_csv(text.as_bytes(), Some(LabelSource::HumanRatings)).unwrap_err();
@@ -229,8 +379,10 @@ mod tests {
         };
         check("id,rs,hs\na,1,2\na,3,4\n", "line 2 and again in line 3");
         check("id,rs,hs\na,,2\n", "rs of \"a\" is empty");
-        check("id,rs,hs\na,101,2\n", "line 2");
+        check("id,rs,hs\na,101,2\n", "rs in line 2 is 101; it must lie between 0 and 100");
         check("id,rs,hs,warm-cold\na,1,2,-3\n", "warm-cold in line 2 is -3");
+        check("id,rs,hs,warm-cold\na,1,2,12:30\n", "warm-cold in line 2 is \"12:30\"");
+        check("id,rs,hs,so-so-so\na,1,2,3\n", "line 1: \"so-so-so\" can be parted");
         check("id,rs,hs,source\na,1,2,me\n", "human, simulated or physical");
         check("id,rs\na,1\n", "\"hs\"");
         let unsaid = read_places_csv(b"id,rs,hs\na,1,2\n", None).unwrap_err();

@@ -7,11 +7,14 @@
 //! p01,cork,rough-smooth,41                     p01,cork,41,70.5
 //! ```
 //!
-//! A pair is named by its poles, the one at 0 first. A rating that is left empty is missing.
+//! A pair is named by its poles, the one at 0 first. A rating that is left empty is missing. Columns that are none of
+//! these, as `age` or `start_time`, are not used.
 
 use shagreen_core::ratings::{AdjectivePair, PairNameError, Rating, RelevanceVote};
 
+use crate::imported::Imported;
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
+use crate::pair_columns::{NAME_BOTH_POLES, pair_columns, unused_warning};
 use crate::sorting_csv::{PARTICIPANT, TEXTURE};
 
 /// Why a table holds no ratings.
@@ -28,6 +31,20 @@ pub enum RatingsCsvError {
         line: u64,
         /// What is wrong.
         source: PairNameError,
+    },
+    /// What should be a rating is none.
+    #[error(
+        "{column} in line {line} is \"{found}\"; a rating is a number from 0 to 100, or is left empty; {hint}"
+    )]
+    NotARating {
+        /// Name of the column.
+        column: String,
+        /// The line, from one.
+        line: u64,
+        /// What stands there.
+        found: String,
+        /// What may help.
+        hint: &'static str,
     },
     /// No column is for a pair.
     #[error(
@@ -53,44 +70,70 @@ const ADJECTIVE: [&str; 6] = ["adjective", "adjective_pair", "pair", "attribute"
 const VALUE: [&str; 4] = ["value", "rating", "score", "response"];
 const RELEVANT: [&str; 4] = ["relevant", "selected", "vote", "chosen"];
 
-/// Reads ratings, missing ones among them.
+/// What may help where a rating is none, in either shape.
+const RESCALE: &str = "bring another scale to it first";
+const RESCALE_OR_RENAME: &str =
+    "bring another scale to it first; if the column is no adjective pair, remove it, or name it by one word";
+
+/// Reads ratings, missing ones among them. Columns that are not used are a warning.
 ///
 /// # Errors
 /// See [`RatingsCsvError`].
-pub fn read_ratings_csv(bytes: &[u8]) -> Result<Vec<Rating>, RatingsCsvError> {
+pub fn read_ratings(bytes: &[u8]) -> Result<Imported<Vec<Rating>>, RatingsCsvError> {
     let table = NamedTable::read(bytes, "participant, texture, adjective, value", "rating")?;
     let participant = table.need(&PARTICIPANT)?;
     let texture = table.need(&TEXTURE)?;
-    let pair = |name: &str, line: u64| -> Result<AdjectivePair, RatingsCsvError> {
-        name.parse().map_err(|source| RatingsCsvError::Pair { line, source })
-    };
     let mut ratings = Vec::new();
     let mut push = |row_participant: Field<'_>, row_texture: Field<'_>, pair, value| {
         let (participant, texture) = (row_participant.word()?.to_owned(), row_texture.word()?.to_owned());
         ratings.push(Rating { participant, texture, pair, value });
         Ok::<(), RatingsCsvError>(())
     };
-    if let (Some(adjective), Some(value)) = (table.find(&ADJECTIVE), table.find(&VALUE)) {
+    let warning = if let (Some(adjective), Some(value)) = (table.find(&ADJECTIVE), table.find(&VALUE)) {
         for row in table.rows() {
-            let pair = pair(row.at(adjective).word()?, row.line())?;
-            push(row.at(participant), row.at(texture), pair, row.at(value).number()?)?;
+            let pair: AdjectivePair = (row.at(adjective).word()?.parse())
+                .map_err(|source| RatingsCsvError::Pair { line: row.line(), source })?;
+            push(row.at(participant), row.at(texture), pair, rating(row.at(value), RESCALE)?)?;
         }
-        return Ok(ratings);
-    }
-    let others = table.others(&[Some(participant), Some(texture)]);
-    if others.is_empty() {
-        return Err(RatingsCsvError::NoPairs { found: table.columns.join(", ") });
-    }
-    let pairs: Vec<(usize, AdjectivePair)> = others
-        .into_iter()
-        .map(|column| Ok((column, pair(&table.columns[column], 1)?)))
-        .collect::<Result<_, RatingsCsvError>>()?;
-    for row in table.rows() {
-        for (column, pair) in &pairs {
-            push(row.at(participant), row.at(texture), pair.clone(), row.at(*column).number()?)?;
+        let unused = table.others(&[participant, texture, adjective, value].map(Some));
+        unused_warning(&table, &unused, "a rating is in the columns adjective and value")
+    } else {
+        let others = table.others(&[Some(participant), Some(texture)]);
+        let columns = pair_columns(&table, &others, |field| rating(field, RESCALE).is_ok())
+            .map_err(|source| RatingsCsvError::Pair { line: table.first_line, source })?;
+        if columns.pairs.is_empty() {
+            return Err(RatingsCsvError::NoPairs { found: table.columns.join(", ") });
         }
+        for row in table.rows() {
+            for (column, pair) in &columns.pairs {
+                let value = rating(row.at(*column), RESCALE_OR_RENAME)?;
+                push(row.at(participant), row.at(texture), pair.clone(), value)?;
+            }
+        }
+        unused_warning(&table, &columns.unused, NAME_BOTH_POLES)
+    };
+    Ok(Imported { value: ratings, warnings: warning.into_iter().collect() })
+}
+
+/// The rating in a field; `None` where it is left empty.
+fn rating(field: Field<'_>, hint: &'static str) -> Result<Option<f64>, RatingsCsvError> {
+    match field.number() {
+        Ok(value) if value.is_none_or(|value| (0.0..=100.0).contains(&value)) => Ok(value),
+        _ => Err(RatingsCsvError::NotARating {
+            column: field.name().to_owned(),
+            line: field.line(),
+            found: field.text().to_owned(),
+            hint,
+        }),
     }
-    Ok(ratings)
+}
+
+/// The ratings of [`read_ratings`] alone.
+///
+/// # Errors
+/// See [`RatingsCsvError`].
+pub fn read_ratings_csv(bytes: &[u8]) -> Result<Vec<Rating>, RatingsCsvError> {
+    read_ratings(bytes).map(|imported| imported.value)
 }
 
 /// Reads votes on which adjectives are relevant: the columns `participant`, `adjective`, `relevant` and perhaps
@@ -161,7 +204,7 @@ pub fn ratings_csv(ratings: &[Rating]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ratings_csv, read_ratings_csv, read_relevance_csv};
+    use super::{ratings_csv, read_ratings, read_ratings_csv, read_relevance_csv};
 
     const LONG: &str = "participant,texture,adjective,value\n\
                         p1,cork,rough-smooth,41\np1,cork,hard-soft,70.5\n\
@@ -183,11 +226,50 @@ mod tests {
             assert!(message.contains(words), "{message}");
         };
         check("participant,texture\np,cork\n", "no column holds ratings");
-        check("participant,texture,smoothness\np,cork,3\n", "line 1: \"smoothness\" names one pole");
+        check(
+            "participant,texture,smoothness\np,cork,3\n",
+            "the columns are participant, texture, smoothness",
+        );
+        check(
+            "participant,texture,non-stick-sticky\np,cork,3\n",
+            "line 1: \"non-stick-sticky\" can be parted",
+        );
+        check("sep=,\nparticipant,texture,non-stick-sticky\np,cork,3\n", "line 2: \"non-stick-sticky\"");
+        check(
+            "participant,texture,a-b\np,cork,101\n",
+            "a-b in line 2 is \"101\"; a rating is a number from 0 to 100",
+        );
+        check("participant,texture,a-b,pre-post\np,cork,1,12:30\n", "pre-post in line 2 is \"12:30\"");
+        check(
+            "participant,texture,a-b,pre-post\np,cork,1,12:30\n",
+            "if the column is no adjective pair, remove it",
+        );
+        check("participant,texture,pair,value\np,cork,a-b,-1\n", "value in line 2 is \"-1\"");
+        check("participant,texture,a-b\np,cork,\"1,234,5\"\n", "a-b in line 2 is \"1,234,5\"");
         check("participant,texture,adjective,value\np,cork,smooth,3\n", "line 2: \"smooth\"");
         check("participant,texture,a-b\np,cork,much\n", "a-b in line 2 is \"much\"");
         check("participant,texture,a-b\np,,3\n", "line 2 has no texture");
         check("texture,a-b\ncork,3\n", "\"participant\"");
+    }
+
+    #[test]
+    fn other_columns_are_named_and_not_used() {
+        let expected = read_ratings(WIDE.as_bytes()).unwrap();
+        assert!(expected.warnings.is_empty());
+        let wide = "subject,age,texture id,rough-smooth,start-time,hard-soft,test date\n\
+                    p1,31,cork,41,12:30,\"70,5\",2026-11-21\np2,27,cork,,12:40,60,2026-11-21\n";
+        let read = read_ratings(wide.as_bytes()).unwrap();
+        assert_eq!(read.value, expected.value);
+        assert!(
+            read.warnings[0].starts_with("the columns age, start-time, test date are not used;"),
+            "{read:?}"
+        );
+        let long = "participant,trial,texture,adjective,value\np1,1,cork,rough-smooth,41\n";
+        let read = read_ratings(long.as_bytes()).unwrap();
+        assert!(
+            read.value.len() == 1 && read.warnings[0].starts_with("the column trial is not used;"),
+            "{read:?}"
+        );
     }
 
     #[test]

@@ -22,6 +22,7 @@ use std::collections::{HashMap, HashSet};
 use shagreen_core::sorting::{Placement, Sort};
 
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
+use crate::pair_columns::unused_warning;
 
 /// Sorts, and all textures that they name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +31,8 @@ pub struct SortingTable {
     pub textures: Vec<String>,
     /// The sorts, in the order of the file.
     pub sorts: Vec<Sort>,
+    /// What was odd but usable, in sentences.
+    pub warnings: Vec<String>,
 }
 
 /// Why a table holds no sortings.
@@ -184,7 +187,9 @@ fn by_texture(
             sorts[at].placements.push(Placement { texture: texture.to_owned(), group: group.to_owned() });
         }
     }
-    Ok(SortingTable { textures: names.0, sorts })
+    let used = [Some(columns.participant), columns.trial, columns.groups, Some(texture), Some(group)];
+    let warning = unused_warning(table, &table.others(&used), "a sort is in the columns texture and group");
+    Ok(SortingTable { textures: names.0, sorts, warnings: warning.into_iter().collect() })
 }
 
 fn by_sort(table: &NamedTable, columns: &Columns) -> Result<SortingTable, SortingCsvError> {
@@ -210,7 +215,7 @@ fn by_sort(table: &NamedTable, columns: &Columns) -> Result<SortingTable, Sortin
             |field: Field<'_>| Placement { texture: field.name().to_owned(), group: field.text().to_owned() };
         sorts.push(Sort { participant, trial, n_groups, placements: fields.map(placement).collect() });
     }
-    Ok(SortingTable { textures: names.0, sorts })
+    Ok(SortingTable { textures: names.0, sorts, warnings: Vec::new() })
 }
 
 /// The sortings as a table with a line for each texture of each sort.
@@ -250,6 +255,14 @@ mod tests {
         assert_eq!(long.sorts[1].placements.len(), 2, "felt was not sorted by p2");
         let again = read_sorting_csv(&sorting_csv(&long.sorts)).unwrap();
         assert_eq!(again.sorts, long.sorts);
+    }
+
+    #[test]
+    fn other_columns_are_named_and_not_used() {
+        let text = "participant,age,texture,group\np1,31,cork,a\np1,31,felt,b\n";
+        let table = read_sorting_csv(text.as_bytes()).unwrap();
+        assert_eq!(table.textures, ["cork", "felt"]);
+        assert!(table.warnings[0].starts_with("the column age is not used;"), "{:?}", table.warnings);
     }
 
     #[test]

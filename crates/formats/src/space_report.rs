@@ -9,6 +9,7 @@ use shagreen_core::space_build::{Adjective, Axis, Placement, Prediction, SpaceBu
 
 use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
 use crate::library::{Attribute, Attributes, Library, Place, USUAL_AXES};
+use crate::place_origin::state_origin_of_places;
 
 /// What the field `format` of a report holds.
 pub const FORMAT: &str = "shagreen-space-report";
@@ -157,7 +158,7 @@ fn positions(build: &SpaceBuild) -> Vec<Value> {
 }
 
 /// The library with the places and attributes of the space, and its report. Textures that are not in the space lose their
-/// place: positions of two origins mean little beside each other.
+/// place: positions of two origins mean little beside each other. The origin of the library says what they come from.
 pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
     let mut placed = library.clone();
     for texture in &mut placed.textures {
@@ -165,6 +166,7 @@ pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
         texture.place = index.map(|i| Place { at: build.positions[i], source: build.source });
         texture.attributes = index.map(|i| attributes(build, i)).filter(|a| !a.values.is_empty());
     }
+    state_origin_of_places(&mut placed);
     let mut report = space_report(build);
     if let Value::Object(report) = &mut report {
         // A library is passed on: who took part stays with those who asked them.

@@ -3,12 +3,12 @@
 //! With a header, columns are found by name: `t` or `time` (with `ms` or `s`), then either `x` and `y` in mm with
 //! `pressure` (0..1) or `force` in N, or `speed` in mm/s with `force` in N. `touching` (0 or 1) may say when the tip is
 //! off; else it is off where it is not pressed. Without a header, three columns are time, speed and force, and four are
-//! time, x, y and force. A decimal comma is understood where commas do not part the columns.
+//! time, x, y and force. A decimal comma is understood, in quotes where commas part the columns.
 
 mod columns;
 
+use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
 use crate::imported::Imported;
-use crate::named_table::{delimiter_of, line_of, number};
 use crate::stroke::{PenSample, Stroke, TimedContact};
 use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
 
@@ -19,6 +19,9 @@ pub const LONGEST_IN_SECONDS: f64 = 60.0;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StrokeCsvError {
+    /// Not text.
+    #[error(transparent)]
+    Text(#[from] TableTextError),
     /// No rows.
     #[error(
         "the table has no rows of numbers; give time, speed and force, or time, x, y and force or pressure"
@@ -89,22 +92,16 @@ struct Row {
 /// # Errors
 /// See [`StrokeCsvError`].
 pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError> {
-    let text = String::from_utf8_lossy(bytes);
-    let text = text.trim_start_matches('\u{feff}');
-    let delimiter = delimiter_of(text);
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
+    let text = csv_text::text(bytes)?;
+    let (stated, text) = stated_delimiter(&text);
+    let mut reader =
+        csv_text::rows(stated.unwrap_or_else(|| delimiter_of(text))).from_reader(text.as_bytes());
     // Text in memory with rows of any length: there is nothing left that the parser could refuse.
     let mut records =
         reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
     let first = records.next().ok_or(StrokeCsvError::Empty)?;
     let mut warnings = Vec::new();
-    let is_header =
-        first.iter().all(|field| number(field, delimiter).is_none() && !is_nonsense_number(field));
+    let is_header = first.iter().all(|field| number(field).is_none() && !is_nonsense_number(field));
     let columns = if is_header { Columns::from_header(&first)? } else { Columns::by_count(first.len())? };
     if !is_header {
         warnings.push(format!("no header; the columns are taken for {}", columns.in_words()));
@@ -114,7 +111,7 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
     let n_lines = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count() + 1;
     let mut rows = Vec::with_capacity(n_lines.min(text.len() / (2 * columns.n) + 1));
     for record in first_row.into_iter().chain(records) {
-        rows.push(parse_row(&columns, &record, line_of(text, &record), delimiter)?);
+        rows.push(parse_row(&columns, &record, line_of(text, &record))?);
     }
     let secs_per_unit = secs_per_unit(&columns, &rows, &mut warnings)?;
     let start = rows.first().map_or(0.0, |row| row.time);
@@ -148,19 +145,14 @@ fn is_nonsense_number(field: &str) -> bool {
     field.parse::<f64>().is_ok()
 }
 
-fn parse_row(
-    columns: &Columns,
-    record: &csv::StringRecord,
-    line: u64,
-    delimiter: u8,
-) -> Result<Row, StrokeCsvError> {
+fn parse_row(columns: &Columns, record: &csv::StringRecord, line: u64) -> Result<Row, StrokeCsvError> {
     if record.len() != columns.n {
         return Err(StrokeCsvError::Columns { line, found: record.len(), expected: columns.n });
     }
     let value_of = |column: &'static str, index: usize| {
         let field = record.get(index).unwrap_or("");
         let found = || field.chars().take(40).collect();
-        number(field, delimiter).ok_or_else(|| StrokeCsvError::Number { line, column, found: found() })
+        number(field).ok_or_else(|| StrokeCsvError::Number { line, column, found: found() })
     };
     let time = value_of("time", columns.time)?;
     let mut values = [0.0; 3];

@@ -1,5 +1,8 @@
 //! Tables of numbers in any dialect: text to columns.
 
+use std::borrow::Cow;
+
+use crate::csv_text::{self, stated_delimiter, text_with_odd_letters};
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::{ColumnMap, Separator};
 
@@ -37,16 +40,8 @@ pub(super) struct Table {
 }
 
 /// Text of bytes: UTF-8, or UTF-16 with a byte order mark; odd letters (of a header in another encoding) are replaced.
-fn text_of(bytes: &[u8]) -> Result<String, RecordingFileError> {
-    let wide = |from: fn([u8; 2]) -> u16| {
-        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| from([pair[0], pair[1]])).collect();
-        String::from_utf16_lossy(&units)
-    };
-    let text = match bytes {
-        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
-        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
-        _ => String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).into_owned(),
-    };
+fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>, RecordingFileError> {
+    let text = text_with_odd_letters(bytes);
     if text.contains('\0') {
         let problem = "the file is neither a WAV file nor text".to_owned();
         return Err(RecordingFileError::Table { problem, line: None });
@@ -91,8 +86,15 @@ pub(super) fn number(field: &str, decimal_comma: bool) -> Option<f64> {
 
 /// Reads a table; the map may say its dialect.
 pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, RecordingFileError> {
-    let mut text = text_of(bytes)?;
-    let separator = map.separator.unwrap_or_else(|| separator_of(&text));
+    let text = text_of(bytes)?;
+    let (stated, text) = stated_delimiter(&text);
+    let stated = match stated {
+        Some(b',') => Some(Separator::Comma),
+        Some(b';') => Some(Separator::Semicolon),
+        Some(b'\t') => Some(Separator::Tab),
+        _ => None,
+    };
+    let separator = map.separator.or(stated).unwrap_or_else(|| separator_of(text));
     let mark = match separator {
         Separator::Comma => ',',
         Separator::Semicolon => ';',
@@ -101,18 +103,11 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
     let decimal_comma = map.decimal_comma.unwrap_or_else(|| {
         let marks: &[char] = if separator == Separator::Spaces { &[' ', '\t'] } else { &[mark] };
         separator != Separator::Comma
-            && content(&text).skip(1).take(SNIFFED_LINES).any(|line| has_decimal_commas(line, marks))
+            && content(text).skip(1).take(SNIFFED_LINES).any(|line| has_decimal_commas(line, marks))
     });
-    if separator == Separator::Spaces {
-        text = single_tabs(&text);
-    }
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(mark as u8)
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
+    let text =
+        if separator == Separator::Spaces { Cow::Owned(single_tabs(text)) } else { Cow::Borrowed(text) };
+    let mut reader = csv_text::rows(mark as u8).comment(Some(b'#')).from_reader(text.as_bytes());
     let mut table = Table {
         names: Vec::new(),
         columns: Vec::new(),

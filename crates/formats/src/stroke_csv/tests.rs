@@ -22,6 +22,8 @@ fn the_same_stroke_in_every_dialect() {
     for text in [
         "0,50,0.5\n0.5,100,1",
         "\u{feff}Time (ms); Speed (mm/s); Force (N)\r\n0;50;0,5\r\n500;100;1\r\n",
+        "sep=|\r\nt_s|speed|force\r\n0|50|0,5\r\n0,5|100|1\r\n",
+        "t_s,speed,force\n0,50,\"0,5\"\n\"0,5\",100,1\n",
         "t\tforce_n\tspeed_mm_per_s\n10\t0.5\t50\n10.5\t1\t100\n\n",
         "v,f,t_ms,note_touching\n".replace("note_touching", "touching").as_str(),
     ] {
@@ -32,6 +34,16 @@ fn the_same_stroke_in_every_dialect() {
             assert_eq!(contacts(text), expected, "{text}");
         }
     }
+}
+
+#[test]
+fn strokes_of_unicode_text_are_read() {
+    let wide: Vec<u8> =
+        "\u{feff}t_s\tspeed\tforce\r\n0\t50\t0,5\r\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let expected = read_stroke_csv(b"t_s,speed,force\n0,50,0.5\n").unwrap();
+    assert_eq!(read_stroke_csv(&wide).unwrap(), expected);
+    let error = read_stroke_csv(b"t_s,speed,force\n0,50,\xff\n").unwrap_err().to_string();
+    assert!(error.contains("line 2 is no UTF-8 text"), "{error}");
 }
 
 #[test]

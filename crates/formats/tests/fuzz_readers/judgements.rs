@@ -1,14 +1,15 @@
 //! Tables of judgements and places: small good files, and what must hold of what is read from changed ones.
 
 use shagreen_core::space::LabelSource;
-use shagreen_formats::places_csv::read_places_csv;
+use shagreen_formats::places_csv::{Scale, read_places, read_places_csv};
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv, read_relevance_csv};
 use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
 pub(crate) fn sorting_seeds() -> Vec<Vec<u8>> {
     let long = "participant,trial,groups,texture,group\np1,1,2,cork,a\np1,1,2,felt,a\np1,1,2,glass,b\n";
     let wide = "subject;trial;n groups;cork;felt;glass\np1;1;2;a;a;b\np2;1;2;x;;y\n# note\n";
-    [long, wide].map(|text| text.as_bytes().to_vec()).to_vec()
+    let unicode = wide.replace(';', "\t").encode_utf16().flat_map(u16::to_be_bytes).collect();
+    [long.as_bytes().to_vec(), wide.as_bytes().to_vec(), [vec![0xfe, 0xff], unicode].concat()].to_vec()
 }
 
 pub(crate) fn ratings_seeds() -> Vec<Vec<u8>> {
@@ -16,13 +17,15 @@ pub(crate) fn ratings_seeds() -> Vec<Vec<u8>> {
         "participant,texture,adjective,value\np1,cork,rough-smooth,41\np2,\"cork, old\",hard - soft,\n";
     let wide = "subject\ttexture id\trough-smooth\thard-soft\np1\tcork\t41\t70,5\np2\tcork\tNA\t60\n";
     let votes = "participant,adjective,relevant\np1,rough,yes\np1,warm,0\n";
-    [long, wide, votes].map(|text| text.as_bytes().to_vec()).to_vec()
+    let stray = "sep=,\nparticipant,age,texture,rough-smooth,start-time\np1,31,cork,\"3,5\",12:30\n";
+    [long, wide, votes, stray].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
 pub(crate) fn places_seeds() -> Vec<Vec<u8>> {
     let plain = "id,rs,hs,flat-bumpy,source\ncork,40.5,71,33,human\nfelt,90,95,,\n";
     let by_poles = "texture;Rough-Smooth;Hard-Soft\ncork;40,5;71\n";
-    [plain, by_poles].map(|text| text.as_bytes().to_vec()).to_vec()
+    let stray = "sep=|\nid|rs|hs|color|flat-bumpy\ncork|1|7|red|4\n";
+    [plain, by_poles, stray].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
 /// Tables that are small and ask for much: many columns, many lines, many names.
@@ -62,9 +65,12 @@ pub(crate) fn read_some_ratings(bytes: &[u8]) -> Result<(), String> {
 }
 
 pub(crate) fn read_some_places(bytes: &[u8]) -> Result<(), String> {
-    let Ok(placements) = read_places_csv(bytes, Some(LabelSource::HumanRatings)) else { return Ok(()) };
+    let human = Some(LabelSource::HumanRatings);
+    let on_seven = Scale::new(1.0, 7.0).map_err(|error| error.to_string())?;
+    let rescaled = read_places(bytes, human, on_seven).into_iter().flat_map(|imported| imported.value);
+    let mut placements = read_places_csv(bytes, human).into_iter().flatten().chain(rescaled);
     let is_inside = |value: f64| (0.0..=100.0).contains(&value);
-    let outside = placements.iter().find(|p| {
+    let outside = placements.find(|p| {
         let at = p.place.at;
         !(is_inside(at.rough_smooth)
             && is_inside(at.hard_soft)

@@ -21,6 +21,7 @@ fn the_same_recording_in_every_dialect() {
     assert_eq!(read_recording("a.csv", &wide, None, &ColumnMap::default()).unwrap().raw, expected.raw);
     for text in [
         "\u{feff}Time (ms); Acc (m/s²); Speed (cm/s); Force (mN)\r\n0;1,5;10;1000\r\n\r\n1;-2,5;5;500\r\n",
+        "sep=;\r\nTime (ms); Acc (m/s²); Speed (cm/s); Force (mN)\r\n0;1,5;10;1000\r\n1;-2,5;5;500\r\n",
         "# a logger\ntime_us\tforce_n\tacc_mps2\tspeed_mps\t\n5\t1\t1.5\t0.1\t\n1005\t0.5\t-2.5\t0.05\t\n",
         "\"t\",\"a\",\"v\",\"F\"\ns,m/s2,m/s,N\n0,1.5,0.1,1\n0.001,-2.5,0.05,0.5\n",
         "t[s]   a[m/s2]  v[m/s] F[N]\n  0 1,5 0,1 1\n  0,001   -2,5 0,05 0,5\n",

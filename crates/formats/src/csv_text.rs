@@ -1,0 +1,219 @@
+//! Text of tables in the dialects of spreadsheets: its encoding, what parts its columns, where its rows stand.
+
+use std::borrow::Cow;
+
+/// Why bytes are no text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableTextError {
+    /// Neither UTF-8 nor UTF-16 with its mark.
+    #[error("line {line} is no UTF-8 text (byte {byte} of the file); save the table as CSV in UTF-8")]
+    Utf8 {
+        /// The line, from one.
+        line: u64,
+        /// The first byte that is none, from zero.
+        byte: usize,
+    },
+    /// UTF-16 with half a character.
+    #[error("line {line} holds half a character of UTF-16 text; save the table again as CSV in UTF-8")]
+    Utf16 {
+        /// The line, from one.
+        line: u64,
+    },
+    /// A zero byte, as other kinds of files have them.
+    #[error(
+        "line {line} holds a zero, so the file is no table of text, or is UTF-16 without its mark; save the table as CSV in UTF-8"
+    )]
+    Zero {
+        /// The line, from one.
+        line: u64,
+    },
+}
+
+/// Text of bytes without its mark: UTF-8, or UTF-16 of either order with a mark, as spreadsheets call "Unicode text".
+pub(crate) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, TableTextError> {
+    let text = if let Some(units) = wide_units(bytes) {
+        Cow::Owned(narrow(units, bytes.len() % 2 == 1)?)
+    } else {
+        let utf8 = std::str::from_utf8(bytes).map_err(|error| {
+            let byte = error.valid_up_to();
+            TableTextError::Utf8 { line: line_at(&bytes[..byte]), byte }
+        })?;
+        Cow::Borrowed(utf8.trim_start_matches('\u{feff}'))
+    };
+    match text.find('\0') {
+        Some(at) => Err(TableTextError::Zero { line: line_at(&text.as_bytes()[..at]) }),
+        None => Ok(text),
+    }
+}
+
+/// The same where odd letters do not matter, as of a header in another encoding: they are replaced.
+pub(crate) fn text_with_odd_letters(bytes: &[u8]) -> Cow<'_, str> {
+    match wide_units(bytes) {
+        Some(units) => {
+            let character = |decoded: Result<char, _>| decoded.unwrap_or(char::REPLACEMENT_CHARACTER);
+            Cow::Owned(char::decode_utf16(units).map(character).collect())
+        }
+        None => String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
+    }
+}
+
+/// The units of UTF-16 after the mark that says their order.
+fn wide_units(bytes: &[u8]) -> Option<impl Iterator<Item = u16> + '_> {
+    let from: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return None,
+    };
+    Some(bytes[2..].chunks_exact(2).map(move |pair| from([pair[0], pair[1]])))
+}
+
+fn narrow(units: impl Iterator<Item = u16>, is_cut: bool) -> Result<String, TableTextError> {
+    let mut text = String::new();
+    for decoded in char::decode_utf16(units) {
+        // The rest of the line is of no use here.
+        let character = decoded.map_err(|_| TableTextError::Utf16 { line: line_at(text.as_bytes()) })?;
+        text.push(character);
+    }
+    if is_cut { Err(TableTextError::Utf16 { line: line_at(text.as_bytes()) }) } else { Ok(text) }
+}
+
+/// The line, from one, on which stands what follows `before`.
+fn line_at(before: &[u8]) -> u64 {
+    before.split(|byte| *byte == b'\n').count() as u64
+}
+
+/// What a first line `sep=;` says that columns are parted by, and the text after it.
+///
+/// Spreadsheets write and obey such a line. What follows begins with the end of it, so that lines count as in the file.
+pub(crate) fn stated_delimiter(text: &str) -> (Option<u8>, &str) {
+    let (line, rest) = text.split_at(text.find(['\r', '\n']).unwrap_or(text.len()));
+    // A tab at the end may be what is stated.
+    let line = line.trim_matches([' ', '"']);
+    let stated = line.get(..4).filter(|start| start.eq_ignore_ascii_case("sep=")).map(|_| &line[4..]);
+    match stated.map(str::as_bytes) {
+        // Nothing is stated, or it was a space.
+        Some([]) => (None, rest),
+        // What was stated may be followed by the empty columns of a table that was saved again.
+        Some([mark, empty @ ..]) if is_delimiter(*mark) && empty.iter().all(|byte| byte == mark) => {
+            (Some(*mark), rest)
+        }
+        _ => (None, text),
+    }
+}
+
+/// Whether columns may be parted by this: by nothing that names and numbers are made of.
+fn is_delimiter(byte: u8) -> bool {
+    byte == b'\t' || (byte.is_ascii_punctuation() && !matches!(byte, b'"' | b'#' | b'.' | b'-' | b'_'))
+}
+
+/// The delimiter of the first line that is neither empty nor a comment: a semicolon or tab is never part of a number.
+pub(crate) fn delimiter_of(text: &str) -> u8 {
+    let is_content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+    let line = text.lines().find(is_content).unwrap_or("");
+    if line.contains(';') {
+        b';'
+    } else if line.contains('\t') {
+        b'\t'
+    } else {
+        b','
+    }
+}
+
+/// A reader of rows of any length, of which none need be a header, without spaces around fields.
+pub(crate) fn rows(delimiter: u8) -> csv::ReaderBuilder {
+    let mut builder = csv::ReaderBuilder::new();
+    builder.delimiter(delimiter).has_headers(false).flexible(true).trim(csv::Trim::All);
+    builder
+}
+
+/// The line, from one, on which a record of `text` stands: the reader counts from the end of the record before it, and
+/// there may be empty lines and comments between.
+pub(crate) fn line_of(text: &str, record: &csv::StringRecord) -> u64 {
+    let Some(position) = record.position() else { return 0 };
+    let rest = usize::try_from(position.byte()).ok().and_then(|byte| text.get(byte..)).unwrap_or("");
+    let is_skipped = |line: &&str| line.trim().is_empty() || line.starts_with('#');
+    position.line() + rest.lines().take_while(is_skipped).count() as u64
+}
+
+/// The number in a field, if it is a finite one. A comma is the decimal one: where commas part columns, it stood in quotes.
+pub(crate) fn number(field: &str) -> Option<f64> {
+    let parsed = if field.contains(',') { field.replace(',', ".").parse() } else { field.parse() };
+    // What is no number is the caller's to name.
+    parsed.ok().filter(|value: &f64| value.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TableTextError, number, stated_delimiter, text, text_with_odd_letters};
+
+    fn wide(text: &str, order: fn(u16) -> [u8; 2]) -> Vec<u8> {
+        "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(order).collect()
+    }
+
+    #[test]
+    fn every_encoding_says_the_same() {
+        let expected = "id;größe\r\ncork;3,5 🙂\r\n";
+        let marked = format!("\u{feff}{expected}");
+        for bytes in [
+            expected.as_bytes().to_vec(),
+            marked.into_bytes(),
+            wide(expected, u16::to_le_bytes),
+            wide(expected, u16::to_be_bytes),
+        ] {
+            assert_eq!(text(&bytes).unwrap(), expected);
+            assert_eq!(text_with_odd_letters(&bytes), expected);
+        }
+    }
+
+    #[test]
+    fn what_is_no_text_says_where() {
+        let check = |bytes: &[u8], expected: TableTextError| assert_eq!(text(bytes), Err(expected));
+        check(b"id\ncork\xff\n", TableTextError::Utf8 { line: 2, byte: 7 });
+        check(b"i\0d\0\n\0", TableTextError::Zero { line: 1 });
+        for order in [u16::to_le_bytes, u16::to_be_bytes] {
+            let lone = |unit: u16| {
+                let mut bytes = wide("id\ncork,", order);
+                bytes.extend(order(unit));
+                bytes.extend(wide("1\n", order));
+                bytes
+            };
+            check(&lone(0xd800), TableTextError::Utf16 { line: 2 });
+            check(&lone(0xdc00), TableTextError::Utf16 { line: 2 });
+            assert!(text_with_odd_letters(&lone(0xd800)).contains('\u{fffd}'));
+            let mut cut = wide("id\ncork\nfelt", order);
+            cut.pop();
+            check(&cut, TableTextError::Utf16 { line: 3 });
+        }
+    }
+
+    #[test]
+    fn a_line_may_say_what_parts_columns() {
+        let check = |text: &str, delimiter: Option<u8>, rest: &str| {
+            assert_eq!(stated_delimiter(text), (delimiter, rest), "{text:?}");
+        };
+        check("sep=;\r\na;b\r\n", Some(b';'), "\r\na;b\r\n");
+        check("SEP=|\na|b", Some(b'|'), "\na|b");
+        check("\"sep=,\"\na,b", Some(b','), "\na,b");
+        check("sep=\t\na\tb", Some(b'\t'), "\na\tb");
+        check("sep=,,,\na,b", Some(b','), "\na,b");
+        check("sep= \na b", None, "\na b");
+        check("sep=;", Some(b';'), "");
+        for other in ["sep=5\n", "sep=;x\n", "seps\n", "a,b\n", "", "sép=;\n", "sep=é\n", "sep=\"\"\n\n"] {
+            let (delimiter, rest) = stated_delimiter(other);
+            assert!(delimiter.is_none() && (rest == other || other.starts_with("sep=\"")), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn a_comma_is_the_decimal_one() {
+        for (field, value) in
+            [("3,5", Some(3.5)), ("3.5", Some(3.5)), ("-0,25", Some(-0.25)), ("7", Some(7.0))]
+        {
+            assert_eq!(number(field), value, "{field}");
+        }
+        for field in ["1,234,5", "1.234,5", "1,234.5", "12:30", "inf", "NaN", "", ",", "3,5 %"] {
+            assert_eq!(number(field), None, "{field}");
+        }
+    }
+}

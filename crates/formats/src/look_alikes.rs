@@ -1,0 +1,59 @@
+//! Names that differ in what a hand easily writes differently: `P1`, `p 1` and `p01`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::named_table::plain;
+
+/// That names of `what` look alike, one sentence for each group of them, in the order of the alphabet. They stay
+/// different: who is whom is for a person to say.
+pub fn look_alikes(names: &[&str], what: &str) -> Vec<String> {
+    let mut groups: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
+    for name in names {
+        groups.entry(likeness(name)).or_default().insert(name);
+    }
+    let sentence = |names: BTreeSet<&str>| {
+        let quoted: Vec<String> = names.into_iter().map(|name| format!("\"{name}\"")).collect();
+        format!(
+            "the {what} {} look alike and are taken for different ones; if they are one, write the name in one way",
+            quoted.join(", ")
+        )
+    };
+    groups.into_values().filter(|names| names.len() > 1).map(sentence).collect()
+}
+
+/// What look-alikes share: neither case nor blanks, hyphens and underscores count, nor zeros ahead of a number.
+fn likeness(name: &str) -> String {
+    let mut likeness = String::new();
+    let mut in_number = false;
+    let plain = plain(name);
+    let mut characters = plain.chars().filter(|c| !is_unseen(*c)).peekable();
+    while let Some(c) = characters.next() {
+        let is_padding = c == '0' && !in_number && characters.peek().is_some_and(char::is_ascii_digit);
+        if !is_padding {
+            likeness.push(c);
+            in_number = c.is_ascii_digit();
+        }
+    }
+    likeness
+}
+
+/// Whether a character leaves no mark: blanks of all kinds, some of no width.
+fn is_unseen(c: char) -> bool {
+    c.is_whitespace() || matches!(c, '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::look_alikes;
+
+    #[test]
+    fn names_that_a_hand_mixes_up_are_told() {
+        let told = look_alikes(&["p1", "P1", "p2", "p 01", "P1", "anna"], "participants");
+        assert_eq!(told.len(), 1);
+        assert!(told[0].starts_with("the participants \"P1\", \"p 01\", \"p1\" look alike"), "{told:?}");
+        assert_eq!(look_alikes(&["a_b", "A-B", "x", "X"], "participants").len(), 2);
+        assert_eq!(look_alikes(&["a b", "a\u{a0}b", "c", "c\u{200b}"], "participants").len(), 2);
+        let different = ["p1", "p10", "p100", "p0", "p00x", "p", "1p", "p1a"];
+        assert_eq!(look_alikes(&different, "participants"), [] as [&str; 0]);
+    }
+}

@@ -1,0 +1,181 @@
+//! Which columns of a table are adjective pairs: tables of experiments have others beside them, as `age` or `start_time`.
+
+use shagreen_core::ratings::{AdjectivePair, PairNameError};
+
+use crate::named_table::{Field, NamedTable};
+
+/// Columns of a table, told apart by their names.
+pub(crate) struct PairColumns {
+    /// Those that are named by two adjectives.
+    pub(crate) pairs: Vec<(usize, AdjectivePair)>,
+    /// Those that are not.
+    pub(crate) unused: Vec<usize>,
+}
+
+/// Words that stand for what is recorded beside a judgement. None of them is an adjective that a surface is felt by.
+const NOT_FELT: [&str; 53] = [
+    "age",
+    "begin",
+    "block",
+    "clicks",
+    "code",
+    "comment",
+    "comments",
+    "condition",
+    "date",
+    "datetime",
+    "day",
+    "device",
+    "duration",
+    "email",
+    "end",
+    "finish",
+    "gender",
+    "group",
+    "groups",
+    "hand",
+    "handedness",
+    "hour",
+    "id",
+    "index",
+    "latency",
+    "mail",
+    "material",
+    "minutes",
+    "ms",
+    "name",
+    "nr",
+    "num",
+    "number",
+    "order",
+    "participant",
+    "rating",
+    "reaction",
+    "rep",
+    "repetition",
+    "response",
+    "rt",
+    "score",
+    "sec",
+    "seconds",
+    "session",
+    "sex",
+    "start",
+    "stimulus",
+    "subject",
+    "texture",
+    "time",
+    "timestamp",
+    "trial",
+];
+
+/// Tells pairs from other columns among `others`. A name with more than one hyphen is one of a pair where all that stands
+/// in its column `is_value`.
+///
+/// # Errors
+/// A name that could be parted in several ways, of a column that holds values.
+pub(crate) fn pair_columns(
+    table: &NamedTable,
+    others: &[usize],
+    is_value: impl Fn(Field<'_>) -> bool,
+) -> Result<PairColumns, PairNameError> {
+    let mut columns = PairColumns { pairs: Vec::new(), unused: Vec::new() };
+    for &column in others {
+        let name = &table.columns[column];
+        match name.parse::<AdjectivePair>() {
+            Ok(pair) if is_felt(&pair.low) && is_felt(&pair.high) => columns.pairs.push((column, pair)),
+            Ok(_) | Err(PairNameError::OnePole { .. }) => columns.unused.push(column),
+            Err(error) => {
+                let could_be_felt = name.split(|c: char| !c.is_alphabetic()).all(|word| !is_recorded(word));
+                if could_be_felt && table.rows().all(|row| is_value(row.at(column))) {
+                    return Err(error);
+                }
+                columns.unused.push(column);
+            }
+        }
+    }
+    Ok(columns)
+}
+
+/// Whether a pole can be an adjective: it has letters, and one word at least that is not [`NOT_FELT`].
+fn is_felt(pole: &str) -> bool {
+    let mut words = pole.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    words.any(|word| !is_recorded(word))
+}
+
+fn is_recorded(word: &str) -> bool {
+    NOT_FELT.contains(&word.to_lowercase().as_str())
+}
+
+/// That columns are not used, by name; nothing where there are none.
+pub(crate) fn unused_warning(table: &NamedTable, unused: &[usize], used: &str) -> Option<String> {
+    let names: Vec<&str> = unused.iter().map(|column| table.columns[*column].as_str()).collect();
+    match names[..] {
+        [] => None,
+        [name] => Some(format!("the column {name} is not used; {used}")),
+        _ => Some(format!("the columns {} are not used; {used}", names.join(", "))),
+    }
+}
+
+/// What makes a column one of a pair, for [`unused_warning`].
+pub(crate) const NAME_BOTH_POLES: &str =
+    "a column of values is named by two adjectives with a hyphen between them, as rough-smooth";
+
+#[cfg(test)]
+mod tests {
+    use super::{NAME_BOTH_POLES, pair_columns, unused_warning};
+    use crate::named_table::{Field, NamedTable};
+
+    fn told_apart(first: &str, row: &str) -> Result<(Vec<String>, Option<String>), String> {
+        let table = NamedTable::read(format!("{first}\n{row}\n").as_bytes(), "id", "texture").unwrap();
+        let is_value = |field: Field<'_>| field.number().is_ok();
+        let columns =
+            pair_columns(&table, &table.others(&[]), is_value).map_err(|error| error.to_string())?;
+        let names = columns.pairs.iter().map(|(_, pair)| pair.name()).collect();
+        Ok((names, unused_warning(&table, &columns.unused, NAME_BOTH_POLES)))
+    }
+
+    #[test]
+    fn what_is_recorded_beside_a_judgement_is_no_pair() {
+        for name in [
+            "age",
+            "start-time",
+            "start_time",
+            "Reaction Time (ms)",
+            "RT-ms",
+            "date-of-birth",
+            "trial_nr",
+            "user-id",
+            "start-end",
+            "2026-11",
+            "e-mail-address",
+            "Comment",
+        ] {
+            let (names, warning) = told_apart(&format!("rough-smooth,{name}"), "3,12:30").unwrap();
+            assert_eq!(names, ["rough-smooth"], "{name}");
+            assert!(warning.unwrap().starts_with(&format!("the column {name} is not used; ")), "{name}");
+        }
+        let warning = told_apart("age,hard-soft,sex", "30,50,f").unwrap().1.unwrap();
+        assert!(warning.starts_with("the columns age, sex are not used; "), "{warning}");
+    }
+
+    #[test]
+    fn adjectives_of_any_language_are_pairs() {
+        for name in [
+            "rough-smooth",
+            "rau-glatt",
+            "粗い-滑らか",
+            "no friction - much friction",
+            "small size/large size",
+            "no_time - some feeling",
+        ] {
+            assert_eq!(
+                told_apart(name, "3").unwrap(),
+                (vec![name.parse::<shagreen_core::ratings::AdjectivePair>().unwrap().name()], None)
+            );
+        }
+        assert!(told_apart("non-stick-sticky", "3").unwrap_err().contains("several ways"));
+        // What holds no values is no pair whose name was written badly.
+        assert!(told_apart("one-two-three,hard-soft", "x,3").unwrap().1.is_some());
+    }
+}

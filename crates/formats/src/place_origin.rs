@@ -1,0 +1,97 @@
+//! Where the positions of a library come from, in its own words.
+
+use shagreen_core::space::LabelSource;
+
+use crate::library::Library;
+
+/// What libraries made by the program say of their positions, which human ratings prove wrong.
+const NOBODY_RATED: &str = " and nobody rated one";
+/// How the sentence on positions begins.
+const POSITIONS: &str = "Positions come from ";
+
+/// Makes the origin of a library say where its positions come from, in place of what it said of them before.
+pub(crate) fn state_origin_of_places(library: &mut Library) {
+    let sources = library.label_sources();
+    if sources.contains(&LabelSource::HumanRatings) {
+        let texts = library.textures.iter_mut().map(|texture| &mut texture.origin);
+        for text in texts.chain([&mut library.origin, &mut library.description]) {
+            if text.contains(NOBODY_RATED) {
+                *text = text.replace(NOBODY_RATED, "");
+            }
+        }
+    }
+    // The sentence is the last one, where the program wrote it.
+    if let Some(at) = library.origin.rfind(POSITIONS).filter(|at| is_ours(&library.origin[*at..])) {
+        library.origin.truncate(at);
+    }
+    let rest = library.origin.trim_end();
+    let stop = if rest.ends_with(char::is_alphanumeric) { "." } else { "" };
+    let space = if rest.is_empty() { "" } else { " " };
+    let labels: Vec<&str> = sources.into_iter().map(LabelSource::label).collect();
+    library.origin = match &labels[..] {
+        [] => rest.to_owned(),
+        labels => format!("{rest}{stop}{space}{POSITIONS}{}.", labels.join(" and ")),
+    };
+}
+
+/// Whether this is a sentence of [`state_origin_of_places`], and no other follows.
+fn is_ours(sentence: &str) -> bool {
+    let labels = sentence.strip_prefix(POSITIONS).and_then(|rest| rest.strip_suffix('.'));
+    let is_label = |label: &str| {
+        let sources = [LabelSource::HumanRatings, LabelSource::SimulatedRaters, LabelSource::PhysicalLabels];
+        sources.iter().any(|source| source.label() == label)
+    };
+    labels.is_some_and(|labels| labels.split(" and ").all(is_label))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::state_origin_of_places;
+    use crate::library::Library;
+    use crate::starter::starter_library;
+    use shagreen_core::space::LabelSource;
+
+    fn placed_by(library: &mut Library, sources: &[LabelSource]) -> String {
+        for (i, texture) in library.textures.iter_mut().enumerate() {
+            if let Some(place) = &mut texture.place {
+                place.source = sources[i % sources.len()];
+            }
+        }
+        state_origin_of_places(library);
+        library.origin.clone()
+    }
+
+    #[test]
+    fn the_origin_follows_the_positions() {
+        const MADE: &str = "Simulated from physical parameters by Shagreen: no surface was recorded";
+        let (human, physical, simulated) =
+            (LabelSource::HumanRatings, LabelSource::PhysicalLabels, LabelSource::SimulatedRaters);
+        let mut library = starter_library().unwrap();
+        library.textures[3].origin = library.origin.clone();
+        let origin = placed_by(&mut library, &[simulated]);
+        assert_eq!(origin, format!("{MADE} and nobody rated one. Positions come from simulated raters."));
+        let origin = placed_by(&mut library, &[human]);
+        assert_eq!(origin, format!("{MADE}. Positions come from human ratings."));
+        assert_eq!(library.textures[3].origin, format!("{MADE}."));
+        let origin = placed_by(&mut library, &[physical, human]);
+        assert_eq!(origin, format!("{MADE}. Positions come from physical labels and human ratings."));
+        library.textures.iter_mut().for_each(|texture| texture.place = None);
+        assert_eq!(placed_by(&mut library, &[human]), format!("{MADE}."));
+    }
+
+    #[test]
+    fn what_others_wrote_stays() {
+        let mut library = starter_library().unwrap();
+        for (before, after) in [
+            ("", "Positions come from human ratings."),
+            (
+                "Fitted to recordings: a.csv",
+                "Fitted to recordings: a.csv. Positions come from human ratings.",
+            ),
+            ("Positions come from a map.", "Positions come from a map. Positions come from human ratings."),
+        ] {
+            before.clone_into(&mut library.origin);
+            assert_eq!(placed_by(&mut library, &[LabelSource::HumanRatings]), after);
+        }
+    }
+}

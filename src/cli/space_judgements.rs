@@ -1,0 +1,159 @@
+//! The tables of judgements that a space is built from, and who made them.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, anyhow, bail};
+use shagreen_core::panel::is_simulated;
+use shagreen_core::ratings::{Rating, RelevanceVote};
+use shagreen_core::sorting::Sort;
+use shagreen_core::space::LabelSource;
+use shagreen_core::space_build::SpaceBuildError;
+use shagreen_formats::imported::Imported;
+use shagreen_formats::library::Library;
+use shagreen_formats::look_alikes::look_alikes;
+use shagreen_formats::ratings_csv::{read_ratings, read_relevance_csv};
+use shagreen_formats::sorting_csv::read_sorting_csv;
+
+use crate::cli::library_source::LibraryArgs;
+use crate::cli::output;
+use crate::cli::target::meant;
+
+#[derive(clap::Args)]
+pub(crate) struct JudgementArgs {
+    /// CSV with a line for each texture of each sort (participant, trial, groups, texture, group), or a column for each
+    /// texture.
+    #[arg(long, value_name = "S.csv")]
+    sorting: PathBuf,
+    /// CSV with a line for each rating (participant, texture, adjective, value), or a column for each adjective pair.
+    #[arg(long, value_name = "R.csv")]
+    ratings: PathBuf,
+    /// CSV of votes on which adjectives are relevant (participant, adjective, relevant): pairs below half are left out.
+    #[arg(long, value_name = "V.csv")]
+    relevance: Option<PathBuf>,
+    /// Who judged, where names of participants do not say it: human or simulated.
+    #[arg(long, value_name = "SOURCE", value_parser = ["human", "simulated"])]
+    source: Option<String>,
+}
+
+/// What the tables hold.
+pub(crate) struct Judgements {
+    pub(crate) sorts: Vec<Sort>,
+    pub(crate) ratings: Vec<Rating>,
+    pub(crate) votes: Vec<RelevanceVote>,
+    /// Who judged.
+    pub(crate) source: LabelSource,
+    /// What was odd but usable, in sentences.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl JudgementArgs {
+    /// The files.
+    pub(crate) fn paths(&self) -> [Option<&Path>; 3] {
+        [Some(&self.sorting), Some(&self.ratings), self.relevance.as_deref()]
+    }
+
+    /// Reads the tables; what is odd about them is said.
+    pub(crate) fn read(&self) -> anyhow::Result<Judgements> {
+        let mut warnings = Vec::new();
+        let sorts = read(&self.sorting, &mut warnings, |bytes| {
+            let table = read_sorting_csv(bytes)?;
+            Ok(Imported { value: table.sorts, warnings: table.warnings })
+        })?;
+        let ratings = read(&self.ratings, &mut warnings, |bytes| Ok(read_ratings(bytes)?))?;
+        let votes = match &self.relevance {
+            Some(path) => read(path, &mut warnings, |bytes| {
+                Ok(Imported { value: read_relevance_csv(bytes)?, warnings: Vec::new() })
+            })?,
+            None => Vec::new(),
+        };
+        let names = participants(&sorts, &ratings, &votes);
+        warnings.extend(look_alikes(&names, "participants"));
+        for warning in &warnings {
+            output::warn(warning);
+        }
+        let source = self.source(&names)?;
+        Ok(Judgements { sorts, ratings, votes, source, warnings })
+    }
+
+    /// Who judged. What calls itself simulated is never taken for people.
+    fn source(&self, names: &[&str]) -> anyhow::Result<LabelSource> {
+        let (simulated, others): (Vec<&str>, Vec<&str>) = names.iter().partition(|name| is_simulated(name));
+        if let ([one, ..], [other, ..]) = (&simulated[..], &others[..]) {
+            bail!(
+                "there are both simulated participants and others (\"{one}\" and \"{other}\"): a space of both means nothing; leave one kind out"
+            )
+        }
+        let simulated = simulated.first();
+        match (self.source.as_deref(), simulated) {
+            (Some("human"), Some(name)) => {
+                bail!(
+                    "participant \"{name}\" is simulated, so the space is not of human ratings; leave --source out"
+                )
+            }
+            (Some("simulated"), _) | (None, Some(_)) => Ok(LabelSource::SimulatedRaters),
+            (None, None) => {
+                output::note(
+                    "the participants are taken for people; if they are not, say --source simulated",
+                );
+                Ok(LabelSource::HumanRatings)
+            }
+            _ => Ok(LabelSource::HumanRatings),
+        }
+    }
+
+    /// Why judgements make no space, with the files in which that is to be mended.
+    pub(crate) fn in_files(
+        &self,
+        error: SpaceBuildError,
+        library: &Library,
+        of_library: &LibraryArgs,
+    ) -> anyhow::Error {
+        let (sorting, ratings) = (Some(&*self.sorting), Some(&*self.ratings));
+        let files = match &error {
+            SpaceBuildError::UnknownTexture { what: "sorted", .. }
+            | SpaceBuildError::Sorting(_)
+            | SpaceBuildError::Dissimilarities(_)
+            | SpaceBuildError::Mds(_) => [sorting, None],
+            SpaceBuildError::UnknownTexture { .. }
+            | SpaceBuildError::Ratings(_)
+            | SpaceBuildError::TooFewPairs { .. }
+            | SpaceBuildError::NoSuchAxis { .. }
+            | SpaceBuildError::Axis { .. } => [ratings, None],
+            SpaceBuildError::Votes(_) => [self.relevance.as_deref(), None],
+            SpaceBuildError::TextureTwice { .. } | SpaceBuildError::Features(_) => [of_library.path(), None],
+            SpaceBuildError::NothingShared
+            | SpaceBuildError::FlatAxis { .. }
+            | SpaceBuildError::Selection { .. }
+            | SpaceBuildError::Triangulation(_) => [sorting, ratings],
+            _ => [None, None],
+        };
+        let error = match &error {
+            SpaceBuildError::UnknownTexture { texture, .. } => {
+                let hint = meant(library, texture);
+                anyhow!("{error}, or remove the column where it names something else; {hint}")
+            }
+            _ => error.into(),
+        };
+        // The last context is shown first.
+        files.into_iter().rev().flatten().fold(error, |error, path| error.context(output::in_file(path)))
+    }
+}
+
+/// Reads a file of judgements; what was odd in it is added to `warnings`.
+fn read<T>(
+    path: &Path,
+    warnings: &mut Vec<String>,
+    reader: impl FnOnce(&[u8]) -> anyhow::Result<Imported<T>>,
+) -> anyhow::Result<T> {
+    let bytes = output::read_file(path)?;
+    let imported = reader(&bytes).with_context(|| output::in_file(path))?;
+    warnings.extend(imported.warnings.iter().map(|warning| format!("{warning}: {}", path.display())));
+    Ok(imported.value)
+}
+
+/// Names of all who sorted, rated or voted, as often as they did.
+fn participants<'a>(sorts: &'a [Sort], ratings: &'a [Rating], votes: &'a [RelevanceVote]) -> Vec<&'a str> {
+    let sorted = sorts.iter().map(|sort| &*sort.participant);
+    let rated = ratings.iter().map(|rating| &*rating.participant);
+    sorted.chain(rated).chain(votes.iter().map(|vote| &*vote.participant)).collect()
+}
