@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::bail;
 use serde_json::json;
 use shagreen_formats::atomic;
-use shagreen_formats::places_csv::{places_csv, read_places_csv};
+use shagreen_formats::places_csv::{Scale, places_csv, read_places};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
@@ -26,7 +26,9 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[args.library.path()])?;
-    refuse_foreign(&args.out, "the table of places", |bytes| read_places_csv(bytes, None).is_ok())?;
+    refuse_foreign(&args.out, "the table of places", |bytes| {
+        read_places(bytes, None, Scale::OF_SPACE).is_ok()
+    })?;
     let library = load(&args.library)?;
     let n_placed = library.textures.iter().filter(|texture| texture.place.is_some()).count();
     if n_placed == 0 {

@@ -18,9 +18,10 @@ use crate::cli::target::unknown_texture;
 /// Places textures where a table says.
 ///
 /// The table has the columns `id`, `rs` and `hs` (0 to 100, 0 = roughest, 0 = hardest) and may have further attributes,
-/// each named by its two poles, as `flat-bumpy`; `--scale` says where its values run otherwise. A column `source` says what the places were derived from; without it
-/// `--source` says so for all of them. Textures that the table does not name lose their place: a space of two origins
-/// means little.
+/// each named by its two poles, as `flat-bumpy`. Where the axes are other attributes, the columns of the place are named
+/// by them, as `x:warm-cold` and `y:flat-bumpy`. `--scale` says where values run otherwise than from 0 to 100. A column
+/// `source` says what the places were derived from; without it `--source` says so for all of them. Textures that the
+/// table does not name lose their place: a space of two origins means little.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -63,17 +64,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             error => error.into(),
         })
         .with_context(|| output::in_file(&args.attributes))?;
-    let (placements, mut warnings) = (read.value, read.warnings);
+    let (places, mut warnings) = (read.value, read.warnings);
+    let placements = &places.placements;
     if let Some(unknown) = placements.iter().find(|p| library.index_of(&p.id).is_none()) {
         return Err(anyhow!(unknown_texture(&library, &unknown.id)))
             .with_context(|| output::in_file(&args.attributes));
     }
-    if let Some((low, high)) = looks_rescaled(&placements).filter(|_| args.scale.is_none()) {
+    if let Some((low, high)) = looks_rescaled(placements).filter(|_| args.scale.is_none()) {
         warnings.push(format!(
             "the scale is 0 to 100, and all positions lie between {low} and {high}, in one corner; if people answered on another scale, say so, as --scale 1,7"
         ));
     }
-    let missing = place_textures(&mut library, &placements);
+    let missing = place_textures(&mut library, &places);
     // The report was on other places.
     library.space_report = None;
     output::CREATED_BY.clone_into(&mut library.created_by);

@@ -6,7 +6,7 @@
 //!
 //! - `sticky-slippery` falls with the coefficient of friction, over the range of the library;
 //! - `flat-bumpy` falls with the logarithm of the spectral centroid: long waves are bumps;
-//! - `irritating-pleasant` is seven parts `rough-smooth` and three parts `hard-soft`.
+//! - `irritating-pleasant` is seven parts `rough-smooth` and three parts `hard-soft`, where these are the axes.
 //!
 //! No person said so: these are assumptions of a simulation, there to try a pipeline with.
 
@@ -15,8 +15,7 @@ use shagreen_core::patterns::paper_patterns;
 use shagreen_core::property::{ZeroAt, axis_positions};
 use shagreen_core::ratings::{AdjectivePair, PairNameError};
 
-use crate::library::{Library, TextureEntry};
-use crate::places_csv::{HARD_SOFT, ROUGH_SMOOTH};
+use crate::library::{Library, TextureEntry, USUAL_AXES};
 
 /// Labels of the textures that have a place.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,9 +52,9 @@ pub fn panel_labels(library: &Library) -> Result<PanelLabels, PanelLabelsError> 
     let is_known_to_all =
         |name: &&str| placed.iter().all(|t| t.attributes.as_ref().is_some_and(|a| a.get(name).is_some()));
     let names = first.attributes.iter().flat_map(|a| &a.values).map(|a| a.name.as_str());
-    let further: Vec<&str> =
-        names.filter(|name| ![ROUGH_SMOOTH, HARD_SOFT].contains(name)).filter(is_known_to_all).collect();
-    let pairs = [ROUGH_SMOOTH, HARD_SOFT].iter().chain(&further).map(|name| name.parse());
+    let axes = library.axis_names();
+    let further: Vec<&str> = names.filter(|name| !axes.contains(name)).filter(is_known_to_all).collect();
+    let pairs = axes.iter().chain(&further).map(|name| name.parse());
     let of = |texture: &&TextureEntry| -> Option<Vec<f64>> {
         let at = texture.at()?;
         let attributes = further.iter().filter_map(|name| texture.attributes.as_ref()?.get(name));
@@ -66,7 +65,7 @@ pub fn panel_labels(library: &Library) -> Result<PanelLabels, PanelLabelsError> 
         ids: placed.iter().map(|texture| texture.id.clone()).collect(),
         labels: placed.iter().filter_map(of).collect(),
     };
-    for (name, values) in assumed(&placed) {
+    for (name, values) in assumed(&placed, axes == USUAL_AXES) {
         let is_known = perceived.pairs.iter().any(|pair| pair.name() == name);
         let Some(values) = values.filter(|_| !is_known) else { continue };
         perceived.pairs.push(name.parse()?);
@@ -78,8 +77,8 @@ pub fn panel_labels(library: &Library) -> Result<PanelLabels, PanelLabelsError> 
 }
 
 /// What the simulation assumes of textures that have a place, 0..100; `None` where a quantity is missing or the same for
-/// all.
-fn assumed(placed: &[&TextureEntry]) -> [(&'static str, Option<Vec<f64>>); 3] {
+/// all. What is assumed to follow from the axes does so on the usual ones alone.
+fn assumed(placed: &[&TextureEntry], is_usual: bool) -> [(&'static str, Option<Vec<f64>>); 3] {
     let contacts = paper_patterns();
     let physical: Vec<Physical> = placed.iter().map(|texture| physical(&texture.model, &contacts)).collect();
     let falling = |quantity: fn(&Physical) -> Option<f64>| {
@@ -90,7 +89,7 @@ fn assumed(placed: &[&TextureEntry]) -> [(&'static str, Option<Vec<f64>>); 3] {
     [
         ("flat-bumpy", falling(|p| p.centroid_hz.map(f64::ln))),
         ("sticky-slippery", falling(|p| p.friction)),
-        ("irritating-pleasant", pleasant.collect()),
+        ("irritating-pleasant", if is_usual { pleasant.collect() } else { None }),
     ]
 }
 

@@ -7,7 +7,8 @@
 //!
 //! `source` says what the places were derived from: `human`, `simulated` or `physical`; where there is no such column, the
 //! whole table has the one that the caller states. Without `rs` and `hs`, the columns `rough-smooth` and `hard-soft` are
-//! the place. A table on another [`Scale`] is brought to 0 to 100. Columns that are none of these are not used.
+//! the place. The axes of a space may be other attributes: then the columns of the place are named `x:` and `y:` with the
+//! attribute, as `x:warm-cold`. A table on another [`Scale`] is brought to 0 to 100. Columns that are none of these are not used.
 
 use std::collections::HashMap;
 
@@ -15,7 +16,7 @@ use shagreen_core::ratings::PairNameError;
 use shagreen_core::space::{LabelSource, SpacePoint};
 
 use crate::imported::Imported;
-use crate::library::{Attribute, Attributes, DIGITS, Library, Place, digits};
+use crate::library::{Attribute, Attributes, DIGITS, Library, Place, USUAL_AXES, digits};
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::{NAME_BOTH_POLES, pair_columns, unused_warning};
 use crate::place_origin::state_origin_of_places;
@@ -76,6 +77,15 @@ pub struct Placement {
     pub place: Place,
     /// Its values on all attributes of the table, the two axes first.
     pub attributes: Attributes,
+}
+
+/// Where textures lie by a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Places {
+    /// Names of the two axes, where they are not [`USUAL_AXES`].
+    pub axes: Option<[String; 2]>,
+    /// The textures.
+    pub placements: Vec<Placement>,
 }
 
 /// Why a table places nothing.
@@ -141,6 +151,14 @@ pub enum PlacesCsvError {
         /// What is wrong.
         source: PairNameError,
     },
+    /// One axis is named twice.
+    #[error(
+        "both axes are \"{name}\"; name the columns of the place by two attributes, as x:warm-cold and y:flat-bumpy"
+    )]
+    OneAxis {
+        /// Its name.
+        name: String,
+    },
     /// A source is not known.
     #[error("source in line {line} is \"{found}\"; say human, simulated or physical")]
     Source {
@@ -156,10 +174,10 @@ pub enum PlacesCsvError {
     NoSource,
 }
 
-/// Name of the first axis as an attribute.
-pub const ROUGH_SMOOTH: &str = "rough-smooth";
-/// Name of the second axis as an attribute.
-pub const HARD_SOFT: &str = "hard-soft";
+/// What the names of columns begin with that are places on other axes than the usual ones.
+const PLACE_ON: [&str; 2] = ["x:", "y:"];
+/// Short names of the columns of the usual axes.
+const SHORT: [&str; 2] = ["rs", "hs"];
 
 /// Reads a table of places on a scale; `source` is that of rows that do not state their own. Columns that are not used
 /// are a warning.
@@ -170,13 +188,14 @@ pub fn read_places(
     bytes: &[u8],
     source: Option<LabelSource>,
     scale: Scale,
-) -> Result<Imported<Vec<Placement>>, PlacesCsvError> {
+) -> Result<Imported<Places>, PlacesCsvError> {
     let table = NamedTable::read(bytes, "id, rs, hs", "texture")?;
     let id_column = table.need(&["id", "texture", "texture_id", "name"])?;
-    let rs_column = table.need(&["rs", ROUGH_SMOOTH])?;
-    let hs_column = table.need(&["hs", HARD_SOFT])?;
+    let (place_columns, axes) = place_columns(&table)?;
+    let [across, up] = place_columns;
+    let names = axes.as_ref().map_or(USUAL_AXES, |axes| axes.each_ref().map(String::as_str));
     let source_column = table.find(&["source", "label_source"]);
-    let others = table.others(&[Some(id_column), Some(rs_column), Some(hs_column), source_column]);
+    let others = table.others(&[Some(id_column), Some(across), Some(up), source_column]);
     let columns = pair_columns(&table, &others, |field| value(field, scale).is_ok())
         .map_err(|source| PlacesCsvError::Pair { line: table.first_line, source })?;
     let attribute_columns: Vec<usize> = columns.pairs.iter().map(|(column, _)| *column).collect();
@@ -191,8 +210,7 @@ pub fn read_places(
             let blank = || PlacesCsvError::Blank { id: id.to_owned(), column: field.name().to_owned(), line };
             in_scale(field, field.number()?.ok_or_else(blank)?, scale)
         };
-        let point =
-            SpacePoint { rough_smooth: needed(row.at(rs_column))?, hard_soft: needed(row.at(hs_column))? };
+        let point = SpacePoint { rough_smooth: needed(row.at(across))?, hard_soft: needed(row.at(up))? };
         let stated = source_column.map(|column| row.at(column).text()).filter(|text| !text.is_empty());
         let source = match stated {
             Some(text) => LabelSource::from_id(&text.to_lowercase())
@@ -201,7 +219,7 @@ pub fn read_places(
         };
         let axis = |name: &str, value: f64| Attribute { name: name.to_owned(), value };
         let mut values = Vec::new();
-        for (name, value) in [(ROUGH_SMOOTH, point.rough_smooth), (HARD_SOFT, point.hard_soft)] {
+        for (name, value) in names.into_iter().zip([point.rough_smooth, point.hard_soft]) {
             // A table may have the attribute beside the place: what was rated is not where it was put.
             if attribute_columns.iter().all(|column| !row.at(*column).name().eq_ignore_ascii_case(name)) {
                 values.push(axis(name, value));
@@ -217,7 +235,28 @@ pub fn read_places(
         placements.push(Placement { id: id.to_owned(), place: Place { at: point, source }, attributes });
     }
     let warning = unused_warning(&table, &columns.unused, NAME_BOTH_POLES);
-    Ok(Imported { value: placements, warnings: warning.into_iter().collect() })
+    Ok(Imported { value: Places { axes, placements }, warnings: warning.into_iter().collect() })
+}
+
+/// The columns of the place, and the names of the axes where they are not the usual ones.
+fn place_columns(table: &NamedTable) -> Result<([usize; 2], Option<[String; 2]>), PlacesCsvError> {
+    let named = PLACE_ON.map(|prefix| {
+        table.columns.iter().enumerate().find_map(|(column, name)| {
+            let start = name.get(..prefix.len()).filter(|start| start.eq_ignore_ascii_case(prefix))?;
+            let name = name[start.len()..].trim();
+            (!name.is_empty()).then(|| (column, name.to_owned()))
+        })
+    });
+    if let [Some((across, first)), Some((up, second))] = named {
+        if first.eq_ignore_ascii_case(&second) {
+            return Err(PlacesCsvError::OneAxis { name: first });
+        }
+        let axes = [first, second];
+        let is_usual = axes == USUAL_AXES;
+        return Ok(([across, up], (!is_usual).then_some(axes)));
+    }
+    let needed = |axis: usize| table.need(&[SHORT[axis], USUAL_AXES[axis]]);
+    Ok(([needed(0)?, needed(1)?], None))
 }
 
 /// The value of an attribute, 0 to 100; `None` where it is left empty.
@@ -239,14 +278,6 @@ fn in_scale(field: Field<'_>, value: f64, scale: Scale) -> Result<f64, PlacesCsv
     Err(PlacesCsvError::Range { column, line, value, low, high })
 }
 
-/// The placements of [`read_places`] from 0 to 100 alone.
-///
-/// # Errors
-/// See [`PlacesCsvError`].
-pub fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<Placement>, PlacesCsvError> {
-    read_places(bytes, source, Scale::OF_SPACE).map(|imported| imported.value)
-}
-
 /// Highest value of a table at which a scale of 0 to 100 looks like another one.
 const SHORT_SCALE: f64 = 10.0;
 
@@ -260,7 +291,9 @@ pub fn looks_rescaled(placements: &[Placement]) -> Option<(f64, f64)> {
 
 /// Puts the textures of a library where a table says; returns the identifiers of those that are not in it, which lose
 /// their place and attributes. The origin of the library says what the positions come from.
-pub fn place_textures(library: &mut Library, placements: &[Placement]) -> Vec<String> {
+pub fn place_textures(library: &mut Library, places: &Places) -> Vec<String> {
+    let Places { axes, placements } = places;
+    library.axes.clone_from(axes);
     let mut missing = Vec::new();
     for texture in &mut library.textures {
         let found = placements.iter().find(|placement| placement.id == texture.id);
@@ -285,7 +318,11 @@ pub fn places_csv(library: &Library) -> Vec<u8> {
         }
     }
     let number = |value: f64| format!("{}", digits(value, DIGITS));
-    let first = ["id", "rs", "hs", "source"].into_iter().chain(names.iter().copied());
+    let [across, up] = [0, 1].map(|axis| {
+        let named = library.axes.as_ref().map(|axes| format!("{}{}", PLACE_ON[axis], axes[axis]));
+        named.unwrap_or_else(|| SHORT[axis].to_owned())
+    });
+    let first = ["id", &across, &up, "source"].into_iter().chain(names.iter().copied());
     let rows = placed().map(|(texture, place)| {
         let fixed = [
             texture.id.clone(),
@@ -303,9 +340,42 @@ pub fn places_csv(library: &Library) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Scale, looks_rescaled, place_textures, places_csv, read_places, read_places_csv};
+    use super::{
+        Placement, Places, PlacesCsvError, Scale, looks_rescaled, place_textures, places_csv, read_places,
+    };
     use crate::starter::starter_library;
     use shagreen_core::space::LabelSource;
+
+    fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<Placement>, PlacesCsvError> {
+        read_places(bytes, source, Scale::OF_SPACE).map(|imported| imported.value.placements)
+    }
+
+    #[test]
+    fn axes_may_be_other_attributes() {
+        let text =
+            "id,X: warm-cold,y:flat-bumpy,source,warm-cold\ncork,40.5,71,human,39\nfelt,90,95,human,88\n";
+        let places = read_places(text.as_bytes(), None, Scale::OF_SPACE).unwrap().value;
+        assert_eq!(places.axes, Some(["warm-cold", "flat-bumpy"].map(str::to_owned)));
+        let cork = &places.placements[0];
+        assert_eq!((cork.place.at.rough_smooth, cork.place.at.hard_soft), (40.5, 71.0));
+        assert_eq!(cork.attributes.get("flat-bumpy"), Some(71.0));
+        assert_eq!(cork.attributes.get("warm-cold"), Some(39.0));
+        assert_eq!(cork.attributes.get("rough-smooth"), None);
+        let mut library = starter_library().unwrap();
+        place_textures(&mut library, &places);
+        assert_eq!(library.axis_names(), ["warm-cold", "flat-bumpy"]);
+        let written = places_csv(&library);
+        assert!(written.starts_with(b"id,x:warm-cold,y:flat-bumpy,source,"));
+        assert_eq!(read_places(&written, None, Scale::OF_SPACE).unwrap().value, places);
+        // A table of the usual axes takes the names away again.
+        let usual =
+            read_places(b"id,x:rough-smooth,y:hard-soft,source\ncork,1,2,human\n", None, Scale::OF_SPACE);
+        place_textures(&mut library, &usual.unwrap().value);
+        assert_eq!(library.axes, None);
+        let twice =
+            read_places_csv(b"id,x:a-b,y:A-B,source\ncork,1,2,human\n", None).unwrap_err().to_string();
+        assert!(twice.contains("both axes"), "{twice}");
+    }
 
     #[test]
     fn places_and_attributes_are_read() {
@@ -330,7 +400,7 @@ mod tests {
         let placements = read_places_csv(text.as_bytes(), None).unwrap();
         assert_eq!(placements[0].attributes.get("rough-smooth"), Some(39.0));
         let mut library = starter_library().unwrap();
-        let missing = place_textures(&mut library, &placements);
+        let missing = place_textures(&mut library, &Places { axes: None, placements: placements.clone() });
         assert_eq!((missing.len(), missing.contains(&"cork".to_owned())), (23, false));
         let again = read_places_csv(&places_csv(&library), None).unwrap();
         assert_eq!(again, placements);
@@ -340,14 +410,14 @@ mod tests {
     fn another_scale_is_brought_to_that_of_the_space() {
         let text = "id,rs,hs,flat-bumpy\ncork,1,7,\nfelt,4,\"2,5\",6\n";
         let read = |scale| read_places(text.as_bytes(), Some(LabelSource::HumanRatings), scale);
-        let placements = read(Scale::new(1.0, 7.0).unwrap()).unwrap().value;
+        let placements = read(Scale::new(1.0, 7.0).unwrap()).unwrap().value.placements;
         let at = |i: usize| (placements[i].place.at.rough_smooth, placements[i].place.at.hard_soft);
         assert_eq!((at(0), at(1)), ((0.0, 100.0), (50.0, 25.0)));
         assert_eq!(placements[1].attributes.get("rough-smooth"), Some(50.0));
         assert!((placements[1].attributes.get("flat-bumpy").unwrap() - 500.0 / 6.0).abs() < 1e-12);
         assert_eq!(looks_rescaled(&placements), None);
-        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value), Some((1.0, 7.0)));
-        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value[..1]), None);
+        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value.placements), Some((1.0, 7.0)));
+        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value.placements[..1]), None);
         let message = read(Scale::new(1.0, 6.0).unwrap()).unwrap_err().to_string();
         assert!(message.contains("hs in line 2 is 7; it must lie between 1 and 6"), "{message}");
         for (low, high) in [(7.0, 1.0), (1.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (-1e308, 1e308)] {
@@ -363,7 +433,8 @@ mod tests {
     fn other_columns_are_named_and_not_used() {
         let text = "id,rs,hs,color,flat-bumpy,start-time,warmth\ncork,40,71,red,33,12:30,5\n";
         let read = read_places(text.as_bytes(), Some(LabelSource::HumanRatings), Scale::OF_SPACE).unwrap();
-        let names: Vec<&str> = read.value[0].attributes.values.iter().map(|a| a.name.as_str()).collect();
+        let names: Vec<&str> =
+            read.value.placements[0].attributes.values.iter().map(|a| a.name.as_str()).collect();
         assert_eq!(names, ["rough-smooth", "hard-soft", "flat-bumpy"]);
         assert!(
             read.warnings[0].starts_with("the columns color, start-time, warmth are not used;"),

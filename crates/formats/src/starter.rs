@@ -1,7 +1,7 @@
 //! The libraries that are built into the program.
 
 use crate::library::{Library, LibraryError, read_library};
-use crate::places_csv::{PlacesCsvError, place_textures, read_places_csv};
+use crate::places_csv::{PlacesCsvError, Scale, place_textures, read_places};
 
 const BYTES: &[u8] = include_bytes!("../../../assets/starter/starter.json");
 const SIMULATED_PLACES: &[u8] = include_bytes!("../../../assets/starter/simulated.csv");
@@ -37,8 +37,8 @@ pub enum SimulatedLibraryError {
 /// None, as long as the committed files are sound, which a test holds.
 pub fn simulated_library() -> Result<Library, SimulatedLibraryError> {
     let mut library = starter_library()?;
-    let placements = read_places_csv(SIMULATED_PLACES, None)?;
-    place_textures(&mut library, &placements);
+    let places = read_places(SIMULATED_PLACES, None, Scale::OF_SPACE)?.value;
+    place_textures(&mut library, &places);
     "Starter, simulated raters".clone_into(&mut library.name);
     library.space_report = Some(serde_json::from_slice(SIMULATED_REPORT)?);
     Ok(library)

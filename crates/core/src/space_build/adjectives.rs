@@ -6,6 +6,7 @@ use crate::ratings::{
     relevances,
 };
 use crate::space_build::SpaceBuildError;
+use crate::space_build::verdict::counted;
 
 /// An adjective pair that was rated.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,7 +127,11 @@ pub(super) fn fit_adjectives(
         }
         let n_unrated = adjective.ratings.iter().filter(|a| a.mean.is_none()).count() - unrated.len();
         if n_unrated > 0 {
-            findings.push(format!("{}: {n_unrated} textures have no rating on it", adjective.pair));
+            findings.push(format!(
+                "{}: no rating of {} on it",
+                adjective.pair,
+                counted(n_unrated, "texture")
+            ));
         }
     }
     Ok(adjectives)

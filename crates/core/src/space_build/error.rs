@@ -7,6 +7,7 @@ use crate::property::PropertyError;
 use crate::ratings::{RatingsError, VoteError};
 use crate::selection::SelectionError;
 use crate::sorting::SortingError;
+use crate::space_build::verdict::counted;
 use crate::triangulation::TriangulationError;
 
 /// Why judgements make no space.
@@ -69,7 +70,9 @@ pub enum SpaceBuildError {
     Votes(#[from] VoteError),
     /// There are too few pairs for two axes.
     #[error(
-        "{n_pairs} adjective pairs can be axes, two are needed; rate another pair, or vote again on which are relevant"
+        "{} can be {}, two are needed; rate another pair, or vote again on which are relevant",
+        counted(*n_pairs, "adjective pair"),
+        if *n_pairs == 1 { "an axis" } else { "axes" }
     )]
     TooFewPairs {
         /// Pairs that could be axes.

@@ -24,12 +24,17 @@ pub fn kruskal_word(stress: f64) -> &'static str {
     }
 }
 
+/// A number of things that are called `noun` where there is one.
+pub(super) fn counted(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
+}
+
 /// Sentences on how far the space can be believed, the most general first, then what was found on the way.
 pub fn verdict(build: &SpaceBuild) -> Vec<String> {
     let mut said = vec![
         format!(
-            "{} textures, from {}{}.",
-            build.textures.len(),
+            "{}, from {}{}.",
+            counted(build.textures.len(), "texture"),
             build.source.label(),
             if build.source == LabelSource::SimulatedRaters { ": nobody felt anything" } else { "" }
         ),
@@ -58,10 +63,8 @@ pub fn verdict(build: &SpaceBuild) -> Vec<String> {
         said.push(format!("Rated unlike the others, and kept: {}.", outlying.join(", ")));
     }
     if build.n_missing_ratings > 0 {
-        said.push(format!(
-            "{} ratings are missing; averages are over those who rated.",
-            build.n_missing_ratings
-        ));
+        let missing = counted(build.n_missing_ratings, "rating");
+        said.push(format!("Missing: {missing}; averages are over those who rated."));
     }
     if !build.not_sorted.is_empty() {
         said.push(format!("Not sorted, and so without a place: {}.", build.not_sorted.join(", ")));
@@ -109,7 +112,7 @@ fn stability(build: &SpaceBuild) -> Option<String> {
     let least: Vec<&str> = by_deviation.iter().take(3).map(|(id, _)| id.as_str()).collect();
     let failed = match stability.n_failed {
         0 => String::new(),
-        n => format!("; {n} more draws made no space"),
+        n => format!("; {} made no space", counted(n, "more draw")),
     };
     Some(format!(
         "With participants drawn anew, {} times, places move by {:.1} points of 100 along {} and {:.1} along {} (standard deviation), most of all {}; the angle by {:.0}°{failed}.",
@@ -135,9 +138,9 @@ fn prediction(axis: &Axis) -> Option<String> {
         },
     );
     Some(format!(
-        "{}: predicted from {} features, nested cross-validation r {:.2} (accuracy {:.1} %, where guessing the mean has {:.1} %; {chance}). Plain correlation: nested {:.2}, with features chosen on all textures, as is usually published, {:.2} ({:.1} %).",
+        "{}: predicted from {}, nested cross-validation r {:.2} (accuracy {:.1} %, where guessing the mean has {:.1} %; {chance}). Plain correlation: nested {:.2}, with features chosen on all textures, as is usually published, {:.2} ({:.1} %).",
         axis.pair,
-        prediction.features.len(),
+        counted(prediction.features.len(), "feature"),
         v.nested_cv_r,
         v.nested_cv_rms_percent,
         v.mean_rms_percent,

@@ -1,7 +1,7 @@
 //! Tables of judgements and places: small good files, and what must hold of what is read from changed ones.
 
 use shagreen_core::space::LabelSource;
-use shagreen_formats::places_csv::{Scale, read_places, read_places_csv};
+use shagreen_formats::places_csv::{Scale, read_places};
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv, read_relevance_csv};
 use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
@@ -67,8 +67,10 @@ pub(crate) fn read_some_ratings(bytes: &[u8]) -> Result<(), String> {
 pub(crate) fn read_some_places(bytes: &[u8]) -> Result<(), String> {
     let human = Some(LabelSource::HumanRatings);
     let on_seven = Scale::new(1.0, 7.0).map_err(|error| error.to_string())?;
-    let rescaled = read_places(bytes, human, on_seven).into_iter().flat_map(|imported| imported.value);
-    let mut placements = read_places_csv(bytes, human).into_iter().flatten().chain(rescaled);
+    let mut placements = [Scale::OF_SPACE, on_seven]
+        .into_iter()
+        .filter_map(|scale| read_places(bytes, human, scale).ok())
+        .flat_map(|imported| imported.value.placements);
     let is_inside = |value: f64| (0.0..=100.0).contains(&value);
     let outside = placements.find(|p| {
         let at = p.place.at;
