@@ -145,7 +145,8 @@ impl Window {
             self.carry_out(command, &ctx);
         }
         self.session.follow(&self.project, &ctx);
-        self.pictures.follow(&ctx, &self.project.added);
+        let (project, textures) = (&self.project, self.session.textures());
+        self.pictures.follow(&ctx, project.library, &project.added, textures);
         self.keep_going(&ctx);
     }
 
