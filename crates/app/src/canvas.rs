@@ -3,12 +3,12 @@
 mod site_labels;
 
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
+    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
 use shagreen_core::space::SpacePoint;
 
-use self::site_labels::site_labels;
+use self::site_labels::{Around, site_labels};
 use crate::axes::Axes;
 use crate::command::Command;
 use crate::drag::dragged_to;
@@ -20,6 +20,8 @@ use crate::theme::{Tokens, tokens};
 
 /// Radius of a texture's picture on the canvas, in points.
 const SITE_RADIUS: f32 = 13.0;
+/// What the point covers while nothing points at it, in points.
+const POINT_SIZE: Vec2 = vec2(22.0, 22.0);
 /// Up to this many textures, each is shown as its picture; more are dots.
 const MAX_PICTURES: usize = 60;
 /// Step of an arrow key, in points of the axes; Shift makes it [`BIG_STEP`].
@@ -99,7 +101,10 @@ fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &T
 /// Whom the places come from, with its upper right corner at `corner`; returns where that stands.
 fn source_ui(ui: &Ui, corner: Pos2, panel: &Panel<'_>, t: &Tokens) -> Rect {
     let is_simulated = panel.session.is_simulated();
-    let words = strings::places_from(panel.session.label_source(), is_simulated);
+    let mut words = strings::places_from(panel.session.label_source());
+    if is_simulated {
+        words.push_str(strings::NOBODY_FELT);
+    }
     let color = if is_simulated { t.warning } else { t.text_weak };
     let area = ui.painter().text(corner, Align2::RIGHT_TOP, &words, FontId::proportional(11.5), color);
     let response = ui.interact(area, ui.scope_id().with("source of places"), Sense::hover());
@@ -174,7 +179,8 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Toke
         .filter(|(texture, _)| with_pictures || rank(*texture).is_some() || pointed == Some(*texture))
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
         .collect();
-    site_labels(ui, panel, &named, radius, words, pointed, t);
+    let point = Rect::from_center_size(axes.ui_from_space(panel.project.point), POINT_SIZE);
+    site_labels(ui, panel, &named, radius, &Around { words, point }, pointed, t);
     commands
 }
 

@@ -36,8 +36,11 @@ pub(crate) struct Placed {
     pub(crate) leader: Option<[Pos2; 2]>,
 }
 
-/// Where names go, first come first served, those beside their dots before those that lead there; `None` for one that fits
-/// nowhere within `clip`. All `dots` have the same `radius` in points; `taken` is kept free too.
+/// How often names that found no room are given the first choice, to see whether more names fit then.
+const N_RETRIES: usize = 6;
+
+/// Where names go; `None` for one that fits nowhere within `clip`. Those that are needed come first, then whoever fits
+/// beside its dot, then those that lead there. All `dots` have the same `radius` in points; `taken` is kept free too.
 pub(crate) fn label_places(
     dots: &[Pos2],
     radius: f32,
@@ -45,17 +48,48 @@ pub(crate) fn label_places(
     taken: &[Rect],
     clip: Rect,
 ) -> Vec<Option<Placed>> {
-    let mut ground = Ground { dots, radius, clip, frames: taken.to_vec(), leaders: Vec::new() };
-    let mut placed: Vec<Option<Placed>> = wishes.iter().map(|wish| ground.place(wish, &beside)).collect();
-    // A line may cross what is empty now only once it is known what stays empty.
-    for (wish, place) in wishes.iter().zip(&mut placed) {
+    let ground = || Ground { dots, radius, clip, frames: taken.to_vec(), leaders: Vec::new() };
+    let mut urgent: Vec<usize> = Vec::new();
+    let mut best = attempt(ground(), wishes, &urgent);
+    let mut latest = best.clone();
+    let count = |places: &[Option<Placed>]| places.iter().flatten().count();
+    for _ in 0..N_RETRIES {
+        let is_left_out = |i: &usize| latest[*i].is_none() && wishes[*i].may_lead && !urgent.contains(i);
+        let left_out: Vec<usize> = (0..wishes.len()).filter(is_left_out).collect();
+        if left_out.is_empty() {
+            break;
+        }
+        urgent.splice(0..0, left_out);
+        latest = attempt(ground(), wishes, &urgent);
+        if count(&latest) > count(&best) {
+            best.clone_from(&latest);
+        }
+    }
+    best
+}
+
+/// Places names, those that are `urgent` wherever they fit before the others.
+fn attempt(mut ground: Ground<'_>, wishes: &[Wish], urgent: &[usize]) -> Vec<Option<Placed>> {
+    let mut placed: Vec<Option<Placed>> = vec![None; wishes.len()];
+    for (wish, place) in wishes.iter().zip(&mut placed).filter(|(wish, _)| wish.is_needed) {
+        *place = ground.place(wish, &beside);
         if place.is_none() && wish.may_lead {
             *place = ground.place(wish, &away);
         }
-        if place.is_none() && wish.is_needed {
+        if place.is_none() {
             *place = beside(wish, &ground).first().copied();
             ground.frames.extend(place.map(|place| place.area));
         }
+    }
+    for i in urgent {
+        placed[*i] = ground.place(&wishes[*i], &beside).or_else(|| ground.place(&wishes[*i], &away));
+    }
+    for (wish, place) in wishes.iter().zip(&mut placed).filter(|(_, place)| place.is_none()) {
+        *place = ground.place(wish, &beside);
+    }
+    let is_left = |(wish, place): &(&Wish, &mut Option<Placed>)| place.is_none() && wish.may_lead;
+    for (wish, place) in wishes.iter().zip(&mut placed).filter(is_left) {
+        *place = ground.place(wish, &away);
     }
     placed
 }
@@ -97,7 +131,10 @@ impl Ground<'_> {
             return false;
         }
         place.leader.is_none_or(|line| {
-            !others().any(|pos| distance(line, *pos) < self.radius + CLEARANCE)
+            // No line can keep off a dot that lies on its own.
+            let own = self.dots[own];
+            let is_apart = |pos: &&Pos2| pos.distance(own) > 1.25 * CLEARANCE;
+            !others().filter(is_apart).any(|pos| distance(line, *pos) < self.radius + CLEARANCE)
                 && !self.frames.iter().any(|other| crosses(line, other.expand(CLEARANCE)))
                 && !self.leaders.iter().any(|other| cross(line, *other))
         })
@@ -222,7 +259,7 @@ mod tests {
         let (n_near, _) = check(&dots, &near, clip);
         let (n_shown, n_away) = check(&dots, &lead, clip);
         // The dot in the middle cannot be reached without crossing another.
-        assert!(n_near < 7 && n_shown == 8 && n_away == n_shown - n_near, "{n_near}, {n_shown}, {n_away}");
+        assert!(n_near < 7 && n_shown == 8 && n_away > 0, "{n_near}, {n_shown}, {n_away}");
     }
 
     #[test]
@@ -238,15 +275,16 @@ mod tests {
         assert!(area(left, &[]).unwrap().area.right() < 50.0);
         let needed = Wish { is_needed: true, ..leading(0) };
         assert_eq!(area(needed, &[clip]), Some(Placed { area: below, leader: None }));
-        // Where only the sides are taken, a line leads out of them.
-        let around = Rect::from_center_size(dots[0], vec2(24.0, 24.0));
-        assert!(area(needed, &[around]).unwrap().leader.is_none(), "a line through what is taken is none");
-        let sides = [
-            below,
-            beside,
-            area(left, &[]).unwrap().area,
-            Rect::from_min_size(pos2(58.0, 45.0), vec2(30.0, 10.0)),
-        ];
-        assert!(area(leading(0), &sides).is_some_and(|place| place.leader.is_some()));
+        // Where only the sides are taken, a line leads out between them.
+        let around = |size: f32| Rect::from_center_size(dots[0], Vec2::splat(size));
+        assert_eq!(area(needed, &[around(24.0)]).unwrap().leader, None, "no line goes through what is taken");
+        let corners = [vec2(0.0, 16.0), vec2(0.0, -16.0), vec2(22.0, 0.0), vec2(-22.0, 0.0)];
+        let sides = corners.map(|offset| Rect::from_center_size(dots[0] + offset, vec2(12.0, 10.0)));
+        let led = area(leading(0), &sides).unwrap();
+        assert!(led.leader.is_some() && sides.iter().all(|side| !side.intersects(led.area)), "{led:?}");
+        // Dots that lie on each other have both their names.
+        let twins = [dots[0], dots[0] + vec2(0.5, 0.0)];
+        let places = label_places(&twins, 4.0, &[leading(0), leading(1)], &sides, clip);
+        assert!(places.iter().all(|place| place.is_some_and(|place| place.leader.is_some())), "{places:?}");
     }
 }

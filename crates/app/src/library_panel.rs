@@ -35,9 +35,9 @@ pub fn library_ui(
             commands.extend(libraries_ui(ui, panel));
         });
     });
-    let is_simulated = panel.session.is_simulated();
-    let source = egui::RichText::new(strings::places_from(panel.session.label_source(), is_simulated));
-    let source = source.small().color(if is_simulated { t.warning } else { t.text_weak });
+    let source = egui::RichText::new(strings::places_from(panel.session.label_source()));
+    let color = if panel.session.is_simulated() { t.warning } else { t.text_weak };
+    let source = source.small().color(color);
     let about = format!("{}\n{}", panel.session.library().name, strings::SOURCE_HELP);
     ui.add(Label::new(source).wrap().selectable(false)).on_hover_text(about);
     ui.horizontal(|ui| {

@@ -12,6 +12,8 @@ use crate::theme::{GAP, tokens};
 const FLOOR_DB: f64 = -70.0;
 /// Highest density that is drawn.
 const TOP_DB: f64 = 5.0;
+/// From one line of the grid to the next, in dB: far enough that every number can be read.
+const STEP_DB: f64 = 20.0;
 
 /// Draws both plots side by side.
 pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>) {
@@ -76,6 +78,7 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
         .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
         .x_grid_spacer(marks)
         .x_axis_formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)))
+        .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [2.0 * STEP_DB, STEP_DB, STEP_DB]))
         .show(ui, |plot| {
             plot.set_plot_bounds_x((0.93 * BAND_HZ.0).log10()..=(1.12 * BAND_HZ.1).log10());
             plot.set_plot_bounds_y(FLOOR_DB..=TOP_DB);
@@ -90,6 +93,7 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
 /// A plot that is looked at, not moved.
 pub(crate) fn fixed(plot: Plot<'_>, grid: egui::Color32) -> Plot<'_> {
     plot.grid_color(grid)
+        .show_crosshair(false)
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)

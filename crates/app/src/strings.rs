@@ -164,7 +164,7 @@ pub const SOURCE_HELP: &str =
 /// Positions come from several sources.
 pub const MIXED_SOURCES: &str = "mixed: never compare them";
 /// Added to the source of places that nobody felt.
-pub const NOBODY_FELT: &str = "nobody felt them";
+pub const NOBODY_FELT: &str = ", nobody felt them";
 /// Nothing says where positions come from.
 pub const NO_SOURCE: &str = "not stated";
 /// Unit of the waveform.
@@ -219,8 +219,8 @@ pub fn place_in_words(point: SpacePoint, [across, up]: &[[String; 2]; 2]) -> Str
 }
 
 /// Whom the places that are shown come from.
-pub fn places_from(source: &str, is_simulated: bool) -> String {
-    if is_simulated { format!("Places: {source}, {NOBODY_FELT}") } else { format!("Places: {source}") }
+pub fn places_from(source: &str) -> String {
+    format!("Places: {source}")
 }
 
 /// Where a texture lies, and where that comes from.

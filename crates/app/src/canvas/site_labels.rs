@@ -1,70 +1,109 @@
 //! Names beside textures.
 
-use egui::{FontId, Pos2, Rect, Stroke, Ui, Vec2, vec2};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::sync::Arc;
+
+use egui::{FontId, Galley, Id, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
 use crate::label_places::{Placed, Wish, label_places};
 use crate::panel::Panel;
 use crate::theme::Tokens;
 
-/// Draws the names of the textures at `sites`, all with the same `radius`. Parents come first and are always named, as is
-/// the one that is `pointed` at, over whatever is there; another name that fits nowhere is left out. What is `taken` is
-/// kept free.
+/// Size of the names, in points: the same for all, so that none has to move when others become the parents.
+const SIZE: f32 = 11.5;
+
+/// What names keep off.
+pub(super) struct Around<'a> {
+    /// Words that stand there already.
+    pub(super) words: &'a [Rect],
+    /// The authored point, which moves: only the names of its parents make way for it.
+    pub(super) point: Rect,
+}
+
+/// Draws the names of the textures at `sites`, all with the same `radius`. Parents are always named, as is the one that is
+/// `pointed` at, over whatever is there; another name that fits nowhere is left out.
 pub(super) fn site_labels(
     ui: &Ui,
     panel: &Panel<'_>,
     sites: &[(usize, Pos2)],
     radius: f32,
-    taken: &[Rect],
+    around: &Around<'_>,
     pointed: Option<usize>,
     t: &Tokens,
 ) {
     let rank = |dot: usize| panel.session.parent_rank(sites[dot].0);
-    let mut order: Vec<usize> = (0..sites.len()).collect();
-    order.sort_by_key(|dot| rank(*dot).unwrap_or(usize::MAX));
-    let (mut wishes, mut galleys) = (Vec::with_capacity(order.len()), Vec::with_capacity(order.len()));
-    for dot in order {
-        let is_pointed = pointed == Some(sites[dot].0);
-        let (size, color) = match rank(dot) {
-            Some(rank) => (12.5, t.parents[rank.min(2)]),
-            None => (10.5, if is_pointed { t.text } else { t.text_weak }),
+    let is_pointed = |dot: usize| pointed == Some(sites[dot].0);
+    let galley = |dot: usize| {
+        let color = match rank(dot) {
+            Some(rank) => t.parents[rank.min(2)],
+            None if is_pointed(dot) => t.text,
+            None => t.text_weak,
         };
         let name = panel.session.textures()[sites[dot].0].name.clone();
-        let galley = ui.painter().layout_no_wrap(name, FontId::proportional(size), color);
-        let is_needed = rank(dot).is_some();
-        wishes.push(Wish { dot, size: galley.size(), side: Vec2::ZERO, is_needed, may_lead: true });
-        galleys.push((galley, color));
-    }
-    let dots: Vec<Pos2> = sites.iter().map(|(_, pos)| *pos).collect();
-    let clip = ui.clip_rect();
-    let places = label_places(&dots, radius, &wishes, taken, clip);
-    // Whoever points at a texture does not see the other names move for it.
-    let over = |wish: &Wish| {
-        let alone = Wish { is_needed: true, may_lead: false, ..*wish };
-        label_places(&dots, radius, &[alone], taken, clip)[0]
+        (ui.painter().layout_no_wrap(name, FontId::proportional(SIZE), color), color)
     };
-    let mut last = None;
-    for ((wish, (galley, color)), place) in wishes.iter().zip(galleys).zip(places) {
-        let is_pointed = pointed == Some(sites[wish.dot].0);
-        let Some(Placed { area, leader }) = place.or_else(|| over(wish).filter(|_| is_pointed)) else {
-            continue;
+    let galleys: Vec<(Arc<Galley>, egui::Color32)> = (0..sites.len()).map(galley).collect();
+    let wish = |dot: usize| Wish {
+        dot,
+        size: galleys[dot].0.size(),
+        side: Vec2::ZERO,
+        is_needed: false,
+        may_lead: true,
+    };
+    let dots: Vec<Pos2> = sites.iter().map(|(_, pos)| *pos).collect();
+    let wishes: Vec<Wish> = (0..sites.len()).map(wish).collect();
+    let clip = ui.clip_rect();
+    let places =
+        remembered(ui, &dots, &wishes, clip, || label_places(&dots, radius, &wishes, around.words, clip));
+    // Others stay where they are when one has to be seen.
+    let made_room = |dot: usize| {
+        let others = places.iter().enumerate().filter(|(other, _)| *other != dot);
+        let mut taken: Vec<Rect> = others.filter_map(|(_, place)| Some(place.as_ref()?.area)).collect();
+        taken.extend(around.words);
+        taken.push(around.point);
+        label_places(&dots, radius, &[Wish { is_needed: true, ..wishes[dot] }], &taken, clip)[0]
+    };
+    // What must be seen is drawn last.
+    let mut order: Vec<usize> = (0..sites.len()).collect();
+    order.sort_by_key(|dot| (is_pointed(*dot), rank(*dot).map_or(0, |rank| 3 - rank.min(2))));
+    for dot in order {
+        let is_parent = rank(dot).is_some();
+        let is_covered = |place: &Placed| is_parent && place.area.intersects(around.point);
+        let place = match places[dot].filter(|place| !is_covered(place)) {
+            None if is_parent || is_pointed(dot) => made_room(dot),
+            place => place,
         };
-        if is_pointed {
-            last = Some((galley, color, area, leader));
-            continue;
-        }
+        let Some(Placed { area, leader }) = place else { continue };
+        let (galley, color) = &galleys[dot];
         if let Some(line) = leader {
-            ui.painter().line_segment(line, Stroke::new(1.0, color.gamma_multiply(0.7)));
+            ui.painter().line_segment(line, Stroke::new(1.0, color.gamma_multiply(0.8)));
         }
-        if wish.is_needed {
-            ui.painter().rect_filled(area.expand2(vec2(4.0, 1.0)), 3.0, t.background.gamma_multiply(0.85));
+        if is_parent || is_pointed(dot) {
+            ui.painter().rect_filled(area.expand2(vec2(4.0, 1.0)), 3.0, t.background.gamma_multiply(0.9));
         }
-        ui.painter().galley(area.min, galley, color);
+        ui.painter().galley(area.min, Arc::clone(galley), *color);
     }
-    if let Some((galley, color, area, leader)) = last {
-        if let Some(line) = leader {
-            ui.painter().line_segment(line, Stroke::new(1.0, color));
-        }
-        ui.painter().rect_filled(area.expand2(vec2(4.0, 1.0)), 3.0, t.background);
-        ui.painter().galley(area.min, galley, color);
+}
+
+/// The places of names, worked out anew only where dots, names or the room for them have changed.
+fn remembered(
+    ui: &Ui,
+    dots: &[Pos2],
+    wishes: &[Wish],
+    clip: Rect,
+    places: impl FnOnce() -> Vec<Option<Placed>>,
+) -> Arc<Vec<Option<Placed>>> {
+    let mut hasher = DefaultHasher::new();
+    let sizes = wishes.iter().map(|wish| wish.size.to_pos2());
+    for pos in dots.iter().copied().chain(sizes).chain([clip.min, clip.max]) {
+        (pos.x.to_bits(), pos.y.to_bits()).hash(&mut hasher);
     }
+    let (id, key) = (Id::unique("names on the canvas"), hasher.finish());
+    let known = ui.data(|data| data.get_temp::<(u64, Arc<Vec<Option<Placed>>>)>(id));
+    if let Some((_, places)) = known.filter(|(known, _)| *known == key) {
+        return places;
+    }
+    let places = Arc::new(places());
+    ui.data_mut(|data| data.insert_temp(id, (key, Arc::clone(&places))));
+    places
 }

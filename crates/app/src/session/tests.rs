@@ -110,7 +110,7 @@ fn another_library_is_opened_and_the_first_comes_back() {
 
     session.follow(&mine, &ctx);
     assert_eq!((session.library(), session.space()), (&library, &space));
-    assert_eq!((session.built_in(), session.label_source()), (None, "mixed: never compare them"));
+    assert_eq!((session.built_in(), session.label_source()), (None, "physical labels"));
     session.follow(&simulated, &ctx);
     assert_eq!(session.textures()[..25], read.textures[..]);
 }
