@@ -101,6 +101,8 @@ pub const BUILD_INPUTS_WIDTH: f32 = 300.0;
 pub const VERDICT_WIDTH: f32 = 280.0;
 /// Height of the row of pad and scope, in points.
 pub const STAGE_HEIGHT: f32 = 208.0;
+/// Least width of the pad, in points: the sliders above it can still be set.
+pub const PAD_WIDTH: f32 = 440.0;
 
 /// The tokens of the theme that is showing.
 pub fn tokens(ctx: &egui::Context) -> &'static Tokens {

@@ -24,9 +24,11 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
     // Numbers stand as close as they can be read.
     let across = AxisHints::new_x().label(RichText::new(&chart.x_label).small());
     let across = across.label_spacing(Rangef::new(34.0, 46.0));
+    let up = AxisHints::new_y().label(RichText::new(&chart.y_label).small());
+    let up = up.label_spacing(Rangef::new(16.0, 20.0));
     let mut plot = fixed(Plot::new(name.to_owned()), t.line)
         .custom_x_axes(vec![across])
-        .y_axis_label(RichText::new(&chart.y_label).small())
+        .custom_y_axes(vec![up])
         .grid_spacing(Rangef::new(10.0, 70.0))
         .height(ui.available_height());
     if chart.is_isotropic {

@@ -152,7 +152,6 @@ impl BuildPage {
             }
             ui.add_space(GROUP_GAP);
             options_ui(ui, &mut self.options, self.judgements.ratings.values());
-            ui.add_space(GAP);
         });
     }
 
