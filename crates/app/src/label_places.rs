@@ -131,9 +131,9 @@ impl Ground<'_> {
             return false;
         }
         place.leader.is_none_or(|line| {
-            // No line can keep off a dot that lies on its own.
+            // Hardly a line can keep off a dot that covers its own.
             let own = self.dots[own];
-            let is_apart = |pos: &&Pos2| pos.distance(own) > 1.25 * CLEARANCE;
+            let is_apart = |pos: &&Pos2| pos.distance(own) > self.radius;
             !others().filter(is_apart).any(|pos| distance(line, *pos) < self.radius + CLEARANCE)
                 && !self.frames.iter().any(|other| crosses(line, other.expand(CLEARANCE)))
                 && !self.leaders.iter().any(|other| cross(line, *other))

@@ -19,7 +19,8 @@ use shagreen_formats::sorting_csv::sorting_csv;
 use shagreen_formats::starter::starter_library;
 
 use support::{
-    Author, author, author_on, choose, click, drop_files, says, shown, unnamed_controls, wait, window,
+    Author, author, author_on, choose, click, drop_files, painted, says, shown, unnamed_controls, wait,
+    window, words,
 };
 
 /// Goes to the workspace.
@@ -132,6 +133,35 @@ fn a_space_is_built_looked_at_used_and_undone() {
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);
     assert_eq!(window(&harness).session().label_source(), "simulated raters");
+}
+
+/// The figures are crowded: every texture has its name there, and a dot that is pointed at says it with its numbers.
+#[test]
+fn dots_of_a_figure_have_names_and_say_them() {
+    let mut harness = built();
+    click(&mut harness, build::figure("perceptual-space"));
+    harness.run_steps(2);
+    let figures = &window(&harness).build().built().unwrap().figures;
+    let title = figures.iter().find(|(name, _)| *name == "perceptual-space").unwrap().1.title();
+    let written: Vec<String> = painted(&harness, &title).iter().filter_map(words).collect();
+    let textures = window(&harness).session().textures();
+    let n_named = textures.iter().filter(|texture| written.contains(&texture.id)).count();
+    assert!(n_named >= 24, "{n_named} of 25 are named: {written:?}");
+    let dots: Vec<egui::Pos2> = painted(&harness, &title)
+        .iter()
+        .filter_map(|shape| if let egui::Shape::Circle(dot) = shape { Some(dot.center) } else { None })
+        .collect();
+    assert_eq!(dots.len(), 25);
+    for dot in [dots[0], dots[12]] {
+        harness.hover_at(dot);
+        harness.run_steps(3);
+        let said: Vec<String> = painted(&harness, &title).iter().filter_map(words).collect();
+        let textures = window(&harness).session().textures();
+        let is_said = |words: &String| {
+            words.split_once('\n').is_some_and(|(name, _)| textures.iter().any(|t| t.id == name))
+        };
+        assert_eq!(said.iter().filter(|words| is_said(words)).count(), 1, "{said:?}");
+    }
 }
 
 /// Tables of sortings and ratings, whose participants are called as people are, or as simulated ones.

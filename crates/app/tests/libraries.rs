@@ -4,14 +4,16 @@
 mod support;
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, Shape};
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::libraries::BuiltIn;
 use shagreen_app::strings;
 use shagreen_core::blend::Authored;
 use shagreen_formats::library::Library;
 
-use support::{Author, author, author_on, click, drop_files, says, shown, unnamed_controls, wait, window};
+use support::{
+    Author, author, author_on, click, drop_files, painted, says, shown, unnamed_controls, wait, window, words,
+};
 
 const NOBODY: &str = "Places: simulated raters, nobody felt them";
 
@@ -34,17 +36,7 @@ fn authored(harness: &Author) -> Authored {
 
 /// What is written on the canvas.
 fn names_on_canvas(harness: &Author) -> Vec<String> {
-    let canvas = harness.get_by_role_and_label(Role::Canvas, strings::CANVAS).rect();
-    let mut names = Vec::new();
-    let mut shapes: Vec<&Shape> = harness.output().shapes.iter().map(|clipped| &clipped.shape).collect();
-    while let Some(shape) = shapes.pop() {
-        match shape {
-            Shape::Vec(parts) => shapes.extend(parts),
-            Shape::Text(text) if canvas.contains(text.pos) => names.push(text.galley.text().to_owned()),
-            _ => {}
-        }
-    }
-    names
+    painted(harness, strings::CANVAS).into_iter().filter_map(|shape| words(&shape)).collect()
 }
 
 #[test]

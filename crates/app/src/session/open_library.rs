@@ -16,13 +16,13 @@ impl Session {
     /// Which of the program's libraries the session began with, where it was one of them. Asked for the first time, it
     /// takes some milliseconds.
     pub fn first_as(&self) -> Option<BuiltIn> {
-        let look = || match &self.first {
-            Some((library, _)) => BuiltIn::of(library),
-            None => {
-                let mut library = self.library.clone();
-                self.opened.restore(&mut library);
-                BuiltIn::of(&library)
+        let look = || {
+            if let Some((library, _)) = &self.first {
+                return BuiltIn::of(library);
             }
+            let mut library = self.library.clone();
+            self.opened.restore(&mut library);
+            BuiltIn::of(&library)
         };
         *self.first_as.get_or_init(look)
     }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use egui::DroppedFile;
 use egui::accesskit::Role;
+use egui::{DroppedFile, Shape};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::session::OutputChoice;
@@ -65,6 +65,36 @@ pub(crate) fn shown(harness: &Author) -> Vec<String> {
 
 pub(crate) fn says(harness: &Author, words: &str) -> bool {
     shown(harness).iter().any(|text| text.contains(words))
+}
+
+/// What is painted on the canvas of this name.
+pub(crate) fn painted(harness: &Author, canvas: &str) -> Vec<Shape> {
+    let canvas = harness.get_by_role_and_label(Role::Canvas, canvas).rect();
+    let (mut found, mut left) = (Vec::new(), Vec::new());
+    left.extend(harness.output().shapes.iter().map(|clipped| clipped.shape.clone()));
+    while let Some(shape) = left.pop() {
+        match shape {
+            Shape::Vec(parts) => left.extend(parts),
+            Shape::Noop => {}
+            // Where text stands, not how far it reaches.
+            shape => {
+                let at = if let Shape::Text(text) = &shape {
+                    text.pos
+                } else {
+                    shape.visual_bounding_rect().center()
+                };
+                if canvas.contains(at) {
+                    found.push(shape);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The words of a shape, where it is text.
+pub(crate) fn words(shape: &Shape) -> Option<String> {
+    if let Shape::Text(text) = shape { Some(text.galley.text().to_owned()) } else { None }
 }
 
 /// Presses the control of this name.
