@@ -16,8 +16,8 @@ const DOT: f32 = 3.5;
 /// How near the pointer has to be to a dot that it asks about, in points.
 const REACH: f32 = 9.0;
 
-/// Draws the chart into the space that there is; `name` tells it from the others.
-pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
+/// Draws the chart into the space that there is; `name` tells it from the others, a screen reader says its `title`.
+pub(super) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     let t = tokens(ui.ctx());
     legend_ui(ui, chart, t);
     let [x, y] = chart.bounds();
@@ -61,7 +61,7 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
             }
         }
     });
-    shown.response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &chart.title));
+    shown.response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, title));
     names_ui(ui, chart, shown.response.rect, &shown.transform, t);
     let near = shown.response.hover_pos().and_then(|at| nearest(chart, &shown.transform, at));
     if let Some(point) = near {
