@@ -79,7 +79,7 @@ pub(super) fn site_labels(
             ui.painter().line_segment(line, Stroke::new(1.0, color.gamma_multiply(0.8)));
         }
         if is_parent || is_pointed(dot) {
-            ui.painter().rect_filled(area.expand2(vec2(4.0, 1.0)), 3.0, t.background.gamma_multiply(0.9));
+            ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(0.9));
         }
         ui.painter().galley(area.min, Arc::clone(galley), *color);
     }

@@ -133,3 +133,15 @@ fn a_library_is_opened_as_its_file_has_it() {
     assert_eq!(session.parent_rank(3), Some(0));
     assert_eq!(session.poles()[0], ["hard", "soft"]);
 }
+
+/// Which library a session began with does not depend on what joined it before another was opened.
+#[test]
+fn the_first_library_is_known_whatever_joined_it() {
+    let ctx = egui::Context::default();
+    let mut session = Session::new(BuiltIn::Starter.read().unwrap()).unwrap();
+    let joined = Arc::new(mixed_library().textures.remove(2));
+    let project = Project::default().edited(Edit::AddTextures(vec![joined]));
+    session.follow(&project, &ctx);
+    session.follow(&project.edited(Edit::OpenLibrary(Some(BuiltIn::Simulated))), &ctx);
+    assert_eq!((session.first_as(), session.textures().len()), (Some(BuiltIn::Starter), 26));
+}
