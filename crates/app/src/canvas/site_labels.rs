@@ -53,8 +53,10 @@ pub(super) fn site_labels(
     let dots: Vec<Pos2> = sites.iter().map(|(_, pos)| *pos).collect();
     let wishes: Vec<Wish> = (0..sites.len()).map(wish).collect();
     let clip = ui.clip_rect();
-    let places =
-        remembered(ui, &dots, &wishes, clip, || label_places(&dots, radius, &wishes, around.words, clip));
+    let place = || label_places(&dots, radius, &wishes, around.words, clip);
+    let sizes = wishes.iter().map(|wish| wish.size.to_pos2());
+    let frames = around.words.iter().chain([&clip]).flat_map(|frame| [frame.min, frame.max]);
+    let places = remembered(ui, dots.iter().copied().chain(sizes).chain(frames), place);
     // Others stay where they are when one has to be seen.
     let made_room = |dot: usize| {
         let others = places.iter().enumerate().filter(|(other, _)| *other != dot);
@@ -85,19 +87,14 @@ pub(super) fn site_labels(
     }
 }
 
-/// The places of names, worked out anew only where dots, names or the room for them have changed.
+/// The places of names, worked out anew only where what they are made of has changed: dots, names, the room for them.
 fn remembered(
     ui: &Ui,
-    dots: &[Pos2],
-    wishes: &[Wish],
-    clip: Rect,
+    made_of: impl Iterator<Item = Pos2>,
     places: impl FnOnce() -> Vec<Option<Placed>>,
 ) -> Arc<Vec<Option<Placed>>> {
     let mut hasher = DefaultHasher::new();
-    let sizes = wishes.iter().map(|wish| wish.size.to_pos2());
-    for pos in dots.iter().copied().chain(sizes).chain([clip.min, clip.max]) {
-        (pos.x.to_bits(), pos.y.to_bits()).hash(&mut hasher);
-    }
+    made_of.for_each(|pos| (pos.x.to_bits(), pos.y.to_bits()).hash(&mut hasher));
     let (id, key) = (Id::unique("names on the canvas"), hasher.finish());
     let known = ui.data(|data| data.get_temp::<(u64, Arc<Vec<Option<Placed>>>)>(id));
     if let Some((_, places)) = known.filter(|(known, _)| *known == key) {
