@@ -3,15 +3,16 @@
 mod site_labels;
 
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui,
+    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
 use shagreen_core::space::SpacePoint;
 
-use self::site_labels::site_labels;
+use self::site_labels::{Around, site_labels};
 use crate::axes::Axes;
 use crate::command::Command;
 use crate::drag::dragged_to;
+use crate::library_panel::place_in_words;
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
@@ -19,6 +20,8 @@ use crate::theme::{Tokens, tokens};
 
 /// Radius of a texture's picture on the canvas, in points.
 const SITE_RADIUS: f32 = 13.0;
+/// What the point covers while nothing points at it, in points.
+const POINT_SIZE: Vec2 = vec2(22.0, 22.0);
 /// Up to this many textures, each is shown as its picture; more are dots.
 const MAX_PICTURES: usize = 60;
 /// Step of an arrow key, in points of the axes; Shift makes it [`BIG_STEP`].
@@ -36,8 +39,9 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
-    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 24.0), outer.max - vec2(36.0, 48.0)) };
-    let words = grid(ui, axes, outer, panel.session.poles(), t);
+    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 32.0), outer.max - vec2(36.0, 48.0)) };
+    let mut words = grid(ui, axes, outer, panel.session.poles(), t);
+    words.push(source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t));
     triangles(ui, axes, panel, t);
     let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
     if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
@@ -94,6 +98,21 @@ fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &T
     words
 }
 
+/// Whom the places come from, with its upper right corner at `corner`; returns where that stands.
+fn source_ui(ui: &Ui, corner: Pos2, panel: &Panel<'_>, t: &Tokens) -> Rect {
+    let is_simulated = panel.session.is_simulated();
+    let mut words = strings::places_from(panel.session.label_source());
+    if is_simulated {
+        words.push_str(strings::NOBODY_FELT);
+    }
+    let color = if is_simulated { t.warning } else { t.text_weak };
+    let area = ui.painter().text(corner, Align2::RIGHT_TOP, &words, FontId::proportional(11.5), color);
+    let response = ui.interact(area, ui.scope_id().with("source of places"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
+    response.on_hover_text(strings::SOURCE_HELP);
+    area
+}
+
 fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
     let space = panel.session.space();
     let at = |texture: usize| space.position(texture).map(|p| axes.ui_from_space(p));
@@ -139,6 +158,7 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Toke
     let rank = |texture: usize| panel.session.parent_rank(texture);
     let mut order: Vec<&(usize, SpacePoint)> = sites.iter().collect();
     order.sort_by_key(|(texture, _)| rank(*texture).is_some());
+    let mut pointed = None;
     for (texture, at) in order {
         let pos = axes.ui_from_space(*at);
         let entry = &panel.session.textures()[*texture];
@@ -149,14 +169,18 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Toke
             commands.push(move_to(*at));
         }
         site(ui, panel, *texture, pos, radius, &response, t);
-        response.on_hover_text(format!("{}\n{}", entry.name, at));
+        if response.hovered() || response.has_focus() {
+            pointed = Some(*texture);
+        }
+        response.on_hover_text(format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at)));
     }
     let named: Vec<(usize, Pos2)> = sites
         .iter()
-        .filter(|(texture, _)| with_pictures || rank(*texture).is_some())
+        .filter(|(texture, _)| with_pictures || rank(*texture).is_some() || pointed == Some(*texture))
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
         .collect();
-    site_labels(ui, panel, &named, radius, words, t);
+    let point = Rect::from_center_size(axes.ui_from_space(panel.project.point), POINT_SIZE);
+    site_labels(ui, panel, &named, radius, &Around { words, point }, pointed, t);
     commands
 }
 

@@ -31,6 +31,7 @@ pub mod history;
 pub mod import;
 pub mod inspector;
 mod label_places;
+pub mod libraries;
 pub mod library_panel;
 pub mod pad;
 pub mod panel;

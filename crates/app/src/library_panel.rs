@@ -2,9 +2,11 @@
 
 use egui::{Label, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
+use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_formats::library::Provenance;
 
 use crate::command::Command;
+use crate::libraries::BuiltIn;
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
@@ -12,6 +14,8 @@ use crate::theme::{GAP, tokens};
 
 /// Side of a picture in the list, in points.
 const PICTURE: f32 = 34.0;
+/// Width of the menu of libraries, in points.
+const MENU_WIDTH: f32 = 220.0;
 
 /// Draws the list and returns what the user asked of it. `search` is the panel's own state; the texture to `reveal` is
 /// scrolled to, once.
@@ -27,7 +31,15 @@ pub fn library_ui(
     ui.horizontal(|ui| {
         ui.heading(strings::LIBRARY);
         ui.label(egui::RichText::new(format!("{}", panel.session.textures().len())).color(t.text_weak));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            commands.extend(libraries_ui(ui, panel));
+        });
     });
+    let source = egui::RichText::new(strings::places_from(panel.session.label_source()));
+    let color = if panel.session.is_simulated() { t.warning } else { t.text_weak };
+    let source = source.small().color(color);
+    let about = format!("{}\n{}", panel.session.library().name, strings::SOURCE_HELP);
+    ui.add(Label::new(source).wrap().selectable(false)).on_hover_text(about);
     ui.horizontal(|ui| {
         let width = 0.5 * (ui.available_width() - GAP);
         for (command, name, help) in [
@@ -69,6 +81,32 @@ pub fn library_ui(
         }
     });
     commands
+}
+
+/// The menu of the libraries that can be open: those of the program, and the one that the window started with.
+fn libraries_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
+    let session = panel.session;
+    let mut asked = None;
+    let menu = ui.menu_button(strings::LIBRARIES, |ui| {
+        ui.set_min_width(MENU_WIDTH);
+        let open = session.built_in();
+        // The one that the window started with is known by that.
+        let as_edit = |built_in: BuiltIn| (session.first_as() != Some(built_in)).then_some(built_in);
+        for built_in in BuiltIn::ALL {
+            let entry = ui.selectable_label(open == Some(built_in), built_in.name());
+            if entry.on_hover_text(built_in.help()).clicked() {
+                asked = Some(as_edit(built_in));
+            }
+        }
+        if session.first_as().is_none() {
+            let name = strings::started_with(session.first_name());
+            if ui.selectable_label(open.is_none(), name).clicked() {
+                asked = Some(None);
+            }
+        }
+    });
+    menu.response.on_hover_text(strings::LIBRARIES_HELP);
+    asked.map(|library| Command::Edit(Edit::OpenLibrary(library)))
 }
 
 /// One texture, scrolled to where it is new; returns whether it was clicked.
@@ -113,11 +151,17 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> bool {
         );
     }
     let place = panel.session.space().position(index);
-    let mut help = place.map_or(strings::NOT_PLACED_HELP.to_owned(), |at| at.to_string());
+    let mut help = place.map_or(strings::NOT_PLACED_HELP.to_owned(), |at| place_in_words(panel, index, at));
     if entry.provenance == Provenance::Restricted {
         help = format!("{help}\n{}", strings::import::RESTRICTED);
     }
     response.on_hover_text(format!("{}\n{help}", entry.name)).clicked()
+}
+
+/// Where a texture lies, in numbers, and whom that comes from.
+pub(crate) fn place_in_words(panel: &Panel<'_>, index: usize, at: SpacePoint) -> String {
+    let source = panel.session.place_source(index).map_or(strings::NO_SOURCE, LabelSource::label);
+    strings::lies_at(at, source)
 }
 
 /// A texture's picture in `area`, or a plain square while there is none.

@@ -1,11 +1,14 @@
 //! Pictures of textures on the graphics card: decoded by a worker, blended for the pad.
 
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::{Picture, Rgb, decode};
+
+use crate::libraries::BuiltIn;
 
 /// Side of the blended picture in pixels.
 const BLEND_SIDE: usize = 192;
@@ -19,13 +22,15 @@ pub struct Pictures {
     thumbnails: Vec<Option<TextureHandle>>,
     pixels: Vec<Option<Rgb>>,
     millimeters: Vec<f64>,
+    /// What tells one picture from another, and the generation that each is decoded in.
+    fingerprints: Vec<(Option<u64>, u64)>,
     incoming: Receiver<Decoded>,
     sender: Sender<Decoded>,
-    /// Textures that joined the library, whose pictures come after its own.
+    /// The library whose pictures these are, and the textures that joined it.
+    library: Option<BuiltIn>,
     added: Vec<Arc<TextureEntry>>,
-    /// Goes up when textures join or go: pictures of those before are late.
+    /// Goes up when textures join or go: pictures of those that are gone are late.
     generation: u64,
-    n_opened: usize,
     blended: Option<(Vec<(usize, u32)>, TextureHandle)>,
 }
 
@@ -39,34 +44,44 @@ impl Pictures {
     /// Starts to decode the pictures in a thread of their own; `ctx` is asked to repaint as they come in.
     pub fn new(ctx: &Context, sources: Vec<Option<Picture>>) -> Self {
         let (sender, incoming) = channel();
-        let n_opened = sources.len();
         let mut pictures = Self {
             thumbnails: Vec::new(),
             pixels: Vec::new(),
             millimeters: Vec::new(),
+            fingerprints: Vec::new(),
             incoming,
             sender,
+            library: None,
             added: Vec::new(),
             generation: 0,
-            n_opened,
             blended: None,
         };
         pictures.decode(ctx, sources);
         pictures
     }
 
-    /// Follows the textures that joined the library.
-    pub fn follow(&mut self, ctx: &Context, added: &[Arc<TextureEntry>]) {
+    /// Follows the library that is open and the textures that joined it; `textures` are both.
+    pub fn follow(
+        &mut self,
+        ctx: &Context,
+        library: Option<BuiltIn>,
+        added: &[Arc<TextureEntry>],
+        textures: &[TextureEntry],
+    ) {
         let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
-        if self.added.len() == added.len() && self.added.iter().zip(added).all(is_same) {
+        let has_same_added = self.added.len() == added.len() && self.added.iter().zip(added).all(is_same);
+        if has_same_added && self.library == library {
             return;
         }
         self.generation += 1;
-        self.added = added.to_vec();
-        self.thumbnails.truncate(self.n_opened);
-        self.pixels.truncate(self.n_opened);
-        self.millimeters.truncate(self.n_opened);
-        self.decode(ctx, added.iter().map(|entry| entry.picture.clone()).collect());
+        (self.library, self.added) = (library, added.to_vec());
+        let before = self.fingerprints.iter().zip(textures);
+        let n_kept = before.take_while(|((known, _), t)| *known == fingerprint(t.picture.as_ref())).count();
+        self.thumbnails.truncate(n_kept);
+        self.pixels.truncate(n_kept);
+        self.millimeters.truncate(n_kept);
+        self.fingerprints.truncate(n_kept);
+        self.decode(ctx, textures[n_kept..].iter().map(|entry| entry.picture.clone()).collect());
     }
 
     /// Decodes the pictures of the textures after those that are known.
@@ -74,9 +89,14 @@ impl Pictures {
         let first = self.millimeters.len();
         let side_mm = |p: &Option<Picture>| p.as_ref().map_or(USUAL_SIDE_MM, |p| p.millimeters);
         self.millimeters.extend(sources.iter().map(side_mm));
+        let fresh = sources.iter().map(|source| (fingerprint(source.as_ref()), self.generation));
+        self.fingerprints.extend(fresh);
         self.thumbnails.resize(self.millimeters.len(), None);
         self.pixels.resize(self.millimeters.len(), None);
         self.blended = None;
+        if sources.is_empty() {
+            return;
+        }
         let (sender, generation, ctx) = (self.sender.clone(), self.generation, ctx.clone());
         std::thread::spawn(move || {
             for (index, source) in (first..).zip(sources) {
@@ -94,8 +114,8 @@ impl Pictures {
     /// Takes in what the worker has finished.
     pub fn collect(&mut self, ctx: &Context) {
         while let Ok((generation, index, image)) = self.incoming.try_recv() {
-            // The library's own pictures stay; those of textures that joined may be late.
-            if index >= self.n_opened && generation != self.generation {
+            // Another texture may be in its place by now.
+            if self.fingerprints.get(index).is_none_or(|(_, wanted)| *wanted != generation) {
                 continue;
             }
             let color = ColorImage::from_rgb([image.width as usize, image.height as usize], &image.pixels);
@@ -162,6 +182,16 @@ impl Pictures {
             .collect();
         Some(ColorImage::new([BLEND_SIDE, BLEND_SIDE], pixels))
     }
+}
+
+/// What tells a picture from another.
+fn fingerprint(picture: Option<&Picture>) -> Option<u64> {
+    picture.map(|picture| {
+        let mut hasher = DefaultHasher::new();
+        picture.bytes.hash(&mut hasher);
+        picture.millimeters.to_bits().hash(&mut hasher);
+        hasher.finish()
+    })
 }
 
 /// The mean over [`BLUR`] pixels to every side, around the edges as on a torus.

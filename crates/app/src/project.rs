@@ -7,6 +7,8 @@ use shagreen_core::space::SpacePoint;
 use shagreen_core::space_build::SpaceBuild;
 use shagreen_formats::library::TextureEntry;
 
+use crate::libraries::BuiltIn;
+
 /// An authored texture in the making.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
@@ -16,6 +18,8 @@ pub struct Project {
     pub point: SpacePoint,
     /// How its parents are mixed.
     pub mode: Mode,
+    /// The library that is open instead of the one that the window started with.
+    pub library: Option<BuiltIn>,
     /// Textures that joined those of the library, in the order in which they came.
     pub added: Vec<Arc<TextureEntry>>,
     /// The texture that is heard alone instead of the blend, by its place in the list.
@@ -42,6 +46,7 @@ impl Default for Project {
             name: "New texture".to_owned(),
             point: SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 },
             mode: Mode::default(),
+            library: None,
             added: Vec::new(),
             solo: None,
             space: None,
@@ -59,6 +64,9 @@ pub enum Edit {
     SetMode(Mode),
     /// The texture gets a name.
     Rename(String),
+    /// Another library is open, or again the one that the window started with. The point stays where it is, between other
+    /// neighbors; a space in use, axes and what is heard alone belong to the textures that were there, and end.
+    OpenLibrary(Option<BuiltIn>),
     /// Textures join the list.
     AddTextures(Vec<Arc<TextureEntry>>),
     /// One texture of the list is heard alone, until the point moves.
@@ -76,6 +84,7 @@ impl Edit {
             Self::MovePoint(_) => "Move point",
             Self::SetMode(_) => "Change blend",
             Self::Rename(_) => "Rename",
+            Self::OpenLibrary(library) => library.map_or("Open first library", BuiltIn::edit_label),
             Self::AddTextures(_) => "Add textures",
             Self::Solo(_) => "Hear one texture",
             Self::UseSpace(_) => "Use space",
@@ -93,6 +102,10 @@ impl Project {
             Edit::MovePoint(point) => (project.point, project.solo) = (point, None),
             Edit::SetMode(mode) => project.mode = mode,
             Edit::Rename(name) => project.name = name,
+            Edit::OpenLibrary(library) => {
+                project.library = library;
+                (project.space, project.axes, project.solo) = (None, None, None);
+            }
             Edit::AddTextures(entries) => project.added.extend(entries),
             Edit::Solo(texture) => project.solo = Some(texture),
             Edit::UseSpace(build) => (project.space, project.axes) = (Some(UsedSpace(build)), None),

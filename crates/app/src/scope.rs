@@ -1,7 +1,7 @@
 //! What is played: the waveform, and its spectrum beside the spectra of the parents and of the blend.
 
-use egui::{Label, RichText, Ui};
-use egui_plot::{Legend, Line, Plot, PlotPoints};
+use egui::{Label, Rangef, RichText, Ui};
+use egui_plot::{AxisHints, Legend, Line, Plot, PlotPoints};
 
 use crate::panel::Panel;
 use crate::session::BAND_HZ;
@@ -12,6 +12,8 @@ use crate::theme::{GAP, tokens};
 const FLOOR_DB: f64 = -70.0;
 /// Highest density that is drawn.
 const TOP_DB: f64 = 5.0;
+/// From one line of the grid to the next, in dB: far enough that every number can be read.
+const STEP_DB: f64 = 20.0;
 
 /// Draws both plots side by side.
 pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>) {
@@ -72,10 +74,14 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
             .map(|f| egui_plot::GridMark { value: f.log10(), step_size: 0.3 })
             .to_vec()
     };
+    // In a small window the numbers stand as close as they can be read.
+    let across = AxisHints::new_x().label_spacing(Rangef::new(34.0, 44.0));
+    let across = across.formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)));
     fixed(Plot::new("spectrum"), t.line)
         .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
         .x_grid_spacer(marks)
-        .x_axis_formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)))
+        .custom_x_axes(vec![across])
+        .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [2.0 * STEP_DB, STEP_DB, STEP_DB]))
         .show(ui, |plot| {
             plot.set_plot_bounds_x((0.93 * BAND_HZ.0).log10()..=(1.12 * BAND_HZ.1).log10());
             plot.set_plot_bounds_y(FLOOR_DB..=TOP_DB);
@@ -90,6 +96,7 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
 /// A plot that is looked at, not moved.
 pub(crate) fn fixed(plot: Plot<'_>, grid: egui::Color32) -> Plot<'_> {
     plot.grid_color(grid)
+        .show_crosshair(false)
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)

@@ -2,9 +2,11 @@
 //!
 //! Nothing here is undone; everything here follows from the project, the library and the hands of the user.
 
+mod open_library;
 mod places;
 mod player;
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
@@ -13,7 +15,7 @@ use anyhow::Context as _;
 use shagreen_core::blend::{Authored, author, mixture_psd};
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::rate::{at_rate, highest_rate};
-use shagreen_core::space::{Location, Space, SpacePoint};
+use shagreen_core::space::{LabelSource, Location, Space, SpacePoint};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
 use shagreen_device::output::OutputInfo;
@@ -22,6 +24,7 @@ use shagreen_device::touch::Touch;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::space_report::placed_library;
 
+use crate::libraries::BuiltIn;
 use crate::pad::MouseReport;
 use crate::project::{Project, UsedSpace};
 use crate::scope_buffer::ScopeBuffer;
@@ -29,7 +32,7 @@ use crate::strings;
 
 pub use self::player::OutputChoice;
 
-use self::places::{Opened, attribute_names, places, poles_of};
+use self::places::{Opened, attribute_names, join, places, poles_of};
 use self::player::Player;
 
 /// Range of frequencies over which spectra are drawn, in Hz.
@@ -51,6 +54,12 @@ pub struct Spectra {
 /// Everything that is not undone.
 pub struct Session {
     library: Library,
+    /// Which of the program's libraries is open; `None` is the one that the session began with.
+    built_in: Option<BuiltIn>,
+    /// The one that it began with, while another is open.
+    first: Option<(Library, Opened)>,
+    /// Which of the program's libraries it began with, once that was asked.
+    first_as: OnceCell<Option<BuiltIn>>,
     /// What the library said of its places when it was opened. The textures after its own are the project's.
     opened: Opened,
     added: Vec<Arc<TextureEntry>>,
@@ -105,6 +114,9 @@ impl Session {
             incoming,
             sender,
             player: Player::new(library.textures.len()),
+            built_in: None,
+            first: None,
+            first_as: OnceCell::new(),
             opened: Opened::new(&library),
             added: Vec::new(),
             used: None,
@@ -138,6 +150,16 @@ impl Session {
         &self.space
     }
 
+    /// Where the place of a texture comes from.
+    pub fn place_source(&self, texture: usize) -> Option<LabelSource> {
+        self.places.get(texture)?.map(|place| place.source)
+    }
+
+    /// Whether any place comes from simulated raters.
+    pub fn is_simulated(&self) -> bool {
+        self.places.iter().flatten().any(|place| place.source == LabelSource::SimulatedRaters)
+    }
+
     /// In words, where the positions come from.
     pub fn label_source(&self) -> &'static str {
         let mut sources = self.places.iter().flatten().map(|place| place.source);
@@ -162,7 +184,7 @@ impl Session {
     pub fn library_as_opened(&self) -> Library {
         let mut library = self.library.clone();
         self.opened.restore(&mut library);
-        library.textures.extend(self.added.iter().map(|entry| TextureEntry::clone(entry)));
+        join(&mut library, &self.added);
         library
     }
 
@@ -196,13 +218,17 @@ impl Session {
         self.space_rate_hz
     }
 
-    /// Follows the project: takes in its textures, finds the parents, and tells the output.
+    /// Follows the project: takes in its library and textures, finds the parents, and tells the output.
     pub fn follow(&mut self, project: &Project, ctx: &egui::Context) {
+        if self.built_in != project.library {
+            let is_same = self.open_library(project);
+            self.take(project, &is_same);
+        }
         let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
         let n_same = self.added.iter().zip(&project.added).take_while(|pair| is_same(*pair)).count();
         let has_same_textures = n_same == self.added.len() && n_same == project.added.len();
         if !has_same_textures || self.used != project.space || self.axes != project.axes {
-            self.take(project, self.opened.n_textures() + n_same);
+            self.take(project, &vec![true; self.opened.n_textures() + n_same]);
         }
         let wanted = (project.point, project.mode, project.solo);
         if self.player.wanted != Some(wanted) {
@@ -224,10 +250,10 @@ impl Session {
         }
     }
 
-    /// Takes over textures, places and axes of the project; the first `n_same` textures are those that are there.
-    fn take(&mut self, project: &Project, n_same: usize) {
+    /// Takes over textures, places and axes of the project; those that `is_same` are as they were heard last, by index.
+    fn take(&mut self, project: &Project, is_same: &[bool]) {
         self.opened.restore(&mut self.library);
-        self.library.textures.extend(project.added.iter().map(|entry| TextureEntry::clone(entry)));
+        join(&mut self.library, &project.added);
         if let Some(UsedSpace(build)) = &project.space {
             self.library = placed_library(&self.library, build);
         }
@@ -238,7 +264,7 @@ impl Session {
         let (mut planes, mut prepared, mut rates_hz) = (Vec::new(), Vec::new(), Vec::new());
         for (i, entry) in self.library.textures.iter_mut().enumerate() {
             let mut rate = rate_in(entry, self.places[i].as_ref(), Hertz(self.space_rate_hz));
-            if i < n_same && self.rates_hz[i] == rate.0 {
+            if is_same.get(i).is_some_and(|is_same| *is_same) && self.rates_hz[i] == rate.0 {
                 is_kept[i] = true;
                 planes.push(Arc::clone(&self.planes[i]));
                 prepared.push(self.prepared[i].take());

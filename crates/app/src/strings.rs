@@ -41,6 +41,22 @@ pub const BUILD: &str = "Build";
 pub const BUILD_HELP: &str = "Make a space of what people sorted and rated";
 /// Heading of the column of textures.
 pub const LIBRARY: &str = "Textures";
+/// Opens the menu of libraries.
+pub const LIBRARIES: &str = "Libraries";
+/// What the menu of libraries does.
+pub const LIBRARIES_HELP: &str = "Opens another library. The point stays where it is, textures that joined stay too; undo brings the old library back.";
+/// The first library of the program.
+pub const STARTER: &str = "Starter library";
+/// What the first library is.
+pub const STARTER_HELP: &str =
+    "25 everyday materials. Their places are physical labels, worked out from the model of each material.";
+/// The second library of the program.
+pub const SIMULATED: &str = "Starter library, simulated panel";
+/// What the second library is.
+pub const SIMULATED_HELP: &str =
+    "The same materials, placed by what SIMULATED raters sorted and rated. Nobody felt anything.";
+/// A library of the program cannot be read.
+pub const DAMAGED_LIBRARY: &str = "This library of the program is damaged; install Shagreen again";
 /// Accessible name of the search field.
 pub const SEARCH: &str = "Search textures";
 /// Hint in the search field.
@@ -147,6 +163,8 @@ pub const SOURCE_HELP: &str =
     "Where the places of the textures come from. Physical labels and simulated raters are no human ratings.";
 /// Positions come from several sources.
 pub const MIXED_SOURCES: &str = "mixed: never compare them";
+/// Added to the source of places that nobody felt.
+pub const NOBODY_FELT: &str = ", nobody felt them";
 /// Nothing says where positions come from.
 pub const NO_SOURCE: &str = "not stated";
 /// Unit of the waveform.
@@ -198,6 +216,21 @@ pub fn axis_help(ends: &[String; 2]) -> String {
 /// A place in the space, as a screen reader says it.
 pub fn place_in_words(point: SpacePoint, [across, up]: &[[String; 2]; 2]) -> String {
     format!("{} {:.0}, {} {:.0}", axis(across), point.rough_smooth, axis(up), point.hard_soft)
+}
+
+/// Whom the places that are shown come from.
+pub fn places_from(source: &str) -> String {
+    format!("Places: {source}")
+}
+
+/// Where a texture lies, and where that comes from.
+pub fn lies_at(point: SpacePoint, source: &str) -> String {
+    format!("{point} ({source})")
+}
+
+/// The library that the window started with, in the menu.
+pub fn started_with(library: &str) -> String {
+    format!("{library} (opened at the start)")
 }
 
 /// Accessible name of a texture on the canvas: a click moves the point there.

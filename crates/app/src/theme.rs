@@ -27,6 +27,10 @@ pub struct Tokens {
     pub accent: Color32,
     /// Text on the accent.
     pub on_accent: Color32,
+    /// What is chosen among several, marked text, and the rail of a slider up to its handle.
+    pub chosen: Color32,
+    /// Text on what is chosen, and the outline of the field that has the keyboard.
+    pub on_chosen: Color32,
     /// The three parents, told apart by readers of any color vision (after Okabe and Ito).
     pub parents: [Color32; 3],
     /// Something wants attention.
@@ -47,6 +51,8 @@ pub const DARK: Tokens = Tokens {
     text_weak: Color32::from_rgb(0xA3, 0xAE, 0xB2),
     accent: Color32::from_rgb(0x5F, 0xC9, 0xB0),
     on_accent: Color32::from_rgb(0x0C, 0x1F, 0x1A),
+    chosen: Color32::from_rgb(0x2B, 0x6B, 0x5D),
+    on_chosen: Color32::from_rgb(0xD2, 0xFA, 0xF0),
     parents: [
         Color32::from_rgb(0xF0, 0xA8, 0x30),
         Color32::from_rgb(0x62, 0xB8, 0xEC),
@@ -68,6 +74,8 @@ pub const LIGHT: Tokens = Tokens {
     text_weak: Color32::from_rgb(0x54, 0x60, 0x66),
     accent: Color32::from_rgb(0x12, 0x70, 0x60),
     on_accent: Color32::from_rgb(0xFF, 0xFF, 0xFF),
+    chosen: Color32::from_rgb(0x9C, 0xCF, 0xC4),
+    on_chosen: Color32::from_rgb(0x06, 0x3F, 0x35),
     parents: [
         Color32::from_rgb(0x96, 0x57, 0x00),
         Color32::from_rgb(0x16, 0x6C, 0xAB),
@@ -93,6 +101,8 @@ pub const BUILD_INPUTS_WIDTH: f32 = 300.0;
 pub const VERDICT_WIDTH: f32 = 280.0;
 /// Height of the row of pad and scope, in points.
 pub const STAGE_HEIGHT: f32 = 208.0;
+/// Least width of the pad, in points: the sliders above it can still be set.
+pub const PAD_WIDTH: f32 = 440.0;
 
 /// The tokens of the theme that is showing.
 pub fn tokens(ctx: &egui::Context) -> &'static Tokens {
@@ -121,8 +131,8 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
     visuals.hyperlink_color = t.accent;
     visuals.warn_fg_color = t.warning;
     visuals.error_fg_color = t.error;
-    visuals.selection.bg_fill = t.accent.gamma_multiply(0.45);
-    visuals.selection.stroke = Stroke::new(1.5, t.accent);
+    visuals.selection.bg_fill = t.chosen;
+    visuals.selection.stroke = Stroke::new(1.5, t.on_chosen);
     visuals.slider_trailing_fill = true;
     let widgets = &mut visuals.widgets;
     for (widget, fill) in [
@@ -164,8 +174,8 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
 
 #[cfg(test)]
 mod tests {
-    use super::{DARK, LIGHT, Tokens};
-    use egui::Color32;
+    use super::{DARK, LIGHT, Tokens, style};
+    use egui::{Color32, Style, Visuals};
 
     /// Relative luminance of WCAG 2.1.
     fn luminance(color: Color32) -> f64 {
@@ -181,19 +191,56 @@ mod tests {
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
     }
 
+    /// Pairs of text and surface that the window shows and that cannot be read (WCAG AA: 4.5 to 1), or of a mark and its
+    /// surface that cannot be told apart (3 to 1).
+    fn unreadable(t: &Tokens, style: &Style) -> Vec<String> {
+        let mut pairs = Vec::new();
+        for surface in [t.background, t.panel, t.raised] {
+            pairs.push((t.text, surface, 7.0));
+            let colors = [t.text_weak, t.accent, t.warning, t.error].into_iter().chain(t.parents);
+            pairs.extend(colors.map(|color| (color, surface, 4.5)));
+        }
+        pairs.push((t.on_accent, t.accent, 4.5));
+        let visuals = &style.visuals;
+        let widgets = &visuals.widgets;
+        for widget in
+            [&widgets.noninteractive, &widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open]
+        {
+            pairs.push((widget.fg_stroke.color, widget.bg_fill, 4.5));
+            pairs.push((widget.fg_stroke.color, widget.weak_bg_fill, 4.5));
+        }
+        // The words of a chosen tab or entry, and marked text.
+        pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill, 4.5));
+        // The outline of a field that has the keyboard.
+        pairs.push((visuals.selection.stroke.color, t.panel, 3.0));
+        let is_unreadable = |(color, surface, least): &(Color32, Color32, f64)| {
+            // What shines through has the color of the panel below.
+            contrast(*color, t.panel.blend(*surface)) < *least
+        };
+        let name = |(color, surface, least): (Color32, Color32, f64)| {
+            format!("{color:?} on {surface:?}: {:.2} of {least}", contrast(color, t.panel.blend(surface)))
+        };
+        pairs.into_iter().filter(is_unreadable).map(name).collect()
+    }
+
+    fn both() -> [(&'static Tokens, Style); 2] {
+        [(&DARK, style(&DARK, Visuals::dark())), (&LIGHT, style(&LIGHT, Visuals::light()))]
+    }
+
     #[test]
     fn text_can_be_read_on_every_surface() {
-        let check = |t: &Tokens| {
-            for surface in [t.background, t.panel, t.raised] {
-                assert!(contrast(t.text, surface) >= 7.0);
-                for color in [t.text_weak, t.accent, t.warning, t.error].into_iter().chain(t.parents) {
-                    assert!(contrast(color, surface) >= 4.5, "{color:?} on {surface:?}");
-                }
-            }
-            assert!(contrast(t.on_accent, t.accent) >= 4.5);
-            assert!(contrast(t.text, t.control_hovered) >= 4.5);
-        };
-        check(&DARK);
-        check(&LIGHT);
+        for (t, style) in both() {
+            assert_eq!(unreadable(t, &style), Vec::<String>::new());
+        }
+    }
+
+    /// The negative control: the accent on a lighter shade of itself, which tabs once had, is found in both themes.
+    #[test]
+    fn a_tab_that_cannot_be_read_is_found() {
+        for (t, mut style) in both() {
+            style.visuals.selection.bg_fill = t.accent.gamma_multiply(0.45);
+            style.visuals.selection.stroke.color = t.accent;
+            assert!(!unreadable(t, &style).is_empty());
+        }
     }
 }

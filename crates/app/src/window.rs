@@ -23,7 +23,7 @@ use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
 use crate::strings;
-use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, STAGE_HEIGHT, install, tokens};
+use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, tokens};
 use crate::workspace::Workspace;
 
 /// The program with its window.
@@ -145,7 +145,8 @@ impl Window {
             self.carry_out(command, &ctx);
         }
         self.session.follow(&self.project, &ctx);
-        self.pictures.follow(&ctx, &self.project.added);
+        let (project, textures) = (&self.project, self.session.textures());
+        self.pictures.follow(&ctx, project.library, &project.added, textures);
         self.keep_going(&ctx);
     }
 
@@ -218,7 +219,8 @@ impl Window {
             ui.horizontal_top(|ui| {
                 let (width, height) = (ui.available_width(), ui.available_height());
                 let top_down = egui::Layout::top_down(egui::Align::Min);
-                ui.allocate_ui_with_layout(egui::vec2(0.36 * width, height), top_down, |ui| {
+                let pad_width = (0.36 * width).max(PAD_WIDTH.min(0.5 * width));
+                ui.allocate_ui_with_layout(egui::vec2(pad_width, height), top_down, |ui| {
                     let outcome = pad_ui(ui, &panel, pad, picture);
                     commands.extend(outcome.commands);
                     mouse = outcome.mouse;

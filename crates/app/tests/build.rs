@@ -18,7 +18,10 @@ use shagreen_formats::ratings_csv::ratings_csv;
 use shagreen_formats::sorting_csv::sorting_csv;
 use shagreen_formats::starter::starter_library;
 
-use support::{Author, author, choose, click, drop_files, unnamed_controls, wait, window};
+use support::{
+    Author, author, author_on, choose, click, drop_files, painted, says, shown, unnamed_controls, wait,
+    window, words,
+};
 
 /// Goes to the workspace.
 fn builder() -> Author {
@@ -55,16 +58,6 @@ fn use_space(harness: &mut Author) {
 fn set_number(harness: &mut Author, name: &str, value: f64) {
     harness.get_by_role_and_label(Role::SpinButton, name).set_value_accesskit(value);
     harness.run_steps(2);
-}
-
-/// All words on the screen.
-fn shown(harness: &Author) -> Vec<String> {
-    let nodes = harness.root().children_recursive();
-    nodes.filter_map(|n| n.accesskit_node().value().or(n.accesskit_node().label())).collect()
-}
-
-fn says(harness: &Author, words: &str) -> bool {
-    shown(harness).iter().any(|text| text.contains(words))
 }
 
 /// Saves the figure that is shown, in this file.
@@ -140,6 +133,35 @@ fn a_space_is_built_looked_at_used_and_undone() {
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);
     assert_eq!(window(&harness).session().label_source(), "simulated raters");
+}
+
+/// The figures are crowded: every texture has its name there, and a dot that is pointed at says it with its numbers.
+#[test]
+fn dots_of_a_figure_have_names_and_say_them() {
+    let mut harness = built();
+    click(&mut harness, build::figure("perceptual-space"));
+    harness.run_steps(2);
+    let figures = &window(&harness).build().built().unwrap().figures;
+    let title = figures.iter().find(|(name, _)| *name == "perceptual-space").unwrap().1.title();
+    let written: Vec<String> = painted(&harness, &title).iter().filter_map(words).collect();
+    let textures = window(&harness).session().textures();
+    let n_named = textures.iter().filter(|texture| written.contains(&texture.id)).count();
+    assert!(n_named >= 24, "{n_named} of 25 are named: {written:?}");
+    let dots: Vec<egui::Pos2> = painted(&harness, &title)
+        .iter()
+        .filter_map(|shape| if let egui::Shape::Circle(dot) = shape { Some(dot.center) } else { None })
+        .collect();
+    assert_eq!(dots.len(), 25);
+    for dot in [dots[0], dots[12]] {
+        harness.hover_at(dot);
+        harness.run_steps(3);
+        let said: Vec<String> = painted(&harness, &title).iter().filter_map(words).collect();
+        let textures = window(&harness).session().textures();
+        let is_said = |words: &String| {
+            words.split_once('\n').is_some_and(|(name, _)| textures.iter().any(|t| t.id == name))
+        };
+        assert_eq!(said.iter().filter(|words| is_said(words)).count(), 1, "{said:?}");
+    }
 }
 
 /// Tables of sortings and ratings, whose participants are called as people are, or as simulated ones.
@@ -290,18 +312,49 @@ fn building_can_be_cancelled_and_what_was_built_stays() {
     let mut harness = built();
     let before = window(&harness).build().built().unwrap().build.clone();
     set_number(&mut harness, build::SEED, 7.0);
-    set_number(&mut harness, build::PERMUTATIONS, 10_000.0);
+    set_number(&mut harness, build::PERMUTATIONS, 200.0);
     assert!(says(&harness, build::CHANGED));
     click(&mut harness, build::BUILD_AGAIN);
     assert!(window(&harness).build().is_building());
     click(&mut harness, build::CANCEL);
-    assert!(!window(&harness).build().is_building());
-    for _ in 0..30 {
-        harness.step();
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
+    // It says so at once, and takes no second press.
+    let page = window(&harness).build();
+    assert!(!page.is_building() && page.is_stopping());
+    assert!(says(&harness, build::STOPPING), "{:?}", shown(&harness));
+    assert!(harness.get_by_label(build::CANCEL).accesskit_node().is_disabled());
+    wait(&mut harness, "it has stopped", |h| !window(h).build().is_stopping());
+    harness.run_steps(2);
     let now = window(&harness).build().built().unwrap().build.clone();
     assert!(std::sync::Arc::ptr_eq(&before, &now), "what is late reaches nobody");
+    assert!(harness.query_by_label(build::BUILD_AGAIN).is_some(), "it can be tried again");
+}
+
+/// Everything that a space is made of is seen without scrolling, with judgements read and with none.
+#[test]
+fn nothing_of_the_options_is_cut_off() {
+    for size in [[1280.0, 720.0], [1000.0, 700.0]] {
+        let mut harness = author_on(starter_library().unwrap(), size);
+        click(&mut harness, strings::BUILD);
+        for is_read in [false, true] {
+            if is_read {
+                click(&mut harness, build::SIMULATE);
+                wait(&mut harness, "the panel has judged", |h| !window(h).build().judgements().is_reading());
+            }
+            harness.run_steps(3);
+            let button = harness.get_by_label(build::BUILD_SPACE).rect();
+            let rows = [build::DIMENSIONS, build::PERMUTATIONS, build::SEED]
+                .map(|name| harness.get_by_role_and_label(Role::SpinButton, name).rect());
+            let last = harness.get_by_role_and_label(Role::CheckBox, build::ORTHOGONAL).rect();
+            let ties = harness.get_by_role_and_label(Role::ComboBox, build::TIES).rect();
+            for rect in rows.into_iter().chain([last, ties]) {
+                assert!(rect.bottom() <= button.top(), "{rect:?} is below {button:?} at {size:?}, {is_read}");
+                assert!(
+                    rect.right() <= button.right() + 1.0,
+                    "{rect:?} is wider than {button:?} at {size:?}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! A chart of a figure: points, lines and their names, in the colors of the theme.
 
 use egui::{
-    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2,
-    vec2,
+    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
-use egui_plot::{AxisHints, HoverPosition, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
+use egui_plot::{AxisHints, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
 use shagreen_formats::figure::{Chart, Mark, Point, Series, Tone};
 
-use crate::label_places::{Wish, label_places};
+use crate::label_places::{Placed, Wish, label_places};
 use crate::scope::fixed;
 use crate::theme::{GAP, Tokens, tokens};
 
@@ -16,23 +16,19 @@ const DOT: f32 = 3.5;
 /// How near the pointer has to be to a dot that it asks about, in points.
 const REACH: f32 = 9.0;
 
-/// Draws the chart into the space that there is; `name` tells it from the others.
-pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
+/// Draws the chart into the space that there is; `name` tells it from the others, a screen reader says its `title`.
+pub(super) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     let t = tokens(ui.ctx());
     legend_ui(ui, chart, t);
     let [x, y] = chart.bounds();
     // Numbers stand as close as they can be read.
     let across = AxisHints::new_x().label(RichText::new(&chart.x_label).small());
     let across = across.label_spacing(Rangef::new(34.0, 46.0));
+    let up = AxisHints::new_y().label(RichText::new(&chart.y_label).small());
+    let up = up.label_spacing(Rangef::new(16.0, 20.0));
     let mut plot = fixed(Plot::new(name.to_owned()), t.line)
         .custom_x_axes(vec![across])
-        .y_axis_label(RichText::new(&chart.y_label).small())
-        .label_formatter(|hover: &HoverPosition<'_>| match hover {
-            HoverPosition::NearDataPoint { position, .. } => {
-                Some(format!("{:.2}, {:.2}", position.x, position.y))
-            }
-            HoverPosition::Elsewhere { .. } => None,
-        })
+        .custom_y_axes(vec![up])
         .grid_spacing(Rangef::new(10.0, 70.0))
         .height(ui.available_height());
     if chart.is_isotropic {
@@ -65,11 +61,11 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, chart: &Chart) {
             }
         }
     });
-    shown.response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &chart.title));
+    shown.response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, title));
     names_ui(ui, chart, shown.response.rect, &shown.transform, t);
     let near = shown.response.hover_pos().and_then(|at| nearest(chart, &shown.transform, at));
-    if let Some(label) = near {
-        shown.response.on_hover_text_at_pointer(label);
+    if let Some(point) = near {
+        pointed_ui(ui, point, on_screen(&shown.transform, point.x, point.y), shown.response.rect, t);
     }
 }
 
@@ -153,14 +149,17 @@ fn names_ui(ui: &Ui, chart: &Chart, area: Rect, transform: &PlotTransform, t: &T
             (false, _) => (11.0, t.text),
         };
         let galley = painter.layout_no_wrap(label.to_owned(), FontId::proportional(size), color);
-        wishes.push(Wish { dot, size: galley.size(), side, is_needed: is_end });
+        wishes.push(Wish { dot, size: galley.size(), side, is_needed: is_end, may_lead: !is_end });
         galleys.push((galley, color));
     }
     let places = label_places(&dots, DOT, &wishes, &[], area);
     for ((galley, color), place) in galleys.into_iter().zip(places) {
-        let Some(place) = place else { continue };
-        painter.rect_filled(place.expand2(vec2(2.0, -1.0)), 3.0, t.background.gamma_multiply(0.7));
-        painter.galley(place.min, galley, color);
+        let Some(Placed { area, leader }) = place else { continue };
+        if let Some(line) = leader {
+            painter.line_segment(line, Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)));
+        }
+        painter.rect_filled(area.expand2(vec2(2.0, -1.0)), 3.0, t.background.gamma_multiply(0.7));
+        painter.galley(area.min, galley, color);
     }
 }
 
@@ -190,13 +189,34 @@ fn on_screen(transform: &PlotTransform, x: f64, y: f64) -> Pos2 {
     pos2(pos.x, pos.y)
 }
 
-/// The name of the point under the pointer.
-fn nearest<'a>(chart: &'a Chart, transform: &PlotTransform, at: Pos2) -> Option<&'a str> {
-    let points =
-        chart.series.iter().flat_map(|series| &series.points).filter(|point| !point.label.is_empty());
-    let by_distance = points.map(|point| (on_screen(transform, point.x, point.y).distance(at), &point.label));
-    let (distance, label) = by_distance.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (distance < REACH).then_some(label.as_str())
+/// The point under the pointer: one with a name, or a dot.
+fn nearest<'a>(chart: &'a Chart, transform: &PlotTransform, at: Pos2) -> Option<&'a Point> {
+    let dots = chart.series.iter().flat_map(|series| {
+        let is_dot = series.mark == Mark::Dots;
+        series.points.iter().filter(move |point| is_dot || !point.label.is_empty())
+    });
+    let by_distance = dots.map(|point| (on_screen(transform, point.x, point.y).distance(at), point));
+    let (distance, point) = by_distance.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (distance < REACH).then_some(point)
+}
+
+/// Name and numbers of the point under the pointer, over whatever is there.
+fn pointed_ui(ui: &Ui, point: &Point, at: Pos2, area: Rect, t: &Tokens) {
+    let painter = ui.painter_at(area);
+    let numbers = format!("{:.2}, {:.2}", point.x, point.y);
+    let text = if point.label.is_empty() { numbers } else { format!("{}\n{numbers}", point.label) };
+    let galley = painter.layout_no_wrap(text, FontId::proportional(12.0), t.text);
+    let wish = Wish {
+        dot: 0,
+        size: galley.size() + vec2(8.0, 4.0),
+        side: vec2(1.0, 0.0),
+        is_needed: true,
+        may_lead: false,
+    };
+    let Some(Placed { area: frame, .. }) = label_places(&[at], DOT, &[wish], &[], area)[0] else { return };
+    painter.circle_stroke(at, DOT + 2.0, Stroke::new(1.5, t.text));
+    painter.rect(frame, 3.0, t.raised, Stroke::new(1.0, t.line), StrokeKind::Inside);
+    painter.galley(frame.min + vec2(4.0, 2.0), galley, t.text);
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::theme::{GROUP_GAP, tokens};
 pub(super) fn figure_ui(ui: &mut Ui, name: &str, figure: &Figure) {
     ui.add(Label::new(RichText::new(figure.title()).strong()).wrap());
     match figure {
-        Figure::Chart(chart) => chart_ui(ui, name, chart),
+        Figure::Chart(chart) => chart_ui(ui, name, &figure.title(), chart),
         Figure::Table(table) => table_ui(ui, name, table),
     }
 }

@@ -42,9 +42,12 @@ pub(super) fn inputs_ui(
     session: &Session,
 ) -> bool {
     let t = tokens(ui.ctx());
-    ui.heading(strings::MADE_OF);
-    let n_textures = strings::of_the_library(session.textures().len());
-    ui.add(Label::new(RichText::new(n_textures).color(t.text_weak)).selectable(false));
+    ui.horizontal(|ui| {
+        ui.heading(strings::MADE_OF);
+        let n_textures = strings::of_the_library(session.textures().len());
+        let text = RichText::new(n_textures).color(t.text_weak);
+        ui.add(Label::new(text).truncate().selectable(false));
+    });
     for kind in [Kind::Sorting, Kind::Ratings, Kind::Votes] {
         ui.add_space(GAP);
         let said = said(judgements, kind, session);

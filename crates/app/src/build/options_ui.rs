@@ -1,6 +1,6 @@
 //! How the space is made.
 
-use egui::{ComboBox, DragValue, Grid, Label, RichText, Ui};
+use egui::{ComboBox, DragValue, Grid, Label, Response, RichText, Ui};
 use shagreen_core::mds::{MAX_DIMS, Ties};
 use shagreen_core::ratings::{AdjectivePair, Rating};
 use shagreen_core::selection::Method;
@@ -12,24 +12,31 @@ use crate::theme::{GAP, tokens};
 
 /// Width of the controls, in points.
 const CONTROL_WIDTH: f32 = 182.0;
+/// Distance from line to line, in points: all options are seen at once in a window of 720 points.
+const ROW_GAP: f32 = 4.0;
 /// The most permutations that can be asked for: a chance is then known to a ten thousandth.
 const MAX_PERMUTATIONS: usize = 10_000;
 
 /// Draws the options; the pairs of the `ratings` can be axes.
 pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rating]) {
     ui.heading(strings::OPTIONS);
-    Grid::new("build options").num_columns(2).spacing([2.0 * GAP, GAP]).show(ui, |ui| {
+    Grid::new("build options").num_columns(2).spacing([2.0 * GAP, ROW_GAP]).show(ui, |ui| {
         row(ui, strings::DIMENSIONS, strings::DIMENSIONS_HELP, |ui| {
-            ui.add(DragValue::new(&mut options.n_dims).range(2..=MAX_DIMS).speed(0.05))
+            let response = ui.add(DragValue::new(&mut options.n_dims).range(2..=MAX_DIMS).speed(0.05));
+            beside(ui, strings::TIES, strings::TIES_HELP);
+            let width = ui.max_rect().left() + CONTROL_WIDTH - ui.cursor().left();
+            combo(
+                ui,
+                strings::TIES,
+                width,
+                &mut options.mds.ties,
+                &[Ties::Primary, Ties::Secondary],
+                |ties| strings::ties(*ties).to_owned(),
+            )
+            .accessible_name(strings::TIES)
+            .on_hover_text(strings::TIES_HELP);
+            response
         });
-        choice(
-            ui,
-            strings::TIES,
-            strings::TIES_HELP,
-            &mut options.mds.ties,
-            &[Ties::Primary, Ties::Secondary],
-            |ties| strings::ties(*ties).to_owned(),
-        );
         axes_ui(ui, &mut options.axes, &pairs_of(ratings));
         choice(
             ui,
@@ -57,18 +64,34 @@ pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rat
             |placement| strings::placement(*placement).to_owned(),
         );
         row(ui, strings::PERMUTATIONS, strings::PERMUTATIONS_HELP, |ui| {
-            ui.add(DragValue::new(&mut options.n_permutations).range(0..=MAX_PERMUTATIONS).speed(5.0))
+            let permutations = DragValue::new(&mut options.n_permutations);
+            let response = ui.add(permutations.range(0..=MAX_PERMUTATIONS).speed(5.0));
+            beside(ui, strings::SEED, strings::SEED_HELP);
+            ui.add(DragValue::new(&mut options.seed).speed(0.1))
+                .accessible_name(strings::SEED)
+                .on_hover_text(strings::SEED_HELP);
+            response
         });
-        row(ui, strings::SEED, strings::SEED_HELP, |ui| ui.add(DragValue::new(&mut options.seed).speed(0.1)));
     });
     ui.checkbox(&mut options.is_orthogonal, strings::ORTHOGONAL).on_hover_text(strings::ORTHOGONAL_HELP);
 }
 
-fn row(ui: &mut Ui, name: &str, help: &str, control: impl FnOnce(&mut Ui) -> egui::Response) {
-    let t = tokens(ui.ctx());
-    ui.add(Label::new(RichText::new(name).color(t.text_weak)).selectable(false)).on_hover_text(help);
-    control(ui).accessible_name(name).on_hover_text(help);
+/// A line with the name of its first control; others may follow in it.
+fn row(ui: &mut Ui, name: &str, help: &str, controls: impl FnOnce(&mut Ui) -> Response) {
+    word(ui, name, help);
+    ui.horizontal(|ui| controls(ui).accessible_name(name).on_hover_text(help));
     ui.end_row();
+}
+
+/// The name of a second control in a line.
+fn beside(ui: &mut Ui, name: &str, help: &str) {
+    ui.add_space(GAP);
+    word(ui, name, help);
+}
+
+fn word(ui: &mut Ui, name: &str, help: &str) {
+    let text = RichText::new(name).color(tokens(ui.ctx()).text_weak);
+    ui.add(Label::new(text).selectable(false)).on_hover_text(help);
 }
 
 fn choice<T: Clone + PartialEq>(
@@ -79,15 +102,24 @@ fn choice<T: Clone + PartialEq>(
     all: &[T],
     word: impl Fn(&T) -> String,
 ) {
-    row(ui, name, help, |ui| {
-        let combo = ComboBox::from_id_salt(name).width(CONTROL_WIDTH).truncate().selected_text(word(current));
-        let combo = combo.show_ui(ui, |ui| {
-            for each in all {
-                ui.selectable_value(current, each.clone(), word(each));
-            }
-        });
-        combo.response
+    row(ui, name, help, |ui| combo(ui, name, CONTROL_WIDTH, current, all, word));
+}
+
+fn combo<T: Clone + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    width: f32,
+    current: &mut T,
+    all: &[T],
+    word: impl Fn(&T) -> String,
+) -> Response {
+    let combo = ComboBox::from_id_salt(name).width(width).truncate().selected_text(word(current));
+    let combo = combo.show_ui(ui, |ui| {
+        for each in all {
+            ui.selectable_value(current, each.clone(), word(each));
+        }
     });
+    combo.response
 }
 
 /// The two axes: both automatic, or both chosen.

@@ -9,12 +9,13 @@ use shagreen_core::space_build::{SpaceOptions, Step};
 
 use crate::build::figures_ui::figures_ui;
 use crate::build::input_ui::{Paths, inputs_ui};
-use crate::build::job::{Job, Order};
+use crate::build::job::{Job, Order, Outcome};
 use crate::build::judgements::Judgements;
 use crate::build::options_ui::options_ui;
 use crate::build::verdict_ui::verdict_ui;
 use crate::command::Command;
 use crate::import::source::Source;
+use crate::libraries::BuiltIn;
 use crate::panel::Panel;
 use crate::session::Session;
 use crate::strings::build as strings;
@@ -32,6 +33,8 @@ pub struct BuildPage {
     judgements: Judgements,
     paths: Paths,
     options: SpaceOptions,
+    /// The library that is open.
+    library: Option<BuiltIn>,
     job: Option<(Job, Recipe)>,
     /// Why the last attempt came to nothing, and of what it was made.
     failure: Option<(String, Recipe)>,
@@ -45,6 +48,7 @@ pub struct BuildPage {
 struct Recipe {
     judgements: u64,
     options: SpaceOptions,
+    library: Option<BuiltIn>,
 }
 
 impl Default for BuildPage {
@@ -53,6 +57,7 @@ impl Default for BuildPage {
             judgements: Judgements::default(),
             paths: Paths::default(),
             options: SpaceOptions::usual(1),
+            library: None,
             job: None,
             failure: None,
             built: None,
@@ -72,9 +77,14 @@ impl BuildPage {
         self.built.as_ref().map(|(built, _)| built)
     }
 
-    /// Whether a space is being built.
+    /// Whether a space is being built, and is still wanted.
     pub fn is_building(&self) -> bool {
-        self.job.is_some()
+        self.job.as_ref().is_some_and(|(job, _)| !job.is_stopping())
+    }
+
+    /// Whether building was cancelled and has not come to rest yet.
+    pub fn is_stopping(&self) -> bool {
+        self.job.as_ref().is_some_and(|(job, _)| job.is_stopping())
     }
 
     /// Reads files that were dropped, as what they turn out to be.
@@ -88,8 +98,9 @@ impl BuildPage {
         let Some(outcome) = self.job.as_mut().and_then(|(job, _)| job.collect()) else { return };
         let Some((_, recipe)) = self.job.take() else { return };
         match outcome {
-            Ok(built) => (self.built, self.failure) = (Some((built, recipe)), None),
-            Err(reason) => self.failure = Some((reason, recipe)),
+            Outcome::Built(built) => (self.built, self.failure) = (Some((*built, recipe)), None),
+            Outcome::Failed(reason) => self.failure = Some((reason, recipe)),
+            Outcome::Cancelled => {}
         }
     }
 
@@ -97,6 +108,7 @@ impl BuildPage {
     pub(crate) fn show(&mut self, ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         let mut commands = Vec::new();
         let t = tokens(ui.ctx());
+        self.library = panel.project.library;
         Side::left("build inputs").exact_size(BUILD_INPUTS_WIDTH).resizable(false).show(ui, |ui| {
             self.left_ui(ui, panel.session);
         });
@@ -112,10 +124,14 @@ impl BuildPage {
     }
 
     fn recipe(&self) -> Recipe {
-        Recipe { judgements: self.judgements.generation(), options: self.options.clone() }
+        Recipe {
+            judgements: self.judgements.generation(),
+            options: self.options.clone(),
+            library: self.library,
+        }
     }
 
-    /// Whether judgements or options are others than those of the space that is shown.
+    /// Whether library, judgements or options are others than those of the space that is shown.
     fn has_changed(&self) -> bool {
         self.built.as_ref().is_some_and(|(_, recipe)| *recipe != self.recipe())
     }
@@ -136,7 +152,6 @@ impl BuildPage {
             }
             ui.add_space(GROUP_GAP);
             options_ui(ui, &mut self.options, self.judgements.ratings.values());
-            ui.add_space(GAP);
         });
     }
 
@@ -147,23 +162,7 @@ impl BuildPage {
             ui.add(Label::new(RichText::new(text).small().color(color)).wrap());
         };
         if let Some((job, _)) = &self.job {
-            let (step, secs) = (job.step(), job.elapsed().as_secs());
-            let share = (step.index() as f32 + 0.5) / Step::COUNT as f32;
-            ui.add(ProgressBar::new(share).desired_height(8.0).fill(t.accent));
-            let mut is_cancelled = false;
-            ui.horizontal(|ui| {
-                ui.add(Label::new(RichText::new(strings::step(step)).small()).selectable(false));
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    is_cancelled = ui.button(strings::CANCEL).on_hover_text(strings::CANCEL_HELP).clicked();
-                    ui.add(
-                        Label::new(RichText::new(format!("{secs} s")).small().color(t.text_weak))
-                            .selectable(false),
-                    );
-                });
-            });
-            if is_cancelled {
-                self.job = None;
-            }
+            progress_ui(ui, job);
             return;
         }
         if let Some((reason, recipe)) = &self.failure
@@ -201,6 +200,29 @@ impl BuildPage {
         self.failure = None;
         self.job = Some((Job::start(order, ctx), self.recipe()));
     }
+}
+
+/// How far building has come, and the button that stops it.
+fn progress_ui(ui: &mut Ui, job: &Job) {
+    let t = tokens(ui.ctx());
+    let (step, secs, is_stopping) = (job.step(), job.elapsed().as_secs(), job.is_stopping());
+    let share = (step.index() as f32 + 0.5) / Step::COUNT as f32;
+    let color = if is_stopping { t.text_weak } else { t.accent };
+    ui.add(ProgressBar::new(share).desired_height(8.0).fill(color));
+    ui.horizontal(|ui| {
+        let said = if is_stopping { strings::STOPPING.to_owned() } else { strings::step(step) };
+        let text = RichText::new(said).small();
+        ui.add(Label::new(if is_stopping { text.color(t.warning) } else { text }).selectable(false));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let cancel = ui.add_enabled(!is_stopping, Button::new(strings::CANCEL));
+            if cancel.on_hover_text(strings::CANCEL_HELP).clicked() {
+                job.cancel();
+                ui.ctx().request_repaint();
+            }
+            let secs = RichText::new(format!("{secs} s")).small().color(t.text_weak);
+            ui.add(Label::new(secs).selectable(false));
+        });
+    });
 }
 
 /// What stands there before a space is built.

@@ -1,42 +1,106 @@
 //! Names beside textures.
 
-use egui::{FontId, Pos2, Rect, Ui, Vec2, vec2};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::sync::Arc;
 
-use crate::label_places::{Wish, label_places};
+use egui::{FontId, Galley, Id, Pos2, Rect, Stroke, Ui, Vec2, vec2};
+
+use crate::label_places::{Placed, Wish, label_places};
 use crate::panel::Panel;
 use crate::theme::Tokens;
 
-/// Draws the names of the textures at `sites`, all with the same `radius`. Parents come first and are always named;
-/// another name that fits nowhere is left out. What is `taken` is kept free.
+/// Size of the names, in points: the same for all, so that none has to move when others become the parents.
+const SIZE: f32 = 11.5;
+
+/// What names keep off.
+pub(super) struct Around<'a> {
+    /// Words that stand there already.
+    pub(super) words: &'a [Rect],
+    /// The authored point, which moves: only the names of its parents make way for it.
+    pub(super) point: Rect,
+}
+
+/// Draws the names of the textures at `sites`, all with the same `radius`. Parents are always named, as is the one that is
+/// `pointed` at, over whatever is there; another name that fits nowhere is left out.
 pub(super) fn site_labels(
     ui: &Ui,
     panel: &Panel<'_>,
     sites: &[(usize, Pos2)],
     radius: f32,
-    taken: &[Rect],
+    around: &Around<'_>,
+    pointed: Option<usize>,
     t: &Tokens,
 ) {
     let rank = |dot: usize| panel.session.parent_rank(sites[dot].0);
-    let mut order: Vec<usize> = (0..sites.len()).collect();
-    order.sort_by_key(|dot| rank(*dot).unwrap_or(usize::MAX));
-    let (mut wishes, mut galleys) = (Vec::with_capacity(order.len()), Vec::with_capacity(order.len()));
-    for dot in order {
-        let (size, color) = match rank(dot) {
-            Some(rank) => (12.5, t.parents[rank.min(2)]),
-            None => (10.5, t.text_weak),
+    let is_pointed = |dot: usize| pointed == Some(sites[dot].0);
+    let galley = |dot: usize| {
+        let color = match rank(dot) {
+            Some(rank) => t.parents[rank.min(2)],
+            None if is_pointed(dot) => t.text,
+            None => t.text_weak,
         };
         let name = panel.session.textures()[sites[dot].0].name.clone();
-        let galley = ui.painter().layout_no_wrap(name, FontId::proportional(size), color);
-        wishes.push(Wish { dot, size: galley.size(), side: Vec2::ZERO, is_needed: rank(dot).is_some() });
-        galleys.push((galley, color));
-    }
+        (ui.painter().layout_no_wrap(name, FontId::proportional(SIZE), color), color)
+    };
+    let galleys: Vec<(Arc<Galley>, egui::Color32)> = (0..sites.len()).map(galley).collect();
+    let wish = |dot: usize| Wish {
+        dot,
+        size: galleys[dot].0.size(),
+        side: Vec2::ZERO,
+        is_needed: false,
+        may_lead: true,
+    };
     let dots: Vec<Pos2> = sites.iter().map(|(_, pos)| *pos).collect();
-    let places = label_places(&dots, radius, &wishes, taken, ui.clip_rect());
-    for ((wish, (galley, color)), area) in wishes.iter().zip(galleys).zip(places) {
-        let Some(area) = area else { continue };
-        if wish.is_needed {
-            ui.painter().rect_filled(area.expand2(vec2(4.0, 1.0)), 3.0, t.background.gamma_multiply(0.85));
+    let wishes: Vec<Wish> = (0..sites.len()).map(wish).collect();
+    let clip = ui.clip_rect();
+    let place = || label_places(&dots, radius, &wishes, around.words, clip);
+    let sizes = wishes.iter().map(|wish| wish.size.to_pos2());
+    let frames = around.words.iter().chain([&clip]).flat_map(|frame| [frame.min, frame.max]);
+    let places = remembered(ui, dots.iter().copied().chain(sizes).chain(frames), place);
+    // Others stay where they are when one has to be seen.
+    let made_room = |dot: usize| {
+        let others = places.iter().enumerate().filter(|(other, _)| *other != dot);
+        let mut taken: Vec<Rect> = others.filter_map(|(_, place)| Some(place.as_ref()?.area)).collect();
+        taken.extend(around.words);
+        taken.push(around.point);
+        label_places(&dots, radius, &[Wish { is_needed: true, ..wishes[dot] }], &taken, clip)[0]
+    };
+    // What must be seen is drawn last.
+    let mut order: Vec<usize> = (0..sites.len()).collect();
+    order.sort_by_key(|dot| (is_pointed(*dot), rank(*dot).map_or(0, |rank| 3 - rank.min(2))));
+    for dot in order {
+        let is_parent = rank(dot).is_some();
+        let is_covered = |place: &Placed| is_parent && place.area.intersects(around.point);
+        let place = match places[dot].filter(|place| !is_covered(place)) {
+            None if is_parent || is_pointed(dot) => made_room(dot),
+            place => place,
+        };
+        let Some(Placed { area, leader }) = place else { continue };
+        let (galley, color) = &galleys[dot];
+        if let Some(line) = leader {
+            ui.painter().line_segment(line, Stroke::new(1.0, color.gamma_multiply(0.8)));
         }
-        ui.painter().galley(area.min, galley, color);
+        if is_parent || is_pointed(dot) {
+            ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(0.9));
+        }
+        ui.painter().galley(area.min, Arc::clone(galley), *color);
     }
+}
+
+/// The places of names, worked out anew only where what they are made of has changed: dots, names, the room for them.
+fn remembered(
+    ui: &Ui,
+    made_of: impl Iterator<Item = Pos2>,
+    places: impl FnOnce() -> Vec<Option<Placed>>,
+) -> Arc<Vec<Option<Placed>>> {
+    let mut hasher = DefaultHasher::new();
+    made_of.for_each(|pos| (pos.x.to_bits(), pos.y.to_bits()).hash(&mut hasher));
+    let (id, key) = (Id::unique("names on the canvas"), hasher.finish());
+    let known = ui.data(|data| data.get_temp::<(u64, Arc<Vec<Option<Placed>>>)>(id));
+    if let Some((_, places)) = known.filter(|(known, _)| *known == key) {
+        return places;
+    }
+    let places = Arc::new(places());
+    ui.data_mut(|data| data.insert_temp(id, (key, Arc::clone(&places))));
+    places
 }

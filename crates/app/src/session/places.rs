@@ -1,8 +1,10 @@
 //! Where textures lie: as their file has it, as a space puts them, or by two of their attributes.
 
+use std::sync::Arc;
+
 use shagreen_core::ratings::poles;
 use shagreen_core::space::SpacePoint;
-use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, USUAL_AXES};
+use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, USUAL_AXES, free_id};
 
 use crate::strings;
 
@@ -43,6 +45,16 @@ impl Opened {
             (texture.place, texture.attributes) = (*place, attributes.clone());
         }
         *library = Library { textures, ..self.header.clone() };
+    }
+}
+
+/// Adds the textures that joined to those of a library. One whose identifier is taken gets another: it may have joined a
+/// library that has none of this name.
+pub(super) fn join(library: &mut Library, added: &[Arc<TextureEntry>]) {
+    for entry in added {
+        let mut entry = TextureEntry::clone(entry);
+        entry.id = free_id(&entry.id, |id| library.index_of(id).is_some());
+        library.textures.push(entry);
     }
 }
 

@@ -7,6 +7,7 @@ use shagreen_formats::library::{Attribute, Attributes, Library};
 use shagreen_formats::starter::starter_library;
 
 use super::Session;
+use crate::libraries::BuiltIn;
 use crate::project::{Edit, Project};
 
 /// The starter library, whose first six textures are rated, and the last of these is twice as fast and has no place.
@@ -68,4 +69,79 @@ fn a_texture_too_fast_for_the_space_stays_out() {
     assert!(session.output_message().is_some_and(|message| message.contains("cannot be mixed")));
     session.follow(&Project::default(), &ctx);
     assert_eq!(session.textures().len(), 7);
+}
+
+/// Another library takes over places and source; what joined stays under a name of its own, and everything comes back.
+#[test]
+fn another_library_is_opened_and_the_first_comes_back() {
+    let ctx = egui::Context::default();
+    let mut first = mixed_library();
+    first.name = "Mine".to_owned();
+    first.textures.retain(|texture| texture.id != "glass");
+    let joined = Arc::new(starter_library().unwrap().textures[0].clone());
+    assert_eq!(joined.id, "glass");
+    let mut session = Session::new(first).unwrap();
+    assert_eq!((session.built_in(), session.first_name()), (None, "Mine"));
+    let mine = Project::default().edited(Edit::AddTextures(vec![Arc::clone(&joined)]));
+    session.follow(&mine, &ctx);
+    let (library, space) = (session.library().clone(), session.space().clone());
+
+    let simulated = mine.edited(Edit::OpenLibrary(Some(BuiltIn::Simulated)));
+    assert_eq!((simulated.point, &simulated.added), (mine.point, &mine.added));
+    session.follow(&simulated, &ctx);
+    assert_eq!(
+        (session.built_in(), session.label_source()),
+        (Some(BuiltIn::Simulated), "mixed: never compare them")
+    );
+    assert!(session.is_simulated());
+    let read = BuiltIn::Simulated.read().unwrap();
+    assert_eq!(session.textures()[..25], read.textures[..]);
+    assert_eq!(session.textures()[25].id, "glass-2");
+    assert_eq!(session.textures()[25].model, joined.model);
+    assert_eq!(session.library().space_report, read.space_report);
+    let planes = session.planes.clone();
+
+    // The same materials in other places: nothing has to be prepared again.
+    let starter = simulated.edited(Edit::OpenLibrary(Some(BuiltIn::Starter)));
+    session.follow(&starter, &ctx);
+    assert!(planes.iter().zip(&session.planes).all(|(a, b)| Arc::ptr_eq(a, b)));
+    assert_eq!(session.label_source(), "physical labels");
+    assert_eq!(session.library().space_report, None);
+
+    session.follow(&mine, &ctx);
+    assert_eq!((session.library(), session.space()), (&library, &space));
+    assert_eq!((session.built_in(), session.label_source()), (None, "physical labels"));
+    session.follow(&simulated, &ctx);
+    assert_eq!(session.textures()[..25], read.textures[..]);
+}
+
+/// A space in use, axes and what is heard alone belong to the textures that were there.
+#[test]
+fn a_library_is_opened_as_its_file_has_it() {
+    let ctx = egui::Context::default();
+    let mut session = Session::new(BuiltIn::Simulated.read().unwrap()).unwrap();
+    assert_eq!(session.built_in(), Some(BuiltIn::Simulated));
+    let axes = Some(["hard-soft", "rough-smooth"].map(str::to_owned));
+    let turned = Project::default().edited(Edit::SetAxes(axes)).edited(Edit::Solo(3));
+    session.follow(&turned, &ctx);
+    let opened = turned.edited(Edit::OpenLibrary(Some(BuiltIn::Starter)));
+    assert_eq!((&opened.axes, opened.solo), (&None, None));
+    session.follow(&opened, &ctx);
+    assert_eq!(session.library(), &starter_library().unwrap());
+    assert_eq!(session.authored().unwrap().parents.len(), 3);
+    session.follow(&turned, &ctx);
+    assert_eq!(session.parent_rank(3), Some(0));
+    assert_eq!(session.poles()[0], ["hard", "soft"]);
+}
+
+/// Which library a session began with does not depend on what joined it before another was opened.
+#[test]
+fn the_first_library_is_known_whatever_joined_it() {
+    let ctx = egui::Context::default();
+    let mut session = Session::new(BuiltIn::Starter.read().unwrap()).unwrap();
+    let joined = Arc::new(mixed_library().textures.remove(2));
+    let project = Project::default().edited(Edit::AddTextures(vec![joined]));
+    session.follow(&project, &ctx);
+    session.follow(&project.edited(Edit::OpenLibrary(Some(BuiltIn::Simulated))), &ctx);
+    assert_eq!((session.first_as(), session.textures().len()), (Some(BuiltIn::Starter), 26));
 }

@@ -89,6 +89,8 @@ pub const BUILD_AGAIN: &str = "Build again";
 pub const CANCEL: &str = "Cancel";
 /// What cancelling does.
 pub const CANCEL_HELP: &str = "Drops what is being built. What was built before stays.";
+/// Building was cancelled and comes to rest.
+pub const STOPPING: &str = "Stopping…";
 /// Something is missing before a space can be built.
 pub const NEEDS_BOTH: &str = "Needs sorting and ratings.";
 /// Judgements or options are not those of the space that is shown.

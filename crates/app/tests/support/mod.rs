@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use egui::DroppedFile;
 use egui::accesskit::Role;
+use egui::{DroppedFile, Shape};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::session::OutputChoice;
 use shagreen_app::window::Window;
+use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_library;
 
 /// The program under test; there is a window after the first frame.
@@ -19,11 +20,16 @@ pub(crate) type Author = Harness<'static, Option<Window>>;
 
 /// The window on the starter library, playing to the silent output with a real clock.
 pub(crate) fn author() -> Author {
-    let mut harness = Harness::builder().with_size([1280.0, 720.0]).build_ui_state(
-        |ui, window: &mut Option<Window>| {
+    author_on(starter_library().expect("the starter library"), [1280.0, 720.0])
+}
+
+/// The window on a library, of this size in points, playing to the silent output with a real clock.
+pub(crate) fn author_on(library: Library, size: [f32; 2]) -> Author {
+    let mut harness = Harness::builder().with_size(size).build_ui_state(
+        move |ui, window: &mut Option<Window>| {
             let window = window.get_or_insert_with(|| {
-                let library = starter_library().expect("the starter library");
-                Window::new(ui.ctx(), library, OutputChoice::Id("null".to_owned())).expect("a window")
+                let output = OutputChoice::Id("null".to_owned());
+                Window::new(ui.ctx(), library.clone(), output).expect("a window")
             });
             window.frame_ui(ui);
         },
@@ -49,6 +55,46 @@ pub(crate) fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> b
         assert!(start.elapsed() < Duration::from_secs(30), "waited in vain: {what}");
         std::thread::sleep(Duration::from_millis(10));
     }
+}
+
+/// All words on the screen that a screen reader finds.
+pub(crate) fn shown(harness: &Author) -> Vec<String> {
+    let nodes = harness.root().children_recursive();
+    nodes.filter_map(|n| n.accesskit_node().value().or(n.accesskit_node().label())).collect()
+}
+
+pub(crate) fn says(harness: &Author, words: &str) -> bool {
+    shown(harness).iter().any(|text| text.contains(words))
+}
+
+/// What is painted on the canvas of this name.
+pub(crate) fn painted(harness: &Author, canvas: &str) -> Vec<Shape> {
+    let canvas = harness.get_by_role_and_label(Role::Canvas, canvas).rect();
+    let (mut found, mut left) = (Vec::new(), Vec::new());
+    left.extend(harness.output().shapes.iter().map(|clipped| clipped.shape.clone()));
+    while let Some(shape) = left.pop() {
+        match shape {
+            Shape::Vec(parts) => left.extend(parts),
+            Shape::Noop => {}
+            // Where text stands, not how far it reaches.
+            shape => {
+                let at = if let Shape::Text(text) = &shape {
+                    text.pos
+                } else {
+                    shape.visual_bounding_rect().center()
+                };
+                if canvas.contains(at) {
+                    found.push(shape);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The words of a shape, where it is text.
+pub(crate) fn words(shape: &Shape) -> Option<String> {
+    if let Shape::Text(text) = shape { Some(text.galley.text().to_owned()) } else { None }
 }
 
 /// Presses the control of this name.

@@ -1,0 +1,153 @@
+//! Another library is opened in the window: its places say whom they come from, and nothing is lost.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::libraries::BuiltIn;
+use shagreen_app::strings;
+use shagreen_core::blend::Authored;
+use shagreen_formats::library::Library;
+
+use support::{
+    Author, author, author_on, click, drop_files, painted, says, shown, unnamed_controls, wait, window, words,
+};
+
+const NOBODY: &str = "Places: simulated raters, nobody felt them";
+
+/// Takes an entry of the menu of libraries.
+fn open(harness: &mut Author, name: &str) {
+    click(harness, strings::LIBRARIES);
+    harness.run_steps(2);
+    assert_eq!(unnamed_controls(harness), Vec::<String>::new());
+    click(harness, name);
+    harness.run_steps(3);
+}
+
+fn library(harness: &Author) -> Library {
+    window(harness).session().library().clone()
+}
+
+fn authored(harness: &Author) -> Authored {
+    window(harness).session().authored().unwrap().clone()
+}
+
+/// What is written on the canvas.
+fn names_on_canvas(harness: &Author) -> Vec<String> {
+    painted(harness, strings::CANVAS).into_iter().filter_map(|shape| words(&shape)).collect()
+}
+
+#[test]
+fn the_simulated_library_is_opened_and_says_so_wherever_its_places_are_shown() {
+    let mut harness = author();
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(63.0);
+    harness.run_steps(3);
+    let (point, before) = (window(&harness).project().point, library(&harness));
+    let (space, blend) = (window(&harness).session().space().clone(), authored(&harness));
+    assert!(says(&harness, "Places: physical labels") && !says(&harness, NOBODY));
+
+    open(&mut harness, BuiltIn::Simulated.name());
+    let read = BuiltIn::Simulated.read().unwrap();
+    assert_eq!(library(&harness), read);
+    assert_eq!(window(&harness).project().point, point, "the point is where it is");
+    assert_ne!(authored(&harness).parents, blend.parents, "its neighbors are others");
+    // In the list, on the canvas and at the foot.
+    assert!(says(&harness, NOBODY), "{:?}", shown(&harness));
+    assert!(shown(&harness).iter().any(|text| text == "Places: simulated raters"));
+    assert!(says(&harness, "positions: simulated raters"));
+    harness.get_by_label(&strings::go_to("Cork")).hover();
+    wait(&mut harness, "the place says whom it is from", |h| says(h, "(simulated raters)"));
+
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!((library(&harness), window(&harness).session().space()), (before, &space));
+    assert_eq!((window(&harness).project().point, authored(&harness)), (point, blend));
+    assert!(!says(&harness, NOBODY));
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(library(&harness), read);
+    open(&mut harness, BuiltIn::Starter.name());
+    assert!(says(&harness, "positions: physical labels"));
+    assert_eq!(window(&harness).project().point, point);
+}
+
+/// Opening the library that is open changes nothing and is no step of undo.
+#[test]
+fn the_open_library_is_marked_and_opening_it_does_nothing() {
+    let mut harness = author();
+    open(&mut harness, BuiltIn::Starter.name());
+    assert!(harness.get_by_label(strings::UNDO).accesskit_node().is_disabled());
+    open(&mut harness, BuiltIn::Simulated.name());
+    assert!(!harness.get_by_label(strings::UNDO).accesskit_node().is_disabled());
+    click(&mut harness, strings::LIBRARIES);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("(opened at the start)").is_none(), "it is one of the two");
+}
+
+/// The library of a file can be left and opened again, with the textures that joined it.
+#[test]
+fn the_library_that_the_window_started_with_is_offered_too() {
+    let mut mine = BuiltIn::Starter.read().unwrap();
+    mine.name = "Mine".to_owned();
+    mine.textures.truncate(6);
+    let mut harness = author_on(mine.clone(), [1280.0, 720.0]);
+    open(&mut harness, BuiltIn::Simulated.name());
+    assert_eq!(window(&harness).session().textures().len(), 25);
+    wait(&mut harness, "it is heard", |h| window(h).session().authored().is_some());
+    open(&mut harness, &strings::started_with("Mine"));
+    assert_eq!(library(&harness), mine);
+    click(&mut harness, strings::UNDO);
+    harness.run_steps(2);
+    assert_eq!(window(&harness).session().textures().len(), 25);
+}
+
+/// Judgements that were given stay, and a space made before says that something has changed.
+#[test]
+fn judgements_survive_another_library() {
+    let mut harness = author();
+    click(&mut harness, strings::BUILD);
+    let csv: &[u8] = b"participant,trial,groups,texture,group\np1,1,2,cork,a\np1,1,2,felt,b\n";
+    drop_files(&mut harness, &[("sorting.csv", csv)]);
+    wait(&mut harness, "it is read", |h| !window(h).build().judgements().is_reading());
+    click(&mut harness, strings::AUTHOR);
+    open(&mut harness, BuiltIn::Simulated.name());
+    assert_eq!(window(&harness).build().judgements().sorting.values().len(), 1);
+}
+
+#[test]
+fn every_texture_of_both_libraries_has_its_name_on_the_canvas() {
+    let mut harness = author();
+    for built_in in BuiltIn::ALL {
+        open(&mut harness, built_in.name());
+        let names = names_on_canvas(&harness);
+        let textures = window(&harness).session().textures();
+        let nameless: Vec<&str> = textures
+            .iter()
+            .map(|t| t.name.as_str())
+            .filter(|name| !names.iter().any(|n| n == name))
+            .collect();
+        assert!(nameless.is_empty(), "{nameless:?} in {}", built_in.name());
+    }
+}
+
+/// In a window too small for all names, the one that is pointed at is there at once.
+#[test]
+fn a_texture_that_is_pointed_at_always_has_its_name() {
+    let mut heap = BuiltIn::Starter.read().unwrap();
+    for (i, texture) in heap.textures.iter_mut().enumerate() {
+        let place = texture.place.as_mut().unwrap();
+        place.at.rough_smooth = 40.0 + (i % 5) as f64 * 1.5;
+        place.at.hard_soft = 40.0 + (i / 5) as f64 * 2.5 + (i % 3) as f64;
+    }
+    let mut harness = author_on(heap, [960.0, 600.0]);
+    harness.run_steps(2);
+    let names = names_on_canvas(&harness);
+    let textures = window(&harness).session().textures();
+    let nameless = textures.iter().map(|t| t.name.clone()).find(|name| !names.contains(name));
+    let nameless = nameless.expect("a heap has more names than room");
+    harness.get_by_label(&strings::go_to(&nameless)).focus();
+    harness.run_steps(2);
+    assert!(names_on_canvas(&harness).contains(&nameless), "{nameless}");
+}
