@@ -18,7 +18,7 @@ mod output;
 mod play;
 mod render;
 mod space_build;
-mod space_judgements;
+mod space_judgments;
 mod space_panel;
 mod space_place;
 mod stroke;

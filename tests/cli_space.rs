@@ -104,7 +104,7 @@ fn a_space_is_built_from_a_simulated_panel() {
 }
 
 #[test]
-fn judgements_that_make_no_space_say_why_and_write_nothing() {
+fn judgments_that_make_no_space_say_why_and_write_nothing() {
     let bench = Bench::new();
     bench.json("space panel --sorting s.csv --ratings r.csv --participants 4 --groups 3,6");
     let changed = |from: &str, to: &str, change: &dyn Fn(&str) -> String| {

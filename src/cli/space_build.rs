@@ -10,7 +10,7 @@ use shagreen_core::ratings::{AdjectivePair, OUTLIER_LIMIT};
 use shagreen_core::selection::Method;
 use shagreen_core::sorting::Finding;
 use shagreen_core::space_build::{
-    FeatureKind, Placement, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
+    FeatureKind, PlacedBy, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
 };
 use shagreen_formats::atomic;
 use shagreen_formats::figure::{figure_csv, figure_svg, is_figure_csv, page_svg};
@@ -22,7 +22,7 @@ use shagreen_formats::space_report::{
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output::{self, Progress, Usage, counted, warn_of_restricted};
-use crate::cli::space_judgements::{JudgementArgs, Judgements};
+use crate::cli::space_judgments::{JudgmentArgs, Judgments};
 
 /// Builds an authoring space from what people felt and what was measured.
 ///
@@ -34,7 +34,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
-    judgements: JudgementArgs,
+    judgments: JudgmentArgs,
     /// Library file to write.
     #[arg(long, value_name = "L2")]
     out: PathBuf,
@@ -95,7 +95,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let options = options(args)?;
     let [report_json, report_svg] =
         ["report.json", "report.svg"].map(|ending| args.out.with_extension(ending));
-    let [sorting, ratings, relevance] = args.judgements.paths();
+    let [sorting, ratings, relevance] = args.judgments.paths();
     let inputs = [sorting, ratings, relevance, args.library.path()];
     refuse_inputs(&[&args.out, &report_json, &report_svg], &inputs)?;
     refuse_foreign(&args.out, "the library", is_library)?;
@@ -109,7 +109,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("this is a folder; name a file to write: {}", folder.display());
     }
     let library = load(&args.library)?;
-    let Judgements { sorts, ratings, votes, source, warnings } = args.judgements.read()?;
+    let Judgments { sorts, ratings, votes, source, warnings } = args.judgments.read()?;
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
     let progress = Progress::new("steps", Step::COUNT);
@@ -121,7 +121,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         true
     })
-    .map_err(|error| args.judgements.in_files(error, &library, &args.library))?;
+    .map_err(|error| args.judgments.in_files(error, &library, &args.library))?;
     progress.finish();
     let mut report = space_report(&built);
     report["warnings"] = warnings.into();
@@ -205,7 +205,7 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         features,
         mfcc: mfcc(args.mfcc.as_deref()),
         method: Method::from_id(&args.selection).ok_or_else(|| unknown(&args.selection))?,
-        placement: Placement::from_id(&args.placement).ok_or_else(|| unknown(&args.placement))?,
+        placement: PlacedBy::from_id(&args.placement).ok_or_else(|| unknown(&args.placement))?,
         n_permutations: args.permutations,
         ..usual
     })

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use serde_json::json;
-use shagreen_core::panel::{PanelConfig, is_simulated, simulated_ratings, simulated_sorts};
+use shagreen_core::panel::{PanelConfig, USUAL_GROUPS, is_simulated, simulated_ratings, simulated_sorts};
 use shagreen_core::ratings::AdjectivePair;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::atomic;
@@ -15,6 +15,9 @@ use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output::{self, counted};
+
+/// What a panel is like where nobody says otherwise.
+const USUAL: PanelConfig = PanelConfig::usual(1);
 
 /// Simulates participants who sort and rate the textures of a library, to try `space build` without people.
 ///
@@ -31,19 +34,19 @@ pub(crate) struct Args {
     #[arg(long, value_name = "R.csv")]
     ratings: PathBuf,
     /// How many participants.
-    #[arg(long, default_value_t = 10, value_name = "N")]
+    #[arg(long, default_value_t = USUAL.n_participants, value_name = "N")]
     participants: usize,
     /// Groups that are to be made, a trial each.
-    #[arg(long, default_value = "3,6,9", value_delimiter = ',')]
+    #[arg(long, default_values_t = USUAL_GROUPS, value_delimiter = ',')]
     groups: Vec<usize>,
     /// Standard deviation of what is perceived of a texture, in points of an axis.
-    #[arg(long, default_value_t = 8.0, value_name = "POINTS")]
+    #[arg(long, default_value_t = USUAL.noise_points, value_name = "POINTS")]
     noise: f64,
     /// Standard deviation of each participant's constant error on a pair, in points.
-    #[arg(long, default_value_t = 6.0, value_name = "POINTS")]
+    #[arg(long, default_value_t = USUAL.bias_points, value_name = "POINTS")]
     bias: f64,
     /// Standard deviation of the logarithm of the share of the scale that a participant uses.
-    #[arg(long, default_value_t = 0.2, value_name = "SHARE")]
+    #[arg(long, default_value_t = USUAL.scale_log_spread, value_name = "SHARE")]
     scale: f64,
     /// Makes the same panel again.
     #[arg(long, default_value_t = 1)]

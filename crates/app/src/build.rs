@@ -8,7 +8,7 @@ mod figure_ui;
 mod figures_ui;
 mod input_ui;
 mod job;
-pub mod judgements;
+pub mod judgments;
 mod options_ui;
 pub mod page;
 mod panel_truth;

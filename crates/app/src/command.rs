@@ -35,7 +35,7 @@ pub enum Command {
     /// Import these files, in the sheet.
     Import(Vec<Source>),
     /// Read these files as sortings, ratings or votes.
-    ReadJudgements(Vec<Source>),
+    ReadJudgments(Vec<Source>),
     /// Open the sheet that saves the library.
     OpenSave,
     /// Open the sheet that saves a figure.

@@ -39,7 +39,7 @@ impl Sheet {
     }
 
     /// Draws the sheet over the window, and where files would go that hover over it; returns what the user asked for.
-    /// Files dropped on the workspace Build are judgements, others are imported.
+    /// Files dropped on the workspace Build are judgments, others are imported.
     pub(crate) fn show(&mut self, ctx: &Context, session: &Session, workspace: Workspace) -> Vec<Command> {
         let mut commands = match self {
             Self::Closed => Vec::new(),
@@ -54,18 +54,18 @@ impl Sheet {
             // It stays until its outcome has been shown.
             return commands;
         }
-        let are_judgements = workspace == Workspace::Build && !matches!(self, Self::Import(_));
+        let are_judgments = workspace == Workspace::Build && !matches!(self, Self::Import(_));
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         if !dropped.is_empty() {
             let sources = dropped.into_iter().map(Source::Dropped).collect();
-            commands.push(if are_judgements {
-                Command::ReadJudgements(sources)
+            commands.push(if are_judgments {
+                Command::ReadJudgments(sources)
             } else {
                 Command::Import(sources)
             });
         }
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
-            let (here, kinds) = if are_judgements {
+            let (here, kinds) = if are_judgments {
                 (strings::build::DROP_HERE, strings::build::DROP_KINDS)
             } else {
                 (strings::import::DROP_HERE, strings::import::DROP_KINDS)

@@ -95,7 +95,7 @@ pub const RADIUS: u8 = 5;
 pub const LIBRARY_WIDTH: f32 = 208.0;
 /// Width of the column of sliders and parents, in points.
 pub const INSPECTOR_WIDTH: f32 = 290.0;
-/// Width of the column of judgements and options in the workspace Build, in points.
+/// Width of the column of judgments and options in the workspace Build, in points.
 pub const BUILD_INPUTS_WIDTH: f32 = 300.0;
 /// Width of the column that says how far a space can be believed, in points.
 pub const VERDICT_WIDTH: f32 = 280.0;

@@ -267,7 +267,7 @@ impl Window {
             Command::OpenImport => self.sheet.import(Vec::new(), ctx),
             Command::Import(sources) => self.sheet.import(sources, ctx),
             Command::Show(workspace) => self.workspace = workspace,
-            Command::ReadJudgements(sources) => self.build.read(sources, ctx),
+            Command::ReadJudgments(sources) => self.build.read(sources, ctx),
             Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
             Command::SaveFigure(figure) => {
                 self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.figures_folder));

@@ -1,4 +1,4 @@
-//! The workspace Build, used as a person would: judgements given, a space built, looked at, saved, used and undone.
+//! The workspace Build, used as a person would: judgments given, a space built, looked at, saved, used and undone.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
 
 mod support;
@@ -35,7 +35,7 @@ fn builder() -> Author {
 fn built() -> Author {
     let mut harness = builder();
     click(&mut harness, build::SIMULATE);
-    wait(&mut harness, "the panel has judged", |h| !window(h).build().judgements().is_reading());
+    wait(&mut harness, "the panel has judged", |h| !window(h).build().judgments().is_reading());
     harness.run_steps(2);
     set_number(&mut harness, build::PERMUTATIONS, 19.0);
     choose(&mut harness, build::FEATURES, build::features(FeatureKind::Physical));
@@ -84,11 +84,11 @@ fn read(harness: &mut Author, what: &str, path: &Path) {
     harness.get_by_role_and_label(Role::TextInput, &field).type_text(&path.display().to_string());
     harness.run_steps(2);
     click(harness, &build::read(what));
-    wait(harness, "the table is read", |h| !window(h).build().judgements().is_reading());
+    wait(harness, "the table is read", |h| !window(h).build().judgments().is_reading());
     harness.run_steps(2);
 }
 
-/// The main job: from judgements to a space that is felt, and back.
+/// The main job: from judgments to a space that is felt, and back.
 #[test]
 fn a_space_is_built_looked_at_used_and_undone() {
     let mut harness = built();
@@ -195,7 +195,7 @@ fn dropped_tables_become_a_space_that_says_who_judged() {
         let mut harness = builder();
         let [sorting, ratings] = tables(prefix);
         drop_files(&mut harness, &[("b.csv", &ratings), ("a.csv", &sorting)]);
-        wait(&mut harness, "both are read", |h| !window(h).build().judgements().is_reading());
+        wait(&mut harness, "both are read", |h| !window(h).build().judgments().is_reading());
         harness.run_steps(2);
         assert!(window(&harness).import().is_none(), "they are no recordings");
         assert!(says(&harness, "4 participants, 8 sorts, 25 textures"));
@@ -287,7 +287,7 @@ fn a_bad_table_says_why_and_nothing_is_lost() {
     read(&mut harness, build::SORTING, &bad);
     assert!(says(&harness, "groups in line 2 is \"many\""), "{:?}", shown(&harness));
     assert!(says(&harness, "2 participants, 2 sorts, 3 textures"), "what was read stays");
-    assert_eq!(window(&harness).build().judgements().sorting.values().len(), 2);
+    assert_eq!(window(&harness).build().judgments().sorting.values().len(), 2);
     read(&mut harness, build::RATINGS, &folder.path().join("nowhere.csv"));
     assert!(says(&harness, "cannot be read"));
 
@@ -329,7 +329,7 @@ fn building_can_be_cancelled_and_what_was_built_stays() {
     assert!(harness.query_by_label(build::BUILD_AGAIN).is_some(), "it can be tried again");
 }
 
-/// Everything that a space is made of is seen without scrolling, with judgements read and with none.
+/// Everything that a space is made of is seen without scrolling, with judgments read and with none.
 #[test]
 fn nothing_of_the_options_is_cut_off() {
     for size in [[1280.0, 720.0], [1000.0, 700.0]] {
@@ -338,7 +338,7 @@ fn nothing_of_the_options_is_cut_off() {
         for is_read in [false, true] {
             if is_read {
                 click(&mut harness, build::SIMULATE);
-                wait(&mut harness, "the panel has judged", |h| !window(h).build().judgements().is_reading());
+                wait(&mut harness, "the panel has judged", |h| !window(h).build().judgments().is_reading());
             }
             harness.run_steps(3);
             let button = harness.get_by_label(build::BUILD_SPACE).rect();

@@ -103,17 +103,17 @@ fn the_library_that_the_window_started_with_is_offered_too() {
     assert_eq!(window(&harness).session().textures().len(), 25);
 }
 
-/// Judgements that were given stay, and a space made before says that something has changed.
+/// Judgments that were given stay, and a space made before says that something has changed.
 #[test]
-fn judgements_survive_another_library() {
+fn judgments_survive_another_library() {
     let mut harness = author();
     click(&mut harness, strings::BUILD);
     let csv: &[u8] = b"participant,trial,groups,texture,group\np1,1,2,cork,a\np1,1,2,felt,b\n";
     drop_files(&mut harness, &[("sorting.csv", csv)]);
-    wait(&mut harness, "it is read", |h| !window(h).build().judgements().is_reading());
+    wait(&mut harness, "it is read", |h| !window(h).build().judgments().is_reading());
     click(&mut harness, strings::AUTHOR);
     open(&mut harness, BuiltIn::Simulated.name());
-    assert_eq!(window(&harness).build().judgements().sorting.values().len(), 1);
+    assert_eq!(window(&harness).build().judgments().sorting.values().len(), 1);
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use crate::ratings::{AdjectivePair, Rating};
 use crate::rng::{Random, derive_seed};
-use crate::sorting::{Placement, Sort};
+use crate::sorting::{Grouped, Sort};
 
 /// Whether a participant calls itself simulated: what it says is never taken for a person's.
 pub fn is_simulated(participant: &str) -> bool {
@@ -35,7 +35,7 @@ pub const USUAL_GROUPS: [usize; 3] = [3, 6, 9];
 
 impl PanelConfig {
     /// Ten participants who perceive to 8 points, err by 6 and use the scale differently by a fifth.
-    pub fn usual(seed: u64) -> Self {
+    pub const fn usual(seed: u64) -> Self {
         Self { n_participants: 10, noise_points: 8.0, bias_points: 6.0, scale_log_spread: 0.2, seed }
     }
 }
@@ -156,7 +156,7 @@ pub fn simulated_sorts(
                 .collect();
             let first = ((random.uniform() * n_textures as f64) as usize).min(n_textures - 1);
             let groups = by_first_appearance(&group(&felt, n_groups, first));
-            let place = |(texture, group): (&String, usize)| Placement {
+            let place = |(texture, group): (&String, usize)| Grouped {
                 texture: texture.clone(),
                 group: (group + 1).to_string(),
             };

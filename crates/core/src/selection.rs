@@ -33,7 +33,7 @@ pub use error::SelectionError;
 pub use forward::{Forward, Order, P_STOP, forward_selection};
 pub use model::{AxisModel, Term};
 pub use parallel::{Parallel, parallel_analysis};
-pub use table::FeatureTable;
+pub use table::FeatureMatrix;
 pub use validation::{STANDARD, Scheme, Validation, validate};
 
 use parallel::Thresholds;
@@ -93,7 +93,7 @@ pub struct PaperChain {
 /// # Errors
 /// See [`SelectionError`].
 pub fn fit_axis(
-    features: &FeatureTable,
+    features: &FeatureMatrix,
     target: &[f64],
     method: Method,
 ) -> Result<AxisModel, SelectionError> {
@@ -109,7 +109,7 @@ pub fn fit_axis(
 /// # Errors
 /// See [`SelectionError`].
 pub fn paper_chain(
-    features: &FeatureTable,
+    features: &FeatureMatrix,
     target: &[f64],
     order: Order,
 ) -> Result<PaperChain, SelectionError> {
@@ -134,7 +134,7 @@ fn select_and_group(
     (forward, parallel)
 }
 
-fn all(features: &FeatureTable) -> Vec<usize> {
+fn all(features: &FeatureMatrix) -> Vec<usize> {
     (0..features.n_textures()).collect()
 }
 

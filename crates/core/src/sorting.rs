@@ -12,7 +12,7 @@ mod finding;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use crate::sorting::agreement::{Agreement, FAR_BELOW, MIN_PAIRS, MIN_PARTICIPANTS};
+pub use crate::sorting::agreement::{FAR_BELOW, MIN_PAIRS, MIN_PARTICIPANTS, SorterFit};
 pub use crate::sorting::finding::Finding;
 
 use crate::dissimilarities::{Dissimilarities, DissimilaritiesError};
@@ -29,12 +29,12 @@ pub struct Sort {
     /// How many groups were to be made; `None` where the participant was free, which counts the groups made.
     pub n_groups: Option<usize>,
     /// Where textures were put; one that is not here was not sorted.
-    pub placements: Vec<Placement>,
+    pub placements: Vec<Grouped>,
 }
 
 /// Where a texture was put in a [`Sort`].
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Placement {
+pub struct Grouped {
     /// Name of the texture.
     pub texture: String,
     /// Label of the group, of meaning within its sort only.
@@ -52,7 +52,7 @@ pub struct Similarity {
     /// How many participants sorted both textures of a pair in one sort, and each texture at all.
     pub n_participants: Vec<Vec<usize>>,
     /// How each participant agrees with the others, in the order of first appearance.
-    pub agreements: Vec<Agreement>,
+    pub agreements: Vec<SorterFit>,
     /// What is not as it should be.
     pub findings: Vec<Finding>,
 }
@@ -270,7 +270,7 @@ fn groups_of<'a>(
     }
     let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     let mut placed: BTreeMap<usize, &str> = BTreeMap::new();
-    for Placement { texture, group } in &sort.placements {
+    for Grouped { texture, group } in &sort.placements {
         let Some(i) = index.get(texture.as_str()) else {
             let (participant, trial) = who();
             return Err(SortingError::UnknownTexture { participant, trial, texture: texture.clone() });

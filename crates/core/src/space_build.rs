@@ -75,7 +75,7 @@ pub struct SpaceOptions {
     /// How an axis is predicted from features.
     pub method: Method,
     /// What a texture's place is.
-    pub placement: Placement,
+    pub placement: PlacedBy,
     /// How often positions are exchanged for the null distribution.
     pub n_permutations: usize,
     /// How often participants are drawn anew, to see how far places hang on who took part.
@@ -99,7 +99,7 @@ pub enum FeatureKind {
 
 /// What the place of a texture is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Placement {
+pub enum PlacedBy {
     /// Where people put it.
     Felt,
     /// What its features predict, as in the paper, whose axes are features.
@@ -194,7 +194,7 @@ impl SpaceOptions {
             features: FeatureKind::Mfcc,
             mfcc: crate::mfcc::recommended(),
             method: Method::Practical,
-            placement: Placement::Felt,
+            placement: PlacedBy::Felt,
             n_permutations: 1000,
             n_draws: 100,
             seed,
@@ -371,11 +371,11 @@ fn coincident(textures: &[String], positions: &[SpacePoint]) -> Option<String> {
     ))
 }
 
-fn positions([first, second]: &[Axis; 2], placement: Placement) -> Vec<SpacePoint> {
+fn positions([first, second]: &[Axis; 2], placement: PlacedBy) -> Vec<SpacePoint> {
     let of = |axis: &Axis| match placement {
-        Placement::Felt => axis.felt.clone(),
+        PlacedBy::Felt => axis.felt.clone(),
         // Without a prediction there would have been an error.
-        Placement::Predicted => {
+        PlacedBy::Predicted => {
             axis.prediction.as_ref().map_or_else(|| axis.felt.clone(), |p| p.predicted.clone())
         }
     };
@@ -403,7 +403,7 @@ impl FeatureKind {
     }
 }
 
-impl Placement {
+impl PlacedBy {
     /// The word for files and scripts.
     pub fn id(self) -> &'static str {
         match self {
@@ -412,7 +412,7 @@ impl Placement {
         }
     }
 
-    /// The placement that has this [`Placement::id`].
+    /// The placement that has this [`PlacedBy::id`].
     pub fn from_id(id: &str) -> Option<Self> {
         [Self::Felt, Self::Predicted].into_iter().find(|placement| placement.id() == id)
     }

@@ -1,4 +1,4 @@
-//! Tables of words and numbers with a first line that names their columns: judgements of people, places of textures.
+//! Tables of words and numbers with a first line that names their columns: judgments of people, places of textures.
 //!
 //! Columns are parted by commas, semicolons or tabs, or by what a first line such as `sep=|` says; a decimal comma is
 //! understood, in quotes where commas part the columns. Names of columns are compared without case, spaces, underscores

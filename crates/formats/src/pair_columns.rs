@@ -12,7 +12,7 @@ pub(crate) struct PairColumns {
     pub(crate) unused: Vec<usize>,
 }
 
-/// Words that stand for what is recorded beside a judgement. None of them is an adjective that a surface is felt by.
+/// Words that stand for what is recorded beside a judgment. None of them is an adjective that a surface is felt by.
 const NOT_FELT: [&str; 53] = [
     "age",
     "begin",
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_recorded_beside_a_judgement_is_no_pair() {
+    fn what_is_recorded_beside_a_judgment_is_no_pair() {
         for name in [
             "age",
             "start-time",

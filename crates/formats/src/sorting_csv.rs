@@ -19,7 +19,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use shagreen_core::sorting::{Placement, Sort};
+use shagreen_core::sorting::{Grouped, Sort};
 
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::unused_warning;
@@ -184,7 +184,7 @@ fn by_texture(
         names.add(texture);
         let group = row.at(group).text();
         if !group.is_empty() {
-            sorts[at].placements.push(Placement { texture: texture.to_owned(), group: group.to_owned() });
+            sorts[at].placements.push(Grouped { texture: texture.to_owned(), group: group.to_owned() });
         }
     }
     let used = [Some(columns.participant), columns.trial, columns.groups, Some(texture), Some(group)];
@@ -212,7 +212,7 @@ fn by_sort(table: &NamedTable, columns: &Columns) -> Result<SortingTable, Sortin
         }
         let fields = textures.iter().map(|column| row.at(*column)).filter(|field| !field.text().is_empty());
         let placement =
-            |field: Field<'_>| Placement { texture: field.name().to_owned(), group: field.text().to_owned() };
+            |field: Field<'_>| Grouped { texture: field.name().to_owned(), group: field.text().to_owned() };
         sorts.push(Sort { participant, trial, n_groups, placements: fields.map(placement).collect() });
     }
     Ok(SortingTable { textures: names.0, sorts, warnings: Vec::new() })
@@ -223,7 +223,7 @@ pub fn sorting_csv(sorts: &[Sort]) -> Vec<u8> {
     let first = ["participant", "trial", "groups", "texture", "group"].map(str::to_owned).to_vec();
     let rows = sorts.iter().flat_map(|sort| {
         let n_groups = sort.n_groups.map_or_else(String::new, |n| n.to_string());
-        sort.placements.iter().map(move |Placement { texture, group }| {
+        sort.placements.iter().map(move |Grouped { texture, group }| {
             vec![
                 sort.participant.clone(),
                 sort.trial.clone(),

@@ -5,7 +5,7 @@ use shagreen_core::mds::Ties;
 use shagreen_core::property::correlation_table;
 use shagreen_core::ratings::Agreement;
 use shagreen_core::selection::PaperChain;
-use shagreen_core::space_build::{Adjective, Axis, Placement, Prediction, SpaceBuild, kruskal_word, verdict};
+use shagreen_core::space_build::{Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, verdict};
 
 use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
 use crate::library::{Attribute, Attributes, Library, Place, USUAL_AXES};
@@ -216,8 +216,8 @@ pub fn space_subtitle(build: &SpaceBuild) -> String {
         build.textures.len(),
         build.source.label(),
         match build.options.placement {
-            Placement::Felt => "placed where they were felt, predicted",
-            Placement::Predicted => "placed",
+            PlacedBy::Felt => "placed where they were felt, predicted",
+            PlacedBy::Predicted => "placed",
         },
         build.features.label,
         build.options.method.id()

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
 
-use crate::build::judgements::{Judgements, Kind};
+use crate::build::judgments::{Judgments, Kind};
 use crate::import::source::paths_in;
 use crate::session::Session;
 use crate::strings::build as strings;
@@ -23,6 +23,7 @@ struct Said {
     /// What was read, in figures.
     read: Option<String>,
     name: String,
+    warnings: Vec<String>,
     failure: Option<String>,
     unknown: Option<String>,
 }
@@ -37,7 +38,7 @@ struct Asked {
 /// Draws the tables; returns whether a simulated panel is asked for.
 pub(super) fn inputs_ui(
     ui: &mut Ui,
-    judgements: &mut Judgements,
+    judgments: &mut Judgments,
     paths: &mut Paths,
     session: &Session,
 ) -> bool {
@@ -50,7 +51,7 @@ pub(super) fn inputs_ui(
     });
     for kind in [Kind::Sorting, Kind::Ratings, Kind::Votes] {
         ui.add_space(GAP);
-        let said = said(judgements, kind, session);
+        let said = said(judgments, kind, session);
         let path = match kind {
             Kind::Sorting => &mut paths.sorting,
             Kind::Ratings => &mut paths.ratings,
@@ -58,14 +59,17 @@ pub(super) fn inputs_ui(
         };
         let asked = table_ui(ui, kind, path, &said);
         if asked.read {
-            judgements.read(paths_in(path), Some(kind), ui.ctx());
+            judgments.read(paths_in(path), Some(kind), ui.ctx());
         }
         if asked.clear {
-            judgements.clear(kind);
+            judgments.clear(kind);
             path.clear();
         }
     }
-    if judgements.is_reading() {
+    for alike in judgments.alike() {
+        ui.add(Label::new(RichText::new(alike).small().color(t.warning)).wrap());
+    }
+    if judgments.is_reading() {
         ui.add(Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false));
     }
     ui.add_space(GROUP_GAP);
@@ -113,6 +117,9 @@ fn table_ui(ui: &mut Ui, kind: Kind, path: &mut String, said: &Said) -> Asked {
     if let Some(read) = &said.read {
         line(ui, read, t.text);
     }
+    for warning in &said.warnings {
+        line(ui, warning, t.warning);
+    }
     if let Some(unknown) = &said.unknown {
         line(ui, unknown, t.warning);
     }
@@ -122,7 +129,7 @@ fn table_ui(ui: &mut Ui, kind: Kind, path: &mut String, said: &Said) -> Asked {
     asked
 }
 
-fn said(judgements: &Judgements, kind: Kind, session: &Session) -> Said {
+fn said(judgments: &Judgments, kind: Kind, session: &Session) -> Said {
     let unknown = |names: BTreeSet<&str>| {
         let known = |name: &&str| session.library().index_of(name).is_some();
         let unknown: Vec<&str> = names.into_iter().filter(|name| !known(name)).collect();
@@ -130,29 +137,32 @@ fn said(judgements: &Judgements, kind: Kind, session: &Session) -> Said {
     };
     match kind {
         Kind::Sorting => {
-            let slot = &judgements.sorting;
+            let slot = &judgments.sorting;
             let placements = slot.values().iter().flat_map(|sort| &sort.placements);
             Said {
                 read: slot.read.as_ref().map(|(_, sorts)| strings::sorting(sorts)),
                 name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
+                warnings: slot.warnings.clone(),
                 failure: slot.failure.clone(),
                 unknown: unknown(placements.map(|placement| placement.texture.as_str()).collect()),
             }
         }
         Kind::Ratings => {
-            let slot = &judgements.ratings;
+            let slot = &judgments.ratings;
             Said {
                 read: slot.read.as_ref().map(|(_, ratings)| strings::ratings(ratings)),
                 name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
+                warnings: slot.warnings.clone(),
                 failure: slot.failure.clone(),
                 unknown: unknown(slot.values().iter().map(|rating| rating.texture.as_str()).collect()),
             }
         }
         Kind::Votes => {
-            let slot = &judgements.votes;
+            let slot = &judgments.votes;
             Said {
                 read: slot.read.as_ref().map(|(_, votes)| strings::votes(votes)),
                 name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
+                warnings: slot.warnings.clone(),
                 failure: slot.failure.clone(),
                 unknown: None,
             }

@@ -4,7 +4,7 @@ use egui::{ComboBox, DragValue, Grid, Label, Response, RichText, Ui};
 use shagreen_core::mds::{MAX_DIMS, Ties};
 use shagreen_core::ratings::{AdjectivePair, Rating};
 use shagreen_core::selection::Method;
-use shagreen_core::space_build::{FeatureKind, Placement, SpaceOptions};
+use shagreen_core::space_build::{FeatureKind, PlacedBy, SpaceOptions};
 
 use crate::axes_choice::with_axis;
 use crate::strings::build as strings;
@@ -54,7 +54,7 @@ pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rat
             &Method::ALL,
             |method| strings::selection(*method).to_owned(),
         );
-        let placements = [Placement::Felt, Placement::Predicted];
+        let placements = [PlacedBy::Felt, PlacedBy::Predicted];
         choice(
             ui,
             strings::PLACEMENT,

@@ -10,7 +10,7 @@ use shagreen_core::space_build::{SpaceOptions, Step};
 use crate::build::figures_ui::figures_ui;
 use crate::build::input_ui::{Paths, inputs_ui};
 use crate::build::job::{Job, Order, Outcome};
-use crate::build::judgements::Judgements;
+use crate::build::judgments::Judgments;
 use crate::build::options_ui::options_ui;
 use crate::build::verdict_ui::verdict_ui;
 use crate::command::Command;
@@ -30,7 +30,7 @@ const SCROLL_BAR: i8 = 8;
 
 /// The state of the workspace.
 pub struct BuildPage {
-    judgements: Judgements,
+    judgments: Judgments,
     paths: Paths,
     options: SpaceOptions,
     /// The library that is open.
@@ -46,7 +46,7 @@ pub struct BuildPage {
 /// What a space is made of, to tell whether it has changed since.
 #[derive(Clone, Debug, PartialEq)]
 struct Recipe {
-    judgements: u64,
+    judgments: u64,
     options: SpaceOptions,
     library: Option<BuiltIn>,
 }
@@ -54,7 +54,7 @@ struct Recipe {
 impl Default for BuildPage {
     fn default() -> Self {
         Self {
-            judgements: Judgements::default(),
+            judgments: Judgments::default(),
             paths: Paths::default(),
             options: SpaceOptions::usual(1),
             library: None,
@@ -68,8 +68,8 @@ impl Default for BuildPage {
 
 impl BuildPage {
     /// What people said.
-    pub fn judgements(&self) -> &Judgements {
-        &self.judgements
+    pub fn judgments(&self) -> &Judgments {
+        &self.judgments
     }
 
     /// The space that was built last.
@@ -89,12 +89,12 @@ impl BuildPage {
 
     /// Reads files that were dropped, as what they turn out to be.
     pub fn read(&mut self, sources: Vec<Source>, ctx: &Context) {
-        self.judgements.read(sources, None, ctx);
+        self.judgments.read(sources, None, ctx);
     }
 
     /// Takes in what the workers have done.
     pub fn collect(&mut self) {
-        self.judgements.collect();
+        self.judgments.collect();
         let Some(outcome) = self.job.as_mut().and_then(|(job, _)| job.collect()) else { return };
         let Some((_, recipe)) = self.job.take() else { return };
         match outcome {
@@ -125,13 +125,13 @@ impl BuildPage {
 
     fn recipe(&self) -> Recipe {
         Recipe {
-            judgements: self.judgements.generation(),
+            judgments: self.judgments.generation(),
             options: self.options.clone(),
             library: self.library,
         }
     }
 
-    /// Whether library, judgements or options are others than those of the space that is shown.
+    /// Whether library, judgments or options are others than those of the space that is shown.
     fn has_changed(&self) -> bool {
         self.built.as_ref().is_some_and(|(_, recipe)| *recipe != self.recipe())
     }
@@ -146,12 +146,12 @@ impl BuildPage {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
             ui.add_space(GAP);
-            if inputs_ui(ui, &mut self.judgements, &mut self.paths, session) {
+            if inputs_ui(ui, &mut self.judgments, &mut self.paths, session) {
                 let library = session.library_as_opened();
-                self.judgements.simulate(library, self.options.seed, ui.ctx());
+                self.judgments.simulate(library, self.options.seed, ui.ctx());
             }
             ui.add_space(GROUP_GAP);
-            options_ui(ui, &mut self.options, self.judgements.ratings.values());
+            options_ui(ui, &mut self.options, self.judgments.ratings.values());
         });
     }
 
@@ -170,7 +170,7 @@ impl BuildPage {
         {
             ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
         }
-        let can_build = self.judgements.sorting.read.is_some() && self.judgements.ratings.read.is_some();
+        let can_build = self.judgments.sorting.read.is_some() && self.judgments.ratings.read.is_some();
         let name = if self.has_changed() { strings::BUILD_AGAIN } else { strings::BUILD_SPACE };
         let text = RichText::new(name).color(if can_build { t.on_accent } else { t.text_weak });
         let button = Button::new(text);
@@ -191,10 +191,10 @@ impl BuildPage {
             SpaceOptions { mds: MdsOptions { seed, ..self.options.mds.clone() }, ..self.options.clone() };
         let order = Order {
             textures: session.textures().iter().map(|t| (t.id.clone(), t.model.clone())).collect(),
-            sorts: self.judgements.sorting.shared(),
-            ratings: self.judgements.ratings.shared(),
-            votes: self.judgements.votes.shared(),
-            source: self.judgements.source(),
+            sorts: self.judgments.sorting.shared(),
+            ratings: self.judgments.ratings.shared(),
+            votes: self.judgments.votes.shared(),
+            source: self.judgments.source(),
             options,
         };
         self.failure = None;

@@ -1,16 +1,10 @@
 //! A simulated panel that feels what the library knows of its textures, as `shagreen space panel` makes it by default.
 
-use shagreen_core::panel::{PanelConfig, simulated_ratings, simulated_sorts};
+use shagreen_core::panel::{PanelConfig, USUAL_GROUPS, simulated_ratings, simulated_sorts};
 use shagreen_core::ratings::Rating;
 use shagreen_core::sorting::Sort;
 use shagreen_formats::library::Library;
 use shagreen_formats::panel_labels::{PanelLabels, panel_labels};
-
-/// Groups that each participant sorts into, one sort after the other.
-const GROUPS: [usize; 3] = [3, 6, 9];
-/// What the participants are like, but for their seed.
-const PANEL: PanelConfig =
-    PanelConfig { n_participants: 10, noise_points: 8.0, bias_points: 6.0, scale_log_spread: 0.2, seed: 0 };
 
 /// What a simulated panel said.
 pub(super) struct Simulated {
@@ -24,9 +18,9 @@ pub(super) struct Simulated {
 /// A sentence: there is nothing to perceive.
 pub(super) fn simulate(library: &Library, seed: u64) -> Result<Simulated, String> {
     let PanelLabels { pairs, ids, labels } = panel_labels(library).map_err(|error| error.to_string())?;
-    let config = PanelConfig { seed, ..PANEL };
+    let config = PanelConfig::usual(seed);
     // Few textures make few groups.
-    let groups: Vec<usize> = GROUPS.into_iter().filter(|n| *n <= ids.len()).collect();
+    let groups: Vec<usize> = USUAL_GROUPS.into_iter().filter(|n| *n <= ids.len()).collect();
     let sorts = simulated_sorts(&ids, &labels, &groups, &config).map_err(|error| error.to_string())?;
     let ratings = simulated_ratings(&ids, &labels, &pairs, &config).map_err(|error| error.to_string())?;
     Ok(Simulated { sorts, ratings })

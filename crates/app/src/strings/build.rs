@@ -6,9 +6,9 @@ use shagreen_core::mds::Ties;
 use shagreen_core::ratings::{Rating, RelevanceVote};
 use shagreen_core::selection::Method;
 use shagreen_core::sorting::Sort;
-use shagreen_core::space_build::{FeatureKind, Placement, Step};
+use shagreen_core::space_build::{FeatureKind, PlacedBy, Step};
 
-/// Heading of the column of judgements and options.
+/// Heading of the column of judgments and options.
 pub const MADE_OF: &str = "Made of";
 /// Heading of the sortings.
 pub const SORTING: &str = "Sorting";
@@ -35,6 +35,8 @@ pub const READING: &str = "Reading…";
 pub const SIMULATE: &str = "Try with a simulated panel";
 /// What a simulated panel is.
 pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate by the places, attributes and physics of the library's textures, with noise. For trying the way, never for conclusions.";
+/// Who may be written in several ways.
+pub const PARTICIPANTS: &str = "participants";
 /// Name of what a simulated panel said.
 pub const SIMULATED_PANEL: &str = "simulated raters";
 /// Heading of the options.
@@ -93,12 +95,12 @@ pub const CANCEL_HELP: &str = "Drops what is being built. What was built before 
 pub const STOPPING: &str = "Stopping…";
 /// Something is missing before a space can be built.
 pub const NEEDS_BOTH: &str = "Needs sorting and ratings.";
-/// Judgements or options are not those of the space that is shown.
+/// Judgments or options are not those of the space that is shown.
 pub const CHANGED: &str = "Changed since this space was built.";
 /// The worker is gone.
-pub const BROKEN: &str = "Building broke off; try other options, or part of the judgements.";
+pub const BROKEN: &str = "Building broke off; try other options, or part of the judgments.";
 /// Heading before a space is built.
-pub const EMPTY_TITLE: &str = "From judgements to a space";
+pub const EMPTY_TITLE: &str = "From judgments to a space";
 /// What to do before a space is built.
 pub const EMPTY_STEPS: [&str; 3] = [
     "People sort the textures into groups by how they feel, and rate each between pairs of adjectives.",
@@ -256,10 +258,10 @@ pub fn selection(method: Method) -> &'static str {
 }
 
 /// Where textures lie.
-pub fn placement(placement: Placement) -> &'static str {
+pub fn placement(placement: PlacedBy) -> &'static str {
     match placement {
-        Placement::Felt => "as felt",
-        Placement::Predicted => "as predicted",
+        PlacedBy::Felt => "as felt",
+        PlacedBy::Predicted => "as predicted",
     }
 }
 

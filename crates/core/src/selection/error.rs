@@ -1,6 +1,6 @@
 //! Why an axis cannot be predicted.
 
-use super::{FeatureTable, MIN_TEXTURES};
+use super::{FeatureMatrix, MIN_TEXTURES};
 use crate::statistics::is_constant;
 
 /// Why an axis cannot be predicted.
@@ -79,7 +79,7 @@ pub enum SelectionError {
     },
 }
 
-pub(super) fn check(features: &FeatureTable, target: &[f64]) -> Result<(), SelectionError> {
+pub(super) fn check(features: &FeatureMatrix, target: &[f64]) -> Result<(), SelectionError> {
     let n = features.n_textures();
     if n != target.len() {
         return Err(SelectionError::TargetLength { n_features: n, n_target: target.len() });

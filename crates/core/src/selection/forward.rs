@@ -7,7 +7,7 @@
 //! Greedy selection needs, for every feature, its product with the residual and what is left of its length. Both are
 //! kept up to date by one product with the newest direction, so that a step is one pass over the features.
 
-use super::{FeatureTable, SelectionError, Standardized, error, most_features};
+use super::{FeatureMatrix, SelectionError, Standardized, error, most_features};
 use crate::least_squares::take_off;
 use crate::statistics::{centered, dot, f_upper_tail};
 
@@ -42,7 +42,7 @@ pub struct Forward {
 /// # Errors
 /// See [`SelectionError`].
 pub fn forward_selection(
-    features: &FeatureTable,
+    features: &FeatureMatrix,
     target: &[f64],
     order: Order,
 ) -> Result<Forward, SelectionError> {

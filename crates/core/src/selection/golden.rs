@@ -11,7 +11,7 @@ use super::forward::{ranked, select};
 use super::parallel::{analyze, group_correlations, random_bests};
 use super::standardized::Standardized;
 use super::validation::{fold_predictions, rms_percent};
-use super::{Choice, FeatureTable, Method, Order, Prepared, Scheme, Thresholds, validate};
+use super::{Choice, FeatureMatrix, Method, Order, Prepared, Scheme, Thresholds, validate};
 use crate::rng::{Random, lcg_noise};
 use crate::statistics::{centered, correlation, dot, mean, quantile};
 
@@ -25,13 +25,13 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
 }
 
-fn reference() -> (FeatureTable, Vec<f64>) {
+fn reference() -> (FeatureMatrix, Vec<f64>) {
     let row = |line: &str| line.split(',').map(|v| v.parse().unwrap()).collect();
     let rows: Vec<Vec<f64>> = X.lines().map(row).collect();
-    (FeatureTable::from_rows(&rows).unwrap(), Y.lines().map(|l| l.parse().unwrap()).collect())
+    (FeatureMatrix::from_rows(&rows).unwrap(), Y.lines().map(|l| l.parse().unwrap()).collect())
 }
 
-fn everything(table: &FeatureTable) -> Standardized {
+fn everything(table: &FeatureMatrix) -> Standardized {
     Standardized::new(table, &super::all(table))
 }
 
@@ -75,7 +75,7 @@ fn component_and_cross_validation_are_the_references() {
 }
 
 /// Five folds in a given order, with features that were chosen before, not clipped: as the script does it.
-fn cross_validated(table: &FeatureTable, y: &[f64], selected: &[usize], order: &[usize]) -> Vec<f64> {
+fn cross_validated(table: &FeatureMatrix, y: &[f64], selected: &[usize], order: &[usize]) -> Vec<f64> {
     let choice = Choice(vec![selected.to_vec()]);
     let mut predictions = vec![0.0; y.len()];
     for fold in deal(order, 5) {
@@ -125,9 +125,9 @@ fn thresholds_of_single_draws_scatter_as_in_the_reference() {
     }
 }
 
-fn noise_table(random: &mut Random, n_features: usize) -> FeatureTable {
+fn noise_table(random: &mut Random, n_features: usize) -> FeatureMatrix {
     let rows: Vec<Vec<f64>> = (0..25).map(|_| (0..n_features).map(|_| random.normal()).collect()).collect();
-    FeatureTable::from_rows(&rows).unwrap()
+    FeatureMatrix::from_rows(&rows).unwrap()
 }
 
 fn median(values: &[f64]) -> f64 {

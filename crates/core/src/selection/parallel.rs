@@ -8,7 +8,7 @@
 //! Random normal features look the same from every direction, so the threshold depends on the numbers of textures and
 //! features alone, not on the target; it is worked out once for each pair of numbers.
 
-use super::{FeatureTable, SelectionError, Standardized, error};
+use super::{FeatureMatrix, SelectionError, Standardized, error};
 use crate::rng::{Random, derive_seed};
 use crate::statistics::{centered, dot, quantile};
 
@@ -44,7 +44,7 @@ pub struct Parallel {
 /// # Panics
 /// If a selected feature is not in the table.
 pub fn parallel_analysis(
-    features: &FeatureTable,
+    features: &FeatureMatrix,
     target: &[f64],
     selected: &[usize],
 ) -> Result<Option<Parallel>, SelectionError> {

@@ -180,7 +180,7 @@ fn between_textures(train: &Standardized, features: &[usize]) -> DMatrix<f64> {
 mod tests {
     use super::Kernel;
     use crate::rng::lcg_noise;
-    use crate::selection::{FeatureTable, Standardized};
+    use crate::selection::{FeatureMatrix, Standardized};
     use crate::statistics::{centered, dot};
 
     #[test]
@@ -194,7 +194,7 @@ mod tests {
         let rows: Vec<Vec<f64>> = lcg_noise(n * m, seed).chunks(m).map(<[f64]>::to_vec).collect();
         let noise = lcg_noise(n, 100 + seed);
         let target: Vec<f64> = rows.iter().zip(&noise).map(|(r, e)| r[0] - r[1] + 1.2 * e).collect();
-        let table = FeatureTable::from_rows(&rows).unwrap();
+        let table = FeatureMatrix::from_rows(&rows).unwrap();
         let train = Standardized::new(&table, &(0..n).collect::<Vec<_>>());
         let y = centered(&target);
         let kernel = Kernel::new(&train, &[0, 1, 2, 3, 4]).unwrap();

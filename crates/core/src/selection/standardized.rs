@@ -1,6 +1,6 @@
 //! Features of the textures that a model is fitted to, centered and of length one.
 
-use super::FeatureTable;
+use super::FeatureMatrix;
 use crate::statistics::{dot, is_constant, mean};
 
 /// Features less their mean, over their length; a product of two is their correlation. A constant feature is zero and
@@ -17,7 +17,7 @@ pub(super) struct Standardized {
 }
 
 impl Standardized {
-    pub(super) fn new(features: &FeatureTable, textures: &[usize]) -> Self {
+    pub(super) fn new(features: &FeatureMatrix, textures: &[usize]) -> Self {
         let (n, n_features) = (textures.len(), features.n_features());
         let (mut means, mut lengths) = (Vec::with_capacity(n_features), Vec::with_capacity(n_features));
         let (mut values, mut constant) = (Vec::with_capacity(n * n_features), Vec::with_capacity(n_features));

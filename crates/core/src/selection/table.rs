@@ -4,12 +4,12 @@ use super::SelectionError;
 
 /// Features of textures. Feature by feature in memory, since selection goes through one feature after the other.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FeatureTable {
+pub struct FeatureMatrix {
     n_textures: usize,
     values: Vec<f64>,
 }
 
-impl FeatureTable {
+impl FeatureMatrix {
     /// The table of these rows, one a texture.
     ///
     /// # Errors

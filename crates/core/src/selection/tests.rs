@@ -3,7 +3,7 @@ use super::forward::select;
 use super::parallel::group_correlations;
 use super::standardized::Standardized;
 use super::{
-    AxisModel, FeatureTable, Method, Order, P_STOP, STANDARD, Scheme, SelectionError, Term, Validation,
+    AxisModel, FeatureMatrix, Method, Order, P_STOP, STANDARD, Scheme, SelectionError, Term, Validation,
     fit_axis, forward_selection, paper_chain, parallel_analysis, validate,
 };
 use crate::least_squares::least_squares;
@@ -32,13 +32,13 @@ fn textures(random: &mut Random, n: usize, n_features: usize) -> (Vec<Vec<f64>>,
     (rows, target)
 }
 
-fn noise(random: &mut Random, n: usize, n_features: usize) -> (FeatureTable, Vec<f64>) {
+fn noise(random: &mut Random, n: usize, n_features: usize) -> (FeatureMatrix, Vec<f64>) {
     let rows: Vec<Vec<f64>> = (0..n).map(|_| (0..n_features).map(|_| random.normal()).collect()).collect();
-    (FeatureTable::from_rows(&rows).unwrap(), (0..n).map(|_| 100.0 * random.uniform()).collect())
+    (FeatureMatrix::from_rows(&rows).unwrap(), (0..n).map(|_| 100.0 * random.uniform()).collect())
 }
 
 /// Greedy selection as anybody would write it: every candidate is fitted anew.
-fn slow_greedy(table: &FeatureTable, target: &[f64], most: usize) -> (Vec<usize>, Vec<f64>) {
+fn slow_greedy(table: &FeatureMatrix, target: &[f64], most: usize) -> (Vec<usize>, Vec<f64>) {
     let n = target.len();
     let rss = |features: &[usize]| {
         let mut columns = vec![vec![1.0; n]];
@@ -74,7 +74,8 @@ fn greedy_selection_is_the_slow_one() {
         }
         // A twin and a shifted multiple of a feature, and a constant, must not disturb.
         let with_twins = |r: &Vec<f64>| r.iter().copied().chain([r[1], 3.0 - 2.0 * r[9], 7.25]).collect();
-        let table = FeatureTable::from_rows(&rows.iter().map(with_twins).collect::<Vec<Vec<f64>>>()).unwrap();
+        let table =
+            FeatureMatrix::from_rows(&rows.iter().map(with_twins).collect::<Vec<Vec<f64>>>()).unwrap();
         let train = Standardized::new(&table, &(0..20).collect::<Vec<_>>());
         let got = select(&train, &target, Order::Greedy, 12);
         let (features, ps) = slow_greedy(&table, &target, 12);
@@ -124,7 +125,7 @@ fn groups_have_the_multiple_correlations_of_a_regression() {
 fn models_predict_what_they_were_fitted_to() {
     let mut random = Random::new(4);
     let (rows, target) = textures(&mut random, 25, 60);
-    let table = FeatureTable::from_rows(&rows).unwrap();
+    let table = FeatureMatrix::from_rows(&rows).unwrap();
     for method in Method::ALL {
         let model = fit_axis(&table, &target, method).unwrap();
         let predicted: Vec<f64> = rows.iter().map(|r| model.predict(r).unwrap()).collect();
@@ -142,7 +143,7 @@ fn a_cubic_of_one_feature_is_found_exactly() {
     let rows: Vec<Vec<f64>> = (0..12).map(|i| vec![f64::from(i)]).collect();
     let cubic = |x: f64| 10.0 + 3.0 * x - 0.2 * x * x + 0.05 * x * x * x;
     let target: Vec<f64> = rows.iter().map(|r| cubic(r[0])).collect();
-    let model = fit_axis(&FeatureTable::from_rows(&rows).unwrap(), &target, PAPER).unwrap();
+    let model = fit_axis(&FeatureMatrix::from_rows(&rows).unwrap(), &target, PAPER).unwrap();
     for x in [0.0, 3.3, 10.9] {
         assert!((model.predict(&[x]).unwrap() - cubic(x)).abs() < 1e-9);
     }
@@ -195,7 +196,7 @@ fn the_usual_correlation_would_be_minus_one_for_a_model_that_found_nothing() {
     // Twelve positions and a feature that says nothing about them.
     let rows: Vec<Vec<f64>> = (0..12_i32).map(|i| vec![f64::from(i * 7 % 12 + (i % 2) * 3)]).collect();
     let target: Vec<f64> = (0..12).map(|i| f64::from(i * i) * 0.8).collect();
-    let table = FeatureTable::from_rows(&rows).unwrap();
+    let table = FeatureMatrix::from_rows(&rows).unwrap();
     let one_out = Scheme { n_folds: 12, ..QUICK };
     let got = validate(&table, &target, PAPER, &one_out, &mut || true).unwrap();
     assert!((correlation(&got.predicted, &target).unwrap() + 1.0).abs() < 1e-9, "{got:?}");
@@ -222,7 +223,7 @@ fn the_p_value_is_uniform_on_noise_and_least_on_a_relation() {
         assert!(p > 0.395 && p < highest, "{method:?}: {p}");
     }
     let (rows, target) = textures(&mut Random::new(6), 25, 60);
-    let table = FeatureTable::from_rows(&rows).unwrap();
+    let table = FeatureMatrix::from_rows(&rows).unwrap();
     let got =
         validate(&table, &target, Method::Practical, &Scheme { n_permutations: 99, ..QUICK }, &mut || true)
             .unwrap();
@@ -238,7 +239,7 @@ fn the_practical_method_predicts_new_textures_better_than_the_published_chain() 
     let mut sums = [0.0; 2];
     for _ in 0..8 {
         let (rows, target) = textures(&mut random, 225, 325);
-        let table = FeatureTable::from_rows(&rows[..25]).unwrap();
+        let table = FeatureMatrix::from_rows(&rows[..25]).unwrap();
         for (sum, method) in sums.iter_mut().zip([Method::Practical, PAPER]) {
             let model = fit_axis(&table, &target[..25], method).unwrap();
             let predicted: Vec<f64> = rows[25..].iter().map(|r| model.predict(r).unwrap()).collect();
@@ -273,8 +274,8 @@ fn order_of_textures_and_units_of_features_do_not_matter_to_a_fit() {
     let changed: Vec<Vec<f64>> = order.iter().map(|i| scaled(&rows[*i])).collect();
     let changed_target: Vec<f64> = order.iter().map(|i| target[*i]).collect();
     for method in Method::ALL {
-        let a = fit_axis(&FeatureTable::from_rows(&rows).unwrap(), &target, method).unwrap();
-        let b = fit_axis(&FeatureTable::from_rows(&changed).unwrap(), &changed_target, method).unwrap();
+        let a = fit_axis(&FeatureMatrix::from_rows(&rows).unwrap(), &target, method).unwrap();
+        let b = fit_axis(&FeatureMatrix::from_rows(&changed).unwrap(), &changed_target, method).unwrap();
         for row in &rows {
             let (a, b) = (a.predict(row).unwrap(), b.predict(&scaled(row)).unwrap());
             assert!((a - b).abs() < 1e-7, "{method:?}: {a} is not {b}");
@@ -285,7 +286,7 @@ fn order_of_textures_and_units_of_features_do_not_matter_to_a_fit() {
 #[test]
 fn what_cannot_be_predicted_is_refused_by_name() {
     let (table, target) = noise(&mut Random::new(40), 10, 4);
-    let refused = |table: &FeatureTable, target: &[f64], words: &str| {
+    let refused = |table: &FeatureMatrix, target: &[f64], words: &str| {
         let error = fit_axis(table, target, PAPER).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     };
@@ -300,15 +301,15 @@ fn what_cannot_be_predicted_is_refused_by_name() {
     refused(&table, &with(f64::NAN), "texture 3 is at NaN");
     let (few, few_target) = noise(&mut Random::new(41), 7, 4);
     refused(&few, &few_target, "7 textures are too few");
-    let flat = FeatureTable::from_rows(&vec![vec![0.1, 4.0]; 10]).unwrap();
+    let flat = FeatureMatrix::from_rows(&vec![vec![0.1, 4.0]; 10]).unwrap();
     refused(&flat, &target, "no feature differs");
-    let rows = |bad: f64| FeatureTable::from_rows(&[vec![1.0, 2.0], vec![3.0, bad]]);
+    let rows = |bad: f64| FeatureMatrix::from_rows(&[vec![1.0, 2.0], vec![3.0, bad]]);
     assert_eq!(rows(f64::NAN), Err(SelectionError::FeatureNotFinite { texture: 1, feature: 1 }));
     assert_eq!(
-        FeatureTable::from_rows(&[vec![1.0], vec![]]),
+        FeatureMatrix::from_rows(&[vec![1.0], vec![]]),
         Err(SelectionError::RowLength { texture: 1, n: 0, expected: 1 })
     );
-    assert_eq!(FeatureTable::from_rows(&[]), Err(SelectionError::NoFeatures));
+    assert_eq!(FeatureMatrix::from_rows(&[]), Err(SelectionError::NoFeatures));
     let folds = validate(&table, &target, PAPER, &Scheme { n_folds: 11, ..QUICK }, &mut || true)
         .unwrap_err()
         .to_string();
@@ -319,7 +320,7 @@ fn what_cannot_be_predicted_is_refused_by_name() {
 fn eight_textures_and_one_feature_suffice() {
     let rows: Vec<Vec<f64>> = (0..8).map(|i| vec![f64::from(i) + 0.3 * f64::from(i % 3)]).collect();
     let target: Vec<f64> = (0..8).map(|i| 10.0 * f64::from(i)).collect();
-    let table = FeatureTable::from_rows(&rows).unwrap();
+    let table = FeatureMatrix::from_rows(&rows).unwrap();
     for method in Method::ALL {
         let got =
             validate(&table, &target, method, &Scheme { n_permutations: 9, ..QUICK }, &mut || true).unwrap();

@@ -2,7 +2,7 @@
 
 use super::folds::{outside, repeated, shuffled};
 use super::standardized::Standardized;
-use super::{AxisModel, Choice, FeatureTable, Method, Prepared, SelectionError, all, error};
+use super::{AxisModel, Choice, FeatureMatrix, Method, Prepared, SelectionError, all, error};
 use crate::rng::{Random, derive_seed};
 use crate::statistics::{correlation, mean, quantile};
 
@@ -63,7 +63,7 @@ pub struct Validation {
 /// # Errors
 /// See [`SelectionError`].
 pub fn validate(
-    features: &FeatureTable,
+    features: &FeatureMatrix,
     target: &[f64],
     method: Method,
     scheme: &Scheme,
@@ -129,7 +129,7 @@ pub fn validate(
 }
 
 /// Cross-validation as published: features are selected once, on all textures.
-fn chosen_on_all(features: &FeatureTable, target: &[f64], method: Method, folds: &[Vec<usize>]) -> LeftOut {
+fn chosen_on_all(features: &FeatureMatrix, target: &[f64], method: Method, folds: &[Vec<usize>]) -> LeftOut {
     let everything = Standardized::new(features, &all(features));
     let choice = Prepared::new(&everything, method).choose(&everything, target);
     let mut left_out = LeftOut::default();
@@ -143,7 +143,7 @@ fn chosen_on_all(features: &FeatureTable, target: &[f64], method: Method, folds:
 
 /// Positions of the textures of a fold, not clipped, by a model with these features that was fitted to the others.
 pub(super) fn fold_predictions(
-    features: &FeatureTable,
+    features: &FeatureMatrix,
     target: &[f64],
     method: Method,
     choice: &Choice,
@@ -156,7 +156,7 @@ pub(super) fn fold_predictions(
     fold.iter().map(|texture| position(&model, features, *texture)).collect()
 }
 
-fn position(model: &AxisModel, features: &FeatureTable, texture: usize) -> f64 {
+fn position(model: &AxisModel, features: &FeatureMatrix, texture: usize) -> f64 {
     model.raw(|feature| features.value(texture, feature))
 }
 

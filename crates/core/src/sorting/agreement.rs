@@ -6,7 +6,7 @@ use crate::statistics::correlation;
 
 /// How a participant agrees with the others.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Agreement {
+pub struct SorterFit {
     /// Who sorted.
     pub participant: String,
     /// Correlation of the participant's similarities with those of all others together, over the pairs that both have;
@@ -31,7 +31,7 @@ const NEAR: f64 = 0.2;
 /// Standard deviation of a normal distribution, in median absolute deviations.
 const NORMAL: f64 = 1.4826;
 
-pub(super) fn agreement(names: &[&str], tallies: &[Tally]) -> Vec<Agreement> {
+pub(super) fn agreement(names: &[&str], tallies: &[Tally]) -> Vec<SorterFit> {
     let mut all = Tally::new(tallies.first().map_or(0, |tally| tally.n_textures));
     for tally in tallies {
         all.merge(tally);
@@ -43,7 +43,7 @@ pub(super) fn agreement(names: &[&str], tallies: &[Tally]) -> Vec<Agreement> {
     let lowest = middle - NEAR.max(FAR_BELOW * deviation);
     let one = |(name, correlation): (&&str, Option<f64>)| {
         let far = known.len() >= MIN_PARTICIPANTS && correlation.is_some_and(|c| c < lowest);
-        Agreement { participant: (*name).to_owned(), correlation, outlying_from: far.then_some(middle) }
+        SorterFit { participant: (*name).to_owned(), correlation, outlying_from: far.then_some(middle) }
     };
     names.iter().zip(correlations).map(one).collect()
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::sorting::{Agreement, Sort};
+use crate::sorting::{Sort, SorterFit};
 
 /// Something about sorts that their owner should know. Nothing is left out because of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,8 +147,8 @@ pub(super) fn finding_of_pairs(textures: &[String], scores: &[Vec<Option<f64>>])
 }
 
 /// Participants that sorted unlike the others.
-pub(super) fn findings_of_agreements(agreements: &[Agreement]) -> Vec<Finding> {
-    let finding = |a: &Agreement| {
+pub(super) fn findings_of_agreements(agreements: &[SorterFit]) -> Vec<Finding> {
+    let finding = |a: &SorterFit| {
         let (participant, correlation) = (a.participant.clone(), a.correlation?);
         a.outlying_from.map(|median| Finding::Outlying { participant, correlation, median })
     };

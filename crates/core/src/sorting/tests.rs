@@ -1,6 +1,6 @@
 use serde_json::Value;
 
-use super::{Finding, Placement, Similarity, Sort, SortingError, similarity};
+use super::{Finding, Grouped, Similarity, Sort, SortingError, similarity};
 use crate::rng::lcg_noise;
 
 fn names(n: usize) -> Vec<String> {
@@ -14,7 +14,7 @@ fn sort(participant: &str, trial: &str, n_groups: impl Into<Option<usize>>, labe
         participant: participant.to_owned(),
         trial: trial.to_owned(),
         n_groups: n_groups.into(),
-        placements: placed.map(|(label, texture)| Placement { texture, group: label.to_string() }).collect(),
+        placements: placed.map(|(label, texture)| Grouped { texture, group: label.to_string() }).collect(),
     }
 }
 
@@ -177,7 +177,7 @@ fn broken_sorts_are_named() {
     let zero = SortingError::NoGroups { participant: participant.clone(), trial: trial.clone() };
     assert_eq!(error(3, &[sort("a", "1", 0, "xxy")]), zero);
     let mut repeated = good.clone();
-    repeated.placements.push(Placement { texture: "texture 1".to_owned(), group: "y".to_owned() });
+    repeated.placements.push(Grouped { texture: "texture 1".to_owned(), group: "y".to_owned() });
     let sentence = "participant \"a\", trial \"1\": \"texture 1\" is in the groups \"x\" and \"y\"; a texture goes into one group";
     assert_eq!(error(3, &[repeated]).to_string(), sentence);
     let texture = "texture 3".to_owned();

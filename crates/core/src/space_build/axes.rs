@@ -7,7 +7,7 @@ use crate::selection::{
     self, AxisModel, Method, PaperChain, STANDARD, Scheme, SelectionError, Validation, fit_axis, paper_chain,
     validate,
 };
-use crate::space_build::{Adjective, Placement, SpaceBuildError, SpaceOptions};
+use crate::space_build::{Adjective, PlacedBy, SpaceBuildError, SpaceOptions};
 
 /// An axis of an authoring space.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +79,7 @@ pub(super) fn fit_axes(
             Ok(prediction) => Some(prediction),
             Err(SelectionError::Stopped) => return Err(SpaceBuildError::Stopped),
             // A space of few textures is a space all the same.
-            Err(SelectionError::TooFew { .. }) if options.placement == Placement::Felt => None,
+            Err(SelectionError::TooFew { .. }) if options.placement == PlacedBy::Felt => None,
             Err(source) => return Err(SpaceBuildError::Selection { pair: pair.name(), source }),
         };
         Ok(Axis { pair, adjective, direction, felt, prediction })
@@ -97,7 +97,7 @@ fn predict(
         return Err(SelectionError::Stopped);
     }
     let rows: Vec<Vec<f64>> = features.values.rows().into_iter().map(|row| row.to_vec()).collect();
-    let columns = selection::FeatureTable::from_rows(&rows)?;
+    let columns = selection::FeatureMatrix::from_rows(&rows)?;
     let (model, chain) = match options.method {
         Method::Paper(order) => {
             let chain = paper_chain(&columns, felt, order)?;

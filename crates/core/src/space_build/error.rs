@@ -1,4 +1,4 @@
-//! Why judgements make no space.
+//! Why judgments make no space.
 
 use crate::dissimilarities::DissimilaritiesError;
 use crate::features::FeatureError;
@@ -10,7 +10,7 @@ use crate::sorting::SortingError;
 use crate::space_build::verdict::counted;
 use crate::triangulation::TriangulationError;
 
-/// Why judgements make no space.
+/// Why judgments make no space.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpaceBuildError {

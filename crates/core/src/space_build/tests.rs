@@ -1,6 +1,4 @@
-use super::{
-    FeatureKind, Placement, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space,
-};
+use super::{FeatureKind, PlacedBy, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space};
 use crate::features::NamedTexture;
 use crate::mds::{MdsOptions, Ties};
 use crate::panel::{PanelConfig, simulated_ratings, simulated_sorts};
@@ -45,7 +43,7 @@ fn panel() -> PanelConfig {
 }
 
 /// A simulated panel on the labels; `pairs` are rated, those after the second at random.
-fn judgements(pairs: &[&str]) -> (Vec<Sort>, Vec<Rating>) {
+fn judgments(pairs: &[&str]) -> (Vec<Sort>, Vec<Rating>) {
     let config = panel();
     let names: Vec<String> = models().into_iter().map(|(name, _)| name).collect();
     let sorts = simulated_sorts(&names, &labels(), &[3, 5, 7], &config).unwrap();
@@ -82,7 +80,7 @@ fn build_with_votes(
 
 #[test]
 fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
-    let built = build(judgements(&["rough-smooth", "hard-soft", "sticky-slippery"]), &quick()).unwrap();
+    let built = build(judgments(&["rough-smooth", "hard-soft", "sticky-slippery"]), &quick()).unwrap();
     assert_eq!(built.textures.len(), N);
     assert!(built.perceptual.stress < 0.15 && built.stress.windows(2).all(|w| w[1] <= w[0] + 1e-9));
     for (axis, name) in built.axes.iter().zip(["rough-smooth", "hard-soft"]) {
@@ -112,22 +110,22 @@ fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
 
 #[test]
 fn an_axis_may_be_named_the_other_way_round() {
-    let turned = build(judgements(&["smooth-rough", "hard-soft"]), &quick()).unwrap();
+    let turned = build(judgments(&["smooth-rough", "hard-soft"]), &quick()).unwrap();
     // The panel rates by the labels, so that what is called rough now lies at 100 and is turned back to 0.
-    let straight = build(judgements(&["rough-smooth", "hard-soft"]), &quick()).unwrap();
+    let straight = build(judgments(&["rough-smooth", "hard-soft"]), &quick()).unwrap();
     assert_eq!(turned.axes[0].pair, pair("rough-smooth"));
     for (a, b) in turned.axes[0].felt.iter().zip(&straight.axes[0].felt) {
         assert!((a - (100.0 - b)).abs() < 1e-9, "{a} and {b}");
     }
     let options = SpaceOptions { axes: Some([pair("hard-soft"), pair("rough-smooth")]), ..quick() };
-    let swapped = build(judgements(&["rough-smooth", "hard-soft"]), &options).unwrap();
+    let swapped = build(judgments(&["rough-smooth", "hard-soft"]), &options).unwrap();
     assert_eq!(swapped.axes[0].felt, straight.axes[1].felt);
 }
 
 #[test]
 fn axes_are_the_best_of_each_dimension_where_none_is_usual_and_turned_on_request() {
-    let options = SpaceOptions { is_orthogonal: true, placement: Placement::Predicted, ..quick() };
-    let built = build(judgements(&["warm-cold", "dull-sharp", "one-two"]), &options).unwrap();
+    let options = SpaceOptions { is_orthogonal: true, placement: PlacedBy::Predicted, ..quick() };
+    let built = build(judgments(&["warm-cold", "dull-sharp", "one-two"]), &options).unwrap();
     let mut names = built.axes.each_ref().map(|axis| axis.pair.name());
     names.sort();
     assert_eq!(names, ["dull-sharp", "warm-cold"], "the third was rated at random");
@@ -138,7 +136,7 @@ fn axes_are_the_best_of_each_dimension_where_none_is_usual_and_turned_on_request
 
 #[test]
 fn what_is_missing_is_said_and_lived_with() {
-    let (mut sorts, mut ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    let (mut sorts, mut ratings) = judgments(&["rough-smooth", "hard-soft"]);
     for sort in &mut sorts {
         sort.placements.retain(|placement| placement.texture != "t13");
     }
@@ -157,9 +155,9 @@ fn what_is_missing_is_said_and_lived_with() {
 
 #[test]
 fn few_textures_have_a_space_and_no_prediction() {
-    let (mut sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    let (mut sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     for sort in &mut sorts {
-        sort.placements.retain(|placement| placement.texture < "t05".to_owned());
+        sort.placements.retain(|placement| placement.texture.as_str() < "t05");
     }
     let built = build((sorts, ratings), &quick()).unwrap();
     assert_eq!(built.textures.len(), 5);
@@ -169,7 +167,7 @@ fn few_textures_have_a_space_and_no_prediction() {
 
 #[test]
 fn textures_that_nobody_parts_are_named() {
-    let (mut sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    let (mut sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     for sort in &mut sorts {
         let group = sort.placements[0].group.clone();
         sort.placements[1].group = group;
@@ -203,7 +201,7 @@ fn places_are_steadier_with_more_participants() {
 
 #[test]
 fn a_pair_that_too_few_find_relevant_is_no_axis() {
-    let (sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     let vote = |participant: &str, adjective: &str, relevant: bool| RelevanceVote {
         participant: participant.to_owned(),
         texture: None,
@@ -224,7 +222,7 @@ type Change = dyn Fn(&mut Vec<Sort>, &mut Vec<Rating>, &mut SpaceOptions);
 
 #[test]
 fn what_makes_no_space_says_why() {
-    let good = || judgements(&["rough-smooth", "hard-soft"]);
+    let good = || judgments(&["rough-smooth", "hard-soft"]);
     let check = |change: &Change, words: &str| {
         let ((mut sorts, mut ratings), mut options) = (good(), quick());
         change(&mut sorts, &mut ratings, &mut options);
@@ -252,8 +250,10 @@ fn what_makes_no_space_says_why() {
         "3 textures were sorted: 2 dimensions and the directions of adjectives in them need at least 4",
     );
     let predicted_of_few = |sorts: &mut Vec<Sort>, _: &mut Vec<Rating>, options: &mut SpaceOptions| {
-        sorts.iter_mut().for_each(|sort| sort.placements.truncate(6));
-        options.placement = Placement::Predicted;
+        for sort in sorts {
+            sort.placements.truncate(6);
+        }
+        options.placement = PlacedBy::Predicted;
     };
     check(&predicted_of_few, "too few to predict");
     let same = |_: &mut Vec<Sort>, ratings: &mut Vec<Rating>, _: &mut SpaceOptions| {
@@ -266,7 +266,7 @@ fn what_makes_no_space_says_why() {
 
 #[test]
 fn steps_are_told_in_order_and_can_be_stopped() {
-    let (sorts, ratings) = judgements(&["rough-smooth", "hard-soft"]);
+    let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     let models = models();
     let textures = models.iter().map(|(name, model)| NamedTexture { name, model }).collect();
     let data =

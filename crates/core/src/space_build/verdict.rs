@@ -1,7 +1,7 @@
 //! How far a space can be believed, in sentences.
 
 use crate::space::LabelSource;
-use crate::space_build::{Axis, Placement, SpaceBuild};
+use crate::space_build::{Axis, PlacedBy, SpaceBuild};
 
 /// Goodness of fit of an adjective's line below which it is called weak: less than half of what was rated lies along it.
 const WEAK_R_SQUARED: f64 = 0.5;
@@ -52,8 +52,8 @@ pub fn verdict(build: &SpaceBuild) -> Vec<String> {
     }
     said.extend(stability(build));
     said.push(match build.options.placement {
-        Placement::Felt => "Textures lie where they were felt.".to_owned(),
-        Placement::Predicted => {
+        PlacedBy::Felt => "Textures lie where they were felt.".to_owned(),
+        PlacedBy::Predicted => {
             "Textures lie where their features predict, by models that have seen them.".to_owned()
         }
     });

@@ -12,7 +12,7 @@
     reason = "a test may stop at what it did not expect, and says what it did"
 )]
 
-mod judgements;
+mod judgments;
 mod memory;
 mod mutate;
 mod readers;

@@ -9,9 +9,9 @@ use shagreen_formats::stroke_csv::read_stroke_csv;
 use shagreen_formats::svc::{PenFlavor, PenMapping, pen_samples, read_svc};
 use shagreen_formats::wav::SidecarV1;
 
-use crate::judgements::{
+use crate::judgments::{
     places_seeds, ratings_seeds, read_a_sorting, read_some_places, read_some_ratings, sorting_seeds,
-    table_bombs as judgement_bombs,
+    table_bombs as judgment_bombs,
 };
 use crate::mutate::repair_png;
 use crate::recordings::{
@@ -89,21 +89,21 @@ pub(crate) const READERS: &[Reader] = &[
         name: "sorting",
         seeds: sorting_seeds,
         repair: None,
-        bombs: judgement_bombs,
+        bombs: judgment_bombs,
         read: read_a_sorting,
     },
     Reader {
         name: "ratings",
         seeds: ratings_seeds,
         repair: None,
-        bombs: judgement_bombs,
+        bombs: judgment_bombs,
         read: read_some_ratings,
     },
     Reader {
         name: "places",
         seeds: places_seeds,
         repair: None,
-        bombs: judgement_bombs,
+        bombs: judgment_bombs,
         read: read_some_places,
     },
     Reader { name: "recording_wav", seeds: wav_seeds, repair: None, bombs: wav_bombs, read: read_a_wav },

@@ -1,4 +1,4 @@
-//! Tables of judgements and places: small good files, and what must hold of what is read from changed ones.
+//! Tables of judgments and places: small good files, and what must hold of what is read from changed ones.
 
 use shagreen_core::space::LabelSource;
 use shagreen_formats::places_csv::{Scale, read_places};

@@ -8,8 +8,10 @@ use shagreen_core::panel::is_simulated;
 use shagreen_core::ratings::{Rating, RelevanceVote};
 use shagreen_core::sorting::Sort;
 use shagreen_core::space::LabelSource;
+use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
-use shagreen_formats::ratings_csv::{read_ratings_csv, read_relevance_csv};
+use shagreen_formats::look_alikes::look_alikes;
+use shagreen_formats::ratings_csv::{read_ratings, read_ratings_csv, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
 use crate::build::panel_truth::{Simulated, simulate};
@@ -27,20 +29,22 @@ pub enum Kind {
     Votes,
 }
 
-/// One kind of judgements.
+/// One kind of judgments.
 #[derive(Clone, Debug)]
 pub struct Slot<T> {
     /// What was read last without an error, and what it is called.
     pub read: Option<(String, Arc<Vec<T>>)>,
+    /// What is odd about it, in sentences.
+    pub warnings: Vec<String>,
     /// Why the file that was tried last cannot be used: what was read before stays.
     pub failure: Option<String>,
     /// The request that this came of.
     ticket: u64,
 }
 
-/// All judgements that a space is made of.
+/// All judgments that a space is made of.
 #[derive(Default)]
-pub struct Judgements {
+pub struct Judgments {
     /// Textures in groups.
     pub sorting: Slot<Sort>,
     /// Textures on adjective pairs.
@@ -49,6 +53,8 @@ pub struct Judgements {
     pub votes: Slot<RelevanceVote>,
     reading: Vec<Receiver<(u64, Outcome)>>,
     n_tickets: u64,
+    /// Which participants may be one, in sentences.
+    alike: Vec<String>,
     /// Goes up whenever something else was read.
     generation: u64,
 }
@@ -60,8 +66,8 @@ struct Outcome {
 }
 
 enum Content {
-    Sorting(Vec<Sort>),
-    Ratings(Vec<Rating>),
+    Sorting(Imported<Vec<Sort>>),
+    Ratings(Imported<Vec<Rating>>),
     Votes(Vec<RelevanceVote>),
     Simulated(Simulated),
     Failed(Kind, String),
@@ -69,7 +75,7 @@ enum Content {
 
 impl<T> Default for Slot<T> {
     fn default() -> Self {
-        Self { read: None, failure: None, ticket: 0 }
+        Self { read: None, warnings: Vec::new(), failure: None, ticket: 0 }
     }
 }
 
@@ -85,20 +91,23 @@ impl<T> Slot<T> {
     }
 
     /// Takes what a request came to, unless a later one was there first; returns whether something else is read now.
-    fn take(&mut self, ticket: u64, name: &str, values: Result<Vec<T>, String>) -> bool {
+    fn take(&mut self, ticket: u64, name: &str, values: Result<Imported<Vec<T>>, String>) -> bool {
         if ticket < self.ticket {
             return false;
         }
         self.ticket = ticket;
         match values {
-            Ok(values) => (self.read, self.failure) = (Some((name.to_owned(), Arc::new(values))), None),
+            Ok(Imported { value, warnings }) => {
+                (self.read, self.failure) = (Some((name.to_owned(), Arc::new(value))), None);
+                self.warnings = warnings;
+            }
             Err(reason) => self.failure = Some(format!("{name}: {reason}")),
         }
         self.failure.is_none()
     }
 }
 
-impl Judgements {
+impl Judgments {
     /// Reads files in the background, as `kind`, or as what they turn out to be.
     pub fn read(&mut self, sources: Vec<Source>, kind: Option<Kind>, ctx: &Context) {
         for source in sources {
@@ -143,21 +152,37 @@ impl Judgements {
             let is_new = match content {
                 Content::Sorting(sorts) => self.sorting.take(ticket, &name, Ok(sorts)),
                 Content::Ratings(ratings) => self.ratings.take(ticket, &name, Ok(ratings)),
-                Content::Votes(votes) => self.votes.take(ticket, &name, Ok(votes)),
+                Content::Votes(votes) => self.votes.take(ticket, &name, Ok(sound(votes))),
                 Content::Simulated(Simulated { sorts, ratings }) => {
                     self.votes = Slot { ticket: ticket.max(self.votes.ticket), ..Slot::default() };
-                    let has_sorts = self.sorting.take(ticket, &name, Ok(sorts));
-                    self.ratings.take(ticket, &name, Ok(ratings)) || has_sorts
+                    let has_sorts = self.sorting.take(ticket, &name, Ok(sound(sorts)));
+                    self.ratings.take(ticket, &name, Ok(sound(ratings))) || has_sorts
                 }
                 Content::Failed(Kind::Sorting, reason) => self.sorting.take(ticket, &name, Err(reason)),
                 Content::Failed(Kind::Ratings, reason) => self.ratings.take(ticket, &name, Err(reason)),
                 Content::Failed(Kind::Votes, reason) => self.votes.take(ticket, &name, Err(reason)),
             };
-            self.generation += u64::from(is_new);
+            if is_new {
+                self.changed();
+            }
         }
     }
 
-    /// Takes judgements of one kind away.
+    fn changed(&mut self) {
+        self.generation += 1;
+        let names = self.sorting.values().iter().map(|sort| sort.participant.as_str());
+        let names = names.chain(self.ratings.values().iter().map(|rating| rating.participant.as_str()));
+        let names: Vec<&str> =
+            names.chain(self.votes.values().iter().map(|v| v.participant.as_str())).collect();
+        self.alike = look_alikes(&names, strings::PARTICIPANTS);
+    }
+
+    /// Which participants may be one, written in several ways, in sentences.
+    pub fn alike(&self) -> &[String] {
+        &self.alike
+    }
+
+    /// Takes judgments of one kind away.
     pub fn clear(&mut self, kind: Kind) {
         self.n_tickets += 1;
         let ticket = self.n_tickets;
@@ -166,7 +191,7 @@ impl Judgements {
             Kind::Ratings => self.ratings = Slot { ticket, ..Slot::default() },
             Kind::Votes => self.votes = Slot { ticket, ..Slot::default() },
         }
-        self.generation += 1;
+        self.changed();
     }
 
     /// Whether files are being read.
@@ -191,6 +216,10 @@ impl Judgements {
     }
 }
 
+fn sound<T>(value: T) -> Imported<T> {
+    Imported { value, warnings: Vec::new() }
+}
+
 fn content(source: &Source, kind: Option<Kind>) -> Content {
     let bytes = match source.bytes() {
         Ok(bytes) => bytes,
@@ -198,10 +227,10 @@ fn content(source: &Source, kind: Option<Kind>) -> Content {
     };
     match kind.unwrap_or_else(|| kind_of(&source.name(), &bytes)) {
         Kind::Sorting => read_sorting_csv(&bytes)
-            .map(|table| Content::Sorting(table.sorts))
+            .map(|table| Content::Sorting(Imported { value: table.sorts, warnings: table.warnings }))
             .map_err(|error| (Kind::Sorting, error.to_string())),
         Kind::Ratings => {
-            read_ratings_csv(&bytes).map(Content::Ratings).map_err(|error| (Kind::Ratings, error.to_string()))
+            read_ratings(&bytes).map(Content::Ratings).map_err(|error| (Kind::Ratings, error.to_string()))
         }
         Kind::Votes => {
             read_relevance_csv(&bytes).map(Content::Votes).map_err(|error| (Kind::Votes, error.to_string()))
@@ -229,7 +258,7 @@ fn kind_of(name: &str, bytes: &[u8]) -> Kind {
 
 #[cfg(test)]
 mod tests {
-    use super::{Kind, Slot, kind_of};
+    use super::{Kind, Slot, kind_of, sound};
 
     #[test]
     fn a_file_is_known_by_its_columns() {
@@ -250,8 +279,8 @@ mod tests {
     #[test]
     fn what_came_late_or_failed_changes_nothing() {
         let mut slot: Slot<u8> = Slot::default();
-        assert!(slot.take(2, "second.csv", Ok(vec![2])));
-        assert!(!slot.take(1, "first.csv", Ok(vec![1])));
+        assert!(slot.take(2, "second.csv", Ok(sound(vec![2]))));
+        assert!(!slot.take(1, "first.csv", Ok(sound(vec![1]))));
         assert!(!slot.take(3, "third.csv", Err("it is empty".to_owned())));
         assert_eq!(slot.values(), [2]);
         assert_eq!(slot.failure.as_deref(), Some("third.csv: it is empty"));

@@ -1,4 +1,4 @@
-//! The tables of judgements that a space is built from, and who made them.
+//! The tables of judgments that a space is built from, and who made them.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ use crate::cli::output;
 use crate::cli::target::meant;
 
 #[derive(clap::Args)]
-pub(crate) struct JudgementArgs {
+pub(crate) struct JudgmentArgs {
     /// CSV with a line for each texture of each sort (participant, trial, groups, texture, group), or a column for each
     /// texture.
     #[arg(long, value_name = "S.csv")]
@@ -36,7 +36,7 @@ pub(crate) struct JudgementArgs {
 }
 
 /// What the tables hold.
-pub(crate) struct Judgements {
+pub(crate) struct Judgments {
     pub(crate) sorts: Vec<Sort>,
     pub(crate) ratings: Vec<Rating>,
     pub(crate) votes: Vec<RelevanceVote>,
@@ -46,14 +46,14 @@ pub(crate) struct Judgements {
     pub(crate) warnings: Vec<String>,
 }
 
-impl JudgementArgs {
+impl JudgmentArgs {
     /// The files.
     pub(crate) fn paths(&self) -> [Option<&Path>; 3] {
         [Some(&self.sorting), Some(&self.ratings), self.relevance.as_deref()]
     }
 
     /// Reads the tables; what is odd about them is said.
-    pub(crate) fn read(&self) -> anyhow::Result<Judgements> {
+    pub(crate) fn read(&self) -> anyhow::Result<Judgments> {
         let mut warnings = Vec::new();
         let sorts = read(&self.sorting, &mut warnings, |bytes| {
             let table = read_sorting_csv(bytes)?;
@@ -72,7 +72,7 @@ impl JudgementArgs {
             output::warn(warning);
         }
         let source = self.source(&names)?;
-        Ok(Judgements { sorts, ratings, votes, source, warnings })
+        Ok(Judgments { sorts, ratings, votes, source, warnings })
     }
 
     /// Who judged. What calls itself simulated is never taken for people.
@@ -101,7 +101,7 @@ impl JudgementArgs {
         }
     }
 
-    /// Why judgements make no space, with the files in which that is to be mended.
+    /// Why judgments make no space, with the files in which that is to be mended.
     pub(crate) fn in_files(
         &self,
         error: SpaceBuildError,
@@ -139,7 +139,7 @@ impl JudgementArgs {
     }
 }
 
-/// Reads a file of judgements; what was odd in it is added to `warnings`.
+/// Reads a file of judgments; what was odd in it is added to `warnings`.
 fn read<T>(
     path: &Path,
     warnings: &mut Vec<String>,
