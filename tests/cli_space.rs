@@ -6,6 +6,10 @@ mod support;
 use serde_json::{Value, json};
 use support::Bench;
 
+fn text(bench: &Bench, name: &str) -> String {
+    std::fs::read_to_string(bench.path(name)).unwrap()
+}
+
 #[test]
 fn a_table_places_textures_and_says_who_is_missing() {
     let bench = Bench::new();
@@ -294,4 +298,76 @@ fn a_report_of_other_places_is_named_and_stays() {
     assert!(warnings.contains("not of these places") && warnings.contains("l.report.json"), "{warnings}");
     assert_eq!(std::fs::read_to_string(bench.path("l.report.json")).unwrap(), report);
     assert!(!place("m.json")["warnings"].to_string().contains("report"));
+}
+
+/// Axes other than rough-smooth and hard-soft go by their names through every command.
+#[test]
+fn other_axes_keep_their_names() {
+    let bench = Bench::new();
+    bench.json("space panel --sorting s.csv --ratings r.csv --seed 1");
+    let build = "space build --sorting s.csv --ratings r.csv --permutations 0 --features physical";
+    // The first is rated as flat-bumpy: its poles are exchanged.
+    bench.json(&format!("{build} --axes bumpy-flat,hard-soft --out l.json"));
+    let list = bench.json("library list --library l.json");
+    assert_eq!(list["axes"], json!(["bumpy-flat", "hard-soft"]));
+    let written: Value = serde_json::from_slice(&std::fs::read(bench.path("l.json")).unwrap()).unwrap();
+    assert_eq!((&written["version"], &written["axes"]), (&json!("1.3"), &list["axes"]));
+    let names: Vec<&str> = written["textures"][0]["attributes"]["values"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|value| value["name"].as_str().unwrap())
+        .collect();
+    assert!(names.contains(&"bumpy-flat") && !names.contains(&"flat-bumpy"), "{names:?}");
+    // A table of its places makes the same library, and a panel can rate it.
+    bench.json("library places --library l.json --out p.csv");
+    assert!(text(&bench, "p.csv").starts_with("id,x:bumpy-flat,y:hard-soft,source,"));
+    bench.json("space place --attributes p.csv --out l2.json");
+    let again = bench.json("library list --library l2.json");
+    assert_eq!((&again["axes"], &again["textures"][3]["at"]), (&list["axes"], &list["textures"][3]["at"]));
+    bench.json("space panel --library l2.json --sorting s2.csv --ratings r2.csv");
+    bench.json("space build --library l2.json --sorting s2.csv --ratings r2.csv --permutations 0 --features physical --out l3.json");
+    // What was written before libraries named their axes has them in its report.
+    let mut older = written;
+    older.as_object_mut().unwrap().remove("axes");
+    older["version"] = json!("1.2");
+    bench.write("older.json", older.to_string());
+    assert_eq!(bench.json("library list --library older.json")["axes"], list["axes"]);
+}
+
+#[test]
+fn few_textures_and_few_participants_are_said() {
+    let bench = Bench::new();
+    bench.json("space panel --sorting s.csv --ratings r.csv --participants 2");
+    let report = bench.json(
+        "space build --sorting s.csv --ratings r.csv --permutations 0 --features physical --out l.json",
+    );
+    assert_eq!(report["stability"], json!(null));
+    let said = report["verdict"].to_string();
+    assert!(said.contains("2 sorted and 2 rated, 3 of each are the least"), "{said}");
+    let keep: Vec<&str> = ["participant", "cork", "felt", "brick", "glass", "leather"].into();
+    let five = |text: &str, n: usize| -> String {
+        let kept = text.lines().filter(|line| keep[..=n].iter().any(|word| line.contains(word)));
+        kept.map(|line| format!("{line}\n")).collect()
+    };
+    bench.json("space panel --sorting s.csv --ratings r.csv");
+    for (n, code) in [(5, 0), (3, 1)] {
+        bench.write("s5.csv", five(&text(&bench, "s.csv"), n));
+        let said =
+            bench.run("space build --sorting s5.csv --ratings r.csv --permutations 0 --json --out l5.json");
+        assert_eq!(said.code, code, "{said:?}");
+        if code == 1 {
+            assert!(
+                said.stderr.contains("3 textures were sorted") && said.stderr.contains("s5.csv"),
+                "{said:?}"
+            );
+        } else {
+            let report: Value = serde_json::from_str(&said.stdout).unwrap();
+            assert_eq!(report["axes"][0]["nested_cv_r"], json!(null));
+            assert!(report["stability"]["deviation"][0].is_number());
+            assert!(
+                report["verdict"].to_string().contains("5 textures are too few to say what predicts an axis")
+            );
+        }
+    }
 }

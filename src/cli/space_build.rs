@@ -150,7 +150,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// Writes all files or none, into a folder of figures among others that is made for them.
 fn write_together(files: &[(PathBuf, Vec<u8>)], folder: Option<&Path>) -> anyhow::Result<()> {
-    // The outermost first: those that are made here go away again where nothing is written.
+    // The innermost first: those that are made here go away again where nothing is written.
     let mut made: Vec<&Path> =
         folder.into_iter().flat_map(Path::ancestors).take_while(|path| !path.exists()).collect();
     made.retain(|path| !path.as_os_str().is_empty());

@@ -111,6 +111,7 @@ impl JudgmentArgs {
         let (sorting, ratings) = (Some(&*self.sorting), Some(&*self.ratings));
         let files = match &error {
             SpaceBuildError::UnknownTexture { what: "sorted", .. }
+            | SpaceBuildError::TooFewTextures { .. }
             | SpaceBuildError::Sorting(_)
             | SpaceBuildError::Dissimilarities(_)
             | SpaceBuildError::Mds(_) => [sorting, None],

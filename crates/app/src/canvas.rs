@@ -6,7 +6,7 @@ use egui::{
     Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
-use shagreen_core::space::SpacePoint;
+use shagreen_core::space::{LabelSource, SpacePoint};
 
 use self::site_labels::{Around, site_labels};
 use crate::axes::Axes;
@@ -102,8 +102,10 @@ fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &T
 fn source_ui(ui: &Ui, corner: Pos2, panel: &Panel<'_>, t: &Tokens) -> Rect {
     let is_simulated = panel.session.is_simulated();
     let mut words = strings::places_from(panel.session.label_source());
-    if is_simulated {
+    if panel.session.label_source() == LabelSource::SimulatedRaters.label() {
         words.push_str(strings::NOBODY_FELT);
+    } else if is_simulated {
+        words.push_str(strings::SOME_SIMULATED);
     }
     let color = if is_simulated { t.warning } else { t.text_weak };
     let area = ui.painter().text(corner, Align2::RIGHT_TOP, &words, FontId::proportional(11.5), color);

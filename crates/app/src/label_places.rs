@@ -1,7 +1,10 @@
 //! Names beside dots, placed so that they cover neither each other nor a dot. Where there is no room beside its dot, a name
 //! stands a little away, at the end of a line.
 
-use egui::{Align2, Pos2, Rect, Vec2, vec2};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::sync::Arc;
+
+use egui::{Align2, Id, Pos2, Rect, Ui, Vec2, vec2};
 
 /// Distance from a dot to its name, in points.
 const DISTANCE: f32 = 2.0;
@@ -198,6 +201,36 @@ fn crosses(line: [Pos2; 2], frame: Rect) -> bool {
 fn cross([a, b]: [Pos2; 2], [c, d]: [Pos2; 2]) -> bool {
     let side = |from: Pos2, to: Pos2, point: Pos2| (to - from).rot90().dot(point - from);
     side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
+}
+
+/// The places of [`label_places`], worked out anew only where what they are made of has changed. `name` tells several
+/// such places of one window apart.
+pub(crate) fn remembered_places(
+    ui: &Ui,
+    name: &str,
+    dots: &[Pos2],
+    radius: f32,
+    wishes: &[Wish],
+    taken: &[Rect],
+    clip: Rect,
+) -> Arc<Vec<Option<Placed>>> {
+    let mut hasher = DefaultHasher::new();
+    let vectors = wishes.iter().flat_map(|wish| [wish.size.to_pos2(), wish.side.to_pos2()]);
+    let frames = taken.iter().chain([&clip]).flat_map(|frame| [frame.min, frame.max]);
+    for pos in dots.iter().copied().chain(vectors).chain(frames) {
+        (pos.x.to_bits(), pos.y.to_bits()).hash(&mut hasher);
+    }
+    for wish in wishes {
+        (wish.dot, wish.is_needed, wish.may_lead).hash(&mut hasher);
+    }
+    let (id, key) = (Id::unique(name), (radius.to_bits(), hasher.finish()));
+    let known = ui.data(|data| data.get_temp::<((u32, u64), Arc<Vec<Option<Placed>>>)>(id));
+    if let Some((_, places)) = known.filter(|(known, _)| *known == key) {
+        return places;
+    }
+    let places = Arc::new(label_places(dots, radius, wishes, taken, clip));
+    ui.data_mut(|data| data.insert_temp(id, (key, Arc::clone(&places))));
+    places
 }
 
 #[cfg(test)]

@@ -165,6 +165,8 @@ pub const SOURCE_HELP: &str =
 pub const MIXED_SOURCES: &str = "mixed: never compare them";
 /// Added to the source of places that nobody felt.
 pub const NOBODY_FELT: &str = ", nobody felt them";
+/// Added where somebody felt some of the places.
+pub const SOME_SIMULATED: &str = "; some are simulated";
 /// Nothing says where positions come from.
 pub const NO_SOURCE: &str = "not stated";
 /// Unit of the waveform.

@@ -37,6 +37,7 @@ pub use crate::space_build::verdict::{kruskal_word, verdict};
 use crate::space_build::adjectives::fit_adjectives;
 use crate::space_build::axes::{Axes, fit_axes};
 use crate::space_build::stability::{Drawn, stability};
+use crate::space_build::verdict::counted;
 
 /// Participants below whom a perceptual space is mostly chance.
 const MIN_SORTERS: usize = 5;
@@ -137,8 +138,8 @@ pub struct SpaceBuild {
     pub angle_degrees: f64,
     /// Features by name, of which axes use some.
     pub features: FeatureTable,
-    /// How far the places where textures were felt move when participants are drawn anew; `None` without draws, or with
-    /// fewer than [`MIN_DRAWN`] participants.
+    /// How far the places where textures were felt move when participants are drawn anew; `None` without draws, with fewer
+    /// than [`MIN_DRAWN`] sorters or raters, or where hardly a draw makes a space: a finding says which.
     pub stability: Option<Stability>,
     /// Where each texture lies.
     pub positions: Vec<SpacePoint>,
@@ -282,7 +283,8 @@ pub fn build_space(
         is_orthogonal: options.is_orthogonal,
         mds: &options.mds,
     };
-    let stability = stability(&drawn, options.n_draws, options.seed, &mut || on_step(Step::Stability))?;
+    let mut go_on = || on_step(Step::Stability);
+    let stability = stability(&drawn, options.n_draws, options.seed, &mut go_on, &mut findings)?;
     let positions = positions(&axes, options.placement);
     findings.extend(coincident(&textures, &positions));
     let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
@@ -363,7 +365,7 @@ fn coincident(textures: &[String], positions: &[SpacePoint]) -> Option<String> {
     let (i, j) = *same.first()?;
     let more = match same.len() {
         1 => String::new(),
-        n => format!(" (and {} more pairs)", n - 1),
+        n => format!(" (and {})", counted(n - 1, "more pair")),
     };
     Some(format!(
         "{} and {}{more} lie at one place, closer than {COINCIDENT} points: a point there is a blend of both",

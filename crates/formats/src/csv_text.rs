@@ -137,7 +137,18 @@ pub(crate) fn line_of(text: &str, record: &csv::StringRecord) -> u64 {
 }
 
 /// The number in a field, if it is a finite one. A comma is the decimal one: where commas part columns, it stood in quotes.
-pub(crate) fn number(field: &str) -> Option<f64> {
+/// There it may as well part thousands, as in `1,000`, which then is no number: nobody knows which is meant.
+pub(crate) fn number(field: &str, delimiter: u8) -> Option<f64> {
+    if delimiter == b','
+        && let Some((whole, part)) = field.split_once(',')
+    {
+        let digits = whole.trim_start_matches(['-', '+']);
+        let could_be_thousands =
+            part.len() == 3 && (1..=3).contains(&digits.len()) && !digits.starts_with('0');
+        if could_be_thousands && part.bytes().all(|b| b.is_ascii_digit()) {
+            return None;
+        }
+    }
     let parsed = if field.contains(',') { field.replace(',', ".").parse() } else { field.parse() };
     // What is no number is the caller's to name.
     parsed.ok().filter(|value: &f64| value.is_finite())
@@ -210,10 +221,21 @@ mod tests {
         for (field, value) in
             [("3,5", Some(3.5)), ("3.5", Some(3.5)), ("-0,25", Some(-0.25)), ("7", Some(7.0))]
         {
-            assert_eq!(number(field), value, "{field}");
+            assert_eq!(number(field, b';'), value, "{field}");
         }
         for field in ["1,234,5", "1.234,5", "1,234.5", "12:30", "inf", "NaN", "", ",", "3,5 %"] {
-            assert_eq!(number(field), None, "{field}");
+            assert_eq!(number(field, b';'), None, "{field}");
+        }
+    }
+
+    #[test]
+    fn a_comma_may_part_thousands_only_where_commas_part_columns() {
+        for field in ["1,000", "-12,345", "999,999"] {
+            assert_eq!(number(field, b','), None, "{field}");
+            assert!(number(field, b';').is_some(), "{field}");
+        }
+        for (field, value) in [("0,125", 0.125), ("3,5", 3.5), ("1,0000", 1.0), ("1234,567", 1234.567)] {
+            assert_eq!(number(field, b','), Some(value));
         }
     }
 }

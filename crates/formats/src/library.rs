@@ -59,6 +59,7 @@ use shagreen_core::texture::TextureModel;
 
 use crate::picture::Picture;
 
+pub(crate) use crate::library::attributes::is_usual;
 pub use crate::library::attributes::{Attribute, Attributes};
 pub use crate::library::error::LibraryError;
 pub use crate::library::id::{free_id, id_from_name, name_from_file};

@@ -25,16 +25,30 @@ pub fn look_alikes(names: &[&str], what: &str) -> Vec<String> {
 fn likeness(name: &str) -> String {
     let mut likeness = String::new();
     let mut in_number = false;
-    let plain = plain(name);
-    let mut characters = plain.chars().filter(|c| !is_unseen(*c)).peekable();
+    let parted = parted_numbers(name);
+    let mut characters = parted.chars().filter(|c| !is_unseen(*c)).peekable();
     while let Some(c) = characters.next() {
         let is_padding = c == '0' && !in_number && characters.peek().is_some_and(char::is_ascii_digit);
         if !is_padding {
             likeness.push(c);
-            in_number = c.is_ascii_digit();
+            // Zeros after a dot count.
+            in_number = c.is_ascii_digit() || (in_number && c == '.');
         }
     }
     likeness
+}
+
+/// The name as it is compared, but with one mark left between digits: `1-11` is not `11-1`.
+fn parted_numbers(name: &str) -> String {
+    let mut parts = name.split([' ', '_', '-', '\u{2013}']).map(plain).filter(|p| !p.is_empty());
+    let mut whole = parts.next().unwrap_or_default();
+    for part in parts {
+        if whole.ends_with(|c: char| c.is_ascii_digit()) && part.starts_with(|c: char| c.is_ascii_digit()) {
+            whole.push('-');
+        }
+        whole.push_str(&part);
+    }
+    whole
 }
 
 /// Whether a character leaves no mark: blanks of all kinds, some of no width.
@@ -53,6 +67,9 @@ mod tests {
         assert!(told[0].starts_with("the participants \"P1\", \"p 01\", \"p1\" look alike"), "{told:?}");
         assert_eq!(look_alikes(&["a_b", "A-B", "x", "X"], "participants").len(), 2);
         assert_eq!(look_alikes(&["a b", "a\u{a0}b", "c", "c\u{200b}"], "participants").len(), 2);
+        assert_eq!(look_alikes(&["p1-01", "p1 1"], "participants").len(), 1);
+        let different = ["s1-11", "s11-1", "p1.5", "p1.05"];
+        assert_eq!(look_alikes(&different, "participants"), [] as [&str; 0]);
         let different = ["p1", "p10", "p100", "p0", "p00x", "p", "1p", "p1a"];
         assert_eq!(look_alikes(&different, "participants"), [] as [&str; 0]);
     }

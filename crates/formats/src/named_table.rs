@@ -87,6 +87,8 @@ pub(crate) struct NamedTable {
     pub(crate) columns: Vec<String>,
     /// Where they are named, from one.
     pub(crate) first_line: u64,
+    /// What parts columns.
+    delimiter: u8,
     rows: Vec<Row>,
 }
 
@@ -159,7 +161,7 @@ impl NamedTable {
         if let Some(row) = rows.iter().find(is_lost) {
             return Err(NamedTableError::Unnamed { line: row.line });
         }
-        Ok(Self { columns, first_line, rows })
+        Ok(Self { columns, first_line, delimiter, rows })
     }
 
     /// The column of the first of these names that there is.
@@ -225,7 +227,7 @@ impl<'a> Field<'a> {
         if matches!(text.to_ascii_lowercase().as_str(), "" | "-" | "na" | "n/a" | "nan" | "null" | "none") {
             return Ok(None);
         }
-        number(text).map(Some).ok_or_else(|| NamedTableError::Number {
+        number(text, self.table.delimiter).map(Some).ok_or_else(|| NamedTableError::Number {
             line: self.row.line,
             column: self.name().to_owned(),
             found: text.to_owned(),

@@ -97,6 +97,19 @@ pub(crate) fn pair_columns(
     Ok(columns)
 }
 
+/// Whether a column is an attribute by one adjective alone: a word that is none of [`NOT_FELT`], over values.
+pub(crate) fn is_attribute(
+    table: &NamedTable,
+    column: usize,
+    value: impl Fn(Field<'_>) -> Option<f64>,
+) -> bool {
+    let fields = || table.rows().map(|row| row.at(column));
+    let is_blank = |field: Field<'_>| matches!(field.number(), Ok(None));
+    is_felt(&table.columns[column])
+        && fields().all(|field| is_blank(field) || value(field).is_some())
+        && !fields().all(is_blank)
+}
+
 /// Whether a pole can be an adjective: it has letters, and one word at least that is not [`NOT_FELT`].
 fn is_felt(pole: &str) -> bool {
     let mut words = pole.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());

@@ -16,9 +16,9 @@ use shagreen_core::ratings::PairNameError;
 use shagreen_core::space::{LabelSource, SpacePoint};
 
 use crate::imported::Imported;
-use crate::library::{Attribute, Attributes, DIGITS, Library, Place, USUAL_AXES, digits};
+use crate::library::{Attribute, Attributes, DIGITS, Library, Place, USUAL_AXES, digits, is_usual};
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
-use crate::pair_columns::{NAME_BOTH_POLES, pair_columns, unused_warning};
+use crate::pair_columns::{NAME_BOTH_POLES, is_attribute, pair_columns, unused_warning};
 use crate::place_origin::state_origin_of_places;
 
 /// The scale on which values of a table were given.
@@ -151,6 +151,16 @@ pub enum PlacesCsvError {
         /// What is wrong.
         source: PairNameError,
     },
+    /// One axis of the two is named.
+    #[error(
+        "the column \"{column}\" is one axis of a place; name the other too, as \"{missing}\" and its attribute"
+    )]
+    HalfAPlace {
+        /// Name of the column that is there.
+        column: String,
+        /// What the name of the other begins with.
+        missing: &'static str,
+    },
     /// One axis is named twice.
     #[error(
         "both axes are \"{name}\"; name the columns of the place by two attributes, as x:warm-cold and y:flat-bumpy"
@@ -198,7 +208,14 @@ pub fn read_places(
     let others = table.others(&[Some(id_column), Some(across), Some(up), source_column]);
     let columns = pair_columns(&table, &others, |field| value(field, scale).is_ok())
         .map_err(|source| PlacesCsvError::Pair { line: table.first_line, source })?;
-    let attribute_columns: Vec<usize> = columns.pairs.iter().map(|(column, _)| *column).collect();
+    // An attribute may be called by one word, unlike a pair that was rated.
+    let of_one_word =
+        |column: &usize| is_attribute(&table, *column, |field| value(field, scale).ok().flatten());
+    let (single, unused): (Vec<usize>, Vec<usize>) =
+        columns.unused.iter().partition(|column| of_one_word(column));
+    let mut attribute_columns: Vec<usize> =
+        columns.pairs.iter().map(|(column, _)| *column).chain(single).collect();
+    attribute_columns.sort_unstable();
     let mut placements = Vec::new();
     let mut lines: HashMap<&str, u64> = HashMap::new();
     for row in table.rows() {
@@ -234,7 +251,7 @@ pub fn read_places(
         let attributes = Attributes { source, values };
         placements.push(Placement { id: id.to_owned(), place: Place { at: point, source }, attributes });
     }
-    let warning = unused_warning(&table, &columns.unused, NAME_BOTH_POLES);
+    let warning = unused_warning(&table, &unused, NAME_BOTH_POLES);
     Ok(Imported { value: Places { axes, placements }, warnings: warning.into_iter().collect() })
 }
 
@@ -252,8 +269,11 @@ fn place_columns(table: &NamedTable) -> Result<([usize; 2], Option<[String; 2]>)
             return Err(PlacesCsvError::OneAxis { name: first });
         }
         let axes = [first, second];
-        let is_usual = axes == USUAL_AXES;
-        return Ok(([across, up], (!is_usual).then_some(axes)));
+        return Ok(([across, up], (!is_usual(&axes)).then_some(axes)));
+    }
+    if let Some((column, _)) = named.iter().flatten().next() {
+        let missing = PLACE_ON[usize::from(named[0].is_some())];
+        return Err(PlacesCsvError::HalfAPlace { column: table.columns[*column].clone(), missing });
     }
     let needed = |axis: usize| table.need(&[SHORT[axis], USUAL_AXES[axis]]);
     Ok(([needed(0)?, needed(1)?], None))
@@ -369,12 +389,17 @@ mod tests {
         assert_eq!(read_places(&written, None, Scale::OF_SPACE).unwrap().value, places);
         // A table of the usual axes takes the names away again.
         let usual =
-            read_places(b"id,x:rough-smooth,y:hard-soft,source\ncork,1,2,human\n", None, Scale::OF_SPACE);
+            read_places(b"id,x:Rough-Smooth,y:hard-soft,source\ncork,1,2,human\n", None, Scale::OF_SPACE);
         place_textures(&mut library, &usual.unwrap().value);
         assert_eq!(library.axes, None);
         let twice =
             read_places_csv(b"id,x:a-b,y:A-B,source\ncork,1,2,human\n", None).unwrap_err().to_string();
         assert!(twice.contains("both axes"), "{twice}");
+        let half = read_places_csv(b"id,x:a-b,hs,source\ncork,1,2,human\n", None).unwrap_err().to_string();
+        assert!(half.contains("\"x:a-b\" is one axis") && half.contains("\"y:\""), "{half}");
+        let half =
+            read_places_csv(b"id,rs,hs,y:a-b,source\ncork,1,2,3,human\n", None).unwrap_err().to_string();
+        assert!(half.contains("\"x:\""), "{half}");
     }
 
     #[test]
@@ -431,15 +456,12 @@ mod tests {
 
     #[test]
     fn other_columns_are_named_and_not_used() {
-        let text = "id,rs,hs,color,flat-bumpy,start-time,warmth\ncork,40,71,red,33,12:30,5\n";
+        let text = "id,rs,hs,warm,color,flat-bumpy,start-time,age\ncork,40,71,5,red,33,12:30,5\n";
         let read = read_places(text.as_bytes(), Some(LabelSource::HumanRatings), Scale::OF_SPACE).unwrap();
         let names: Vec<&str> =
             read.value.placements[0].attributes.values.iter().map(|a| a.name.as_str()).collect();
-        assert_eq!(names, ["rough-smooth", "hard-soft", "flat-bumpy"]);
-        assert!(
-            read.warnings[0].starts_with("the columns color, start-time, warmth are not used;"),
-            "{read:?}"
-        );
+        assert_eq!(names, ["rough-smooth", "hard-soft", "warm", "flat-bumpy"]);
+        assert!(read.warnings[0].starts_with("the columns color, start-time, age are not used;"), "{read:?}");
     }
 
     #[test]

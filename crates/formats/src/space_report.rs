@@ -8,7 +8,7 @@ use shagreen_core::selection::PaperChain;
 use shagreen_core::space_build::{Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, verdict};
 
 use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
-use crate::library::{Attribute, Attributes, Library, Place, USUAL_AXES};
+use crate::library::{Attribute, Attributes, Library, Place, is_usual};
 use crate::place_origin::state_origin_of_places;
 
 /// What the field `format` of a report holds.
@@ -96,7 +96,7 @@ fn adjective(adjective: &Adjective) -> Value {
     })
 }
 
-/// Fields of a prediction that was not made are null.
+/// Numbers of a prediction that was not made are null, its features none.
 fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
     let prediction = axis.prediction.as_ref();
     let v = prediction.map(|prediction| &prediction.validation);
@@ -113,7 +113,7 @@ fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
         "nested_cv_rms_percent": v.map(|v| v.nested_cv_rms_percent),
         "mean_rms_percent": v.map(|v| v.mean_rms_percent),
         "permutation_p": v.and_then(|v| v.permutation_p),
-        "permutations": v.map_or(0, |v| v.n_permutations),
+        "permutations": v.map(|v| v.n_permutations),
         "null_r_95": v.and_then(|v| v.null_r_95),
         "folds": v.map(|v| v.scheme.n_folds),
         "repeats": v.map(|v| v.scheme.n_repeats),
@@ -176,16 +176,20 @@ pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
     }
     placed.space_report = Some(report);
     let names = build.axes.each_ref().map(|axis| axis.pair.name());
-    let is_usual = (0..2).all(|axis| names[axis].eq_ignore_ascii_case(USUAL_AXES[axis]));
-    placed.axes = (!is_usual).then_some(names);
+    placed.axes = (!is_usual(&names)).then_some(names);
     placed
 }
 
-/// Mean ratings of a texture on every pair that counts, as they were given.
+/// Mean ratings of a texture on every pair that counts, as they were given; on an axis in the axis's own direction.
 fn attributes(build: &SpaceBuild, texture: usize) -> Attributes {
     let counted = build.adjectives.iter().filter(|adjective| adjective.is_relevant);
     let values = counted.filter_map(|adjective| {
-        Some(Attribute { name: adjective.pair.name(), value: adjective.ratings[texture].mean? })
+        let mean = adjective.ratings[texture].mean?;
+        let turned = build.axes.iter().find(|axis| axis.is_turned(&adjective.pair));
+        Some(match turned {
+            Some(axis) => Attribute { name: axis.pair.name(), value: 100.0 - mean },
+            None => Attribute { name: adjective.pair.name(), value: mean },
+        })
     });
     Attributes { source: build.source, values: values.collect() }
 }

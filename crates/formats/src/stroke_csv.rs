@@ -94,14 +94,15 @@ struct Row {
 pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError> {
     let text = csv_text::text(bytes)?;
     let (stated, text) = stated_delimiter(&text);
-    let mut reader =
-        csv_text::rows(stated.unwrap_or_else(|| delimiter_of(text))).from_reader(text.as_bytes());
+    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
+    let mut reader = csv_text::rows(delimiter).from_reader(text.as_bytes());
     // Text in memory with rows of any length: there is nothing left that the parser could refuse.
     let mut records =
         reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
     let first = records.next().ok_or(StrokeCsvError::Empty)?;
     let mut warnings = Vec::new();
-    let is_header = first.iter().all(|field| number(field).is_none() && !is_nonsense_number(field));
+    let is_header =
+        first.iter().all(|field| number(field, delimiter).is_none() && !is_nonsense_number(field));
     let columns = if is_header { Columns::from_header(&first)? } else { Columns::by_count(first.len())? };
     if !is_header {
         warnings.push(format!("no header; the columns are taken for {}", columns.in_words()));
@@ -111,7 +112,7 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
     let n_lines = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count() + 1;
     let mut rows = Vec::with_capacity(n_lines.min(text.len() / (2 * columns.n) + 1));
     for record in first_row.into_iter().chain(records) {
-        rows.push(parse_row(&columns, &record, line_of(text, &record))?);
+        rows.push(parse_row(&columns, &record, line_of(text, &record), delimiter)?);
     }
     let secs_per_unit = secs_per_unit(&columns, &rows, &mut warnings)?;
     let start = rows.first().map_or(0.0, |row| row.time);
@@ -145,14 +146,19 @@ fn is_nonsense_number(field: &str) -> bool {
     field.parse::<f64>().is_ok()
 }
 
-fn parse_row(columns: &Columns, record: &csv::StringRecord, line: u64) -> Result<Row, StrokeCsvError> {
+fn parse_row(
+    columns: &Columns,
+    record: &csv::StringRecord,
+    line: u64,
+    delimiter: u8,
+) -> Result<Row, StrokeCsvError> {
     if record.len() != columns.n {
         return Err(StrokeCsvError::Columns { line, found: record.len(), expected: columns.n });
     }
     let value_of = |column: &'static str, index: usize| {
         let field = record.get(index).unwrap_or("");
         let found = || field.chars().take(40).collect();
-        number(field).ok_or_else(|| StrokeCsvError::Number { line, column, found: found() })
+        number(field, delimiter).ok_or_else(|| StrokeCsvError::Number { line, column, found: found() })
     };
     let time = value_of("time", columns.time)?;
     let mut values = [0.0; 3];

@@ -7,7 +7,7 @@ use egui::{
 use egui_plot::{AxisHints, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
 use shagreen_formats::figure::{Chart, Mark, Point, Series, Tone};
 
-use crate::label_places::{Placed, Wish, label_places};
+use crate::label_places::{Placed, Wish, label_places, remembered_places};
 use crate::scope::fixed;
 use crate::theme::{GAP, Tokens, tokens};
 
@@ -152,9 +152,9 @@ fn names_ui(ui: &Ui, chart: &Chart, area: Rect, transform: &PlotTransform, t: &T
         wishes.push(Wish { dot, size: galley.size(), side, is_needed: is_end, may_lead: !is_end });
         galleys.push((galley, color));
     }
-    let places = label_places(&dots, DOT, &wishes, &[], area);
-    for ((galley, color), place) in galleys.into_iter().zip(places) {
-        let Some(Placed { area, leader }) = place else { continue };
+    let places = remembered_places(ui, "names in a figure", &dots, DOT, &wishes, &[], area);
+    for ((galley, color), place) in galleys.into_iter().zip(places.iter()) {
+        let Some(Placed { area, leader }) = *place else { continue };
         if let Some(line) = leader {
             painter.line_segment(line, Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)));
         }

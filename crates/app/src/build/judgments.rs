@@ -1,5 +1,6 @@
 //! What people said of the textures: sortings, ratings and votes, read from files in the background.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -172,9 +173,9 @@ impl Judgments {
         self.generation += 1;
         let names = self.sorting.values().iter().map(|sort| sort.participant.as_str());
         let names = names.chain(self.ratings.values().iter().map(|rating| rating.participant.as_str()));
-        let names: Vec<&str> =
+        let names: BTreeSet<&str> =
             names.chain(self.votes.values().iter().map(|v| v.participant.as_str())).collect();
-        self.alike = look_alikes(&names, strings::PARTICIPANTS);
+        self.alike = look_alikes(&names.into_iter().collect::<Vec<_>>(), strings::PARTICIPANTS);
     }
 
     /// Which participants may be one, written in several ways, in sentences.

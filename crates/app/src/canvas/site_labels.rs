@@ -1,11 +1,10 @@
 //! Names beside textures.
 
-use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
-use egui::{FontId, Galley, Id, Pos2, Rect, Stroke, Ui, Vec2, vec2};
+use egui::{FontId, Galley, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
-use crate::label_places::{Placed, Wish, label_places};
+use crate::label_places::{Placed, Wish, label_places, remembered_places};
 use crate::panel::Panel;
 use crate::theme::Tokens;
 
@@ -53,10 +52,7 @@ pub(super) fn site_labels(
     let dots: Vec<Pos2> = sites.iter().map(|(_, pos)| *pos).collect();
     let wishes: Vec<Wish> = (0..sites.len()).map(wish).collect();
     let clip = ui.clip_rect();
-    let place = || label_places(&dots, radius, &wishes, around.words, clip);
-    let sizes = wishes.iter().map(|wish| wish.size.to_pos2());
-    let frames = around.words.iter().chain([&clip]).flat_map(|frame| [frame.min, frame.max]);
-    let places = remembered(ui, dots.iter().copied().chain(sizes).chain(frames), place);
+    let places = remembered_places(ui, "names on the canvas", &dots, radius, &wishes, around.words, clip);
     // Others stay where they are when one has to be seen.
     let made_room = |dot: usize| {
         let others = places.iter().enumerate().filter(|(other, _)| *other != dot);
@@ -85,22 +81,4 @@ pub(super) fn site_labels(
         }
         ui.painter().galley(area.min, Arc::clone(galley), *color);
     }
-}
-
-/// The places of names, worked out anew only where what they are made of has changed: dots, names, the room for them.
-fn remembered(
-    ui: &Ui,
-    made_of: impl Iterator<Item = Pos2>,
-    places: impl FnOnce() -> Vec<Option<Placed>>,
-) -> Arc<Vec<Option<Placed>>> {
-    let mut hasher = DefaultHasher::new();
-    made_of.for_each(|pos| (pos.x.to_bits(), pos.y.to_bits()).hash(&mut hasher));
-    let (id, key) = (Id::unique("names on the canvas"), hasher.finish());
-    let known = ui.data(|data| data.get_temp::<(u64, Arc<Vec<Option<Placed>>>)>(id));
-    if let Some((_, places)) = known.filter(|(known, _)| *known == key) {
-        return places;
-    }
-    let places = Arc::new(places());
-    ui.data_mut(|data| data.insert_temp(id, (key, Arc::clone(&places))));
-    places
 }

@@ -35,7 +35,6 @@ impl Session {
     /// Opens the library of the project, without the textures that joined; returns for each texture whether the one at the
     /// same index was heard before, so that it need not be prepared again.
     pub(super) fn open_library(&mut self, project: &Project) -> Vec<bool> {
-        self.built_in = project.library;
         let (library, opened) = match project.library.map(BuiltIn::read) {
             Some(Ok(library)) => {
                 let opened = Opened::new(&library);
@@ -51,6 +50,7 @@ impl Session {
                 None => return vec![true; self.library.textures.len()],
             },
         };
+        self.built_in = project.library;
         let models = library.textures.iter().map(|t| &t.model).chain(project.added.iter().map(|t| &t.model));
         let before = self.library.textures.iter().map(|t| &t.model);
         let is_same = before.zip(models).map(|(a, b)| a == b).collect();

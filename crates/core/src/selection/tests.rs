@@ -200,7 +200,7 @@ fn the_usual_correlation_would_be_minus_one_for_a_model_that_found_nothing() {
     let one_out = Scheme { n_folds: 12, ..QUICK };
     let got = validate(&table, &target, PAPER, &one_out, &mut || true).unwrap();
     assert!((correlation(&got.predicted, &target).unwrap() + 1.0).abs() < 1e-9, "{got:?}");
-    assert_eq!(got.nested_cv_r, 0.0);
+    assert_eq!((got.nested_cv_r, got.nested_cv_plain_r), (0.0, 0.0));
     assert_eq!(got.nested_cv_rms_percent, got.mean_rms_percent);
 }
 
@@ -230,7 +230,10 @@ fn the_p_value_is_uniform_on_noise_and_least_on_a_relation() {
     assert_eq!((got.permutation_p, got.n_permutations), (Some(0.01), 99));
     assert!(got.nested_cv_r > 0.7 && got.null_r_95.unwrap() < got.nested_cv_r, "{got:?}");
     assert!(got.nested_cv_rms_percent > got.mean_rms_percent + 3.0);
-    assert!((correlation(&got.predicted, &target).unwrap() - got.nested_cv_r).abs() < 0.1);
+    let plain = correlation(&got.predicted, &target).unwrap();
+    assert!((plain - got.nested_cv_r).abs() < 0.1);
+    // One deal of the folds: each texture is predicted once.
+    assert_eq!((QUICK.n_repeats, got.nested_cv_plain_r), (1, plain));
 }
 
 #[test]

@@ -98,6 +98,7 @@ impl fmt::Display for Finding {
                 let named = pairs.iter().take(N_NAMED).map(|[a, b]| format!("{a:?} and {b:?}"));
                 let more = match pairs.len().saturating_sub(N_NAMED) {
                     0 => String::new(),
+                    1 => ", and 1 more pair".to_owned(),
                     n => format!(", and {n} more pairs"),
                 };
                 write!(

@@ -24,6 +24,13 @@ pub struct Axis {
     pub prediction: Option<Prediction>,
 }
 
+impl Axis {
+    /// Whether the axis is this pair with its poles exchanged.
+    pub fn is_turned(&self, pair: &AdjectivePair) -> bool {
+        self.pair.low == pair.high && self.pair.high == pair.low
+    }
+}
+
 /// What the features of textures make of their places on an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prediction {

@@ -5,17 +5,21 @@
 //! texture's place over many draws says how much of it hangs on who happened to take part. Places run from 0 to 100
 //! between the outermost textures of every draw, so those two hardly move by definition.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::mds::{MdsOptions, nonmetric};
 use crate::property::{ZeroAt, angle_degrees, axis_positions, fit_property, orthogonal_to, project};
 use crate::ratings::RatingTable;
 use crate::rng::{Random, derive_seed};
 use crate::sorting::{Sort, similarity};
+use crate::space_build::SpaceBuildError;
 use crate::statistics::{mean, standard_deviation};
 
-/// Fewest participants of whom some can be drawn instead of others.
+/// Fewest who sorted, and who rated, of whom some can be drawn instead of others.
 pub const MIN_DRAWN: usize = 3;
+
+/// Fewest draws that have a deviation.
+const MIN_SPACES: usize = 2;
 
 /// Random starts of each scaling beside the classical one: textures of a good space get there from most starts.
 const N_RANDOM_STARTS: usize = 4;
@@ -48,22 +52,34 @@ pub(super) struct Drawn<'a> {
     pub(super) mds: &'a MdsOptions,
 }
 
-/// `None` with fewer than [`MIN_DRAWN`] participants, no draws, or none that made a space; an error where `go_on` says no.
+/// `None` where no draws are asked for; where it cannot be told, too, and then a finding says why.
+///
+/// # Errors
+/// [`SpaceBuildError::Stopped`] where `go_on`, which is asked before every draw, says no.
 pub(super) fn stability(
     drawn: &Drawn<'_>,
     n_draws: usize,
     seed: u64,
     go_on: &mut dyn FnMut() -> bool,
-) -> Result<Option<Stability>, super::SpaceBuildError> {
-    let strata = strata(drawn);
-    if strata.iter().map(Vec::len).sum::<usize>() < MIN_DRAWN {
+    findings: &mut Vec<String>,
+) -> Result<Option<Stability>, SpaceBuildError> {
+    if n_draws == 0 {
         return Ok(None);
     }
+    let sorters: BTreeSet<&str> = drawn.sorts.iter().map(|sort| sort.participant.as_str()).collect();
+    let (n_sorters, n_raters) = (sorters.len(), drawn.ratings.participants().len());
+    if n_sorters.min(n_raters) < MIN_DRAWN {
+        findings.push(format!(
+            "how far places hang on who took part cannot be told: {n_sorters} sorted and {n_raters} rated, {MIN_DRAWN} of each are the least"
+        ));
+        return Ok(None);
+    }
+    let strata = strata(drawn);
     let mut random = Random::new(derive_seed(seed, "participants"));
     let mut places: Vec<Places> = Vec::new();
     for draw in 0..n_draws {
         if !go_on() {
-            return Err(super::SpaceBuildError::Stopped);
+            return Err(SpaceBuildError::Stopped);
         }
         let pick = |stratum: &Vec<String>, random: &mut Random| -> Vec<String> {
             let n = stratum.len();
@@ -73,7 +89,11 @@ pub(super) fn stability(
             strata.iter().flat_map(|stratum| pick(stratum, &mut random)).collect();
         places.extend(places_by(drawn, &participants, derive_seed(seed, &format!("draw {draw}"))));
     }
-    if places.len() < 2 {
+    if places.len() < MIN_SPACES {
+        let n_failed = n_draws - places.len();
+        findings.push(format!(
+            "places hang on who took part so far that drawing participants anew made no space in {n_failed} of {n_draws} draws"
+        ));
         return Ok(None);
     }
     let over_draws = |of: &dyn Fn(&Places) -> f64| {

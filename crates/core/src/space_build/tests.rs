@@ -199,6 +199,69 @@ fn places_are_steadier_with_more_participants() {
     assert_eq!(typical(4), few, "the same seed draws the same");
 }
 
+/// Sorts and ratings of a panel, of which some participants only sorted and some only rated.
+fn parted(n_sorters: usize, n_raters: usize) -> (Vec<Sort>, Vec<Rating>) {
+    let (mut sorts, mut ratings) = judgments(&["rough-smooth", "hard-soft"]);
+    let number = |name: &str| name.rsplit('-').next().unwrap().parse::<usize>().unwrap();
+    sorts.retain(|sort| number(&sort.participant) <= n_sorters);
+    ratings.retain(|rating| number(&rating.participant) > 8 - n_raters);
+    (sorts, ratings)
+}
+
+#[test]
+fn who_cannot_be_exchanged_leaves_stability_open() {
+    let options = SpaceOptions { features: FeatureKind::Physical, n_permutations: 0, ..quick() };
+    for (n_sorters, n_raters) in [(1, 8), (2, 8), (8, 2)] {
+        let built = build(parted(n_sorters, n_raters), &options).unwrap();
+        assert_eq!(built.stability, None);
+        let said = format!("{n_sorters} sorted and {n_raters} rated, 3 of each are the least");
+        assert!(built.findings.iter().any(|finding| finding.contains(&said)), "{:?}", built.findings);
+    }
+    assert!(build(parted(4, 4), &options).unwrap().stability.is_some());
+    let none = SpaceOptions { n_draws: 0, ..options };
+    let built = build(parted(1, 8), &none).unwrap();
+    assert!(built.stability.is_none() && !built.findings.join(" ").contains("of each are the least"));
+}
+
+#[test]
+fn what_all_agree_on_does_not_move_and_what_they_disagree_on_does() {
+    let options = SpaceOptions { features: FeatureKind::Physical, n_permutations: 0, ..quick() };
+    let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
+    // Everybody sorts and rates as the first does: every draw is the same but for the starts of the scaling.
+    let same_sorts: Vec<Sort> = sorts
+        .iter()
+        .map(|sort| {
+            let of_first =
+                sorts.iter().find(|s| s.participant == sorts[0].participant && s.trial == sort.trial);
+            Sort { participant: sort.participant.clone(), ..of_first.unwrap().clone() }
+        })
+        .collect();
+    let same_ratings: Vec<Rating> = ratings
+        .iter()
+        .map(|rating| {
+            let of_first = ratings.iter().find(|r| {
+                r.participant == ratings[0].participant
+                    && r.texture == rating.texture
+                    && r.pair == rating.pair
+            });
+            Rating { participant: rating.participant.clone(), ..of_first.unwrap().clone() }
+        })
+        .collect();
+    let secondary =
+        SpaceOptions { mds: MdsOptions { ties: Ties::Secondary, ..options.mds.clone() }, ..options };
+    let typical = |sorts: &[Sort], ratings: &[Rating]| {
+        let stability = build((sorts.to_vec(), ratings.to_vec()), &secondary).unwrap().stability.unwrap();
+        (stability.typical, stability.angle_deviation_degrees)
+    };
+    let (still, angle) = typical(&same_sorts, &same_ratings);
+    assert!(still.iter().all(|d| *d < 0.1) && angle < 0.1, "{still:?} {angle}");
+    // Ratings alone turn the lines, and the places with them.
+    let (by_ratings, angle) = typical(&same_sorts, &ratings);
+    assert!(by_ratings.iter().all(|d| *d > 0.3) && angle > 0.05, "{by_ratings:?} {angle}");
+    let (by_sorts, _) = typical(&sorts, &same_ratings);
+    assert!(by_sorts.iter().all(|d| *d > 0.3), "{by_sorts:?}");
+}
+
 #[test]
 fn a_pair_that_too_few_find_relevant_is_no_axis() {
     let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);

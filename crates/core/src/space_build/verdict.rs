@@ -115,7 +115,7 @@ fn stability(build: &SpaceBuild) -> Option<String> {
         n => format!("; {} made no space", counted(n, "more draw")),
     };
     Some(format!(
-        "With participants drawn anew, {} times, places move by {:.1} points of 100 along {} and {:.1} along {} (standard deviation), most of all {}; the angle by {:.0}°{failed}.",
+        "With participants drawn anew, {} times, the places where textures were felt move by {:.1} points of 100 along {} and {:.1} along {} (standard deviation), most of all {}; the angle by {:.0}°{failed}.",
         stability.n_draws,
         stability.typical[0],
         build.axes[0].pair,

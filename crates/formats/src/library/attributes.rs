@@ -5,7 +5,7 @@ use shagreen_core::space::LabelSource;
 
 use crate::library::v1::{AttributeV1, AttributesV1};
 use crate::library::write::{DIGITS, digits};
-use crate::library::{LibraryError, Unknown};
+use crate::library::{LibraryError, USUAL_AXES, Unknown};
 
 /// A texture's values on attributes, which always say where they come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +78,21 @@ pub(super) fn axes(wire: Option<Vec<String>>) -> Result<Option<[String; 2]>, Lib
     let Some(names) = wire else { return Ok(None) };
     let axes: [String; 2] = names.try_into().map_err(|_| LibraryError::Axes)?;
     let is_empty = axes.iter().any(|name| name.trim().is_empty());
-    if is_empty || axes[0] == axes[1] { Err(LibraryError::Axes) } else { Ok(Some(axes)) }
+    if is_empty || axes[0].eq_ignore_ascii_case(&axes[1]) { Err(LibraryError::Axes) } else { Ok(Some(axes)) }
+}
+
+/// The names of the axes that a space was built on, where they are not the usual ones.
+pub(super) fn axes_of_report(report: &Value) -> Option<[String; 2]> {
+    let names = [0, 1].map(|axis| report["axes"][axis]["name"].as_str());
+    let [Some(first), Some(second)] = names else { return None };
+    let names = [first, second].map(|name| name.trim().to_owned());
+    let is_sound = names.iter().all(|name| !name.is_empty()) && names[0] != names[1];
+    (is_sound && !is_usual(&names)).then_some(names)
+}
+
+/// Whether these are [`USUAL_AXES`], whatever their case.
+pub(crate) fn is_usual(names: &[String; 2]) -> bool {
+    names.iter().zip(USUAL_AXES).all(|(name, usual)| name.eq_ignore_ascii_case(usual))
 }
 
 /// What a file says of how its space was made: an object, or nothing.

@@ -66,8 +66,10 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
             warnings.push(format!("the picture of texture \"{id}\" cannot be shown: {error}"));
         }
     }
-    let axes = attributes::axes(wire.axes)?;
     let space_report = attributes::report(wire.space_report)?;
+    // Before 1.3 only the report said it.
+    let axes =
+        attributes::axes(wire.axes)?.or_else(|| space_report.as_ref().and_then(attributes::axes_of_report));
     let library = Library {
         name: wire.name,
         description: wire.description,

@@ -1,4 +1,7 @@
-use super::{Library, LibraryError, PhysicalLabels, Place, TextureEntry, read_library, write_library};
+use super::{
+    Library, LibraryError, PhysicalLabels, Place, TextureEntry, VERSION_MAJOR, VERSION_MINOR, read_library,
+    write_library,
+};
 use crate::picture::{Rgb, encode_jpeg};
 use proptest::prelude::{any, prop, proptest};
 use serde_json::{Value, json};
@@ -130,10 +133,11 @@ fn other_kinds_and_versions_are_refused_with_the_reason() {
 #[test]
 fn a_higher_minor_version_is_read_with_a_warning() {
     let mut value = wire();
-    value["version"] = json!("1.3");
+    let newer = format!("{VERSION_MAJOR}.{}", VERSION_MINOR + 1);
+    value["version"] = json!(newer);
     let imported = read_library(&serde_json::to_vec(&value).unwrap()).unwrap();
     assert_eq!(imported.value.textures.len(), 2);
-    assert!(imported.warnings[0].contains("1.3"), "{:?}", imported.warnings);
+    assert!(imported.warnings[0].contains(&newer), "{:?}", imported.warnings);
 }
 
 #[test]
