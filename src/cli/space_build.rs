@@ -124,7 +124,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     .map_err(|error| args.judgments.in_files(error, &library, &args.library))?;
     progress.finish();
     let mut report = space_report(&built);
-    report["warnings"] = warnings.into();
+    for finding in &built.findings {
+        output::warn(finding);
+    }
+    report["warnings"] = warnings.into_iter().chain(built.findings.iter().cloned()).collect();
     let figures = space_figures(&built);
     let mut placed = placed_library(&library, &built);
     output::CREATED_BY.clone_into(&mut placed.created_by);

@@ -11,11 +11,13 @@ use shagreen_core::space_build::SpaceBuildError;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
 use shagreen_formats::look_alikes::look_alikes;
+use shagreen_formats::places_csv::Scale;
 use shagreen_formats::ratings_csv::{read_ratings, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
 use crate::cli::library_source::LibraryArgs;
 use crate::cli::output;
+use crate::cli::space_place::parse_scale;
 use crate::cli::target::meant;
 
 #[derive(clap::Args)]
@@ -30,6 +32,9 @@ pub(crate) struct JudgmentArgs {
     /// CSV of votes on which adjectives are relevant (participant, adjective, relevant): pairs below half are left out.
     #[arg(long, value_name = "V.csv")]
     relevance: Option<PathBuf>,
+    /// The scale of all ratings, where it is not 0,100: as 1,7.
+    #[arg(long, value_name = "LOW,HIGH", value_parser = parse_scale, allow_hyphen_values = true)]
+    scale: Option<Scale>,
     /// Who judged, where names of participants do not say it: human or simulated.
     #[arg(long, value_name = "SOURCE", value_parser = ["human", "simulated"])]
     source: Option<String>,
@@ -59,7 +64,12 @@ impl JudgmentArgs {
             let table = read_sorting_csv(bytes)?;
             Ok(Imported { value: table.sorts, warnings: table.warnings })
         })?;
-        let ratings = read(&self.ratings, &mut warnings, |bytes| Ok(read_ratings(bytes)?))?;
+        let ratings = read(&self.ratings, &mut warnings, |bytes| {
+            let read = read_ratings(bytes)?;
+            let value =
+                read.value.into_iter().map(|rating| self.rescaled(rating)).collect::<anyhow::Result<_>>()?;
+            Ok(Imported { value, warnings: read.warnings })
+        })?;
         let votes = match &self.relevance {
             Some(path) => read(path, &mut warnings, |bytes| {
                 Ok(Imported { value: read_relevance_csv(bytes)?, warnings: Vec::new() })
@@ -73,6 +83,18 @@ impl JudgmentArgs {
         }
         let source = self.source(&names)?;
         Ok(Judgments { sorts, ratings, votes, source, warnings })
+    }
+
+    /// A rating from 0 to 100, where it was given on another scale.
+    fn rescaled(&self, rating: Rating) -> anyhow::Result<Rating> {
+        let (Some(scale), Some(value)) = (self.scale, rating.value) else { return Ok(rating) };
+        if !scale.contains(value) {
+            let Rating { participant, texture, pair, .. } = rating;
+            bail!(
+                "{participant} rated {texture} {value} on {pair}, which is not on the scale of --scale; correct one of them"
+            )
+        }
+        Ok(Rating { value: Some(scale.to_space(value)), ..rating })
     }
 
     /// Who judged. What calls itself simulated is never taken for people.

@@ -47,7 +47,8 @@ fn parse_source(text: &str) -> Result<LabelSource, String> {
     LabelSource::from_id(text).ok_or_else(|| "say human, simulated or physical".to_owned())
 }
 
-fn parse_scale(text: &str) -> Result<Scale, String> {
+/// The scale that `LOW,HIGH` names.
+pub(crate) fn parse_scale(text: &str) -> Result<Scale, String> {
     let number = |part: &str| part.trim().parse::<f64>().map_err(|_| "write LOW,HIGH as in 1,7".to_owned());
     let (low, high) = text.split_once(',').ok_or("write LOW,HIGH as in 1,7")?;
     Scale::new(number(low)?, number(high)?).map_err(|error| error.to_string())

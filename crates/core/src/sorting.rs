@@ -26,7 +26,8 @@ pub struct Sort {
     pub participant: String,
     /// Which of the participant's sorts it is.
     pub trial: String,
-    /// How many groups were to be made; `None` where the participant was free, which counts the groups made.
+    /// How many groups were to be made; `None` where the participant was free, or a number above that of the textures
+    /// sorted, count the groups made.
     pub n_groups: Option<usize>,
     /// Where textures were put; one that is not here was not sorted.
     pub placements: Vec<Grouped>,
@@ -202,8 +203,9 @@ impl Tally {
 
     /// Adds a sort, `groups` of which hold indices of textures.
     fn add(&mut self, sort: &Sort, groups: &BTreeMap<&str, Vec<usize>>) {
-        let worth = sort.n_groups.unwrap_or(groups.len()) as f64;
         let sorted: Vec<usize> = groups.values().flatten().copied().collect();
+        // More groups than textures cannot have been meant: such a sort counts the groups that were made.
+        let worth = sort.n_groups.filter(|n| *n <= sorted.len()).unwrap_or(groups.len()) as f64;
         for i in &sorted {
             for j in &sorted {
                 self.most[i * self.n_textures + j] += worth;

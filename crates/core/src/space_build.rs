@@ -11,6 +11,7 @@
 mod adjectives;
 mod axes;
 mod error;
+mod oddities;
 mod stability;
 mod verdict;
 
@@ -20,11 +21,11 @@ use crate::dissimilarities::Dissimilarities;
 use crate::features::{
     FeaturePlan, FeatureTable, NamedTexture, Statistic, per_frame, per_pattern, physical_table,
 };
-use crate::mds::{MAX_DIMS, Mds, MdsOptions, ShepardPair, Ties, by_dimension, shepard};
+use crate::mds::{MAX_DIMS, Mds, MdsError, MdsOptions, ShepardPair, by_dimension, shepard};
 use crate::mfcc::MfccOptions;
 use crate::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns};
 use crate::ratings::{AdjectivePair, RaterFit, Rating, RatingTable, RelevanceVote, rater_fits};
-use crate::selection::{MIN_TEXTURES, Method};
+use crate::selection::Method;
 use crate::sorting::{Similarity, Sort, SortingError, similarity};
 use crate::space::{LabelSource, Space, SpacePoint};
 
@@ -37,10 +38,6 @@ pub use crate::space_build::verdict::{kruskal_word, verdict};
 use crate::space_build::adjectives::fit_adjectives;
 use crate::space_build::axes::{Axes, fit_axes};
 use crate::space_build::stability::{Drawn, stability};
-use crate::space_build::verdict::counted;
-
-/// Participants below whom a perceptual space is mostly chance.
-const MIN_SORTERS: usize = 5;
 
 /// What a space is made of.
 #[derive(Clone, Debug)]
@@ -235,29 +232,20 @@ pub fn build_space(
     // A space cannot have as many dimensions as textures.
     let most_dims = MAX_DIMS.min(textures.len().saturating_sub(2)).max(options.n_dims);
     let mut go_on = || on_step(Step::Scaling);
-    let all_dims = by_dimension(&dissimilarities, 1..=most_dims, &options.mds, &mut go_on)?;
+    let all_dims = by_dimension(&dissimilarities, 1..=most_dims, &options.mds, &mut go_on)
+        .map_err(|error| named(error, &textures))?;
     let stress: Vec<f64> = all_dims.iter().map(|mds| mds.stress).collect();
     let perceptual = all_dims[options.n_dims - 1].clone();
     let shepard = shepard(&dissimilarities, &perceptual.points, options.mds.ties)?;
 
     begin(on_step, Step::Adjectives)?;
-    let mut findings: Vec<String> = similarity.findings.iter().map(ToString::to_string).collect();
-    let n_sorters = similarity.agreements.len();
-    if n_sorters < MIN_SORTERS {
-        let advice = match options.mds.ties {
-            Ties::Primary => "; secondary ties suit so few better",
-            Ties::Secondary => "",
-        };
-        findings.push(format!(
-            "only {n_sorters} sorted: most dissimilarities are equal, so the perceptual space depends on chance however low its stress is; ten participants are usual{advice}"
-        ));
-    }
-    if !perceptual.converged {
-        findings.push("the perceptual space was still moving when its steps ran out: allow more".to_owned());
-    }
+    let unsorted: Vec<&str> = not_sorted.iter().map(|texture| texture.name).collect();
+    let mut findings = oddities::of_sorting(data, &similarity, &table, &unsorted, options.mds.ties);
+    findings.extend(oddities::of_scaling(&perceptual, options.n_dims));
     let adjectives = fit_adjectives(&table, &data.votes, &textures, &perceptual.points, &mut findings)?;
     let raters: Vec<(String, RaterFit)> =
         table.participants().iter().cloned().zip(rater_fits(&table)).collect();
+    findings.extend(oddities::of_ratings(&raters, &table));
 
     begin(on_step, Step::Features)?;
     let features = features(&sorted, options, &mut || on_step(Step::Features))?;
@@ -266,12 +254,7 @@ pub fn build_space(
     let mut go_on = |axis| on_step(Step::Axis(axis));
     let Axes { fitted: axes, angle_degrees, chosen } =
         fit_axes(&adjectives, &perceptual.points, &features, options, &mut go_on)?;
-    if axes.iter().any(|axis| axis.prediction.is_none()) {
-        findings.push(format!(
-            "{} textures are too few to say what predicts an axis: {MIN_TEXTURES} are the least, 25 are usual",
-            textures.len()
-        ));
-    }
+    findings.extend(oddities::of_axes(&axes, angle_degrees));
     begin(on_step, Step::Stability)?;
     let drawn = Drawn {
         textures: &textures,
@@ -286,7 +269,7 @@ pub fn build_space(
     let mut go_on = || on_step(Step::Stability);
     let stability = stability(&drawn, options.n_draws, options.seed, &mut go_on, &mut findings)?;
     let positions = positions(&axes, options.placement);
-    findings.extend(coincident(&textures, &positions));
+    findings.extend(oddities::of_places(&textures, &positions));
     let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
     Ok(SpaceBuild {
         textures,
@@ -308,6 +291,16 @@ pub fn build_space(
         space,
         findings,
     })
+}
+
+/// The error with the names of textures.
+fn named(error: MdsError, textures: &[String]) -> SpaceBuildError {
+    match error {
+        MdsError::Apart { item } => {
+            SpaceBuildError::Apart { first: textures[0].clone(), second: textures[item].clone() }
+        }
+        other => other.into(),
+    }
 }
 
 /// Sortings and ratings must be of textures that there are, each of which has a name of its own.
@@ -352,25 +345,6 @@ fn features(
         FeatureKind::MfccAndPhysical => per_pattern(textures, &plan, Statistic::Mean, go_on)?
             .beside(&physical_table(textures, &contacts)?),
     })
-}
-
-/// Distance in points of 100 below which two textures cannot be told apart in the space.
-const COINCIDENT: f64 = 0.5;
-
-/// What is to be known of textures at one place.
-fn coincident(textures: &[String], positions: &[SpacePoint]) -> Option<String> {
-    let pairs = (0..textures.len()).flat_map(|i| (i + 1..textures.len()).map(move |j| (i, j)));
-    let same: Vec<(usize, usize)> =
-        pairs.filter(|(i, j)| positions[*i].distance(positions[*j]) < COINCIDENT).collect();
-    let (i, j) = *same.first()?;
-    let more = match same.len() {
-        1 => String::new(),
-        n => format!(" (and {})", counted(n - 1, "more pair")),
-    };
-    Some(format!(
-        "{} and {}{more} lie at one place, closer than {COINCIDENT} points: a point there is a blend of both",
-        textures[i], textures[j]
-    ))
 }
 
 fn positions([first, second]: &[Axis; 2], placement: PlacedBy) -> Vec<SpacePoint> {

@@ -54,12 +54,13 @@ impl Scale {
         }
     }
 
-    fn contains(self, value: f64) -> bool {
+    /// Whether a value lies on the scale.
+    pub fn contains(self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
 
     /// A value of the scale as one from 0 to 100.
-    fn to_space(self, value: f64) -> f64 {
+    pub fn to_space(self, value: f64) -> f64 {
         if self == Self::OF_SPACE {
             return value;
         }

@@ -73,6 +73,7 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         "missing_ratings": build.n_missing_ratings,
         "seed": options.seed,
         "verdict": verdict(build),
+        "warnings": build.findings,
     })
 }
 
@@ -170,7 +171,7 @@ pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
     let mut report = space_report(build);
     if let Value::Object(report) = &mut report {
         // A library is passed on: who took part stays with those who asked them.
-        for field in ["raters", "sorters", "verdict"] {
+        for field in ["raters", "sorters", "verdict", "warnings"] {
             report.remove(field);
         }
     }
@@ -216,9 +217,12 @@ pub fn space_figures(build: &SpaceBuild) -> Vec<(&'static str, Figure)> {
 /// What all figures rest on, in a line.
 pub fn space_subtitle(build: &SpaceBuild) -> String {
     format!(
-        "{} textures, {}; {} by {}, selection {}",
+        "{} textures, {}: {} sorted, {} rated, seed {}; {} by {}, selection {}",
         build.textures.len(),
         build.source.label(),
+        build.similarity.agreements.len(),
+        build.raters.len(),
+        build.options.seed,
         match build.options.placement {
             PlacedBy::Felt => "placed where they were felt, predicted",
             PlacedBy::Predicted => "placed",

@@ -45,6 +45,10 @@ pub(super) fn verdict_ui(
         if has_changed {
             ui.add(Label::new(RichText::new(strings::CHANGED).color(t.warning)).wrap());
         }
+        for finding in &built.build.findings {
+            ui.add_space(2.0);
+            ui.add(Label::new(RichText::new(finding).color(t.warning)).wrap());
+        }
         for sentence in &built.verdict {
             ui.add_space(2.0);
             ui.add(Label::new(sentence).wrap());

@@ -9,7 +9,8 @@ use crate::sorting::{Sort, SorterFit};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// A sort has other groups than were to be made; a pair scores what was to be made.
+    /// A sort has other groups than were to be made; a pair scores what was to be made, or what was made where that is
+    /// more than the textures.
     GroupCount {
         /// Who sorted.
         participant: String,
@@ -78,10 +79,9 @@ impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.name())?;
         match self {
-            Self::GroupCount { participant, trial, wanted, made } => write!(
-                f,
-                "participant {participant:?}, trial {trial:?} has {made} groups where {wanted} were to be made; pairs score {wanted}"
-            ),
+            Self::GroupCount { participant, trial, wanted, made } => {
+                write!(f, "participant {participant:?}, trial {trial:?} made {made} of {wanted} groups")
+            }
             Self::OneGroup { participant, trial } => {
                 write!(f, "participant {participant:?}, trial {trial:?} has all textures in one group")
             }

@@ -79,7 +79,7 @@ pub(super) fn fit_adjectives(
     let highest = values.fold(0.0, f64::max);
     if highest <= SHORT_SCALE {
         findings.push(format!(
-            "no rating is above {highest}: ratings are taken to run from 0 to 100; bring another scale to it first"
+            "no rating is above {highest}: ratings are taken to run from 0 to 100; if they were given on another scale, say so (--scale LOW,HIGH), or bring them to it first"
         ));
     }
     let row_of: Vec<Option<usize>> =

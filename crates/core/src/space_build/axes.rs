@@ -147,7 +147,7 @@ fn choose(adjectives: &[Adjective], options: &SpaceOptions) -> Result<[(usize, Z
     let usable: Vec<usize> =
         (0..adjectives.len()).filter(|i| adjectives[*i].usable_line().is_some()).collect();
     if usable.len() < 2 {
-        return Err(SpaceBuildError::TooFewPairs { n_pairs: usable.len() });
+        return Err(SpaceBuildError::TooFewPairs { n_pairs: usable.len(), reasons: reasons(adjectives) });
     }
     let usual = USUAL.map(|poles| find(adjectives, poles).filter(|(index, _)| usable.contains(index)));
     if let [Some(first), Some(second)] = usual {
@@ -165,8 +165,18 @@ fn choose(adjectives: &[Adjective], options: &SpaceOptions) -> Result<[(usize, Z
     }
     match chosen[..] {
         [first, second] => Ok([first, second]),
-        _ => Err(SpaceBuildError::TooFewPairs { n_pairs: chosen.len() }),
+        _ => Err(SpaceBuildError::TooFewPairs { n_pairs: chosen.len(), reasons: reasons(adjectives) }),
     }
+}
+
+/// Why pairs cannot be axes, each after a semicolon.
+fn reasons(adjectives: &[Adjective]) -> String {
+    let reason = |adjective: &Adjective| match &adjective.line {
+        Err(error) => Some(format!("; {}: {error}", adjective.pair)),
+        Ok(_) if !adjective.is_relevant => Some(format!("; {}: too few find it relevant", adjective.pair)),
+        Ok(_) => None,
+    };
+    adjectives.iter().filter_map(reason).collect()
 }
 
 /// The adjective with these poles, the one at 0 first.

@@ -62,6 +62,16 @@ pub enum SpaceBuildError {
     /// There is no perceptual space.
     #[error(transparent)]
     Mds(MdsError),
+    /// Nothing joins two parts of the textures.
+    #[error(
+        "no participant sorted textures of the group of \"{first}\" together with those of \"{second}\"; let some sort textures of both, or build two spaces"
+    )]
+    Apart {
+        /// A texture of one part.
+        first: String,
+        /// One of the other.
+        second: String,
+    },
     /// The ratings make no table.
     #[error(transparent)]
     Ratings(#[from] RatingsError),
@@ -70,13 +80,15 @@ pub enum SpaceBuildError {
     Votes(#[from] VoteError),
     /// There are too few pairs for two axes.
     #[error(
-        "{} can be {}, two are needed; rate another pair, or vote again on which are relevant",
+        "{} can be {}, two are needed; rate another pair, or vote again on which are relevant{reasons}",
         counted(*n_pairs, "adjective pair"),
         if *n_pairs == 1 { "an axis" } else { "axes" }
     )]
     TooFewPairs {
         /// Pairs that could be axes.
         n_pairs: usize,
+        /// Why the others cannot, each after a semicolon.
+        reasons: String,
     },
     /// A pair that was to be an axis was not rated, or was left out.
     #[error("\"{pair}\" cannot be an axis: {reason}; the pairs are {pairs}")]

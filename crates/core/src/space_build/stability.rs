@@ -77,7 +77,7 @@ pub(super) fn stability(
     let strata = strata(drawn);
     let mut random = Random::new(derive_seed(seed, "participants"));
     let mut places: Vec<Places> = Vec::new();
-    for draw in 0..n_draws {
+    for _ in 0..n_draws {
         if !go_on() {
             return Err(SpaceBuildError::Stopped);
         }
@@ -87,7 +87,7 @@ pub(super) fn stability(
         };
         let participants: Vec<String> =
             strata.iter().flat_map(|stratum| pick(stratum, &mut random)).collect();
-        places.extend(places_by(drawn, &participants, derive_seed(seed, &format!("draw {draw}"))));
+        places.extend(places_by(drawn, &participants));
     }
     if places.len() < MIN_SPACES {
         let n_failed = n_draws - places.len();
@@ -139,7 +139,7 @@ fn strata(drawn: &Drawn<'_>) -> Vec<Vec<String>> {
 }
 
 /// What the space is by these participants; `None` where they make none.
-fn places_by(drawn: &Drawn<'_>, participants: &[String], seed: u64) -> Option<Places> {
+fn places_by(drawn: &Drawn<'_>, participants: &[String]) -> Option<Places> {
     let mut sorts = Vec::new();
     for (copy, participant) in participants.iter().enumerate() {
         let own = drawn.sorts.iter().filter(|sort| sort.participant == *participant);
@@ -147,7 +147,8 @@ fn places_by(drawn: &Drawn<'_>, participants: &[String], seed: u64) -> Option<Pl
         sorts.extend(own.map(|sort| Sort { participant: copy.to_string(), ..sort.clone() }));
     }
     let dissimilarities = similarity(drawn.textures, &sorts).ok()?.dissimilarities().ok()?;
-    let options = MdsOptions { n_random_starts: N_RANDOM_STARTS, seed, ..drawn.mds.clone() };
+    // From the same starts every time: what differs are the participants alone.
+    let options = MdsOptions { n_random_starts: N_RANDOM_STARTS, ..drawn.mds.clone() };
     let points = nonmetric(&dissimilarities, drawn.n_dims, &options).ok()?.points;
     let raters: Vec<usize> = participants
         .iter()

@@ -3,7 +3,7 @@ use crate::features::NamedTexture;
 use crate::mds::{MdsOptions, Ties};
 use crate::panel::{PanelConfig, simulated_ratings, simulated_sorts};
 use crate::ratings::{AdjectivePair, Rating, RelevanceVote};
-use crate::sorting::Sort;
+use crate::sorting::{Grouped, Sort};
 use crate::space::LabelSource;
 use crate::space_build::verdict;
 use crate::statistics::correlation;
@@ -162,7 +162,48 @@ fn few_textures_have_a_space_and_no_prediction() {
     let built = build((sorts, ratings), &quick()).unwrap();
     assert_eq!(built.textures.len(), 5);
     assert!(built.axes.iter().all(|axis| axis.prediction.is_none() && axis.felt.len() == 5));
-    assert!(verdict(&built).join("\n").contains("5 textures are too few to say what predicts an axis"));
+    assert!(built.findings.join("\n").contains("5 textures are too few to say what predicts an axis"));
+}
+
+#[test]
+fn a_space_that_collapsed_is_called_so() {
+    // All sorts put one texture apart and the others together, but for one sort: with primary ties nothing holds them.
+    let names: Vec<String> = models().into_iter().map(|(name, _)| name).take(7).collect();
+    let sort = |participant: usize, odd: usize| Sort {
+        participant: format!("p{participant}"),
+        trial: "1".to_owned(),
+        n_groups: Some(99_999),
+        placements: names
+            .iter()
+            .enumerate()
+            .map(|(i, texture)| Grouped { texture: texture.clone(), group: (i == 6 || i == odd).to_string() })
+            .collect(),
+    };
+    let (_, ratings) = judgments(&["rough-smooth", "hard-soft"]);
+    let sorts = (0..6).map(|p| sort(p, if p == 0 { 0 } else { 6 })).collect();
+    let built = build((sorts, ratings), &quick()).unwrap();
+    let said = built.findings.join("\n");
+    assert!(said.contains("fell together"), "{said}");
+    assert!(said.contains("7 textures are few for 2 dimensions"), "{said}");
+    assert!(said.contains("group count: 3 more such sorts"), "{said}");
+    assert!(said.contains("nobody both sorted and rated"), "{said}");
+    assert!(verdict(&built).join("\n").contains("says nothing with so few textures"));
+}
+
+#[test]
+fn who_skipped_a_part_is_named() {
+    let (mut sorts, mut ratings) = judgments(&["rough-smooth", "hard-soft"]);
+    sorts.retain(|sort| sort.participant != "simulated-04");
+    ratings.retain(|rating| rating.participant != "simulated-03");
+    sorts[0].placements.truncate(10);
+    let said = build((sorts, ratings), &quick()).unwrap().findings.join("\n");
+    for words in [
+        "sorted, but rated nothing: simulated-03",
+        "rated, but sorted nothing: simulated-04",
+        "1 of 21 sorts leave textures out, as that of simulated-01 (trial 3 groups), 4 textures",
+    ] {
+        assert!(said.contains(words), "{words} is not in {said}");
+    }
 }
 
 #[test]
@@ -227,7 +268,7 @@ fn who_cannot_be_exchanged_leaves_stability_open() {
 fn what_all_agree_on_does_not_move_and_what_they_disagree_on_does() {
     let options = SpaceOptions { features: FeatureKind::Physical, n_permutations: 0, ..quick() };
     let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
-    // Everybody sorts and rates as the first does: every draw is the same but for the starts of the scaling.
+    // Everybody sorts and rates as the first does: every draw is the same.
     let same_sorts: Vec<Sort> = sorts
         .iter()
         .map(|sort| {
@@ -254,7 +295,9 @@ fn what_all_agree_on_does_not_move_and_what_they_disagree_on_does() {
         (stability.typical, stability.angle_deviation_degrees)
     };
     let (still, angle) = typical(&same_sorts, &same_ratings);
-    assert!(still.iter().all(|d| *d < 0.1) && angle < 0.1, "{still:?} {angle}");
+    assert!(still.iter().all(|d| *d < 1e-9) && angle < 1e-9, "{still:?} {angle}");
+    let built = build((same_sorts.clone(), ratings.clone()), &secondary).unwrap();
+    assert!(built.findings.join(" ").contains("sorted exactly alike"), "{:?}", built.findings);
     // Ratings alone turn the lines, and the places with them.
     let (by_ratings, angle) = typical(&same_sorts, &ratings);
     assert!(by_ratings.iter().all(|d| *d > 0.3) && angle > 0.05, "{by_ratings:?} {angle}");
@@ -278,7 +321,8 @@ fn a_pair_that_too_few_find_relevant_is_no_axis() {
         vote("a", "rough", true),
     ];
     let error = build_with_votes(sorts, ratings, votes, &quick()).unwrap_err();
-    assert_eq!(error, SpaceBuildError::TooFewPairs { n_pairs: 1 });
+    let SpaceBuildError::TooFewPairs { n_pairs: 1, reasons } = error else { panic!("{error}") };
+    assert_eq!(reasons, "; hard–soft: too few find it relevant");
 }
 
 type Change = dyn Fn(&mut Vec<Sort>, &mut Vec<Rating>, &mut SpaceOptions);
@@ -295,6 +339,12 @@ fn what_makes_no_space_says_why() {
     check(&|_, _, options| options.n_dims = 1, "2 to 10");
     check(&|sorts, _, _| sorts[0].placements[0].texture = "corkk".to_owned(), "\"corkk\" was sorted");
     check(&|_, ratings, _| ratings[0].texture = "corkk".to_owned(), "\"corkk\" was rated");
+    let apart = |sorts: &mut Vec<Sort>, _: &mut Vec<Rating>, _: &mut SpaceOptions| {
+        for (i, sort) in sorts.iter_mut().enumerate() {
+            sort.placements.retain(|p| (p.texture.as_str() < "t07") == (i % 2 == 0));
+        }
+    };
+    check(&apart, "of the group of \"t00\" together with those of \"t07\"");
     check(&|sorts, _, _| sorts.push(sorts[0].clone()), "has trial \"3 groups\" twice");
     check(&|_, ratings, _| ratings.push(ratings[0].clone()), "twice on rough");
     check(&|_, ratings, _| ratings[4].value = Some(140.0), "140");

@@ -5,6 +5,8 @@ use crate::space_build::{Axis, PlacedBy, SpaceBuild};
 
 /// Goodness of fit of an adjective's line below which it is called weak: less than half of what was rated lies along it.
 const WEAK_R_SQUARED: f64 = 0.5;
+/// Chance of a line as good as this without any relation, from which it means little.
+const LINE_CHANCE: f64 = 0.05;
 /// Deviation from a right angle from which axes are called oblique, in degrees.
 const OBLIQUE_DEGREES: f64 = 15.0;
 /// Intraclass correlation of the mean rater below which agreement is called poor (Koo and Li 2016).
@@ -24,12 +26,18 @@ pub fn kruskal_word(stress: f64) -> &'static str {
     }
 }
 
+/// Fewest textures of which stress says anything (Kruskal and Wish 1978: four times the dimensions, and one).
+pub(super) fn least_textures(n_dims: usize) -> usize {
+    4 * n_dims + 1
+}
+
 /// A number of things that are called `noun` where there is one.
 pub(super) fn counted(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
-/// Sentences on how far the space can be believed, the most general first, then what was found on the way.
+/// Sentences on how far the space can be believed, the most general first. What is not as it should be is said by
+/// [`SpaceBuild::findings`].
 pub fn verdict(build: &SpaceBuild) -> Vec<String> {
     let mut said = vec![
         format!(
@@ -39,10 +47,14 @@ pub fn verdict(build: &SpaceBuild) -> Vec<String> {
             if build.source == LabelSource::SimulatedRaters { ": nobody felt anything" } else { "" }
         ),
         format!(
-            "Stress of the {}-dimensional perceptual space: {:.3}, {} after Kruskal.",
+            "Stress of the {}-dimensional perceptual space: {:.3}, {}.",
             build.options.n_dims,
             build.perceptual.stress,
-            kruskal_word(build.perceptual.stress)
+            if build.textures.len() < least_textures(build.options.n_dims) {
+                "which says nothing with so few textures".to_owned()
+            } else {
+                format!("{} after Kruskal", kruskal_word(build.perceptual.stress))
+            }
         ),
         angle(build),
     ];
@@ -57,19 +69,6 @@ pub fn verdict(build: &SpaceBuild) -> Vec<String> {
             "Textures lie where their features predict, by models that have seen them.".to_owned()
         }
     });
-    let outlying: Vec<&str> =
-        build.raters.iter().filter(|(_, fit)| fit.outlying).map(|(name, _)| name.as_str()).collect();
-    if !outlying.is_empty() {
-        said.push(format!("Rated unlike the others, and kept: {}.", outlying.join(", ")));
-    }
-    if build.n_missing_ratings > 0 {
-        let missing = counted(build.n_missing_ratings, "rating");
-        said.push(format!("Missing: {missing}; averages are over those who rated."));
-    }
-    if !build.not_sorted.is_empty() {
-        said.push(format!("Not sorted, and so without a place: {}.", build.not_sorted.join(", ")));
-    }
-    said.extend(build.findings.iter().cloned());
     said
 }
 
@@ -99,7 +98,15 @@ fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
             format!("ICC of the mean rater {icc:.2}{poor}")
         },
     );
-    Some(format!("{}: R² {:.2} in the perceptual space{weak}; {agreement}.", axis.pair, line.r_squared))
+    let luck = if line.p_value >= LINE_CHANCE {
+        format!(
+            " (p = {:.2}: it may be luck, and then places along it mean little, however well they are predicted)",
+            line.p_value
+        )
+    } else {
+        String::new()
+    };
+    Some(format!("{}: R² {:.2} in the perceptual space{weak}{luck}; {agreement}.", axis.pair, line.r_squared))
 }
 
 /// How far places hang on who took part.
