@@ -209,10 +209,14 @@ fn a_space_is_built_from_the_tables_of_spreadsheets() {
     }
     assert!(said.stdout.contains("Rated on 5 adjective pairs: rough-smooth, hard-soft"), "{said:?}");
     let json = |name: &str| serde_json::from_str::<Value>(&text(name)).unwrap();
-    assert_eq!(json("human.report.json")["warnings"].as_array().unwrap().len(), 2);
     // They say what the plain tables say.
     let report = bench.json(&format!("{build} s.csv --ratings r.csv --out plain.json"));
-    assert_eq!(report["warnings"], json!([]));
+    let of_tables: Vec<Value> = json("human.report.json")["warnings"].as_array().unwrap()[..2].to_vec();
+    assert!(of_tables.iter().all(|warning| !report["warnings"].as_array().unwrap().contains(warning)));
+    assert_eq!(
+        json("human.report.json")["warnings"].as_array().unwrap()[2..],
+        report["warnings"].as_array().unwrap()[..]
+    );
     assert_eq!(json("human.report.json")["stress"], report["stress"]);
     // Nothing says any more that nobody rated.
     let (human, plain) = (json("human.json"), json("plain.json"));

@@ -66,8 +66,11 @@ impl JudgmentArgs {
         })?;
         let ratings = read(&self.ratings, &mut warnings, |bytes| {
             let read = read_ratings(bytes)?;
-            let value =
-                read.value.into_iter().map(|rating| self.rescaled(rating)).collect::<anyhow::Result<_>>()?;
+            let value = read
+                .value
+                .into_iter()
+                .map(|rating| self.rescaled(rating))
+                .collect::<anyhow::Result<Vec<_>>>()?;
             Ok(Imported { value, warnings: read.warnings })
         })?;
         let votes = match &self.relevance {

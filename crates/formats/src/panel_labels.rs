@@ -66,9 +66,11 @@ pub fn panel_labels(library: &Library) -> Result<PanelLabels, PanelLabelsError> 
         labels: placed.iter().filter_map(of).collect(),
     };
     for (name, values) in assumed(&placed, axes == USUAL_AXES) {
-        let is_known = perceived.pairs.iter().any(|pair| pair.name() == name);
+        let assumed: AdjectivePair = name.parse()?;
+        let turned = AdjectivePair { low: assumed.high.clone(), high: assumed.low.clone() };
+        let is_known = perceived.pairs.iter().any(|pair| *pair == assumed || *pair == turned);
         let Some(values) = values.filter(|_| !is_known) else { continue };
-        perceived.pairs.push(name.parse()?);
+        perceived.pairs.push(assumed);
         for (labels, value) in perceived.labels.iter_mut().zip(values) {
             labels.push(value);
         }

@@ -71,6 +71,9 @@ pub enum FeatureWarning {
     },
 }
 
+/// Textures that a sentence names before it counts the rest.
+const N_NAMED: usize = 3;
+
 impl fmt::Display for FeatureWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -82,7 +85,12 @@ impl fmt::Display for FeatureWarning {
                 )
             }
             Self::Absent { feature, textures } => {
-                write!(f, "{feature} is left out: not known of {}", textures.join(", "))
+                let more = match textures.len().saturating_sub(N_NAMED) {
+                    0 => String::new(),
+                    n => format!(" and {n} more"),
+                };
+                let named: Vec<&str> = textures.iter().take(N_NAMED).map(String::as_str).collect();
+                write!(f, "{feature} is left out: not known of {}{more}", named.join(", "))
             }
         }
     }

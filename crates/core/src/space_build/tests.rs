@@ -1,10 +1,11 @@
 use super::{FeatureKind, PlacedBy, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space};
 use crate::features::NamedTexture;
-use crate::mds::{MdsOptions, Ties};
+use crate::mds::{Mds, MdsOptions, Ties};
 use crate::panel::{PanelConfig, simulated_ratings, simulated_sorts};
 use crate::ratings::{AdjectivePair, Rating, RelevanceVote};
 use crate::sorting::{Grouped, Sort};
 use crate::space::LabelSource;
+use crate::space_build::oddities::of_scaling;
 use crate::space_build::verdict;
 use crate::statistics::correlation;
 use crate::texture::{GrainNode, TextureModel};
@@ -167,7 +168,21 @@ fn few_textures_have_a_space_and_no_prediction() {
 
 #[test]
 fn a_space_that_collapsed_is_called_so() {
-    // All sorts put one texture apart and the others together, but for one sort: with primary ties nothing holds them.
+    let said = |points: Vec<Vec<f64>>| {
+        let mds = Mds { points, stress: 0.0, converged: true, n_steps: 9, stress_by_start: vec![0.0] };
+        of_scaling(&mds, 2).join("\n")
+    };
+    let scattered = |n: usize| labels().into_iter().take(n).collect::<Vec<_>>();
+    let mut collapsed: Vec<Vec<f64>> =
+        scattered(9).into_iter().map(|point| point.into_iter().map(|x| 1e-3 * x).collect()).collect();
+    collapsed[8] = vec![160.0, 0.0];
+    assert!(said(collapsed).contains("fell together"));
+    assert_eq!(said(scattered(9)), "");
+    assert!(said(scattered(8)).contains("8 textures are few for 2 dimensions"));
+}
+
+#[test]
+fn impossible_groups_and_strangers_are_said() {
     let names: Vec<String> = models().into_iter().map(|(name, _)| name).take(7).collect();
     let sort = |participant: usize, odd: usize| Sort {
         participant: format!("p{participant}"),
@@ -183,7 +198,6 @@ fn a_space_that_collapsed_is_called_so() {
     let sorts = (0..6).map(|p| sort(p, if p == 0 { 0 } else { 6 })).collect();
     let built = build((sorts, ratings), &quick()).unwrap();
     let said = built.findings.join("\n");
-    assert!(said.contains("fell together"), "{said}");
     assert!(said.contains("7 textures are few for 2 dimensions"), "{said}");
     assert!(said.contains("group count: 3 more such sorts"), "{said}");
     assert!(said.contains("nobody both sorted and rated"), "{said}");
