@@ -107,11 +107,6 @@ pub(crate) fn in_file(path: &Path) -> String {
     format!("{IN_FILE}{}", path.display())
 }
 
-/// So many of something, in words: `1 texture`, `2 textures`.
-pub(crate) fn counted(n: usize, what: &str) -> String {
-    if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
-}
-
 /// The name of a file, for people.
 pub(crate) fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())

@@ -12,6 +12,7 @@ use shagreen_core::sorting::Finding;
 use shagreen_core::space_build::{
     FeatureKind, PlacedBy, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
 };
+use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::figure::{figure_csv, figure_svg, is_figure_csv, page_svg};
 use shagreen_formats::library::write_library;
@@ -21,7 +22,7 @@ use shagreen_formats::space_report::{
 
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::output::{self, Progress, Usage, counted, warn_of_restricted};
+use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
 use crate::cli::space_judgments::{JudgmentArgs, Judgments};
 
 /// Builds an authoring space from what people felt and what was measured.

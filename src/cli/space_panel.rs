@@ -7,6 +7,7 @@ use serde_json::json;
 use shagreen_core::panel::{PanelConfig, USUAL_GROUPS, is_simulated, simulated_ratings, simulated_sorts};
 use shagreen_core::ratings::AdjectivePair;
 use shagreen_core::space::LabelSource;
+use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::panel_labels::{PanelLabels, panel_labels};
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv};
@@ -14,7 +15,7 @@ use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::output::{self, counted};
+use crate::cli::output;
 
 /// What a panel is like where nobody says otherwise.
 const USUAL: PanelConfig = PanelConfig::usual(1);

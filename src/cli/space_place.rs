@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, anyhow};
 use serde_json::json;
 use shagreen_core::space::LabelSource;
+use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::library::write_library;
 use shagreen_formats::places_csv::{PlacesCsvError, Scale, looks_rescaled, place_textures, read_places};
@@ -12,7 +13,7 @@ use shagreen_formats::space_report::FORMAT;
 
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::output::{self, counted, warn_of_restricted};
+use crate::cli::output::{self, warn_of_restricted};
 use crate::cli::target::unknown_texture;
 
 /// Places textures where a table says.

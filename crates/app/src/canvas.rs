@@ -102,7 +102,7 @@ fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &T
 fn source_ui(ui: &Ui, corner: Pos2, panel: &Panel<'_>, t: &Tokens) -> Rect {
     let is_simulated = panel.session.is_simulated();
     let mut words = strings::places_from(panel.session.label_source());
-    if panel.session.label_source() == LabelSource::SimulatedRaters.label() {
+    if panel.session.common_source() == Some(LabelSource::SimulatedRaters) {
         words.push_str(strings::NOBODY_FELT);
     } else if is_simulated {
         words.push_str(strings::SOME_SIMULATED);

@@ -160,13 +160,19 @@ impl Session {
         self.places.iter().flatten().any(|place| place.source == LabelSource::SimulatedRaters)
     }
 
+    /// Where all positions come from; `None` where there are none, or they come from several sources.
+    pub fn common_source(&self) -> Option<LabelSource> {
+        let mut sources = self.places.iter().flatten().map(|place| place.source);
+        let first = sources.next()?;
+        sources.all(|source| source == first).then_some(first)
+    }
+
     /// In words, where the positions come from.
     pub fn label_source(&self) -> &'static str {
-        let mut sources = self.places.iter().flatten().map(|place| place.source);
-        match sources.next() {
-            None => strings::NO_SOURCE,
-            Some(first) if sources.all(|source| source == first) => first.label(),
-            Some(_) => strings::MIXED_SOURCES,
+        match self.common_source() {
+            Some(source) => source.label(),
+            None if self.places.iter().all(Option::is_none) => strings::NO_SOURCE,
+            None => strings::MIXED_SOURCES,
         }
     }
 

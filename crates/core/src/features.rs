@@ -11,6 +11,7 @@ use crate::mfcc::{MfccOptions, MfccPlan};
 use crate::patterns::{PatternPlan, Patterns, pattern_name, render_patterns};
 use crate::rng::derive_seed;
 use crate::texture::TextureModel;
+use crate::words::listed;
 
 pub use crate::features::error::{FeatureError, FeatureWarning};
 pub use crate::features::physical::{
@@ -153,12 +154,8 @@ impl FeatureTable {
                 None => said.push((sentence, texture.into_iter().collect())),
             }
         }
-        let named = |(sentence, textures): (String, Vec<&str>)| match textures[..] {
-            [] => sentence,
-            [first, second, third, _, ..] => {
-                format!("{first}, {second}, {third} and {} more: {sentence}", textures.len() - 3)
-            }
-            _ => format!("{}: {sentence}", textures.join(", ")),
+        let named = |(sentence, textures): (String, Vec<&str>)| {
+            if textures.is_empty() { sentence } else { format!("{}: {sentence}", listed(&textures)) }
         };
         said.into_iter().map(named).collect()
     }

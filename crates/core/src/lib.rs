@@ -67,3 +67,4 @@ pub mod tap;
 pub mod texture;
 pub mod triangulation;
 pub mod units;
+pub mod words;

@@ -45,6 +45,9 @@ pub struct Rating {
     pub value: Option<f64>,
 }
 
+/// Highest value at which a scale of 0 to 100 looks like another one.
+pub const SHORT_SCALE: f64 = 10.0;
+
 /// The average rating of one texture on one pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Average {

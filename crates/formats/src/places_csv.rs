@@ -12,7 +12,7 @@
 
 use std::collections::HashMap;
 
-use shagreen_core::ratings::PairNameError;
+use shagreen_core::ratings::{PairNameError, SHORT_SCALE};
 use shagreen_core::space::{LabelSource, SpacePoint};
 
 use crate::imported::Imported;
@@ -299,11 +299,8 @@ fn in_scale(field: Field<'_>, value: f64, scale: Scale) -> Result<f64, PlacesCsv
     Err(PlacesCsvError::Range { column, line, value, low, high })
 }
 
-/// Highest value of a table at which a scale of 0 to 100 looks like another one.
-const SHORT_SCALE: f64 = 10.0;
-
 /// The lowest and the highest coordinate of several placements, where they look as if they were on another scale than
-/// 0 to 100: none is above 10.
+/// 0 to 100: none is above [`SHORT_SCALE`].
 pub fn looks_rescaled(placements: &[Placement]) -> Option<(f64, f64)> {
     let all = placements.iter().flat_map(|p| [p.place.at.rough_smooth, p.place.at.hard_soft]);
     let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
 
-use crate::build::judgments::{Judgments, Kind};
+use crate::build::judgments::{Judgments, Kind, Slot};
 use crate::import::source::paths_in;
 use crate::session::Session;
 use crate::strings::build as strings;
@@ -139,33 +139,25 @@ fn said(judgments: &Judgments, kind: Kind, session: &Session) -> Said {
         Kind::Sorting => {
             let slot = &judgments.sorting;
             let placements = slot.values().iter().flat_map(|sort| &sort.placements);
-            Said {
-                read: slot.read.as_ref().map(|(_, sorts)| strings::sorting(sorts)),
-                name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
-                warnings: slot.warnings.clone(),
-                failure: slot.failure.clone(),
-                unknown: unknown(placements.map(|placement| placement.texture.as_str()).collect()),
-            }
+            let unknown = unknown(placements.map(|placement| placement.texture.as_str()).collect());
+            said_of(slot, strings::sorting, unknown)
         }
         Kind::Ratings => {
             let slot = &judgments.ratings;
-            Said {
-                read: slot.read.as_ref().map(|(_, ratings)| strings::ratings(ratings)),
-                name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
-                warnings: slot.warnings.clone(),
-                failure: slot.failure.clone(),
-                unknown: unknown(slot.values().iter().map(|rating| rating.texture.as_str()).collect()),
-            }
+            let unknown = unknown(slot.values().iter().map(|rating| rating.texture.as_str()).collect());
+            said_of(slot, strings::ratings, unknown)
         }
-        Kind::Votes => {
-            let slot = &judgments.votes;
-            Said {
-                read: slot.read.as_ref().map(|(_, votes)| strings::votes(votes)),
-                name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
-                warnings: slot.warnings.clone(),
-                failure: slot.failure.clone(),
-                unknown: None,
-            }
-        }
+        Kind::Votes => said_of(&judgments.votes, strings::votes, None),
+    }
+}
+
+/// What is said of a table, which `in_figures` counts.
+fn said_of<T>(slot: &Slot<T>, in_figures: fn(&[T]) -> String, unknown: Option<String>) -> Said {
+    Said {
+        read: slot.read.as_ref().map(|(_, values)| in_figures(values)),
+        name: slot.read.as_ref().map_or_else(String::new, |(name, _)| name.clone()),
+        warnings: slot.warnings.clone(),
+        failure: slot.failure.clone(),
+        unknown,
     }
 }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::mfcc::{MfccError, MfccPlanError};
 use crate::patterns::{PatternError, PatternWarning};
+use crate::words::listed;
 
 /// Why textures have no features.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -71,9 +72,6 @@ pub enum FeatureWarning {
     },
 }
 
-/// Textures that a sentence names before it counts the rest.
-const N_NAMED: usize = 3;
-
 impl fmt::Display for FeatureWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -85,12 +83,7 @@ impl fmt::Display for FeatureWarning {
                 )
             }
             Self::Absent { feature, textures } => {
-                let more = match textures.len().saturating_sub(N_NAMED) {
-                    0 => String::new(),
-                    n => format!(" and {n} more"),
-                };
-                let named: Vec<&str> = textures.iter().take(N_NAMED).map(String::as_str).collect();
-                write!(f, "{feature} is left out: not known of {}{more}", named.join(", "))
+                write!(f, "{feature} is left out: not known of {}", listed(textures))
             }
         }
     }

@@ -2,11 +2,11 @@
 
 use crate::property::{PropertyError, PropertyLine, fit_property};
 use crate::ratings::{
-    AdjectivePair, Agreement, AgreementError, Average, RatingTable, RelevanceVote, agreement, averages,
-    relevances,
+    AdjectivePair, Agreement, AgreementError, Average, RatingTable, RelevanceVote, SHORT_SCALE, agreement,
+    averages, relevances,
 };
 use crate::space_build::SpaceBuildError;
-use crate::space_build::verdict::counted;
+use crate::words::counted;
 
 /// An adjective pair that was rated.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,9 +42,6 @@ fn words_of(pair: &AdjectivePair) -> [String; 4] {
     let turned = AdjectivePair { low: pair.high.clone(), high: pair.low.clone() };
     [pair.low.clone(), pair.high.clone(), pair.name(), turned.name()]
 }
-
-/// Highest rating at which a scale of 0 to 100 looks like another one.
-const SHORT_SCALE: f64 = 10.0;
 
 /// All pairs of the table, textures in the order of `textures`, which lie at `points`.
 pub(super) fn fit_adjectives(

@@ -7,8 +7,8 @@ use crate::property::PropertyError;
 use crate::ratings::{RatingsError, VoteError};
 use crate::selection::SelectionError;
 use crate::sorting::SortingError;
-use crate::space_build::verdict::counted;
 use crate::triangulation::TriangulationError;
+use crate::words::counted;
 
 /// Why judgments make no space.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -7,8 +7,9 @@ use crate::ratings::{RaterFit, RatingTable};
 use crate::selection::MIN_TEXTURES;
 use crate::sorting::{Finding, Similarity, Sort};
 use crate::space::SpacePoint;
-use crate::space_build::verdict::{counted, least_textures};
+use crate::space_build::verdict::least_textures;
 use crate::space_build::{Axis, SpaceData};
+use crate::words::counted;
 
 /// Findings of one kind that are said one by one before the rest is counted.
 const N_SAID: usize = 3;

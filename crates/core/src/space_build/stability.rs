@@ -5,7 +5,7 @@
 //! texture's place over many draws says how much of it hangs on who happened to take part. Places run from 0 to 100
 //! between the outermost textures of every draw, so those two hardly move by definition.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::mds::{MdsOptions, nonmetric};
 use crate::property::{ZeroAt, angle_degrees, axis_positions, fit_property, orthogonal_to, project};
@@ -66,27 +66,28 @@ pub(super) fn stability(
     if n_draws == 0 {
         return Ok(None);
     }
-    let sorters: BTreeSet<&str> = drawn.sorts.iter().map(|sort| sort.participant.as_str()).collect();
-    let (n_sorters, n_raters) = (sorters.len(), drawn.ratings.participants().len());
+    let strata = strata(drawn);
+    let n_who = |did: fn(&Did) -> bool| -> usize {
+        strata.iter().filter(|(what, _)| did(what)).map(|(_, names)| names.len()).sum()
+    };
+    let (n_sorters, n_raters) = (n_who(|did| did.sorted), n_who(|did| did.rated));
     if n_sorters.min(n_raters) < MIN_DRAWN {
         findings.push(format!(
             "how far places hang on who took part cannot be told: {n_sorters} sorted and {n_raters} rated, {MIN_DRAWN} of each are the least"
         ));
         return Ok(None);
     }
-    let strata = strata(drawn);
     let mut random = Random::new(derive_seed(seed, "participants"));
     let mut places: Vec<Places> = Vec::new();
     for _ in 0..n_draws {
         if !go_on() {
             return Err(SpaceBuildError::Stopped);
         }
-        let pick = |stratum: &Vec<String>, random: &mut Random| -> Vec<String> {
+        let mut participants = Vec::new();
+        for stratum in strata.values() {
             let n = stratum.len();
-            (0..n).map(|_| stratum[((random.uniform() * n as f64) as usize).min(n - 1)].clone()).collect()
-        };
-        let participants: Vec<String> =
-            strata.iter().flat_map(|stratum| pick(stratum, &mut random)).collect();
+            participants.extend((0..n).map(|_| stratum[((random.uniform() * n as f64) as usize).min(n - 1)]));
+        }
         places.extend(places_by(drawn, &participants));
     }
     if places.len() < MIN_SPACES {
@@ -122,24 +123,31 @@ struct Places {
     angle_degrees: f64,
 }
 
+/// What a participant did.
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Did {
+    sorted: bool,
+    rated: bool,
+}
+
 /// Participants by what they did: some may have sorted only, or rated only, and stand for others who did.
-fn strata(drawn: &Drawn<'_>) -> Vec<Vec<String>> {
-    let mut did: BTreeMap<&str, [bool; 2]> = BTreeMap::new();
+fn strata<'a>(drawn: &Drawn<'a>) -> BTreeMap<Did, Vec<&'a str>> {
+    let mut did: BTreeMap<&str, Did> = BTreeMap::new();
     for sort in drawn.sorts {
-        did.entry(&sort.participant).or_default()[0] = true;
+        did.entry(&sort.participant).or_default().sorted = true;
     }
     for participant in drawn.ratings.participants() {
-        did.entry(participant).or_default()[1] = true;
+        did.entry(participant).or_default().rated = true;
     }
-    let mut strata: BTreeMap<[bool; 2], Vec<String>> = BTreeMap::new();
+    let mut strata: BTreeMap<Did, Vec<&str>> = BTreeMap::new();
     for (participant, what) in did {
-        strata.entry(what).or_default().push(participant.to_owned());
+        strata.entry(what).or_default().push(participant);
     }
-    strata.into_values().collect()
+    strata
 }
 
 /// What the space is by these participants; `None` where they make none.
-fn places_by(drawn: &Drawn<'_>, participants: &[String]) -> Option<Places> {
+fn places_by(drawn: &Drawn<'_>, participants: &[&str]) -> Option<Places> {
     let mut sorts = Vec::new();
     for (copy, participant) in participants.iter().enumerate() {
         let own = drawn.sorts.iter().filter(|sort| sort.participant == *participant);

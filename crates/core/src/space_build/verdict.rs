@@ -2,16 +2,15 @@
 
 use crate::space::LabelSource;
 use crate::space_build::{Axis, PlacedBy, SpaceBuild};
+use crate::words::counted;
 
 /// Goodness of fit of an adjective's line below which it is called weak: less than half of what was rated lies along it.
 const WEAK_R_SQUARED: f64 = 0.5;
-/// Chance of a line as good as this without any relation, from which it means little.
-const LINE_CHANCE: f64 = 0.05;
 /// Deviation from a right angle from which axes are called oblique, in degrees.
 const OBLIQUE_DEGREES: f64 = 15.0;
 /// Intraclass correlation of the mean rater below which agreement is called poor (Koo and Li 2016).
 const POOR_ICC: f64 = 0.5;
-/// Chance from which a prediction may be luck.
+/// Chance from which a line or a prediction may be luck.
 const CHANCE: f64 = 0.05;
 
 /// What Kruskal (1964) calls a stress-1. He has words for 0, 0.025, 0.05, 0.1 and 0.2; here each reaches halfway to the
@@ -29,11 +28,6 @@ pub fn kruskal_word(stress: f64) -> &'static str {
 /// Fewest textures of which stress says anything (Kruskal and Wish 1978: four times the dimensions, and one).
 pub(super) fn least_textures(n_dims: usize) -> usize {
     4 * n_dims + 1
-}
-
-/// A number of things that are called `noun` where there is one.
-pub(super) fn counted(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
 /// Sentences on how far the space can be believed, the most general first. What is not as it should be is said by
@@ -98,7 +92,7 @@ fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
             format!("ICC of the mean rater {icc:.2}{poor}")
         },
     );
-    let luck = if line.p_value >= LINE_CHANCE {
+    let luck = if line.p_value >= CHANCE {
         format!(
             " (p = {:.2}: it may be luck, and then places along it mean little, however well they are predicted)",
             line.p_value
