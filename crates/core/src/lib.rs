@@ -10,12 +10,14 @@
 //! - Power spectral densities are one-sided, in (m/s²)²/Hz.
 //!
 //! ```
-//! use shagreen_core::blend::{Mode, author};
+//! use shagreen_core::authoring::Authoring;
+//! use shagreen_core::blend::Mode;
 //! use shagreen_core::space::{Space, SpacePoint};
 //!
 //! let at = |rs, hs| SpacePoint::new(rs, hs).map(Some);
 //! let space = Space::new(&[at(0.0, 0.0)?, at(100.0, 0.0)?, at(0.0, 100.0)?])?;
-//! let authored = author(&space, SpacePoint::new(25.0, 25.0)?, Mode::Power).expect("the space has textures");
+//! let authoring = Authoring::new(space);
+//! let authored = authoring.author(SpacePoint::new(25.0, 25.0)?, &Mode::Power.into()).expect("there are textures");
 //! assert_eq!(authored.parents[0], (0, 0.5));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -27,12 +29,14 @@
 
 pub mod ar;
 pub mod arma;
+pub mod authoring;
 pub mod blend;
 pub mod boundary;
 pub mod contact_model;
 pub mod dft321;
 pub mod dissimilarities;
 pub mod features;
+pub mod field;
 pub mod filter;
 pub mod fit;
 pub mod height_field;
@@ -54,9 +58,11 @@ pub mod ratings;
 pub mod recording;
 pub mod render;
 pub mod rng;
+pub mod sampled;
 pub mod segment;
 pub mod selection;
 pub mod shading;
+pub mod smoother;
 pub mod sorting;
 pub mod space;
 pub mod space_build;

@@ -3,7 +3,11 @@
 //! Frequencies are angles in radians (0, π), ascending. A predictor is stable exactly when its frequencies are distinct
 //! and lie inside, and so is any weighted mean of such sets: that is why models are interpolated in this form.
 
+mod quick;
+
 use std::f64::consts::PI;
+
+pub(crate) use crate::lsf::quick::QuickLsf;
 
 /// Smallest distance between neighboring frequencies that [`repair`] leaves, in radians: 0.8 Hz at 1 kHz.
 pub const MIN_GAP: f64 = 0.005;

@@ -8,6 +8,7 @@ use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 use crate::triangulation::{Site, TriangulationError, Xy, delaunay};
 
 /// Points whose weights can be asked for.
+#[derive(Debug)]
 pub struct NaturalNeighbors {
     delaunay: DelaunayTriangulation<Site>,
 }

@@ -27,6 +27,8 @@ pub struct Plane {
     rate: Hertz,
     speed_max_mps: f64,
     force_max_n: f64,
+    /// Lowest speed in m/s and force in N that was measured off the axes.
+    lowest: [f64; 2],
     vertices: Vec<Values>,
     triangulation: Triangulation,
     /// Where this is, the triangles only stand for it.
@@ -112,7 +114,10 @@ impl Plane {
             Ok(triangulation) => triangulation,
             Err(error) => unreachable!("a model's own checks keep shares of the highest in 0..1: {error}"),
         };
-        Self { rate: texture.rate(), speed_max_mps, force_max_n, vertices, triangulation, radial }
+        let off_axes =
+            texture.contacts().map(|c| [c.speed.0, c.force.0]).filter(|c| c[0] > 0.0 && c[1] > 0.0);
+        let lowest = off_axes.fold([speed_max_mps, force_max_n], |[v, f], c| [v.min(c[0]), f.min(c[1])]);
+        Self { rate: texture.rate(), speed_max_mps, force_max_n, lowest, vertices, triangulation, radial }
     }
 
     /// The grain at `contact`; outside the measured range that of its nearest edge, in the air silent.
@@ -128,6 +133,21 @@ impl Plane {
             values.strength = values.strength.silent();
         }
         values.into_grain(self.rate)
+    }
+
+    /// Samples a second.
+    pub fn rate(&self) -> Hertz {
+        self.rate
+    }
+
+    /// Orders of the predictor and of the moving average.
+    pub(crate) fn orders(&self) -> [usize; 2] {
+        [self.vertices[0].lsf.len(), self.vertices[0].ma_lsf.len()]
+    }
+
+    /// Lowest and highest speed in m/s, then force in N, at which something was measured.
+    pub(crate) fn measured(&self) -> [(f64, f64); 2] {
+        [(self.lowest[0], self.speed_max_mps), (self.lowest[1], self.force_max_n)]
     }
 
     fn in_triangles(&self, at: Xy) -> Values {

@@ -1,21 +1,18 @@
 //! Linear radial basis functions through scattered points of a plane.
 //!
-//! `s(q) = Σ λ_i φ(|q - q_i|) + c_0 + c_1 x + c_2 y` with `φ(r) = -r`, which is conditionally positive definite: with
-//! `Σ λ_i = Σ λ_i x_i = Σ λ_i y_i = 0` the system has one solution. Points on one line get a polynomial along the line
-//! only, and a single point a constant.
+//! `s(q) = Σ λ_i φ(|q - q_i|) + c_0 + c_1 x + c_2 y` with `φ(r) = -r` and `Σ λ_i = Σ λ_i x_i = Σ λ_i y_i = 0`
+//! ([`Kernel::Linear`]).
+
+mod basis;
+
+pub(crate) use crate::radial_basis::basis::{Basis, Kernel};
 
 use crate::triangulation::Xy;
-
-/// Breadth of points across their main direction, as a share of that along it, below which they lie on one line.
-const FLAT: f64 = 1e-6;
 
 /// Functions of a plane, several at once, each through its values at the same points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RadialBasis {
-    points: Vec<Xy>,
-    middle: Xy,
-    /// Directions of the polynomial's slopes: none, one or two unit vectors.
-    directions: Vec<Xy>,
+    basis: Basis,
     /// A row for each point, then one for the constant and one for each direction; a column for each function.
     weights: Vec<Vec<f64>>,
 }
@@ -32,10 +29,8 @@ impl RadialBasis {
         if values.len() != n || values.iter().any(|row| row.len() != n_functions) {
             return None;
         }
-        let middle = [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / n as f64);
-        let directions = directions(points, middle);
-        let mut basis = Self { points: points.to_vec(), middle, directions, weights: Vec::new() };
-        let size = n + 1 + basis.directions.len();
+        let basis = Basis::new(points, Kernel::Linear);
+        let size = basis.n_terms();
         let mut rows: Vec<Vec<f64>> = points.iter().map(|p| basis.terms(*p)).collect();
         for (i, row) in rows.iter_mut().enumerate() {
             row[i] += ridge;
@@ -49,46 +44,18 @@ impl RadialBasis {
         for (row, right) in rows.iter_mut().zip(right) {
             row.extend(right);
         }
-        basis.weights = solved(rows, size)?;
-        Some(basis)
+        Some(Self { weights: solved(rows, size)?, basis })
     }
 
     /// The functions at a point.
     pub fn at(&self, at: Xy) -> Vec<f64> {
         let mut sum = vec![0.0; self.weights[0].len()];
-        for (term, weights) in self.terms(at).into_iter().zip(&self.weights) {
+        for (term, weights) in self.basis.terms(at).into_iter().zip(&self.weights) {
             for (s, w) in sum.iter_mut().zip(weights) {
                 *s += term * w;
             }
         }
         sum
-    }
-
-    /// What the weights are multiplied with at a point.
-    fn terms(&self, at: Xy) -> Vec<f64> {
-        let kernels = self.points.iter().map(|p| -(p[0] - at[0]).hypot(p[1] - at[1]));
-        let slopes =
-            self.directions.iter().map(|d| d[0] * (at[0] - self.middle[0]) + d[1] * (at[1] - self.middle[1]));
-        kernels.chain(std::iter::once(1.0)).chain(slopes).collect()
-    }
-}
-
-/// The main directions in which points spread, those left out in which they do not.
-fn directions(points: &[Xy], middle: Xy) -> Vec<Xy> {
-    let sum = |of: &dyn Fn(f64, f64) -> f64| {
-        points.iter().map(|p| of(p[0] - middle[0], p[1] - middle[1])).sum::<f64>()
-    };
-    let (xx, xy, yy) = (sum(&|x, _| x * x), sum(&|x, y| x * y), sum(&|_, y| y * y));
-    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-    let (sin, cos) = angle.sin_cos();
-    let spread = |d: Xy| sum(&|x, y| (d[0] * x + d[1] * y).powi(2)).sqrt();
-    let (along, across) = ([cos, sin], [-sin, cos]);
-    if xx + yy == 0.0 {
-        Vec::new()
-    } else if spread(across) <= FLAT * spread(along) {
-        vec![along]
-    } else {
-        vec![along, across]
     }
 }
 

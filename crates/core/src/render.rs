@@ -81,7 +81,7 @@ pub fn synth_blend(mode: Mode) -> Blend {
     match mode {
         Mode::Paper => Blend::Paper,
         Mode::Power => Blend::Power,
-        Mode::Shared => Blend::Shared,
+        Mode::Shared | Mode::Parametric | Mode::Field => Blend::Shared,
     }
 }
 

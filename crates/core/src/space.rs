@@ -44,11 +44,13 @@ impl SpacePoint {
         (self.rough_smooth - other.rough_smooth).hypot(self.hard_soft - other.hard_soft)
     }
 
-    fn xy(self) -> Xy {
+    /// The point in the unit square.
+    pub(crate) fn xy(self) -> Xy {
         [self.rough_smooth / 100.0, self.hard_soft / 100.0]
     }
 
-    fn from_xy(xy: Xy) -> Self {
+    /// A point of the unit square, which may lie a little outside of it.
+    pub(crate) fn from_xy(xy: Xy) -> Self {
         Self { rough_smooth: 100.0 * xy[0], hard_soft: 100.0 * xy[1] }
     }
 }

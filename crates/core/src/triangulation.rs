@@ -32,6 +32,7 @@ pub enum TriangulationError {
 }
 
 /// A site that remembers its index.
+#[derive(Debug)]
 pub(crate) struct Site {
     position: Point2<f64>,
     pub(crate) index: usize,

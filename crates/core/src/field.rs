@@ -1,0 +1,167 @@
+//! Grain, landing and friction as smooth functions of the point: what all textures of a space say about every place.
+//!
+//! Spectra of textures lie near a surface of few dimensions. Their logarithms are taken apart into principal components,
+//! and each component's score becomes a smooth surface over the space ([`crate::smoother`]), with one ridge for all,
+//! chosen by generalized cross-validation. What no neighbor confirms is smoothed away: a place between textures is told by
+//! all of them, and a texture's own place is told by its neighbors as well as by itself.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use crate::sampled::{SampledGrain, Sampling};
+use crate::smoother::{Smoother, Surface};
+use crate::tap::Tap;
+use crate::texture::{TextureModel, TextureModelError};
+use crate::triangulation::Xy;
+use crate::units::Hertz;
+
+/// Most components: two dozen hold all but a hundredth of the variance of the spectra of a library.
+const MOST_COMPONENTS: usize = 24;
+/// Textures from which components are found, evenly chosen where there are more.
+const MOST_FOR_COMPONENTS: usize = 200;
+/// Share of a component's range that a place may lie beyond all textures.
+const BEYOND: f64 = 0.25;
+/// Friction coefficients below this are told apart from nothing.
+pub(crate) const LEAST_FRICTION: f64 = 1e-3;
+/// Halvings of the way to the limit of extrapolation.
+const N_HALVINGS: usize = 8;
+
+/// The field over a space.
+#[derive(Clone, Debug)]
+pub(crate) struct Field {
+    smoother: Smoother,
+    /// Mean ln density, bin by bin, contact by contact.
+    mean: Vec<f64>,
+    /// Components, each as long as the mean, one after the other.
+    components: Vec<f64>,
+    /// Lowest and highest score of each component that a place may have.
+    limits: Vec<(f64, f64)>,
+    scores: Surface,
+    friction: Option<Surface>,
+    tap: Option<Surface>,
+}
+
+/// What a field is made of: a texture at its place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Site<'a> {
+    pub(crate) at: Xy,
+    pub(crate) grain: &'a SampledGrain,
+    pub(crate) friction: Option<f64>,
+    pub(crate) tap: Option<Tap>,
+}
+
+impl Field {
+    /// The field through sites, in the unit square; `None` without any.
+    pub(crate) fn new(sites: &[Site<'_>]) -> Option<Self> {
+        let n = sites.len();
+        let width = sites.first()?.grain.ln_psd.len();
+        let mut mean = vec![0.0; width];
+        for site in sites {
+            for (m, x) in mean.iter_mut().zip(&site.grain.ln_psd) {
+                *m += x / n as f64;
+            }
+        }
+        // A column for each texture.
+        let centered = DMatrix::from_fn(width, n, |j, i| sites[i].grain.ln_psd[j] - mean[j]);
+        let components = components(&centered);
+        let scores = centered.transpose() * &components;
+        let places: Vec<Xy> = sites.iter().map(|site| site.at).collect();
+        let smoother = Smoother::fitted(&places, &scores)?;
+        let limits = scores.column_iter().map(|scores| {
+            let (low, high) = (scores.min(), scores.max());
+            let room = BEYOND * (high - low);
+            (low - room, high + room)
+        });
+        Some(Self {
+            limits: limits.collect(),
+            scores: smoother.surface(&scores),
+            components: components.iter().copied().collect(),
+            mean,
+            smoother,
+            friction: over_known(sites, |site| site.friction.map(|f| vec![f.max(LEAST_FRICTION).ln()])),
+            tap: over_known(sites, |site| site.tap.map(|tap| ln_tap(tap).to_vec())),
+        })
+    }
+
+    /// The texture at a place of the unit square.
+    ///
+    /// # Errors
+    /// See [`TextureModelError`]: what lies far from all textures may be no texture.
+    pub(crate) fn texture(&self, sampling: &Sampling, at: Xy) -> Result<TextureModel, TextureModelError> {
+        let mut ln_psd = self.mean.clone();
+        let scores = self.scores.at(at).into_iter().zip(&self.limits);
+        for ((score, (low, high)), component) in scores.zip(self.components.chunks_exact(ln_psd.len())) {
+            let score = score.clamp(*low, *high);
+            for (sum, c) in ln_psd.iter_mut().zip(component) {
+                *sum += score * c;
+            }
+        }
+        let friction = self.friction.as_ref().map(|surface| surface.at(at)[0].exp());
+        let tap = self.tap.as_ref().map(|surface| tap_from_ln(&surface.at(at)));
+        sampling.texture_of_spectra(&ln_psd, friction, tap)
+    }
+
+    /// What each texture says about a place, in the order of the sites: they sum to one, and some may be below zero.
+    pub(crate) fn weights(&self, at: Xy) -> Vec<f64> {
+        self.smoother.weights(at)
+    }
+
+    /// The ridge that was chosen.
+    pub(crate) fn ridge(&self) -> f64 {
+        self.smoother.ridge()
+    }
+
+    /// How far from `inside` towards `to` the field supports a texture: as long as the noise of the measurements weighs
+    /// no more than in a copy of one texture, `Σ w² ≤ 1`.
+    pub(crate) fn supported(&self, inside: Xy, to: Xy) -> Xy {
+        let along = |t: f64| [0, 1].map(|axis| inside[axis] + t * (to[axis] - inside[axis]));
+        let is_supported = |at: Xy| self.weights(at).iter().map(|w| w * w).sum::<f64>() <= 1.0;
+        if is_supported(to) {
+            return to;
+        }
+        let (mut near, mut far) = (0.0, 1.0);
+        for _ in 0..N_HALVINGS {
+            let middle = 0.5 * (near + far);
+            if is_supported(along(middle)) { near = middle } else { far = middle }
+        }
+        along(near)
+    }
+}
+
+/// The principal components of spectra, a column for each texture; a column of unit length for each.
+fn components(centered: &DMatrix<f64>) -> DMatrix<f64> {
+    let step = centered.ncols().div_ceil(MOST_FOR_COMPONENTS).max(1);
+    let kept: Vec<usize> = (0..centered.ncols()).step_by(step).collect();
+    let sample = centered.select_columns(&kept);
+    let eigen = SymmetricEigen::new(sample.transpose() * &sample);
+    let mut order: Vec<usize> = (0..kept.len()).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let largest = order.first().map_or(0.0, |i| eigen.eigenvalues[*i]);
+    let counts = |i: &usize| eigen.eigenvalues[*i] > 1e-9 * largest;
+    order.retain(counts);
+    order.truncate(MOST_COMPONENTS);
+    let mut components = sample * eigen.eigenvectors.select_columns(&order);
+    for mut column in components.column_iter_mut() {
+        column.normalize_mut();
+    }
+    components
+}
+
+/// A surface over the sites where something is known.
+fn over_known(sites: &[Site<'_>], known: impl Fn(&Site<'_>) -> Option<Vec<f64>>) -> Option<Surface> {
+    let rows: Vec<(Xy, Vec<f64>)> =
+        sites.iter().filter_map(|site| known(site).map(|row| (site.at, row))).collect();
+    let width = rows.first()?.1.len();
+    let places: Vec<Xy> = rows.iter().map(|(at, _)| *at).collect();
+    let values = DMatrix::from_fn(rows.len(), width, |i, j| rows[i].1[j]);
+    Some(Smoother::fitted(&places, &values)?.surface(&values))
+}
+
+/// A landing as numbers that are averaged: logarithms, since stiffness and damping run over decades.
+pub(crate) fn ln_tap(tap: Tap) -> [f64; 3] {
+    [tap.frequency.0, tap.decay_per_sec, tap.amplitude_mps2].map(|x| x.max(f64::MIN_POSITIVE).ln())
+}
+
+/// The landing of averaged numbers.
+pub(crate) fn tap_from_ln(ln: &[f64]) -> Tap {
+    Tap { frequency: Hertz(ln[0].exp()), decay_per_sec: ln[1].exp(), amplitude_mps2: ln[2].exp() }
+}

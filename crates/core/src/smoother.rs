@@ -1,0 +1,237 @@
+//! A smooth surface over scattered points: a thin plate that is drawn towards measurements by springs.
+//!
+//! The surface minimizes `Σ (s(q_i) - y_i)² + ρ ∫∫ (s_xx² + 2 s_xy² + s_yy²)` up to a constant factor of the ridge `ρ`
+//! (J. Duchon 1977; G. Wahba, "Spline models for observational data", 1990). Its value anywhere is a weighted sum of the
+//! measurements; the weights depend on the places only.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use crate::radial_basis::{Basis, Kernel};
+use crate::triangulation::Xy;
+
+/// Ridges that are tried, for places in the unit square.
+const RIDGES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
+/// The ridge where measurements do not ask for another.
+const USUAL_RIDGE: f64 = 0.1;
+/// A ridge nearer to the usual one is taken while its score is at most this much above the lowest: with two dozen points
+/// the lowest of a flat curve is a matter of chance.
+const SCORE_TOLERANCE: f64 = 1.03;
+/// Points that the choice of the ridge looks at, evenly chosen where there are more: its cost is their number cubed.
+const MOST_FOR_RIDGE: usize = 200;
+
+/// The weights of a smooth surface over points.
+#[derive(Clone, Debug)]
+pub struct Smoother {
+    basis: Basis,
+    n_points: usize,
+    ridge: f64,
+    /// Inverse of the system of equations, a row and a column for each term.
+    inverse: DMatrix<f64>,
+}
+
+impl Smoother {
+    /// The surface over `points` with this ridge: zero meets the measurements, much leaves a plane.
+    ///
+    /// `None` without points, and where points lie so near each other that there is no telling them apart. Cost: the
+    /// number of points cubed.
+    pub fn new(points: &[Xy], ridge: f64) -> Option<Self> {
+        let n_points = points.len();
+        if n_points == 0 {
+            return None;
+        }
+        let basis = Basis::new(points, Kernel::ThinPlate);
+        let inverse = system(&basis, points, ridge).try_inverse()?;
+        inverse.iter().all(|x| x.is_finite()).then_some(Self { basis, n_points, ridge, inverse })
+    }
+
+    /// The same with the ridge of [`chosen_ridge`].
+    pub fn fitted(points: &[Xy], values: &DMatrix<f64>) -> Option<Self> {
+        Self::new(points, chosen_ridge(points, values))
+    }
+
+    /// The ridge.
+    pub fn ridge(&self) -> f64 {
+        self.ridge
+    }
+
+    /// Weights of the measurements at a place, in the order of the points: they sum to one, and may be below zero.
+    pub fn weights(&self, at: Xy) -> Vec<f64> {
+        let terms = self.basis.terms(at);
+        let column = |j: usize| self.inverse.column(j).iter().zip(&terms).map(|(a, b)| a * b).sum();
+        (0..self.n_points).map(column).collect()
+    }
+
+    /// The surface over `values`, a row for each point and a column for each quantity.
+    pub fn surface(&self, values: &DMatrix<f64>) -> Surface {
+        let coefficients = self.inverse.columns(0, self.n_points) * values;
+        Surface { basis: self.basis.clone(), coefficients: coefficients.transpose() }
+    }
+}
+
+/// Smooth surfaces, several at once.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    basis: Basis,
+    /// A row for each quantity, a column for each term.
+    coefficients: DMatrix<f64>,
+}
+
+impl Surface {
+    /// The quantities at a place.
+    pub fn at(&self, at: Xy) -> Vec<f64> {
+        let mut sum = vec![0.0; self.coefficients.nrows()];
+        for (column, term) in self.coefficients.column_iter().zip(self.basis.terms(at)) {
+            for (s, c) in sum.iter_mut().zip(column.iter()) {
+                *s += term * c;
+            }
+        }
+        sum
+    }
+}
+
+/// The ridge by generalized cross-validation: that of [`RIDGES`] nearest to the usual one whose score
+/// `(‖(I - S) Y‖² / n) / (tr(I - S) / n)²` is within [`SCORE_TOLERANCE`] of the lowest (P. Craven and G. Wahba 1979).
+/// The usual one where there are too few points to tell.
+pub fn chosen_ridge(points: &[Xy], values: &DMatrix<f64>) -> f64 {
+    let step = points.len().div_ceil(MOST_FOR_RIDGE).max(1);
+    let kept: Vec<usize> = (0..points.len()).step_by(step).collect();
+    let points: Vec<Xy> = kept.iter().map(|i| points[*i]).collect();
+    let values = DMatrix::from_fn(kept.len(), values.ncols(), |i, j| values[(kept[i], j)]);
+    let Some(scores) = scores(&points, &values) else { return USUAL_RIDGE };
+    let lowest = scores.iter().copied().fold(f64::INFINITY, f64::min);
+    let distance = |ridge: f64| (ridge / USUAL_RIDGE).ln().abs();
+    let good = RIDGES.iter().zip(&scores).filter(|(_, score)| **score <= SCORE_TOLERANCE * lowest);
+    good.map(|(ridge, _)| *ridge).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(USUAL_RIDGE)
+}
+
+/// The score of each of [`RIDGES`]; `None` where there are as few points as slopes can meet.
+fn scores(points: &[Xy], values: &DMatrix<f64>) -> Option<Vec<f64>> {
+    let n = points.len();
+    let basis = Basis::new(points, Kernel::ThinPlate);
+    let n_slopes = basis.n_terms() - n;
+    if n <= n_slopes + 1 {
+        return None;
+    }
+    let system = system(&basis, points, 0.0);
+    let kernel = system.view((0, 0), (n, n)).into_owned();
+    let slopes = system.view((0, n), (n, n_slopes)).into_owned().qr().q();
+    // What no slope can explain; the slopes themselves are lifted above everything, to be told apart by their size.
+    let onto = &slopes * slopes.transpose();
+    let off = DMatrix::identity(n, n) - &onto;
+    let high = 1.0 + 2.0 * kernel.norm();
+    let lifted = &off * kernel * &off + onto * high;
+    let eigen = SymmetricEigen::new(lifted);
+    let seen = eigen.eigenvectors.transpose() * values;
+    let kept: Vec<usize> = (0..n).filter(|i| eigen.eigenvalues[*i] < 0.5 * high).collect();
+    let score = |ridge: &f64| {
+        let left = |i: &usize| ridge / (eigen.eigenvalues[*i].max(0.0) + ridge);
+        let residual: f64 = kept.iter().map(|i| left(i).powi(2) * seen.row(*i).norm_squared()).sum();
+        let freedom: f64 = kept.iter().map(left).sum();
+        residual / (freedom * freedom)
+    };
+    let scores: Vec<f64> = RIDGES.iter().map(score).collect();
+    scores.iter().all(|s| s.is_finite()).then_some(scores)
+}
+
+/// The system of equations of the terms: kernels with the ridge on their diagonal, then the slopes, which weights must
+/// be without.
+fn system(basis: &Basis, points: &[Xy], ridge: f64) -> DMatrix<f64> {
+    let (n, size) = (points.len(), basis.n_terms());
+    let mut matrix = DMatrix::zeros(size, size);
+    for (i, point) in points.iter().enumerate() {
+        for (j, term) in basis.terms(*point).into_iter().enumerate() {
+            matrix[(i, j)] = term;
+            if j >= n {
+                matrix[(j, i)] = term;
+            }
+        }
+        matrix[(i, i)] += ridge;
+    }
+    matrix
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{RIDGES, Smoother, chosen_ridge};
+    use crate::rng::Random;
+    use crate::triangulation::Xy;
+    use nalgebra::DMatrix;
+    use proptest::prelude::{prop, prop_assert, prop_assume, proptest};
+
+    fn scattered(n: usize, seed: u64) -> Vec<Xy> {
+        let mut random = Random::new(seed);
+        (0..n).map(|_| [random.uniform(), random.uniform()]).collect()
+    }
+
+    #[test]
+    fn few_points_have_the_plane_through_them() {
+        let one = Smoother::new(&[[0.2, 0.3]], 0.1).unwrap();
+        assert!((one.weights([0.9, 0.9])[0] - 1.0).abs() < 1e-12);
+        let three = Smoother::new(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], 0.1).unwrap();
+        for (weight, want) in three.weights([0.25, 0.25]).iter().zip([0.5, 0.25, 0.25]) {
+            assert!((weight - want).abs() < 1e-12, "{weight} for {want}");
+        }
+        let line = Smoother::new(&[[0.0, 0.0], [0.5, 0.5], [1.0, 1.0]], 0.0).unwrap();
+        assert!((line.weights([0.5, 0.5])[1] - 1.0).abs() < 1e-9);
+        assert!(Smoother::new(&[], 0.1).is_none());
+        assert!(Smoother::new(&[[0.5, 0.5]; 3], 0.0).is_none());
+    }
+
+    /// The surface of a noisy plane wave: noise asks for a high ridge, a wave without any for a low one.
+    #[test]
+    fn noise_asks_for_a_higher_ridge() {
+        let points = scattered(120, 3);
+        let mut random = Random::new(4);
+        let wave = |p: &Xy| (7.0 * p[0]).sin() + (5.0 * p[1]).cos();
+        let mut ridge = |noise: f64| {
+            let values = DMatrix::from_fn(120, 1, |i, _| wave(&points[i]) + noise * random.normal());
+            chosen_ridge(&points, &values)
+        };
+        let (clean, noisy) = (ridge(0.0), ridge(1.0));
+        assert!(clean == RIDGES[0] && noisy >= 0.1, "{clean} and {noisy}");
+    }
+
+    /// What is left out is foretold by the weights of the rest: the closed form of leaving one out against doing it.
+    #[test]
+    fn smoothing_agrees_with_leaving_one_out() {
+        let points = scattered(15, 8);
+        let whole = Smoother::new(&points, 0.1).unwrap();
+        let mut random = Random::new(9);
+        let y: Vec<f64> = points.iter().map(|_| random.normal()).collect();
+        let sum = |weights: Vec<f64>, y: &[f64]| weights.iter().zip(y).map(|(w, y)| w * y).sum::<f64>();
+        for i in 0..points.len() {
+            let weights = whole.weights(points[i]);
+            let leverage = weights[i];
+            let closed = y[i] - (y[i] - sum(weights, &y)) / (1.0 - leverage);
+            let (mut rest, mut left) = (points.clone(), y.clone());
+            rest.remove(i);
+            left.remove(i);
+            let done = sum(Smoother::new(&rest, 0.1).unwrap().weights(points[i]), &left);
+            assert!((closed - done).abs() < 1e-9, "{closed} and {done}");
+        }
+    }
+
+    proptest! {
+        /// Weights sum to one, reproduce the place, and agree with the surface; without a ridge a point is itself.
+        #[test]
+        fn weights_reproduce_what_is_linear(
+            points in prop::collection::vec([0.0_f64..1.0, 0.0_f64..1.0], 4..40),
+            at in [-0.3_f64..1.3, -0.3_f64..1.3],
+        ) {
+            for (i, p) in points.iter().enumerate() {
+                prop_assume!(points[..i].iter().all(|q| (p[0] - q[0]).hypot(p[1] - q[1]) > 1e-2));
+            }
+            let smoother = Smoother::new(&points, 0.1).unwrap();
+            let weights = smoother.weights(at);
+            prop_assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-8);
+            let values = DMatrix::from_fn(points.len(), 2, |i, axis| points[i][axis]);
+            let surface = smoother.surface(&values).at(at);
+            for axis in 0..2 {
+                let place: f64 = weights.iter().zip(&points).map(|(w, p)| w * p[axis]).sum();
+                prop_assert!((place - at[axis]).abs() < 1e-7 && (surface[axis] - at[axis]).abs() < 1e-7);
+            }
+            let exact = Smoother::new(&points, 0.0).unwrap().weights(points[0]);
+            prop_assert!((exact[0] - 1.0).abs() < 1e-6);
+        }
+    }
+}
