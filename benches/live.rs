@@ -17,7 +17,8 @@ use std::path::Path;
 
 use measure::bench;
 use shagreen_core::ar::power_gain;
-use shagreen_core::blend::{Mode, author};
+use shagreen_core::authoring::Authoring;
+use shagreen_core::blend::Mode;
 use shagreen_core::lsf::ar_from_lsf;
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::space::{Space, SpacePoint};
@@ -158,7 +159,7 @@ fn main() {
 
 /// What a drag costs on the window's thread.
 fn reblending(library: &Library, planes: &[Plane]) {
-    let space = Space::new(&library.positions()).expect("the starter space");
+    let authoring = Authoring::new(Space::new(&library.positions()).expect("the starter space"));
     let n_drags = 10_000;
     bench("re-blend after a drag: parents, weights, mix", f64::from(n_drags), "drag", || {
         for i in 0..n_drags {
@@ -167,7 +168,7 @@ fn reblending(library: &Library, planes: &[Plane]) {
                 rough_smooth: 50.0 + 45.0 * (1.9 * t).sin(),
                 hard_soft: 50.0 + 45.0 * (3.0 * t).cos(),
             };
-            let authored = author(&space, point, Mode::Shared).expect("a texture");
+            let authored = authoring.author(point, &Mode::Shared.into()).expect("a texture");
             let mut mix = Mix::silent(Blend::Power);
             for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents) {
                 *parent = Parent { id: *texture as TextureId, weight: *weight as f32 };

@@ -3,8 +3,10 @@
 //! Run it with `cargo run --example author_a_texture`.
 #![allow(clippy::print_stdout, reason = "an example shows what it does")]
 
-use shagreen_core::blend::{Mode, author};
-use shagreen_core::plane::{Plane, Prepared};
+use std::sync::Arc;
+
+use shagreen_core::authoring::{Authoring, Blending, Layers, Models};
+use shagreen_core::plane::Plane;
 use shagreen_core::render::{RenderPlan, render};
 use shagreen_core::space::{Space, SpacePoint};
 use shagreen_core::units::{Contact, Hertz};
@@ -13,24 +15,34 @@ use shagreen_formats::starter::starter_library;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let library = starter_library()?;
     let space = Space::new(&library.positions())?;
+    let planes: Vec<Plane> = library.textures.iter().map(|texture| Plane::new(&texture.model)).collect();
+    let layers: Vec<_> = library
+        .textures
+        .iter()
+        .zip(&planes)
+        .map(|(t, plane)| Some(Layers { plane, friction: t.model.friction(), tap: t.model.tap() }))
+        .collect();
+    let models = Models::new(&space, &layers)?;
+    let authoring = Authoring::new(space).with_models(Arc::new(models));
 
-    // Rather rough (0 is roughest) and rather soft (100 is softest).
+    // Rather rough (0 is roughest) and rather soft (100 is softest): a texture like any other, from a field over all.
     let point = SpacePoint::new(30.0, 70.0)?;
-    let authored = author(&space, point, Mode::Shared).ok_or("the space has no textures")?;
-    for (texture, weight) in &authored.parents {
+    let authored = authoring.author(point, &Blending::default()).ok_or("the space has no textures")?;
+    for (texture, weight) in authored.parents.iter().take(3) {
         println!("{:5.1} % {}", 100.0 * weight, library.textures[*texture].name);
     }
+    let model = authored.model.as_ref().ok_or("the field has no texture there")?;
 
     // A stroke at 100 mm/s that presses harder and harder, up to 2 N.
     let mut contact_at = |time_secs: f64| Contact::from_mm_per_s_and_n(100.0, time_secs);
-    let prepared: Vec<(Prepared, f64)> = authored
-        .parents
-        .iter()
-        .map(|(t, w)| (Plane::new(&library.textures[*t].model).prepare(), *w))
-        .collect();
-    let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, w)| (p, *w)).collect();
-    let plan =
-        RenderPlan { parents: &parents, mode: authored.mode, rate: Hertz(1000.0), seconds: 2.0, seed: 1 };
+    let prepared = Plane::new(model).prepare();
+    let plan = RenderPlan {
+        parents: &[(&prepared, 1.0)],
+        mode: authored.mixing(),
+        rate: Hertz(1000.0),
+        seconds: 2.0,
+        seed: 1,
+    };
     let acceleration = render(&plan, &mut contact_at)?;
     let rms = |x: &[f32]| (x.iter().map(|v| v * v).sum::<f32>() / x.len() as f32).sqrt();
     println!(

@@ -88,6 +88,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "parents": chosen.parents_json(&library),
             "at": chosen.at_json(),
             "clamped": chosen.clamped,
+            "extrapolated": chosen.extrapolated,
         }),
         || {
             format!(
@@ -117,7 +118,7 @@ fn check(status: &Status) -> anyhow::Result<()> {
 }
 
 fn load_textures(handle: &mut Handle, library: &Library, chosen: &Chosen) -> anyhow::Result<()> {
-    let mut mix = Mix::silent(synth_blend(chosen.mode));
+    let mut mix = Mix::silent(synth_blend(chosen.mixing));
     for (parent, (plane, weight)) in mix.parents.iter_mut().zip(chosen.planes(library)?) {
         let texture = OwnedTexture::new(plane.prepare().parts())?;
         let id = handle.load(texture).context("the output takes no texture; try again")?;

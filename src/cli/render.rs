@@ -72,6 +72,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "parents": chosen.parents_json(&library),
             "at": chosen.at_json(),
             "clamped": chosen.clamped,
+            "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
             "seed": args.seed,
         }),
@@ -108,7 +109,7 @@ fn samples(
     let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
     let plan = RenderPlan {
         parents: &parents,
-        mode: chosen.mode,
+        mode: chosen.mixing,
         rate: Hertz(f64::from(rate_hz)),
         seconds: motion.seconds(),
         seed: args.seed,

@@ -1,15 +1,18 @@
 //! Which texture: one of the library, or the one authored at a point of the space.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::blend::{Mode, author};
+use shagreen_core::authoring::{Authored, Authoring, Blending, Layers, Models, Outside, Voice, Weights};
+use shagreen_core::blend::Mode;
 use shagreen_core::plane::Plane;
 use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::texture::TextureModel;
 use shagreen_core::units::Hertz;
-use shagreen_formats::library::Library;
+use shagreen_formats::library::{Library, TextureEntry};
 
 use crate::cli::library_source::{self, LibraryArgs};
 use crate::cli::motion::Motion;
@@ -22,9 +25,27 @@ pub(crate) struct SoundArgs {
     target: TargetArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    /// How the textures around a point become one.
+    #[command(flatten)]
+    blending: BlendArgs,
+}
+
+/// How a point becomes a texture.
+#[derive(clap::Args)]
+struct BlendArgs {
+    /// How the textures around a point become one: field is a smooth field over all of them, parametric the mean of those
+    /// around; shared, power and paper mix their signals (one excitation; independent, at the mean of the levels; as
+    /// published).
     #[arg(long, value_name = "MODE", value_parser = blend_parser(), default_value = Mode::default().id())]
     blend: Mode,
+    /// Take natural-neighbor weights instead of those of the triangle; with --blend parametric.
+    #[arg(long)]
+    natural: bool,
+    /// Outside the textures, go on as far as the field supports instead of taking the nearest point among them.
+    #[arg(long)]
+    extrapolate: bool,
+    /// Meet this texture exactly at its own place, where the field would smooth it; may be given several times.
+    #[arg(long, value_name = "ID")]
+    lock: Vec<String>,
 }
 
 #[derive(clap::Args)]
@@ -38,18 +59,34 @@ struct TargetArgs {
     texture: Option<String>,
 }
 
-/// What sounds: parents by their index in the library, largest weight first, at least one.
+/// What sounds.
 pub(crate) struct Chosen {
-    /// Parents and weights.
+    /// Textures that have a say, by their index in the library, and weights, largest first, at least one.
     pub(crate) parents: Vec<(usize, f64)>,
-    /// How they are mixed.
+    /// How they become one.
     pub(crate) mode: Mode,
+    /// How what sounds is mixed.
+    pub(crate) mixing: Mode,
+    /// What sounds, and its weight.
+    voices: Vec<(Sounding, f64)>,
     /// The texture named, where one was.
     pub(crate) texture: Option<String>,
     /// The point authored, where one was: the one asked for, or the nearest of the hull.
     pub(crate) at: Option<SpacePoint>,
-    /// Whether the point asked for lies outside the hull.
+    /// Whether another point was authored than the one asked for, which lies outside the hull.
     pub(crate) clamped: bool,
+    /// Whether the point lies outside the hull and was authored nevertheless.
+    pub(crate) extrapolated: bool,
+}
+
+/// Most parents that are named to people.
+const MOST_SAID: usize = 3;
+
+enum Sounding {
+    /// A texture of the library.
+    Texture(usize),
+    /// A texture that was made for the point.
+    Made(TextureModel),
 }
 
 fn parse_point(text: &str) -> Result<SpacePoint, String> {
@@ -88,63 +125,158 @@ impl SoundArgs {
 
     /// What the arguments choose of a library.
     pub(crate) fn choose(&self, library: &Library) -> anyhow::Result<Chosen> {
-        choose(library, &self.target, self.blend)
+        choose(library, &self.target, &self.blending)
     }
 }
 
-fn choose(library: &Library, target: &TargetArgs, mode: Mode) -> anyhow::Result<Chosen> {
+impl BlendArgs {
+    fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
+        let index = |id: &String| library.index_of(id).with_context(|| unknown_texture(library, id));
+        let blending = Blending {
+            mode: self.blend,
+            weights: if self.natural { Weights::Natural } else { Weights::default() },
+            outside: if self.extrapolate { Outside::Extrapolated } else { Outside::default() },
+            locked: self.lock.iter().map(index).collect::<anyhow::Result<_>>()?,
+        };
+        blending.check()?;
+        Ok(blending)
+    }
+}
+
+fn choose(library: &Library, target: &TargetArgs, blending: &BlendArgs) -> anyhow::Result<Chosen> {
+    let blending = blending.blending(library)?;
+    let mode = blending.mode;
     if let Some(id) = &target.texture {
         let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
-        let parents = vec![(index, 1.0)];
-        return Ok(Chosen { parents, mode, texture: Some(id.clone()), at: None, clamped: false });
+        return Ok(Chosen {
+            parents: vec![(index, 1.0)],
+            mode,
+            mixing: Mode::Shared,
+            voices: vec![(Sounding::Texture(index), 1.0)],
+            texture: Some(id.clone()),
+            at: None,
+            clamped: false,
+            extrapolated: false,
+        });
     }
     let Some(point) = target.at else { bail!(output::Usage("say --at RS,HS or --texture ID".to_owned())) };
-    let space = Space::new(&library.positions()).context("the textures cannot be placed")?;
-    let authored = author(&space, point, mode)
+    let authored = authoring(library, mode)?
+        .author(point, &blending)
         .context("no texture of the library has a place; use --texture, or place the textures first")?;
-    let location = authored.location;
-    if location.clamped {
-        output::warn(&format!(
-            "{point} lies outside the textures of the library; the nearest point among them, {}, is used",
-            location.at
+    told(point, &authored);
+    let voices: Vec<(Sounding, f64)> = authored
+        .voices()
+        .into_iter()
+        .map(|(voice, weight)| match voice {
+            Voice::Texture(index) => (Sounding::Texture(index), weight),
+            Voice::Made(model) => (Sounding::Made(model.clone()), weight),
+        })
+        .collect();
+    if voices.is_empty() {
+        bail!("the field has no texture at {point}; choose another point, or --blend shared");
+    }
+    Ok(Chosen {
+        mode,
+        mixing: authored.mixing(),
+        voices,
+        texture: None,
+        at: Some(authored.location.at),
+        clamped: authored.location.clamped,
+        extrapolated: authored.is_extrapolated,
+        parents: authored.parents,
+    })
+}
+
+/// Says where a point that lies outside the textures was taken.
+fn told(point: SpacePoint, authored: &Authored) {
+    let at = authored.location.at;
+    match (authored.location.clamped, authored.is_extrapolated) {
+        (false, false) => {}
+        (true, false) => output::warn(&format!(
+            "{point} lies outside the textures of the library; the nearest point among them, {at}, is used"
+        )),
+        (false, true) => output::warn(&format!(
+            "{point} lies outside the textures of the library; what is there is extrapolated"
+        )),
+        (true, true) => output::warn(&format!(
+            "{point} lies too far outside the textures of the library; {at}, as far as they support, is extrapolated"
+        )),
+    }
+}
+
+/// The space of a library, with what the mode needs.
+fn authoring(library: &Library, mode: Mode) -> anyhow::Result<Authoring> {
+    let space = Space::new(&library.positions()).context("the textures cannot be placed")?;
+    let authoring = Authoring::new(space);
+    if !mode.makes_a_model() || authoring.space().sites().is_empty() {
+        return Ok(authoring);
+    }
+    let placed: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
+    let rate = highest_rate(placed.iter().map(|texture| &library.textures[*texture].model))
+        .context("there is nothing to author; place the textures first")?;
+    let mut planes: Vec<Option<Plane>> = vec![None; library.textures.len()];
+    for texture in &placed {
+        planes[*texture] = Some(plane_at(&library.textures[*texture], rate)?);
+    }
+    let layers: Vec<Option<Layers<'_>>> = planes
+        .iter()
+        .zip(&library.textures)
+        .map(|(plane, entry)| {
+            let (friction, tap) = (entry.model.friction(), entry.model.tap());
+            plane.as_ref().map(|plane| Layers { plane, friction, tap })
+        })
+        .collect();
+    let models = Models::new(authoring.space(), &layers)?;
+    Ok(authoring.with_models(Arc::new(models)))
+}
+
+/// The plane of a texture at a rate; what a conversion costs is said.
+fn plane_at(texture: &TextureEntry, rate: Hertz) -> anyhow::Result<Plane> {
+    let own = texture.model.rate();
+    let converted = at_rate(&texture.model, rate)
+        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
+    if own != rate {
+        output::note(&format!(
+            "\"{}\" has a rate of {own} and is converted to {rate} for its neighbors: same levels, spectra \
+             within {:.1} dB (median of its speeds and forces; worst {:.1} dB)",
+            texture.id, converted.error_db_median, converted.error_db_worst
         ));
     }
-    let (at, clamped) = (Some(location.at), location.clamped);
-    Ok(Chosen { parents: authored.parents, mode, texture: None, at, clamped })
+    Ok(Plane::new(&converted.model))
 }
 
 impl Chosen {
-    /// The planes of the parents at [`Chosen::rate`], in their order, and the weights.
+    /// The planes of what sounds at [`Chosen::rate`], and the weights.
     pub(crate) fn planes(&self, library: &Library) -> anyhow::Result<Vec<(Plane, f64)>> {
         let rate = self.rate(library)?;
-        let plane = |(index, weight): &(usize, f64)| {
-            let texture = &library.textures[*index];
-            let own = texture.model.rate();
-            let converted = at_rate(&texture.model, rate)
-                .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
-            if own != rate {
-                output::note(&format!(
-                    "\"{}\" has a rate of {own} and is converted to {rate} for its neighbors: same levels, spectra \
-                     within {:.1} dB (median of its speeds and forces; worst {:.1} dB)",
-                    texture.id, converted.error_db_median, converted.error_db_worst
-                ));
-            }
-            Ok((Plane::new(&converted.model), *weight))
+        let plane = |(voice, weight): &(Sounding, f64)| {
+            let plane = match voice {
+                Sounding::Texture(index) => plane_at(&library.textures[*index], rate)?,
+                Sounding::Made(model) => Plane::new(model),
+            };
+            Ok((plane, *weight))
         };
-        self.parents.iter().map(plane).collect()
+        self.voices.iter().map(plane).collect()
     }
 
-    /// The highest rate of the parents, to which the others are converted.
+    /// The models of what sounds.
+    fn models<'a>(&'a self, library: &'a Library) -> impl Iterator<Item = &'a TextureModel> {
+        self.voices.iter().map(|(voice, _)| match voice {
+            Sounding::Texture(index) => &library.textures[*index].model,
+            Sounding::Made(model) => model,
+        })
+    }
+
+    /// The highest rate of what sounds, to which the rest is converted.
     pub(crate) fn rate(&self, library: &Library) -> anyhow::Result<Hertz> {
-        let models = self.parents.iter().map(|(index, _)| &library.textures[*index].model);
-        highest_rate(models).context("there is nothing to render; choose another point")
+        highest_rate(self.models(library)).context("there is nothing to render; choose another point")
     }
 
     /// Says where the hand leaves what the parents know: beyond it they stay as they are at its edge.
     pub(crate) fn note_limits(&self, library: &Library, motion: &Motion) {
-        let models = || self.parents.iter().map(|(index, _)| &library.textures[*index].model);
-        let known_mm_per_s = models().map(|m| m.speed_max().mm_per_s()).fold(f64::INFINITY, f64::min);
-        let known_n = models().map(|m| m.force_max().0).fold(f64::INFINITY, f64::min);
+        let highest_speeds = self.models(library).map(|m| m.speed_max().mm_per_s());
+        let known_mm_per_s = highest_speeds.fold(f64::INFINITY, f64::min);
+        let known_n = self.models(library).map(|m| m.force_max().0).fold(f64::INFINITY, f64::min);
         let trace = motion.trace();
         let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         if highest(&trace.speed_mm_per_s) > known_mm_per_s || highest(&trace.force_n) > known_n {
@@ -161,12 +293,16 @@ impl Chosen {
         self.parents.iter().map(parent).collect()
     }
 
-    /// The parents in words.
+    /// The parents in words: those that say something, and how many more there are.
     pub(crate) fn parents_text(&self, library: &Library) -> String {
-        let parent = |(index, weight): &(usize, f64)| {
+        let percent = |(index, weight): &(usize, f64)| {
             format!("{} {:.0} %", library.textures[*index].id, 100.0 * weight)
         };
-        self.parents.iter().map(parent).collect::<Vec<_>>().join(", ")
+        let said = self.parents.iter().take(MOST_SAID).map(percent).collect::<Vec<_>>().join(", ");
+        match self.parents.len().saturating_sub(MOST_SAID) {
+            0 => said,
+            n => format!("{said} and {n} more"),
+        }
     }
 
     /// The point as it stands in results.

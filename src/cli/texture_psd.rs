@@ -45,8 +45,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let planes = chosen.planes(&library)?;
     let parents: Vec<(&Plane, f64)> = planes.iter().map(|(plane, weight)| (plane, *weight)).collect();
     let frequencies = comparison_frequencies(rate, args.bins as usize);
-    let psd = mixture_psd(&parents, chosen.mode, contact, &frequencies);
-    let rms = rms(&parents, chosen.mode, contact, rate);
+    let psd = mixture_psd(&parents, chosen.mixing, contact, &frequencies);
+    let rms = rms(&parents, chosen.mixing, contact, rate);
     let hz: Vec<f64> = frequencies.iter().map(|frequency| frequency.0).collect();
     output::print(
         args.json,
@@ -58,6 +58,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "parents": chosen.parents_json(&library),
             "at": chosen.at_json(),
             "clamped": chosen.clamped,
+            "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
         }),
         || {

@@ -98,6 +98,8 @@ fn mode_help(mode: Mode) -> &'static str {
         Mode::Paper => strings::PAPER_HELP,
         Mode::Power => strings::POWER_HELP,
         Mode::Shared => strings::SHARED_HELP,
+        Mode::Parametric => strings::PARAMETRIC_HELP,
+        Mode::Field => strings::FIELD_HELP,
     }
 }
 

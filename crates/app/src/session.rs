@@ -12,10 +12,11 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
 use anyhow::Context as _;
-use shagreen_core::blend::{Authored, author, mixture_psd};
+use shagreen_core::authoring::{Authored, Authoring};
+use shagreen_core::blend::mixture_psd;
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::rate::{at_rate, highest_rate};
-use shagreen_core::space::{LabelSource, Location, Space, SpacePoint};
+use shagreen_core::space::{LabelSource, Space, SpacePoint};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
 use shagreen_device::output::OutputInfo;
@@ -77,7 +78,7 @@ pub struct Session {
     prepared: Vec<Option<Prepared>>,
     incoming: Receiver<Ahead>,
     sender: Sender<Ahead>,
-    space: Space,
+    authoring: Authoring,
     authored: Option<Authored>,
     spectra: Spectra,
     player: Player,
@@ -109,7 +110,7 @@ impl Session {
         let (sender, incoming) = channel();
         prepare_ahead(planes.iter().cloned().enumerate().collect(), sender.clone());
         Ok(Self {
-            space: Space::new(&positions(&places))?,
+            authoring: Authoring::new(Space::new(&positions(&places))?),
             prepared: vec![None; planes.len()],
             incoming,
             sender,
@@ -147,7 +148,7 @@ impl Session {
 
     /// Where they lie.
     pub fn space(&self) -> &Space {
-        &self.space
+        self.authoring.space()
     }
 
     /// Where the place of a texture comes from.
@@ -239,12 +240,8 @@ impl Session {
         let wanted = (project.point, project.mode, project.solo);
         if self.player.wanted != Some(wanted) {
             self.authored = match project.solo {
-                Some(texture) => Some(Authored {
-                    location: Location { at: project.point, clamped: false, corners: Vec::new() },
-                    parents: vec![(texture, 1.0)],
-                    mode: project.mode,
-                }),
-                None => author(&self.space, project.point, project.mode),
+                Some(texture) => Some(Authored::alone(texture, project.point, project.mode)),
+                None => self.authoring.author(project.point, &project.mode.into()),
             };
             self.player.wanted = Some(wanted);
             self.player.mix_is_new = true;
@@ -295,7 +292,7 @@ impl Session {
         prepare_ahead(fresh, self.sender.clone());
         self.player.keep(&is_kept);
         match Space::new(&positions(&self.places)) {
-            Ok(space) => self.space = space,
+            Ok(space) => self.authoring = Authoring::new(space),
             Err(error) => self.player.message = Some(error.to_string()),
         }
         self.poles = poles_of(&self.library, axes);
@@ -354,7 +351,7 @@ impl Session {
         let Some(authored) = &self.authored else { return };
         let parents: Vec<(&Plane, f64)> =
             authored.parents.iter().map(|(t, w)| (&*self.planes[*t], *w)).collect();
-        self.spectra.blend = mixture_psd(&parents, authored.mode, contact, &self.spectra.frequencies);
+        self.spectra.blend = mixture_psd(&parents, authored.mixing(), contact, &self.spectra.frequencies);
         self.spectra.parents =
             parents.iter().map(|(plane, _)| plane.at(contact).psd(&self.spectra.frequencies)).collect();
     }

@@ -145,6 +145,10 @@ pub const POWER_HELP: &str =
 /// What the blend `shared` is.
 pub const SHARED_HELP: &str =
     "Signals that share one excitation, so that their spectra blend without a loss of level.";
+/// What the mode parametric does.
+pub const PARAMETRIC_HELP: &str = "One texture with the mean spectrum and level of the neighbors";
+/// What the mode field does.
+pub const FIELD_HELP: &str = "One texture from a smooth field over all textures of the space";
 /// What the latency is.
 pub const LATENCY_HELP: &str = "From a movement of the hand to the output: control tick, filters and two blocks. The mouse \
                                 adds a frame of the window, a sound server its own buffer.";

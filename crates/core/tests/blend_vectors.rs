@@ -9,7 +9,8 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 use shagreen_core::ar::power_gain;
-use shagreen_core::blend::{Mode, author, mixture_psd};
+use shagreen_core::authoring::Authoring;
+use shagreen_core::blend::{Mode, mixture_psd};
 use shagreen_core::lsf::{ar_from_lsf, lsf_from_ar};
 use shagreen_core::plane::Plane;
 use shagreen_core::rng::Random;
@@ -39,7 +40,7 @@ fn sites() -> (Vec<Vec<f64>>, Space) {
 
 fn weights(space: &Space, at: SpacePoint, mode: Mode, n: usize) -> Vec<f64> {
     let mut weights = vec![0.0; n];
-    for (texture, weight) in author(space, at, mode).unwrap().parents {
+    for (texture, weight) in Authoring::new(space.clone()).author(at, &mode.into()).unwrap().parents {
         weights[texture] = weight;
     }
     weights

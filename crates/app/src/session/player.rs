@@ -3,7 +3,8 @@
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Instant;
 
-use shagreen_core::blend::{Authored, Mode};
+use shagreen_core::authoring::Authored;
+use shagreen_core::blend::Mode;
 use shagreen_core::plane::Prepared;
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
@@ -209,7 +210,7 @@ impl Player {
             return;
         }
         self.n_mixes += 1;
-        let mut mix = Mix::silent(synth_blend(authored.mode));
+        let mut mix = Mix::silent(synth_blend(authored.mixing()));
         for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
             let Some(id) = self.slot_of(*texture, ahead) else { return };
             *parent = Parent { id, weight: *weight as f32 };
