@@ -131,9 +131,9 @@ impl Plane {
     }
 
     fn in_triangles(&self, at: Xy) -> Values {
-        let parts = match self.triangulation.locate(at, 0) {
+        let parts = match self.triangulation.locate(at) {
             Some((triangle, weights)) => {
-                let [a, b, c] = self.triangulation.triangles()[triangle];
+                let [a, b, c] = self.triangulation.corners(triangle);
                 [(a, weights[0]), (b, weights[1]), (c, weights[2])]
             }
             // The triangles cover the whole rectangle; what is a rounding error outside lies on its edge.

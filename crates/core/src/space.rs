@@ -134,7 +134,7 @@ impl Space {
 
     /// Library indices of the corners of every triangle.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
-        self.triangulation.triangles().iter().map(|t| t.map(|i| self.sites[i].0))
+        self.triangulation.triangles().map(|t| t.map(|i| self.sites[i].0))
     }
 
     /// Library indices of the ends of every edge of the hull.
@@ -145,22 +145,40 @@ impl Space {
     /// Where `point` lies; `None` only in a space without textures. A point outside the hull is moved to the hull's
     /// nearest point, and says so.
     pub fn locate(&self, point: SpacePoint) -> Option<Location> {
-        if let Some((triangle, weights)) = self.triangulation.locate(point.xy(), 0) {
-            let corners = self.triangulation.triangles()[triangle];
-            let corners = corners.iter().zip(weights).map(|(c, w)| (self.sites[*c].0, w)).collect();
-            return Some(Location { at: point, clamped: false, corners });
+        match self.triangulation.locate(point.xy()) {
+            Some((triangle, weights)) => Some(self.inside(point, triangle, weights)),
+            None => self.on_hull(point),
         }
+    }
+
+    /// As [`Space::locate`], along a drag: `hint` is the triangle of the last point and becomes that of this one. Any
+    /// number will do to begin with.
+    pub fn locate_near(&self, point: SpacePoint, hint: &mut usize) -> Option<Location> {
+        match self.triangulation.locate_near(point.xy(), hint) {
+            Some((triangle, weights)) => Some(self.inside(point, triangle, weights)),
+            None => self.on_hull(point),
+        }
+    }
+
+    /// The position of the texture with this library index.
+    pub fn position(&self, texture: usize) -> Option<SpacePoint> {
+        // Sites are in the order of the library.
+        let site = self.sites.binary_search_by_key(&texture, |(index, _)| *index).ok()?;
+        Some(self.sites[site].1)
+    }
+
+    fn inside(&self, at: SpacePoint, triangle: usize, weights: [f64; 3]) -> Location {
+        let corners = self.triangulation.corners(triangle).into_iter().zip(weights);
+        Location { at, clamped: false, corners: corners.map(|(c, w)| (self.sites[c].0, w)).collect() }
+    }
+
+    fn on_hull(&self, point: SpacePoint) -> Option<Location> {
         let (on, ends) = self.triangulation.nearest_on_outline(point.xy())?;
         let at = SpacePoint::from_xy(on);
         // Three or more collinear textures, or fewer than three: a point on their line is inside.
         let clamped = at.distance(point) > 1e-9;
         let corners = ends.iter().filter(|(_, w)| *w > 0.0).map(|(c, w)| (self.sites[*c].0, *w)).collect();
         Some(Location { at, clamped, corners })
-    }
-
-    /// The position of the texture with this library index.
-    pub fn position(&self, texture: usize) -> Option<SpacePoint> {
-        self.sites.iter().find(|(i, _)| *i == texture).map(|(_, p)| *p)
     }
 }
 

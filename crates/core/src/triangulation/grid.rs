@@ -1,0 +1,128 @@
+//! Where walks begin: a grid over the points, about a cell a point, that knows a triangle near each of its cells.
+//!
+//! Cells are numbered along Hilbert's curve, and triangles are sorted by the cell of their middle. So triangles that
+//! neighbor each other mostly share cache lines or pages, and the place of a cell's first triangle, which the sort counts
+//! anyway, is where walks to that cell begin. A cell without triangles gets the first one after it on the curve.
+
+use crate::triangulation::Xy;
+
+/// A grid of starts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Grid {
+    lowest: Xy,
+    cells_per_unit: Xy,
+    /// Cells along each axis.
+    side: usize,
+    /// First triangle of each cell, row by row; before triangles are sorted, the cell's number on the curve.
+    cells: Vec<u32>,
+}
+
+impl Grid {
+    /// A grid over `points`, and the place of each triangle, given by its corners, in the order of the curve.
+    pub(super) fn new(points: &[Xy], corners: &[[u32; 3]]) -> (Self, Vec<u32>) {
+        let bounds = |axis: usize| {
+            let along = points.iter().map(|p| p[axis]);
+            along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
+        };
+        let bounds = [bounds(0), bounds(1)];
+        let log2_side = (0.5 * (points.len().max(1) as f64).log2()).round() as u32;
+        let side = 1_usize << log2_side;
+        let lowest = bounds.map(|(low, _)| low);
+        let cells_per_unit = bounds.map(|(low, high)| side as f64 / (high - low));
+        let mut grid = Self { lowest, cells_per_unit, side, cells: hilbert(log2_side) };
+        let mut places: Vec<u32> = corners
+            .iter()
+            .map(|corners| {
+                let [a, b, c] = corners.map(|corner| points[corner as usize]);
+                grid.near([0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0))
+            })
+            .collect();
+        // A counting sort.
+        let mut starts = vec![0; grid.cells.len() + 1];
+        for cell in &places {
+            starts[*cell as usize + 1] += 1;
+        }
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let last = corners.len().saturating_sub(1) as u32;
+        for cell in &mut grid.cells {
+            *cell = starts[*cell as usize].min(last);
+        }
+        for place in &mut places {
+            let cell = *place as usize;
+            *place = starts[cell];
+            starts[cell] += 1;
+        }
+        (grid, places)
+    }
+
+    /// The first triangle of the cell that holds `at`, or of the nearest cell.
+    pub(super) fn near(&self, at: Xy) -> u32 {
+        // What is below zero, or no number, becomes zero.
+        let cell = |axis: usize| ((at[axis] - self.lowest[axis]) * self.cells_per_unit[axis]) as usize;
+        let [x, y] = [cell(0), cell(1)].map(|c| c.min(self.side - 1));
+        self.cells[y * self.side + x]
+    }
+}
+
+/// Numbers along Hilbert's curve of the cells of a square of `2^log2_side` cells a side, row by row.
+fn hilbert(log2_side: u32) -> Vec<u32> {
+    let mut numbers = vec![0];
+    let mut side = 1_usize;
+    for _ in 0..log2_side {
+        let quarter = numbers.len() as u32;
+        let mut doubled = vec![0; 4 * numbers.len()];
+        let mut put = |x: usize, y: usize, number: u32| doubled[y * 2 * side + x] = number;
+        for (y, row) in numbers.chunks_exact(side).enumerate() {
+            for (x, number) in row.iter().enumerate() {
+                put(y, x, *number);
+                put(x, side + y, quarter + number);
+                put(side + x, side + y, 2 * quarter + number);
+                put(2 * side - 1 - y, side - 1 - x, 3 * quarter + number);
+            }
+        }
+        numbers = doubled;
+        side *= 2;
+    }
+    numbers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Grid, hilbert};
+
+    #[test]
+    fn the_curve_steps_from_cell_to_neighbor_through_all_cells() {
+        for log2_side in 0..6 {
+            let side = 1_usize << log2_side;
+            let mut cells = vec![None; side * side];
+            for (cell, number) in hilbert(log2_side).into_iter().enumerate() {
+                assert_eq!(cells[number as usize].replace([cell % side, cell / side]), None);
+            }
+            let cells: Vec<[usize; 2]> = cells.into_iter().flatten().collect();
+            let step = |w: &[[usize; 2]]| w[0][0].abs_diff(w[1][0]) + w[0][1].abs_diff(w[1][1]);
+            assert!(cells.windows(2).all(|w| step(w) == 1));
+        }
+    }
+
+    #[test]
+    fn triangles_stand_in_the_order_of_their_cells_and_cells_know_the_first() {
+        let points: Vec<[f64; 2]> = (0..64).map(|i| [f64::from(i % 8), f64::from(i / 8)]).collect();
+        // One half of each of the 49 squares, listed backwards.
+        let corners: Vec<[u32; 3]> =
+            (0..64).filter(|i| i % 8 < 7 && *i < 56).map(|i| [i, i + 1, i + 8]).rev().collect();
+        let (grid, places) = Grid::new(&points, &corners);
+        assert_eq!(grid.side, 8);
+        let mut sorted = places.clone();
+        sorted.sort_unstable();
+        assert!(sorted.iter().enumerate().all(|(i, place)| i as u32 == *place), "every place is taken once");
+        for (corners, place) in corners.iter().zip(&places) {
+            let [x, y] = points[corners[0] as usize].map(|c| c + 1.0 / 3.0);
+            // Cells are 7/8 wide: two middles may share one.
+            assert!(place - grid.near([x, y]) < 4, "{x}, {y}");
+        }
+        assert_eq!(grid.near([-1e300, f64::NAN]), grid.near([0.0, 0.0]));
+        assert_eq!(grid.near([1e300, f64::INFINITY]), grid.near([7.0, 7.0]));
+    }
+}
