@@ -74,9 +74,10 @@ fn said(n: usize, values: (usize, f64)) -> String {
 /// How many of the points are inside, and the sum of what is interpolated there. Each walk begins where the last one
 /// ended, or at the grid.
 fn ours(triangulation: &Triangulation, values: &[f64], points: &[Xy], is_drag: bool) -> (usize, f64) {
-    let (mut hint, mut n_inside, mut sum) = (0, 0, 0.0);
+    let mut walker = triangulation.walker(0);
+    let (mut n_inside, mut sum) = (0, 0.0);
     for at in points {
-        let found = if is_drag { triangulation.locate_near(*at, &mut hint) } else { triangulation.locate(*at) };
+        let found = if is_drag { walker.locate(*at) } else { triangulation.locate(*at) };
         if let Some((triangle, [u, v, w])) = found {
             let [a, b, c] = triangulation.corners(triangle).map(|corner| values[corner]);
             n_inside += 1;

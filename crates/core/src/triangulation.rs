@@ -1,24 +1,24 @@
 //! Delaunay triangles over scattered points of a plane, flat and ready to walk.
 //!
-//! `spade` builds them with exact predicates; what is kept is plain numbers, a cache line a triangle, so that a lookup is
-//! a walk over affine maps and never sees a handle. Used twice: over (speed, force) within a texture, and over textures
-//! within a space.
+//! `spade` builds them with exact predicates; what is kept is plain numbers, so that a lookup is a walk over a flat copy
+//! and never sees a handle. Used twice: over (speed, force) within a texture, and over textures within a space.
 
 mod grid;
 mod outline;
-mod record;
+mod shape;
 mod sites;
 #[cfg(test)]
 mod tests;
 mod walk;
 
+use spade::handles::{FaceHandle, InnerTag};
 use spade::Triangulation as _;
 
 use crate::triangulation::grid::Grid;
 use crate::triangulation::outline::chain;
-use crate::triangulation::record::{NONE, Record, opposite_longest};
-use crate::triangulation::sites::MAX_COORDINATE;
+use crate::triangulation::shape::opposite_longest;
 pub(crate) use crate::triangulation::sites::{Site, delaunay};
+pub use crate::triangulation::walk::Walker;
 
 /// A point or vector of the plane.
 pub type Xy = [f64; 2];
@@ -27,13 +27,23 @@ pub type Xy = [f64; 2];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangulation {
     points: Vec<Xy>,
-    /// Corners of each triangle, counter-clockwise, the one opposite the longest edge last.
-    corners: Vec<[u32; 3]>,
-    records: Vec<Record>,
+    triangles: Vec<Triangle>,
     grid: Grid,
     /// Edges of the convex hull, or of the chain of collinear points.
     outline: Vec<[usize; 2]>,
 }
+
+/// A triangle, small enough that several share a cache line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Triangle {
+    /// Counter-clockwise, the one opposite the longest edge last.
+    corners: [u32; 3],
+    /// Neighbor across the edge opposite each corner, or [`NONE`].
+    neighbors: [u32; 3],
+}
+
+/// The neighbor across an edge of the hull.
+const NONE: u32 = u32::MAX;
 
 /// Why points cannot be triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -68,33 +78,18 @@ impl Triangulation {
             return Ok(Self { points, outline, ..Self::default() });
         }
         let outline = delaunay.convex_hull().map(|e| [e.from().data().index, e.to().data().index]).collect();
-        // Inner faces are numbered from one.
-        let (mut corners, mut neighbors) = (Vec::new(), Vec::new());
-        corners.reserve_exact(delaunay.num_inner_faces());
-        neighbors.reserve_exact(delaunay.num_inner_faces());
-        for face in delaunay.inner_faces() {
+        let face = |face: FaceHandle<'_, InnerTag, Site, (), (), ()>| {
             let edges = face.adjacent_edges();
-            let of_face = edges.map(|e| e.from().data().index as u32);
-            // Edge i runs from corner i to corner i + 1, opposite corner i + 2.
+            let corners = edges.map(|e| e.from().data().index as u32);
+            // Inner faces are numbered from one. Edge i runs from corner i to corner i + 1, opposite corner i + 2.
             let across = edges.map(|e| e.rev().face().as_inner().map_or(NONE, |f| f.fix().index() as u32 - 1));
-            let last = opposite_longest(of_face.map(|corner| points[corner as usize]));
+            let last = opposite_longest(corners.map(|corner| points[corner as usize]));
             let in_order = [(last + 1) % 3, (last + 2) % 3, last];
-            corners.push(in_order.map(|i| of_face[i]));
-            neighbors.push(in_order.map(|i| across[(i + 1) % 3]));
-        }
-        let (grid, places) = Grid::new(&points, &corners);
-        let mut faces = vec![0; places.len()];
-        for (face, place) in places.iter().enumerate() {
-            faces[*place as usize] = face;
-        }
-        let record = |face: &usize| {
-            let corners = corners[*face].map(|corner| points[corner as usize]);
-            let place = |face| if face == NONE { NONE } else { places[face as usize] };
-            Record::new(corners, neighbors[*face].map(place))
+            Triangle { corners: in_order.map(|i| corners[i]), neighbors: in_order.map(|i| across[(i + 1) % 3]) }
         };
-        let records = faces.iter().map(record).collect();
-        let corners = faces.iter().map(|face| corners[*face]).collect();
-        Ok(Self { points, corners, records, grid, outline })
+        let faces: Vec<Triangle> = delaunay.inner_faces().map(face).collect();
+        let (grid, triangles) = Grid::new(&points, faces);
+        Ok(Self { points, triangles, grid, outline })
     }
 
     /// The points, as given but for the separation of equal ones.
@@ -104,18 +99,18 @@ impl Triangulation {
 
     /// Corners of each triangle, counter-clockwise.
     pub fn triangles(&self) -> impl ExactSizeIterator<Item = [usize; 3]> + '_ {
-        self.corners.iter().map(|corners| corners.map(|corner| corner as usize))
+        (0..self.triangles.len()).map(|triangle| self.corners(triangle))
     }
 
     /// Corners of one triangle, counter-clockwise.
     #[inline]
     pub fn corners(&self, triangle: usize) -> [usize; 3] {
-        self.corners[triangle].map(|corner| corner as usize)
+        self.triangles[triangle].corners.map(|corner| corner as usize)
     }
 
     /// Neighbor of a triangle across the edge opposite each of its corners.
     pub fn neighbors(&self, triangle: usize) -> [Option<usize>; 3] {
-        self.records[triangle].neighbors.map(|next| (next != NONE).then_some(next as usize))
+        self.triangles[triangle].neighbors.map(|next| (next != NONE).then_some(next as usize))
     }
 
     /// Edges of the convex hull, or of the chain through collinear points.
@@ -128,27 +123,17 @@ impl Triangulation {
     ///
     /// A walk from a triangle near the point: a few steps, however many triangles there are.
     pub fn locate(&self, at: Xy) -> Option<(usize, [f64; 3])> {
-        if !self.is_near(at) {
+        if self.triangles.is_empty() {
             return None;
         }
-        self.walk(at, &mut (self.grid.near(at) as usize))
+        let (triangle, weights) = self.walk(self.grid.near(at) as usize, at);
+        weights.map(|weights| (triangle, weights))
     }
 
-    /// As [`Triangulation::locate`], by a walk from the triangle `hint`: cost is that of the triangles crossed. The
-    /// triangle found is the hint for a point close by.
-    #[inline]
-    pub fn locate_near(&self, at: Xy, hint: &mut usize) -> Option<(usize, [f64; 3])> {
-        if !self.is_near(at) {
-            return None;
-        }
-        *hint = (*hint).min(self.records.len() - 1);
-        self.walk(at, hint)
-    }
-
-    /// Whether there are triangles and `at` is not so far from them that numbers overflow.
-    #[inline]
-    fn is_near(&self, at: Xy) -> bool {
-        !self.records.is_empty() && at.iter().all(|c| c.abs() <= 2.0 * MAX_COORDINATE)
+    /// A walker for points that lie close to each other one after the other, such as those of a drag. The first walk
+    /// begins at the triangle `from`, or at any if there is none with this number.
+    pub fn walker(&self, from: usize) -> Walker<'_> {
+        Walker::new(self, from.min(self.triangles.len().saturating_sub(1)))
     }
 }
 

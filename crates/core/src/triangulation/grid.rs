@@ -4,7 +4,7 @@
 //! neighbor each other mostly share cache lines or pages, and the place of a cell's first triangle, which the sort counts
 //! anyway, is where walks to that cell begin. A cell without triangles gets the first one after it on the curve.
 
-use crate::triangulation::Xy;
+use crate::triangulation::{NONE, Triangle, Xy};
 
 /// A grid of starts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,8 +18,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// A grid over `points`, and the place of each triangle, given by its corners, in the order of the curve.
-    pub(super) fn new(points: &[Xy], corners: &[[u32; 3]]) -> (Self, Vec<u32>) {
+    /// A grid over `points`, and the triangles in the order of the curve.
+    pub(super) fn new(points: &[Xy], triangles: Vec<Triangle>) -> (Self, Vec<Triangle>) {
         let bounds = |axis: usize| {
             let along = points.iter().map(|p| p[axis]);
             along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
@@ -30,10 +30,10 @@ impl Grid {
         let lowest = bounds.map(|(low, _)| low);
         let cells_per_unit = bounds.map(|(low, high)| side as f64 / (high - low));
         let mut grid = Self { lowest, cells_per_unit, side, cells: hilbert(log2_side) };
-        let mut places: Vec<u32> = corners
+        let mut places: Vec<u32> = triangles
             .iter()
-            .map(|corners| {
-                let [a, b, c] = corners.map(|corner| points[corner as usize]);
+            .map(|triangle| {
+                let [a, b, c] = triangle.corners.map(|corner| points[corner as usize]);
                 grid.near([0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0))
             })
             .collect();
@@ -45,7 +45,7 @@ impl Grid {
         for cell in 1..starts.len() {
             starts[cell] += starts[cell - 1];
         }
-        let last = corners.len().saturating_sub(1) as u32;
+        let last = triangles.len().saturating_sub(1) as u32;
         for cell in &mut grid.cells {
             *cell = starts[*cell as usize].min(last);
         }
@@ -54,7 +54,12 @@ impl Grid {
             *place = starts[cell];
             starts[cell] += 1;
         }
-        (grid, places)
+        let mut sorted = triangles.clone();
+        for (triangle, place) in triangles.into_iter().zip(&places) {
+            let moved = |next: u32| if next == NONE { NONE } else { places[next as usize] };
+            sorted[*place as usize] = Triangle { neighbors: triangle.neighbors.map(moved), ..triangle };
+        }
+        (grid, sorted)
     }
 
     /// The first triangle of the cell that holds `at`, or of the nearest cell.

@@ -1,6 +1,6 @@
 //! What bounds the triangles: the hull, or the chain of points where there are none.
 
-use crate::triangulation::record::{dot, sub};
+use crate::triangulation::shape::{dot, sub};
 use crate::triangulation::{Triangulation, Xy};
 
 impl Triangulation {
