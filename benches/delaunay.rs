@@ -15,6 +15,7 @@
 mod measure;
 
 use std::f64::consts::TAU;
+use std::hint::black_box;
 use std::path::Path;
 
 use measure::{bench_noted, bench_peer};
@@ -67,24 +68,21 @@ fn drag() -> Vec<Xy> {
     (0..N_DRAG).map(|i| 1e-3 * i as f64).map(|t| [along(t, 0.31, 0.0), along(t, 0.47, 1.0)]).collect()
 }
 
-fn said(n: usize, values: (usize, f64)) -> String {
-    format!("{:.3} % inside, mean {:.9}", 100.0 * values.0 as f64 / n as f64, values.1 / values.0 as f64)
+fn said(points: &[Xy], (n_inside, sum): (usize, f64)) -> String {
+    let share = 100.0 * n_inside as f64 / points.len() as f64;
+    format!("{share:.3} % inside, mean {:.9}", sum / n_inside as f64)
 }
 
-/// How many of the points are inside, and the sum of what is interpolated there. Each walk begins where the last one
-/// ended, or at the grid.
-fn ours(triangulation: &Triangulation, values: &[f64], points: &[Xy], is_drag: bool) -> (usize, f64) {
-    let mut walker = triangulation.walker(0);
-    let (mut n_inside, mut sum) = (0, 0.0);
-    for at in points {
-        let found = if is_drag { walker.locate(*at) } else { triangulation.locate(*at) };
-        if let Some((triangle, [u, v, w])) = found {
-            let [a, b, c] = triangulation.corners(triangle).map(|corner| values[corner]);
-            n_inside += 1;
-            sum += u * a + v * b + w * c;
-        }
-    }
-    (n_inside, sum)
+/// How many of the points are inside, and the sum of what is interpolated there.
+fn ours(
+    triangulation: &Triangulation,
+    values: &[f64],
+    found: impl Iterator<Item = Option<(usize, [f64; 3])>>,
+) -> (usize, f64) {
+    found.flatten().fold((0, 0.0), |(n_inside, sum), (triangle, [u, v, w])| {
+        let [a, b, c] = triangulation.corners(triangle).map(|corner| values[corner]);
+        (n_inside + 1, sum + u * a + v * b + w * c)
+    })
 }
 
 fn spades<Hint: HintGenerator<f64>>(triangulation: &Raw<Hint>, points: &[Xy]) -> (usize, f64) {
@@ -93,8 +91,8 @@ fn spades<Hint: HintGenerator<f64>>(triangulation: &Raw<Hint>, points: &[Xy]) ->
     points.iter().filter_map(at).fold((0, 0.0), |(n_inside, sum), value| (n_inside + 1, sum + value))
 }
 
-fn loaded<Hint: HintGenerator<f64>>(points: &[Xy]) -> Raw<Hint> {
-    let valued = points.iter().map(|p| Valued { at: Point2::new(p[0], p[1]), value: value(p) });
+fn loaded<Hint: HintGenerator<f64>>(points: &[Xy], values: &[f64]) -> Raw<Hint> {
+    let valued = points.iter().zip(values).map(|(p, value)| Valued { at: Point2::new(p[0], p[1]), value: *value });
     Raw::bulk_load(valued.collect()).expect("points")
 }
 
@@ -107,18 +105,31 @@ fn main() {
         let case = format!("Delaunay of {n} points");
         let build = || Triangulation::new(&points).expect("points");
         bench_noted(&case, n as f64, "point", || format!("{} triangles", build().triangles().len()));
-        let raw = || loaded::<LastUsedVertexHintGenerator>(&points);
+        let raw = || loaded::<LastUsedVertexHintGenerator>(&points, &values);
         bench_peer(&case, "spade", n as f64, "point", || format!("{} triangles", raw().num_inner_faces()));
-        let (built, near, anywhere) = (build(), raw(), loaded::<HierarchyHintGenerator<f64>>(&points));
-        for (kind, at, is_drag) in [("along a drag", &drag, true), ("at random", &random, false)] {
-            let case = format!("value among {n} points {kind}");
-            let n = at.len() as f64;
-            bench_noted(&case, n, "value", || said(at.len(), ours(&built, &values, at, is_drag)));
-            if is_drag {
-                bench_peer(&case, "spade, last vertex", n, "value", || said(at.len(), spades(&near, at)));
-            } else {
-                bench_peer(&case, "spade, hierarchy", n, "value", || said(at.len(), spades(&anywhere, at)));
+        let (built, near, anywhere) = (build(), raw(), loaded::<HierarchyHintGenerator<f64>>(&points, &values));
+        let drag_value = || {
+            let mut hint = 0;
+            said(&drag, ours(&built, &values, drag.iter().map(|at| built.locate_near(*at, &mut hint))))
+        };
+        let case = format!("weights among {n} points along a drag");
+        let note = drag_value();
+        bench_noted(&case, N_DRAG as f64, "point", || {
+            let mut hint = 0;
+            for at in &drag {
+                black_box(built.locate_near(*at, &mut hint));
             }
-        }
+            note.clone()
+        });
+        let case = format!("value among {n} points along a drag");
+        bench_noted(&case, N_DRAG as f64, "value", drag_value);
+        bench_peer(&case, "spade, last vertex", N_DRAG as f64, "value", || said(&drag, spades(&near, &drag)));
+        let case = format!("value among {n} points at random");
+        bench_noted(&case, N_RANDOM as f64, "value", || {
+            said(&random, ours(&built, &values, random.iter().map(|at| built.locate(*at))))
+        });
+        bench_peer(&case, "spade, hierarchy", N_RANDOM as f64, "value", || {
+            said(&random, spades(&anywhere, &random))
+        });
     }
 }

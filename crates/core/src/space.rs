@@ -154,10 +154,7 @@ impl Space {
     /// As [`Space::locate`], along a drag: `hint` is the triangle of the last point and becomes that of this one. Any
     /// number will do to begin with.
     pub fn locate_near(&self, point: SpacePoint, hint: &mut usize) -> Option<Location> {
-        let mut walker = self.triangulation.walker(*hint);
-        let found = walker.locate(point.xy());
-        *hint = walker.triangle();
-        match found {
+        match self.triangulation.locate_near(point.xy(), hint) {
             Some((triangle, weights)) => Some(self.inside(point, triangle, weights)),
             None => self.on_hull(point),
         }

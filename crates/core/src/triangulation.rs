@@ -16,9 +16,8 @@ use spade::Triangulation as _;
 
 use crate::triangulation::grid::Grid;
 use crate::triangulation::outline::chain;
-use crate::triangulation::shape::opposite_longest;
+use crate::triangulation::shape::{NONE, Shape, opposite_longest};
 pub(crate) use crate::triangulation::sites::{Site, delaunay};
-pub use crate::triangulation::walk::Walker;
 
 /// A point or vector of the plane.
 pub type Xy = [f64; 2];
@@ -27,23 +26,13 @@ pub type Xy = [f64; 2];
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangulation {
     points: Vec<Xy>,
-    triangles: Vec<Triangle>,
+    /// Corners of each triangle, counter-clockwise, the one opposite the longest edge last.
+    corners: Vec<[u32; 3]>,
+    shapes: Vec<Shape>,
     grid: Grid,
     /// Edges of the convex hull, or of the chain of collinear points.
     outline: Vec<[usize; 2]>,
 }
-
-/// A triangle, small enough that several share a cache line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Triangle {
-    /// Counter-clockwise, the one opposite the longest edge last.
-    corners: [u32; 3],
-    /// Neighbor across the edge opposite each corner, or [`NONE`].
-    neighbors: [u32; 3],
-}
-
-/// The neighbor across an edge of the hull.
-const NONE: u32 = u32::MAX;
 
 /// Why points cannot be triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -78,18 +67,31 @@ impl Triangulation {
             return Ok(Self { points, outline, ..Self::default() });
         }
         let outline = delaunay.convex_hull().map(|e| [e.from().data().index, e.to().data().index]).collect();
+        let places = |corners: [u32; 3]| corners.map(|corner| points[corner as usize]);
         let face = |face: FaceHandle<'_, InnerTag, Site, (), (), ()>| {
             let edges = face.adjacent_edges();
             let corners = edges.map(|e| e.from().data().index as u32);
             // Inner faces are numbered from one. Edge i runs from corner i to corner i + 1, opposite corner i + 2.
             let across = edges.map(|e| e.rev().face().as_inner().map_or(NONE, |f| f.fix().index() as u32 - 1));
-            let last = opposite_longest(corners.map(|corner| points[corner as usize]));
+            let last = opposite_longest(places(corners));
             let in_order = [(last + 1) % 3, (last + 2) % 3, last];
-            Triangle { corners: in_order.map(|i| corners[i]), neighbors: in_order.map(|i| across[(i + 1) % 3]) }
+            (in_order.map(|i| corners[i]), in_order.map(|i| across[(i + 1) % 3]))
         };
-        let faces: Vec<Triangle> = delaunay.inner_faces().map(face).collect();
-        let (grid, triangles) = Grid::new(&points, faces);
-        Ok(Self { points, triangles, grid, outline })
+        let faces: Vec<([u32; 3], [u32; 3])> = delaunay.inner_faces().map(face).collect();
+        let mut grid = Grid::new(&points);
+        let order = grid.settle(faces.iter().map(|(corners, _)| {
+            let [a, b, c] = places(*corners);
+            [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0)
+        }));
+        let mut face_at = vec![0; order.len()];
+        for (face, place) in order.iter().enumerate() {
+            face_at[*place as usize] = face;
+        }
+        let corners: Vec<[u32; 3]> = face_at.iter().map(|face| faces[*face].0).collect();
+        let place = |next: u32| if next == NONE { NONE } else { order[next as usize] };
+        let neighbors = face_at.iter().map(|face| faces[*face].1.map(place));
+        let shapes = corners.iter().zip(neighbors).map(|(c, n)| Shape::new(places(*c), n)).collect();
+        Ok(Self { points, corners, shapes, grid, outline })
     }
 
     /// The points, as given but for the separation of equal ones.
@@ -99,41 +101,23 @@ impl Triangulation {
 
     /// Corners of each triangle, counter-clockwise.
     pub fn triangles(&self) -> impl ExactSizeIterator<Item = [usize; 3]> + '_ {
-        (0..self.triangles.len()).map(|triangle| self.corners(triangle))
+        self.corners.iter().map(|corners| corners.map(|corner| corner as usize))
     }
 
     /// Corners of one triangle, counter-clockwise.
     #[inline]
     pub fn corners(&self, triangle: usize) -> [usize; 3] {
-        self.triangles[triangle].corners.map(|corner| corner as usize)
+        self.corners[triangle].map(|corner| corner as usize)
     }
 
     /// Neighbor of a triangle across the edge opposite each of its corners.
     pub fn neighbors(&self, triangle: usize) -> [Option<usize>; 3] {
-        self.triangles[triangle].neighbors.map(|next| (next != NONE).then_some(next as usize))
+        self.shapes[triangle].neighbors.map(|next| (next != NONE).then_some(next as usize))
     }
 
     /// Edges of the convex hull, or of the chain through collinear points.
     pub fn outline(&self) -> &[[usize; 2]] {
         &self.outline
-    }
-
-    /// The triangle that holds `at` with the weights of its corners, which are at least zero and sum to one; `None`
-    /// outside the hull or where there are no triangles.
-    ///
-    /// A walk from a triangle near the point: a few steps, however many triangles there are.
-    pub fn locate(&self, at: Xy) -> Option<(usize, [f64; 3])> {
-        if self.triangles.is_empty() {
-            return None;
-        }
-        let (triangle, weights) = self.walk(self.grid.near(at) as usize, at);
-        weights.map(|weights| (triangle, weights))
-    }
-
-    /// A walker for points that lie close to each other one after the other, such as those of a drag. The first walk
-    /// begins at the triangle `from`, or at any if there is none with this number.
-    pub fn walker(&self, from: usize) -> Walker<'_> {
-        Walker::new(self, from.min(self.triangles.len().saturating_sub(1)))
     }
 }
 

@@ -4,7 +4,7 @@
 //! neighbor each other mostly share cache lines or pages, and the place of a cell's first triangle, which the sort counts
 //! anyway, is where walks to that cell begin. A cell without triangles gets the first one after it on the curve.
 
-use crate::triangulation::{NONE, Triangle, Xy};
+use crate::triangulation::Xy;
 
 /// A grid of starts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,56 +18,49 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// A grid over `points`, and the triangles in the order of the curve.
-    pub(super) fn new(points: &[Xy], triangles: Vec<Triangle>) -> (Self, Vec<Triangle>) {
+    /// A grid over `points`, of which there are some.
+    pub(super) fn new(points: &[Xy]) -> Self {
         let bounds = |axis: usize| {
             let along = points.iter().map(|p| p[axis]);
             along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
         };
         let bounds = [bounds(0), bounds(1)];
-        let log2_side = (0.5 * (points.len().max(1) as f64).log2()).round() as u32;
+        let log2_side = (0.5 * (points.len() as f64).log2()).ceil() as u32;
         let side = 1_usize << log2_side;
         let lowest = bounds.map(|(low, _)| low);
         let cells_per_unit = bounds.map(|(low, high)| side as f64 / (high - low));
-        let mut grid = Self { lowest, cells_per_unit, side, cells: hilbert(log2_side) };
-        let mut places: Vec<u32> = triangles
-            .iter()
-            .map(|triangle| {
-                let [a, b, c] = triangle.corners.map(|corner| points[corner as usize]);
-                grid.near([0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0))
-            })
-            .collect();
-        // A counting sort.
-        let mut starts = vec![0; grid.cells.len() + 1];
+        Self { lowest, cells_per_unit, side, cells: hilbert(log2_side) }
+    }
+
+    /// The place of each triangle, given by its middle, in the order of the cells, which from now on know their first
+    /// ones: a counting sort.
+    pub(super) fn settle(&mut self, middles: impl ExactSizeIterator<Item = Xy>) -> Vec<u32> {
+        let mut places: Vec<u32> = middles.map(|at| self.near(at) as u32).collect();
+        let mut starts = vec![0; self.cells.len() + 1];
         for cell in &places {
             starts[*cell as usize + 1] += 1;
         }
         for cell in 1..starts.len() {
             starts[cell] += starts[cell - 1];
         }
-        let last = triangles.len().saturating_sub(1) as u32;
-        for cell in &mut grid.cells {
+        let last = places.len().saturating_sub(1) as u32;
+        for cell in &mut self.cells {
             *cell = starts[*cell as usize].min(last);
         }
         for place in &mut places {
-            let cell = *place as usize;
-            *place = starts[cell];
-            starts[cell] += 1;
+            let free = &mut starts[*place as usize];
+            *place = *free;
+            *free += 1;
         }
-        let mut sorted = triangles.clone();
-        for (triangle, place) in triangles.into_iter().zip(&places) {
-            let moved = |next: u32| if next == NONE { NONE } else { places[next as usize] };
-            sorted[*place as usize] = Triangle { neighbors: triangle.neighbors.map(moved), ..triangle };
-        }
-        (grid, sorted)
+        places
     }
 
     /// The first triangle of the cell that holds `at`, or of the nearest cell.
-    pub(super) fn near(&self, at: Xy) -> u32 {
+    pub(super) fn near(&self, at: Xy) -> usize {
         // What is below zero, or no number, becomes zero.
         let cell = |axis: usize| ((at[axis] - self.lowest[axis]) * self.cells_per_unit[axis]) as usize;
-        let [x, y] = [cell(0), cell(1)].map(|c| c.min(self.side - 1));
-        self.cells[y * self.side + x]
+        let [x, y] = [cell(0), cell(1)].map(|c| c.min(self.side.saturating_sub(1)));
+        self.cells.get(y * self.side + x).map_or(0, |cell| *cell as usize)
     }
 }
 
@@ -114,18 +107,22 @@ mod tests {
     #[test]
     fn triangles_stand_in_the_order_of_their_cells_and_cells_know_the_first() {
         let points: Vec<[f64; 2]> = (0..64).map(|i| [f64::from(i % 8), f64::from(i / 8)]).collect();
-        // One half of each of the 49 squares, listed backwards.
-        let corners: Vec<[u32; 3]> =
-            (0..64).filter(|i| i % 8 < 7 && *i < 56).map(|i| [i, i + 1, i + 8]).rev().collect();
-        let (grid, places) = Grid::new(&points, &corners);
+        let mut grid = Grid::new(&points);
         assert_eq!(grid.side, 8);
-        let mut sorted = places.clone();
-        sorted.sort_unstable();
-        assert!(sorted.iter().enumerate().all(|(i, place)| i as u32 == *place), "every place is taken once");
-        for (corners, place) in corners.iter().zip(&places) {
-            let [x, y] = points[corners[0] as usize].map(|c| c + 1.0 / 3.0);
-            // Cells are 7/8 wide: two middles may share one.
-            assert!(place - grid.near([x, y]) < 4, "{x}, {y}");
+        let middles: Vec<[f64; 2]> = points.iter().rev().step_by(3).copied().collect();
+        let curve = grid.clone();
+        let places = grid.settle(middles.iter().copied());
+        let mut cells = vec![usize::MAX; middles.len()];
+        for (middle, place) in middles.iter().zip(&places) {
+            assert_eq!(cells[*place as usize], usize::MAX, "a place is taken twice");
+            cells[*place as usize] = curve.near(*middle);
+        }
+        assert!(cells.is_sorted());
+        for at in points {
+            // The first triangle of its cell or of the ones after it, or the last of all.
+            let (first, cell) = (grid.near(at), curve.near(at));
+            assert!(first == 0 || cells[first - 1] < cell);
+            assert!(cells[first] >= cell || first + 1 == cells.len());
         }
         assert_eq!(grid.near([-1e300, f64::NAN]), grid.near([0.0, 0.0]));
         assert_eq!(grid.near([1e300, f64::INFINITY]), grid.near([7.0, 7.0]));
