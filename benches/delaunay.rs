@@ -26,7 +26,8 @@ use spade::{
     LastUsedVertexHintGenerator, Point2, Triangulation as _,
 };
 
-const N_DRAG: usize = 1_000_000;
+/// As many points as it takes until the curve begins anew.
+const N_DRAG: usize = 100_000;
 const N_RANDOM: usize = 100_000;
 
 /// A point and what is interpolated between the points.

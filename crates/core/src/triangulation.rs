@@ -11,7 +11,6 @@ mod sites;
 mod tests;
 mod walk;
 
-use spade::handles::{FaceHandle, InnerTag};
 use spade::Triangulation as _;
 
 use crate::triangulation::grid::Grid;
@@ -67,30 +66,33 @@ impl Triangulation {
             return Ok(Self { points, outline, ..Self::default() });
         }
         let outline = delaunay.convex_hull().map(|e| [e.from().data().index, e.to().data().index]).collect();
-        let places = |corners: [u32; 3]| corners.map(|corner| points[corner as usize]);
-        let face = |face: FaceHandle<'_, InnerTag, Site, (), (), ()>| {
+        let mut grid = Grid::new(&points);
+        let (mut faces, mut cells) = (Vec::new(), Vec::new());
+        faces.reserve_exact(delaunay.num_inner_faces());
+        cells.reserve_exact(delaunay.num_inner_faces());
+        for face in delaunay.inner_faces() {
             let edges = face.adjacent_edges();
-            let corners = edges.map(|e| e.from().data().index as u32);
+            let [a, b, c] = edges.map(|edge| edge.from().data().place());
+            cells.push(grid.near([0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0)) as u32);
+            let corners = edges.map(|edge| edge.from().data().index as u32);
             // Inner faces are numbered from one. Edge i runs from corner i to corner i + 1, opposite corner i + 2.
             let across = edges.map(|e| e.rev().face().as_inner().map_or(NONE, |f| f.fix().index() as u32 - 1));
-            let last = opposite_longest(places(corners));
+            let last = opposite_longest([a, b, c]);
             let in_order = [(last + 1) % 3, (last + 2) % 3, last];
-            (in_order.map(|i| corners[i]), in_order.map(|i| across[(i + 1) % 3]))
-        };
-        let faces: Vec<([u32; 3], [u32; 3])> = delaunay.inner_faces().map(face).collect();
-        let mut grid = Grid::new(&points);
-        let order = grid.settle(faces.iter().map(|(corners, _)| {
-            let [a, b, c] = places(*corners);
-            [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0)
-        }));
-        let mut face_at = vec![0; order.len()];
-        for (face, place) in order.iter().enumerate() {
-            face_at[*place as usize] = face;
+            faces.push((in_order.map(|i| corners[i]), in_order.map(|i| across[(i + 1) % 3])));
         }
-        let corners: Vec<[u32; 3]> = face_at.iter().map(|face| faces[*face].0).collect();
+        let order = grid.settle(cells);
+        let mut face_at = vec![0_u32; order.len()];
+        for (face, place) in order.iter().enumerate() {
+            face_at[*place as usize] = face as u32;
+        }
         let place = |next: u32| if next == NONE { NONE } else { order[next as usize] };
-        let neighbors = face_at.iter().map(|face| faces[*face].1.map(place));
-        let shapes = corners.iter().zip(neighbors).map(|(c, n)| Shape::new(places(*c), n)).collect();
+        let sorted = || face_at.iter().map(|face| faces[*face as usize]);
+        let corners = sorted().map(|(corners, _)| corners).collect();
+        let shape = |(corners, neighbors): ([u32; 3], [u32; 3])| {
+            Shape::new(corners.map(|corner| points[corner as usize]), neighbors.map(place))
+        };
+        let shapes = sorted().map(shape).collect();
         Ok(Self { points, corners, shapes, grid, outline })
     }
 

@@ -25,17 +25,16 @@ impl Grid {
             along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)))
         };
         let bounds = [bounds(0), bounds(1)];
-        let log2_side = (0.5 * (points.len() as f64).log2()).ceil() as u32;
+        let log2_side = (0.5 * (points.len() as f64).log2()).round() as u32;
         let side = 1_usize << log2_side;
         let lowest = bounds.map(|(low, _)| low);
         let cells_per_unit = bounds.map(|(low, high)| side as f64 / (high - low));
         Self { lowest, cells_per_unit, side, cells: hilbert(log2_side) }
     }
 
-    /// The place of each triangle, given by its middle, in the order of the cells, which from now on know their first
-    /// ones: a counting sort.
-    pub(super) fn settle(&mut self, middles: impl ExactSizeIterator<Item = Xy>) -> Vec<u32> {
-        let mut places: Vec<u32> = middles.map(|at| self.near(at) as u32).collect();
+    /// The place of each triangle, given by what [`Grid::near`] says of its middle, in the order of the cells, which from
+    /// now on know their first ones: a counting sort.
+    pub(super) fn settle(&mut self, mut places: Vec<u32>) -> Vec<u32> {
         let mut starts = vec![0; self.cells.len() + 1];
         for cell in &places {
             starts[*cell as usize + 1] += 1;
@@ -111,7 +110,7 @@ mod tests {
         assert_eq!(grid.side, 8);
         let middles: Vec<[f64; 2]> = points.iter().rev().step_by(3).copied().collect();
         let curve = grid.clone();
-        let places = grid.settle(middles.iter().copied());
+        let places = grid.settle(middles.iter().map(|at| curve.near(*at) as u32).collect());
         let mut cells = vec![usize::MAX; middles.len()];
         for (middle, place) in middles.iter().zip(&places) {
             assert_eq!(cells[*place as usize], usize::MAX, "a place is taken twice");

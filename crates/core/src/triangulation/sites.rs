@@ -19,6 +19,12 @@ pub(crate) struct Site {
     pub(crate) index: usize,
 }
 
+impl Site {
+    pub(super) fn place(&self) -> Xy {
+        [self.position.x, self.position.y]
+    }
+}
+
 impl HasPosition for Site {
     type Scalar = f64;
 

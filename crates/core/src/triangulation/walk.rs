@@ -41,6 +41,16 @@ impl Triangulation {
     /// number will do for the first point.
     #[inline]
     pub fn locate_near(&self, at: Xy, hint: &mut usize) -> Option<(usize, [f64; 3])> {
+        if let Some(shape) = self.shapes.get(*hint) {
+            let weights = shape.weights(at);
+            if lowest(weights).1 >= 0.0 {
+                return Some((*hint, weights));
+            }
+        }
+        self.walk(at, hint)
+    }
+
+    fn walk(&self, at: Xy, hint: &mut usize) -> Option<(usize, [f64; 3])> {
         let mut triangle = if *hint < self.shapes.len() { *hint } else { 0 };
         let mut shape = self.shapes.get(triangle)?;
         for _ in 0..self.shapes.len() {
