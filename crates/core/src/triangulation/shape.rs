@@ -61,15 +61,16 @@ impl Shape {
     }
 }
 
-/// The index of the lowest number and the number, without a branch that could not be foreseen.
+/// The index of the lowest number and the number, without a branch that could not be foreseen. If the last is no number,
+/// as a weight is if one before it is none, there is no lowest.
 #[inline]
 pub(super) fn lowest([u, v, w]: [f64; 3]) -> (usize, f64) {
     let of_two = smaller(u, v);
     let is_last = usize::from(w < of_two);
-    ((usize::from(v < u) & (1 - is_last)) | (2 * is_last), smaller(of_two, w))
+    ((usize::from(v < u) & (1 - is_last)) | (2 * is_last), smaller(w, of_two))
 }
 
-/// The smaller of two numbers by one instruction, as it need not look for what is no number.
+/// The smaller of two numbers by one instruction; the first, if one is no number.
 #[inline]
 fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }

@@ -115,9 +115,7 @@ impl Triangulation {
             return Verdict::Beyond(corner);
         }
         if shape.is_thick {
-            let weights = weights.map(|w| w.max(0.0));
-            let sum = weights[0] + weights[1] + weights[2];
-            return Verdict::Inside(weights.map(|w| w / sum));
+            return Verdict::Inside(clamped(weights, [a, b, c]));
         }
         // On the longest edge, up to the height of the third corner over it.
         let along = sub(b, a);
@@ -128,6 +126,28 @@ impl Triangulation {
         let share = share.clamp(0.0, 1.0);
         Verdict::Inside([1.0 - share, share, 0.0])
     }
+}
+
+/// Weights without what rounding took below zero; they sum to one.
+///
+/// What a corner has too little is taken from the nearest other one, which moves the point that they say the least: of two
+/// corners next to each other, the weights may be far off, but not their sum.
+fn clamped(mut weights: [f64; 3], corners: [Xy; 3]) -> [f64; 3] {
+    for corner in [0, 1, 2, 0, 1, 2] {
+        if weights[corner] < 0.0 {
+            let [left, right] = [(corner + 1) % 3, (corner + 2) % 3];
+            let squared = |other: usize| {
+                let along = sub(corners[other], corners[corner]);
+                dot(along, along)
+            };
+            let giver = if squared(left) <= squared(right) { left } else { right };
+            weights[giver] += weights[corner];
+            weights[corner] = 0.0;
+        }
+    }
+    let weights = weights.map(|w| w.max(0.0));
+    let sum = weights[0] + weights[1] + weights[2];
+    weights.map(|w| w / sum)
 }
 
 /// The most that twice the area can be that an edge makes with a point to the left of it: below zero, the point is to the
