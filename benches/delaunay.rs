@@ -53,7 +53,8 @@ fn value(&[x, y]: &Xy) -> f64 {
 /// The input of this name, or what stands for it.
 fn input(name: &str, made_up: impl FnOnce() -> Vec<Xy>) -> Vec<Xy> {
     let Some(folder) = std::env::var_os("SHAGREEN_BENCH_INPUTS") else { return made_up() };
-    let bytes = std::fs::read(Path::new(&folder).join(format!("delaunay_{name}.f64"))).expect("an input of the peers");
+    let bytes = std::fs::read(Path::new(&folder).join(format!("delaunay_{name}.f64")))
+        .expect("an input of the peers");
     let number = |b: &[u8]| f64::from_le_bytes(b.try_into().expect("eight bytes"));
     bytes.chunks_exact(16).map(|b| [number(&b[..8]), number(&b[8..])]).collect()
 }
@@ -93,7 +94,8 @@ fn spades<Hint: HintGenerator<f64>>(triangulation: &Raw<Hint>, points: &[Xy]) ->
 }
 
 fn loaded<Hint: HintGenerator<f64>>(points: &[Xy], values: &[f64]) -> Raw<Hint> {
-    let valued = points.iter().zip(values).map(|(p, value)| Valued { at: Point2::new(p[0], p[1]), value: *value });
+    let valued =
+        points.iter().zip(values).map(|(p, value)| Valued { at: Point2::new(p[0], p[1]), value: *value });
     Raw::bulk_load(valued.collect()).expect("points")
 }
 
@@ -108,7 +110,8 @@ fn main() {
         bench_noted(&case, n as f64, "point", || format!("{} triangles", build().triangles().len()));
         let raw = || loaded::<LastUsedVertexHintGenerator>(&points, &values);
         bench_peer(&case, "spade", n as f64, "point", || format!("{} triangles", raw().num_inner_faces()));
-        let (built, near, anywhere) = (build(), raw(), loaded::<HierarchyHintGenerator<f64>>(&points, &values));
+        let (built, near, anywhere) =
+            (build(), raw(), loaded::<HierarchyHintGenerator<f64>>(&points, &values));
         let drag_value = || {
             let mut hint = 0;
             said(&drag, ours(&built, &values, drag.iter().map(|at| built.locate_near(*at, &mut hint))))

@@ -220,6 +220,24 @@ mod tests {
     }
 
     #[test]
+    fn a_drag_says_the_same_as_each_of_its_points() {
+        let places: Vec<_> = (0..40)
+            .map(|i| (i % 3 > 0).then(|| point(f64::from(i * 37 % 101), f64::from(i * 59 % 97))))
+            .collect();
+        let space = Space::new(&places).unwrap();
+        let mut hint = usize::MAX;
+        for step in 0..1000 {
+            let angle = 0.02 * f64::from(step);
+            let at = point(50.0 + 50.0 * angle.sin(), 50.0 + 50.0 * (1.7 * angle).cos());
+            assert_eq!(space.locate_near(at, &mut hint), space.locate(at));
+        }
+        for (texture, place) in places.iter().enumerate() {
+            assert_eq!(space.position(texture), *place);
+        }
+        assert_eq!(space.position(places.len()), None);
+    }
+
+    #[test]
     fn few_textures_still_make_a_space() {
         assert_eq!(Space::new(&[None]).unwrap().locate(point(1.0, 2.0)), None);
         let one = Space::new(&[Some(point(30.0, 40.0))]).unwrap().locate(point(90.0, 40.0)).unwrap();

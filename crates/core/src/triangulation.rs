@@ -76,7 +76,8 @@ impl Triangulation {
             cells.push(grid.near([0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0)) as u32);
             let corners = edges.map(|edge| edge.from().data().index as u32);
             // Inner faces are numbered from one. Edge i runs from corner i to corner i + 1, opposite corner i + 2.
-            let across = edges.map(|e| e.rev().face().as_inner().map_or(NONE, |f| f.fix().index() as u32 - 1));
+            let across =
+                edges.map(|e| e.rev().face().as_inner().map_or(NONE, |f| f.fix().index() as u32 - 1));
             let last = opposite_longest([a, b, c]);
             let in_order = [(last + 1) % 3, (last + 2) % 3, last];
             faces.push((in_order.map(|i| corners[i]), in_order.map(|i| across[(i + 1) % 3])));

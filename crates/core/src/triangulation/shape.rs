@@ -49,7 +49,13 @@ impl Shape {
             return Self { origin: c, along_x, along_y, neighbors, is_thick: true };
         }
         let (far, weight) = (1e40, 1e-8);
-        Self { origin: [far, 0.0], along_x: [weight / far, 0.0], along_y: [0.0; 2], neighbors, is_thick: false }
+        Self {
+            origin: [far, 0.0],
+            along_x: [weight / far, 0.0],
+            along_y: [0.0; 2],
+            neighbors,
+            is_thick: false,
+        }
     }
 
     /// Weights of the corners at a point; negative outside the triangle.

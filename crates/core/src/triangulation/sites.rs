@@ -36,7 +36,9 @@ impl HasPosition for Site {
 /// The points, separated where they are equal, and their triangulation.
 pub(crate) fn delaunay(points: &[Xy]) -> Result<(Vec<Xy>, DelaunayTriangulation<Site>), TriangulationError> {
     few_enough(points.len())?;
-    if let Some(index) = points.iter().position(|p| p.iter().any(|c| !c.is_finite() || c.abs() > MAX_COORDINATE)) {
+    if let Some(index) =
+        points.iter().position(|p| p.iter().any(|c| !c.is_finite() || c.abs() > MAX_COORDINATE))
+    {
         return Err(TriangulationError::Coordinate { index });
     }
     // Smaller numbers overflow the exact predicates, and are zero for every purpose here; so is minus zero. Before points

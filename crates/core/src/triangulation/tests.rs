@@ -6,7 +6,10 @@ use crate::rng::Random;
 /// The weights at a point by looking at every triangle, with a thickness of their edges of 1e-12.
 fn oracle(t: &Triangulation, at: Xy) -> Vec<(usize, [f64; 3])> {
     let weights = |i: usize| weights_at(t.corners(i).map(|corner| t.points()[corner]), at);
-    (0..t.triangles().len()).map(|i| (i, weights(i))).filter(|(_, w)| w.iter().all(|w| *w >= -1e-12)).collect()
+    (0..t.triangles().len())
+        .map(|i| (i, weights(i)))
+        .filter(|(_, w)| w.iter().all(|w| *w >= -1e-12))
+        .collect()
 }
 
 /// The point that weights say.
@@ -37,12 +40,11 @@ fn adversarial() -> impl Strategy<Value = Vec<Xy>> {
         };
         (0..columns * rows).map(turned).collect::<Vec<Xy>>()
     });
-    let line = (3_usize..30, 0.0_f64..2.0, prop::collection::vec([0.0_f64..1.0, 0.0_f64..1.0], 1..3)).prop_map(
-        |(n, slope, mut points)| {
+    let line = (3_usize..30, 0.0_f64..2.0, prop::collection::vec([0.0_f64..1.0, 0.0_f64..1.0], 1..3))
+        .prop_map(|(n, slope, mut points)| {
             points.extend((0..n).map(|i| i as f64 / 9.0).map(|x| [x, slope * x + 0.1]));
             points
-        },
-    );
+        });
     let circle = (3_usize..40).prop_map(|n| {
         let angle = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
         (0..n).map(|i| [angle(i).cos(), angle(i).sin()]).chain([[0.0, 0.0]]).collect()
@@ -62,10 +64,11 @@ fn adversarial() -> impl Strategy<Value = Vec<Xy>> {
     );
     let scale = prop_oneof![Just(1.0), Just(1e-6), Just(1e6)];
     let shift = prop_oneof![Just(0.0), Just(1.0), Just(-1000.0)];
-    (prop_oneof![grid, line, circle, slivers, clusters], scale, shift)
-        .prop_map(|(points, scale, shift): (Vec<Xy>, f64, f64)| {
+    (prop_oneof![grid, line, circle, slivers, clusters], scale, shift).prop_map(
+        |(points, scale, shift): (Vec<Xy>, f64, f64)| {
             points.into_iter().map(|p| p.map(|c| scale * (c + shift))).collect()
-        })
+        },
+    )
 }
 
 fn size(points: &[Xy]) -> f64 {
@@ -220,8 +223,12 @@ fn in_circle(triangle: [Xy; 3], at: Xy) -> f64 {
         [x, y, x * x + y * y]
     });
     let terms = [
-        a[0] * b[1] * c[2], a[1] * b[2] * c[0], a[2] * b[0] * c[1],
-        -a[2] * b[1] * c[0], -a[1] * b[0] * c[2], -a[0] * b[2] * c[1],
+        a[0] * b[1] * c[2],
+        a[1] * b[2] * c[0],
+        a[2] * b[0] * c[1],
+        -a[2] * b[1] * c[0],
+        -a[1] * b[0] * c[2],
+        -a[0] * b[2] * c[1],
     ];
     terms.iter().sum::<f64>() / terms.iter().map(|t| t.abs()).sum::<f64>().max(f64::MIN_POSITIVE)
 }

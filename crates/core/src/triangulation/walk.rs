@@ -60,16 +60,16 @@ impl Triangulation {
                 *hint = triangle;
                 return Some((triangle, weights));
             }
-            // What is no number is not less either.
-            if !(least < SURELY_OUTSIDE) {
-                break;
-            }
-            match shape.neighbors[corner] {
-                NONE => {
-                    *hint = triangle;
-                    return None;
+            if least < SURELY_OUTSIDE {
+                match shape.neighbors[corner] {
+                    NONE => {
+                        *hint = triangle;
+                        return None;
+                    }
+                    next => triangle = next as usize,
                 }
-                next => triangle = next as usize,
+            } else {
+                break;
             }
             shape = &self.shapes[triangle];
         }
