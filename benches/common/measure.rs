@@ -23,7 +23,12 @@ pub(crate) fn bench(case: &str, units: f64, unit: &str, mut work: impl FnMut()) 
 }
 
 /// As [`bench`], with what `work` says of its result beside the figures.
-pub(crate) fn bench_noted(case: &str, units: f64, unit: &str, mut work: impl FnMut() -> String) {
+pub(crate) fn bench_noted(case: &str, units: f64, unit: &str, work: impl FnMut() -> String) {
+    bench_peer(case, "shagreen", units, unit, work);
+}
+
+/// As [`bench_noted`], for a peer that is a crate.
+pub(crate) fn bench_peer(case: &str, peer: &str, units: f64, unit: &str, mut work: impl FnMut() -> String) {
     let reps = std::env::var("BENCH_REPS").ok().and_then(|r| r.parse().ok()).unwrap_or(5);
     let warm = Instant::now();
     let note = work();
@@ -36,7 +41,7 @@ pub(crate) fn bench_noted(case: &str, units: f64, unit: &str, mut work: impl FnM
         }
         let (wall, cpu) = (wall.elapsed().as_secs_f64() / inner, (cpu_secs(wall) - cpu) / inner);
         let line = serde_json::json!({
-            "case": case, "peer": "shagreen", "wall_s": wall, "cpu_s": cpu,
+            "case": case, "peer": peer, "wall_s": wall, "cpu_s": cpu,
             "units": units, "unit": unit, "threads": 1, "inner": inner, "per_s": units / cpu, "note": note,
         });
         println!("{line}");

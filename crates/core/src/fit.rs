@@ -211,11 +211,11 @@ fn landing(recordings: &[Recording], notes: &mut Vec<String>) -> Option<TapFit> 
 fn hull_share(points: &[[f64; 2]]) -> f64 {
     // Shares are finite, so points can be triangulated.
     let Ok(triangulation) = Triangulation::new(points) else { return 0.0 };
-    let area = |[a, b, c]: &[usize; 3]| {
-        let [a, b, c] = [*a, *b, *c].map(|i| triangulation.points()[i]);
+    let area = |corners: [usize; 3]| {
+        let [a, b, c] = corners.map(|i| triangulation.points()[i]);
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])).abs()
     };
-    triangulation.triangles().iter().map(area).sum()
+    triangulation.triangles().map(area).sum()
 }
 
 #[cfg(test)]

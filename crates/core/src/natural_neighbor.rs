@@ -84,7 +84,7 @@ mod tests {
             let points: Vec<Xy> = points.into_iter().map(|(x, y)| [x, y]).collect();
             let triangulation = Triangulation::new(&points).unwrap();
             let at = [at.0, at.1];
-            let Some((_, inside)) = triangulation.locate(at, 0) else { return Ok(()) };
+            let Some((_, inside)) = triangulation.locate(at) else { return Ok(()) };
             // Next to the hull, stolen cells reach to infinity and digits are lost.
             if inside.iter().any(|weight| *weight < 1e-3) {
                 return Ok(());

@@ -27,8 +27,8 @@ pub struct Plane {
     rate: Hertz,
     speed_max_mps: f64,
     force_max_n: f64,
-    /// Lowest speed in m/s and force in N that was measured off the axes.
-    lowest: [f64; 2],
+    /// Speed in m/s and force in N of what was measured off the axes.
+    measured: Vec<[f64; 2]>,
     vertices: Vec<Values>,
     triangulation: Triangulation,
     /// Where this is, the triangles only stand for it.
@@ -114,10 +114,9 @@ impl Plane {
             Ok(triangulation) => triangulation,
             Err(error) => unreachable!("a model's own checks keep shares of the highest in 0..1: {error}"),
         };
-        let off_axes =
-            texture.contacts().map(|c| [c.speed.0, c.force.0]).filter(|c| c[0] > 0.0 && c[1] > 0.0);
-        let lowest = off_axes.fold([speed_max_mps, force_max_n], |[v, f], c| [v.min(c[0]), f.min(c[1])]);
-        Self { rate: texture.rate(), speed_max_mps, force_max_n, lowest, vertices, triangulation, radial }
+        let contacts = texture.contacts().map(|c| [c.speed.0, c.force.0]);
+        let measured = contacts.filter(|c| c[0] > 0.0 && c[1] > 0.0).collect();
+        Self { rate: texture.rate(), speed_max_mps, force_max_n, measured, vertices, triangulation, radial }
     }
 
     /// The grain at `contact`; outside the measured range that of its nearest edge, in the air silent.
@@ -145,15 +144,15 @@ impl Plane {
         [self.vertices[0].lsf.len(), self.vertices[0].ma_lsf.len()]
     }
 
-    /// Lowest and highest speed in m/s, then force in N, at which something was measured.
-    pub(crate) fn measured(&self) -> [(f64, f64); 2] {
-        [(self.lowest[0], self.speed_max_mps), (self.lowest[1], self.force_max_n)]
+    /// Speed in m/s and force in N of everything that was measured off the axes.
+    pub(crate) fn measured(&self) -> &[[f64; 2]] {
+        &self.measured
     }
 
     fn in_triangles(&self, at: Xy) -> Values {
-        let parts = match self.triangulation.locate(at, 0) {
+        let parts = match self.triangulation.locate(at) {
             Some((triangle, weights)) => {
-                let [a, b, c] = self.triangulation.triangles()[triangle];
+                let [a, b, c] = self.triangulation.corners(triangle);
                 [(a, weights[0]), (b, weights[1]), (c, weights[2])]
             }
             // The triangles cover the whole rectangle; what is a rounding error outside lies on its edge.

@@ -3,18 +3,17 @@
 
 mod bins;
 mod exponential;
+mod lattice;
 
 use crate::ar::levinson;
 use crate::lsf::{QuickLsf, repair_to};
 use crate::plane::{Grain, Plane};
 use crate::sampled::bins::Bins;
+use crate::sampled::lattice::lattice;
 use crate::tap::Tap;
 use crate::texture::{GrainNode, MAX_ORDER, TextureModel, TextureModelError};
-use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use crate::units::{Contact, Hertz};
 
-/// Speeds and forces of a lattice.
-const N_SPEEDS: usize = 5;
-const N_FORCES: usize = 5;
 /// Bins of a spectrum at 1 kHz, from zero to half the rate; as wide at other rates.
 const BINS_AT_1_KHZ: f64 = 128.0;
 /// Lowest order of a predictor through a mean of spectra: lower ones lose the shape of a real spectrum.
@@ -40,12 +39,6 @@ pub struct Layers<'a> {
     pub tap: Option<Tap>,
 }
 
-/// Speeds and forces, all of one with all of the other.
-#[derive(Clone, Debug, PartialEq)]
-struct Lattice {
-    contacts: Vec<Contact>,
-}
-
 /// Grain at the contacts of a lattice.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SampledGrain {
@@ -60,47 +53,12 @@ pub(crate) struct SampledGrain {
 /// How textures of one rate are sampled.
 #[derive(Clone, Debug)]
 pub(crate) struct Sampling {
-    lattice: Lattice,
+    contacts: Vec<Contact>,
     rate: Hertz,
     order: usize,
     bins: Bins,
     frequencies: Vec<Hertz>,
     quick: QuickLsf,
-}
-
-impl Lattice {
-    /// A lattice over what textures know: from the middle of their lowest speeds and forces to the highest of all, in equal ratios.
-    fn over(planes: &[&Plane]) -> Self {
-        let (mut low, mut high) = ([Vec::new(), Vec::new()], [0.0_f64; 2]);
-        for plane in planes {
-            let measured = plane.measured();
-            for axis in 0..2 {
-                low[axis].push(measured[axis].0);
-                high[axis] = high[axis].max(measured[axis].1);
-            }
-        }
-        let [low_speed, low_force] = low.map(middle);
-        let speeds = ratios(low_speed, high[0], N_SPEEDS);
-        let forces = ratios(low_force, high[1], N_FORCES);
-        let at = |speed: f64, force: f64| Contact { speed: MetersPerSecond(speed), force: Newtons(force) };
-        let contacts = speeds.iter().flat_map(|v| forces.iter().map(|f| at(*v, *f))).collect();
-        Self { contacts }
-    }
-}
-
-fn middle(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
-}
-
-/// `n` numbers from `low` to `high` in equal ratios; one where there is no room between.
-fn ratios(low: f64, high: f64, n: usize) -> Vec<f64> {
-    if high < 1.01 * low {
-        return vec![high];
-    }
-    let low = low.max(0.01 * high);
-    let share = |i: usize| i as f64 / (n - 1) as f64;
-    (0..n).map(|i| if i + 1 == n { high } else { low * (high / low).powf(share(i)) }).collect()
 }
 
 impl Sampling {
@@ -114,19 +72,19 @@ impl Sampling {
         let order = planes.iter().map(poles).max()?.clamp(MIN_ORDER, MAX_ORDER).next_multiple_of(2);
         let n_bins = (BINS_AT_1_KHZ * rate.0 / 1000.0).ceil() as usize;
         let bins = Bins::new(rate, n_bins, order);
-        let (lattice, frequencies) = (Lattice::over(planes), bins.frequencies());
-        Some(Self { lattice, rate, order, bins, frequencies, quick: QuickLsf::new() })
+        let (contacts, frequencies) = (lattice(planes), bins.frequencies());
+        Some(Self { contacts, rate, order, bins, frequencies, quick: QuickLsf::new() })
     }
 
     /// The grain of a plane.
     pub(crate) fn sample(&self, plane: &Plane) -> SampledGrain {
-        let n = self.lattice.contacts.len();
+        let n = self.contacts.len();
         let mut sampled = SampledGrain {
             ln_psd: Vec::with_capacity(n * self.bins.len()),
             lsf: Vec::with_capacity(n * self.order),
             ln_level: Vec::with_capacity(n),
         };
-        for contact in &self.lattice.contacts {
+        for contact in &self.contacts {
             let grain = plane.at(*contact);
             let psd = grain.psd(&self.frequencies);
             let ln_psd: Vec<f32> = psd.iter().map(|p| p.max(FLOOR_PSD).ln() as f32).collect();
@@ -172,7 +130,7 @@ impl Sampling {
         tap: Option<Tap>,
     ) -> Result<TextureModel, TextureModelError> {
         let spectra = ln_psd.chunks_exact(self.bins.len());
-        let nodes = self.lattice.contacts.iter().zip(spectra).map(|(at, ln_psd)| {
+        let nodes = self.contacts.iter().zip(spectra).map(|(at, ln_psd)| {
             let (lsf, level_mps2) = self.fit(ln_psd);
             node(*at, &lsf, level_mps2)
         });
@@ -190,7 +148,7 @@ impl Sampling {
         friction: Option<f64>,
         tap: Option<Tap>,
     ) -> Result<TextureModel, TextureModelError> {
-        let nodes = self.lattice.contacts.iter().zip(lsf.chunks_exact(self.order)).zip(ln_level);
+        let nodes = self.contacts.iter().zip(lsf.chunks_exact(self.order)).zip(ln_level);
         let nodes = nodes.map(|((at, lsf), ln_level)| node(*at, lsf, ln_level.exp()));
         Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))
     }

@@ -136,7 +136,7 @@ impl Space {
 
     /// Library indices of the corners of every triangle.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
-        self.triangulation.triangles().iter().map(|t| t.map(|i| self.sites[i].0))
+        self.triangulation.triangles().map(|t| t.map(|i| self.sites[i].0))
     }
 
     /// Library indices of the ends of every edge of the hull.
@@ -147,22 +147,40 @@ impl Space {
     /// Where `point` lies; `None` only in a space without textures. A point outside the hull is moved to the hull's
     /// nearest point, and says so.
     pub fn locate(&self, point: SpacePoint) -> Option<Location> {
-        if let Some((triangle, weights)) = self.triangulation.locate(point.xy(), 0) {
-            let corners = self.triangulation.triangles()[triangle];
-            let corners = corners.iter().zip(weights).map(|(c, w)| (self.sites[*c].0, w)).collect();
-            return Some(Location { at: point, clamped: false, corners });
+        match self.triangulation.locate(point.xy()) {
+            Some((triangle, weights)) => Some(self.inside(point, triangle, weights)),
+            None => self.on_hull(point),
         }
+    }
+
+    /// As [`Space::locate`], along a drag: `hint` is the triangle of the last point and becomes that of this one. Any
+    /// number will do to begin with.
+    pub fn locate_near(&self, point: SpacePoint, hint: &mut usize) -> Option<Location> {
+        match self.triangulation.locate_near(point.xy(), hint) {
+            Some((triangle, weights)) => Some(self.inside(point, triangle, weights)),
+            None => self.on_hull(point),
+        }
+    }
+
+    /// The position of the texture with this library index.
+    pub fn position(&self, texture: usize) -> Option<SpacePoint> {
+        // Sites are in the order of the library.
+        let site = self.sites.binary_search_by_key(&texture, |(index, _)| *index).ok()?;
+        Some(self.sites[site].1)
+    }
+
+    fn inside(&self, at: SpacePoint, triangle: usize, weights: [f64; 3]) -> Location {
+        let corners = self.triangulation.corners(triangle).into_iter().zip(weights);
+        Location { at, clamped: false, corners: corners.map(|(c, w)| (self.sites[c].0, w)).collect() }
+    }
+
+    fn on_hull(&self, point: SpacePoint) -> Option<Location> {
         let (on, ends) = self.triangulation.nearest_on_outline(point.xy())?;
         let at = SpacePoint::from_xy(on);
         // Three or more collinear textures, or fewer than three: a point on their line is inside.
         let clamped = at.distance(point) > 1e-9;
         let corners = ends.iter().filter(|(_, w)| *w > 0.0).map(|(c, w)| (self.sites[*c].0, *w)).collect();
         Some(Location { at, clamped, corners })
-    }
-
-    /// The position of the texture with this library index.
-    pub fn position(&self, texture: usize) -> Option<SpacePoint> {
-        self.sites.iter().find(|(i, _)| *i == texture).map(|(_, p)| *p)
     }
 }
 
@@ -201,6 +219,24 @@ mod tests {
         assert!(location.clamped && location.corners.len() == 2);
         assert!((location.corners.iter().map(|c| c.1).sum::<f64>() - 1.0).abs() < 1e-12);
         assert!(location.at.distance(point(100.0, 100.0)) > 1.0);
+    }
+
+    #[test]
+    fn a_drag_says_the_same_as_each_of_its_points() {
+        let places: Vec<_> = (0..40)
+            .map(|i| (i % 3 > 0).then(|| point(f64::from(i * 37 % 101), f64::from(i * 59 % 97))))
+            .collect();
+        let space = Space::new(&places).unwrap();
+        let mut hint = usize::MAX;
+        for step in 0..1000 {
+            let angle = 0.02 * f64::from(step);
+            let at = point(50.0 + 50.0 * angle.sin(), 50.0 + 50.0 * (1.7 * angle).cos());
+            assert_eq!(space.locate_near(at, &mut hint), space.locate(at));
+        }
+        for (texture, place) in places.iter().enumerate() {
+            assert_eq!(space.position(texture), *place);
+        }
+        assert_eq!(space.position(places.len()), None);
     }
 
     #[test]

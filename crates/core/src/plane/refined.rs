@@ -73,7 +73,7 @@ impl<'a> Refined<'a> {
         radial: Option<&'a RadialGrain>,
     ) -> Self {
         let ln_gains = vertices.iter().map(|v| v.values.ln_gain()).collect();
-        let triangles = triangulation.triangles().to_vec();
+        let triangles = triangulation.triangles().collect();
         let mut refined = Self { vertices, triangles, ln_gains, edges: BTreeMap::new(), radial };
         for triangle in 0..refined.triangles.len() {
             refined.join(triangle);

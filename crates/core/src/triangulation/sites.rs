@@ -1,0 +1,106 @@
+//! From points to `spade`'s triangulation: what its predicates take, with equal points moved apart.
+
+use std::collections::BTreeSet;
+
+use spade::{DelaunayTriangulation, HasPosition, MIN_ALLOWED_VALUE, Point2, Triangulation as _};
+
+use crate::triangulation::{TriangulationError, Xy};
+
+/// Largest coordinate of a point.
+pub(super) const MAX_COORDINATE: f64 = 1e12;
+
+/// The most points: triangles, fewer than two a point, and `spade`'s edges, fewer than six, have numbers of 32 bits, of
+/// which the last means none.
+const MAX_POINTS: usize = (u32::MAX / 6) as usize;
+
+/// A site that remembers its index.
+#[derive(Debug)]
+pub(crate) struct Site {
+    position: Point2<f64>,
+    pub(crate) index: usize,
+}
+
+impl Site {
+    pub(super) fn place(&self) -> Xy {
+        [self.position.x, self.position.y]
+    }
+}
+
+impl HasPosition for Site {
+    type Scalar = f64;
+
+    fn position(&self) -> Point2<f64> {
+        self.position
+    }
+}
+
+/// The points, separated where they are equal, and their triangulation.
+pub(crate) fn delaunay(points: &[Xy]) -> Result<(Vec<Xy>, DelaunayTriangulation<Site>), TriangulationError> {
+    few_enough(points.len())?;
+    if let Some(index) =
+        points.iter().position(|p| p.iter().any(|c| !c.is_finite() || c.abs() > MAX_COORDINATE))
+    {
+        return Err(TriangulationError::Coordinate { index });
+    }
+    // Smaller numbers overflow the exact predicates, and are zero for every purpose here; so is minus zero. Before points
+    // are compared, since they may make points equal.
+    let plain = |c: f64| if c.abs() < MIN_ALLOWED_VALUE { 0.0 } else { c };
+    let points: Vec<Xy> = points.iter().map(|p| p.map(plain)).collect();
+    let delaunay = loaded(&points);
+    if delaunay.num_vertices() == points.len() {
+        return Ok((points, delaunay));
+    }
+    // Of equal points `spade` keeps one.
+    let points = separated(&points);
+    let delaunay = loaded(&points);
+    Ok((points, delaunay))
+}
+
+fn few_enough(n_points: usize) -> Result<(), TriangulationError> {
+    if n_points > MAX_POINTS {
+        return Err(TriangulationError::Count { n_points, most: MAX_POINTS });
+    }
+    Ok(())
+}
+
+fn loaded(points: &[Xy]) -> DelaunayTriangulation<Site> {
+    let site = |(index, [x, y]): (usize, &Xy)| Site { position: Point2::new(*x, *y), index };
+    match DelaunayTriangulation::bulk_load(points.iter().enumerate().map(site).collect()) {
+        Ok(delaunay) => delaunay,
+        Err(error) => unreachable!("no coordinate is too large or too small by now: {error}"),
+    }
+}
+
+/// Points with equal ones moved apart: a spiral step by index, the same on every run.
+fn separated(points: &[Xy]) -> Vec<Xy> {
+    let size = points.iter().flatten().fold(0.0_f64, |m, c| m.max(c.abs())).max(1e-9);
+    let mut seen = BTreeSet::new();
+    points
+        .iter()
+        .enumerate()
+        .map(|(index, p)| {
+            let mut moved = *p;
+            let mut step = 0;
+            while !seen.insert(moved.map(f64::to_bits)) {
+                step += 1;
+                let angle = (index + step) as f64 * 2.399_963;
+                let radius = 1e-9 * size * (1.0 + step as f64);
+                moved = [p[0] + radius * angle.cos(), p[1] + radius * angle.sin()];
+            }
+            moved
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_POINTS, TriangulationError, few_enough};
+
+    #[test]
+    fn more_points_than_there_are_numbers_are_refused() {
+        assert_eq!(few_enough(MAX_POINTS), Ok(()));
+        let error = few_enough(MAX_POINTS + 1).unwrap_err();
+        assert_eq!(error, TriangulationError::Count { n_points: MAX_POINTS + 1, most: MAX_POINTS });
+        assert!(6 * MAX_POINTS < u32::MAX as usize);
+    }
+}
