@@ -4,7 +4,9 @@
 //! error. Exit status 0 is done, 1 could not, 2 wrong usage.
 
 mod devices;
+mod evaluate;
 mod export;
+mod figures_folder;
 mod guard;
 mod import;
 mod import_hatt;
@@ -58,6 +60,9 @@ enum Command {
     /// Spaces of textures: made from what people felt, or placed by a table.
     #[command(subcommand)]
     Space(SpaceCommand),
+    /// Measures on signals how well authoring works.
+    #[command(subcommand)]
+    Evaluate(EvaluateCommand),
     /// Lists styluses, outputs and serial ports.
     Devices(devices::Args),
     /// Drives an actuator with a texture.
@@ -86,6 +91,11 @@ enum SpaceCommand {
 }
 
 #[derive(clap::Subcommand)]
+enum EvaluateCommand {
+    LeaveOneOut(evaluate::Args),
+}
+
+#[derive(clap::Subcommand)]
 enum TextureCommand {
     /// The power spectral density of a texture's model.
     Psd(texture_psd::Args),
@@ -111,6 +121,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Space(SpaceCommand::Panel(args))) => space_panel::run(args),
         Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
+        Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
         Some(Command::Devices(args)) => {
             devices::run(args);
             Ok(())

@@ -193,6 +193,23 @@ pub enum LeaveOneOutError {
     Stopped,
 }
 
+impl LeaveOneOutError {
+    /// Library index of the texture that is to blame, where one is.
+    pub fn texture(&self) -> Option<usize> {
+        match self {
+            Self::Rate { texture, .. }
+            | Self::Models { texture, .. }
+            | Self::Unmade { texture, .. }
+            | Self::Render { texture, .. } => Some(*texture),
+            Self::TooFew { .. }
+            | Self::NoneInside { .. }
+            | Self::Blending(_)
+            | Self::Space(_)
+            | Self::Stopped => None,
+        }
+    }
+}
+
 /// Leaves each texture out that lies strictly inside the hull of the rest, authors one at its place and compares the two.
 /// `textures` is indexed like the library; those without a place have no part in it.
 ///
