@@ -141,20 +141,19 @@ impl<'a> Rests<'a> {
         let rest = self.textures.iter().enumerate().filter_map(placed).filter(|(i, _)| *i != left_out);
         let rate =
             highest_rate(rest.map(|(_, model)| model)).map_or(COMPARED_RATE, |r| higher(r, COMPARED_RATE));
-        let known = match self.at_rates.iter().position(|(known, _)| *known == rate) {
-            Some(known) => known,
-            None => {
-                let mut planes = vec![None; self.textures.len()];
-                for (texture, model) in self.textures.iter().enumerate().filter_map(placed) {
-                    if model.rate().0 <= rate.0 {
-                        planes[texture] = Some(Arc::new(plane_at(texture, model, rate)?));
-                    }
+        let known = self.at_rates.iter().find(|(known, _)| *known == rate).map(|(_, planes)| planes.clone());
+        let mut planes = if let Some(planes) = known {
+            planes
+        } else {
+            let mut planes = vec![None; self.textures.len()];
+            for (texture, model) in self.textures.iter().enumerate().filter_map(placed) {
+                if model.rate().0 <= rate.0 {
+                    planes[texture] = Some(Arc::new(plane_at(texture, model, rate)?));
                 }
-                self.at_rates.push((rate, planes));
-                self.at_rates.len() - 1
             }
+            self.at_rates.push((rate, planes.clone()));
+            planes
         };
-        let mut planes = self.at_rates[known].1.clone();
         planes[left_out] = None;
         Ok(planes)
     }

@@ -11,6 +11,7 @@ use crate::units::Hertz;
 
 /// What was rendered, beside its model.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_field_names, reason = "the unit comes last, and all have the same")]
 pub(super) struct Rendered {
     /// Distance of the signals of authored and original, in dB.
     error_db: f64,
