@@ -25,6 +25,7 @@ mod space_panel;
 mod space_place;
 mod stroke;
 mod target;
+mod texture_path;
 mod texture_psd;
 mod window;
 
@@ -53,7 +54,7 @@ enum Command {
     Import(ImportCommand),
     /// Renders a texture as a stylus would feel it, as float WAV in m/s².
     Render(render::Args),
-    /// Questions about one texture.
+    /// One texture: its spectrum, or a path of textures through the space.
     #[command(subcommand)]
     Texture(TextureCommand),
     Export(export::Args),
@@ -99,6 +100,7 @@ enum EvaluateCommand {
 enum TextureCommand {
     /// The power spectral density of a texture's model.
     Psd(texture_psd::Args),
+    Path(Box<texture_path::Args>),
 }
 
 /// Does what the arguments of the program say.
@@ -122,6 +124,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
+        Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
         Some(Command::Devices(args)) => {
             devices::run(args);
             Ok(())
