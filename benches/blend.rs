@@ -1,5 +1,9 @@
 //! Blending: what a drag costs, mode by mode, in spaces of 25 and 1,000 textures, up to what the renderer takes.
-#![allow(clippy::expect_used, clippy::print_stdout, reason = "a benchmark stops at what it did not expect, and prints")]
+#![allow(
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a benchmark stops at what it did not expect, and prints"
+)]
 
 #[path = "common/measure.rs"]
 mod measure;

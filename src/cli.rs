@@ -4,7 +4,9 @@
 //! error. Exit status 0 is done, 1 could not, 2 wrong usage.
 
 mod devices;
+mod evaluate;
 mod export;
+mod figures_folder;
 mod guard;
 mod import;
 mod import_hatt;
@@ -59,6 +61,9 @@ enum Command {
     /// Spaces of textures: made from what people felt, or placed by a table.
     #[command(subcommand)]
     Space(SpaceCommand),
+    /// Measures on signals how well authoring works.
+    #[command(subcommand)]
+    Evaluate(EvaluateCommand),
     /// Lists styluses, outputs and serial ports.
     Devices(devices::Args),
     /// Drives an actuator with a texture.
@@ -84,6 +89,11 @@ enum SpaceCommand {
     Build(Box<space_build::Args>),
     Panel(space_panel::Args),
     Place(space_place::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum EvaluateCommand {
+    LeaveOneOut(evaluate::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -113,6 +123,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Space(SpaceCommand::Panel(args))) => space_panel::run(args),
         Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
+        Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
         Some(Command::Devices(args)) => {
             devices::run(args);

@@ -1,8 +1,8 @@
 //! `shagreen space build`: an authoring space from sortings and ratings.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use shagreen_core::features::NamedTexture;
 use shagreen_core::mds::{MAX_DIMS, Ties};
 use shagreen_core::mfcc::{MfccOptions, htk, paper, recommended};
@@ -13,13 +13,13 @@ use shagreen_core::space_build::{
     FeatureKind, PlacedBy, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
 };
 use shagreen_core::words::counted;
-use shagreen_formats::atomic;
-use shagreen_formats::figure::{figure_csv, figure_svg, is_figure_csv, page_svg};
+use shagreen_formats::figure::page_svg;
 use shagreen_formats::library::write_library;
 use shagreen_formats::space_report::{
     FIGURES, FORMAT, placed_library, space_figures, space_report, space_subtitle,
 };
 
+use crate::cli::figures_folder::{check_figures, figure_files, write_together};
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&report_json, "the report", |bytes| has_format(bytes, FORMAT))?;
     refuse_foreign(&report_svg, "the page of plots", |bytes| bytes.starts_with(b"<svg"))?;
     if let Some(folder) = &args.figures {
-        check_figures(folder, &inputs)?;
+        check_figures(folder, &FIGURES, &inputs)?;
     }
     // Before minutes of work, not after them.
     if let Some(folder) = [&args.out, &report_json, &report_svg].into_iter().find(|path| path.is_dir()) {
@@ -137,10 +137,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     text.push('\n');
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     if let Some(folder) = &args.figures {
-        for (name, figure) in &figures {
-            files.push((folder.join(format!("{name}.svg")), figure_svg(figure).into_bytes()));
-            files.push((folder.join(format!("{name}.csv")), figure_csv(figure)));
-        }
+        files.extend(figures.iter().flat_map(|(name, figure)| figure_files(folder, name, figure)));
     }
     let on_page: Vec<_> = figures.into_iter().map(|(_, figure)| figure).collect();
     let page = page_svg("Authoring space", &space_subtitle(&built), &on_page);
@@ -149,43 +146,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     files.push((args.out.clone(), write_library(&placed)));
     write_together(&files, args.figures.as_deref())?;
     output::print(args.json, &report, || in_words(args, &built));
-    Ok(())
-}
-
-/// Writes all files or none, into a folder of figures among others that is made for them.
-fn write_together(files: &[(PathBuf, Vec<u8>)], folder: Option<&Path>) -> anyhow::Result<()> {
-    // The innermost first: those that are made here go away again where nothing is written.
-    let mut made: Vec<&Path> =
-        folder.into_iter().flat_map(Path::ancestors).take_while(|path| !path.exists()).collect();
-    made.retain(|path| !path.as_os_str().is_empty());
-    let write = || {
-        if let Some(folder) = folder {
-            std::fs::create_dir_all(folder)
-                .context("cannot make the folder; choose another")
-                .with_context(|| output::in_file(folder))?;
-        }
-        let files: Vec<(&Path, &[u8])> = files.iter().map(|(path, bytes)| (&**path, &**bytes)).collect();
-        Ok(atomic::write_all(&files)?)
-    };
-    write().inspect_err(|_| {
-        for path in made {
-            // The error is told; a folder that somebody else fills meanwhile stays.
-            let _ = std::fs::remove_dir(path);
-        }
-    })
-}
-
-/// Figures must not replace what is read, nor somebody's files.
-fn check_figures(folder: &Path, inputs: &[Option<&Path>]) -> anyhow::Result<()> {
-    if folder.exists() && !folder.is_dir() {
-        bail!("figures go into a folder, and this is a file; name another: {}", folder.display());
-    }
-    for name in FIGURES {
-        let [svg, csv] = ["svg", "csv"].map(|ending| folder.join(format!("{name}.{ending}")));
-        refuse_inputs(&[&svg, &csv], inputs)?;
-        refuse_foreign(&svg, "a figure", |bytes| bytes.starts_with(b"<svg"))?;
-        refuse_foreign(&csv, "the numbers of a figure", is_figure_csv)?;
-    }
     Ok(())
 }
 

@@ -3,9 +3,10 @@
 use anyhow::Context as _;
 use serde_json::json;
 use shagreen_core::ar::comparison_frequencies;
-use shagreen_core::blend::{Mode, mixture_psd};
+use shagreen_core::blend::mixture_psd;
+use shagreen_core::fidelity::mixture_level_mps2;
 use shagreen_core::plane::Plane;
-use shagreen_core::units::{Contact, Hertz};
+use shagreen_core::units::Contact;
 
 use crate::cli::motion::quantity;
 use crate::cli::output;
@@ -46,7 +47,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let parents: Vec<(&Plane, f64)> = planes.iter().map(|(plane, weight)| (plane, *weight)).collect();
     let frequencies = comparison_frequencies(rate, args.bins as usize);
     let psd = mixture_psd(&parents, chosen.mixing, contact, &frequencies);
-    let rms = rms(&parents, chosen.mixing, contact, rate);
+    let rms = mixture_level_mps2(&parents, chosen.mixing, contact);
     let hz: Vec<f64> = frequencies.iter().map(|frequency| frequency.0).collect();
     output::print(
         args.json,
@@ -71,36 +72,4 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     Ok(())
-}
-
-/// Steps of the integral over the density: on a full turn of the unit circle the rule of trapezoids leaves only what
-/// the process still remembers after twice as many samples, which is nothing.
-const N_STEPS: usize = 8192;
-
-/// Level of a mixture, root mean square in m/s²: the integral of its density from zero to half the rate.
-fn rms(parents: &[(&Plane, f64)], mode: Mode, contact: Contact, rate: Hertz) -> f64 {
-    let step_hz = 0.5 * rate.0 / N_STEPS as f64;
-    let frequencies: Vec<Hertz> = (0..=N_STEPS).map(|i| Hertz(i as f64 * step_hz)).collect();
-    let psd = mixture_psd(parents, mode, contact, &frequencies);
-    let ends = 0.5 * (psd[0] + psd[N_STEPS]);
-    (step_hz * (psd.iter().sum::<f64>() - ends)).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Contact, Hertz, Mode, Plane, rms};
-    use shagreen_formats::starter::starter_library;
-
-    #[test]
-    fn the_level_of_one_texture_is_that_of_its_model() {
-        for texture in &starter_library().unwrap().textures {
-            let plane = Plane::new(&texture.model);
-            let contact = Contact::from_mm_per_s_and_n(95.0, 0.7);
-            for mode in Mode::ALL {
-                let level = plane.at(contact).level_mps2;
-                let integral = rms(&[(&plane, 1.0)], mode, contact, Hertz(1000.0));
-                assert!((integral / level - 1.0).abs() < 1e-9, "{}: {integral} for {level}", texture.id);
-            }
-        }
-    }
 }

@@ -149,6 +149,13 @@ impl Plane {
         &self.measured
     }
 
+    /// Lowest and highest speed in m/s, then force in N, at which something was measured.
+    pub(crate) fn measured_range(&self) -> [(f64, f64); 2] {
+        let highest = [self.speed_max_mps, self.force_max_n];
+        [0, 1]
+            .map(|axis| (self.measured.iter().map(|c| c[axis]).fold(highest[axis], f64::min), highest[axis]))
+    }
+
     fn in_triangles(&self, at: Xy) -> Values {
         let parts = match self.triangulation.locate(at) {
             Some((triangle, weights)) => {

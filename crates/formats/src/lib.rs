@@ -22,6 +22,7 @@
 
 pub mod atomic;
 pub mod csv_text;
+pub mod evaluation_report;
 pub mod figure;
 pub mod fit_report;
 pub mod hatt;

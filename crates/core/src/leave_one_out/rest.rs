@@ -1,0 +1,179 @@
+//! The textures that remain, put together anew for each one that is left out.
+
+use std::sync::Arc;
+
+use crate::authoring::{Authored, Authoring, Blending, Layers, Models, Voice};
+use crate::blend::Mode;
+use crate::fidelity::{COMPARED_RATE, Channels, Profile};
+use crate::leave_one_out::{LeaveOneOutError, rest_of};
+use crate::plane::Plane;
+use crate::rate::{at_rate, highest_rate};
+use crate::space::{Space, SpacePoint};
+use crate::texture::TextureModel;
+use crate::units::Hertz;
+
+/// Distance from the hull, in points of the axes, below which a texture lies on it.
+const ON_HULL: f64 = 1e-6;
+
+/// A texture that has a place.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    /// Its index in the library.
+    pub(super) texture: usize,
+    /// Its place.
+    pub(super) at: SpacePoint,
+    /// It, at its own rate or the lowest at which textures are compared.
+    pub(super) plane: Arc<Plane>,
+}
+
+/// What was made for a place: planes of one rate, their weights, and how they are mixed.
+#[derive(Clone, Debug)]
+pub(super) struct Made {
+    pub(super) parts: Vec<(Arc<Plane>, f64)>,
+    pub(super) mixing: Mode,
+}
+
+impl Made {
+    fn parents(&self) -> Vec<(&Plane, f64)> {
+        self.parts.iter().map(|(plane, weight)| (&**plane, *weight)).collect()
+    }
+
+    pub(super) fn profile(&self, channels: &Channels) -> Profile {
+        channels.profile(&self.parents(), self.mixing)
+    }
+}
+
+impl Placed {
+    /// All that have a place.
+    pub(super) fn all(
+        textures: &[(&TextureModel, Option<SpacePoint>)],
+    ) -> Result<Vec<Self>, LeaveOneOutError> {
+        let placed = textures.iter().enumerate().filter_map(|(i, (model, at))| at.map(|at| (i, *model, at)));
+        placed
+            .map(|(texture, model, at)| {
+                let rate = higher(model.rate(), COMPARED_RATE);
+                Ok(Self { texture, at, plane: Arc::new(plane_at(texture, model, rate)?) })
+            })
+            .collect()
+    }
+
+    /// The texture itself.
+    pub(super) fn original(&self) -> Made {
+        Made { parts: vec![(self.plane.clone(), 1.0)], mixing: Mode::Shared }
+    }
+}
+
+/// Whether a place lies inside the hull of a space, and not on it.
+pub(super) fn is_inside(space: &Space, at: SpacePoint) -> bool {
+    if space.locate(at).is_none_or(|location| location.clamped) {
+        return false;
+    }
+    let place = |texture: usize| space.position(texture).unwrap_or(at);
+    space.hull().all(|ends| distance_from_edge(at, ends.map(place)) > ON_HULL)
+}
+
+fn distance_from_edge(at: SpacePoint, [a, b]: [SpacePoint; 2]) -> f64 {
+    let along = [b.rough_smooth - a.rough_smooth, b.hard_soft - a.hard_soft];
+    let length_squared = along[0] * along[0] + along[1] * along[1];
+    let dot = (at.rough_smooth - a.rough_smooth) * along[0] + (at.hard_soft - a.hard_soft) * along[1];
+    let t = if length_squared > 0.0 { (dot / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    at.distance(SpacePoint {
+        rough_smooth: a.rough_smooth + t * along[0],
+        hard_soft: a.hard_soft + t * along[1],
+    })
+}
+
+/// The textures of a library, for all spaces that lack one of them.
+pub(super) struct Rests<'a> {
+    textures: &'a [(&'a TextureModel, Option<SpacePoint>)],
+    placed: Vec<Placed>,
+    /// Planes of one rate, indexed like the library; of a texture of a higher rate there is none. Two entries at most:
+    /// the highest rate of all, and that without the only texture which has it.
+    at_rates: Vec<(Hertz, Vec<Option<Arc<Plane>>>)>,
+}
+
+impl<'a> Rests<'a> {
+    pub(super) fn new(
+        textures: &'a [(&'a TextureModel, Option<SpacePoint>)],
+    ) -> Result<Self, LeaveOneOutError> {
+        Ok(Self { textures, placed: Placed::all(textures)?, at_rates: Vec::new() })
+    }
+
+    /// What the rest makes of the place of `left_out`: a copy of the nearest, then each blending.
+    pub(super) fn made_without(
+        &mut self,
+        left_out: usize,
+        blendings: &[Blending],
+    ) -> Result<Vec<Made>, LeaveOneOutError> {
+        let Some(at) = self.textures[left_out].1 else { return Ok(Vec::new()) };
+        let space = rest_of(self.textures, left_out)?;
+        let planes = self.planes_without(left_out)?;
+        let mut authoring = Authoring::new(space);
+        if blendings.iter().any(|blending| blending.mode.makes_a_model()) {
+            let layers = self.textures.iter().zip(&planes).map(|((model, _), plane)| {
+                let plane = plane.as_deref()?;
+                Some(Layers { plane, friction: model.friction(), tap: model.tap() })
+            });
+            let layers: Vec<Option<Layers<'_>>> = layers.collect();
+            let models = Models::new(authoring.space(), &layers)
+                .map_err(|source| LeaveOneOutError::Models { texture: left_out, source })?;
+            authoring = authoring.with_models(Arc::new(models));
+        }
+        let authored = blendings.iter().map(|blending| {
+            let unmade = LeaveOneOutError::Unmade { texture: left_out, mode: blending.mode.id() };
+            let authored = authoring.author(at, blending);
+            authored.and_then(|authored| made(&authored, &planes)).ok_or(unmade)
+        });
+        self.nearest(left_out, at).into_iter().map(Ok).chain(authored).collect()
+    }
+
+    fn nearest(&self, left_out: usize, at: SpacePoint) -> Option<Made> {
+        let rest = self.placed.iter().filter(|placed| placed.texture != left_out);
+        let nearest = rest.min_by(|a, b| a.at.distance(at).total_cmp(&b.at.distance(at)));
+        nearest.map(Placed::original)
+    }
+
+    /// The planes of the rest, at the highest rate among them.
+    fn planes_without(&mut self, left_out: usize) -> Result<Vec<Option<Arc<Plane>>>, LeaveOneOutError> {
+        let placed = |(index, (model, at)): (usize, &(&'a TextureModel, Option<SpacePoint>))| {
+            at.map(|_| (index, *model))
+        };
+        let rest = self.textures.iter().enumerate().filter_map(placed).filter(|(i, _)| *i != left_out);
+        let rate =
+            highest_rate(rest.map(|(_, model)| model)).map_or(COMPARED_RATE, |r| higher(r, COMPARED_RATE));
+        let known = self.at_rates.iter().find(|(known, _)| *known == rate).map(|(_, planes)| planes.clone());
+        let mut planes = if let Some(planes) = known {
+            planes
+        } else {
+            let mut planes = vec![None; self.textures.len()];
+            for (texture, model) in self.textures.iter().enumerate().filter_map(placed) {
+                if model.rate().0 <= rate.0 {
+                    planes[texture] = Some(Arc::new(plane_at(texture, model, rate)?));
+                }
+            }
+            self.at_rates.push((rate, planes.clone()));
+            planes
+        };
+        planes[left_out] = None;
+        Ok(planes)
+    }
+}
+
+/// What sounds; `None` where nothing was authored.
+fn made(authored: &Authored, planes: &[Option<Arc<Plane>>]) -> Option<Made> {
+    let parts = authored.voices().into_iter().map(|(voice, weight)| match voice {
+        Voice::Texture(texture) => planes.get(texture).cloned().flatten().map(|plane| (plane, weight)),
+        Voice::Made(model) => Some((Arc::new(Plane::new(model)), weight)),
+    });
+    let parts: Vec<(Arc<Plane>, f64)> = parts.collect::<Option<_>>()?;
+    (!parts.is_empty()).then(|| Made { parts, mixing: authored.mixing() })
+}
+
+fn plane_at(texture: usize, model: &TextureModel, rate: Hertz) -> Result<Plane, LeaveOneOutError> {
+    let converted = at_rate(model, rate).map_err(|source| LeaveOneOutError::Rate { texture, source })?;
+    Ok(Plane::new(&converted.model))
+}
+
+fn higher(a: Hertz, b: Hertz) -> Hertz {
+    if a.0 > b.0 { a } else { b }
+}

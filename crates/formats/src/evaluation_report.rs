@@ -1,0 +1,268 @@
+//! What leaving one texture out came to: a JSON report for scripts and figures for people.
+
+use serde_json::{Map, Value, json};
+use shagreen_core::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, SignalCheck, Summary};
+use shagreen_core::space::LabelSource;
+use shagreen_core::words::counted;
+
+use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
+use crate::library::Library;
+
+/// What the field `format` of a report holds.
+pub const FORMAT: &str = "shagreen-evaluation-report";
+/// What stands beside every figure: nobody felt anything.
+pub const MEASURED: &str = "measured on signals";
+
+/// Version of the report.
+const VERSION: &str = "1.0";
+
+/// The word for a method in files and figures.
+pub fn method_id(method: &Method) -> &'static str {
+    match method {
+        Method::Nearest => "nearest",
+        Method::Blended(blending) => blending.mode.id(),
+    }
+}
+
+/// What the figures rest on: signals, at places of this origin.
+pub fn evaluation_source(library: &Library) -> String {
+    let sources: Vec<&str> = library.label_sources().into_iter().map(LabelSource::label).collect();
+    format!("{MEASURED}, places from {}", sources.join(" and "))
+}
+
+/// Everything that was measured, in one object. `library` is the one that was measured.
+pub fn evaluation_report(library: &Library, measured: &LeaveOneOut) -> Value {
+    let summaries = measured.methods.iter().map(|s| (method_id(&s.method).to_owned(), summary(s)));
+    let mut modes: Map<String, Value> = summaries.collect();
+    let nearest = modes.remove(method_id(&Method::Nearest));
+    let id = |texture: &usize| library.textures[*texture].id.as_str();
+    json!({
+        "format": FORMAT,
+        "version": VERSION,
+        "measured": MEASURED,
+        "label_sources": library.label_sources().into_iter().map(LabelSource::id).collect::<Vec<_>>(),
+        "n": measured.textures.len(),
+        "modes": modes,
+        "nearest": nearest,
+        "best": best(measured).map(|summary| method_id(&summary.method)),
+        "reach_db": measured.reach_db,
+        "textures": measured.textures.iter().map(|left| texture(library, measured, left)).collect::<Vec<_>>(),
+        "on_hull": measured.on_hull.iter().map(id).collect::<Vec<_>>(),
+    })
+}
+
+/// The method of the least mean error.
+pub fn best(measured: &LeaveOneOut) -> Option<&Summary> {
+    measured.methods.iter().min_by(|a, b| a.error_db_mean.total_cmp(&b.error_db_mean))
+}
+
+fn summary(summary: &Summary) -> Value {
+    json!({
+        "n": summary.n,
+        "error_db_mean": summary.error_db_mean,
+        "error_db_median": summary.error_db_median,
+        "level_error_db_mean": summary.level_error_db_mean,
+        "rank1": summary.rank1,
+        "top5": summary.top5,
+        "nrs_mean": summary.nrs_mean,
+        "signals": summary.signals.as_ref().map(signals),
+    })
+}
+
+fn signals(check: &SignalCheck) -> Value {
+    json!({
+        "n": check.n,
+        "seconds": check.seconds,
+        "error_db_mean": check.error_db_mean,
+        "mean_difference_db": check.mean_difference_db,
+        "largest_difference_db": check.largest_difference_db,
+        "from_model_db": check.from_model_db,
+        "chance_db": check.chance_db,
+    })
+}
+
+fn texture(library: &Library, measured: &LeaveOneOut, left: &LeftOut) -> Value {
+    let by_method = |value: &dyn Fn(&Outcome) -> Value| -> Map<String, Value> {
+        let methods = measured.methods.iter().map(|summary| method_id(&summary.method).to_owned());
+        methods.zip(left.outcomes.iter().map(value)).collect()
+    };
+    json!({
+        "id": library.textures[left.texture].id,
+        "at": [left.at.rough_smooth, left.at.hard_soft],
+        "error_db": by_method(&|outcome| json!(outcome.error_db)),
+        "level_error_db": by_method(&|outcome| json!(outcome.level_error_db)),
+        "rank": by_method(&|outcome| json!(outcome.rank)),
+        "nrs": by_method(&|outcome| json!(outcome.nrs)),
+    })
+}
+
+/// Short name of the figure of one method, which serves for files; [`TABLE`] is that of all.
+pub fn figure_name(method: &Method) -> String {
+    format!("error-{}", method_id(method))
+}
+
+/// Name of the figure that compares the methods.
+pub const TABLE: &str = "methods";
+
+/// A table of the methods, and for each method the space with the error at every place.
+pub fn evaluation_figures(library: &Library, measured: &LeaveOneOut) -> Vec<(String, Figure)> {
+    let mut figures = vec![(TABLE.to_owned(), methods(measured))];
+    let maps = measured.methods.iter().enumerate();
+    figures
+        .extend(maps.map(|(index, summary)| (figure_name(&summary.method), map(library, measured, index))));
+    let source = evaluation_source(library);
+    for (_, figure) in &mut figures {
+        figure.set_source(&source);
+    }
+    figures
+}
+
+fn methods(measured: &LeaveOneOut) -> Figure {
+    let columns = [
+        "error, mean, dB",
+        "error, median, dB",
+        "level error, dB",
+        "original nearest, share",
+        "original in five nearest, share",
+        "NRS",
+    ];
+    let row = |summary: &Summary| {
+        let values = [
+            summary.error_db_mean,
+            summary.error_db_median,
+            summary.level_error_db_mean,
+            summary.rank1,
+            summary.top5,
+        ];
+        let values = values.into_iter().map(Some).chain([summary.nrs_mean]).collect();
+        (method_id(&summary.method).to_owned(), values)
+    };
+    Figure::Table(Table {
+        title: format!("{} left out one by one", counted(measured.textures.len(), "texture")),
+        columns: columns.map(str::to_owned).to_vec(),
+        rows: measured.methods.iter().map(row).collect(),
+        decimals: 2,
+        source: String::new(),
+    })
+}
+
+/// The space with the error of one method at every place that was authored, apart by whether a copy of the nearest texture
+/// is worse.
+fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
+    let summary = &measured.methods[method];
+    let nearest = measured.methods.iter().position(|summary| summary.method == Method::Nearest);
+    let is_better =
+        |left: &LeftOut| nearest.is_none_or(|n| left.outcomes[method].error_db <= left.outcomes[n].error_db);
+    let dots = |is_wanted: &dyn Fn(&LeftOut) -> bool| -> Vec<Point> {
+        let wanted = measured.textures.iter().filter(|left| is_wanted(left));
+        let point = |left: &LeftOut| {
+            let label = format!("{:.1}", left.outcomes[method].error_db);
+            Point::named(left.at.rough_smooth, left.at.hard_soft, label)
+        };
+        wanted.map(point).collect()
+    };
+    let on_hull = measured.on_hull.iter().filter_map(|texture| library.textures[*texture].at());
+    let series = |name: &str, tone: Tone, points: Vec<Point>| Series {
+        name: name.to_owned(),
+        mark: Mark::Dots,
+        tone,
+        points,
+    };
+    let mut all = vec![
+        series(
+            "on the hull, not authored",
+            Tone::Faint,
+            on_hull.map(|at| Point::new(at.rough_smooth, at.hard_soft)).collect(),
+        ),
+        series("farther than a copy of the nearest", Tone::Second, dots(&|left| !is_better(left))),
+        series(
+            if summary.method == Method::Nearest {
+                "left out"
+            } else {
+                "no farther than a copy of the nearest"
+            },
+            Tone::Main,
+            dots(&is_better),
+        ),
+    ];
+    all.retain(|series| !series.points.is_empty());
+    let [across, up] = library.axis_names();
+    Figure::Chart(Chart {
+        title: format!("Error of {} in dB, mean {:.2}", method_id(&summary.method), summary.error_db_mean),
+        x_label: format!("{across}, 0 to 100"),
+        y_label: format!("{up}, 0 to 100"),
+        is_isotropic: true,
+        series: all,
+        source: String::new(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use shagreen_core::blend::Mode;
+    use shagreen_core::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, Summary};
+    use shagreen_core::space::SpacePoint;
+
+    use super::{MEASURED, best, evaluation_figures, evaluation_report, figure_name, method_id};
+    use crate::figure::{figure_csv, figure_svg};
+    use crate::starter::starter_library;
+
+    fn measured() -> LeaveOneOut {
+        let summary = |method: Method, error_db: f64| Summary {
+            method,
+            n: 2,
+            error_db_mean: error_db,
+            error_db_median: error_db,
+            level_error_db_mean: 1.0,
+            rank1: 0.5,
+            top5: 1.0,
+            nrs_mean: None,
+            signals: None,
+        };
+        let outcome = |error_db: f64| Outcome { error_db, level_error_db: 1.0, rank: 2, nrs: None };
+        let left_out = |texture: usize, errors_db: [f64; 2]| LeftOut {
+            texture,
+            at: SpacePoint::new(10.0, 20.0 + texture as f64).unwrap(),
+            outcomes: errors_db.map(outcome).to_vec(),
+        };
+        LeaveOneOut {
+            methods: vec![summary(Method::Nearest, 3.0), summary(Method::Blended(Mode::Field.into()), 2.0)],
+            textures: vec![left_out(3, [3.0, 1.25]), left_out(4, [3.0, 4.75])],
+            on_hull: vec![0, 1, 2],
+            reach_db: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_report_has_every_method_and_texture_and_says_what_it_is() {
+        let library = starter_library().unwrap();
+        let report = evaluation_report(&library, &measured());
+        assert_eq!(
+            (&report["measured"], &report["label_sources"][0]),
+            (&MEASURED.into(), &"physical".into())
+        );
+        assert_eq!(report["modes"]["field"]["error_db_mean"], 2.0);
+        assert_eq!((&report["nearest"]["rank1"], &report["best"]), (&0.5.into(), &"field".into()));
+        assert!(report["modes"].get("nearest").is_none() && report["nearest"]["nrs_mean"].is_null());
+        assert_eq!(report["textures"][1]["id"], library.textures[4].id.as_str());
+        assert_eq!(report["textures"][1]["error_db"]["field"], 4.75);
+        assert_eq!(report["on_hull"].as_array().unwrap().len(), 3);
+        assert_eq!(best(&measured()).map(|s| method_id(&s.method)), Some("field"));
+    }
+
+    #[test]
+    fn figures_show_where_the_error_is_and_that_nobody_felt_it() {
+        let figures = evaluation_figures(&starter_library().unwrap(), &measured());
+        let names: Vec<&str> = figures.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["methods", "error-nearest", &figure_name(&Method::Blended(Mode::Field.into()))]);
+        for (_, figure) in &figures {
+            assert!(figure.title().contains("measured on signals, places from physical labels"));
+            assert!(figure_svg(figure).contains(MEASURED));
+        }
+        let csv = String::from_utf8(figure_csv(&figures[2].1)).unwrap();
+        assert!(csv.contains("no farther than a copy of the nearest,1.2,10,23"), "{csv}");
+        assert!(csv.contains("\nfarther than a copy of the nearest,4.8,10,24"), "{csv}");
+        // The hull's three textures, without a number.
+        assert_eq!(csv.matches("on the hull").count(), 3);
+    }
+}
