@@ -1,18 +1,23 @@
 //! The space: textures, triangles, outline, and the point that is dragged through it.
 
+mod foot;
 mod site_labels;
 
 use egui::{
     Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
+use shagreen_core::authoring::{Authored, Weights};
+use shagreen_core::blend::Mode;
 use shagreen_core::space::{LabelSource, SpacePoint};
 
+use self::foot::foot_ui;
 use self::site_labels::{Around, site_labels};
 use crate::axes::Axes;
 use crate::command::Command;
 use crate::drag::dragged_to;
 use crate::library_panel::place_in_words;
+use crate::locks::{lock_menu, lock_mark};
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
@@ -55,11 +60,7 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
     }
     commands.extend(point_ui(ui, axes, panel, t));
-    if let Some(texture) = panel.project.solo.and_then(|solo| panel.session.textures().get(solo)) {
-        let below = pos2(axes.rect.center().x, axes.rect.bottom() + 42.0);
-        let (text, font) = (strings::plays_alone(&texture.name), FontId::proportional(12.5));
-        ui.painter().text(below, Align2::CENTER_BOTTOM, text, font, t.accent);
-    }
+    foot_ui(ui, axes, panel, t);
     commands
 }
 
@@ -119,8 +120,12 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
     let space = panel.session.space();
     let at = |texture: usize| space.position(texture).map(|p| axes.ui_from_space(p));
     let painter = ui.painter();
+    // Only where its corners are what is blended does the triangle matter.
+    let blending = panel.project.heard_blending();
+    let is_of_corners = blending.mode != Mode::Field && blending.weights == Weights::Barycentric;
+    let authored = panel.session.authored().filter(|_| is_of_corners);
     let corners: Vec<usize> =
-        panel.session.authored().map_or(Vec::new(), |a| a.location.corners.iter().map(|c| c.0).collect());
+        authored.map_or(Vec::new(), |a| a.location.corners.iter().map(|(texture, _)| *texture).collect());
     // Edges one by one: the joins of a thin triangle's outline would shoot far beyond its corners.
     let thin = Stroke::new(1.0, t.line);
     for triangle in space.triangles() {
@@ -174,7 +179,13 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Toke
         if response.hovered() || response.has_focus() {
             pointed = Some(*texture);
         }
-        response.on_hover_text(format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at)));
+        commands.extend(lock_menu(&response, panel, *texture));
+        let mut help = format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at));
+        if panel.project.can_lock() {
+            let is_locked = panel.project.is_locked(*texture);
+            help = format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED });
+        }
+        response.on_hover_text(help);
     }
     let named: Vec<(usize, Pos2)> = sites
         .iter()
@@ -208,6 +219,11 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
         None => Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)),
     };
     painter.circle_stroke(pos, radius, ring);
+    if panel.project.is_locked(texture) {
+        let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
+        painter.circle_filled(corner, 8.0, t.background);
+        lock_mark(painter, corner, true, t.text);
+    }
 }
 
 /// The authored point, its lines to the parents, and its keys.
@@ -232,28 +248,8 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
         commands.push(move_to(to));
     }
     if let Some(authored) = panel.session.authored() {
-        let on = axes.ui_from_space(authored.location.at);
-        for (rank, (texture, weight)) in authored.parents.iter().enumerate() {
-            if let Some(site) = panel.session.space().position(*texture) {
-                let stroke =
-                    Stroke::new(1.0 + 4.0 * *weight as f32, t.parents[rank.min(2)].gamma_multiply(0.75));
-                let site = axes.ui_from_space(site);
-                let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
-                ui.painter().line_segment([on, start], stroke);
-            }
-        }
-        if authored.location.clamped {
-            ui.painter().extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
-            ui.painter().circle_filled(on, 4.0, t.warning);
-            let below = pos2(axes.rect.center().x, axes.rect.bottom() + 42.0);
-            ui.painter().text(
-                below,
-                Align2::CENTER_BOTTOM,
-                strings::CLAMPED,
-                FontId::proportional(12.5),
-                t.warning,
-            );
-        }
+        lines_to_parents(ui, axes, panel, authored, t);
+        outside_ui(ui, axes, panel, authored, t);
     }
     let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
     ui.painter().circle_filled(pos, grown + 2.0, t.background);
@@ -264,6 +260,44 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
     }
     response.on_hover_text(format!("{} {}\n{}", panel.project.name, point, strings::POINT_HELP));
     commands
+}
+
+fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+    let on = axes.ui_from_space(authored.location.at);
+    for ((texture, weight), color) in panel.session.shown_parents().iter().zip(t.parents) {
+        if let Some(site) = panel.session.space().position(*texture) {
+            let width = 1.0 + 4.0 * (*weight as f32).clamp(0.0, 1.0);
+            let site = axes.ui_from_space(site);
+            let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
+            ui.painter().line_segment([on, start], Stroke::new(width, color.gamma_multiply(0.75)));
+        }
+    }
+}
+
+/// Outside the outline: what plays instead, or how far the field was trusted.
+fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+    let pos = axes.ui_from_space(panel.project.point);
+    let on = axes.ui_from_space(authored.location.at);
+    let painter = ui.painter();
+    if authored.is_extrapolated
+        && let Some(nearest) = panel.session.space().locate(panel.project.point)
+    {
+        let outline = axes.ui_from_space(nearest.at);
+        painter.extend(Shape::dashed_line(&[outline, on], Stroke::new(2.0, t.accent), 8.0, 5.0));
+        painter.circle_stroke(outline, 4.0, Stroke::new(1.5, t.accent));
+        let beside = outline.lerp(on, 0.5);
+        let words = painter.layout_no_wrap(strings::EXTRAPOLATED.to_owned(), FontId::proportional(11.5), t.accent);
+        let inside = axes.rect.expand2(vec2(30.0, 24.0));
+        let area = Rect::from_min_size(beside + vec2(8.0, -0.5 * words.size().y), words.size());
+        let shift = (inside.right() - area.right()).min(0.0);
+        let area = area.translate(vec2(shift, if shift < 0.0 { 14.0 } else { 0.0 }));
+        painter.rect_filled(area.expand(2.0), 3.0, t.background.gamma_multiply(0.9));
+        painter.galley(area.min, words, t.accent);
+    }
+    if authored.location.clamped {
+        painter.extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
+        painter.circle_filled(on, 4.0, t.warning);
+    }
 }
 
 /// Where the arrow keys want the point: while it has the focus, or nothing has.

@@ -23,6 +23,7 @@ use crate::session::OutputChoice;
 
 pub mod axes;
 mod axes_choice;
+pub mod blend_choice;
 pub mod build;
 pub mod canvas;
 pub mod command;
@@ -33,6 +34,7 @@ pub mod inspector;
 mod label_places;
 pub mod libraries;
 pub mod library_panel;
+mod locks;
 pub mod pad;
 pub mod panel;
 pub mod pictures;

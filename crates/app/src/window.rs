@@ -26,6 +26,9 @@ use crate::strings;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, tokens};
 use crate::workspace::Workspace;
 
+/// Pictures that are blended into that of a field: more take longer and show nothing more.
+const MAX_PICTURED: usize = 6;
+
 /// The program with its window.
 pub struct Window {
     project: Project,
@@ -172,7 +175,7 @@ impl Window {
                 (Command::Undo, strings::UNDO, self.history.undo_label()),
                 (Command::Redo, strings::REDO, self.history.redo_label()),
             ] {
-                let what = label.map_or(name.to_owned(), |l| format!("{name} {}", l.to_lowercase()));
+                let what = label.map_or(name.to_owned(), |l| strings::verb(name, l));
                 let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
                 let button = ui.add_enabled(label.is_some(), egui::Button::new(name));
                 if button.on_hover_text(format!("{what} ({keys})")).clicked() {
@@ -210,8 +213,8 @@ impl Window {
 
     /// The row at the foot: pad and scope.
     fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
-        let parents = self.session.authored().map_or(Vec::new(), |a| a.parents.clone());
-        let picture = self.pictures.blend(ctx, &parents).map(|(texture, mm)| (texture.id(), mm));
+        let parents = self.session.authored().map_or(&[][..], |authored| &authored.parents);
+        let picture = self.pictures.blend(ctx, &pictured(parents)).map(|(texture, mm)| (texture.id(), mm));
         let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
         let pad = &mut self.pad;
         let mut mouse = None;
@@ -301,4 +304,12 @@ impl Window {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
     }
+}
+
+/// What the picture of a blend is made of: of a field the textures that say the most, as shares of one.
+fn pictured(parents: &[(usize, f64)]) -> Vec<(usize, f64)> {
+    let largest = &parents[..parents.len().min(MAX_PICTURED)];
+    let sum: f64 = largest.iter().map(|(_, weight)| weight.max(0.0)).sum();
+    let share = |(texture, weight): &(usize, f64)| (*texture, weight.max(0.0) / sum);
+    largest.iter().map(share).filter(|(_, share)| *share > 0.0).collect()
 }
