@@ -56,7 +56,8 @@ fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
     ui.horizontal(|ui| {
         ui.add(Label::new(strings::BLEND).selectable(false));
         let width = ui.available_width();
-        let combo = ComboBox::from_id_salt("blend mode").width(width).truncate().selected_text(mode_entry(mode));
+        let combo =
+            ComboBox::from_id_salt("blend mode").width(width).truncate().selected_text(mode_entry(mode));
         let shown = combo.show_ui(ui, |ui| {
             for each in Mode::ALL {
                 let entry = ui.selectable_label(mode == each, mode_entry(each));

@@ -17,7 +17,7 @@ use crate::axes::Axes;
 use crate::command::Command;
 use crate::drag::dragged_to;
 use crate::library_panel::place_in_words;
-use crate::locks::{lock_menu, lock_mark};
+use crate::locks::{lock_mark, lock_menu};
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
@@ -285,12 +285,15 @@ fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &T
         let outline = axes.ui_from_space(nearest.at);
         painter.extend(Shape::dashed_line(&[outline, on], Stroke::new(2.0, t.accent), 8.0, 5.0));
         painter.circle_stroke(outline, 4.0, Stroke::new(1.5, t.accent));
-        let beside = outline.lerp(on, 0.5);
-        let words = painter.layout_no_wrap(strings::EXTRAPOLATED.to_owned(), FontId::proportional(11.5), t.accent);
-        let inside = axes.rect.expand2(vec2(30.0, 24.0));
-        let area = Rect::from_min_size(beside + vec2(8.0, -0.5 * words.size().y), words.size());
-        let shift = (inside.right() - area.right()).min(0.0);
-        let area = area.translate(vec2(shift, if shift < 0.0 { 14.0 } else { 0.0 }));
+        let words =
+            painter.layout_no_wrap(strings::EXTRAPOLATED.to_owned(), FontId::proportional(11.5), t.accent);
+        // Below the line, and clear of the point at its end.
+        let below = outline.lerp(on, 0.5) + vec2(0.0, 0.5 * words.size().y + 4.0);
+        let area = Rect::from_center_size(below, words.size());
+        let point = Rect::from_center_size(pos, POINT_SIZE);
+        let overlap = if area.intersects(point) { point.bottom() - area.top() } else { 0.0 };
+        let shift = (axes.rect.right() + 30.0 - area.right()).min(0.0);
+        let area = area.translate(vec2(shift, overlap));
         painter.rect_filled(area.expand(2.0), 3.0, t.background.gamma_multiply(0.9));
         painter.galley(area.min, words, t.accent);
     }

@@ -85,29 +85,41 @@ fn axis_slider(
 fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
-    ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
-        .on_hover_text(strings::PARENTS_HELP);
-    let Some(authored) = panel.session.authored() else { return commands };
+    ui.horizontal(|ui| {
+        ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
+            .on_hover_text(strings::PARENTS_HELP);
+        let Some(rest) = besides(panel) else { return };
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let text = RichText::new(&rest).small().color(t.text_weak);
+            ui.add(Label::new(text).truncate().selectable(false)).on_hover_text(strings::PARENTS_HELP);
+        });
+    });
     // A weight that would read 0.0 % is not worth a card.
     let worthwhile = panel.session.shown_parents().iter().filter(|(_, weight)| weight.abs() >= 5e-4);
     for (parent, color) in worthwhile.zip(t.parents) {
         commands.extend(card(ui, panel, *parent, color));
     }
-    let rest = &authored.parents[panel.session.shown_parents().len()..];
-    let mut line = |text: String| {
-        ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).wrap().selectable(false));
-    };
-    if !rest.is_empty() {
-        line(strings::more_parents(rest.len(), 100.0 * rest.iter().map(|(_, weight)| weight).sum::<f64>()));
-    }
-    if let Some((texture, share)) = authored.lock.filter(|_| panel.project.solo.is_none()) {
-        line(strings::locked_share(&panel.session.textures()[texture].name, 100.0 * share));
-    }
     commands
 }
 
+/// What the cards do not say: how much a locked texture sounds, else what the parents without a card give.
+fn besides(panel: &Panel<'_>) -> Option<String> {
+    let authored = panel.session.authored()?;
+    if let Some((texture, share)) = authored.lock.filter(|_| panel.project.solo.is_none()) {
+        return Some(strings::locked_share(&panel.session.textures()[texture].name, 100.0 * share));
+    }
+    let rest = authored.parents.get(panel.session.shown_parents().len()..).filter(|rest| !rest.is_empty())?;
+    let sum: f64 = rest.iter().map(|(_, weight)| weight).sum();
+    Some(strings::more_parents(rest.len(), 100.0 * sum))
+}
+
 /// A neighbor; in the field it can be locked.
-fn card(ui: &mut Ui, panel: &Panel<'_>, (texture, weight): (usize, f64), color: egui::Color32) -> Option<Command> {
+fn card(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    (texture, weight): (usize, f64),
+    color: egui::Color32,
+) -> Option<Command> {
     let t = tokens(ui.ctx());
     let entry = &panel.session.textures()[texture];
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
@@ -137,15 +149,13 @@ fn card(ui: &mut Ui, panel: &Panel<'_>, (texture, weight): (usize, f64), color: 
     let can_lock = panel.project.can_lock() && panel.project.solo.is_none();
     let command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
     let end = if can_lock { button.left() } else { number.left() - 6.0 };
-    let mut name = ui.new_child(egui::UiBuilder::new().max_rect(Rect::from_min_max(
-        egui::pos2(left, area.top() + 8.0),
-        egui::pos2(end, area.bottom()),
-    )));
-    name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
-    let bar = Rect::from_min_max(
-        egui::pos2(left, area.bottom() - 16.0),
-        egui::pos2(right, area.bottom() - 10.0),
+    let mut name = ui.new_child(
+        egui::UiBuilder::new()
+            .max_rect(Rect::from_min_max(egui::pos2(left, area.top() + 8.0), egui::pos2(end, area.bottom()))),
     );
+    name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
+    let bar =
+        Rect::from_min_max(egui::pos2(left, area.bottom() - 16.0), egui::pos2(right, area.bottom() - 10.0));
     ui.painter().rect_filled(bar, 3.0, t.control);
     let share = (weight as f32).clamp(0.0, 1.0);
     let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share, bar.height()));

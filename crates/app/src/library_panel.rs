@@ -133,9 +133,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> Response {
             room.max.x -= 18.0;
         }
         let mut text = ui.new_child(
-            egui::UiBuilder::new()
-                .max_rect(room)
-                .layout(egui::Layout::top_down(egui::Align::Min)),
+            egui::UiBuilder::new().max_rect(room).layout(egui::Layout::top_down(egui::Align::Min)),
         );
         text.spacing_mut().item_spacing.y = 1.0;
         let rank = panel.session.parent_rank(index);

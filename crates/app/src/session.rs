@@ -433,7 +433,8 @@ impl Session {
             contact
         };
         self.spectra.blend = self.heard.psd(contact, &self.spectra.frequencies);
-        let parent = |(texture, _): &(usize, f64)| self.planes[*texture].at(contact).psd(&self.spectra.frequencies);
+        let parent =
+            |(texture, _): &(usize, f64)| self.planes[*texture].at(contact).psd(&self.spectra.frequencies);
         self.spectra.parents = self.shown_parents().iter().map(parent).collect();
     }
 

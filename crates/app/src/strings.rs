@@ -66,7 +66,7 @@ pub const NO_MATCH: &str = "No texture has this in its name or tags.";
 /// Heading of the parents.
 pub const PARENTS: &str = "Blended from";
 /// What the parents are.
-pub const PARENTS_HELP: &str = "The textures around the point, and how much each one gives.";
+pub const PARENTS_HELP: &str = "What is heard, and how much of it comes from each texture. In the field all textures have a say, far ones a little against it; near its place a locked one sounds by itself.";
 /// Accessible name of the canvas.
 pub const CANVAS: &str = "Space of textures";
 /// Accessible name of the draggable point.
@@ -188,9 +188,11 @@ pub const THREE_SIGNALS: &str = "from the corners of the triangle";
 /// The field is not there yet.
 pub const PREPARING: &str = "preparing the field…";
 /// What plays until the field is there.
-pub const PREPARING_HELP: &str = "What a field over all textures needs is being worked out. Until then, what sounded goes on.";
+pub const PREPARING_HELP: &str =
+    "What a field over all textures needs is being worked out. Until then, what sounded goes on.";
 /// A texture of the field's own place is not that texture.
-pub const SMOOTHED: &str = "In the field its place is smoothed by its neighbors. Lock it (right click) to meet it exactly.";
+pub const SMOOTHED: &str =
+    "In the field its place is smoothed by its neighbors. Lock it (right click) to meet it exactly.";
 /// A texture is locked.
 pub const LOCKED: &str = "Locked: the field meets it exactly at its place.";
 /// What the lock of a texture does.
@@ -199,7 +201,8 @@ pub const LOCK_HELP: &str = "A locked texture is met exactly at its own place, a
 /// The point lies outside the hull, and the field goes on there.
 pub const EXTRAPOLATED: &str = "extrapolated";
 /// What is extrapolated is a guess.
-pub const EXTRAPOLATED_HERE: &str = "Extrapolated: no texture was measured beyond the outline, so this is a guess.";
+pub const EXTRAPOLATED_HERE: &str =
+    "Extrapolated: no texture was measured beyond the outline, so this is a guess.";
 /// Where the mode `paper` jumps.
 pub const JUMPS_HERE: &str = "Paper: the texture jumps where the point crosses this edge.";
 /// That the mode `paper` jumps.
@@ -343,7 +346,7 @@ pub fn more_parents(n_more: usize, percent: f64) -> String {
 
 /// How much of what sounds is a locked texture, in percent.
 pub fn locked_share(texture: &str, percent: f64) -> String {
-    format!("{texture} is locked: {percent:.0} % of what sounds")
+    format!("{texture} (locked) sounds to {percent:.0} %")
 }
 
 /// Where extrapolation stopped.

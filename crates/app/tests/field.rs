@@ -19,8 +19,8 @@ use shagreen_formats::library::{Library, Place};
 use shagreen_formats::starter::starter_library;
 
 use support::{
-    Author, author, author_on, choose_mode, click, painted, says, unnamed_controls, wait, wait_for_field, window,
-    words,
+    Author, author, author_on, choose_mode, click, painted, says, unnamed_controls, wait, wait_for_field,
+    window, words,
 };
 
 fn authored(harness: &Author) -> Authored {
@@ -68,14 +68,20 @@ fn what_is_made_is_heard_and_shown() {
         let level_mps2 = Plane::new(&model).at(Contact::from_mm_per_s_and_n(100.0, 0.8)).level_mps2;
         // Nothing touches: then the spectrum is that of the hand as it is set.
         let ratio = shown_level_mps2(&harness) / level_mps2;
-        assert!((0.8..1.2).contains(&ratio), "{mode:?}: the spectrum has {ratio} times the level of the model");
+        assert!(
+            (0.8..1.2).contains(&ratio),
+            "{mode:?}: the spectrum has {ratio} times the level of the model"
+        );
         click(&mut harness, strings::HAND_START);
         listen(&mut harness, 1.2);
         let heard_mps2 = window(&harness).session().scope().rms(0.7);
         click(&mut harness, strings::HAND_STOP);
         wait(&mut harness, "the hand stops", |h| window(h).session().touch().contact.force_n == 0.0);
         let ratio = heard_mps2 / level_mps2;
-        assert!((1.0 / 1.5..1.5).contains(&ratio), "{mode:?}: heard {heard_mps2}, the model has {level_mps2} m/s²");
+        assert!(
+            (1.0 / 1.5..1.5).contains(&ratio),
+            "{mode:?}: heard {heard_mps2}, the model has {level_mps2} m/s²"
+        );
         assert_eq!(window(&harness).session().spectra().parents.len(), 3);
     }
 }
@@ -96,7 +102,9 @@ fn a_field_shows_its_three_largest_parents_and_counts_the_rest() {
     let rest: f64 = field.parents[3..].iter().map(|(_, weight)| weight).sum();
     assert!(says(&harness, &strings::more_parents(22, 100.0 * rest)));
     // Filled triangles are of modes that blend their corners.
-    let is_filled = |h: &Author| painted(h, strings::CANVAS).iter().any(|s| matches!(s, Shape::Mesh(m) if m.indices.len() == 3));
+    let is_filled = |h: &Author| {
+        painted(h, strings::CANVAS).iter().any(|s| matches!(s, Shape::Mesh(m) if m.indices.len() == 3))
+    };
     assert!(!is_filled(&harness));
     choose_mode(&mut harness, Mode::Shared);
     assert!(is_filled(&harness) && authored(&harness).parents.len() == 3);
@@ -157,9 +165,17 @@ fn beyond_the_textures_only_where_that_is_asked_for() {
     assert_eq!(window(&harness).project().blending.outside, Outside::Extrapolated);
     let beyond = authored(&harness);
     assert!(beyond.is_extrapolated);
-    assert!(on_canvas(&harness).iter().any(|text| text == strings::EXTRAPOLATED), "{:?}", on_canvas(&harness));
+    assert!(
+        on_canvas(&harness).iter().any(|text| text == strings::EXTRAPOLATED),
+        "{:?}",
+        on_canvas(&harness)
+    );
     let at = beyond.location.at;
-    let said = if beyond.location.clamped { strings::extrapolated_to(at) } else { strings::EXTRAPOLATED_HERE.to_owned() };
+    let said = if beyond.location.clamped {
+        strings::extrapolated_to(at)
+    } else {
+        strings::EXTRAPOLATED_HERE.to_owned()
+    };
     assert!(on_canvas(&harness).contains(&said), "{:?}", on_canvas(&harness));
     assert_ne!(clamped.model, beyond.model);
     click(&mut harness, strings::UNDO);
@@ -249,10 +265,9 @@ fn a_thousand_textures_do_not_hold_the_window_up() {
         harness.step();
         slowest = slowest.max(begin.elapsed());
         has_said |= says(&harness, strings::PREPARING);
-        assert!(start.elapsed() < Duration::from_secs(300), "the field never came");
+        assert!(start.elapsed() < Duration::from_mins(5), "the field never came");
     }
     let took_secs = start.elapsed().as_secs_f64();
-    eprintln!("a field of a thousand: {took_secs:.1} s, slowest frame {slowest:?}");
     assert!(has_said || took_secs < 1.0, "what lasts {took_secs} s is worth a word");
     wait_for_field(&mut harness);
     assert!(!says(&harness, strings::PREPARING));

@@ -13,7 +13,8 @@ use shagreen_core::blend::Mode;
 use shagreen_formats::library::Library;
 
 use support::{
-    Author, author, author_on, choose_mode, click, drop_files, painted, says, shown, unnamed_controls, wait, window, words,
+    Author, author, author_on, choose_mode, click, drop_files, painted, says, shown, unnamed_controls, wait,
+    window, words,
 };
 
 const NOBODY: &str = "Places: simulated raters, nobody felt them";

@@ -235,7 +235,8 @@ impl Player {
             && handle.set_mix(mix).is_ok()
         {
             self.mix_is_new = false;
-            let is_sounding = |(_, id): &(u64, TextureId)| mix.parents.iter().any(|p| p.id == *id && p.weight > 0.0);
+            let is_sounding =
+                |(_, id): &(u64, TextureId)| mix.parents.iter().any(|p| p.id == *id && p.weight > 0.0);
             let before = [self.made.sounding.take(), self.made.next.take()];
             for slot in before.into_iter().flatten() {
                 if is_sounding(&slot) {
