@@ -23,6 +23,7 @@ mod space_panel;
 mod space_place;
 mod stroke;
 mod target;
+mod texture_path;
 mod texture_psd;
 mod window;
 
@@ -51,7 +52,7 @@ enum Command {
     Import(ImportCommand),
     /// Renders a texture as a stylus would feel it, as float WAV in m/s².
     Render(render::Args),
-    /// Questions about one texture.
+    /// One texture: its spectrum, or a path of textures through the space.
     #[command(subcommand)]
     Texture(TextureCommand),
     Export(export::Args),
@@ -89,6 +90,7 @@ enum SpaceCommand {
 enum TextureCommand {
     /// The power spectral density of a texture's model.
     Psd(texture_psd::Args),
+    Path(Box<texture_path::Args>),
 }
 
 /// Does what the arguments of the program say.
@@ -111,6 +113,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Space(SpaceCommand::Panel(args))) => space_panel::run(args),
         Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
+        Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
         Some(Command::Devices(args)) => {
             devices::run(args);
             Ok(())

@@ -4,7 +4,9 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
 use serde_json::json;
-use shagreen_core::render::synth_blend;
+use shagreen_core::plane::Plane;
+use shagreen_core::render::{Traveler, path_mix, synth_blend};
+use shagreen_core::texture_path::TexturePath;
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{ChannelMask, FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
@@ -70,8 +72,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     chosen.note_limits(&library, &motion);
     load_textures(&mut handle, &library, &chosen)?;
     let seconds = motion.seconds();
+    let mut follow = chosen.path.as_ref().map(|path| Follow::new(path, &motion));
     start(&mut handle, motion)?;
-    let status = wait(&mut handle, seconds)?;
+    let status = wait(&mut handle, seconds, &mut |handle, secs| match &mut follow {
+        Some(follow) => follow.go(handle, secs),
+        None => Ok(()),
+    })?;
     output::print(
         args.json,
         &json!({
@@ -118,6 +124,15 @@ fn check(status: &Status) -> anyhow::Result<()> {
 }
 
 fn load_textures(handle: &mut Handle, library: &Library, chosen: &Chosen) -> anyhow::Result<()> {
+    if let Some(path) = &chosen.path {
+        // Slots are given out in order, so that a key's number is its texture's.
+        for key in path.keys() {
+            let texture = OwnedTexture::new(Plane::new(&key.model).prepare().parts())?;
+            handle.load(texture).context("the output takes no texture; try again")?;
+        }
+        handle.set_mix(path_mix(path, 0.0))?;
+        return Ok(());
+    }
     let mut mix = Mix::silent(synth_blend(chosen.mixing));
     for (parent, (plane, weight)) in mix.parents.iter_mut().zip(chosen.planes(library)?) {
         let texture = OwnedTexture::new(plane.prepare().parts())?;
@@ -146,8 +161,41 @@ fn start(handle: &mut Handle, motion: Motion) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Waits until so much has been played, then lifts the tip and lets it fade.
-fn wait(handle: &mut Handle, seconds: f64) -> anyhow::Result<Status> {
+/// Follows a path while a motion is played.
+struct Follow<'a> {
+    path: &'a TexturePath,
+    /// What was traveled every [`FOLLOW_STEP_SECS`].
+    traveled: Vec<f64>,
+}
+
+/// Steps in which what is traveled is summed up, in seconds.
+const FOLLOW_STEP_SECS: f64 = 0.005;
+
+impl<'a> Follow<'a> {
+    fn new(path: &'a TexturePath, motion: &Motion) -> Self {
+        let mut traveler = Traveler::new(path.along());
+        let n_steps = (motion.seconds() / FOLLOW_STEP_SECS).ceil() as usize + 1;
+        let traveled = (0..n_steps).map(|step| {
+            let now = traveler.traveled;
+            traveler.go(motion.contact_at(FOLLOW_STEP_SECS * (step as f64 + 0.5)), FOLLOW_STEP_SECS);
+            now
+        });
+        Self { path, traveled: traveled.collect() }
+    }
+
+    /// Sets the mix of the place that is reached at a time of the motion.
+    fn go(&mut self, handle: &mut Handle, secs: f64) -> anyhow::Result<()> {
+        let step = ((secs / FOLLOW_STEP_SECS) as usize).min(self.traveled.len() - 1);
+        Ok(handle.set_mix(path_mix(self.path, self.traveled[step]))?)
+    }
+}
+
+/// Waits until so much has been played, then lifts the tip and lets it fade; `at` is told how far the motion is.
+fn wait(
+    handle: &mut Handle,
+    seconds: f64,
+    at: &mut dyn FnMut(&mut Handle, f64) -> anyhow::Result<()>,
+) -> anyhow::Result<Status> {
     let progress = Progress::new("ms played", output::in_ms(seconds));
     let mut beginning = Beginning { frames_played: handle.status().frames_played, n_changes: 0 };
     let started = Instant::now();
@@ -167,6 +215,7 @@ fn wait(handle: &mut Handle, seconds: f64) -> anyhow::Result<Status> {
         // Before it has begun, the input's clock is that of the tip in the air.
         if beginning.is_over() {
             progress.set_secs(status.input_secs.min(seconds));
+            at(handle, status.input_secs)?;
             if status.input_secs >= seconds {
                 break;
             }
@@ -247,7 +296,7 @@ mod tests {
                 engine.process(&mut vec![0.0; 4800], 1);
             }
         });
-        let status = wait(&mut handle, 0.15).unwrap();
+        let status = wait(&mut handle, 0.15, &mut |_, _| Ok(())).unwrap();
         // Two blocks of a tenth of a second at the least.
         assert!(status.frames_played >= 48_000 + 2 * 4800, "{status:?}");
         drop(handle);

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use serde_json::json;
-use shagreen_core::plane::Prepared;
-use shagreen_core::render::{RenderPlan, render};
+use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::render::{PathPlan, RenderPlan, render, render_path};
 use shagreen_core::space::LabelSource;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::Library;
@@ -104,21 +104,22 @@ fn samples(
     motion: &Motion,
     rate_hz: u32,
 ) -> anyhow::Result<Vec<f32>> {
-    let prepared: Vec<(Prepared, f64)> =
-        chosen.planes(library)?.iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect();
-    let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
-    let plan = RenderPlan {
-        parents: &parents,
-        mode: chosen.mixing,
-        rate: Hertz(f64::from(rate_hz)),
-        seconds: motion.seconds(),
-        seed: args.seed,
-    };
-    let progress = Progress::new("ms rendered", output::in_ms(plan.seconds));
+    let progress = Progress::new("ms rendered", output::in_ms(motion.seconds()));
     let mut contact_at = |time_secs| {
         progress.set_secs(time_secs);
         motion.contact_at(time_secs)
     };
+    let (rate, seconds, seed) = (Hertz(f64::from(rate_hz)), motion.seconds(), args.seed);
+    if let Some(path) = &chosen.path {
+        let prepared: Vec<Prepared> =
+            path.keys().iter().map(|key| Plane::new(&key.model).prepare()).collect();
+        let plan = PathPlan { path, prepared: &prepared, rate, seconds, seed };
+        return render_path(&plan, &mut contact_at).context("the path cannot be rendered like that");
+    }
+    let prepared: Vec<(Prepared, f64)> =
+        chosen.planes(library)?.iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect();
+    let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
+    let plan = RenderPlan { parents: &parents, mode: chosen.mixing, rate, seconds, seed };
     render(&plan, &mut contact_at).context("the texture cannot be rendered like that")
 }
 

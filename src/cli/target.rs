@@ -11,6 +11,7 @@ use shagreen_core::plane::Plane;
 use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{Space, SpacePoint};
 use shagreen_core::texture::TextureModel;
+use shagreen_core::texture_path::TexturePath;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, TextureEntry};
 
@@ -31,7 +32,7 @@ pub(crate) struct SoundArgs {
 
 /// How a point becomes a texture.
 #[derive(clap::Args)]
-struct BlendArgs {
+pub(crate) struct BlendArgs {
     /// How the textures around a point become one: field is a smooth field over all of them, parametric the mean of those
     /// around; shared, power and paper mix their signals (one excitation; independent, at the mean of the levels; as
     /// published).
@@ -67,8 +68,10 @@ pub(crate) struct Chosen {
     pub(crate) mode: Mode,
     /// How what sounds is mixed.
     pub(crate) mixing: Mode,
-    /// What sounds, and its weight.
+    /// What sounds, and its weight; of a path its first texture.
     voices: Vec<(Sounding, f64)>,
+    /// How it changes along a stroke, where it does.
+    pub(crate) path: Option<TexturePath>,
     /// The texture named, where one was.
     pub(crate) texture: Option<String>,
     /// The point authored, where one was: the one asked for, or the nearest of the hull.
@@ -89,7 +92,8 @@ enum Sounding {
     Made(TextureModel),
 }
 
-fn parse_point(text: &str) -> Result<SpacePoint, String> {
+/// A point of the space, as `RS,HS`.
+pub(crate) fn parse_point(text: &str) -> Result<SpacePoint, String> {
     let number = |part: &str| {
         part.trim()
             .parse::<f64>()
@@ -130,7 +134,8 @@ impl SoundArgs {
 }
 
 impl BlendArgs {
-    fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
+    /// What the arguments ask for.
+    pub(crate) fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
         let index = |id: &String| library.index_of(id).with_context(|| unknown_texture(library, id));
         let blending = Blending {
             mode: self.blend,
@@ -153,6 +158,7 @@ fn choose(library: &Library, target: &TargetArgs, blending: &BlendArgs) -> anyho
             mode,
             mixing: Mode::Shared,
             voices: vec![(Sounding::Texture(index), 1.0)],
+            path: library.textures[index].path.clone(),
             texture: Some(id.clone()),
             at: None,
             clamped: false,
@@ -179,6 +185,7 @@ fn choose(library: &Library, target: &TargetArgs, blending: &BlendArgs) -> anyho
         mode,
         mixing: authored.mixing(),
         voices,
+        path: None,
         texture: None,
         at: Some(authored.location.at),
         clamped: authored.location.clamped,
@@ -205,7 +212,7 @@ fn told(point: SpacePoint, authored: &Authored) {
 }
 
 /// The space of a library, with what the mode needs.
-fn authoring(library: &Library, mode: Mode) -> anyhow::Result<Authoring> {
+pub(crate) fn authoring(library: &Library, mode: Mode) -> anyhow::Result<Authoring> {
     let space = Space::new(&library.positions()).context("the textures cannot be placed")?;
     let authoring = Authoring::new(space);
     if !mode.makes_a_model() || authoring.space().sites().is_empty() {

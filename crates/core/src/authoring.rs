@@ -3,7 +3,7 @@
 mod layers;
 mod models;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use std::sync::{Arc, OnceLock};
 

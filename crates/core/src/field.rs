@@ -6,6 +6,7 @@
 //! all of them, and a texture's own place is told by its neighbors as well as by itself.
 
 use nalgebra::{DMatrix, SymmetricEigen};
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::sampled::{SampledGrain, Sampling};
 use crate::smoother::{Smoother, Surface};
@@ -14,8 +15,9 @@ use crate::texture::{TextureModel, TextureModelError};
 use crate::triangulation::Xy;
 use crate::units::Hertz;
 
-/// Most components: two dozen hold all but a hundredth of the variance of the spectra of a library.
-const MOST_COMPONENTS: usize = 24;
+/// Most components, and the share of the variance that they need not hold.
+const MOST_COMPONENTS: usize = 16;
+const LEFT_OUT: f64 = 0.002;
 /// Textures from which components are found, evenly chosen where there are more.
 const MOST_FOR_COMPONENTS: usize = 200;
 /// Share of a component's range that a place may lie beyond all textures.
@@ -30,9 +32,9 @@ const N_HALVINGS: usize = 8;
 pub(crate) struct Field {
     smoother: Smoother,
     /// Mean ln density, bin by bin, contact by contact.
-    mean: Vec<f64>,
+    mean: Vec<f32>,
     /// Components, each as long as the mean, one after the other.
-    components: Vec<f64>,
+    components: Vec<f32>,
     /// Lowest and highest score of each component that a place may have.
     limits: Vec<(f64, f64)>,
     scores: Surface,
@@ -57,11 +59,11 @@ impl Field {
         let mut mean = vec![0.0; width];
         for site in sites {
             for (m, x) in mean.iter_mut().zip(&site.grain.ln_psd) {
-                *m += x / n as f64;
+                *m += f64::from(*x) / n as f64;
             }
         }
         // A column for each texture.
-        let centered = DMatrix::from_fn(width, n, |j, i| sites[i].grain.ln_psd[j] - mean[j]);
+        let centered = DMatrix::from_fn(width, n, |j, i| f64::from(sites[i].grain.ln_psd[j]) - mean[j]);
         let components = components(&centered);
         let scores = centered.transpose() * &components;
         let places: Vec<Xy> = sites.iter().map(|site| site.at).collect();
@@ -74,8 +76,8 @@ impl Field {
         Some(Self {
             limits: limits.collect(),
             scores: smoother.surface(&scores),
-            components: components.iter().copied().collect(),
-            mean,
+            components: components.iter().map(|x| *x as f32).collect(),
+            mean: mean.into_iter().map(|x| x as f32).collect(),
             smoother,
             friction: over_known(sites, |site| site.friction.map(|f| vec![f.max(LEAST_FRICTION).ln()])),
             tap: over_known(sites, |site| site.tap.map(|tap| ln_tap(tap).to_vec())),
@@ -87,14 +89,10 @@ impl Field {
     /// # Errors
     /// See [`TextureModelError`]: what lies far from all textures may be no texture.
     pub(crate) fn texture(&self, sampling: &Sampling, at: Xy) -> Result<TextureModel, TextureModelError> {
-        let mut ln_psd = self.mean.clone();
         let scores = self.scores.at(at).into_iter().zip(&self.limits);
-        for ((score, (low, high)), component) in scores.zip(self.components.chunks_exact(ln_psd.len())) {
-            let score = score.clamp(*low, *high);
-            for (sum, c) in ln_psd.iter_mut().zip(component) {
-                *sum += score * c;
-            }
-        }
+        let scores: Vec<f32> = scores.map(|(score, (low, high))| score.clamp(*low, *high) as f32).collect();
+        let mut ln_psd = self.mean.clone();
+        Arch::new().dispatch(Sum { scores: &scores, components: &self.components, sum: &mut ln_psd });
         let friction = self.friction.as_ref().map(|surface| surface.at(at)[0].exp());
         let tap = self.tap.as_ref().map(|surface| tap_from_ln(&surface.at(at)));
         sampling.texture_of_spectra(&ln_psd, friction, tap)
@@ -127,6 +125,28 @@ impl Field {
     }
 }
 
+/// Adds components times their scores.
+struct Sum<'a> {
+    scores: &'a [f32],
+    components: &'a [f32],
+    sum: &'a mut [f32],
+}
+
+impl WithSimd for Sum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { scores, components, sum } = self;
+        for (score, component) in scores.iter().zip(components.chunks_exact(sum.len())) {
+            for (s, c) in sum.iter_mut().zip(component) {
+                *s += score * c;
+            }
+        }
+    }
+}
+
 /// The principal components of spectra, a column for each texture; a column of unit length for each.
 fn components(centered: &DMatrix<f64>) -> DMatrix<f64> {
     let step = centered.ncols().div_ceil(MOST_FOR_COMPONENTS).max(1);
@@ -135,9 +155,13 @@ fn components(centered: &DMatrix<f64>) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(sample.transpose() * &sample);
     let mut order: Vec<usize> = (0..kept.len()).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    let largest = order.first().map_or(0.0, |i| eigen.eigenvalues[*i]);
-    let counts = |i: &usize| eigen.eigenvalues[*i] > 1e-9 * largest;
-    order.retain(counts);
+    let variance: f64 = eigen.eigenvalues.iter().map(|v| v.max(0.0)).sum();
+    let mut left = variance;
+    order.retain(|i| {
+        let is_needed = left > LEFT_OUT * variance;
+        left -= eigen.eigenvalues[*i].max(0.0);
+        is_needed
+    });
     order.truncate(MOST_COMPONENTS);
     let mut components = sample * eigen.eigenvectors.select_columns(&order);
     for mut column in components.column_iter_mut() {

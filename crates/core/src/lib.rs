@@ -71,6 +71,7 @@ pub mod starter;
 pub mod statistics;
 pub mod tap;
 pub mod texture;
+pub mod texture_path;
 pub mod triangulation;
 pub mod units;
 pub mod words;

@@ -1,7 +1,7 @@
 //! Offline rendering: what a stylus would feel, as samples.
 
 use shagreen_synth::contact::{Contact as SynthContact, ContactSource};
-use shagreen_synth::renderer::{Blend, Mix, Parent, Renderer, TextureId, Textures};
+use shagreen_synth::renderer::{Blend, FADE_SECS, MAX_PARENTS, Mix, Parent, Renderer, TextureId, Textures};
 use shagreen_synth::resampler::Resampler;
 use shagreen_synth::stream::Stream;
 use shagreen_synth::texture::Texture;
@@ -9,6 +9,7 @@ use shagreen_synth::voice::MAX_TICK;
 
 use crate::blend::Mode;
 use crate::plane::Prepared;
+use crate::texture_path::{Along, TexturePath};
 use crate::units::{Contact, Hertz};
 
 /// How long the textures sound under the first contact before the first sample is kept, in seconds: the memory of a
@@ -34,6 +35,14 @@ pub struct RenderPlan<'a> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
+    /// Not one prepared texture for each key of a path.
+    #[error("a path of {keys} textures was given {n} prepared ones")]
+    Keys {
+        /// The number given.
+        n: usize,
+        /// The number needed.
+        keys: usize,
+    },
     /// No parents, or more than three.
     #[error("a texture is rendered from one to three parents, got {n}")]
     Parents {
@@ -85,12 +94,20 @@ pub fn synth_blend(mode: Mode) -> Blend {
     }
 }
 
-struct Lent<'a>(&'a [(&'a Prepared, f64)]);
+struct Lent<'a>(Vec<&'a Prepared>);
 
 impl Textures for Lent<'_> {
     fn texture(&self, id: TextureId) -> Option<Texture<'_>> {
-        self.0.get(usize::from(id)).map(|(prepared, _)| prepared.view())
+        self.0.get(usize::from(id)).map(|prepared| prepared.view())
     }
+}
+
+/// What the output is like.
+struct Output {
+    model_rate_hz: f32,
+    rate: Hertz,
+    n_frames: usize,
+    seed: u64,
 }
 
 /// Contacts shifted by the warm-up: the hand holds its first contact until the first sample is kept.
@@ -114,29 +131,132 @@ pub fn render(
     contact_at: &mut dyn FnMut(f64) -> Contact,
 ) -> Result<Vec<f32>, RenderError> {
     let n = plan.parents.len();
-    let first_hz = match plan.parents.first() {
-        Some((first, _)) if n <= 3 => first.rate_hz(),
-        _ => return Err(RenderError::Parents { n }),
-    };
-    if let Some((other, _)) = plan.parents.iter().find(|(p, _)| p.rate_hz() != first_hz) {
-        return Err(RenderError::Rates { first_hz, other_hz: other.rate_hz() });
+    if n == 0 || n > MAX_PARENTS {
+        return Err(RenderError::Parents { n });
     }
-    if !(plan.rate.0 >= f64::from(first_hz) && plan.rate.0 <= 768_000.0) {
-        return Err(RenderError::Rate { rate_hz: plan.rate.0, lowest_hz: first_hz });
-    }
-    if !(0.0..=3600.0).contains(&plan.seconds) {
-        return Err(RenderError::Length { seconds: plan.seconds });
-    }
+    let lent = Lent(plan.parents.iter().map(|(prepared, _)| *prepared).collect());
     let mut mix = Mix::silent(synth_blend(plan.mode));
     for (i, (_, weight)) in plan.parents.iter().enumerate() {
         mix.parents[i] = Parent { id: i as TextureId, weight: *weight as f32 };
     }
-    let n_frames = (plan.seconds * plan.rate.0).round() as usize;
-    let lent = Lent(plan.parents);
-    let samples = if plan.rate.0 == f64::from(first_hz) {
-        at_model_rate(&lent, &mix, first_hz, plan.seed, n_frames, contact_at)
+    let output = output(&lent, plan.rate, plan.seconds, plan.seed)?;
+    rendered(&lent, &output, &mut |_| mix, contact_at)
+}
+
+/// What to render of a path.
+#[derive(Clone, Copy, Debug)]
+pub struct PathPlan<'a> {
+    /// The path.
+    pub path: &'a TexturePath,
+    /// Its textures, prepared, one for each key.
+    pub prepared: &'a [Prepared],
+    /// Rate of the output; at least that of the textures.
+    pub rate: Hertz,
+    /// Length of the output in seconds.
+    pub seconds: f64,
+    /// Seed of all noise.
+    pub seed: u64,
+}
+
+/// The acceleration in m/s² that a stylus would feel on a texture that changes along its stroke: what is traveled counts
+/// from the first sample on, while the tip touches.
+///
+/// # Errors
+/// See [`RenderError`].
+pub fn render_path(
+    plan: &PathPlan<'_>,
+    contact_at: &mut dyn FnMut(f64) -> Contact,
+) -> Result<Vec<f32>, RenderError> {
+    let keys = plan.path.keys().len();
+    if plan.prepared.len() != keys {
+        return Err(RenderError::Keys { n: plan.prepared.len(), keys });
+    }
+    let lent = Lent(plan.prepared.iter().collect());
+    let output = output(&lent, plan.rate, plan.seconds, plan.seed)?;
+    let mut traveler = Traveler::new(plan.path.along());
+    // Worked out ahead, since the mix and the contact are asked for by turns.
+    let n_steps = (plan.seconds / MIX_STEP_SECS).ceil() as usize + 1;
+    let traveled: Vec<f64> = (0..n_steps)
+        .map(|step| {
+            let from_secs = step as f64 * MIX_STEP_SECS;
+            let now = traveler.traveled;
+            traveler.go(contact_at(from_secs + 0.5 * MIX_STEP_SECS), MIX_STEP_SECS);
+            now
+        })
+        .collect();
+    let mut mix_at = |time_secs: f64| {
+        let step = (time_secs.max(0.0) / MIX_STEP_SECS).round() as usize;
+        path_mix(plan.path, traveled[step.min(n_steps - 1)])
+    };
+    rendered(&lent, &output, &mut mix_at, contact_at)
+}
+
+/// The mix of a path's textures, numbered as its keys, where so much was traveled.
+pub fn path_mix(path: &TexturePath, traveled: f64) -> Mix {
+    let (key, share) = path.between(traveled);
+    let mut mix = Mix::silent(Blend::Shared);
+    mix.parents[0] = Parent { id: key as TextureId, weight: 1.0 - share as f32 };
+    if share > 0.0 {
+        mix.parents[1] = Parent { id: key as TextureId + 1, weight: share as f32 };
+    }
+    mix
+}
+
+/// What a tip has traveled along a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Traveler {
+    along: Along,
+    /// In m or s.
+    pub traveled: f64,
+}
+
+impl Traveler {
+    /// At the beginning.
+    pub fn new(along: Along) -> Self {
+        Self { along, traveled: 0.0 }
+    }
+
+    /// The tip is like this for so long: in the air it travels nothing.
+    pub fn go(&mut self, contact: Contact, secs: f64) {
+        if contact.force.0 > 0.0 {
+            self.traveled += match self.along {
+                Along::Distance => contact.speed.0.abs() * secs,
+                Along::Time => secs,
+            };
+        }
+    }
+}
+
+/// How long a mix stays: as long as a fade takes, so that one ends as the next begins.
+const MIX_STEP_SECS: f64 = FADE_SECS as f64;
+
+/// What the output is like, if it can be made of these textures.
+fn output(lent: &Lent<'_>, rate: Hertz, seconds: f64, seed: u64) -> Result<Output, RenderError> {
+    let Some(first_hz) = lent.0.first().map(|prepared| prepared.rate_hz()) else {
+        return Err(RenderError::Parents { n: 0 });
+    };
+    if let Some(other) = lent.0.iter().find(|p| p.rate_hz() != first_hz) {
+        return Err(RenderError::Rates { first_hz, other_hz: other.rate_hz() });
+    }
+    if !(rate.0 >= f64::from(first_hz) && rate.0 <= 768_000.0) {
+        return Err(RenderError::Rate { rate_hz: rate.0, lowest_hz: first_hz });
+    }
+    if !(0.0..=3600.0).contains(&seconds) {
+        return Err(RenderError::Length { seconds });
+    }
+    Ok(Output { model_rate_hz: first_hz, rate, n_frames: (seconds * rate.0).round() as usize, seed })
+}
+
+fn rendered(
+    lent: &Lent<'_>,
+    output: &Output,
+    mix_at: &mut dyn FnMut(f64) -> Mix,
+    contact_at: &mut dyn FnMut(f64) -> Contact,
+) -> Result<Vec<f32>, RenderError> {
+    let samples = if output.rate.0 == f64::from(output.model_rate_hz) {
+        at_model_rate(lent, output, mix_at, contact_at)
     } else {
-        resampled(&lent, &mix, first_hz, plan, n_frames, contact_at)
+        resampled(lent, output, mix_at, contact_at)
     };
     match samples.iter().position(|x| !x.is_finite()) {
         Some(index) => Err(RenderError::NotFinite { index, value: samples[index] }),
@@ -146,49 +266,56 @@ pub fn render(
 
 fn at_model_rate(
     lent: &Lent<'_>,
-    mix: &Mix,
-    rate_hz: f32,
-    seed: u64,
-    n_frames: usize,
+    output: &Output,
+    mix_at: &mut dyn FnMut(f64) -> Mix,
     contact_at: &mut dyn FnMut(f64) -> Contact,
 ) -> Vec<f32> {
-    let mut renderer = Renderer::new(rate_hz, seed);
+    let mut renderer = Renderer::new(output.model_rate_hz, output.seed);
     // A fresh renderer takes any mix.
-    let _ = renderer.set_mix(mix);
+    let _ = renderer.set_mix(&mix_at(0.0));
     renderer.finish_fades();
     let tick_len = renderer.tick_len();
-    let tick_secs = tick_len as f64 / f64::from(rate_hz);
+    let tick_secs = tick_len as f64 / f64::from(output.model_rate_hz);
     let n_warm = (WARM_UP_SECS / tick_secs).ceil();
+    let ticks_a_mix = (MIX_STEP_SECS / tick_secs).round().max(1.0);
     let mut contacts = Shifted(contact_at, n_warm * tick_secs);
     let mut tick = [0.0; MAX_TICK];
-    let mut out = Vec::with_capacity(n_frames + tick_len);
+    let mut out = Vec::with_capacity(output.n_frames + tick_len);
     let mut tick_idx = 0.0;
-    while out.len() < n_frames {
+    while out.len() < output.n_frames {
+        if tick_idx >= n_warm && (tick_idx - n_warm) % ticks_a_mix == 0.0 {
+            // Busy with fading voices it keeps the mix that it has; the next one is not far.
+            let _ = renderer.set_mix(&mix_at((tick_idx - n_warm) * tick_secs));
+        }
         tick_idx += 1.0;
         renderer.tick(lent, contacts.contact_at(tick_idx * tick_secs), &mut tick);
         if tick_idx > n_warm {
             out.extend_from_slice(&tick[..tick_len]);
         }
     }
-    out.truncate(n_frames);
+    out.truncate(output.n_frames);
     out
 }
 
 fn resampled(
     lent: &Lent<'_>,
-    mix: &Mix,
-    model_rate_hz: f32,
-    plan: &RenderPlan<'_>,
-    n_frames: usize,
+    output: &Output,
+    mix_at: &mut dyn FnMut(f64) -> Mix,
     contact_at: &mut dyn FnMut(f64) -> Contact,
 ) -> Vec<f32> {
-    let mut stream = Stream::new(model_rate_hz, plan.rate.0 as f32, plan.seed);
-    stream.set_mix(*mix);
-    let delay_secs = f64::from(Resampler::delay_model_samples() / model_rate_hz);
-    let n_warm = ((WARM_UP_SECS + delay_secs) * plan.rate.0).round() as usize;
+    let mut stream = Stream::new(output.model_rate_hz, output.rate.0 as f32, output.seed);
+    stream.set_mix(mix_at(0.0));
+    let delay_secs = f64::from(Resampler::delay_model_samples() / output.model_rate_hz);
+    let n_warm = ((WARM_UP_SECS + delay_secs) * output.rate.0).round() as usize;
     let mut contacts = Shifted(contact_at, WARM_UP_SECS);
-    let mut out = vec![0.0; n_warm + n_frames];
-    stream.process(lent, &mut contacts, &mut out);
+    let mut out = vec![0.0; n_warm + output.n_frames];
+    let (warm, kept) = out.split_at_mut(n_warm);
+    stream.process(lent, &mut contacts, warm);
+    let n_block = ((MIX_STEP_SECS * output.rate.0).round() as usize).max(1);
+    for (i, block) in kept.chunks_mut(n_block).enumerate() {
+        stream.set_mix(mix_at((i * n_block) as f64 / output.rate.0));
+        stream.process(lent, &mut contacts, block);
+    }
     out.split_off(n_warm)
 }
 

@@ -1,15 +1,19 @@
 //! Textures at the same speeds and forces, as spectra of the same bins and predictors of the same order: what can be
 //! averaged, compared and put together anew.
 
+mod bins;
+mod exponential;
+
 use crate::ar::levinson;
 use crate::lsf::{QuickLsf, repair_to};
 use crate::plane::{Grain, Plane};
+use crate::sampled::bins::Bins;
 use crate::tap::Tap;
 use crate::texture::{GrainNode, MAX_ORDER, TextureModel, TextureModelError};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 /// Speeds and forces of a lattice.
-const N_SPEEDS: usize = 6;
+const N_SPEEDS: usize = 5;
 const N_FORCES: usize = 5;
 /// Bins of a spectrum at 1 kHz, from zero to half the rate; as wide at other rates.
 const BINS_AT_1_KHZ: f64 = 128.0;
@@ -46,7 +50,7 @@ struct Lattice {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SampledGrain {
     /// ln of the density in (m/s²)²/Hz, bin by bin, contact by contact.
-    pub(crate) ln_psd: Vec<f64>,
+    pub(crate) ln_psd: Vec<f32>,
     /// Line spectral frequencies in radians, contact by contact.
     pub(crate) lsf: Vec<f64>,
     /// ln of the level in m/s² at each contact.
@@ -59,10 +63,8 @@ pub(crate) struct Sampling {
     lattice: Lattice,
     rate: Hertz,
     order: usize,
-    n_bins: usize,
+    bins: Bins,
     frequencies: Vec<Hertz>,
-    /// `cos(k ω)` of every bin, lag by lag from zero to the order.
-    cosines: Vec<f64>,
     quick: QuickLsf,
 }
 
@@ -111,35 +113,33 @@ impl Sampling {
         };
         let order = planes.iter().map(poles).max()?.clamp(MIN_ORDER, MAX_ORDER).next_multiple_of(2);
         let n_bins = (BINS_AT_1_KHZ * rate.0 / 1000.0).ceil() as usize;
-        let share = |bin: usize| (bin as f64 + 0.5) / n_bins as f64;
-        let frequencies = (0..n_bins).map(|bin| Hertz(0.5 * rate.0 * share(bin))).collect();
-        let angle = |lag: usize, bin: usize| std::f64::consts::PI * lag as f64 * share(bin);
-        let cosines = (0..=order).flat_map(|lag| (0..n_bins).map(move |bin| angle(lag, bin).cos())).collect();
-        let lattice = Lattice::over(planes);
-        Some(Self { lattice, rate, order, n_bins, frequencies, cosines, quick: QuickLsf::new() })
+        let bins = Bins::new(rate, n_bins, order);
+        let (lattice, frequencies) = (Lattice::over(planes), bins.frequencies());
+        Some(Self { lattice, rate, order, bins, frequencies, quick: QuickLsf::new() })
     }
 
     /// The grain of a plane.
     pub(crate) fn sample(&self, plane: &Plane) -> SampledGrain {
         let n = self.lattice.contacts.len();
         let mut sampled = SampledGrain {
-            ln_psd: Vec::with_capacity(n * self.n_bins),
+            ln_psd: Vec::with_capacity(n * self.bins.len()),
             lsf: Vec::with_capacity(n * self.order),
             ln_level: Vec::with_capacity(n),
         };
         for contact in &self.lattice.contacts {
             let grain = plane.at(*contact);
             let psd = grain.psd(&self.frequencies);
-            sampled.lsf.extend(self.frequencies_of(&grain, &psd));
+            let ln_psd: Vec<f32> = psd.iter().map(|p| p.max(FLOOR_PSD).ln() as f32).collect();
+            sampled.lsf.extend(self.frequencies_of(&grain, &ln_psd));
             sampled.ln_level.push(grain.level_mps2.max(FLOOR_MPS2).ln());
-            sampled.ln_psd.extend(psd.iter().map(|p| p.max(FLOOR_PSD).ln()));
+            sampled.ln_psd.extend(ln_psd);
         }
         sampled
     }
 
     /// Line spectral frequencies at the common order: a predictor is filled up with zeros, which change nothing; with a
     /// moving average it is fitted anew.
-    fn frequencies_of(&self, grain: &Grain, psd: &[f64]) -> Vec<f64> {
+    fn frequencies_of(&self, grain: &Grain, ln_psd: &[f32]) -> Vec<f64> {
         if grain.ma_lsf.is_empty() {
             let mut ar = grain.ar();
             ar.resize(self.order, 0.0);
@@ -147,18 +147,14 @@ impl Sampling {
                 return lsf;
             }
         }
-        let floored: Vec<f64> = psd.iter().map(|p| p.max(FLOOR_PSD)).collect();
-        self.fit(&floored).0
+        self.fit(ln_psd).0
     }
 
-    /// The predictor whose spectrum is nearest to densities (Levinson's), as line spectral frequencies, and the level.
-    fn fit(&self, psd: &[f64]) -> (Vec<f64>, f64) {
-        let lag = |k: usize| {
-            let cosines = &self.cosines[k * self.n_bins..(k + 1) * self.n_bins];
-            psd.iter().zip(cosines).map(|(p, c)| p * c).sum::<f64>()
-        };
-        let mut lags: Vec<f64> = (0..=self.order).map(lag).collect();
-        let level = (lags[0] * 0.5 * self.rate.0 / self.n_bins as f64).sqrt();
+    /// The predictor whose spectrum is nearest to densities `e^ln_psd` (Levinson's), as line spectral frequencies, and the
+    /// level.
+    fn fit(&self, ln_psd: &[f32]) -> (Vec<f64>, f64) {
+        let mut lags = self.bins.lags(ln_psd);
+        let level = lags[0].sqrt();
         // A billionth of white noise keeps rounding from making the predictor unstable.
         lags[0] *= 1.0 + 1e-9;
         let ar = levinson(&lags, self.order).ar;
@@ -171,16 +167,13 @@ impl Sampling {
     /// See [`TextureModelError`].
     pub(crate) fn texture_of_spectra(
         &self,
-        ln_psd: &[f64],
+        ln_psd: &[f32],
         friction: Option<f64>,
         tap: Option<Tap>,
     ) -> Result<TextureModel, TextureModelError> {
-        let mut psd = vec![0.0; self.n_bins];
-        let nodes = self.lattice.contacts.iter().zip(ln_psd.chunks_exact(self.n_bins)).map(|(at, ln_psd)| {
-            for (p, ln_p) in psd.iter_mut().zip(ln_psd) {
-                *p = ln_p.exp();
-            }
-            let (lsf, level_mps2) = self.fit(&psd);
+        let spectra = ln_psd.chunks_exact(self.bins.len());
+        let nodes = self.lattice.contacts.iter().zip(spectra).map(|(at, ln_psd)| {
+            let (lsf, level_mps2) = self.fit(ln_psd);
             node(*at, &lsf, level_mps2)
         });
         Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))

@@ -56,9 +56,13 @@ impl Smoother {
 
     /// Weights of the measurements at a place, in the order of the points: they sum to one, and may be below zero.
     pub fn weights(&self, at: Xy) -> Vec<f64> {
-        let terms = self.basis.terms(at);
-        let column = |j: usize| self.inverse.column(j).iter().zip(&terms).map(|(a, b)| a * b).sum();
-        (0..self.n_points).map(column).collect()
+        let mut weights = vec![0.0; self.n_points];
+        for (column, term) in self.inverse.column_iter().zip(self.basis.terms(at)) {
+            for (weight, x) in weights.iter_mut().zip(column.iter()) {
+                *weight += term * x;
+            }
+        }
+        weights
     }
 
     /// The surface over `values`, a row for each point and a column for each quantity.

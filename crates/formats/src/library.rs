@@ -39,6 +39,13 @@
 //! - `"axes": ["warm-cold", "flat-bumpy"]`: the attributes that `rough_smooth` and `hard_soft` of every place stand for,
 //!   where they are others than their names say.
 //!
+//! Version 1.4 added, to a texture that changes along a stroke:
+//!
+//! - `"path": {"along": "distance", "at_end": "hold", "keys": [{"along": 0.0, "rough_smooth": 30.0, "hard_soft": 70.0,
+//!   "stop": true, "mu": 0.4, "tap": {…}, "anchors": […]}, …]}`: textures at places of the stroke, in mm that the tip has
+//!   traveled or (`"along": "time"`) in s that it has touched. `at_end` is `hold`, `turn` or `repeat`; `stop` marks the
+//!   places that somebody chose. Its own anchors are those of the first key, for programs that know no paths.
+//!
 //! A file says the lowest version that has all it uses.
 //!
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
@@ -48,6 +55,7 @@ mod anchors;
 mod attributes;
 mod error;
 mod id;
+mod path;
 mod provenance;
 mod read;
 mod v1;
@@ -56,6 +64,7 @@ mod write;
 use serde_json::{Map, Value};
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::TextureModel;
+use shagreen_core::texture_path::TexturePath;
 
 use crate::picture::Picture;
 
@@ -73,7 +82,7 @@ pub const FORMAT: &str = "shagreen-library";
 /// Major version that is read and written: files of another one are refused.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written: fields may be added by a higher one.
-pub const VERSION_MINOR: u32 = 3;
+pub const VERSION_MINOR: u32 = 4;
 /// Names of the two axes of a space, where a library names no others.
 pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
@@ -126,8 +135,10 @@ pub struct TextureEntry {
     pub attributes: Option<Attributes>,
     /// What was measured or computed of the surface itself, where that is known.
     pub physical: Option<PhysicalLabels>,
-    /// What it does to a tip.
+    /// What it does to a tip; where it changes along a stroke, at its beginning.
     pub model: TextureModel,
+    /// How it changes along a stroke, where it does.
+    pub path: Option<TexturePath>,
     /// What it looks like.
     pub picture: Option<Picture>,
     /// Fields that this version does not know.
@@ -170,6 +181,9 @@ pub struct Unknown {
     physical: Map<String, Value>,
     picture: Map<String, Value>,
     tap: Map<String, Value>,
+    path: Map<String, Value>,
+    /// Empty, or one for each key of the path.
+    keys: Vec<Map<String, Value>>,
     /// Empty, or one for each node of the model.
     anchors: Vec<Map<String, Value>>,
 }
@@ -189,6 +203,7 @@ impl TextureEntry {
             attributes: None,
             physical: None,
             model,
+            path: None,
             picture: None,
             unknown: Unknown::default(),
         }

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
 use shagreen_core::tap::Tap;
 use shagreen_core::texture::{Grain, Interpolation};
+use shagreen_core::texture_path::{Along, AtEnd};
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::picture::{PictureFormat, decode};
@@ -16,6 +17,7 @@ const V1_0: &[u8] = include_bytes!("golden/library-1.0.json");
 const V1_1: &[u8] = include_bytes!("golden/library-1.1.json");
 const V1_2: &[u8] = include_bytes!("golden/library-1.2.json");
 const V1_3: &[u8] = include_bytes!("golden/library-1.3.json");
+const V1_4: &[u8] = include_bytes!("golden/library-1.4.json");
 
 /// Reads without a warning.
 fn read(bytes: &[u8]) -> Library {
@@ -119,6 +121,49 @@ fn version_1_3() {
 }
 
 #[test]
+fn version_1_4() {
+    let library = read(V1_4);
+    check_head(&library, "1.4");
+    check_cork(&library.textures[0]);
+    let path = library.textures[0].path.as_ref().unwrap();
+    assert_eq!((path.along(), path.at_end(), path.length()), (Along::Distance, AtEnd::Turn, 0.04));
+    let keys: Vec<_> = path
+        .keys()
+        .iter()
+        .map(|key| {
+            let model = &key.model;
+            let level = model.nodes()[0].level_mps2;
+            (key.stop.at.rough_smooth, key.stop.along, key.is_stop, model.friction(), level)
+        })
+        .collect();
+    let expected = [
+        (30.0, 0.0, true, Some(0.4), 0.0625),
+        (35.0, 0.0125, false, None, 0.125),
+        (40.0, 0.04, true, Some(0.25), 0.25),
+    ];
+    assert_eq!(keys, expected);
+    let tap = Tap { frequency: Hertz(180.0), decay_per_sec: 90.0, amplitude_mps2: 4.0 };
+    assert_eq!(path.keys()[1].model.tap(), Some(tap));
+}
+
+#[test]
+fn paths_that_lead_nowhere_are_refused() {
+    let edits: [(&str, Value, &str); 5] = [
+        ("/textures/0/path/along", json!("mood"), "distance or time"),
+        ("/textures/0/path/at_end", json!("stop"), "hold, turn or repeat"),
+        ("/textures/0/path/keys/1/along", json!(40.0), "point 3"),
+        ("/textures/0/path/keys/1/hard_soft", json!(140.0), "hard-soft is 140"),
+        ("/textures/0/path/keys", json!([]), "at least two"),
+    ];
+    for (pointer, to, words) in edits {
+        let mut value: Value = serde_json::from_slice(V1_4).unwrap();
+        *value.pointer_mut(pointer).unwrap() = to;
+        let message = read_library(value.to_string().as_bytes()).unwrap_err().to_string();
+        assert!(message.contains(words) && message.contains("cork"), "{message}");
+    }
+}
+
+#[test]
 fn axes_are_two_attributes() {
     for axes in [json!(["warm-cold"]), json!(["a-b", "a-b"]), json!(["", "a-b"]), json!(["a", "b", "c"])] {
         let mut value: Value = serde_json::from_slice(V1_3).unwrap();
@@ -130,7 +175,7 @@ fn axes_are_two_attributes() {
 
 #[test]
 fn what_is_not_known_is_written_back() {
-    for golden in [V1_0, V1_1, V1_2, V1_3] {
+    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4] {
         let before: Value = serde_json::from_slice(golden).unwrap();
         let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
         assert_eq!(after, before);
@@ -143,7 +188,9 @@ fn a_library_says_the_lowest_version_that_has_what_it_uses() {
         let value: Value = serde_json::from_slice(&write_library(library)).unwrap();
         value["version"].as_str().unwrap().to_owned()
     };
-    let mut library = read(V1_3);
+    let mut library = read(V1_4);
+    assert_eq!(version(&library), "1.4");
+    library.textures[0].path = None;
     assert_eq!(version(&library), "1.3");
     library.axes = None;
     assert_eq!(version(&library), "1.2");

@@ -21,10 +21,10 @@ fn point(rs: f64, hs: f64) -> SpacePoint {
 
 /// Textures whose level falls with the first axis and whose upper resonance falls with the second, times noise of so many
 /// decibels.
-struct World {
+pub(crate) struct World {
     places: Vec<SpacePoint>,
     planes: Vec<Plane>,
-    authoring: Authoring,
+    pub(crate) authoring: Authoring,
 }
 
 fn truth(at: SpacePoint, ripple: f64) -> TextureModel {
@@ -44,7 +44,7 @@ fn truth(at: SpacePoint, ripple: f64) -> TextureModel {
     TextureModel::new(base.rate(), nodes.collect(), friction).unwrap().with_tap(Some(tap))
 }
 
-fn world(n: usize, noise_db: f64, seed: u64) -> World {
+pub(crate) fn world(n: usize, noise_db: f64, seed: u64) -> World {
     let mut random = Random::new(seed);
     let places: Vec<SpacePoint> =
         (0..n).map(|_| point(100.0 * random.uniform(), 100.0 * random.uniform())).collect();

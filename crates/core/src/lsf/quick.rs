@@ -1,27 +1,30 @@
 //! Line spectral frequencies for where thousands of predictors are converted a second.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::lsf::lsf_from_ar;
 
-/// Angles at which signs are looked for; closer pairs are left to the careful search.
-const N_GRID: usize = 160;
-/// Most roots of one half polynomial: half the highest order, rounded up.
-const LANES: usize = 16;
-/// Steps of the false position: each narrows a bracket by more than half, and the last ones square the error.
-const N_STEPS: usize = 12;
+/// Angles at which signs are looked for, so many at once: what they do not tell apart is left to the careful search.
+const N_GRID: usize = 96;
+const AT_ONCE: usize = 16;
+/// Most roots of one half polynomial: half the highest order.
+const MOST_ROOTS: usize = 16;
+/// Steps of the false position: the first ones narrow a bracket, the last ones square the error.
+const N_STEPS: usize = 7;
 
-/// The frequencies of [`lsf_from_ar`] to about 1e-10 radians, several times as fast: signs are looked for on a coarse grid,
-/// and all brackets are narrowed at once. What the grid does not resolve goes to the careful search.
+/// The frequencies of [`lsf_from_ar`] to about 1e-8 radians, many times as fast: signs are looked for on a coarse grid, and
+/// all brackets are narrowed at once. What the grid does not tell apart goes to the careful search.
 #[derive(Clone, Debug)]
 pub(crate) struct QuickLsf {
     /// Cosines of the grid, falling.
-    cosines: Vec<f64>,
+    cosines: [[f64; AT_ONCE]; N_GRID / AT_ONCE],
 }
 
 impl QuickLsf {
     /// The grid.
     pub(crate) fn new() -> Self {
-        let cosine = |i: usize| (std::f64::consts::PI * i as f64 / N_GRID as f64).cos();
-        Self { cosines: (0..=N_GRID).map(cosine).collect() }
+        let cosine = |i: usize| (std::f64::consts::PI * i as f64 / (N_GRID - 1) as f64).cos();
+        Self { cosines: std::array::from_fn(|i| std::array::from_fn(|j| cosine(i * AT_ONCE + j))) }
     }
 
     /// The frequencies of a predictor, or `None` where it is not stable.
@@ -31,51 +34,83 @@ impl QuickLsf {
 
     fn quickly(&self, ar: &[f64]) -> Option<Vec<f64>> {
         let order = ar.len();
-        if order == 0 || order > 2 * LANES || !order.is_multiple_of(2) {
+        if order == 0 || order > 2 * MOST_ROOTS || !order.is_multiple_of(2) {
             return None;
         }
-        let mut lsf = self.roots(&half(ar, 1.0))?;
-        lsf.extend(self.roots(&half(ar, -1.0))?);
-        lsf.sort_by(f64::total_cmp);
-        Some(lsf)
+        // Known numbers of roots side by side keep them in registers.
+        match order / 2 {
+            0..=8 => self.angles::<8>(ar),
+            9..=12 => self.angles::<12>(ar),
+            _ => self.angles::<MOST_ROOTS>(ar),
+        }
     }
 
-    /// The angles at which a sum of cosines vanishes, if there are as many as its degree.
-    fn roots(&self, series: &[f64]) -> Option<Vec<f64>> {
+    /// The angles of all roots, which take turns between the two half polynomials.
+    fn angles<const N: usize>(&self, ar: &[f64]) -> Option<Vec<f64>> {
+        let roots = |sign: f64| {
+            let series = half(ar, sign);
+            Arch::new().dispatch(Roots::<N> { series: &series, grid: &self.cosines })
+        };
+        let (first, second) = (roots(1.0)?, roots(-1.0)?);
+        let mut lsf = Vec::with_capacity(ar.len());
+        for (a, b) in first.iter().zip(&second).take(ar.len() / 2) {
+            lsf.extend([a, b].map(|x| x.clamp(-1.0, 1.0).acos()));
+        }
+        lsf.windows(2).all(|w| w[0] < w[1]).then_some(lsf)
+    }
+}
+
+/// The cosines at which a sum of cosines vanishes, the first as many as its degree, if there are so many; falling.
+struct Roots<'a, const N: usize> {
+    series: &'a [f64],
+    grid: &'a [[f64; AT_ONCE]; N_GRID / AT_ONCE],
+}
+
+impl<const N: usize> WithSimd for Roots<'_, N> {
+    type Output = Option<[f64; N]>;
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let Self { series, grid } = self;
         let degree = series.len() - 1;
-        let values = clenshaw_many(series, &self.cosines);
-        let (mut low, mut high) = ([0.0; LANES], [0.0; LANES]);
-        let (mut f_low, mut f_high) = ([1.0; LANES], [-1.0; LANES]);
+        let (mut low, mut high) = ([0.0; N], [1.0; N]);
+        let (mut f_low, mut f_high) = ([-1.0; N], [1.0; N]);
         let mut n = 0;
-        for (x, f) in self.cosines.windows(2).zip(values.windows(2)) {
-            if f[0] * f[1] < 0.0 {
-                if n == degree {
-                    return None;
+        let (mut x_before, mut f_before) = (1.0, 0.0);
+        for x in grid {
+            let f = clenshaw(series, x);
+            for (x, f) in x.iter().zip(f) {
+                if f_before * f < 0.0 {
+                    if n == degree {
+                        return None;
+                    }
+                    (low[n], high[n], f_low[n], f_high[n]) = (x_before, *x, f_before, f);
+                    n += 1;
                 }
-                (low[n], high[n], f_low[n], f_high[n]) = (x[0], x[1], f[0], f[1]);
-                n += 1;
+                (x_before, f_before) = (*x, f);
             }
         }
         if n != degree {
             return None;
         }
         for _ in 0..N_STEPS {
-            let mut x = [0.0; LANES];
-            for i in 0..LANES {
+            let mut x = [0.0; N];
+            for i in 0..N {
                 x[i] = high[i] - f_high[i] * (high[i] - low[i]) / (f_high[i] - f_low[i]);
             }
             let f = clenshaw(series, &x);
-            for i in 0..LANES {
+            for i in 0..N {
                 // The Illinois rule: the end that stays counts half, so that it does not stay for ever.
                 let crosses = f[i] * f_high[i] < 0.0;
                 low[i] = if crosses { high[i] } else { low[i] };
                 f_low[i] = if crosses { f_high[i] } else { 0.5 * f_low[i] };
                 high[i] = x[i];
-                // A value of zero ends the search: both ends would be the same.
+                // At a root to the last bit both ends would have no difference to divide by.
                 f_high[i] = if f[i] == 0.0 { f64::MIN_POSITIVE.copysign(-f_low[i]) } else { f[i] };
             }
         }
-        Some(high[..degree].iter().map(|x| x.clamp(-1.0, 1.0).acos()).collect())
+        Some(high)
     }
 }
 
@@ -96,6 +131,8 @@ fn half(ar: &[f64], sign: f64) -> Vec<f64> {
 }
 
 /// The sum of cosines at each cosine.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
 fn clenshaw<const N: usize>(series: &[f64], x: &[f64; N]) -> [f64; N] {
     let (mut b1, mut b2) = ([0.0; N], [0.0; N]);
     for c in series[1..].iter().rev() {
@@ -105,16 +142,6 @@ fn clenshaw<const N: usize>(series: &[f64], x: &[f64; N]) -> [f64; N] {
         }
     }
     std::array::from_fn(|i| series[0] + x[i] * b1[i] - b2[i])
-}
-
-fn clenshaw_many(series: &[f64], x: &[f64]) -> Vec<f64> {
-    let mut out = Vec::with_capacity(x.len());
-    let (chunks, rest) = x.as_chunks::<LANES>();
-    for chunk in chunks {
-        out.extend(clenshaw(series, chunk));
-    }
-    out.extend(rest.iter().map(|x| clenshaw(series, &[*x])[0]));
-    out
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
-use super::{RenderError, RenderPlan, render};
+use super::{PathPlan, RenderError, RenderPlan, render, render_path};
 use crate::ar::test_signals::from_resonances;
 use crate::blend::{Mode, mixture_psd};
 use crate::lsf::lsf_from_ar;
 use crate::plane::{Plane, Prepared};
+use crate::space::SpacePoint;
 use crate::spectrum::welch;
 use crate::texture::test_textures::arma;
 use crate::texture::{GrainNode, MIN_LSF_GAP, TextureModel};
+use crate::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 fn plane(low_hz: f64, level: f64) -> Plane {
@@ -125,4 +127,49 @@ fn what_does_not_stay_finite_is_an_error_at_any_rate() {
         let outcome = render(&plan, &mut steady);
         assert!(matches!(outcome, Err(RenderError::NotFinite { .. })), "{:?}", outcome.map(|x| x.len()));
     }
+}
+
+/// A path between two textures whose levels are 1 and 4 times as high: the level follows the way that the tip has traveled,
+/// and stands still while the tip is in the air.
+#[test]
+fn a_path_is_heard_as_it_is_traveled() {
+    let model = |level: f64| {
+        let nodes = [0.05, 0.2].into_iter().flat_map(|v| {
+            [0.5, 1.0].map(|f| GrainNode {
+                speed: MetersPerSecond(v),
+                force: Newtons(f),
+                lsf: lsf_from_ar(&from_resonances(Hertz(1000.0), &[(Hertz(120.0), 0.8)])).unwrap(),
+                level_mps2: level,
+            })
+        });
+        TextureModel::new(Hertz(1000.0), nodes.collect(), None).unwrap()
+    };
+    let key = |level: f64, along: f64| Key {
+        stop: Stop { at: SpacePoint { rough_smooth: 0.0, hard_soft: 0.0 }, along },
+        is_stop: true,
+        model: model(level),
+    };
+    let path = TexturePath::new(Along::Distance, AtEnd::Hold, vec![key(1.0, 0.0), key(4.0, 0.4)]).unwrap();
+    let prepared: Vec<Prepared> = path.keys().iter().map(|key| Plane::new(&key.model).prepare()).collect();
+    for rate in [1000.0, 8000.0] {
+        // 0.1 m/s for two seconds, two in the air, two more.
+        let plan = PathPlan { path: &path, prepared: &prepared, rate: Hertz(rate), seconds: 8.0, seed: 3 };
+        let mut contact_at = |t: f64| {
+            let is_lifted = (2.0..4.0).contains(&t);
+            Contact::from_mm_per_s_and_n(100.0, if is_lifted { 0.0 } else { 0.7 })
+        };
+        let x = render_path(&plan, &mut contact_at).unwrap();
+        let level = |from: f64, to: f64| {
+            let part = &x[(from * rate) as usize..(to * rate) as usize];
+            (part.iter().map(|v| f64::from(*v).powi(2)).sum::<f64>() / part.len() as f64).sqrt()
+        };
+        // Under one excitation levels of one spectrum add up: linear along the way.
+        for (from, to, want) in [(0.9, 1.1, 1.75), (1.9, 2.0, 2.46), (4.1, 4.3, 2.65), (5.9, 7.9, 4.0)] {
+            let got = level(from, to);
+            assert!((got / want - 1.0).abs() < 0.25, "{rate}: {got} for {want} from {from}");
+        }
+        assert!(level(2.5, 3.9) < 1e-3);
+    }
+    let few = PathPlan { path: &path, prepared: &prepared[..1], rate: Hertz(1000.0), seconds: 1.0, seed: 3 };
+    assert_eq!(render_path(&few, &mut steady), Err(RenderError::Keys { n: 1, keys: 2 }));
 }

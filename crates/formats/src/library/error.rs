@@ -2,6 +2,7 @@
 
 use shagreen_core::space::SpacePointError;
 use shagreen_core::texture::TextureModelError;
+use shagreen_core::texture_path::TexturePathError;
 
 use crate::library::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 
@@ -140,6 +141,14 @@ pub enum LibraryError {
         value: f64,
         /// What it must be.
         needs: &'static str,
+    },
+    /// A path is no way.
+    #[error("the path of texture \"{id}\" cannot be used: {source}; correct or remove it")]
+    Path {
+        /// Identifier of the texture.
+        id: String,
+        /// What is wrong.
+        source: TexturePathError,
     },
     /// A picture is not usable.
     #[error("the picture of texture \"{id}\" cannot be used: {reason}; correct or remove it")]

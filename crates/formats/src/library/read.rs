@@ -12,13 +12,13 @@ use shagreen_core::units::Hertz;
 
 use crate::imported::Imported;
 use crate::library::anchors::grain;
-use crate::library::attributes;
 use crate::library::v1::{Header, LibraryV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
 use crate::library::write::{RESTRICTED, UNITS};
 use crate::library::{
     FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, Unknown,
     UnknownOfLibrary, VERSION_MAJOR, VERSION_MINOR,
 };
+use crate::library::{attributes, path};
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 
 /// Reads a library.
@@ -166,9 +166,16 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
         }
     });
     let provenance = wire.provenance.map(|word| provenance(&id, word)).transpose()?.unwrap_or_default();
-    let tap = wire.tap.map(|wire| tap(&id, wire, &mut unknown)).transpose()?;
+    let tap = wire.tap.map(|wire| {
+        let read = tap(&id, &wire);
+        unknown.tap = wire.unknown;
+        read
+    });
+    let tap = tap.transpose()?;
+    let rate = Hertz(wire.rate_hz);
+    let path = wire.path.map(|wire| path::read(&id, wire, rate, &mut unknown)).transpose()?;
     let model = grain(&id, wire.interpolation.as_deref(), wire.anchors, &mut unknown.anchors)?
-        .model(Hertz(wire.rate_hz), wire.mu)
+        .model(rate, wire.mu)
         .map_err(|source| LibraryError::Model { id: id.clone(), source })?
         .with_tap(tap);
     Ok(TextureEntry {
@@ -183,6 +190,7 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
         attributes,
         physical,
         model,
+        path,
         picture,
         unknown,
     })
@@ -200,12 +208,11 @@ fn provenance(id: &str, word: String) -> Result<Provenance, LibraryError> {
     }
 }
 
-fn tap(id: &str, wire: TapV1, unknown: &mut Unknown) -> Result<Tap, LibraryError> {
+pub(super) fn tap(id: &str, wire: &TapV1) -> Result<Tap, LibraryError> {
     let fields = [("frequency_hz", wire.frequency_hz), ("decay_per_s", wire.decay_per_s)];
     if let Some((field, value)) = fields.into_iter().find(|(_, value)| *value <= 0.0) {
         return Err(LibraryError::Tap { id: id.to_owned(), field, value, needs: "it must be above zero" });
     }
-    unknown.tap = wire.unknown;
     Ok(Tap {
         frequency: Hertz(wire.frequency_hz),
         decay_per_sec: wire.decay_per_s,

@@ -1,4 +1,4 @@
-//! The wire format of a library, versions 1.0 to 1.3.
+//! The wire format of a library, versions 1.0 to 1.4.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -86,8 +86,36 @@ pub(super) struct TextureV1 {
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     pub(super) anchors: Vec<AnchorV1>,
+    /// Since 1.4.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) path: Option<PathV1>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) picture: Option<PictureV1>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct PathV1 {
+    pub(super) along: String,
+    pub(super) at_end: String,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+    pub(super) keys: Vec<KeyV1>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct KeyV1 {
+    pub(super) along: f64,
+    pub(super) rough_smooth: f64,
+    pub(super) hard_soft: f64,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(super) stop: bool,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) mu: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) tap: Option<TapV1>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+    pub(super) anchors: Vec<AnchorV1>,
 }
 
 #[derive(Serialize, Deserialize)]

@@ -2,14 +2,15 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use serde_json::Map;
 use shagreen_core::tap::Tap;
 use shagreen_core::texture::Interpolation;
 
 use crate::layout;
 use crate::library::anchors::{anchors, interpolation_word};
-use crate::library::attributes;
 use crate::library::v1::{LibraryV1, PhysicalV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
 use crate::library::{FORMAT, Library, Provenance, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
+use crate::library::{attributes, path};
 
 /// The word for [`Provenance::Restricted`].
 pub(super) const RESTRICTED: &str = "restricted";
@@ -37,6 +38,8 @@ pub(crate) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
 pub(super) const CONVERSION_DIGITS: usize = 12;
 
+/// The minor version that brought names of axes.
+const WITH_AXES: u32 = 3;
 /// The minor version that brought attributes and the report of a space.
 const WITH_ATTRIBUTES: u32 = 2;
 
@@ -97,8 +100,9 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
         mu: entry.model.friction().map(|mu| digits(mu, DIGITS)),
         unknown: unknown.texture.clone(),
         interpolation: interpolation_word(&entry.model).map(str::to_owned),
-        tap: entry.model.tap().map(|measured| tap(measured, entry)),
+        tap: entry.model.tap().map(|measured| TapV1 { unknown: unknown.tap.clone(), ..tap(measured) }),
         anchors: anchors(&entry.model, &unknown.anchors),
+        path: entry.path.as_ref().map(|way| path::write(way, unknown)),
         picture: entry.picture.as_ref().map(|picture| PictureV1 {
             media_type: picture.format.media_type().to_owned(),
             width: picture.width,
@@ -112,8 +116,11 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
 
 /// The lowest minor version that has all that a library uses: older programs read what they can.
 fn minor_version(library: &Library) -> u32 {
-    if library.axes.is_some() {
+    if library.textures.iter().any(|entry| entry.path.is_some()) {
         return VERSION_MINOR;
+    }
+    if library.axes.is_some() {
+        return WITH_AXES;
     }
     if library.space_report.is_some() || library.textures.iter().any(|entry| entry.attributes.is_some()) {
         return WITH_ATTRIBUTES;
@@ -126,12 +133,12 @@ fn minor_version(library: &Library) -> u32 {
     u32::from(library.textures.iter().any(is_new))
 }
 
-fn tap(tap: Tap, entry: &TextureEntry) -> TapV1 {
+pub(super) fn tap(tap: Tap) -> TapV1 {
     TapV1 {
         frequency_hz: digits(tap.frequency.0, DIGITS),
         decay_per_s: digits(tap.decay_per_sec, DIGITS),
         amplitude_mps2: digits(tap.amplitude_mps2, DIGITS),
-        unknown: entry.unknown.tap.clone(),
+        unknown: Map::new(),
     }
 }
 
@@ -144,7 +151,7 @@ pub(crate) fn frequencies(lsf: &[f64]) -> Vec<f64> {
 }
 
 /// The nearest number of [`DECIMALS`] decimals; decimal text is the rounding that prints short.
-fn decimals(value: f64) -> f64 {
+pub(super) fn decimals(value: f64) -> f64 {
     format!("{value:.DECIMALS$}").parse().unwrap_or(value)
 }
 

@@ -1,0 +1,111 @@
+//! Spectra as bins from zero to half the rate, and their autocorrelation.
+
+use std::f64::consts::PI;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::sampled::exponential::exp;
+use crate::units::Hertz;
+
+/// Values that are worked on side by side.
+const LANES: usize = 8;
+
+/// Bins as wide as each other from zero to half the rate, each standing for its middle.
+#[derive(Clone, Debug)]
+pub(super) struct Bins {
+    rate: Hertz,
+    n_bins: usize,
+    /// `cos(k ω)` of the lower half of the bins, lag by lag: in the upper half they are the same, but for their sign at odd
+    /// lags.
+    cosines: Vec<f64>,
+    n_lags: usize,
+}
+
+impl Bins {
+    /// About `n_bins` bins, for autocorrelations up to the lag `order`.
+    pub(super) fn new(rate: Hertz, n_bins: usize, order: usize) -> Self {
+        let n_bins = n_bins.next_multiple_of(2 * LANES);
+        let angle = |lag: usize, bin: usize| PI * lag as f64 * (bin as f64 + 0.5) / n_bins as f64;
+        let of_lag = |lag: usize| (0..n_bins / 2).map(move |bin| angle(lag, bin).cos());
+        Self { rate, n_bins, cosines: (0..=order).flat_map(of_lag).collect(), n_lags: order + 1 }
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.n_bins
+    }
+
+    /// Their middles.
+    pub(super) fn frequencies(&self) -> Vec<Hertz> {
+        let share = |bin: usize| (bin as f64 + 0.5) / self.n_bins as f64;
+        (0..self.n_bins).map(|bin| Hertz(0.5 * self.rate.0 * share(bin))).collect()
+    }
+
+    /// Autocorrelation of a signal with densities `e^ln_psd`, in (m/s²)², from lag zero on.
+    pub(super) fn lags(&self, ln_psd: &[f32]) -> Vec<f64> {
+        let width_hz = 0.5 * self.rate.0 / self.n_bins as f64;
+        let mut lags = vec![0.0; self.n_lags];
+        Arch::new().dispatch(Lags { bins: self, ln_psd, lags: &mut lags });
+        for lag in &mut lags {
+            *lag *= width_hz;
+        }
+        lags
+    }
+}
+
+struct Lags<'a> {
+    bins: &'a Bins,
+    ln_psd: &'a [f32],
+    lags: &'a mut [f64],
+}
+
+impl WithSimd for Lags<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let half = self.bins.n_bins / 2;
+        let (low, high) = self.ln_psd.split_at(half);
+        let (mut sums, mut differences) = (vec![0.0; half], vec![0.0; half]);
+        for i in 0..half {
+            let (below, above) = (exp(f64::from(low[i])), exp(f64::from(high[half - 1 - i])));
+            sums[i] = below + above;
+            differences[i] = below - above;
+        }
+        for (k, (lag, cosines)) in self.lags.iter_mut().zip(self.bins.cosines.chunks_exact(half)).enumerate()
+        {
+            let values = if k % 2 == 0 { &sums } else { &differences };
+            let mut parts = [0.0; LANES];
+            for (value, cosine) in values.as_chunks::<LANES>().0.iter().zip(cosines.as_chunks::<LANES>().0) {
+                for i in 0..LANES {
+                    parts[i] += value[i] * cosine[i];
+                }
+            }
+            *lag = parts.iter().sum();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Bins;
+    use crate::rng::Random;
+    use crate::units::Hertz;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn lags_are_those_of_the_sum_of_cosines() {
+        let bins = Bins::new(Hertz(2000.0), 100, 9);
+        let mut random = Random::new(1);
+        let ln_psd: Vec<f32> = (0..bins.len()).map(|_| (3.0 * random.normal()) as f32).collect();
+        let lags = bins.lags(&ln_psd);
+        assert_eq!((bins.len(), lags.len()), (112, 10));
+        for (k, lag) in lags.iter().enumerate() {
+            let term =
+                |(f, ln): (&Hertz, &f32)| f64::from(*ln).exp() * (2.0 * PI * f.0 * k as f64 / 2000.0).cos();
+            let slow: f64 = bins.frequencies().iter().zip(&ln_psd).map(term).sum::<f64>() * 1000.0 / 112.0;
+            assert!((lag - slow).abs() < 1e-9 * lags[0], "{k}: {lag} for {slow}");
+        }
+    }
+}

@@ -1,0 +1,426 @@
+//! A texture that changes along a stroke: from wood to cloth, say, over some millimeters or seconds.
+//!
+//! A route goes from stop to stop through the space. What is played is a path: textures at keys so close that between two of
+//! them a mixture under one excitation is as good as a texture of its own, so that it needs no space to be played.
+
+use crate::authoring::{Authoring, Blending};
+use crate::space::SpacePoint;
+use crate::texture::TextureModel;
+
+/// Largest distance of neighboring keys in the space, in points of the axes.
+const KEY_STEP: f64 = 4.0;
+/// Most keys of a path that is made, and of one that is read: an output holds as many textures.
+pub const MAX_KEYS: usize = 48;
+
+/// What is counted along a path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Along {
+    /// What the tip has traveled while it touched, in m.
+    #[default]
+    Distance,
+    /// How long it has touched, in s.
+    Time,
+}
+
+/// What happens at the end of a path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AtEnd {
+    /// The last texture stays.
+    #[default]
+    Hold,
+    /// Back the same way, to and fro.
+    Turn,
+    /// From the beginning again.
+    Repeat,
+}
+
+/// A point that a route goes through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Where in the space.
+    pub at: SpacePoint,
+    /// Where along the stroke, in m or s.
+    pub along: f64,
+}
+
+/// The way of a texture through the space: straight from stop to stop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Route {
+    along: Along,
+    at_end: AtEnd,
+    stops: Vec<Stop>,
+}
+
+/// Why stops are no route, or keys no path.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TexturePathError {
+    /// Fewer than two stops.
+    #[error("a path needs at least two points, got {n}")]
+    TooFew {
+        /// How many there are.
+        n: usize,
+    },
+    /// Too many stops or keys.
+    #[error("a path has at most {MAX_KEYS} points, got {n}; leave some out")]
+    TooMany {
+        /// How many there are.
+        n: usize,
+    },
+    /// The stops do not go on.
+    #[error(
+        "point {number} of the path lies at {along}, which is not beyond the one before it; the first lies at 0, and each \
+         further on than the last"
+    )]
+    Order {
+        /// Which point, counted from one.
+        number: usize,
+        /// Where along the stroke, in m or s.
+        along: f64,
+    },
+    /// Textures of different rates.
+    #[error("the textures of a path have different rates, {first_hz} and {other_hz} Hz")]
+    Rates {
+        /// Rate of the first.
+        first_hz: f64,
+        /// One that differs.
+        other_hz: f64,
+    },
+    /// The mode makes no texture.
+    #[error("a path is made of textures that are made for its points: choose the mode field or parametric")]
+    Mode,
+    /// There is no texture at a point.
+    #[error("there is no texture at {at}; place textures around it first")]
+    NoTexture {
+        /// Where.
+        at: SpacePoint,
+    },
+}
+
+impl Along {
+    /// The word for files and scripts.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Distance => "distance",
+            Self::Time => "time",
+        }
+    }
+
+    /// What has this [`Along::id`].
+    pub fn from_id(id: &str) -> Option<Self> {
+        [Self::Distance, Self::Time].into_iter().find(|along| along.id() == id)
+    }
+}
+
+impl AtEnd {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Hold, Self::Turn, Self::Repeat];
+
+    /// The word for files and scripts.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Hold => "hold",
+            Self::Turn => "turn",
+            Self::Repeat => "repeat",
+        }
+    }
+
+    /// What has this [`AtEnd::id`].
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|at_end| at_end.id() == id)
+    }
+
+    /// The place on a path of this length where so much was traveled, 0..=length.
+    fn folded(self, length: f64, traveled: f64) -> f64 {
+        let traveled = if traveled > 0.0 { traveled } else { 0.0 };
+        match self {
+            Self::Hold => traveled.min(length),
+            Self::Turn => {
+                let turn = traveled % (2.0 * length);
+                if turn > length { 2.0 * length - turn } else { turn }
+            }
+            Self::Repeat => traveled % length,
+        }
+    }
+}
+
+impl Route {
+    /// A route through stops; the first lies at zero, each other beyond the one before.
+    ///
+    /// # Errors
+    /// See [`TexturePathError`].
+    pub fn new(along: Along, at_end: AtEnd, stops: Vec<Stop>) -> Result<Self, TexturePathError> {
+        check(stops.iter().map(|stop| stop.along))?;
+        Ok(Self { along, at_end, stops })
+    }
+
+    /// What is counted along it.
+    pub fn along(&self) -> Along {
+        self.along
+    }
+
+    /// What happens at its end.
+    pub fn at_end(&self) -> AtEnd {
+        self.at_end
+    }
+
+    /// Its stops, at least two.
+    pub fn stops(&self) -> &[Stop] {
+        &self.stops
+    }
+
+    /// Its length in m or s.
+    pub fn length(&self) -> f64 {
+        self.stops.last().map_or(0.0, |stop| stop.along)
+    }
+
+    /// The point of the space where so much was traveled, in m or s.
+    pub fn point_at(&self, traveled: f64) -> SpacePoint {
+        let place = self.at_end.folded(self.length(), traveled);
+        let (index, share) = between(self.stops.iter().map(|stop| stop.along), place);
+        mean(self.stops[index].at, self.stops[(index + 1).min(self.stops.len() - 1)].at, share)
+    }
+}
+
+/// A texture at a place of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Key {
+    /// Where along the stroke, in m or s, and where in the space.
+    pub stop: Stop,
+    /// Whether somebody put it there; else it only stands between two that were put.
+    pub is_stop: bool,
+    /// The texture.
+    pub model: TextureModel,
+}
+
+/// A texture that changes along a stroke.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TexturePath {
+    along: Along,
+    at_end: AtEnd,
+    keys: Vec<Key>,
+}
+
+impl TexturePath {
+    /// A path through keys of one rate; the first lies at zero, each other beyond the one before.
+    ///
+    /// # Errors
+    /// See [`TexturePathError`].
+    pub fn new(along: Along, at_end: AtEnd, keys: Vec<Key>) -> Result<Self, TexturePathError> {
+        check(keys.iter().map(|key| key.stop.along))?;
+        let rate = |key: &Key| key.model.rate().0;
+        let first_hz = rate(&keys[0]);
+        if let Some(other) = keys.iter().find(|key| rate(key) != first_hz) {
+            return Err(TexturePathError::Rates { first_hz, other_hz: rate(other) });
+        }
+        Ok(Self { along, at_end, keys })
+    }
+
+    /// The path of a route: a key at every stop, and between them every few points of the axes.
+    ///
+    /// # Errors
+    /// See [`TexturePathError`].
+    pub fn of_route(
+        authoring: &Authoring,
+        route: &Route,
+        blending: &Blending,
+    ) -> Result<Self, TexturePathError> {
+        if !blending.mode.makes_a_model() {
+            return Err(TexturePathError::Mode);
+        }
+        let way: f64 = route.stops.windows(2).map(|s| s[0].at.distance(s[1].at)).sum();
+        let n_between = MAX_KEYS - route.stops.len();
+        let step = KEY_STEP.max(way / n_between.max(1) as f64);
+        let mut places: Vec<(Stop, bool)> = Vec::new();
+        for pair in route.stops.windows(2) {
+            let [from, to] = [pair[0], pair[1]];
+            // Rounded down: what is left over must not make one more key for every stop.
+            let n = ((from.at.distance(to.at) / step).floor() as usize).max(1);
+            places.extend((0..n).map(|i| {
+                let share = i as f64 / n as f64;
+                let along = from.along + share * (to.along - from.along);
+                (Stop { at: mean(from.at, to.at, share), along }, i == 0)
+            }));
+        }
+        places.extend(route.stops.last().map(|stop| (*stop, true)));
+        let key = |(stop, is_stop): (Stop, bool)| {
+            let authored = authoring.author(stop.at, blending);
+            let model = authored.and_then(|authored| authored.model);
+            let model = model.ok_or(TexturePathError::NoTexture { at: stop.at })?;
+            Ok(Key { stop, is_stop, model })
+        };
+        Self::new(route.along, route.at_end, places.into_iter().map(key).collect::<Result<_, _>>()?)
+    }
+
+    /// What is counted along it.
+    pub fn along(&self) -> Along {
+        self.along
+    }
+
+    /// What happens at its end.
+    pub fn at_end(&self) -> AtEnd {
+        self.at_end
+    }
+
+    /// Its textures, at least two, in the order of the stroke.
+    pub fn keys(&self) -> &[Key] {
+        &self.keys
+    }
+
+    /// Its length in m or s.
+    pub fn length(&self) -> f64 {
+        self.keys.last().map_or(0.0, |key| key.stop.along)
+    }
+
+    /// The key at or before the place where so much was traveled, in m or s, and the share of the one after it, 0..1.
+    pub fn between(&self, traveled: f64) -> (usize, f64) {
+        let place = self.at_end.folded(self.length(), traveled);
+        between(self.keys.iter().map(|key| key.stop.along), place)
+    }
+}
+
+/// Whether places along a stroke are a way.
+fn check(along: impl ExactSizeIterator<Item = f64>) -> Result<(), TexturePathError> {
+    let n = along.len();
+    if n < 2 {
+        return Err(TexturePathError::TooFew { n });
+    }
+    if n > MAX_KEYS {
+        return Err(TexturePathError::TooMany { n });
+    }
+    let mut before = None;
+    for (i, along) in along.enumerate() {
+        let goes_on = before.map_or(along == 0.0, |before| along > before && along.is_finite());
+        if !goes_on {
+            return Err(TexturePathError::Order { number: i + 1, along });
+        }
+        before = Some(along);
+    }
+    Ok(())
+}
+
+/// The index of the last of ascending places that is not beyond `place`, and the share of the way to the next.
+fn between(places: impl Iterator<Item = f64>, place: f64) -> (usize, f64) {
+    let mut found = (0, 0.0);
+    let mut before = 0.0;
+    for (i, along) in places.enumerate() {
+        if along > place {
+            let share = if i == 0 { 0.0 } else { (place - before) / (along - before) };
+            return (found.0, share);
+        }
+        (found, before) = ((i, 0.0), along);
+    }
+    found
+}
+
+fn mean(from: SpacePoint, to: SpacePoint, share: f64) -> SpacePoint {
+    let between = |a: f64, b: f64| a + share * (b - a);
+    SpacePoint {
+        rough_smooth: between(from.rough_smooth, to.rough_smooth),
+        hard_soft: between(from.hard_soft, to.hard_soft),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Along, AtEnd, Key, MAX_KEYS, Route, Stop, TexturePath, TexturePathError};
+    use crate::authoring::tests::world;
+    use crate::blend::Mode;
+    use crate::space::SpacePoint;
+
+    fn stop(rs: f64, hs: f64, along: f64) -> Stop {
+        Stop { at: SpacePoint::new(rs, hs).unwrap(), along }
+    }
+
+    fn route(at_end: AtEnd) -> Route {
+        let stops = vec![stop(30.0, 30.0, 0.0), stop(70.0, 30.0, 0.04), stop(70.0, 60.0, 0.05)];
+        Route::new(Along::Distance, at_end, stops).unwrap()
+    }
+
+    #[test]
+    fn a_route_is_straight_between_stops_and_ends_as_it_was_told() {
+        for (at_end, traveled, want) in [
+            (AtEnd::Hold, -1.0, (30.0, 30.0)),
+            (AtEnd::Hold, 0.01, (40.0, 30.0)),
+            (AtEnd::Hold, 0.045, (70.0, 45.0)),
+            (AtEnd::Hold, 9.0, (70.0, 60.0)),
+            (AtEnd::Turn, 0.055, (70.0, 45.0)),
+            (AtEnd::Turn, 0.09, (40.0, 30.0)),
+            (AtEnd::Turn, 0.11, (40.0, 30.0)),
+            (AtEnd::Repeat, 0.06, (40.0, 30.0)),
+        ] {
+            let at = route(at_end).point_at(traveled);
+            assert!(
+                (at.rough_smooth - want.0).abs() < 1e-9 && (at.hard_soft - want.1).abs() < 1e-9,
+                "{at:?}"
+            );
+        }
+        let nan = route(AtEnd::Turn).point_at(f64::NAN);
+        assert!((nan.rough_smooth, nan.hard_soft) == (30.0, 30.0));
+    }
+
+    #[test]
+    fn a_path_follows_its_route() {
+        let world = world(12, 1.0, 2);
+        let route = route(AtEnd::Hold);
+        let path = TexturePath::of_route(&world.authoring, &route, &Mode::Field.into()).unwrap();
+        // Forty points in steps of four, then thirty.
+        assert_eq!(path.keys().len(), 10 + 7 + 1);
+        assert_eq!(path.keys().iter().filter(|key| key.is_stop).count(), 3);
+        for i in 0..=50 {
+            let traveled = 0.001 * f64::from(i);
+            let (key, share) = path.between(traveled);
+            let [a, b] = [key, (key + 1).min(path.keys().len() - 1)].map(|k| path.keys()[k].stop.at);
+            let at = route.point_at(traveled);
+            let between = a.rough_smooth + share * (b.rough_smooth - a.rough_smooth);
+            assert!((between - at.rough_smooth).abs() < 1e-9, "{traveled}");
+        }
+        let own = world.authoring.author(route.stops()[1].at, &Mode::Field.into()).unwrap().model;
+        assert_eq!(
+            path.keys().iter().find(|key| key.stop == route.stops()[1]).map(|key| &key.model),
+            own.as_ref()
+        );
+    }
+
+    #[test]
+    fn long_routes_of_many_stops_stay_within_the_limit() {
+        let world = world(5, 1.0, 2);
+        for n in [2, 20, MAX_KEYS] {
+            let stops = (0..n).map(|i| stop(100.0 * f64::from(i as u32 % 2), 50.0, i as f64)).collect();
+            let route = Route::new(Along::Time, AtEnd::Turn, stops).unwrap();
+            let path = TexturePath::of_route(&world.authoring, &route, &Mode::Parametric.into()).unwrap();
+            assert!(path.keys().len() <= MAX_KEYS, "{} of {n}", path.keys().len());
+        }
+    }
+
+    #[test]
+    fn what_is_no_path_is_said() {
+        let new = |stops: Vec<Stop>| Route::new(Along::Time, AtEnd::Hold, stops).unwrap_err();
+        assert_eq!(new(vec![stop(1.0, 1.0, 0.0)]), TexturePathError::TooFew { n: 1 });
+        let back = new(vec![stop(1.0, 1.0, 0.0), stop(2.0, 2.0, 1.0), stop(3.0, 3.0, 1.0)]);
+        assert_eq!(back, TexturePathError::Order { number: 3, along: 1.0 });
+        assert!(matches!(new(vec![stop(1.0, 1.0, 0.5); 2]), TexturePathError::Order { number: 1, .. }));
+        assert!(matches!(
+            new(vec![stop(1.0, 1.0, 0.0), stop(1.0, 1.0, f64::NAN)]),
+            TexturePathError::Order { .. }
+        ));
+        let world = world(5, 1.0, 2);
+        let mixed = TexturePath::of_route(&world.authoring, &route(AtEnd::Hold), &Mode::Shared.into());
+        assert_eq!(mixed.unwrap_err(), TexturePathError::Mode);
+        let model =
+            world.authoring.author(stop(50.0, 50.0, 0.0).at, &Mode::Field.into()).unwrap().model.unwrap();
+        let key = |along: f64| Key { stop: stop(1.0, 1.0, along), is_stop: true, model: model.clone() };
+        assert!(TexturePath::new(Along::Time, AtEnd::Hold, vec![key(0.0), key(1.0)]).is_ok());
+        assert!(TexturePath::new(Along::Time, AtEnd::Hold, vec![key(1.0), key(0.0)]).is_err());
+    }
+
+    #[test]
+    fn words_round_trip() {
+        for at_end in AtEnd::ALL {
+            assert_eq!(AtEnd::from_id(at_end.id()), Some(at_end));
+        }
+        for along in [Along::Distance, Along::Time] {
+            assert_eq!(Along::from_id(along.id()), Some(along));
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! `shagreen texture path`: a texture that changes along a stroke.
+
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use serde_json::json;
+use shagreen_core::authoring::Authoring;
+use shagreen_core::space::SpacePoint;
+use shagreen_core::texture_path::{Along, AtEnd, Route, Stop, TexturePath};
+use shagreen_formats::atomic;
+use shagreen_formats::library::{Library, Provenance, TextureEntry, id_from_name, write_library};
+
+use crate::cli::guard::{is_library, refuse_foreign, refuse_inputs};
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::motion::quantity;
+use crate::cli::output;
+use crate::cli::target::{BlendArgs, authoring, parse_point};
+
+/// Makes a texture that changes along a stroke, from stop to stop through the space, and writes it as a library of its own:
+/// `render`, `play` and the window take it as any other texture.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// A point of the space, and where along the stroke it is reached, in mm (or s, with --along time): 30,70@0. At least
+    /// two, the first at 0.
+    #[arg(long = "stop", value_name = "RS,HS@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
+    stops: Vec<(SpacePoint, f64)>,
+    /// What counts along the stroke: the distance that the tip has traveled, or the time that it has touched.
+    #[arg(long, value_name = "WHAT", value_parser = ["distance", "time"], default_value = "distance")]
+    along: String,
+    /// What happens at the end: the last texture stays, it goes back, or it begins again.
+    #[arg(long, value_name = "WHAT", value_parser = ["hold", "turn", "repeat"], default_value = "hold")]
+    at_end: String,
+    #[command(flatten)]
+    library: LibraryArgs,
+    #[command(flatten)]
+    blending: BlendArgs,
+    /// Name of the texture.
+    #[arg(long, value_name = "NAME", default_value = "Path")]
+    name: String,
+    /// Library file to write.
+    #[arg(short, long, value_name = "OUT.json")]
+    out: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+fn parse_stop(text: &str) -> Result<(SpacePoint, f64), String> {
+    let (at, along) = text.split_once('@').ok_or("write RS,HS@X as in 30,70@0")?;
+    Ok((parse_point(at)?, quantity(along.trim())?))
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    refuse_inputs(&[&args.out], &[args.library.path()])?;
+    refuse_foreign(&args.out, "a library", is_library)?;
+    let library = load(&args.library)?;
+    let blending = args.blending.blending(&library)?;
+    let along = Along::from_id(&args.along).unwrap_or_default();
+    let unit = if along == Along::Distance { (1e-3, "mm") } else { (1.0, "s") };
+    let stops = args.stops.iter().map(|(at, x)| Stop { at: *at, along: unit.0 * x }).collect();
+    let route = Route::new(along, AtEnd::from_id(&args.at_end).unwrap_or_default(), stops)?;
+    let authoring = authoring(&library, blending.mode)?;
+    let path = TexturePath::of_route(&authoring, &route, &blending)?;
+    let n_clamped = n_outside(&authoring, &route);
+    if n_clamped > 0 {
+        output::warn(&format!(
+            "{n_clamped} of the points lie outside the textures of the library; the nearest points among them are used"
+        ));
+    }
+    let (n_keys, length) = (path.keys().len(), path.length() / unit.0);
+    let made = made(&library, &args.name, path).context("there is no texture to make a path of")?;
+    let id = made.textures[0].id.clone();
+    let restricted: Vec<&str> = library.restricted().map(|texture| texture.name.as_str()).collect();
+    let warning = Provenance::warning(&restricted);
+    if let Some(warning) = &warning {
+        output::warn(warning);
+    }
+    atomic::write(&args.out, &write_library(&made))?;
+    let file = args.out.display().to_string();
+    output::print(
+        args.json,
+        &json!({
+            "out": file, "id": id, "keys": n_keys, "length": length, "unit": unit.1,
+            "along": args.along, "at_end": args.at_end, "blend": blending.mode.id(),
+            "warnings": warning.into_iter().collect::<Vec<_>>(),
+        }),
+        || format!("Wrote \"{id}\", {n_keys} textures over {length} {}: {file}", unit.1),
+    );
+    Ok(())
+}
+
+/// How many stops lie outside the textures.
+fn n_outside(authoring: &Authoring, route: &Route) -> usize {
+    let is_outside = |stop: &&Stop| authoring.space().locate(stop.at).is_some_and(|l| l.clamped);
+    route.stops().iter().filter(is_outside).count()
+}
+
+/// A library of the path alone; it owes something to every texture that has a place.
+fn made(library: &Library, name: &str, path: TexturePath) -> Option<Library> {
+    let placed = || library.textures.iter().filter(|texture| texture.place.is_some());
+    let mut licenses: Vec<&str> = Vec::new();
+    for license in placed().map(|texture| library.license_of(texture)).filter(|l| !l.is_empty()) {
+        if !licenses.contains(&license) {
+            licenses.push(license);
+        }
+    }
+    let is_restricted = placed().any(|texture| texture.provenance == Provenance::Restricted);
+    let mut entry = TextureEntry::new(id_from_name(name), name, path.keys().first()?.model.clone());
+    entry.provenance = if is_restricted { Provenance::Restricted } else { Provenance::Free };
+    entry.origin = format!("Authored as a path through the space of \"{}\".", library.name);
+    entry.path = Some(path);
+    Some(Library {
+        name: name.to_owned(),
+        origin: entry.origin.clone(),
+        license: licenses.join(" AND "),
+        created_by: output::CREATED_BY.to_owned(),
+        textures: vec![entry],
+        ..Library::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parse_stop;
+
+    #[test]
+    fn stops_say_what_is_wrong() {
+        let (at, along) = parse_stop("30, 70.5 @ 12").unwrap();
+        assert_eq!((at.rough_smooth, at.hard_soft, along), (30.0, 70.5, 12.0));
+        for (text, words) in
+            [("30,70", "RS,HS@X"), ("30@1", "RS,HS"), ("30,70@-1", "from 0 up"), ("130,7@0", "130")]
+        {
+            let error = parse_stop(text).unwrap_err();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+}
