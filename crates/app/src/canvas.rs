@@ -1,6 +1,7 @@
 //! The space: textures, triangles, outline, and the point that is dragged through it.
 
 mod foot;
+mod path_tool;
 mod site_labels;
 
 use egui::{
@@ -12,6 +13,8 @@ use shagreen_core::blend::Mode;
 use shagreen_core::space::{LabelSource, SpacePoint};
 
 use self::foot::foot_ui;
+pub use self::path_tool::PathTool;
+use self::path_tool::{added, path_bar, path_line, path_marker, path_points};
 use self::site_labels::{Around, site_labels};
 use crate::axes::Axes;
 use crate::command::Command;
@@ -39,27 +42,35 @@ pub fn point_id() -> egui::Id {
 }
 
 /// Draws the canvas and returns what the user asked of it.
-pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>, tool: &mut PathTool) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
     let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 32.0), outer.max - vec2(36.0, 48.0)) };
     let mut words = grid(ui, axes, outer, panel.session.poles(), t);
-    words.push(source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t));
+    let source = source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t);
+    words.push(source);
     triangles(ui, axes, panel, t);
+    path_line(ui, axes, panel, t);
     let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
-    if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
+    if tool.is_on {
+        commands.extend(tool.follow(ui, axes, panel, &background));
+    } else if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
-    commands.extend(sites_ui(ui, axes, panel, &words, t));
+    commands.extend(sites_ui(ui, axes, panel, tool, &words, t));
     if panel.session.space().sites().is_empty() {
         let font = FontId::proportional(15.0);
         let message =
             if panel.session.textures().is_empty() { strings::NO_TEXTURES } else { strings::NO_PLACES };
         ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
     }
-    commands.extend(point_ui(ui, axes, panel, t));
+    commands.extend(point_ui(ui, axes, panel, tool, t));
+    commands.extend(path_points(ui, axes, panel, tool, t));
+    path_marker(ui, axes, panel, t);
+    let width = source.left() - outer.left() - 44.0;
+    commands.extend(path_bar(ui, outer, width, panel, tool, t));
     foot_ui(ui, axes, panel, t);
     commands
 }
@@ -156,7 +167,14 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
 }
 
 /// The textures: a click moves the point there. Their names keep off the `words` at the axes.
-fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Tokens) -> Vec<Command> {
+fn sites_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    tool: &PathTool,
+    words: &[Rect],
+    t: &Tokens,
+) -> Vec<Command> {
     let mut commands = Vec::new();
     let sites = panel.session.space().sites();
     let with_pictures = sites.len() <= MAX_PICTURES;
@@ -173,7 +191,8 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Toke
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
         if response.clicked() {
-            commands.push(move_to(*at));
+            let added = if tool.is_on { added(panel, *at) } else { Some(move_to(*at)) };
+            commands.extend(added);
         }
         site(ui, panel, *texture, pos, radius, &response, t);
         if response.hovered() || response.has_focus() {
@@ -227,12 +246,14 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
 }
 
 /// The authored point, its lines to the parents, and its keys.
-fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Command> {
+fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tokens) -> Vec<Command> {
     let mut commands = Vec::new();
     let point = panel.project.point;
     let pos = axes.ui_from_space(point);
     let id = point_id();
-    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, Sense::click_and_drag());
+    // While a path is drawn, the point lets the pointer through.
+    let sense = if tool.is_on { Sense::hover() } else { Sense::click_and_drag() };
+    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, sense);
     response.widget_info(|| WidgetInfo {
         current_text_value: Some(strings::place_in_words(point, panel.session.poles())),
         ..WidgetInfo::labeled(Role::Slider, true, strings::POINT)
@@ -276,11 +297,12 @@ fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored,
 
 /// Outside the outline: what plays instead, or how far the field was trusted.
 fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
-    let pos = axes.ui_from_space(panel.project.point);
+    let wanted = panel.session.path_point().unwrap_or(panel.project.point);
+    let pos = axes.ui_from_space(wanted);
     let on = axes.ui_from_space(authored.location.at);
     let painter = ui.painter();
     if authored.is_extrapolated
-        && let Some(nearest) = panel.session.space().locate(panel.project.point)
+        && let Some(nearest) = panel.session.space().locate(wanted)
     {
         let outline = axes.ui_from_space(nearest.at);
         painter.extend(Shape::dashed_line(&[outline, on], Stroke::new(2.0, t.accent), 8.0, 5.0));

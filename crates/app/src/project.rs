@@ -9,6 +9,7 @@ use shagreen_core::space::SpacePoint;
 use shagreen_core::space_build::SpaceBuild;
 use shagreen_formats::library::TextureEntry;
 
+use crate::drawn_path::DrawnPath;
 use crate::libraries::BuiltIn;
 use crate::strings;
 
@@ -32,6 +33,8 @@ pub struct Project {
     pub space: Option<UsedSpace>,
     /// Names of the attributes across and up, where they are the axes; `None` takes the places.
     pub axes: Option<[String; 2]>,
+    /// The way through the space that the texture can follow along a stroke, where one is drawn.
+    pub path: Option<DrawnPath>,
 }
 
 /// A space that is in use. It never changes, so two are equal where they are the same one.
@@ -55,6 +58,7 @@ impl Default for Project {
             solo: None,
             space: None,
             axes: None,
+            path: None,
         }
     }
 }
@@ -92,6 +96,44 @@ pub enum Edit {
     UseSpace(Arc<SpaceBuild>),
     /// Two attributes become the axes, across and up; `None` takes the places.
     SetAxes(Option<[String; 2]>),
+    /// The path is drawn, changed or taken away.
+    ChangePath(PathChange, Option<DrawnPath>),
+}
+
+/// What was changed of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathChange {
+    /// It was drawn anew.
+    Draw,
+    /// A point came at its end.
+    AddPoint,
+    /// A point was moved.
+    MovePoint,
+    /// A point was taken away.
+    DeletePoint,
+    /// Its length.
+    Length,
+    /// What is counted along it.
+    Along,
+    /// What happens at its end.
+    AtEnd,
+    /// It was taken away.
+    Clear,
+}
+
+impl PathChange {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Draw => "Draw path",
+            Self::AddPoint => "Add path point",
+            Self::MovePoint => "Move path point",
+            Self::DeletePoint => "Delete path point",
+            Self::Length => "Change path length",
+            Self::Along => "Change path measure",
+            Self::AtEnd => "Change path end",
+            Self::Clear => "Clear path",
+        }
+    }
 }
 
 impl Edit {
@@ -111,6 +153,7 @@ impl Edit {
             Self::Solo(_) => "Hear one texture",
             Self::UseSpace(_) => "Use space",
             Self::SetAxes(_) => "Choose axes",
+            Self::ChangePath(change, _) => change.label(),
         })
     }
 }
@@ -162,6 +205,7 @@ impl Project {
             Edit::Solo(texture) => project.solo = Some(texture),
             Edit::UseSpace(build) => (project.space, project.axes) = (Some(UsedSpace(build)), None),
             Edit::SetAxes(axes) => project.axes = axes,
+            Edit::ChangePath(_, path) => project.path = path,
         }
         project
     }

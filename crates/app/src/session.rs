@@ -5,6 +5,7 @@
 mod heard;
 mod models_ahead;
 mod open_library;
+mod path_walk;
 mod places;
 mod player;
 
@@ -26,6 +27,7 @@ use shagreen_device::touch::Touch;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::space_report::placed_library;
 
+use crate::drawn_path::DrawnPath;
 use crate::libraries::BuiltIn;
 use crate::pad::MouseReport;
 use crate::project::{Project, UsedSpace};
@@ -36,6 +38,7 @@ pub use self::player::OutputChoice;
 
 use self::heard::Heard;
 use self::models_ahead::{Ingredients, Job, ModelsAhead};
+use self::path_walk::PathWalk;
 use self::places::{Opened, attribute_names, join, places, poles_of};
 use self::player::Player;
 
@@ -92,6 +95,9 @@ pub struct Session {
     /// How many textures were made for points.
     n_made: u64,
     spectra: Spectra,
+    walk: PathWalk,
+    /// Where the stroke is on the path that is played.
+    path_point: Option<SpacePoint>,
     player: Player,
     hand: Option<Hand>,
     scope: ScopeBuffer,
@@ -128,6 +134,8 @@ impl Session {
             prepared: vec![None; planes.len()],
             incoming,
             sender,
+            walk: PathWalk::default(),
+            path_point: None,
             player: Player::new(library.textures.len()),
             built_in: None,
             first: None,
@@ -282,17 +290,34 @@ impl Session {
             Some(Err(reason)) => self.player.message = Some(reason),
             None => {}
         }
-        let wanted = (project.point, project.heard_blending(), project.solo);
+        self.path_point = self.follow_path(project.path.as_ref());
+        // What is played along a path is no texture alone.
+        let solo = project.solo.filter(|_| self.path_point.is_none());
+        let at = self.path_point.unwrap_or(project.point);
+        let wanted = (at, project.heard_blending(), solo);
         if self.player.wanted.as_ref() != Some(&wanted) {
-            self.authored = match project.solo {
-                Some(texture) => Some(Authored::alone(texture, project.point, wanted.1.mode)),
-                None => self.authoring.author(project.point, &wanted.1),
+            self.authored = match solo {
+                Some(texture) => Some(Authored::alone(texture, at, wanted.1.mode)),
+                None => self.authoring.author(at, &wanted.1),
             };
             self.hear();
             self.player.wanted = Some(wanted);
-            self.follow_rate(project.solo, ctx);
+            self.follow_rate(solo, ctx);
         }
         self.player.send_mix(&self.heard, &self.prepared, self.rate_hz);
+    }
+
+    /// Where the stroke is on the path, while one is played.
+    fn follow_path(&mut self, path: Option<&DrawnPath>) -> Option<SpacePoint> {
+        if !self.walk.is_playing() {
+            return None;
+        }
+        let Some(route) = path.and_then(DrawnPath::route) else {
+            self.walk.set_playing(false);
+            return None;
+        };
+        self.walk.advance(self.touch(), route.along(), Instant::now());
+        Some(route.point_at(self.walk.traveled()))
     }
 
     /// What was authored is heard. Where what its mode needs is not there yet, what sounded goes on.
@@ -436,6 +461,31 @@ impl Session {
         let parent =
             |(texture, _): &(usize, f64)| self.planes[*texture].at(contact).psd(&self.spectra.frequencies);
         self.spectra.parents = self.shown_parents().iter().map(parent).collect();
+    }
+
+    /// Plays the path of the project from its beginning, or the point again.
+    pub fn play_path(&mut self, is_played: bool) {
+        self.walk.set_playing(is_played);
+    }
+
+    /// Whether the texture follows the path.
+    pub fn is_path_playing(&self) -> bool {
+        self.walk.is_playing()
+    }
+
+    /// Where the stroke is on the path, while one is played.
+    pub fn path_point(&self) -> Option<SpacePoint> {
+        self.path_point
+    }
+
+    /// What textures are authored in.
+    pub fn authoring(&self) -> &Authoring {
+        &self.authoring
+    }
+
+    /// Says at the foot what is wrong.
+    pub fn say(&mut self, message: String) {
+        self.player.message = Some(message);
     }
 
     /// Whether the automatic hand strokes.

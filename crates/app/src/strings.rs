@@ -4,6 +4,7 @@ use shagreen_core::space::SpacePoint;
 
 pub mod build;
 pub mod import;
+pub mod path;
 
 /// Name of the program.
 pub const APP: &str = "Shagreen";

@@ -1,17 +1,19 @@
 //! The window itself: lays out the panels, carries out commands, keeps the frame going.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::library::Library;
 
 use crate::build::page::BuildPage;
-use crate::canvas::{canvas_ui, point_id};
+use crate::canvas::{PathTool, canvas_ui, point_id};
 use crate::command::{Command, pressed};
 use crate::history::{Gesture, History};
 use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
+use crate::kept_path::kept_path;
 use crate::library_panel::library_ui;
 use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
@@ -36,6 +38,7 @@ pub struct Window {
     session: Session,
     pictures: Pictures,
     pad: PadState,
+    path_tool: PathTool,
     search: String,
     /// A texture that has just joined, to be scrolled to.
     reveal: Option<usize>,
@@ -67,6 +70,7 @@ impl Window {
             session,
             pictures: Pictures::new(ctx, sources),
             pad: PadState::default(),
+            path_tool: PathTool::default(),
             search: String::new(),
             reveal: None,
             gesture: 0,
@@ -121,6 +125,14 @@ impl Window {
         if self.workspace == Workspace::Build && !self.session.hand_is_running() {
             // Where nothing shows the hand it can be stopped, but does not start unseen.
             commands.retain(|command| !matches!(command, Command::ToggleHand));
+        }
+        if self.workspace == Workspace::Build {
+            commands.retain(|command| !matches!(command, Command::TogglePathTool));
+        } else if self.path_tool.is_on
+            && !self.sheet.is_open()
+            && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
+        {
+            commands.push(Command::TogglePathTool);
         }
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
@@ -208,7 +220,9 @@ impl Window {
             commands.extend(inspector_ui(ui, &panel));
         });
         let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
-        CentralPanel::default().frame(frame).show(ui, |ui| commands.extend(canvas_ui(ui, &panel)));
+        CentralPanel::default().frame(frame).show(ui, |ui| {
+            commands.extend(canvas_ui(ui, &panel, &mut self.path_tool));
+        });
     }
 
     /// The row at the foot: pad and scope.
@@ -259,6 +273,15 @@ impl Window {
                 let hand = (!self.session.hand_is_running()).then_some(self.pad.hand);
                 self.session.set_hand(hand);
             }
+            Command::TogglePathTool => self.path_tool.toggle(),
+            Command::PlayPath(is_played) => self.session.play_path(is_played),
+            Command::KeepPath => match kept_path(&self.project, &self.session) {
+                Some(Ok(entry)) => {
+                    self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx)
+                }
+                Some(Err(error)) => self.session.say(error.to_string()),
+                None => {}
+            },
             Command::ToggleMute => self.session.toggle_mute(),
             Command::ToggleTheme => {
                 let dark = ctx.theme() == egui::Theme::Dark;

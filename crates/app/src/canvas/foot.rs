@@ -30,12 +30,17 @@ pub(super) fn foot_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
 }
 
 fn foot(panel: &Panel<'_>, t: &Tokens) -> Option<(String, Color32)> {
-    if let Some(texture) = panel.project.solo.and_then(|solo| panel.session.textures().get(solo)) {
+    let is_path = panel.session.path_point().is_some();
+    if let Some(texture) =
+        panel.project.solo.filter(|_| !is_path).and_then(|solo| panel.session.textures().get(solo))
+    {
         return Some((strings::plays_alone(&texture.name), t.accent));
     }
     let authored = panel.session.authored()?;
     let says = |text: &str, color: Color32| Some((text.to_owned(), color));
-    if authored.mode.makes_a_model() && authored.model.is_none() && !panel.session.is_preparing() {
+    if is_path && panel.session.touch().contact.force_n <= 0.0 {
+        says(strings::path::WAITS, t.accent)
+    } else if authored.mode.makes_a_model() && authored.model.is_none() && !panel.session.is_preparing() {
         says(strings::NO_TEXTURE_HERE, t.error)
     } else if authored.is_extrapolated && authored.location.clamped {
         Some((strings::extrapolated_to(authored.location.at), t.warning))
