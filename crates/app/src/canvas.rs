@@ -47,7 +47,7 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>, tool: &mut PathTool) -> Vec<Com
     let mut commands = Vec::new();
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
-    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 32.0), outer.max - vec2(36.0, 48.0)) };
+    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 40.0), outer.max - vec2(36.0, 48.0)) };
     let mut words = grid(ui, axes, outer, panel.session.poles(), t);
     let source = source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t);
     words.push(source);

@@ -13,6 +13,9 @@ use crate::project::Edit;
 use crate::strings;
 use crate::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 
+/// Height of the heading of the parents, in points: their three cards just fit below it in the smallest usual window.
+const HEADING_HEIGHT: f32 = 18.0;
+
 /// Draws the column and returns what the user asked of it.
 pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let area = egui::ScrollArea::vertical().auto_shrink(false);
@@ -85,7 +88,8 @@ fn axis_slider(
 fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
-    ui.horizontal(|ui| {
+    let row = vec2(ui.available_width(), HEADING_HEIGHT);
+    ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
             .on_hover_text(strings::PARENTS_HELP);
         let Some(rest) = besides(panel) else { return };

@@ -30,12 +30,13 @@ fn entry(library: &Library, name: &str, path: TexturePath) -> TextureEntry {
         }
     }
     let is_restricted = placed().any(|texture| texture.provenance == Provenance::Restricted);
+    let first = path.keys()[0].model.clone();
     let id = free_id(&id_from_name(name), |id| library.index_of(id).is_some());
     TextureEntry {
         license: licenses.join(" AND "),
         origin: strings::path::origin(&library.name),
         provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
-        path: Some(path.clone()),
-        ..TextureEntry::new(id, name, path.keys()[0].model.clone())
+        path: Some(path),
+        ..TextureEntry::new(id, name, first)
     }
 }

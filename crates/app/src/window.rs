@@ -277,7 +277,7 @@ impl Window {
             Command::PlayPath(is_played) => self.session.play_path(is_played),
             Command::KeepPath => match kept_path(&self.project, &self.session) {
                 Some(Ok(entry)) => {
-                    self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx)
+                    self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx);
                 }
                 Some(Err(error)) => self.session.say(error.to_string()),
                 None => {}

@@ -185,7 +185,7 @@ pub(super) fn path_bar(
             commands.extend(settings_ui(ui, panel, path));
         }
     });
-    let back = row.min_rect().expand(2.0);
+    let back = row.min_rect();
     row.painter().set(shape, Shape::rect_filled(back, f32::from(RADIUS), t.background.gamma_multiply(0.85)));
     commands
 }
