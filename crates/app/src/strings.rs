@@ -150,13 +150,13 @@ pub const PAPER: &str = "Paper";
 /// The mode `field` in a few words.
 pub const FIELD_SHORT: &str = "one texture, from all";
 /// The mode `parametric` in a few words.
-pub const PARAMETRIC_SHORT: &str = "one texture, from neighbors";
+pub const PARAMETRIC_SHORT: &str = "a mean of neighbors";
 /// The mode `shared` in a few words.
 pub const SHARED_SHORT: &str = "three signals, one noise";
 /// The mode `power` in a few words.
 pub const POWER_SHORT: &str = "three signals, level kept";
 /// The mode `paper` in a few words.
-pub const PAPER_SHORT: &str = "three signals, as published";
+pub const PAPER_SHORT: &str = "as published";
 /// What the mode `field` is.
 pub const FIELD_HELP: &str = "Every point is a texture of its own, from a smooth field over all textures: no jumps, no \
                               kinks. A texture's own place is smoothed by its neighbors, unless it is locked.";
