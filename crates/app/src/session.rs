@@ -3,6 +3,7 @@
 //! Nothing here is undone; everything here follows from the project, the library and the hands of the user.
 
 mod heard;
+mod making;
 mod models_ahead;
 mod open_library;
 mod path_walk;
@@ -27,7 +28,6 @@ use shagreen_device::touch::Touch;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::space_report::placed_library;
 
-use crate::drawn_path::DrawnPath;
 use crate::libraries::BuiltIn;
 use crate::pad::MouseReport;
 use crate::project::{Project, UsedSpace};
@@ -37,7 +37,7 @@ use crate::strings;
 pub use self::player::OutputChoice;
 
 use self::heard::Heard;
-use self::models_ahead::{Ingredients, Job, ModelsAhead};
+use self::models_ahead::ModelsAhead;
 use self::path_walk::PathWalk;
 use self::places::{Opened, attribute_names, join, places, poles_of};
 use self::player::Player;
@@ -305,49 +305,6 @@ impl Session {
             self.follow_rate(solo, ctx);
         }
         self.player.send_mix(&self.heard, &self.prepared, self.rate_hz);
-    }
-
-    /// Where the stroke is on the path, while one is played.
-    fn follow_path(&mut self, path: Option<&DrawnPath>) -> Option<SpacePoint> {
-        if !self.walk.is_playing() {
-            return None;
-        }
-        let Some(route) = path.and_then(DrawnPath::route) else {
-            self.walk.set_playing(false);
-            return None;
-        };
-        self.walk.advance(self.touch(), route.along(), Instant::now());
-        Some(route.point_at(self.walk.traveled()))
-    }
-
-    /// What was authored is heard. Where what its mode needs is not there yet, what sounded goes on.
-    fn hear(&mut self) {
-        self.n_made += 1;
-        let heard = match &self.authored {
-            Some(authored) => Heard::new(authored, &self.planes, self.n_made),
-            None => Heard::default(),
-        };
-        if self.authored.is_some() && heard.voices.is_empty() && self.is_preparing() {
-            return;
-        }
-        self.heard = heard;
-        self.player.mix_is_new = true;
-    }
-
-    /// Has a worker make what the modes that make a texture need of the textures in the space.
-    fn ask_for_models(&mut self) {
-        let space = self.authoring.space().clone();
-        if space.sites().is_empty() {
-            self.models.cancel();
-            return;
-        }
-        let mut textures: Vec<Option<Ingredients>> = self.planes.iter().map(|_| None).collect();
-        for (texture, _) in space.sites() {
-            let model = &self.library.textures[*texture].model;
-            let plane = Arc::clone(&self.planes[*texture]);
-            textures[*texture] = Some(Ingredients { plane, friction: model.friction(), tap: model.tap() });
-        }
-        self.models.ask(Job { space, textures });
     }
 
     /// Takes over textures, places and axes of the project; those that `is_same` are as they were heard last, by index.
