@@ -1,18 +1,26 @@
 //! The space: textures, triangles, outline, and the point that is dragged through it.
 
+mod foot;
+mod path_tool;
 mod site_labels;
 
 use egui::{
     Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
+use shagreen_core::authoring::{Authored, Weights};
+use shagreen_core::blend::Mode;
 use shagreen_core::space::{LabelSource, SpacePoint};
 
+use self::foot::foot_ui;
+pub use self::path_tool::PathTool;
+use self::path_tool::{added, path_bar, path_line, path_marker, path_points};
 use self::site_labels::{Around, site_labels};
 use crate::axes::Axes;
 use crate::command::Command;
 use crate::drag::dragged_to;
 use crate::library_panel::place_in_words;
+use crate::locks::{lock_mark, lock_menu};
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
@@ -34,32 +42,36 @@ pub fn point_id() -> egui::Id {
 }
 
 /// Draws the canvas and returns what the user asked of it.
-pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>, tool: &mut PathTool) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
-    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 32.0), outer.max - vec2(36.0, 48.0)) };
+    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 40.0), outer.max - vec2(36.0, 48.0)) };
     let mut words = grid(ui, axes, outer, panel.session.poles(), t);
-    words.push(source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t));
+    let source = source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t);
+    words.push(source);
     triangles(ui, axes, panel, t);
+    path_line(ui, axes, panel, t);
     let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
-    if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
+    if tool.is_on {
+        commands.extend(tool.follow(ui, axes, panel, &background));
+    } else if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
-    commands.extend(sites_ui(ui, axes, panel, &words, t));
+    commands.extend(sites_ui(ui, axes, panel, tool, &words, t));
     if panel.session.space().sites().is_empty() {
         let font = FontId::proportional(15.0);
         let message =
             if panel.session.textures().is_empty() { strings::NO_TEXTURES } else { strings::NO_PLACES };
         ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
     }
-    commands.extend(point_ui(ui, axes, panel, t));
-    if let Some(texture) = panel.project.solo.and_then(|solo| panel.session.textures().get(solo)) {
-        let below = pos2(axes.rect.center().x, axes.rect.bottom() + 42.0);
-        let (text, font) = (strings::plays_alone(&texture.name), FontId::proportional(12.5));
-        ui.painter().text(below, Align2::CENTER_BOTTOM, text, font, t.accent);
-    }
+    commands.extend(point_ui(ui, axes, panel, tool, t));
+    commands.extend(path_points(ui, axes, panel, tool, t));
+    path_marker(ui, axes, panel, t);
+    let width = source.left() - outer.left() - 44.0;
+    commands.extend(path_bar(ui, outer, width, panel, tool, t));
+    foot_ui(ui, axes, panel, t);
     commands
 }
 
@@ -119,8 +131,12 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
     let space = panel.session.space();
     let at = |texture: usize| space.position(texture).map(|p| axes.ui_from_space(p));
     let painter = ui.painter();
+    // Only where its corners are what is blended does the triangle matter.
+    let blending = panel.project.heard_blending();
+    let is_of_corners = blending.mode != Mode::Field && blending.weights == Weights::Barycentric;
+    let authored = panel.session.authored().filter(|_| is_of_corners);
     let corners: Vec<usize> =
-        panel.session.authored().map_or(Vec::new(), |a| a.location.corners.iter().map(|c| c.0).collect());
+        authored.map_or(Vec::new(), |a| a.location.corners.iter().map(|(texture, _)| *texture).collect());
     // Edges one by one: the joins of a thin triangle's outline would shoot far beyond its corners.
     let thin = Stroke::new(1.0, t.line);
     for triangle in space.triangles() {
@@ -151,7 +167,14 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
 }
 
 /// The textures: a click moves the point there. Their names keep off the `words` at the axes.
-fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Tokens) -> Vec<Command> {
+fn sites_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    tool: &PathTool,
+    words: &[Rect],
+    t: &Tokens,
+) -> Vec<Command> {
     let mut commands = Vec::new();
     let sites = panel.session.space().sites();
     let with_pictures = sites.len() <= MAX_PICTURES;
@@ -168,13 +191,20 @@ fn sites_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, words: &[Rect], t: &Toke
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
         if response.clicked() {
-            commands.push(move_to(*at));
+            let added = if tool.is_on { added(panel, *at) } else { Some(move_to(*at)) };
+            commands.extend(added);
         }
         site(ui, panel, *texture, pos, radius, &response, t);
         if response.hovered() || response.has_focus() {
             pointed = Some(*texture);
         }
-        response.on_hover_text(format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at)));
+        commands.extend(lock_menu(&response, panel, *texture));
+        let mut help = format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at));
+        if panel.project.can_lock() {
+            let is_locked = panel.project.is_locked(*texture);
+            help = format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED });
+        }
+        response.on_hover_text(help);
     }
     let named: Vec<(usize, Pos2)> = sites
         .iter()
@@ -208,15 +238,22 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
         None => Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)),
     };
     painter.circle_stroke(pos, radius, ring);
+    if panel.project.is_locked(texture) {
+        let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
+        painter.circle_filled(corner, 8.0, t.background);
+        lock_mark(painter, corner, true, t.text);
+    }
 }
 
 /// The authored point, its lines to the parents, and its keys.
-fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Command> {
+fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tokens) -> Vec<Command> {
     let mut commands = Vec::new();
     let point = panel.project.point;
     let pos = axes.ui_from_space(point);
     let id = point_id();
-    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, Sense::click_and_drag());
+    // While a path is drawn, the point lets the pointer through.
+    let sense = if tool.is_on { Sense::hover() } else { Sense::click_and_drag() };
+    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, sense);
     response.widget_info(|| WidgetInfo {
         current_text_value: Some(strings::place_in_words(point, panel.session.poles())),
         ..WidgetInfo::labeled(Role::Slider, true, strings::POINT)
@@ -232,28 +269,8 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
         commands.push(move_to(to));
     }
     if let Some(authored) = panel.session.authored() {
-        let on = axes.ui_from_space(authored.location.at);
-        for (rank, (texture, weight)) in authored.parents.iter().enumerate() {
-            if let Some(site) = panel.session.space().position(*texture) {
-                let stroke =
-                    Stroke::new(1.0 + 4.0 * *weight as f32, t.parents[rank.min(2)].gamma_multiply(0.75));
-                let site = axes.ui_from_space(site);
-                let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
-                ui.painter().line_segment([on, start], stroke);
-            }
-        }
-        if authored.location.clamped {
-            ui.painter().extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
-            ui.painter().circle_filled(on, 4.0, t.warning);
-            let below = pos2(axes.rect.center().x, axes.rect.bottom() + 42.0);
-            ui.painter().text(
-                below,
-                Align2::CENTER_BOTTOM,
-                strings::CLAMPED,
-                FontId::proportional(12.5),
-                t.warning,
-            );
-        }
+        lines_to_parents(ui, axes, panel, authored, t);
+        outside_ui(ui, axes, panel, authored, t);
     }
     let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
     ui.painter().circle_filled(pos, grown + 2.0, t.background);
@@ -264,6 +281,48 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) -> Vec<Comma
     }
     response.on_hover_text(format!("{} {}\n{}", panel.project.name, point, strings::POINT_HELP));
     commands
+}
+
+fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+    let on = axes.ui_from_space(authored.location.at);
+    for ((texture, weight), color) in panel.session.shown_parents().iter().zip(t.parents) {
+        if let Some(site) = panel.session.space().position(*texture) {
+            let width = 1.0 + 4.0 * (*weight as f32).clamp(0.0, 1.0);
+            let site = axes.ui_from_space(site);
+            let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
+            ui.painter().line_segment([on, start], Stroke::new(width, color.gamma_multiply(0.75)));
+        }
+    }
+}
+
+/// Outside the outline: what plays instead, or how far the field was trusted.
+fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+    let wanted = panel.session.path_point().unwrap_or(panel.project.point);
+    let pos = axes.ui_from_space(wanted);
+    let on = axes.ui_from_space(authored.location.at);
+    let painter = ui.painter();
+    if authored.is_extrapolated
+        && let Some(nearest) = panel.session.space().locate(wanted)
+    {
+        let outline = axes.ui_from_space(nearest.at);
+        painter.extend(Shape::dashed_line(&[outline, on], Stroke::new(2.0, t.accent), 8.0, 5.0));
+        painter.circle_stroke(outline, 4.0, Stroke::new(1.5, t.accent));
+        let words =
+            painter.layout_no_wrap(strings::EXTRAPOLATED.to_owned(), FontId::proportional(11.5), t.accent);
+        // Below the line, and clear of the point at its end.
+        let below = outline.lerp(on, 0.5) + vec2(0.0, 0.5 * words.size().y + 4.0);
+        let area = Rect::from_center_size(below, words.size());
+        let point = Rect::from_center_size(pos, POINT_SIZE);
+        let overlap = if area.intersects(point) { point.bottom() - area.top() } else { 0.0 };
+        let shift = (axes.rect.right() + 30.0 - area.right()).min(0.0);
+        let area = area.translate(vec2(shift, overlap));
+        painter.rect_filled(area.expand(2.0), 3.0, t.background.gamma_multiply(0.9));
+        painter.galley(area.min, words, t.accent);
+    }
+    if authored.location.clamped {
+        painter.extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
+        painter.circle_filled(on, 4.0, t.warning);
+    }
 }
 
 /// Where the arrow keys want the point: while it has the focus, or nothing has.

@@ -18,6 +18,12 @@ pub enum Command {
     Redo,
     /// Show a workspace.
     Show(Workspace),
+    /// Draw paths on the canvas, or leave that.
+    TogglePathTool,
+    /// Let the texture follow the path, or the point again.
+    PlayPath(bool),
+    /// Make a texture of the list of the path.
+    KeepPath,
     /// Start or stop the automatic hand.
     ToggleHand,
     /// Silence the output, or sound again.
@@ -45,11 +51,12 @@ pub enum Command {
 }
 
 /// The commands that have a key.
-pub const WITH_KEYS: [Command; 7] = [
+pub const WITH_KEYS: [Command; 8] = [
     Command::Undo,
     Command::Redo,
     Command::Show(Workspace::Author),
     Command::Show(Workspace::Build),
+    Command::TogglePathTool,
     Command::ToggleHand,
     Command::ToggleMute,
     Command::ToggleTheme,
@@ -63,6 +70,7 @@ impl Command {
             Self::Redo => (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z),
             Self::Show(Workspace::Author) => (Modifiers::COMMAND, Key::Num1),
             Self::Show(Workspace::Build) => (Modifiers::COMMAND, Key::Num2),
+            Self::TogglePathTool => (Modifiers::NONE, Key::P),
             Self::ToggleHand => (Modifiers::NONE, Key::Space),
             Self::ToggleMute => (Modifiers::NONE, Key::M),
             Self::ToggleTheme => (Modifiers::COMMAND, Key::T),

@@ -3,6 +3,8 @@
 //! A project is small, so a snapshot is cheap and there are no inverses to get wrong. Edits that share a gesture (one
 //! drag, one held key) are one step. Limitation: the oldest steps are dropped beyond [`MAX_STEPS`].
 
+use std::borrow::Cow;
+
 use crate::project::{Edit, Project};
 
 /// Steps that are kept.
@@ -14,7 +16,7 @@ pub struct Gesture(pub u64);
 
 #[derive(Clone, Debug)]
 struct Step {
-    label: &'static str,
+    label: Cow<'static, str>,
     project: Project,
     gesture: Gesture,
 }
@@ -66,13 +68,13 @@ impl History {
     }
 
     /// What undo would take back.
-    pub fn undo_label(&self) -> Option<&'static str> {
-        self.past.last().map(|s| s.label)
+    pub fn undo_label(&self) -> Option<&str> {
+        self.past.last().map(|s| &*s.label)
     }
 
     /// What redo would do again.
-    pub fn redo_label(&self) -> Option<&'static str> {
-        self.future.last().map(|s| s.label)
+    pub fn redo_label(&self) -> Option<&str> {
+        self.future.last().map(|s| &*s.label)
     }
 }
 
@@ -135,7 +137,7 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             let edit = match (state >> 33) % 3 {
                 0 => point((state >> 40) as f64 % 100.0),
-                1 => Edit::SetMode(Mode::ALL[(state >> 50) as usize % 3]),
+                1 => Edit::SetMode(Mode::ALL[(state >> 50) as usize % 5]),
                 _ => Edit::Rename(format!("{state}")),
             };
             history.apply(&mut project, edit, Gesture(i / 3));

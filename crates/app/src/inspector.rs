@@ -1,16 +1,20 @@
 //! The authored texture in numbers: name, sliders, blend, parents.
 
 use egui::{Label, Rect, RichText, Role, Sense, Slider, TextEdit, Ui, WidgetInfo, vec2};
-use shagreen_core::blend::Mode;
 use shagreen_core::space::SpacePoint;
 
 use crate::axes_choice::axis_choice_ui;
+use crate::blend_choice::blend_ui;
 use crate::command::Command;
 use crate::library_panel::picture_ui;
+use crate::locks::lock_button;
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
 use crate::theme::{GAP, GROUP_GAP, RADIUS, tokens};
+
+/// Height of the heading of the parents, in points: their three cards just fit below it in the smallest usual window.
+const HEADING_HEIGHT: f32 = 18.0;
 
 /// Draws the column and returns what the user asked of it.
 pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
@@ -31,9 +35,9 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     ui.add_space(GAP);
     commands.extend(sliders(ui, panel));
     ui.add_space(GROUP_GAP);
-    commands.extend(blend_ui(ui, panel.project.mode));
+    commands.extend(blend_ui(ui, panel));
     ui.add_space(GROUP_GAP);
-    parents_ui(ui, panel);
+    commands.extend(parents_ui(ui, panel));
     commands
 }
 
@@ -80,74 +84,85 @@ fn axis_slider(
     (slider.changed(), choice.inner)
 }
 
-fn blend_ui(ui: &mut Ui, mode: Mode) -> Option<Command> {
-    let mut chosen = None;
-    ui.horizontal(|ui| {
-        ui.add(Label::new(strings::BLEND).selectable(false));
-        for each in Mode::ALL {
-            if ui.selectable_label(mode == each, each.id()).on_hover_text(mode_help(each)).clicked() {
-                chosen = Some(Command::Edit(Edit::SetMode(each)));
-            }
-        }
-    });
-    chosen
-}
-
-fn mode_help(mode: Mode) -> &'static str {
-    match mode {
-        Mode::Paper => strings::PAPER_HELP,
-        Mode::Power => strings::POWER_HELP,
-        Mode::Shared => strings::SHARED_HELP,
-        Mode::Parametric => strings::PARAMETRIC_HELP,
-        Mode::Field => strings::FIELD_HELP,
-    }
-}
-
-/// The neighbors, with pictures and weights.
-fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) {
+/// The neighbors, with pictures and weights, and what the rest of a field gives.
+fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let t = tokens(ui.ctx());
-    ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
-        .on_hover_text(strings::PARENTS_HELP);
-    let Some(authored) = panel.session.authored() else { return };
+    let mut commands = Vec::new();
+    let row = vec2(ui.available_width(), HEADING_HEIGHT);
+    ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
+            .on_hover_text(strings::PARENTS_HELP);
+        let Some(rest) = besides(panel) else { return };
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let text = RichText::new(&rest).small().color(t.text_weak);
+            ui.add(Label::new(text).truncate().selectable(false)).on_hover_text(strings::PARENTS_HELP);
+        });
+    });
     // A weight that would read 0.0 % is not worth a card.
-    let heard = authored.parents.iter().enumerate().filter(|(_, (_, weight))| *weight >= 5e-4);
-    for (rank, (texture, weight)) in heard {
-        let entry = &panel.session.textures()[*texture];
-        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
-        let percent = 100.0 * weight;
-        response
-            .widget_info(|| WidgetInfo::labeled(Role::Label, true, strings::parent(&entry.name, percent)));
-        let color = t.parents[rank.min(2)];
-        ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
-        let picture = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(42.0, 42.0));
-        picture_ui(ui, panel, *texture, picture);
-        ui.painter().rect_stroke(
-            picture,
-            f32::from(RADIUS) - 1.0,
-            egui::Stroke::new(2.0, color),
-            egui::StrokeKind::Outside,
-        );
-        let left = picture.right() + 10.0;
-        let right = area.right() - 10.0;
-        let font = egui::FontId::proportional(14.0);
-        let number = ui.painter().text(
-            egui::pos2(right, area.top() + 9.0),
-            egui::Align2::RIGHT_TOP,
-            format!("{percent:.1} %"),
-            font.clone(),
-            t.text,
-        );
-        let mut name = ui.new_child(egui::UiBuilder::new().max_rect(Rect::from_min_max(
-            egui::pos2(left, area.top() + 8.0),
-            egui::pos2(number.left() - 6.0, area.bottom()),
-        )));
-        name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
-        let bar = Rect::from_min_max(
-            egui::pos2(left, area.bottom() - 16.0),
-            egui::pos2(right, area.bottom() - 10.0),
-        );
-        ui.painter().rect_filled(bar, 3.0, t.control);
-        let filled = Rect::from_min_size(bar.min, vec2(bar.width() * *weight as f32, bar.height()));
-        ui.painter().rect_filled(filled, 3.0, color);
+    let worthwhile = panel.session.shown_parents().iter().filter(|(_, weight)| weight.abs() >= 5e-4);
+    for (parent, color) in worthwhile.zip(t.parents) {
+        commands.extend(card(ui, panel, *parent, color));
     }
+    commands
+}
+
+/// What the cards do not say: how much a locked texture sounds, else what the parents without a card give.
+fn besides(panel: &Panel<'_>) -> Option<String> {
+    let authored = panel.session.authored()?;
+    if let Some((texture, share)) = authored.lock.filter(|_| panel.project.solo.is_none()) {
+        return Some(strings::locked_share(&panel.session.textures()[texture].name, 100.0 * share));
+    }
+    let rest = authored.parents.get(panel.session.shown_parents().len()..).filter(|rest| !rest.is_empty())?;
+    let sum: f64 = rest.iter().map(|(_, weight)| weight).sum();
+    Some(strings::more_parents(rest.len(), 100.0 * sum))
+}
+
+/// A neighbor; in the field it can be locked.
+fn card(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    (texture, weight): (usize, f64),
+    color: egui::Color32,
+) -> Option<Command> {
+    let t = tokens(ui.ctx());
+    let entry = &panel.session.textures()[texture];
+    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
+    let percent = 100.0 * weight;
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, strings::parent(&entry.name, percent)));
+    ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
+    let picture = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(42.0, 42.0));
+    picture_ui(ui, panel, texture, picture);
+    ui.painter().rect_stroke(
+        picture,
+        f32::from(RADIUS) - 1.0,
+        egui::Stroke::new(2.0, color),
+        egui::StrokeKind::Outside,
+    );
+    let left = picture.right() + 10.0;
+    let right = area.right() - 10.0;
+    let font = egui::FontId::proportional(14.0);
+    let number = ui.painter().text(
+        egui::pos2(right, area.top() + 9.0),
+        egui::Align2::RIGHT_TOP,
+        format!("{percent:.1} %"),
+        font,
+        t.text,
+    );
+    // The lock keeps its place whatever the number is.
+    let button = Rect::from_center_size(egui::pos2(right - 66.0, number.center().y), vec2(22.0, 22.0));
+    let can_lock = panel.project.can_lock() && panel.project.solo.is_none();
+    let command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
+    let end = if can_lock { button.left() } else { number.left() - 6.0 };
+    let mut name = ui.new_child(
+        egui::UiBuilder::new()
+            .max_rect(Rect::from_min_max(egui::pos2(left, area.top() + 8.0), egui::pos2(end, area.bottom()))),
+    );
+    name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
+    let bar =
+        Rect::from_min_max(egui::pos2(left, area.bottom() - 16.0), egui::pos2(right, area.bottom() - 10.0));
+    ui.painter().rect_filled(bar, 3.0, t.control);
+    let share = (weight as f32).clamp(0.0, 1.0);
+    let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share, bar.height()));
+    ui.painter().rect_filled(filled, 3.0, color);
+    command
 }

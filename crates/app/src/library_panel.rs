@@ -1,12 +1,13 @@
 //! The textures of the library: look, search, go there.
 
-use egui::{Label, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Label, Response, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_formats::library::Provenance;
 
 use crate::command::Command;
 use crate::libraries::BuiltIn;
+use crate::locks::{lock_mark, lock_menu};
 use crate::panel::Panel;
 use crate::project::Edit;
 use crate::strings;
@@ -68,7 +69,9 @@ pub fn library_ui(
             if matches(&entry.name, &entry.tags) {
                 found = true;
                 let is_new = reveal.take_if(|wanted| *wanted == index).is_some();
-                if row(ui, panel, index, is_new) {
+                let response = row(ui, panel, index, is_new);
+                commands.extend(lock_menu(&response, panel, index));
+                if response.clicked() {
                     let place = panel.session.space().position(index);
                     commands.push(Command::Edit(place.map_or(Edit::Solo(index), Edit::MovePoint)));
                 }
@@ -109,8 +112,8 @@ fn libraries_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
     asked.map(|library| Command::Edit(Edit::OpenLibrary(library)))
 }
 
-/// One texture, scrolled to where it is new; returns whether it was clicked.
-fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> bool {
+/// One texture, scrolled to where it is new.
+fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> Response {
     let t = tokens(ui.ctx());
     let entry = &panel.session.textures()[index];
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), PICTURE + 6.0), Sense::click());
@@ -124,10 +127,13 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> bool {
         }
         let picture = egui::Rect::from_min_size(area.min + vec2(3.0, 3.0), vec2(PICTURE, PICTURE));
         picture_ui(ui, panel, index, picture);
+        let mut room = egui::Rect::from_min_max(picture.right_top() + vec2(8.0, 0.0), area.max);
+        if panel.project.is_locked(index) {
+            lock_mark(ui.painter(), area.right_center() - vec2(10.0, 0.0), true, t.text_weak);
+            room.max.x -= 18.0;
+        }
         let mut text = ui.new_child(
-            egui::UiBuilder::new()
-                .max_rect(egui::Rect::from_min_max(picture.right_top() + vec2(8.0, 0.0), area.max))
-                .layout(egui::Layout::top_down(egui::Align::Min)),
+            egui::UiBuilder::new().max_rect(room).layout(egui::Layout::top_down(egui::Align::Min)),
         );
         text.spacing_mut().item_spacing.y = 1.0;
         let rank = panel.session.parent_rank(index);
@@ -155,7 +161,10 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> bool {
     if entry.provenance == Provenance::Restricted {
         help = format!("{help}\n{}", strings::import::RESTRICTED);
     }
-    response.on_hover_text(format!("{}\n{help}", entry.name)).clicked()
+    if panel.project.is_locked(index) {
+        help = format!("{help}\n{}", strings::LOCKED);
+    }
+    response.on_hover_text(format!("{}\n{help}", entry.name))
 }
 
 /// Where a texture lies, in numbers, and whom that comes from.

@@ -86,8 +86,8 @@ fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
             plot.set_plot_bounds_x((0.93 * BAND_HZ.0).log10()..=(1.12 * BAND_HZ.1).log10());
             plot.set_plot_bounds_y(FLOOR_DB..=TOP_DB);
             plot.line(line(strings::LIVE_LINE, live).color(t.text_weak.gamma_multiply(0.6)).width(1.0));
-            for (rank, density) in spectra.parents.iter().enumerate() {
-                plot.line(line("", modeled(density)).color(t.parents[rank.min(2)]).width(1.2));
+            for (density, color) in spectra.parents.iter().zip(t.parents) {
+                plot.line(line("", modeled(density)).color(color).width(1.2));
             }
             plot.line(line(strings::BLEND_LINE, modeled(&spectra.blend)).color(t.accent).width(2.5));
         });

@@ -2,7 +2,11 @@
 //!
 //! Nothing here is undone; everything here follows from the project, the library and the hands of the user.
 
+mod heard;
+mod making;
+mod models_ahead;
 mod open_library;
+mod path_walk;
 mod places;
 mod player;
 
@@ -13,7 +17,6 @@ use std::time::Instant;
 
 use anyhow::Context as _;
 use shagreen_core::authoring::{Authored, Authoring};
-use shagreen_core::blend::mixture_psd;
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
@@ -33,6 +36,9 @@ use crate::strings;
 
 pub use self::player::OutputChoice;
 
+use self::heard::Heard;
+use self::models_ahead::ModelsAhead;
+use self::path_walk::PathWalk;
 use self::places::{Opened, attribute_names, join, places, poles_of};
 use self::player::Player;
 
@@ -40,13 +46,17 @@ use self::player::Player;
 pub const BAND_HZ: (f64, f64) = (10.0, 500.0);
 /// Frequencies at which spectra are drawn.
 const N_FREQUENCIES: usize = 160;
+/// Parents that are shown one by one, in colors of their own.
+pub const N_SHOWN_PARENTS: usize = 3;
+/// How long the field may take before the window speaks of it, in seconds.
+const PATIENCE_SECS: f64 = 0.3;
 
 /// The spectra at the contact of the moment.
 #[derive(Clone, Debug, Default)]
 pub struct Spectra {
     /// Where they are evaluated, evenly spaced on a logarithmic axis.
     pub frequencies: Vec<Hertz>,
-    /// Density of each parent, in the order of the weights.
+    /// Density of each parent that is shown, in the order of the weights.
     pub parents: Vec<Vec<f64>>,
     /// Density of the blend.
     pub blend: Vec<f64>,
@@ -79,8 +89,15 @@ pub struct Session {
     incoming: Receiver<Ahead>,
     sender: Sender<Ahead>,
     authoring: Authoring,
+    models: ModelsAhead,
     authored: Option<Authored>,
+    heard: Heard,
+    /// How many textures were made for points.
+    n_made: u64,
     spectra: Spectra,
+    walk: PathWalk,
+    /// Where the stroke is on the path that is played.
+    path_point: Option<SpacePoint>,
     player: Player,
     hand: Option<Hand>,
     scope: ScopeBuffer,
@@ -109,11 +126,16 @@ impl Session {
         let rates = library.textures.iter().zip(&places).map(|(t, place)| rate_in(t, place.as_ref(), rate).0);
         let (sender, incoming) = channel();
         prepare_ahead(planes.iter().cloned().enumerate().collect(), sender.clone());
-        Ok(Self {
+        let mut session = Self {
             authoring: Authoring::new(Space::new(&positions(&places))?),
+            models: ModelsAhead::default(),
+            heard: Heard::default(),
+            n_made: 0,
             prepared: vec![None; planes.len()],
             incoming,
             sender,
+            walk: PathWalk::default(),
+            path_point: None,
             player: Player::new(library.textures.len()),
             built_in: None,
             first: None,
@@ -133,7 +155,9 @@ impl Session {
             scope: ScopeBuffer::new(48_000.0, rate_hz),
             space_rate_hz: rate_hz,
             rate_hz,
-        })
+        };
+        session.ask_for_models();
+        Ok(session)
     }
 
     /// The library with the textures that joined it: what a file of it holds.
@@ -200,14 +224,35 @@ impl Session {
         self.authored.as_ref()
     }
 
-    /// The place of a texture among the parents, largest weight first.
-    pub fn parent_rank(&self, texture: usize) -> Option<usize> {
-        self.authored.as_ref()?.parents.iter().position(|(t, _)| *t == texture)
+    /// The parents that are shown one by one: library indices and weights, largest first.
+    pub fn shown_parents(&self) -> &[(usize, f64)] {
+        let parents = self.authored.as_ref().map_or(&[][..], |authored| &authored.parents);
+        &parents[..parents.len().min(N_SHOWN_PARENTS)]
     }
 
-    /// The weight of a texture in the blend.
+    /// The place of a texture among the parents that are shown, largest weight first.
+    pub fn parent_rank(&self, texture: usize) -> Option<usize> {
+        self.shown_parents().iter().position(|(t, _)| *t == texture)
+    }
+
+    /// The weight of a parent that is shown.
     pub fn parent_weight(&self, texture: usize) -> Option<f64> {
-        self.authored.as_ref()?.parents.iter().find(|(t, _)| *t == texture).map(|(_, w)| *w)
+        self.shown_parents().iter().find(|(t, _)| *t == texture).map(|(_, w)| *w)
+    }
+
+    /// Whether what the modes that make a texture need is still being worked out.
+    pub fn is_preparing(&self) -> bool {
+        self.models.awaited_secs().is_some()
+    }
+
+    /// Whether that takes long enough to be worth a word.
+    pub fn is_long_preparing(&self) -> bool {
+        self.models.awaited_secs().is_some_and(|secs| secs > PATIENCE_SECS)
+    }
+
+    /// How many textures the output holds, those on their way out not counted.
+    pub fn n_loaded(&self) -> usize {
+        self.player.n_loaded()
     }
 
     /// The spectra as of the last frame.
@@ -237,20 +282,29 @@ impl Session {
         if !has_same_textures || self.used != project.space || self.axes != project.axes {
             self.take(project, &vec![true; self.opened.n_textures() + n_same]);
         }
-        let wanted = (project.point, project.mode, project.solo);
-        if self.player.wanted != Some(wanted) {
-            self.authored = match project.solo {
-                Some(texture) => Some(Authored::alone(texture, project.point, project.mode)),
-                None => self.authoring.author(project.point, &project.mode.into()),
+        match self.models.collect(ctx) {
+            Some(Ok(models)) => {
+                self.authoring = self.authoring.clone().with_models(models);
+                self.player.wanted = None;
+            }
+            Some(Err(reason)) => self.player.message = Some(reason),
+            None => {}
+        }
+        self.path_point = self.follow_path(project.path.as_ref());
+        // What is played along a path is no texture alone.
+        let solo = project.solo.filter(|_| self.path_point.is_none());
+        let at = self.path_point.unwrap_or(project.point);
+        let wanted = (at, project.heard_blending(), solo);
+        if self.player.wanted.as_ref() != Some(&wanted) {
+            self.authored = match solo {
+                Some(texture) => Some(Authored::alone(texture, at, wanted.1.mode)),
+                None => self.authoring.author(at, &wanted.1),
             };
+            self.hear();
             self.player.wanted = Some(wanted);
-            self.player.mix_is_new = true;
-            self.follow_rate(project.solo, ctx);
+            self.follow_rate(solo, ctx);
         }
-        match &self.authored {
-            Some(authored) => self.player.send_mix(authored, &self.prepared, self.rate_hz),
-            None => self.player.send_silence(),
-        }
+        self.player.send_mix(&self.heard, &self.prepared, self.rate_hz);
     }
 
     /// Takes over textures, places and axes of the project; those that `is_same` are as they were heard last, by index.
@@ -262,6 +316,7 @@ impl Session {
         }
         let axes = project.axes.as_ref();
         self.places = places(&self.library.textures, axes);
+        let rate_before_hz = self.space_rate_hz;
         self.space_rate_hz = self.rate_of_places(project).0;
         let mut is_kept = vec![false; self.places.len()];
         let (mut planes, mut prepared, mut rates_hz) = (Vec::new(), Vec::new(), Vec::new());
@@ -291,8 +346,19 @@ impl Session {
         let fresh = self.planes.iter().cloned().enumerate().filter(|(i, _)| !is_kept[*i]).collect();
         prepare_ahead(fresh, self.sender.clone());
         self.player.keep(&is_kept);
+        if rate_before_hz != self.space_rate_hz || !self.heard.survives(&is_kept, Hertz(self.rate_hz)) {
+            self.heard = Heard::default();
+            self.player.mix_is_new = true;
+        }
         match Space::new(&positions(&self.places)) {
-            Ok(space) => self.authoring = Authoring::new(space),
+            Ok(space) => {
+                let is_kept = |(texture, _): &(usize, SpacePoint)| is_kept[*texture];
+                // As long as neither place nor texture changes, a field that took seconds stays.
+                if space != *self.authoring.space() || !space.sites().iter().all(is_kept) {
+                    self.authoring = Authoring::new(space);
+                    self.ask_for_models();
+                }
+            }
             Err(error) => self.player.message = Some(error.to_string()),
         }
         self.poles = poles_of(&self.library, axes);
@@ -348,12 +414,35 @@ impl Session {
         } else {
             contact
         };
-        let Some(authored) = &self.authored else { return };
-        let parents: Vec<(&Plane, f64)> =
-            authored.parents.iter().map(|(t, w)| (&*self.planes[*t], *w)).collect();
-        self.spectra.blend = mixture_psd(&parents, authored.mixing(), contact, &self.spectra.frequencies);
-        self.spectra.parents =
-            parents.iter().map(|(plane, _)| plane.at(contact).psd(&self.spectra.frequencies)).collect();
+        self.spectra.blend = self.heard.psd(contact, &self.spectra.frequencies);
+        let parent =
+            |(texture, _): &(usize, f64)| self.planes[*texture].at(contact).psd(&self.spectra.frequencies);
+        self.spectra.parents = self.shown_parents().iter().map(parent).collect();
+    }
+
+    /// Plays the path of the project from its beginning, or the point again.
+    pub fn play_path(&mut self, is_played: bool) {
+        self.walk.set_playing(is_played);
+    }
+
+    /// Whether the texture follows the path.
+    pub fn is_path_playing(&self) -> bool {
+        self.walk.is_playing()
+    }
+
+    /// Where the stroke is on the path, while one is played.
+    pub fn path_point(&self) -> Option<SpacePoint> {
+        self.path_point
+    }
+
+    /// What textures are authored in.
+    pub fn authoring(&self) -> &Authoring {
+        &self.authoring
+    }
+
+    /// Says at the foot what is wrong.
+    pub fn say(&mut self, message: String) {
+        self.player.message = Some(message);
     }
 
     /// Whether the automatic hand strokes.

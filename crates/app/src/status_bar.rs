@@ -44,6 +44,10 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if session.is_long_preparing() {
+                let label = Label::new(RichText::new(strings::PREPARING).color(t.accent)).selectable(false);
+                ui.add(label).on_hover_text(strings::PREPARING_HELP);
+            }
             weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
             if let Some(message) = session.output_message() {
                 let label = Label::new(RichText::new(message).color(t.error)).truncate();

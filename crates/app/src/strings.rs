@@ -4,6 +4,7 @@ use shagreen_core::space::SpacePoint;
 
 pub mod build;
 pub mod import;
+pub mod path;
 
 /// Name of the program.
 pub const APP: &str = "Shagreen";
@@ -66,7 +67,7 @@ pub const NO_MATCH: &str = "No texture has this in its name or tags.";
 /// Heading of the parents.
 pub const PARENTS: &str = "Blended from";
 /// What the parents are.
-pub const PARENTS_HELP: &str = "The textures around the point, and how much each one gives.";
+pub const PARENTS_HELP: &str = "What is heard, and how much of it comes from each texture. In the field all textures have a say, far ones a little against it; near its place a locked one sounds by itself.";
 /// Accessible name of the canvas.
 pub const CANVAS: &str = "Space of textures";
 /// Accessible name of the draggable point.
@@ -136,19 +137,81 @@ pub const NO_PLACES: &str =
     "No texture of this library has a place in the space, so there is nothing to blend.";
 /// No output is open.
 pub const NO_OUTPUT: &str = "Choose an output";
-/// What the blend `paper` is.
-pub const PAPER_HELP: &str = "As printed in the paper: inverse-distance weights, independent signals. Sinks in level \
-                              between textures and jumps at the edges of triangles.";
-/// What the blend `power` is.
-pub const POWER_HELP: &str =
-    "Independent signals, with the level made up to the weighted mean of the levels.";
-/// What the blend `shared` is.
-pub const SHARED_HELP: &str =
-    "Signals that share one excitation, so that their spectra blend without a loss of level.";
-/// What the mode parametric does.
-pub const PARAMETRIC_HELP: &str = "One texture with the mean spectrum and level of the neighbors";
-/// What the mode field does.
-pub const FIELD_HELP: &str = "One texture from a smooth field over all textures of the space";
+/// Name of the mode `field`.
+pub const FIELD: &str = "Field";
+/// Name of the mode `parametric`.
+pub const PARAMETRIC: &str = "Parametric";
+/// Name of the mode `shared`.
+pub const SHARED: &str = "Shared";
+/// Name of the mode `power`.
+pub const POWER: &str = "Power";
+/// Name of the mode `paper`.
+pub const PAPER: &str = "Paper";
+/// The mode `field` in a few words.
+pub const FIELD_SHORT: &str = "one texture, from all";
+/// The mode `parametric` in a few words.
+pub const PARAMETRIC_SHORT: &str = "a mean of neighbors";
+/// The mode `shared` in a few words.
+pub const SHARED_SHORT: &str = "three signals, one noise";
+/// The mode `power` in a few words.
+pub const POWER_SHORT: &str = "three signals, level kept";
+/// The mode `paper` in a few words.
+pub const PAPER_SHORT: &str = "as published";
+/// What the mode `field` is.
+pub const FIELD_HELP: &str = "Every point is a texture of its own, from a smooth field over all textures: no jumps, no \
+                              kinks. A texture's own place is smoothed by its neighbors, unless it is locked.";
+/// What the mode `parametric` is.
+pub const PARAMETRIC_HELP: &str = "Every point is a texture of its own: the mean spectrum and level of the textures \
+                                   around it. Exact at each texture, with a kink at the edges of triangles.";
+/// What the mode `shared` is.
+pub const SHARED_HELP: &str = "The three textures around the point sound together, driven by one noise, so that their \
+                               spectra blend without a loss of level.";
+/// What the mode `power` is.
+pub const POWER_HELP: &str = "The three textures around the point sound together, each with a noise of its own; the \
+                              level is made up to the mean of their levels.";
+/// What the mode `paper` is.
+pub const PAPER_HELP: &str = "As printed in the paper: three textures by inverse distance, each with a noise of its own. \
+                              Sinks in level between textures and jumps at the edges of triangles.";
+/// Accessible name of the choice of modes.
+pub const BLEND_MODE: &str = "Blend mode";
+/// The field goes on outside the outline of the textures.
+pub const BEYOND: &str = "Go beyond the textures";
+/// What going beyond the textures does.
+pub const BEYOND_HELP: &str = "Outside the outline of the textures the field goes on, as far as the textures support a \
+                               guess; otherwise the nearest point of the outline plays.";
+/// All natural neighbors have a say.
+pub const NATURAL: &str = "Natural neighbors";
+/// What natural neighbors are.
+pub const NATURAL_HELP: &str = "All textures around the point have a say, by the area that the point would take from \
+                                each: no kink at the edges of triangles.";
+/// What stands where a mode that mixes signals has no choices.
+pub const THREE_SIGNALS: &str = "from the corners of the triangle";
+/// The field is not there yet.
+pub const PREPARING: &str = "preparing the field…";
+/// What plays until the field is there.
+pub const PREPARING_HELP: &str =
+    "What a field over all textures needs is being worked out. Until then, what sounded goes on.";
+/// A texture of the field's own place is not that texture.
+pub const SMOOTHED: &str =
+    "In the field its place is smoothed by its neighbors. Lock it (right click) to meet it exactly.";
+/// A texture is locked.
+pub const LOCKED: &str = "Locked: the field meets it exactly at its place.";
+/// What the lock of a texture does.
+pub const LOCK_HELP: &str = "A locked texture is met exactly at its own place, and the field gives way to it around there. \
+                             Unlocked, it is smoothed by its neighbors.";
+/// The point lies outside the hull, and the field goes on there.
+pub const EXTRAPOLATED: &str = "extrapolated";
+/// What is extrapolated is a guess.
+pub const EXTRAPOLATED_HERE: &str =
+    "Extrapolated: no texture was measured beyond the outline, so this is a guess.";
+/// Where the mode `paper` jumps.
+pub const JUMPS_HERE: &str = "Paper: the texture jumps where the point crosses this edge.";
+/// That the mode `paper` jumps.
+pub const JUMPS: &str = "Paper: the texture jumps where the point crosses an edge of the triangles.";
+/// The field has no texture at the point.
+pub const NO_TEXTURE_HERE: &str = "No texture can be made at this point; move it nearer to the textures";
+/// Working out the field broke off.
+pub const FIELD_FAILED: &str = "The field broke off; open the library again";
 /// What the latency is.
 pub const LATENCY_HELP: &str = "From a movement of the hand to the output: control tick, filters and two blocks. The mouse \
                                 adds a frame of the window, a sound server its own buffer.";
@@ -262,4 +325,32 @@ pub fn of_the_blend(percent: f64) -> String {
 /// One texture is heard alone.
 pub fn plays_alone(texture: &str) -> String {
     format!("{texture} plays alone. Move the point to hear the blend again.")
+}
+
+/// The lock of a texture: the accessible name of what sets or opens it, and the name of that edit.
+pub fn lock(texture: &str, is_to_be_locked: bool) -> String {
+    format!("{} {texture}", if is_to_be_locked { "Lock" } else { "Unlock" })
+}
+
+/// Undo or redo, and what: names keep their capitals.
+pub fn verb(verb: &str, label: &str) -> String {
+    let mut letters = label.chars();
+    let first = letters.next().into_iter().flat_map(char::to_lowercase);
+    format!("{verb} {}{}", first.collect::<String>(), letters.as_str())
+}
+
+/// The textures of a field that have no card, and what they give in percent.
+pub fn more_parents(n_more: usize, percent: f64) -> String {
+    // Rounded first, so that nothing reads "-0 %".
+    format!("and {n_more} more, together {:.0} %", percent.round() + 0.0)
+}
+
+/// How much of what sounds is a locked texture, in percent.
+pub fn locked_share(texture: &str, percent: f64) -> String {
+    format!("{texture} (locked) sounds to {percent:.0} %")
+}
+
+/// Where extrapolation stopped.
+pub fn extrapolated_to(at: SpacePoint) -> String {
+    format!("Extrapolated as far as the textures support a guess: it stops at {at}.")
 }

@@ -1,17 +1,19 @@
 //! The window itself: lays out the panels, carries out commands, keeps the frame going.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::library::Library;
 
 use crate::build::page::BuildPage;
-use crate::canvas::{canvas_ui, point_id};
+use crate::canvas::{PathTool, canvas_ui, point_id};
 use crate::command::{Command, pressed};
 use crate::history::{Gesture, History};
 use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
+use crate::kept_path::kept_path;
 use crate::library_panel::library_ui;
 use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
@@ -26,6 +28,9 @@ use crate::strings;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, tokens};
 use crate::workspace::Workspace;
 
+/// Pictures that are blended into that of a field: more take longer and show nothing more.
+const MAX_PICTURED: usize = 6;
+
 /// The program with its window.
 pub struct Window {
     project: Project,
@@ -33,6 +38,7 @@ pub struct Window {
     session: Session,
     pictures: Pictures,
     pad: PadState,
+    path_tool: PathTool,
     search: String,
     /// A texture that has just joined, to be scrolled to.
     reveal: Option<usize>,
@@ -64,6 +70,7 @@ impl Window {
             session,
             pictures: Pictures::new(ctx, sources),
             pad: PadState::default(),
+            path_tool: PathTool::default(),
             search: String::new(),
             reveal: None,
             gesture: 0,
@@ -119,6 +126,14 @@ impl Window {
             // Where nothing shows the hand it can be stopped, but does not start unseen.
             commands.retain(|command| !matches!(command, Command::ToggleHand));
         }
+        if self.workspace == Workspace::Build {
+            commands.retain(|command| !matches!(command, Command::TogglePathTool));
+        } else if self.path_tool.is_on
+            && !self.sheet.is_open()
+            && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
+        {
+            commands.push(Command::TogglePathTool);
+        }
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
         Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
@@ -172,7 +187,7 @@ impl Window {
                 (Command::Undo, strings::UNDO, self.history.undo_label()),
                 (Command::Redo, strings::REDO, self.history.redo_label()),
             ] {
-                let what = label.map_or(name.to_owned(), |l| format!("{name} {}", l.to_lowercase()));
+                let what = label.map_or(name.to_owned(), |l| strings::verb(name, l));
                 let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
                 let button = ui.add_enabled(label.is_some(), egui::Button::new(name));
                 if button.on_hover_text(format!("{what} ({keys})")).clicked() {
@@ -205,13 +220,15 @@ impl Window {
             commands.extend(inspector_ui(ui, &panel));
         });
         let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
-        CentralPanel::default().frame(frame).show(ui, |ui| commands.extend(canvas_ui(ui, &panel)));
+        CentralPanel::default().frame(frame).show(ui, |ui| {
+            commands.extend(canvas_ui(ui, &panel, &mut self.path_tool));
+        });
     }
 
     /// The row at the foot: pad and scope.
     fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
-        let parents = self.session.authored().map_or(Vec::new(), |a| a.parents.clone());
-        let picture = self.pictures.blend(ctx, &parents).map(|(texture, mm)| (texture.id(), mm));
+        let parents = self.session.authored().map_or(&[][..], |authored| &authored.parents);
+        let picture = self.pictures.blend(ctx, &pictured(parents)).map(|(texture, mm)| (texture.id(), mm));
         let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
         let pad = &mut self.pad;
         let mut mouse = None;
@@ -256,6 +273,15 @@ impl Window {
                 let hand = (!self.session.hand_is_running()).then_some(self.pad.hand);
                 self.session.set_hand(hand);
             }
+            Command::TogglePathTool => self.path_tool.toggle(),
+            Command::PlayPath(is_played) => self.session.play_path(is_played),
+            Command::KeepPath => match kept_path(&self.project, &self.session) {
+                Some(Ok(entry)) => {
+                    self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx);
+                }
+                Some(Err(error)) => self.session.say(error.to_string()),
+                None => {}
+            },
             Command::ToggleMute => self.session.toggle_mute(),
             Command::ToggleTheme => {
                 let dark = ctx.theme() == egui::Theme::Dark;
@@ -301,4 +327,12 @@ impl Window {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
     }
+}
+
+/// What the picture of a blend is made of: of a field the textures that say the most, as shares of one.
+fn pictured(parents: &[(usize, f64)]) -> Vec<(usize, f64)> {
+    let largest = &parents[..parents.len().min(MAX_PICTURED)];
+    let sum: f64 = largest.iter().map(|(_, weight)| weight.max(0.0)).sum();
+    let share = |(texture, weight): &(usize, f64)| (*texture, weight.max(0.0) / sum);
+    largest.iter().map(share).filter(|(_, share)| *share > 0.0).collect()
 }

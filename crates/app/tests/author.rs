@@ -12,7 +12,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings;
 use shagreen_core::blend::Mode;
 
-use support::{Author, author, click, unnamed_controls, wait, window};
+use support::{Author, author, choose_mode, click, unnamed_controls, wait, window};
 
 /// Lets the texture sound for a while.
 fn listen(harness: &mut Author, seconds: f64) {
@@ -69,11 +69,12 @@ fn every_control_has_a_name() {
         (Role::Canvas, strings::PAD),
         (Role::ComboBox, strings::HAND_PATH),
         (Role::ComboBox, strings::OUTPUT),
+        (Role::ComboBox, strings::BLEND_MODE),
+        (Role::CheckBox, strings::BEYOND),
     ] {
         assert!(harness.query_by_role_and_label(role, name).is_some(), "no {role:?} is named {name}");
     }
-    for name in [strings::UNDO, strings::REDO, strings::MUTE, strings::HAND_START, "paper", "power", "shared"]
-    {
+    for name in [strings::UNDO, strings::REDO, strings::MUTE, strings::HAND_START] {
         assert!(harness.query_by_label(name).is_some(), "nothing is named {name}");
     }
     for texture in window(&harness).session().textures() {
@@ -96,10 +97,12 @@ fn a_control_without_a_name_is_found() {
     assert_eq!(unnamed_controls(&harness).len(), 1);
 }
 
-/// The main job: drag the point, and sliders, weights and sound follow.
+/// The main job: drag the point, and sliders, weights and sound follow. In a mode in which a texture is itself at its
+/// own place.
 #[test]
 fn dragging_the_point_changes_sliders_weights_and_sound() {
     let mut harness = author();
+    choose_mode(&mut harness, Mode::Shared);
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "the hand strokes", |h| window(h).session().touch().contact.force_n > 0.0);
 
@@ -195,11 +198,12 @@ fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
     assert_eq!(window(&harness).project().point, start, "one step of undo");
 }
 
-/// A click on a texture is that texture, wholly, and undo takes it back: the sliders that show the place do not round it.
+/// Where textures are not smoothed, a click on one is that texture, wholly, and undo takes it back: the sliders that show the place do not round it.
 #[test]
 fn a_click_on_a_texture_is_that_texture_and_can_be_undone() {
     for name in ["Cardboard", "Felt", "Glass", "Brick"] {
         let mut harness = author();
+        choose_mode(&mut harness, Mode::Shared);
         let start = window(&harness).project().point;
         harness.get_by_label(&strings::go_to(name)).click();
         listen(&mut harness, 0.3);
@@ -272,8 +276,11 @@ fn outside_the_measured_textures_the_window_says_so() {
 #[test]
 fn the_blend_is_chosen_and_a_search_narrows_the_list() {
     let mut harness = author();
-    click(&mut harness, "paper");
-    assert_eq!(window(&harness).project().mode, Mode::Paper);
+    for mode in Mode::ALL.into_iter().rev() {
+        choose_mode(&mut harness, mode);
+        harness.run_steps(2);
+    }
+    choose_mode(&mut harness, Mode::Paper);
     harness.get_by_role_and_label(Role::TextInput, strings::SEARCH).focus();
     harness.run_steps(2);
     harness.get_by_role_and_label(Role::TextInput, strings::SEARCH).type_text("wood");

@@ -8,11 +8,13 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::libraries::BuiltIn;
 use shagreen_app::strings;
-use shagreen_core::blend::Authored;
+use shagreen_core::authoring::Authored;
+use shagreen_core::blend::Mode;
 use shagreen_formats::library::Library;
 
 use support::{
-    Author, author, author_on, click, drop_files, painted, says, shown, unnamed_controls, wait, window, words,
+    Author, author, author_on, choose_mode, click, drop_files, painted, says, shown, unnamed_controls, wait,
+    window, words,
 };
 
 const NOBODY: &str = "Places: simulated raters, nobody felt them";
@@ -42,6 +44,7 @@ fn names_on_canvas(harness: &Author) -> Vec<String> {
 #[test]
 fn the_simulated_library_is_opened_and_says_so_wherever_its_places_are_shown() {
     let mut harness = author();
+    choose_mode(&mut harness, Mode::Shared);
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(63.0);
     harness.run_steps(3);
     let (point, before) = (window(&harness).project().point, library(&harness));

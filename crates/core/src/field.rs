@@ -16,8 +16,8 @@ use crate::triangulation::Xy;
 use crate::units::Hertz;
 
 /// Most components, and the share of the variance that they need not hold.
-const MOST_COMPONENTS: usize = 16;
-const LEFT_OUT: f64 = 0.002;
+const MOST_COMPONENTS: usize = 24;
+const LEFT_OUT: f64 = 0.0005;
 /// Textures from which components are found, evenly chosen where there are more.
 const MOST_FOR_COMPONENTS: usize = 200;
 /// Share of a component's range that a place may lie beyond all textures.

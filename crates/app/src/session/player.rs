@@ -3,8 +3,7 @@
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Instant;
 
-use shagreen_core::authoring::Authored;
-use shagreen_core::blend::Mode;
+use shagreen_core::authoring::Blending;
 use shagreen_core::plane::Prepared;
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
@@ -22,6 +21,7 @@ use shagreen_device::stylus::MouseStylus;
 use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
 use shagreen_device::texture::OwnedTexture;
 
+use super::heard::{Heard, Made, Source};
 use crate::pad::MouseReport;
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
@@ -60,10 +60,19 @@ impl OutputChoice {
     }
 }
 
+/// The slots of textures that were made for a point, each with the number of its texture: two at most.
+#[derive(Clone, Copy, Debug, Default)]
+struct MadeSlots {
+    /// In the mix.
+    sounding: Option<(u64, TextureId)>,
+    /// Loaded, for the mix that comes next.
+    next: Option<(u64, TextureId)>,
+}
+
 /// An output and everything that is on its way to it.
 pub(super) struct Player {
-    /// What the mix was last worked out for: the point, the mode, and what is heard alone.
-    pub(super) wanted: Option<(SpacePoint, Mode, Option<usize>)>,
+    /// What the mix was last worked out for: the point, the blending, and what is heard alone.
+    pub(super) wanted: Option<(SpacePoint, Blending, Option<usize>)>,
     pub(super) mix_is_new: bool,
     pub(super) outputs: Vec<OutputInfo>,
     pub(super) output_id: Option<String>,
@@ -78,6 +87,7 @@ pub(super) struct Player {
     listing: Option<Receiver<Vec<OutputInfo>>>,
     /// Slot of each texture of the library, and when it was last in a mix.
     slots: Vec<Option<(TextureId, u64)>>,
+    made: MadeSlots,
     n_mixes: u64,
     stylus: MouseStylus,
     started: Instant,
@@ -101,6 +111,7 @@ impl Player {
             opening: None,
             listing: None,
             slots: vec![None; n_textures],
+            made: MadeSlots::default(),
             n_mixes: 0,
             stylus: MouseStylus::new(1.0),
             started: Instant::now(),
@@ -196,38 +207,45 @@ impl Player {
                 self.handle = Some(handle);
                 self.running = Some(running);
                 self.slots.fill(None);
+                self.made = MadeSlots::default();
                 self.mix_is_new = true;
                 true
             }
         }
     }
 
-    /// Loads what the blend needs and fades to it. Tried again in the next frame where the output is busy, or a texture
-    /// is still being prepared.
-    pub(super) fn send_mix(&mut self, authored: &Authored, ahead: &[Option<Prepared>], rate_hz: f64) {
+    /// Loads what is heard and fades to it. Tried again in the next frame where the output is busy, or a texture is still
+    /// being prepared.
+    pub(super) fn send_mix(&mut self, heard: &Heard, ahead: &[Option<Prepared>], rate_hz: f64) {
         let is_ready = |handle: &Handle| handle.config().model_rate_hz == rate_hz as f32;
         if !self.mix_is_new || !self.handle.as_ref().is_some_and(is_ready) {
             return;
         }
         self.n_mixes += 1;
-        let mut mix = Mix::silent(synth_blend(authored.mixing()));
-        for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
-            let Some(id) = self.slot_of(*texture, ahead) else { return };
-            *parent = Parent { id, weight: *weight as f32 };
+        let mut mix = Mix::silent(synth_blend(heard.mixing));
+        for (voice, parent) in heard.voices.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
+            let id = match voice.source {
+                Source::Library(texture) => self.slot_of(texture, ahead),
+                Source::Made => heard.made.as_ref().and_then(|made| self.slot_of_made(made)),
+            };
+            let Some(id) = id else { return };
+            *parent = Parent { id, weight: voice.share as f32 };
         }
         if let Some(handle) = &mut self.handle
             && handle.set_mix(mix).is_ok()
         {
             self.mix_is_new = false;
-        }
-    }
-
-    /// Nothing is to be heard: there is no blend.
-    pub(super) fn send_silence(&mut self) {
-        if let Some(handle) = self.handle.as_mut().filter(|_| self.mix_is_new)
-            && handle.set_mix(Mix::silent(synth_blend(Mode::default()))).is_ok()
-        {
-            self.mix_is_new = false;
+            let is_sounding =
+                |(_, id): &(u64, TextureId)| mix.parents.iter().any(|p| p.id == *id && p.weight > 0.0);
+            let before = [self.made.sounding.take(), self.made.next.take()];
+            for slot in before.into_iter().flatten() {
+                if is_sounding(&slot) {
+                    self.made.sounding = Some(slot);
+                } else {
+                    // It fades out before it comes back.
+                    handle.unload(slot.1);
+                }
+            }
         }
     }
 
@@ -258,20 +276,45 @@ impl Player {
                 handle.unload(id);
             }
         }
+        let id = self.load(prepared)?;
+        self.slots[texture] = Some((id, self.n_mixes));
+        Some(id)
+    }
+
+    /// The slot of a texture that was made for a point.
+    fn slot_of_made(&mut self, made: &Made) -> Option<TextureId> {
+        let known = [self.made.sounding, self.made.next];
+        if let Some((_, id)) = known.into_iter().flatten().find(|(number, _)| *number == made.number) {
+            return Some(id);
+        }
+        if let (Some((_, id)), Some(handle)) = (self.made.next.take(), &mut self.handle) {
+            // The point moved on before this one came to sound.
+            handle.unload(id);
+        }
+        let id = self.load(&made.prepared)?;
+        self.made.next = Some((made.number, id));
+        Some(id)
+    }
+
+    /// Sends a texture to the output; where that is busy, the next frame tries again.
+    fn load(&mut self, prepared: &Prepared) -> Option<TextureId> {
+        let handle = self.handle.as_mut()?;
         let refusal = match OwnedTexture::new(prepared.parts()) {
             Ok(owned) => match handle.load(owned) {
-                Ok(id) => {
-                    self.slots[texture] = Some((id, self.n_mixes));
-                    return Some(id);
-                }
-                // The next frame tries again.
-                Err(LoadError { reason: LoadReason::RingFull, .. }) => return None,
+                Ok(id) => return Some(id),
+                Err(LoadError { reason: LoadReason::RingFull | LoadReason::NoSlot, .. }) => return None,
                 Err(error) => error.to_string(),
             },
             Err(error) => error.to_string(),
         };
         self.message = Some(refusal);
         None
+    }
+
+    /// How many textures are loaded, those on their way out not counted.
+    pub(super) fn n_loaded(&self) -> usize {
+        let is_loaded = |handle: &Handle| (0..SLOTS).filter(|id| handle.is_loaded(*id as TextureId)).count();
+        self.handle.as_ref().map_or(0, is_loaded)
     }
 
     pub(super) fn set_hand(&mut self, hand: Option<Hand>) {

@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use shagreen_core::blend::Mode;
 use shagreen_core::rate::at_rate;
 use shagreen_core::space::LabelSource;
 use shagreen_core::units::Hertz;
@@ -122,7 +123,8 @@ fn a_library_is_opened_as_its_file_has_it() {
     let mut session = Session::new(BuiltIn::Simulated.read().unwrap()).unwrap();
     assert_eq!(session.built_in(), Some(BuiltIn::Simulated));
     let axes = Some(["hard-soft", "rough-smooth"].map(str::to_owned));
-    let turned = Project::default().edited(Edit::SetAxes(axes)).edited(Edit::Solo(3));
+    let turned = Project::default().edited(Edit::SetMode(Mode::Shared));
+    let turned = turned.edited(Edit::SetAxes(axes)).edited(Edit::Solo(3));
     session.follow(&turned, &ctx);
     let opened = turned.edited(Edit::OpenLibrary(Some(BuiltIn::Starter)));
     assert_eq!((&opened.axes, opened.solo), (&None, None));

@@ -10,8 +10,11 @@ use egui::accesskit::Role;
 use egui::{DroppedFile, Shape};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::blend_choice::mode_entry;
 use shagreen_app::session::OutputChoice;
+use shagreen_app::strings;
 use shagreen_app::window::Window;
+use shagreen_core::blend::Mode;
 use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_library;
 
@@ -109,6 +112,18 @@ pub(crate) fn choose(harness: &mut Author, name: &str, choice: &str) {
     harness.run_steps(3);
     harness.get_by_role_and_label(Role::Button, choice).click();
     harness.run_steps(3);
+}
+
+/// Takes a mode in the menu of modes.
+pub(crate) fn choose_mode(harness: &mut Author, mode: Mode) {
+    choose(harness, strings::BLEND_MODE, &mode_entry(mode));
+    assert_eq!(window(harness).project().blending.mode, mode);
+}
+
+/// Waits until the field is there.
+pub(crate) fn wait_for_field(harness: &mut Author) {
+    wait(harness, "the field is there", |h| !window(h).session().is_preparing());
+    harness.run_steps(2);
 }
 
 /// Controls that a keyboard or screen reader reaches but that have no name.

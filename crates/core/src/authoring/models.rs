@@ -85,6 +85,11 @@ impl Models {
         Ok(Self { sampling, sites, field })
     }
 
+    /// How many textures there are.
+    pub fn n_textures(&self) -> usize {
+        self.sites.len()
+    }
+
     /// The ridge of the field.
     pub fn ridge(&self) -> f64 {
         self.field.ridge()

@@ -1,0 +1,96 @@
+//! How textures become one: the mode, and what else it can be asked to do.
+
+use egui::{Checkbox, ComboBox, Label, RichText, Ui, vec2};
+use shagreen_core::authoring::{Outside, Weights};
+use shagreen_core::blend::Mode;
+
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::project::Edit;
+use crate::strings;
+use crate::theme::tokens;
+
+/// Height of the row below the choice of modes, in points: the same for all modes, so that nothing below it jumps.
+const ROW_HEIGHT: f32 = 24.0;
+
+/// Draws the choices and returns what the user asked for.
+pub fn blend_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
+    let chosen = mode_ui(ui, panel.project.blending.mode);
+    let size = vec2(ui.available_width(), ROW_HEIGHT);
+    let row = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.set_min_height(ROW_HEIGHT);
+        options_ui(ui, panel)
+    });
+    chosen.or(row.inner).map(Command::Edit)
+}
+
+/// Name of a mode.
+fn name(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Field => strings::FIELD,
+        Mode::Parametric => strings::PARAMETRIC,
+        Mode::Shared => strings::SHARED,
+        Mode::Power => strings::POWER,
+        Mode::Paper => strings::PAPER,
+    }
+}
+
+/// What a mode does, in a few words and in a sentence.
+fn help(mode: Mode) -> [&'static str; 2] {
+    match mode {
+        Mode::Field => [strings::FIELD_SHORT, strings::FIELD_HELP],
+        Mode::Parametric => [strings::PARAMETRIC_SHORT, strings::PARAMETRIC_HELP],
+        Mode::Shared => [strings::SHARED_SHORT, strings::SHARED_HELP],
+        Mode::Power => [strings::POWER_SHORT, strings::POWER_HELP],
+        Mode::Paper => [strings::PAPER_SHORT, strings::PAPER_HELP],
+    }
+}
+
+/// The entry of a mode in the menu of modes: its name and a few words.
+pub fn mode_entry(mode: Mode) -> String {
+    format!("{}: {}", name(mode), help(mode)[0])
+}
+
+fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.add(Label::new(strings::BLEND).selectable(false));
+        let width = ui.available_width();
+        let combo =
+            ComboBox::from_id_salt("blend mode").width(width).truncate().selected_text(mode_entry(mode));
+        let shown = combo.show_ui(ui, |ui| {
+            for each in Mode::ALL {
+                let entry = ui.selectable_label(mode == each, mode_entry(each));
+                if entry.on_hover_text(help(each)[1]).clicked() {
+                    chosen = Some(Edit::SetMode(each));
+                }
+            }
+        });
+        shown.response.accessible_name(strings::BLEND_MODE).on_hover_text(help(mode)[1]);
+    });
+    chosen
+}
+
+/// What the mode can be asked to do.
+fn options_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Edit> {
+    let blending = &panel.project.blending;
+    match blending.mode {
+        Mode::Field => {
+            let mut is_beyond = blending.outside == Outside::Extrapolated;
+            let checkbox = ui.add(Checkbox::new(&mut is_beyond, strings::BEYOND));
+            let outside = if is_beyond { Outside::Extrapolated } else { Outside::Clamped };
+            checkbox.on_hover_text(strings::BEYOND_HELP).changed().then_some(Edit::SetOutside(outside))
+        }
+        Mode::Parametric => {
+            let mut is_natural = blending.weights == Weights::Natural;
+            let checkbox = ui.add(Checkbox::new(&mut is_natural, strings::NATURAL));
+            let weights = if is_natural { Weights::Natural } else { Weights::Barycentric };
+            checkbox.on_hover_text(strings::NATURAL_HELP).changed().then_some(Edit::SetWeights(weights))
+        }
+        Mode::Shared | Mode::Power | Mode::Paper => {
+            let weak = RichText::new(strings::THREE_SIGNALS).small().color(tokens(ui.ctx()).text_weak);
+            ui.add(Label::new(weak).selectable(false));
+            None
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Textures that the field meets exactly: their mark, their button and their menu.
+
+use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::project::Edit;
+use crate::strings;
+use crate::theme::tokens;
+
+/// Draws a lock around a place; an open one has its shackle lifted.
+pub(crate) fn lock_mark(painter: &Painter, center: Pos2, is_locked: bool, color: Color32) {
+    let body = Rect::from_center_size(center + vec2(0.0, 2.0), vec2(8.0, 6.0));
+    let lift = if is_locked { 0.0 } else { -1.5 };
+    let (left, right, top) = (center.x - 2.5, center.x + 2.5, body.top() - 2.5 + lift);
+    let arch = (0..=8).map(|i| {
+        let angle = std::f32::consts::PI * (1.0 + i as f32 / 8.0);
+        egui::pos2(center.x + 2.5 * angle.cos(), top + 2.5 * angle.sin())
+    });
+    let mut shackle = vec![egui::pos2(left, body.top())];
+    shackle.extend(arch);
+    // An open one ends in the air.
+    shackle.push(egui::pos2(right, if is_locked { body.top() } else { top + 1.0 }));
+    painter.add(Shape::line(shackle, Stroke::new(1.5, color)));
+    if is_locked {
+        painter.rect_filled(body, 1.5, color);
+    } else {
+        painter.rect_stroke(body, 1.5, Stroke::new(1.2, color), egui::StrokeKind::Inside);
+    }
+}
+
+/// The button that locks or unlocks a texture, in `area`.
+pub(crate) fn lock_button(ui: &Ui, panel: &Panel<'_>, texture: usize, area: Rect) -> Option<Command> {
+    let t = tokens(ui.ctx());
+    let is_locked = panel.project.is_locked(texture);
+    let name = strings::lock(&panel.session.textures()[texture].name, !is_locked);
+    let response = ui.interact(area, ui.scope_id().with(("lock", texture)), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_locked, &name));
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(area, 4.0, t.control_hovered);
+    }
+    let color = if is_locked || response.hovered() { t.text } else { t.text_weak };
+    lock_mark(ui.painter(), area.center(), is_locked, color);
+    let is_clicked = response.clicked();
+    response.on_hover_text(format!("{name}\n{}", strings::LOCK_HELP));
+    is_clicked.then(|| edit(panel, texture))
+}
+
+/// The menu of a texture that can be locked.
+pub(crate) fn lock_menu(response: &Response, panel: &Panel<'_>, texture: usize) -> Option<Command> {
+    if !panel.project.can_lock() || panel.session.space().position(texture).is_none() {
+        return None;
+    }
+    let mut asked = None;
+    response.context_menu(|ui| {
+        let is_locked = panel.project.is_locked(texture);
+        let name = strings::lock(&panel.session.textures()[texture].name, !is_locked);
+        if ui.button(name).on_hover_text(strings::LOCK_HELP).clicked() {
+            asked = Some(edit(panel, texture));
+        }
+    });
+    asked
+}
+
+fn edit(panel: &Panel<'_>, texture: usize) -> Command {
+    let name = panel.session.textures()[texture].name.clone();
+    Command::Edit(Edit::Lock { texture, name, is_locked: !panel.project.is_locked(texture) })
+}

@@ -1,0 +1,146 @@
+//! What the modes that make a texture need is worked out by a worker: for a thousand textures that takes seconds.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::Instant;
+
+use shagreen_core::authoring::{Layers, Models};
+use shagreen_core::plane::Plane;
+use shagreen_core::space::Space;
+use shagreen_core::tap::Tap;
+
+use crate::strings;
+
+/// What models are made of.
+pub(super) struct Job {
+    pub(super) space: Space,
+    /// Indexed like the library; those that have a place in the space.
+    pub(super) textures: Vec<Option<Ingredients>>,
+}
+
+/// What of a texture is blended.
+pub(super) struct Ingredients {
+    pub(super) plane: Arc<Plane>,
+    pub(super) friction: Option<f64>,
+    pub(super) tap: Option<Tap>,
+}
+
+/// Models, or why there are none.
+type Outcome = Result<Arc<Models>, String>;
+
+/// One worker at most: the newest job waits for it, and what older ones come to is dropped.
+#[derive(Default)]
+pub(super) struct ModelsAhead {
+    /// How many jobs there were.
+    generation: u64,
+    waiting: Option<Job>,
+    running: Option<(u64, Receiver<Outcome>)>,
+    since: Option<Instant>,
+}
+
+impl Job {
+    fn run(&self) -> Outcome {
+        let layers: Vec<Option<Layers<'_>>> = self
+            .textures
+            .iter()
+            .map(|texture| {
+                texture.as_ref().map(|of| Layers { plane: &of.plane, friction: of.friction, tap: of.tap })
+            })
+            .collect();
+        Models::new(&self.space, &layers).map(Arc::new).map_err(|error| error.to_string())
+    }
+}
+
+impl ModelsAhead {
+    /// Asks for models in place of those that were asked for before.
+    pub(super) fn ask(&mut self, job: Job) {
+        self.generation += 1;
+        self.since = Some(Instant::now());
+        self.waiting = Some(job);
+    }
+
+    /// No models are needed.
+    pub(super) fn cancel(&mut self) {
+        self.generation += 1;
+        (self.waiting, self.since) = (None, None);
+    }
+
+    /// Once a frame: sets the worker to what waits, and returns what was asked for last when that is done.
+    pub(super) fn collect(&mut self, ctx: &egui::Context) -> Option<Outcome> {
+        let mut done = None;
+        if let Some((generation, receiver)) = &self.running {
+            let outcome = match receiver.try_recv() {
+                Err(TryRecvError::Empty) => return None,
+                Err(TryRecvError::Disconnected) => Err(strings::FIELD_FAILED.to_owned()),
+                Ok(outcome) => outcome,
+            };
+            if *generation == self.generation {
+                done = Some(outcome);
+                self.since = None;
+            }
+            self.running = None;
+        }
+        if let Some(job) = self.waiting.take() {
+            let (sender, receiver) = channel();
+            let ctx = ctx.clone();
+            std::thread::spawn(move || {
+                // The program may have ended meanwhile: then nobody asks any more.
+                let _ = sender.send(job.run());
+                ctx.request_repaint();
+            });
+            self.running = Some((self.generation, receiver));
+        }
+        done
+    }
+
+    /// For how long what was asked for last has been awaited, in seconds; `None` where nothing is.
+    pub(super) fn awaited_secs(&self) -> Option<f64> {
+        self.since.map(|since| since.elapsed().as_secs_f64())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ingredients, Job, ModelsAhead};
+    use shagreen_core::plane::Plane;
+    use shagreen_core::space::{Space, SpacePoint};
+    use shagreen_formats::starter::starter_library;
+    use std::sync::Arc;
+    use std::time::{Duration, Instant};
+
+    fn job(n_textures: usize) -> Job {
+        let library = starter_library().unwrap();
+        let textures = &library.textures[..n_textures];
+        let positions: Vec<Option<SpacePoint>> = textures.iter().map(|t| t.place.map(|p| p.at)).collect();
+        let ingredients = textures.iter().map(|texture| {
+            let (friction, tap) = (texture.model.friction(), texture.model.tap());
+            Some(Ingredients { plane: Arc::new(Plane::new(&texture.model)), friction, tap })
+        });
+        Job { space: Space::new(&positions).unwrap(), textures: ingredients.collect() }
+    }
+
+    /// Whatever was asked for first and comes to its end is dropped.
+    #[test]
+    fn only_what_was_asked_for_last_comes() {
+        let (ctx, mut ahead) = (egui::Context::default(), ModelsAhead::default());
+        ahead.ask(job(25));
+        assert!(ahead.collect(&ctx).is_none() && ahead.awaited_secs().is_some());
+        ahead.ask(job(3));
+        ahead.ask(job(9));
+        let start = Instant::now();
+        let models = loop {
+            if let Some(outcome) = ahead.collect(&ctx) {
+                break outcome.unwrap();
+            }
+            assert!(start.elapsed() < Duration::from_secs(30));
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        assert_eq!(models.n_textures(), 9);
+        assert!(ahead.awaited_secs().is_none() && ahead.collect(&ctx).is_none());
+        ahead.ask(job(25));
+        assert!(ahead.collect(&ctx).is_none());
+        ahead.cancel();
+        std::thread::sleep(Duration::from_millis(200));
+        assert!(ahead.collect(&ctx).is_none(), "nobody asks for these any more");
+    }
+}

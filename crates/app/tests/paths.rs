@@ -1,0 +1,190 @@
+//! Paths through the space: drawn, changed, played along a stroke, kept as textures.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use std::time::Duration;
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Pos2};
+use egui_kittest::kittest::Queryable as _;
+use shagreen_app::drawn_path::DrawnPath;
+use shagreen_app::strings;
+use shagreen_app::strings::path;
+use shagreen_core::space::SpacePoint;
+use shagreen_core::texture_path::{Along, AtEnd};
+
+use support::{
+    Author, author, choose, click, painted, unnamed_controls, wait, wait_for_field, window, words,
+};
+
+fn center(harness: &Author, name: &str) -> Pos2 {
+    harness.get_by_label(name).rect().center()
+}
+
+fn drawn(harness: &Author) -> DrawnPath {
+    window(harness).project().path.clone().expect("a path")
+}
+
+/// Draws from one texture by a second to a third.
+fn draw(harness: &mut Author, [from, by, to]: [&str; 3]) {
+    let places = [from, by, to].map(|name| center(harness, &strings::go_to(name)));
+    harness.hover_at(places[0]);
+    harness.run_steps(2);
+    harness.drag_at(places[0]);
+    harness.run_steps(1);
+    for pair in places.windows(2) {
+        for i in 1..=8 {
+            harness.hover_at(pair[0].lerp(pair[1], i as f32 / 8.0));
+            harness.run_steps(1);
+        }
+    }
+    harness.drop_at(places[2]);
+    harness.run_steps(3);
+}
+
+fn place(harness: &Author, name: &str) -> SpacePoint {
+    let session = window(harness).session();
+    let texture = session.textures().iter().position(|t| t.name == name).unwrap();
+    session.space().position(texture).unwrap()
+}
+
+#[test]
+fn a_path_is_drawn_changed_and_undone() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    let point = window(&harness).project().point;
+    harness.key_press(Key::P);
+    harness.run_steps(2);
+    draw(&mut harness, ["Rough sawn wood", "Cardboard", "Felt"]);
+    let first = drawn(&harness);
+    assert_eq!(window(&harness).project().point, point, "the point stays");
+    // A stroke on the screen begins and ends within a few points of the axes.
+    assert!(first.points.len() >= 3, "{:?}", first.points);
+    assert!(first.points[0].distance(place(&harness, "Rough sawn wood")) < 2.0);
+    assert!(first.points[first.points.len() - 1].distance(place(&harness, "Felt")) < 2.0);
+    let farthest =
+        first.points.iter().map(|p| p.distance(place(&harness, "Cardboard"))).fold(100.0, f64::min);
+    assert!(farthest < 2.0, "the corner is kept");
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+
+    // A click on a texture goes on to it.
+    click(&mut harness, &strings::go_to("Glass"));
+    let longer = drawn(&harness);
+    assert_eq!(longer.points.last(), Some(&place(&harness, "Glass")));
+    // Points are moved and deleted.
+    let (from, to) = (center(&harness, &path::point(1)), center(&harness, &strings::go_to("Denim")));
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.drag_at(from);
+    harness.run_steps(1);
+    harness.hover_at(from.lerp(to, 0.5));
+    harness.run_steps(1);
+    harness.hover_at(to);
+    harness.run_steps(1);
+    harness.drop_at(to);
+    harness.run_steps(3);
+    assert!(drawn(&harness).points[0].distance(place(&harness, "Denim")) < 2.0);
+    harness.get_by_label(&path::point(1)).click_secondary();
+    harness.run_steps(3);
+    assert_eq!(drawn(&harness).points, longer.points[1..]);
+    for expected in [None, Some(&longer), Some(&first)] {
+        click(&mut harness, strings::UNDO);
+        if let Some(expected) = expected {
+            assert_eq!(&drawn(&harness), expected);
+        }
+    }
+    click(&mut harness, strings::UNDO);
+    assert_eq!(window(&harness).project().path, None, "the whole drawing is one step");
+    click(&mut harness, strings::REDO);
+    click(&mut harness, path::CLEAR);
+    assert_eq!(window(&harness).project().path, None);
+
+    // Escape leaves: then the canvas moves the point again.
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    click(&mut harness, &strings::go_to("Cork"));
+    assert_eq!(window(&harness).project().point, place(&harness, "Cork"));
+    assert_eq!(window(&harness).project().path, None);
+}
+
+/// The texture follows the path as the hand strokes, and the point is heard again when it stops.
+#[test]
+fn the_texture_follows_the_path() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    click(&mut harness, path::PATH);
+    click(&mut harness, &strings::go_to("Brick"));
+    click(&mut harness, &strings::go_to("Cotton weave"));
+    choose(&mut harness, path::ALONG, path::TIME);
+    choose(&mut harness, path::AT_END, path::HOLD);
+    let set = drawn(&harness);
+    assert_eq!((set.points.len(), set.along, set.at_end), (2, Along::Time, AtEnd::Hold));
+    harness.get_by_role_and_label(Role::SpinButton, path::LENGTH).set_value_accesskit(1.5);
+    harness.run_steps(2);
+    assert!((drawn(&harness).length_secs - 1.5).abs() < 1e-9);
+    click(&mut harness, path::PLAY);
+    assert!(window(&harness).session().is_path_playing());
+    let says_wait =
+        painted(&harness, strings::CANVAS).iter().filter_map(words).any(|text| text == path::WAITS);
+    assert!(says_wait, "nothing strokes yet");
+    let begin = window(&harness).session().path_point().unwrap();
+    assert!(begin.distance(place(&harness, "Brick")) < 1e-9);
+    click(&mut harness, strings::HAND_START);
+    let mut visited: Vec<SpacePoint> = Vec::new();
+    let end = place(&harness, "Cotton weave");
+    let mut loudest: f64 = 0.0;
+    while visited.last().is_none_or(|at| at.distance(end) > 1e-9) {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(5));
+        let session = window(&harness).session();
+        visited.push(session.path_point().unwrap());
+        // What is heard is the texture of that place.
+        assert!(session.authored().unwrap().location.at.distance(visited[visited.len() - 1]) < 1e-6);
+        assert!(session.n_loaded() <= 3, "{}", session.n_loaded());
+        loudest = loudest.max(session.scope().rms(0.2));
+        assert!(visited.len() < 5000);
+    }
+    let back = visited.windows(2).filter(|p| p[1].distance(end) > p[0].distance(end) + 1e-9).count();
+    assert!(back <= 1, "it goes on, from its beginning when the touch begins: {back} steps back");
+    assert!(visited.iter().filter(|at| at.distance(begin) > 5.0 && at.distance(end) > 5.0).count() > 5);
+    wait(&mut harness, "it stays at the end", |h| {
+        h.state().as_ref().unwrap().session().scope().rms(0.2) > 1e-4
+    });
+    // A brick is some ten times as loud as cotton.
+    let quiet = {
+        for _ in 0..40 {
+            harness.step();
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        window(&harness).session().scope().rms(0.2)
+    };
+    assert!(loudest > 3.0 * quiet, "{loudest} at the loudest, {quiet} m/s² at the end");
+    click(&mut harness, path::STOP);
+    assert_eq!(window(&harness).session().path_point(), None);
+    let point = window(&harness).project().point;
+    assert!(window(&harness).session().authored().unwrap().location.at.distance(point) < 1e-9);
+}
+
+/// What is kept is a texture of the list with the path in it.
+#[test]
+fn a_path_is_kept_as_a_texture() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    click(&mut harness, path::PATH);
+    click(&mut harness, &strings::go_to("Sanded wood"));
+    click(&mut harness, &strings::go_to("Felt"));
+    click(&mut harness, path::KEEP);
+    harness.run_steps(2);
+    let session = window(&harness).session();
+    let kept = session.library().textures.last().unwrap();
+    assert_eq!((kept.name.as_str(), kept.id.as_str()), ("New texture", "new-texture"));
+    let made = kept.path.as_ref().expect("a path");
+    assert!(made.keys().len() > 5 && (made.length() - 0.2).abs() < 1e-12, "{}", made.keys().len());
+    assert_eq!(made.keys()[0].model, kept.model);
+    assert_eq!(made.at_end(), AtEnd::Turn);
+    assert_eq!(kept.license, session.library().license_of(&session.library().textures[0]));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).session().textures().len(), 25);
+}
