@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context as _;
 use serde_json::json;
 use shagreen_core::authoring::Authoring;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd, Route, Stop, TexturePath};
 use shagreen_formats::atomic;
-use shagreen_formats::library::{Library, Provenance, TextureEntry, id_from_name, write_library};
+use shagreen_formats::library::{Library, Provenance, write_library};
 
 use crate::cli::guard::{is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
@@ -68,10 +67,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         ));
     }
     let (n_keys, length) = (path.keys().len(), path.length() / unit.0);
-    let made = made(&library, &args.name, path).context("there is no texture to make a path of")?;
+    let made = made(&library, &args.name, path);
     let id = made.textures[0].id.clone();
-    let restricted: Vec<&str> = library.restricted().map(|texture| texture.name.as_str()).collect();
-    let warning = Provenance::warning(&restricted);
+    let is_restricted = made.textures[0].provenance == Provenance::Restricted;
+    let warning =
+        Provenance::warning(&is_restricted.then_some(args.name.as_str()).into_iter().collect::<Vec<_>>());
     if let Some(warning) = &warning {
         output::warn(warning);
     }
@@ -95,28 +95,17 @@ fn n_outside(authoring: &Authoring, route: &Route) -> usize {
     route.stops().iter().filter(is_outside).count()
 }
 
-/// A library of the path alone; it owes something to every texture that has a place.
-fn made(library: &Library, name: &str, path: TexturePath) -> Option<Library> {
-    let placed = || library.textures.iter().filter(|texture| texture.place.is_some());
-    let mut licenses: Vec<&str> = Vec::new();
-    for license in placed().map(|texture| library.license_of(texture)).filter(|l| !l.is_empty()) {
-        if !licenses.contains(&license) {
-            licenses.push(license);
-        }
-    }
-    let is_restricted = placed().any(|texture| texture.provenance == Provenance::Restricted);
-    let mut entry = TextureEntry::new(id_from_name(name), name, path.keys().first()?.model.clone());
-    entry.provenance = if is_restricted { Provenance::Restricted } else { Provenance::Free };
-    entry.origin = format!("Authored as a path through the space of \"{}\".", library.name);
-    entry.path = Some(path);
-    Some(Library {
+/// A library of the path alone.
+fn made(library: &Library, name: &str, path: TexturePath) -> Library {
+    let entry = library.entry_of_path(name, path);
+    Library {
         name: name.to_owned(),
         origin: entry.origin.clone(),
-        license: licenses.join(" AND "),
+        license: entry.license.clone(),
         created_by: output::CREATED_BY.to_owned(),
         textures: vec![entry],
         ..Library::default()
-    })
+    }
 }
 
 #[cfg(test)]

@@ -92,7 +92,7 @@ impl Field {
         let scores = self.scores.at(at).into_iter().zip(&self.limits);
         let scores: Vec<f32> = scores.map(|(score, (low, high))| score.clamp(*low, *high) as f32).collect();
         let mut ln_psd = self.mean.clone();
-        Arch::new().dispatch(Sum { scores: &scores, components: &self.components, sum: &mut ln_psd });
+        Arch::new().dispatch(AddAll { scores: &scores, components: &self.components, to: &mut ln_psd });
         let friction = self.friction.as_ref().map(|surface| surface.at(at)[0].exp());
         let tap = self.tap.as_ref().map(|surface| tap_from_ln(&surface.at(at)));
         sampling.texture_of_spectra(&ln_psd, friction, tap)
@@ -126,22 +126,22 @@ impl Field {
 }
 
 /// Adds components times their scores.
-struct Sum<'a> {
+struct AddAll<'a> {
     scores: &'a [f32],
     components: &'a [f32],
-    sum: &'a mut [f32],
+    to: &'a mut [f32],
 }
 
-impl WithSimd for Sum<'_> {
+impl WithSimd for AddAll<'_> {
     type Output = ();
 
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { scores, components, sum } = self;
-        for (score, component) in scores.iter().zip(components.chunks_exact(sum.len())) {
-            for (s, c) in sum.iter_mut().zip(component) {
-                *s += score * c;
+        let Self { scores, components, to } = self;
+        for (score, component) in scores.iter().zip(components.chunks_exact(to.len())) {
+            for (sum, c) in to.iter_mut().zip(component) {
+                *sum += score * c;
             }
         }
     }

@@ -156,7 +156,7 @@ fn system(basis: &Basis, points: &[Xy], ridge: f64) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{RIDGES, Smoother, chosen_ridge};
+    use super::{Smoother, chosen_ridge};
     use crate::rng::Random;
     use crate::triangulation::Xy;
     use nalgebra::DMatrix;
@@ -192,7 +192,7 @@ mod tests {
             chosen_ridge(&points, &values)
         };
         let (clean, noisy) = (ridge(0.0), ridge(1.0));
-        assert!(clean == RIDGES[0] && noisy >= 0.1, "{clean} and {noisy}");
+        assert!(clean <= 0.01 && noisy >= 0.1, "{clean} and {noisy}");
     }
 
     /// What is left out is foretold by the weights of the rest: the closed form of leaving one out against doing it.

@@ -53,6 +53,7 @@
 
 mod anchors;
 mod attributes;
+mod authored;
 mod error;
 mod id;
 mod path;

@@ -54,8 +54,3 @@ pub const POINT_HELP: &str = "Drag it; a right click, or Delete, takes it away."
 pub fn point(number: usize) -> String {
     format!("Path point {number}")
 }
-
-/// Where a path comes from, in words for its file.
-pub fn origin(library: &str) -> String {
-    format!("Authored as a path through the space of \"{library}\".")
-}

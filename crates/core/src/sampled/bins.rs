@@ -14,7 +14,7 @@ const LANES: usize = 8;
 #[derive(Clone, Debug)]
 pub(super) struct Bins {
     rate: Hertz,
-    n_bins: usize,
+    len: usize,
     /// `cos(k ω)` of the lower half of the bins, lag by lag: in the upper half they are the same, but for their sign at odd
     /// lags.
     cosines: Vec<f64>,
@@ -27,25 +27,25 @@ impl Bins {
         let n_bins = n_bins.next_multiple_of(2 * LANES);
         let angle = |lag: usize, bin: usize| PI * lag as f64 * (bin as f64 + 0.5) / n_bins as f64;
         let of_lag = |lag: usize| (0..n_bins / 2).map(move |bin| angle(lag, bin).cos());
-        Self { rate, n_bins, cosines: (0..=order).flat_map(of_lag).collect(), n_lags: order + 1 }
+        Self { rate, len: n_bins, cosines: (0..=order).flat_map(of_lag).collect(), n_lags: order + 1 }
     }
 
     /// How many there are.
     pub(super) fn len(&self) -> usize {
-        self.n_bins
+        self.len
     }
 
     /// Their middles.
     pub(super) fn frequencies(&self) -> Vec<Hertz> {
-        let share = |bin: usize| (bin as f64 + 0.5) / self.n_bins as f64;
-        (0..self.n_bins).map(|bin| Hertz(0.5 * self.rate.0 * share(bin))).collect()
+        let share = |bin: usize| (bin as f64 + 0.5) / self.len as f64;
+        (0..self.len).map(|bin| Hertz(0.5 * self.rate.0 * share(bin))).collect()
     }
 
     /// Autocorrelation of a signal with densities `e^ln_psd`, in (m/s²)², from lag zero on.
     pub(super) fn lags(&self, ln_psd: &[f32]) -> Vec<f64> {
-        let width_hz = 0.5 * self.rate.0 / self.n_bins as f64;
+        let width_hz = 0.5 * self.rate.0 / self.len as f64;
         let mut lags = vec![0.0; self.n_lags];
-        Arch::new().dispatch(Lags { bins: self, ln_psd, lags: &mut lags });
+        Arch::new().dispatch(Autocorrelation { bins: self, ln_psd, lags: &mut lags });
         for lag in &mut lags {
             *lag *= width_hz;
         }
@@ -53,19 +53,19 @@ impl Bins {
     }
 }
 
-struct Lags<'a> {
+struct Autocorrelation<'a> {
     bins: &'a Bins,
     ln_psd: &'a [f32],
     lags: &'a mut [f64],
 }
 
-impl WithSimd for Lags<'_> {
+impl WithSimd for Autocorrelation<'_> {
     type Output = ();
 
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
     fn with_simd<S: Simd>(self, _: S) {
-        let half = self.bins.n_bins / 2;
+        let half = self.bins.len / 2;
         let (low, high) = self.ln_psd.split_at(half);
         let (mut sums, mut differences) = (vec![0.0; half], vec![0.0; half]);
         for i in 0..half {
