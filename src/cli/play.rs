@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, bail};
 use serde_json::json;
 use shagreen_core::plane::Plane;
-use shagreen_core::render::{Traveler, path_mix, synth_blend};
-use shagreen_core::texture_path::TexturePath;
+use shagreen_core::render::{path_mix, synth_blend};
+use shagreen_core::texture_path::{TexturePath, Traveler};
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{ChannelMask, FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
@@ -176,7 +176,7 @@ impl<'a> Follow<'a> {
         let mut traveler = Traveler::new(path.along());
         let n_steps = (motion.seconds() / FOLLOW_STEP_SECS).ceil() as usize + 1;
         let traveled = (0..n_steps).map(|step| {
-            let now = traveler.traveled;
+            let now = traveler.traveled();
             traveler.go(motion.contact_at(FOLLOW_STEP_SECS * (step as f64 + 0.5)), FOLLOW_STEP_SECS);
             now
         });

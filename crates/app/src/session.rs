@@ -20,6 +20,7 @@ use shagreen_core::authoring::{Authored, Authoring};
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
+use shagreen_core::texture_path::Along;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
 use shagreen_device::output::OutputInfo;
@@ -95,7 +96,10 @@ pub struct Session {
     /// How many textures were made for points.
     n_made: u64,
     spectra: Spectra,
-    walk: PathWalk,
+    /// The stroke on the project's path, while that is played.
+    walk: Option<PathWalk>,
+    /// The stroke on the path that is heard alone, and which of the list that is.
+    walk_alone: Option<(usize, PathWalk)>,
     /// Where the stroke is on the path that is played.
     path_point: Option<SpacePoint>,
     player: Player,
@@ -134,7 +138,8 @@ impl Session {
             prepared: vec![None; planes.len()],
             incoming,
             sender,
-            walk: PathWalk::default(),
+            walk: None,
+            walk_alone: None,
             path_point: None,
             player: Player::new(library.textures.len()),
             built_in: None,
@@ -294,10 +299,11 @@ impl Session {
         // What is played along a path is no texture alone.
         let solo = project.solo.filter(|_| self.path_point.is_none());
         let at = self.path_point.unwrap_or(project.point);
-        let wanted = (at, project.heard_blending(), solo);
+        let key = self.follow_key(solo);
+        let wanted = (at, project.heard_blending(), solo, key);
         if self.player.wanted.as_ref() != Some(&wanted) {
             self.authored = match solo {
-                Some(texture) => Some(Authored::alone(texture, at, wanted.1.mode)),
+                Some(texture) => Some(self.alone(texture, key, at, wanted.1.mode)),
                 None => self.authoring.author(at, &wanted.1),
             };
             self.hear();
@@ -422,12 +428,12 @@ impl Session {
 
     /// Plays the path of the project from its beginning, or the point again.
     pub fn play_path(&mut self, is_played: bool) {
-        self.walk.set_playing(is_played);
+        self.walk = is_played.then(|| PathWalk::new(Along::default()));
     }
 
     /// Whether the texture follows the path.
     pub fn is_path_playing(&self) -> bool {
-        self.walk.is_playing()
+        self.walk.is_some()
     }
 
     /// Where the stroke is on the path, while one is played.

@@ -188,3 +188,29 @@ fn a_path_is_kept_as_a_texture() {
     harness.run_steps(3);
     assert_eq!(window(&harness).session().textures().len(), 25);
 }
+
+/// A path of the list that is heard alone changes along the stroke too.
+#[test]
+fn a_kept_path_is_heard_along_the_stroke() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    click(&mut harness, path::PATH);
+    click(&mut harness, &strings::go_to("Brick"));
+    click(&mut harness, &strings::go_to("Cotton weave"));
+    choose(&mut harness, path::ALONG, path::TIME);
+    choose(&mut harness, path::AT_END, path::HOLD);
+    harness.get_by_role_and_label(Role::SpinButton, path::LENGTH).set_value_accesskit(1.0);
+    harness.run_steps(2);
+    click(&mut harness, path::KEEP);
+    click(&mut harness, &strings::texture("New texture"));
+    assert_eq!(window(&harness).project().solo, Some(25));
+    let keys = window(&harness).session().textures()[25].path.as_ref().unwrap().keys().to_vec();
+    let heard = |h: &Author| window(h).session().authored().unwrap().model.clone().unwrap();
+    assert_eq!(heard(&harness), keys[0].model);
+    click(&mut harness, strings::HAND_START);
+    let last = keys[keys.len() - 1].model.clone();
+    wait(&mut harness, "it comes to the end of the path", |h| {
+        h.state().as_ref().unwrap().session().authored().unwrap().model.as_ref() == Some(&last)
+    });
+    assert!(window(&harness).session().n_loaded() <= 3);
+}

@@ -9,7 +9,7 @@ use shagreen_synth::voice::MAX_TICK;
 
 use crate::blend::Mode;
 use crate::plane::Prepared;
-use crate::texture_path::{Along, TexturePath};
+use crate::texture_path::{TexturePath, Traveler};
 use crate::units::{Contact, Hertz};
 
 /// How long the textures sound under the first contact before the first sample is kept, in seconds: the memory of a
@@ -158,8 +158,8 @@ pub struct PathPlan<'a> {
     pub seed: u64,
 }
 
-/// The acceleration in m/s² that a stylus would feel on a texture that changes along its stroke: what is traveled counts
-/// from the first sample on, while the tip touches.
+/// The acceleration in m/s² that a stylus would feel on a texture that changes along its stroke; each landing begins a new
+/// one.
 ///
 /// # Errors
 /// See [`RenderError`].
@@ -179,7 +179,7 @@ pub fn render_path(
     let traveled: Vec<f64> = (0..n_steps)
         .map(|step| {
             let from_secs = step as f64 * MIX_STEP_SECS;
-            let now = traveler.traveled;
+            let now = traveler.traveled();
             traveler.go(contact_at(from_secs + 0.5 * MIX_STEP_SECS), MIX_STEP_SECS);
             now
         })
@@ -200,31 +200,6 @@ pub fn path_mix(path: &TexturePath, traveled: f64) -> Mix {
         mix.parents[1] = Parent { id: key as TextureId + 1, weight: share as f32 };
     }
     mix
-}
-
-/// What a tip has traveled along a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Traveler {
-    along: Along,
-    /// In m or s.
-    pub traveled: f64,
-}
-
-impl Traveler {
-    /// At the beginning.
-    pub fn new(along: Along) -> Self {
-        Self { along, traveled: 0.0 }
-    }
-
-    /// The tip is like this for so long: in the air it travels nothing.
-    pub fn go(&mut self, contact: Contact, secs: f64) {
-        if contact.force.0 > 0.0 {
-            self.traveled += match self.along {
-                Along::Distance => contact.speed.0.abs() * secs,
-                Along::Time => secs,
-            };
-        }
-    }
 }
 
 /// How long a mix stays: as long as a fade takes, so that one ends as the next begins.

@@ -6,6 +6,7 @@
 use crate::authoring::{Authoring, Blending};
 use crate::space::SpacePoint;
 use crate::texture::TextureModel;
+use crate::units::Contact;
 
 /// Largest distance of neighboring keys in the space, in points of the axes.
 const KEY_STEP: f64 = 4.0;
@@ -15,10 +16,10 @@ pub const MAX_KEYS: usize = 48;
 /// What is counted along a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Along {
-    /// What the tip has traveled while it touched, in m.
+    /// What the tip has traveled since it landed, in m.
     #[default]
     Distance,
-    /// How long it has touched, in s.
+    /// How long ago it landed, in s.
     Time,
 }
 
@@ -279,6 +280,42 @@ impl TexturePath {
     }
 }
 
+/// How far a stroke has come along a path: while it touches it goes on, in the air it stands still, and each landing begins
+/// a new stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Traveler {
+    along: Along,
+    traveled: f64,
+    touches: bool,
+}
+
+impl Traveler {
+    /// Before the first landing.
+    pub fn new(along: Along) -> Self {
+        Self { along, traveled: 0.0, touches: false }
+    }
+
+    /// How far the stroke has come, in m or s.
+    pub fn traveled(&self) -> f64 {
+        self.traveled
+    }
+
+    /// The tip is like this for so long.
+    pub fn go(&mut self, contact: Contact, secs: f64) {
+        let touches = contact.force.0 > 0.0;
+        if touches && !self.touches {
+            self.traveled = 0.0;
+        }
+        self.touches = touches;
+        if touches {
+            self.traveled += match self.along {
+                Along::Distance => contact.speed.0.abs() * secs,
+                Along::Time => secs,
+            };
+        }
+    }
+}
+
 /// Whether places along a stroke are a way.
 fn check(along: impl ExactSizeIterator<Item = f64>) -> Result<(), TexturePathError> {
     let n = along.len();
@@ -323,10 +360,11 @@ fn mean(from: SpacePoint, to: SpacePoint, share: f64) -> SpacePoint {
 
 #[cfg(test)]
 mod tests {
-    use super::{Along, AtEnd, Key, MAX_KEYS, Route, Stop, TexturePath, TexturePathError};
+    use super::{Along, AtEnd, Key, MAX_KEYS, Route, Stop, TexturePath, TexturePathError, Traveler};
     use crate::authoring::tests::world;
     use crate::blend::Mode;
     use crate::space::SpacePoint;
+    use crate::units::Contact;
 
     fn stop(rs: f64, hs: f64, along: f64) -> Stop {
         Stop { at: SpacePoint::new(rs, hs).unwrap(), along }
@@ -412,6 +450,20 @@ mod tests {
         let key = |along: f64| Key { stop: stop(1.0, 1.0, along), is_stop: true, model: model.clone() };
         assert!(TexturePath::new(Along::Time, AtEnd::Hold, vec![key(0.0), key(1.0)]).is_ok());
         assert!(TexturePath::new(Along::Time, AtEnd::Hold, vec![key(1.0), key(0.0)]).is_err());
+    }
+
+    #[test]
+    fn a_stroke_counts_its_way_or_its_time_and_each_landing_begins_anew() {
+        let [down, up] = [1.0, 0.0].map(|force_n| Contact::from_mm_per_s_and_n(200.0, force_n));
+        for (along, want) in [(Along::Distance, 0.1), (Along::Time, 0.5)] {
+            let mut traveler = Traveler::new(along);
+            (0..25).for_each(|_| traveler.go(down, 0.02));
+            assert!((traveler.traveled() - want).abs() < 1e-12, "{}", traveler.traveled());
+            (0..9).for_each(|_| traveler.go(up, 0.02));
+            assert!((traveler.traveled() - want).abs() < 1e-12, "a lifted tip stays");
+            traveler.go(down, 0.02);
+            assert!((traveler.traveled() - 0.04 * want).abs() < 1e-12, "{}", traveler.traveled());
+        }
     }
 
     #[test]

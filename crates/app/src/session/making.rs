@@ -3,25 +3,59 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use shagreen_core::authoring::Authored;
+use shagreen_core::blend::Mode;
 use shagreen_core::space::SpacePoint;
+use shagreen_device::touch::Touch;
 
 use super::Session;
 use super::heard::Heard;
 use super::models_ahead::{Ingredients, Job};
+use super::path_walk::PathWalk;
 use crate::drawn_path::DrawnPath;
 
 impl Session {
     /// Where the stroke is on the path, while one is played.
     pub(super) fn follow_path(&mut self, path: Option<&DrawnPath>) -> Option<SpacePoint> {
-        if !self.walk.is_playing() {
-            return None;
-        }
+        let touch = self.touch();
+        let walk = self.walk.as_mut()?;
         let Some(route) = path.and_then(DrawnPath::route) else {
-            self.walk.set_playing(false);
+            self.walk = None;
             return None;
         };
-        self.walk.advance(self.touch(), route.along(), Instant::now());
-        Some(route.point_at(self.walk.traveled()))
+        // What is counted may have been changed meanwhile.
+        if walk.along() != route.along() {
+            *walk = PathWalk::new(route.along());
+        }
+        walk.advance(touch, Instant::now());
+        Some(route.point_at(walk.traveled()))
+    }
+
+    /// The texture of the path that is heard alone, where the stroke is on it; `None` where what is heard alone is no path.
+    pub(super) fn follow_key(&mut self, solo: Option<usize>) -> Option<usize> {
+        let Some((texture, path)) =
+            solo.and_then(|texture| Some((texture, self.library.textures[texture].path.as_ref()?)))
+        else {
+            self.walk_alone = None;
+            return None;
+        };
+        let touch = self.player.status.map_or(Touch::default(), |status| status.touch);
+        let (of, walk) = self.walk_alone.get_or_insert_with(|| (texture, PathWalk::new(path.along())));
+        if *of != texture {
+            (*of, *walk) = (texture, PathWalk::new(path.along()));
+        }
+        walk.advance(touch, Instant::now());
+        Some(walk.nearest_key(path))
+    }
+
+    /// What is heard alone: the texture, or that of its path where the stroke is.
+    pub(super) fn alone(&self, texture: usize, key: Option<usize>, at: SpacePoint, mode: Mode) -> Authored {
+        let alone = Authored::alone(texture, at, mode);
+        let path = self.library.textures[texture].path.as_ref();
+        match path.zip(key).and_then(|(path, key)| path.keys().get(key)) {
+            Some(key) => Authored { mode: Mode::Field, model: Some(key.model.clone()), lock: None, ..alone },
+            None => alone,
+        }
     }
 
     /// What was authored is heard. Where what its mode needs is not there yet, what sounded goes on.

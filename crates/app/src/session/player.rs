@@ -71,8 +71,8 @@ struct MadeSlots {
 
 /// An output and everything that is on its way to it.
 pub(super) struct Player {
-    /// What the mix was last worked out for: the point, the blending, and what is heard alone.
-    pub(super) wanted: Option<(SpacePoint, Blending, Option<usize>)>,
+    /// What the mix was last worked out for: the point, the blending, what is heard alone, and where on its path.
+    pub(super) wanted: Option<(SpacePoint, Blending, Option<usize>, Option<usize>)>,
     pub(super) mix_is_new: bool,
     pub(super) outputs: Vec<OutputInfo>,
     pub(super) output_id: Option<String>,
