@@ -51,6 +51,7 @@ fn a_locked_texture_is_itself_at_its_own_place() {
     let locked = psd(&bench, &format!("--at {at} --lock denim"));
     assert!(difference_db(&own, &locked) < 1e-6, "{}", difference_db(&own, &locked));
     assert!(difference_db(&own, &smoothed) > 0.3);
+    assert_eq!(parents(&locked), [("denim".to_owned(), 1.0)]);
     bench.fails("texture psd --at 1,1 --speed 1 --force 1 --lock dennim", 1, &["dennim", "denim"]);
 }
 
@@ -89,8 +90,8 @@ fn a_path_is_one_texture_that_changes_along_the_stroke() {
         (&"way".into(), &"mm".into(), &"distance".into())
     );
     assert!(made["keys"].as_u64().unwrap() >= 13, "{made}");
-    bench.json("render --library way.json --texture way --speed 100 --force 1 --seconds 2 -o way.wav");
-    let (signal, rate_hz) = bench.wav("way.wav");
+    bench.json("render --library way.json --texture way --speed 100 --force 1 --seconds 2 -o sound.wav");
+    let (signal, rate_hz) = bench.wav("sound.wav");
     let level = |from: f64, to: f64| rms(&signal[(from * rate_hz) as usize..(to * rate_hz) as usize]);
     let ends = ["20,40", "75,35"].map(|at| {
         bench.json(&format!("texture psd --at {at} --speed 100 --force 1"))["rms"].as_f64().unwrap()
@@ -103,6 +104,15 @@ fn a_path_is_one_texture_that_changes_along_the_stroke() {
     let list = bench.json("library list --library way.json");
     assert_eq!(list["textures"].as_array().unwrap().len(), 1);
     bench.json("play --library way.json --texture way --speed 100 --force 1 --seconds 0.3");
+
+    // What was a path may be replaced by another one; what was not may not.
+    bench.json("texture path --stop 20,40@0 --stop 75,35@50 --name Way -o way.json");
+    bench.json("library places --out places.csv");
+    bench.json("space place --attributes places.csv --source physical --out mine.json");
+    bench.fails("texture path --stop 20,40@0 --stop 75,35@50 -o mine.json", 1, &["mine.json"]);
+    let lost =
+        bench.json("export --library way.json --texture way --format hatt -o way.xml")["lost"].to_string();
+    assert!(lost.contains("along the stroke"), "{lost}");
 
     bench.fails("texture path --stop 20,40@0 -o x.json", 1, &["at least two"]);
     bench.fails("texture path --stop 20,40@0 --stop 30,40@0 -o x.json", 1, &["point 2"]);

@@ -5,11 +5,15 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use shagreen_formats::{library, wav};
 
-/// Refuses an output that is one of the inputs.
+/// Refuses an output that is one of the inputs, or a file of an input folder.
 pub(crate) fn refuse_inputs(outputs: &[&Path], inputs: &[Option<&Path>]) -> anyhow::Result<()> {
     let real = |path: &Path| -> Option<PathBuf> { path.canonicalize().ok() }; // What does not exist is nobody's input.
     for output in outputs {
-        let is_it = |input: &&Path| real(output).is_some_and(|o| real(input) == Some(o));
+        let is_it = |input: &&Path| {
+            real(output).is_some_and(|o| {
+                real(input).is_some_and(|i| i == o || (i.is_dir() && o.parent() == Some(&i)))
+            })
+        };
         if let Some(input) = inputs.iter().flatten().find(|input| is_it(input)) {
             bail!("this would write over the file that is read; choose another name: {}", input.display());
         }

@@ -136,7 +136,13 @@ impl SoundArgs {
 impl BlendArgs {
     /// What the arguments ask for.
     pub(crate) fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
-        let index = |id: &String| library.index_of(id).with_context(|| unknown_texture(library, id));
+        let index = |id: &String| {
+            let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
+            if library.textures[index].place.is_none() {
+                bail!("\"{id}\" has no place in the space, so there is nothing to lock; place it first");
+            }
+            Ok(index)
+        };
         let blending = Blending {
             mode: self.blend,
             weights: if self.natural { Weights::Natural } else { Weights::default() },

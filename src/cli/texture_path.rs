@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use serde_json::json;
-use shagreen_core::authoring::Authoring;
+use shagreen_core::authoring::{Authoring, Blending};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd, Route, Stop, TexturePath};
 use shagreen_formats::atomic;
-use shagreen_formats::library::{Library, Provenance, write_library};
+use shagreen_formats::library::{Library, Provenance, read_library, write_library};
 
-use crate::cli::guard::{is_library, refuse_foreign, refuse_inputs};
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::motion::quantity;
 use crate::cli::output;
@@ -51,7 +51,7 @@ fn parse_stop(text: &str) -> Result<(SpacePoint, f64), String> {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[args.library.path()])?;
-    refuse_foreign(&args.out, "a library", is_library)?;
+    refuse_foreign(&args.out, "a path", is_path)?;
     let library = load(&args.library)?;
     let blending = args.blending.blending(&library)?;
     let along = Along::from_id(&args.along).unwrap_or_default();
@@ -60,14 +60,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let route = Route::new(along, AtEnd::from_id(&args.at_end).unwrap_or_default(), stops)?;
     let authoring = authoring(&library, blending.mode)?;
     let path = TexturePath::of_route(&authoring, &route, &blending)?;
-    let n_clamped = n_outside(&authoring, &route);
-    if n_clamped > 0 {
-        output::warn(&format!(
-            "{n_clamped} of the points lie outside the textures of the library; the nearest points among them are used"
-        ));
-    }
+    let (n_clamped, n_extrapolated) = outside(&authoring, &path, &blending);
     let (n_keys, length) = (path.keys().len(), path.length() / unit.0);
-    let made = made(&library, &args.name, path);
+    let of: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
+    let made = made(&library, &args.name, path, &of);
     let id = made.textures[0].id.clone();
     let is_restricted = made.textures[0].provenance == Provenance::Restricted;
     let warning =
@@ -81,23 +77,48 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         args.json,
         &json!({
             "out": file, "id": id, "keys": n_keys, "length": length, "unit": unit.1,
-            "along": args.along, "at_end": args.at_end, "blend": blending.mode.id(),
+            "along": args.along, "at_end": args.at_end, "blend": blending.mode.id(), "clamped": n_clamped, "extrapolated": n_extrapolated,
             "warnings": warning.into_iter().collect::<Vec<_>>(),
         }),
-        || format!("Wrote \"{id}\", {n_keys} textures over {length} {}: {file}", unit.1),
+        || format!("Wrote \"{id}\", {length} {} long, {n_keys} textures along it: {file}", unit.1),
     );
     Ok(())
 }
 
-/// How many stops lie outside the textures.
-fn n_outside(authoring: &Authoring, route: &Route) -> usize {
-    let is_outside = |stop: &&Stop| authoring.space().locate(stop.at).is_some_and(|l| l.clamped);
-    route.stops().iter().filter(is_outside).count()
+/// How many keys lie outside the textures and were moved to where there is a texture, and how many were extrapolated;
+/// both are said.
+fn outside(authoring: &Authoring, path: &TexturePath, blending: &Blending) -> (usize, usize) {
+    let authored = path.keys().iter().filter_map(|key| authoring.author(key.stop.at, blending));
+    let (mut n_clamped, mut n_extrapolated) = (0, 0);
+    for authored in authored {
+        n_clamped += usize::from(authored.location.clamped);
+        n_extrapolated += usize::from(authored.is_extrapolated);
+    }
+    if n_clamped > 0 {
+        output::warn(&format!(
+            "{n_clamped} of {} textures along the path lie outside the textures of the library; the nearest points that \
+             they support are used",
+            path.keys().len()
+        ));
+    }
+    if n_extrapolated > 0 {
+        output::warn(&format!(
+            "{n_extrapolated} of {} textures along the path are extrapolated: nothing was measured there",
+            path.keys().len()
+        ));
+    }
+    (n_clamped, n_extrapolated)
+}
+
+/// Whether a file is a library of one path, which a newer one may replace.
+fn is_path(bytes: &[u8]) -> bool {
+    let Ok(library) = read_library(bytes) else { return false };
+    matches!(&library.value.textures[..], [only] if only.path.is_some())
 }
 
 /// A library of the path alone.
-fn made(library: &Library, name: &str, path: TexturePath) -> Library {
-    let entry = library.entry_of_path(name, path);
+fn made(library: &Library, name: &str, path: TexturePath, of: &[usize]) -> Library {
+    let entry = library.entry_of_path(name, path, of);
     Library {
         name: name.to_owned(),
         origin: entry.origin.clone(),

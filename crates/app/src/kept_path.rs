@@ -16,5 +16,6 @@ pub(crate) fn kept_path(
 ) -> Option<Result<TextureEntry, TexturePathError>> {
     let route = project.path.as_ref()?.route()?;
     let made = TexturePath::of_route(session.authoring(), &route, &project.heard_blending());
-    Some(made.map(|path| session.library().entry_of_path(&project.name, path)))
+    let of: Vec<usize> = session.space().sites().iter().map(|(texture, _)| *texture).collect();
+    Some(made.map(|path| session.library().entry_of_path(&project.name, path, &of)))
 }

@@ -292,7 +292,10 @@ impl Session {
                 self.authoring = self.authoring.clone().with_models(models);
                 self.player.wanted = None;
             }
-            Some(Err(reason)) => self.player.message = Some(reason),
+            Some(Err(reason)) => {
+                self.player.message = Some(reason);
+                self.player.wanted = None;
+            }
             None => {}
         }
         self.path_point = self.follow_path(project.path.as_ref());

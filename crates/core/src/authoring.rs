@@ -89,6 +89,12 @@ impl Blending {
     }
 }
 
+/// Weights smaller than this are rounding, and left out.
+const LEAST_WEIGHT: f64 = 1e-12;
+
+/// Distance from the hull, in points of the axes, below which stolen areas reach to infinity and digits are lost.
+const NEAR_HULL: f64 = 1e-3;
+
 /// Radius around a locked texture within which the field gives way to it, in points of the axes.
 const LOCK_RADIUS: f64 = 8.0;
 
@@ -139,8 +145,14 @@ impl Authored {
         }
         let locked = self.lock.map_or(0.0, |(_, share)| share);
         let lock = self.lock.map(|(texture, share)| (Voice::Texture(texture), share));
-        let made = self.model.as_ref().map(|model| (Voice::Made(model), 1.0 - locked));
-        made.into_iter().chain(lock).filter(|(_, share)| *share > 0.0).collect()
+        match &self.model {
+            Some(model) => {
+                let made = (Voice::Made(model), 1.0 - locked);
+                [Some(made), lock].into_iter().flatten().filter(|(_, share)| *share > 0.0).collect()
+            }
+            // Without the rest, a part of a locked texture would only be too quiet.
+            None => lock.filter(|(_, share)| *share == 1.0).into_iter().collect(),
+        }
     }
 
     /// How the voices are mixed: what was made is one signal, and joins a locked texture under one excitation.
@@ -197,6 +209,7 @@ impl Authoring {
                     Weights::Barycentric => corners.clone(),
                     Weights::Natural => self.natural_weights(&authored.location),
                 };
+                // A mean of textures is one; should rounding make it none, there is nothing to hear.
                 authored.model = models.and_then(|models| models.mean(&authored.parents).ok());
             }
             Mode::Field => {
@@ -205,18 +218,36 @@ impl Authoring {
                         Outside::Clamped => authored.location.at,
                         Outside::Extrapolated => models.supported(authored.location.at, point),
                     };
-                    authored.is_extrapolated = reached != authored.location.at;
+                    authored.is_extrapolated = reached.distance(authored.location.at) > 1e-9;
                     authored.location.clamped = reached.distance(point) > 1e-9;
                     authored.location.at = reached;
                     authored.parents = models.weights(reached);
-                    authored.model = models.texture(reached).ok();
+                    // Far from all textures a spectrum may be beyond what a texture may be: then nothing is heard.
+                    authored.model = models.texture(reached, None).ok();
                     authored.lock = self.lock(reached, &blending.locked);
+                    if let Some((locked, share)) = authored.lock {
+                        for (texture, weight) in &mut authored.parents {
+                            *weight *= 1.0 - share;
+                            *weight += if *texture == locked { share } else { 0.0 };
+                        }
+                    }
                 }
             }
         }
-        authored.parents.retain(|(_, w)| *w != 0.0);
+        authored.parents.retain(|(_, w)| w.abs() > LEAST_WEIGHT);
         authored.parents.sort_by(|a, b| b.1.total_cmp(&a.1));
         Some(authored)
+    }
+
+    /// The texture at `point` as one model, in the modes that make one: near a locked texture the field's and its own
+    /// spectrum are averaged, where [`Authoring::author`] mixes both. `None` where there is none.
+    pub fn model(&self, point: SpacePoint, blending: &Blending) -> Option<TextureModel> {
+        let authored = self.author(point, blending)?;
+        match (authored.lock, self.models.as_deref()) {
+            // As in `author`.
+            (Some(lock), Some(models)) => models.texture(authored.location.at, Some(lock)).ok(),
+            _ => authored.model,
+        }
     }
 
     /// Weights by stolen area. On the hull, where that is infinite, they are those of its edge.
@@ -226,7 +257,7 @@ impl Authoring {
             let places: Vec<_> = sites.iter().map(|(_, at)| at.xy()).collect();
             NaturalNeighbors::new(&places).ok().map(Arc::new)
         });
-        let is_inside = !location.clamped && location.corners.iter().all(|(_, w)| *w > 1e-6);
+        let is_inside = !location.clamped && self.space.hull_distance(location.at) > NEAR_HULL;
         let weights = match natural {
             Some(natural) if is_inside => natural.weights(location.at.xy()),
             _ => Vec::new(),
@@ -246,14 +277,10 @@ impl Authoring {
             .collect();
         let distance = |(_, p): &&(usize, SpacePoint)| p.distance(at);
         let (texture, place) = placed.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        let others = placed.iter().filter(|(other, _)| other != texture);
-        let radius = others.map(|(_, p)| 0.5 * p.distance(*place)).fold(LOCK_RADIUS, f64::min);
+        // Of two that lie at one place the first is met.
+        let others = placed.iter().map(|(_, p)| p.distance(*place)).filter(|distance| *distance > 1e-9);
+        let radius = others.map(|distance| 0.5 * distance).fold(LOCK_RADIUS, f64::min);
         let share = at.distance(*place) / radius;
-        if share < 1.0 {
-            Some((*texture, (1.0 - share * share).powi(2)))
-        } else {
-            // Of two that lie at one place the first is met.
-            (at.distance(*place) < 1e-9).then_some((*texture, 1.0))
-        }
+        (share < 1.0).then(|| (*texture, (1.0 - share * share).powi(2)))
     }
 }

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::sampled::{SampledGrain, Sampling};
-use crate::smoother::{Smoother, Surface};
+use crate::smoother::{Smoother, Surface, scattered};
 use crate::tap::Tap;
 use crate::texture::{TextureModel, TextureModelError};
 use crate::triangulation::Xy;
@@ -18,12 +18,15 @@ use crate::units::Hertz;
 /// Most components, and the share of the variance that they need not hold.
 const MOST_COMPONENTS: usize = 24;
 const LEFT_OUT: f64 = 0.0005;
-/// Textures from which components are found, evenly chosen where there are more.
+/// Textures from which components are found, chosen by chance where there are more.
 const MOST_FOR_COMPONENTS: usize = 200;
 /// Share of a component's range that a place may lie beyond all textures.
 const BEYOND: f64 = 0.25;
 /// Friction coefficients below this are told apart from nothing.
 pub(crate) const LEAST_FRICTION: f64 = 1e-3;
+/// Frequency in Hz, decay in 1/s and amplitude in m/s² of a landing below which nothing is felt: what is less counts as
+/// this, since logarithms of next to nothing would outweigh everything.
+const LEAST_TAP: [f64; 3] = [1.0, 1.0, 1e-3];
 /// Halvings of the way to the limit of extrapolation.
 const N_HALVINGS: usize = 8;
 
@@ -35,11 +38,34 @@ pub(crate) struct Field {
     mean: Vec<f32>,
     /// Components, each as long as the mean, one after the other.
     components: Vec<f32>,
-    /// Lowest and highest score of each component that a place may have.
+    scores: Limited,
+    friction: Option<Limited>,
+    tap: Option<Limited>,
+}
+
+/// Smooth surfaces that keep within what was measured, and a little beyond.
+#[derive(Clone, Debug)]
+struct Limited {
+    surface: Surface,
+    /// Lowest and highest value of each.
     limits: Vec<(f64, f64)>,
-    scores: Surface,
-    friction: Option<Surface>,
-    tap: Option<Surface>,
+}
+
+impl Limited {
+    /// The surfaces over values, a row for each place.
+    fn new(smoother: &Smoother, values: &DMatrix<f64>) -> Self {
+        let limits = values.column_iter().map(|values| {
+            let (low, high) = (values.min(), values.max());
+            let room = BEYOND * (high - low);
+            (low - room, high + room)
+        });
+        Self { limits: limits.collect(), surface: smoother.surface(values) }
+    }
+
+    fn at(&self, at: Xy) -> Vec<f64> {
+        let values = self.surface.at(at).into_iter().zip(&self.limits);
+        values.map(|(value, (low, high))| value.clamp(*low, *high)).collect()
+    }
 }
 
 /// What a field is made of: a texture at its place.
@@ -68,14 +94,8 @@ impl Field {
         let scores = centered.transpose() * &components;
         let places: Vec<Xy> = sites.iter().map(|site| site.at).collect();
         let smoother = Smoother::fitted(&places, &scores)?;
-        let limits = scores.column_iter().map(|scores| {
-            let (low, high) = (scores.min(), scores.max());
-            let room = BEYOND * (high - low);
-            (low - room, high + room)
-        });
         Some(Self {
-            limits: limits.collect(),
-            scores: smoother.surface(&scores),
+            scores: Limited::new(&smoother, &scores),
             components: components.iter().map(|x| *x as f32).collect(),
             mean: mean.into_iter().map(|x| x as f32).collect(),
             smoother,
@@ -84,18 +104,36 @@ impl Field {
         })
     }
 
-    /// The texture at a place of the unit square.
+    /// The texture at a place of the unit square, or so far on the way to a texture of its own.
     ///
     /// # Errors
     /// See [`TextureModelError`]: what lies far from all textures may be no texture.
-    pub(crate) fn texture(&self, sampling: &Sampling, at: Xy) -> Result<TextureModel, TextureModelError> {
-        let scores = self.scores.at(at).into_iter().zip(&self.limits);
-        let scores: Vec<f32> = scores.map(|(score, (low, high))| score.clamp(*low, *high) as f32).collect();
+    pub(crate) fn texture(
+        &self,
+        sampling: &Sampling,
+        at: Xy,
+        towards: Option<(Site<'_>, f64)>,
+    ) -> Result<TextureModel, TextureModelError> {
+        let scores: Vec<f32> = self.scores.at(at).into_iter().map(|score| score as f32).collect();
         let mut ln_psd = self.mean.clone();
         Arch::new().dispatch(AddAll { scores: &scores, components: &self.components, to: &mut ln_psd });
-        let friction = self.friction.as_ref().map(|surface| surface.at(at)[0].exp());
-        let tap = self.tap.as_ref().map(|surface| tap_from_ln(&surface.at(at)));
-        sampling.texture_of_spectra(&ln_psd, friction, tap)
+        let mut ln_friction = self.friction.as_ref().map(|surface| surface.at(at)[0]);
+        let mut tap = self.tap.as_ref().map(|surface| surface.at(at));
+        if let Some((own, share)) = towards {
+            let mix = |field: f64, own: f64| field + share * (own - field);
+            for (field, own) in ln_psd.iter_mut().zip(&own.grain.ln_psd) {
+                *field += share as f32 * (own - *field);
+            }
+            if let (Some(field), Some(own)) = (&mut ln_friction, own.friction) {
+                *field = mix(*field, own.max(LEAST_FRICTION).ln());
+            }
+            if let (Some(field), Some(own)) = (&mut tap, own.tap) {
+                for (field, own) in field.iter_mut().zip(ln_tap(own)) {
+                    *field = mix(*field, own);
+                }
+            }
+        }
+        sampling.texture_of_spectra(&ln_psd, ln_friction.map(f64::exp), tap.map(|tap| tap_from_ln(&tap)))
     }
 
     /// What each texture says about a place, in the order of the sites: they sum to one, and some may be below zero.
@@ -112,16 +150,21 @@ impl Field {
     /// no more than in a copy of one texture, `Σ w² ≤ 1`.
     pub(crate) fn supported(&self, inside: Xy, to: Xy) -> Xy {
         let along = |t: f64| [0, 1].map(|axis| inside[axis] + t * (to[axis] - inside[axis]));
-        let is_supported = |at: Xy| self.weights(at).iter().map(|w| w * w).sum::<f64>() <= 1.0;
-        if is_supported(to) {
+        let noise = |at: Xy| self.weights(at).iter().map(|w| w * w).sum::<f64>();
+        let (mut near, mut far) = ((0.0, noise(inside)), (1.0, noise(to)));
+        if far.1 <= 1.0 {
             return to;
         }
-        let (mut near, mut far) = (0.0, 1.0);
-        for _ in 0..N_HALVINGS {
-            let middle = 0.5 * (near + far);
-            if is_supported(along(middle)) { near = middle } else { far = middle }
+        if near.1 > 1.0 {
+            return inside;
         }
-        along(near)
+        for _ in 0..N_HALVINGS {
+            let middle = 0.5 * (near.0 + far.0);
+            let there = (middle, noise(along(middle)));
+            if there.1 <= 1.0 { near = there } else { far = there }
+        }
+        // A straight line through the last two: without it the limit would move in steps.
+        along(near.0 + (far.0 - near.0) * (1.0 - near.1) / (far.1 - near.1))
     }
 }
 
@@ -149,8 +192,7 @@ impl WithSimd for AddAll<'_> {
 
 /// The principal components of spectra, a column for each texture; a column of unit length for each.
 fn components(centered: &DMatrix<f64>) -> DMatrix<f64> {
-    let step = centered.ncols().div_ceil(MOST_FOR_COMPONENTS).max(1);
-    let kept: Vec<usize> = (0..centered.ncols()).step_by(step).collect();
+    let kept = scattered(centered.ncols(), MOST_FOR_COMPONENTS);
     let sample = centered.select_columns(&kept);
     let eigen = SymmetricEigen::new(sample.transpose() * &sample);
     let mut order: Vec<usize> = (0..kept.len()).collect();
@@ -171,18 +213,23 @@ fn components(centered: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// A surface over the sites where something is known.
-fn over_known(sites: &[Site<'_>], known: impl Fn(&Site<'_>) -> Option<Vec<f64>>) -> Option<Surface> {
+fn over_known(sites: &[Site<'_>], known: impl Fn(&Site<'_>) -> Option<Vec<f64>>) -> Option<Limited> {
     let rows: Vec<(Xy, Vec<f64>)> =
         sites.iter().filter_map(|site| known(site).map(|row| (site.at, row))).collect();
     let width = rows.first()?.1.len();
     let places: Vec<Xy> = rows.iter().map(|(at, _)| *at).collect();
     let values = DMatrix::from_fn(rows.len(), width, |i, j| rows[i].1[j]);
-    Some(Smoother::fitted(&places, &values)?.surface(&values))
+    Some(Limited::new(&Smoother::fitted(&places, &values)?, &values))
 }
 
 /// A landing as numbers that are averaged: logarithms, since stiffness and damping run over decades.
 pub(crate) fn ln_tap(tap: Tap) -> [f64; 3] {
-    [tap.frequency.0, tap.decay_per_sec, tap.amplitude_mps2].map(|x| x.max(f64::MIN_POSITIVE).ln())
+    let [frequency_hz, decay_per_sec, amplitude_mps2] = LEAST_TAP;
+    [
+        tap.frequency.0.max(frequency_hz).ln(),
+        tap.decay_per_sec.max(decay_per_sec).ln(),
+        tap.amplitude_mps2.max(amplitude_mps2).ln(),
+    ]
 }
 
 /// The landing of averaged numbers.

@@ -25,7 +25,8 @@ impl NaturalNeighbors {
     /// Index and weight of each natural neighbor of a point of the plane, by index; weights are at least zero and sum to
     /// one. Empty outside the hull, or where a coordinate is not finite.
     pub fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
-        if !at.iter().all(|c| c.is_finite()) {
+        // Two points have no triangle for the point to be in.
+        if !at.iter().all(|c| c.is_finite()) || self.delaunay.num_inner_faces() == 0 {
             return Vec::new();
         }
         let mut found = Vec::new();
@@ -35,6 +36,9 @@ impl NaturalNeighbors {
             .map(|(vertex, weight)| (self.delaunay.vertex(vertex).data().index, weight.max(0.0)))
             .collect();
         let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        if !(sum > 0.0 && sum.is_finite()) {
+            return Vec::new();
+        }
         for (_, weight) in &mut weights {
             *weight /= sum;
         }
@@ -70,6 +74,8 @@ mod tests {
         assert!(weights.len() == 4 && weights.iter().all(|(_, w)| (w - 0.25).abs() < 1e-12), "{weights:?}");
         assert_eq!(square.weights([1.0, 1.0]), [(2, 1.0)]);
         assert!(square.weights([2.0, 2.0]).is_empty() && square.weights([f64::NAN, 0.0]).is_empty());
+        assert!(NaturalNeighbors::new(&[[0.5, 0.5]]).unwrap().weights([0.5, 0.5]).is_empty());
+        assert!(NaturalNeighbors::new(&[[0.0, 0.0], [1.0, 1.0]]).unwrap().weights([0.5, 0.5]).is_empty());
         assert!(NaturalNeighbors::new(&[]).unwrap().weights([0.0, 0.0]).is_empty());
         assert!(NaturalNeighbors::new(&[[f64::NAN, 0.0]]).is_err());
     }

@@ -1,7 +1,6 @@
 //! Linear radial basis functions through scattered points of a plane.
 //!
-//! `s(q) = Σ λ_i φ(|q - q_i|) + c_0 + c_1 x + c_2 y` with `φ(r) = -r` and `Σ λ_i = Σ λ_i x_i = Σ λ_i y_i = 0`
-//! ([`Kernel::Linear`]).
+//! `s(q) = Σ λ_i φ(|q - q_i|) + c_0 + c_1 x + c_2 y` with `φ(r) = -r` and `Σ λ_i = Σ λ_i x_i = Σ λ_i y_i = 0`.
 
 mod basis;
 

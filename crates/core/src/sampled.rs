@@ -25,8 +25,6 @@ const GAP: f64 = 1e-4;
 /// Density below which nothing is told apart, in (m/s²)²/Hz: its root over 500 Hz is a hundred-thousandth of what a
 /// finger feels.
 const FLOOR_PSD: f64 = 1e-15;
-/// Level below which a texture is silent, in m/s².
-const FLOOR_MPS2: f64 = 1e-6;
 
 /// What of a texture is blended.
 #[derive(Clone, Copy, Debug)]
@@ -89,10 +87,20 @@ impl Sampling {
             let psd = grain.psd(&self.frequencies);
             let ln_psd: Vec<f32> = psd.iter().map(|p| p.max(FLOOR_PSD).ln() as f32).collect();
             sampled.lsf.extend(self.frequencies_of(&grain, &ln_psd));
-            sampled.ln_level.push(grain.level_mps2.max(FLOOR_MPS2).ln());
+            sampled.ln_level.push(grain.level_mps2.max(self.floor_mps2()).ln());
             sampled.ln_psd.extend(ln_psd);
         }
         sampled
+    }
+
+    /// Level of a texture whose density is at the floor everywhere, in m/s²: what is about as quiet was silent.
+    fn floor_mps2(&self) -> f64 {
+        (FLOOR_PSD * 0.5 * self.rate.0).sqrt()
+    }
+
+    fn node(&self, at: Contact, lsf: &[f64], level_mps2: f64) -> GrainNode {
+        let level_mps2 = if level_mps2 < 2.0 * self.floor_mps2() { 0.0 } else { level_mps2 };
+        GrainNode { speed: at.speed, force: at.force, lsf: repair_to(lsf, GAP), level_mps2 }
     }
 
     /// Line spectral frequencies at the common order: a predictor is filled up with zeros, which change nothing; with a
@@ -132,7 +140,7 @@ impl Sampling {
         let spectra = ln_psd.chunks_exact(self.bins.len());
         let nodes = self.contacts.iter().zip(spectra).map(|(at, ln_psd)| {
             let (lsf, level_mps2) = self.fit(ln_psd);
-            node(*at, &lsf, level_mps2)
+            self.node(*at, &lsf, level_mps2)
         });
         Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))
     }
@@ -149,15 +157,9 @@ impl Sampling {
         tap: Option<Tap>,
     ) -> Result<TextureModel, TextureModelError> {
         let nodes = self.contacts.iter().zip(lsf.chunks_exact(self.order)).zip(ln_level);
-        let nodes = nodes.map(|((at, lsf), ln_level)| node(*at, lsf, ln_level.exp()));
+        let nodes = nodes.map(|((at, lsf), ln_level)| self.node(*at, lsf, ln_level.exp()));
         Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))
     }
-}
-
-fn node(at: Contact, lsf: &[f64], level_mps2: f64) -> GrainNode {
-    // What is at the floor was silent.
-    let level_mps2 = if level_mps2 <= 1.01 * FLOOR_MPS2 { 0.0 } else { level_mps2 };
-    GrainNode { speed: at.speed, force: at.force, lsf: repair_to(lsf, GAP), level_mps2 }
 }
 
 /// The frequencies of a predictor of zeros.

@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::radial_basis::{Basis, Kernel};
+use crate::rng::Random;
 use crate::triangulation::Xy;
 
 /// Ridges that are tried, for places in the unit square.
@@ -16,7 +17,7 @@ const USUAL_RIDGE: f64 = 0.1;
 /// A ridge nearer to the usual one is taken while its score is at most this much above the lowest: with two dozen points
 /// the lowest of a flat curve is a matter of chance.
 const SCORE_TOLERANCE: f64 = 1.06;
-/// Points that the choice of the ridge looks at, evenly chosen where there are more: its cost is their number cubed.
+/// Points that the choice of the ridge looks at, chosen by chance where there are more: its cost is their number cubed.
 const MOST_FOR_RIDGE: usize = 200;
 
 /// The weights of a smooth surface over points.
@@ -97,8 +98,7 @@ impl Surface {
 /// `(‖(I - S) Y‖² / n) / (tr(I - S) / n)²` is within 6 % of the lowest (P. Craven and G. Wahba 1979).
 /// The usual one where there are too few points to tell.
 pub fn chosen_ridge(points: &[Xy], values: &DMatrix<f64>) -> f64 {
-    let step = points.len().div_ceil(MOST_FOR_RIDGE).max(1);
-    let kept: Vec<usize> = (0..points.len()).step_by(step).collect();
+    let kept = scattered(points.len(), MOST_FOR_RIDGE);
     let points: Vec<Xy> = kept.iter().map(|i| points[*i]).collect();
     let values = DMatrix::from_fn(kept.len(), values.ncols(), |i, j| values[(kept[i], j)]);
     let Some(scores) = scores(&points, &values) else { return USUAL_RIDGE };
@@ -106,6 +106,17 @@ pub fn chosen_ridge(points: &[Xy], values: &DMatrix<f64>) -> f64 {
     let distance = |ridge: f64| (ridge / USUAL_RIDGE).ln().abs();
     let good = RIDGES.iter().zip(&scores).filter(|(_, score)| **score <= SCORE_TOLERANCE * lowest);
     good.map(|(ridge, _)| *ridge).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(USUAL_RIDGE)
+}
+
+/// Indices below `n`, ascending: all, or `most` of them, one of each of as many equal parts, chosen by chance that is the
+/// same every time: libraries come in orders of their own.
+pub(crate) fn scattered(n: usize, most: usize) -> Vec<usize> {
+    if n <= most {
+        return (0..n).collect();
+    }
+    let part = n as f64 / most as f64;
+    let mut random = Random::new(1);
+    (0..most).map(|i| (((i as f64 + random.uniform()) * part) as usize).min(n - 1)).collect()
 }
 
 /// The score of each of [`RIDGES`]; `None` where there are as few points as slopes can meet.
@@ -156,15 +167,24 @@ fn system(basis: &Basis, points: &[Xy], ridge: f64) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Smoother, chosen_ridge};
+    use super::{Smoother, chosen_ridge, scattered};
     use crate::rng::Random;
     use crate::triangulation::Xy;
     use nalgebra::DMatrix;
     use proptest::prelude::{prop, prop_assert, prop_assume, proptest};
 
-    fn scattered(n: usize, seed: u64) -> Vec<Xy> {
+    fn random_points(n: usize, seed: u64) -> Vec<Xy> {
         let mut random = Random::new(seed);
         (0..n).map(|_| [random.uniform(), random.uniform()]).collect()
+    }
+
+    #[test]
+    fn parts_of_many_are_ascending_and_without_a_period() {
+        assert_eq!(scattered(5, 8), [0, 1, 2, 3, 4]);
+        let some = scattered(1000, 200);
+        assert!(some.len() == 200 && some.windows(2).all(|w| w[0] < w[1]) && some[199] < 1000);
+        let rests: std::collections::BTreeSet<usize> = some.iter().map(|i| i % 25).collect();
+        assert_eq!(rests.len(), 25, "every one of a library that repeats itself");
     }
 
     #[test]
@@ -184,7 +204,7 @@ mod tests {
     /// The surface of a noisy plane wave: noise asks for a high ridge, a wave without any for a low one.
     #[test]
     fn noise_asks_for_a_higher_ridge() {
-        let points = scattered(120, 3);
+        let points = random_points(120, 3);
         let mut random = Random::new(4);
         let wave = |p: &Xy| (7.0 * p[0]).sin() + (5.0 * p[1]).cos();
         let mut ridge = |noise: f64| {
@@ -198,7 +218,7 @@ mod tests {
     /// What is left out is foretold by the weights of the rest: the closed form of leaving one out against doing it.
     #[test]
     fn smoothing_agrees_with_leaving_one_out() {
-        let points = scattered(15, 8);
+        let points = random_points(15, 8);
         let whole = Smoother::new(&points, 0.1).unwrap();
         let mut random = Random::new(9);
         let y: Vec<f64> = points.iter().map(|_| random.normal()).collect();

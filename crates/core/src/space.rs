@@ -162,6 +162,12 @@ impl Space {
         }
     }
 
+    /// Distance of a point from the hull's outline, in points of the axes; infinite in a space without textures.
+    pub fn hull_distance(&self, point: SpacePoint) -> f64 {
+        let nearest = self.triangulation.nearest_on_outline(point.xy());
+        nearest.map_or(f64::INFINITY, |(on, _)| SpacePoint::from_xy(on).distance(point))
+    }
+
     /// The position of the texture with this library index.
     pub fn position(&self, texture: usize) -> Option<SpacePoint> {
         // Sites are in the order of the library.

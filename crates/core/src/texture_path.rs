@@ -8,7 +8,8 @@ use crate::space::SpacePoint;
 use crate::texture::TextureModel;
 use crate::units::Contact;
 
-/// Largest distance of neighboring keys in the space, in points of the axes.
+/// Largest distance of neighboring keys in the space, in points of the axes; longer routes than [`MAX_KEYS`] of them
+/// reach have wider ones.
 const KEY_STEP: f64 = 4.0;
 /// Most keys of a path that is made, and of one that is read: an output holds as many textures.
 pub const MAX_KEYS: usize = 48;
@@ -70,8 +71,8 @@ pub enum TexturePathError {
     },
     /// The stops do not go on.
     #[error(
-        "point {number} of the path lies at {along}, which is not beyond the one before it; the first lies at 0, and each \
-         further on than the last"
+        "point {number} of the path is at {along} (m or s) of the stroke; the first must be at 0, and each farther on \
+         than the one before it"
     )]
     Order {
         /// Which point, counted from one.
@@ -229,14 +230,18 @@ impl TexturePath {
         if !blending.mode.makes_a_model() {
             return Err(TexturePathError::Mode);
         }
-        let way: f64 = route.stops.windows(2).map(|s| s[0].at.distance(s[1].at)).sum();
-        let n_between = MAX_KEYS - route.stops.len();
-        let step = KEY_STEP.max(way / n_between.max(1) as f64);
+        let n_keys = |step: f64| {
+            let between = |s: &[Stop]| ((s[0].at.distance(s[1].at) / step).ceil() as usize).max(1);
+            route.stops.windows(2).map(between).sum::<usize>() + 1
+        };
+        let mut step = KEY_STEP;
+        while n_keys(step) > MAX_KEYS {
+            step *= 1.1;
+        }
         let mut places: Vec<(Stop, bool)> = Vec::new();
         for pair in route.stops.windows(2) {
             let [from, to] = [pair[0], pair[1]];
-            // Rounded down: what is left over must not make one more key for every stop.
-            let n = ((from.at.distance(to.at) / step).floor() as usize).max(1);
+            let n = ((from.at.distance(to.at) / step).ceil() as usize).max(1);
             places.extend((0..n).map(|i| {
                 let share = i as f64 / n as f64;
                 let along = from.along + share * (to.along - from.along);
@@ -245,8 +250,7 @@ impl TexturePath {
         }
         places.extend(route.stops.last().map(|stop| (*stop, true)));
         let key = |(stop, is_stop): (Stop, bool)| {
-            let authored = authoring.author(stop.at, blending);
-            let model = authored.and_then(|authored| authored.model);
+            let model = authoring.model(stop.at, blending);
             let model = model.ok_or(TexturePathError::NoTexture { at: stop.at })?;
             Ok(Key { stop, is_stop, model })
         };
@@ -403,7 +407,7 @@ mod tests {
         let route = route(AtEnd::Hold);
         let path = TexturePath::of_route(&world.authoring, &route, &Mode::Field.into()).unwrap();
         // Forty points in steps of four, then thirty.
-        assert_eq!(path.keys().len(), 10 + 7 + 1);
+        assert_eq!(path.keys().len(), 10 + 8 + 1);
         assert_eq!(path.keys().iter().filter(|key| key.is_stop).count(), 3);
         for i in 0..=50 {
             let traveled = 0.001 * f64::from(i);

@@ -5,7 +5,9 @@ use std::time::Instant;
 
 use shagreen_core::authoring::Authored;
 use shagreen_core::blend::Mode;
+use shagreen_core::rate::at_rate;
 use shagreen_core::space::SpacePoint;
+use shagreen_core::units::Hertz;
 use shagreen_device::touch::Touch;
 
 use super::Session;
@@ -53,7 +55,12 @@ impl Session {
         let alone = Authored::alone(texture, at, mode);
         let path = self.library.textures[texture].path.as_ref();
         match path.zip(key).and_then(|(path, key)| path.keys().get(key)) {
-            Some(key) => Authored { mode: Mode::Field, model: Some(key.model.clone()), lock: None, ..alone },
+            Some(key) => {
+                // In a space of a higher rate it is heard at that one, as its place is.
+                let converted = at_rate(&key.model, Hertz(self.rates_hz[texture]));
+                let model = converted.map_or_else(|_| key.model.clone(), |converted| converted.model);
+                Authored { mode: Mode::Field, model: Some(model), lock: None, ..alone }
+            }
             None => alone,
         }
     }

@@ -39,6 +39,9 @@ pub enum ModelsError {
         /// Its index in the library.
         texture: usize,
     },
+    /// There is no telling places apart.
+    #[error("the textures lie so near each other that no field goes through them; place them farther apart")]
+    Degenerate,
     /// Rates differ.
     #[error(
         "texture {texture} has a rate of {rate_hz} Hz where the others have {expected_hz} Hz; convert it first"
@@ -81,7 +84,7 @@ impl Models {
                 tap,
             })
             .collect();
-        let field = field(space, &sites).ok_or(ModelsError::Empty)?;
+        let field = field(space, &sites).ok_or(ModelsError::Degenerate)?;
         Ok(Self { sampling, sites, field })
     }
 
@@ -95,9 +98,17 @@ impl Models {
         self.field.ridge()
     }
 
-    /// The texture of the field at a place.
-    pub(super) fn texture(&self, at: SpacePoint) -> Result<TextureModel, TextureModelError> {
-        self.field.texture(&self.sampling, at.xy())
+    /// The texture of the field at a place, or so far on the way to a locked one.
+    pub(super) fn texture(
+        &self,
+        at: SpacePoint,
+        lock: Option<(usize, f64)>,
+    ) -> Result<TextureModel, TextureModelError> {
+        let own = |(texture, share): (usize, f64)| {
+            let site = self.sites.iter().find(|site| site.texture == texture)?;
+            Some((Site { at: at.xy(), grain: &site.grain, friction: site.friction, tap: site.tap }, share))
+        };
+        self.field.texture(&self.sampling, at.xy(), lock.and_then(own))
     }
 
     /// What each texture says about a place in the field.

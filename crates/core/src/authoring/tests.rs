@@ -181,6 +181,20 @@ fn outside_the_hull_is_clamped_or_extrapolated_within_limits() {
     assert_eq!(world.authoring.author(inside, &further), world.authoring.author(inside, &Mode::Field.into()));
 }
 
+/// The middle of a square lies on an edge between triangles, where nothing may be different.
+#[test]
+fn natural_weights_know_no_edges() {
+    let corners = [point(10.0, 10.0), point(90.0, 10.0), point(90.0, 90.0), point(10.0, 90.0)];
+    let authoring = Authoring::new(Space::new(&corners.map(Some)).unwrap());
+    let natural = Blending { weights: Weights::Natural, ..Mode::Parametric.into() };
+    for (at, want) in [(point(50.0, 50.0), 0.25), (point(50.0, 50.001), 0.25), (point(50.0, 10.0), 0.5)] {
+        let parents = authoring.author(at, &natural).unwrap().parents;
+        assert!(parents.iter().all(|(_, w)| (w - want).abs() < 1e-4), "{at}: {parents:?}");
+    }
+    let one = Authoring::new(Space::new(&[Some(point(50.0, 50.0))]).unwrap());
+    assert_eq!(one.author(point(50.0, 50.0), &natural).unwrap().parents, [(0, 1.0)]);
+}
+
 #[test]
 fn what_a_mode_cannot_do_is_said() {
     let natural = Blending { weights: Weights::Natural, ..Mode::Field.into() };

@@ -14,7 +14,7 @@ const MOST_STEPS: usize = 30;
 /// A step of all cosines below this is the last: the next one would be its square, about.
 const SMALL_STEP: f64 = 1e-8;
 
-/// The frequencies of [`lsf_from_ar`] to about 1e-7 radians, many times as fast: signs are looked for on a coarse grid, and
+/// The frequencies of [`lsf_from_ar`] to 1e-6 radians, many times as fast: signs are looked for on a coarse grid, and
 /// all brackets are narrowed at once. What the grid does not tell apart goes to the careful search.
 #[derive(Clone, Debug)]
 pub(crate) struct QuickLsf {

@@ -79,6 +79,9 @@ pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
             "how {between} are interpolated between nodes: the format interpolates variances, which is up to some dB louder there"
         ));
     }
+    if entry.path.is_some() {
+        lost.push("how it changes along the stroke: only its beginning is written".to_owned());
+    }
     if entry.model.tap().is_some() {
         lost.push("the tap of a landing".to_owned());
     }

@@ -1,32 +1,57 @@
 //! A texture that was authored in the space of a library, as an entry of its own.
 
+use shagreen_core::space::LabelSource;
 use shagreen_core::texture_path::TexturePath;
 
 use crate::library::{Library, Provenance, TextureEntry, free_id, id_from_name};
 
+/// What stands for terms that nobody stated, in the form of the SPDX.
+const UNKNOWN_TERMS: &str = "LicenseRef-unknown";
+
 impl Library {
-    /// The entry of a path through the space of this library, with an identifier that is free in it. It owes something to
-    /// every texture that has a place: it has the terms of all of them, and may not be passed on where one of them may not.
-    pub fn entry_of_path(&self, name: &str, path: TexturePath) -> TextureEntry {
-        let placed = || self.textures.iter().filter(|texture| texture.place.is_some());
-        let mut licenses: Vec<&str> = Vec::new();
-        for license in placed().map(|texture| self.license_of(texture)).filter(|license| !license.is_empty())
-        {
-            if !licenses.contains(&license) {
-                licenses.push(license);
+    /// The entry of a path through the space of the textures at these indices, with an identifier that is free in this
+    /// library. It owes something to each of them: it has the terms of all, and may not be passed on where one may not.
+    pub fn entry_of_path(&self, name: &str, path: TexturePath, of: &[usize]) -> TextureEntry {
+        let owed = || of.iter().filter_map(|index| self.textures.get(*index));
+        let is_restricted = owed().any(|texture| texture.provenance == Provenance::Restricted);
+        let mut sources: Vec<&str> = Vec::new();
+        for source in owed().filter_map(TextureEntry::label_source).map(LabelSource::label) {
+            if !sources.contains(&source) {
+                sources.push(source);
             }
         }
-        let is_restricted = placed().any(|texture| texture.provenance == Provenance::Restricted);
+        let places = match &sources[..] {
+            [] => String::new(),
+            some => format!(", whose places come from {}", some.join(" and ")),
+        };
         let first = path.keys()[0].model.clone();
         let id = free_id(&id_from_name(name), |id| self.index_of(id).is_some());
         TextureEntry {
-            license: licenses.join(" AND "),
-            origin: format!("Authored as a path through the space of \"{}\".", self.name),
+            license: all_terms(&owed().map(|texture| self.license_of(texture)).collect::<Vec<_>>()),
+            origin: format!("Authored as a path through the space of \"{}\"{places}.", self.name),
             provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
             path: Some(path),
             ..TextureEntry::new(id, name, first)
         }
     }
+}
+
+/// Terms that have to be kept together, as an SPDX expression; those that nobody stated are named as unknown.
+fn all_terms(licenses: &[&str]) -> String {
+    let mut distinct: Vec<&str> = Vec::new();
+    for license in licenses.iter().map(|l| if l.is_empty() { UNKNOWN_TERMS } else { l }) {
+        if !distinct.contains(&license) {
+            distinct.push(license);
+        }
+    }
+    if distinct.len() < 2 {
+        return distinct.concat();
+    }
+    // AND binds tighter than OR.
+    let part = |license: &&str| {
+        if license.contains(" OR ") { format!("({license})") } else { (*license).to_owned() }
+    };
+    distinct.iter().map(part).collect::<Vec<_>>().join(" AND ")
 }
 
 #[cfg(test)]
@@ -48,17 +73,17 @@ mod tests {
     #[test]
     fn a_path_has_the_terms_of_all_that_it_is_made_of() {
         let mut library = starter_library().unwrap();
-        let free = library.entry_of_path("Cork", path(&library));
+        let free = library.entry_of_path("Cork", path(&library), &[0, 1, 3]);
         assert_eq!((free.license.as_str(), free.provenance), (library.license.as_str(), Provenance::Free));
         assert!(library.index_of("cork").is_some() && library.index_of(&free.id).is_none(), "{}", free.id);
         assert_eq!(free.model, library.textures[0].model);
         "CC-BY-4.0".clone_into(&mut library.textures[3].license);
         library.textures[3].provenance = Provenance::Restricted;
-        let bound = library.entry_of_path("Way", path(&library));
-        assert!(bound.license.contains(" AND CC-BY-4.0"), "{}", bound.license);
+        let bound = library.entry_of_path("Way", path(&library), &[0, 1, 3]);
+        assert_eq!(bound.license, "(MIT OR Apache-2.0) AND CC-BY-4.0");
+        assert!(bound.origin.contains("from physical labels"), "{}", bound.origin);
         assert_eq!((bound.id.as_str(), bound.provenance), ("way", Provenance::Restricted));
-        // What has no place has no say.
-        library.textures[3].place = None;
-        assert_eq!(library.entry_of_path("Way", path(&library)).provenance, Provenance::Free);
+        // What has no say is owed nothing.
+        assert_eq!(library.entry_of_path("Way", path(&library), &[0, 1]).provenance, Provenance::Free);
     }
 }
