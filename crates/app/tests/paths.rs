@@ -202,6 +202,8 @@ fn a_kept_path_is_heard_along_the_stroke() {
     harness.get_by_role_and_label(Role::SpinButton, path::LENGTH).set_value_accesskit(1.0);
     harness.run_steps(2);
     click(&mut harness, path::KEEP);
+    // The list scrolls to what joined it.
+    harness.run_steps(40);
     click(&mut harness, &strings::texture("New texture"));
     assert_eq!(window(&harness).project().solo, Some(25));
     let keys = window(&harness).session().textures()[25].path.as_ref().unwrap().keys().to_vec();
