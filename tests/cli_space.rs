@@ -103,7 +103,8 @@ fn a_space_is_built_from_a_simulated_panel() {
     assert_eq!(std::fs::read_to_string(bench.path("places.csv")).unwrap(), built_in);
     let second = bench.json("library list --library simulated");
     assert_eq!(second["textures"][0]["label_source"], "simulated");
-    let psd = bench.json("texture psd --library l2.json --at 50,50 --speed 100 --force 1 --bins 2");
+    let psd =
+        bench.json("texture psd --library l2.json --at 50,50 --blend shared --speed 100 --force 1 --bins 2");
     assert_eq!(psd["parents"].as_array().unwrap().len(), 3);
 }
 

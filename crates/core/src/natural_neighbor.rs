@@ -5,7 +5,7 @@
 
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
-use crate::triangulation::{Site, TriangulationError, Xy, delaunay};
+use crate::triangulation::{Loading, Site, TriangulationError, Xy, delaunay};
 
 /// Points whose weights can be asked for.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ impl NaturalNeighbors {
     /// # Errors
     /// A coordinate that is not finite or exceeds 1e12.
     pub fn new(points: &[Xy]) -> Result<Self, TriangulationError> {
-        Ok(Self { delaunay: delaunay(points)?.1 })
+        Ok(Self { delaunay: delaunay(points, Loading::AtOnce)?.1 })
     }
 
     /// Index and weight of each natural neighbor of a point of the plane, by index; weights are at least zero and sum to

@@ -110,7 +110,9 @@ impl Plane {
             }
         };
         let (points, vertices): (Vec<Xy>, Vec<Values>) = points.into_iter().unzip();
-        let triangulation = match Triangulation::new(&points) {
+        let triangulated =
+            if radial.is_some() { Triangulation::new(&points) } else { Triangulation::in_order(&points) };
+        let triangulation = match triangulated {
             Ok(triangulation) => triangulation,
             Err(error) => unreachable!("a model's own checks keep shares of the highest in 0..1: {error}"),
         };

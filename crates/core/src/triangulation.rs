@@ -16,7 +16,7 @@ use spade::Triangulation as _;
 use crate::triangulation::grid::Grid;
 use crate::triangulation::outline::chain;
 use crate::triangulation::shape::{NONE, Shape, opposite_longest};
-pub(crate) use crate::triangulation::sites::{Site, delaunay};
+pub(crate) use crate::triangulation::sites::{Loading, Site, delaunay};
 
 /// A point or vector of the plane.
 pub type Xy = [f64; 2];
@@ -60,7 +60,20 @@ impl Triangulation {
     /// # Errors
     /// A coordinate that is not finite or exceeds 1e12; more points than their triangles could be numbered.
     pub fn new(points: &[Xy]) -> Result<Self, TriangulationError> {
-        let (points, delaunay) = delaunay(points)?;
+        Self::loaded(points, Loading::AtOnce)
+    }
+
+    /// The same with the points taken in their order, which decides which diagonal each cell of a grid gets: a texture
+    /// that was measured on a grid must sound tomorrow as it does today.
+    ///
+    /// # Errors
+    /// As [`Triangulation::new`].
+    pub fn in_order(points: &[Xy]) -> Result<Self, TriangulationError> {
+        Self::loaded(points, Loading::InOrder)
+    }
+
+    fn loaded(points: &[Xy], loading: Loading) -> Result<Self, TriangulationError> {
+        let (points, delaunay) = delaunay(points, loading)?;
         if delaunay.num_inner_faces() == 0 {
             let outline = chain(&points);
             return Ok(Self { points, outline, ..Self::default() });

@@ -13,9 +13,14 @@ pub(super) const MAX_COORDINATE: f64 = 1e12;
 /// which the last means none.
 const MAX_POINTS: usize = (u32::MAX / 6) as usize;
 
-/// Up to this many points are inserted in their order, more of them all at once. In a grid either diagonal of a cell is
-/// right, and the order decides: a texture measured on a grid must sound tomorrow as it does today.
-const MOST_IN_ORDER: usize = 512;
+/// How points are taken in. In a grid either diagonal of a cell is right, and this decides which one it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Loading {
+    /// All at once: quick.
+    AtOnce,
+    /// One after the other in their order.
+    InOrder,
+}
 
 /// A site that remembers its index.
 #[derive(Debug)]
@@ -39,7 +44,10 @@ impl HasPosition for Site {
 }
 
 /// The points, separated where they are equal, and their triangulation.
-pub(crate) fn delaunay(points: &[Xy]) -> Result<(Vec<Xy>, DelaunayTriangulation<Site>), TriangulationError> {
+pub(crate) fn delaunay(
+    points: &[Xy],
+    loading: Loading,
+) -> Result<(Vec<Xy>, DelaunayTriangulation<Site>), TriangulationError> {
     few_enough(points.len())?;
     if let Some(index) =
         points.iter().position(|p| p.iter().any(|c| !c.is_finite() || c.abs() > MAX_COORDINATE))
@@ -50,13 +58,13 @@ pub(crate) fn delaunay(points: &[Xy]) -> Result<(Vec<Xy>, DelaunayTriangulation<
     // are compared, since they may make points equal.
     let plain = |c: f64| if c.abs() < MIN_ALLOWED_VALUE { 0.0 } else { c };
     let points: Vec<Xy> = points.iter().map(|p| p.map(plain)).collect();
-    let delaunay = loaded(&points);
+    let delaunay = loaded(&points, loading);
     if delaunay.num_vertices() == points.len() {
         return Ok((points, delaunay));
     }
     // Of equal points `spade` keeps one.
     let points = separated(&points);
-    let delaunay = loaded(&points);
+    let delaunay = loaded(&points, loading);
     Ok((points, delaunay))
 }
 
@@ -67,10 +75,10 @@ fn few_enough(n_points: usize) -> Result<(), TriangulationError> {
     Ok(())
 }
 
-fn loaded(points: &[Xy]) -> DelaunayTriangulation<Site> {
+fn loaded(points: &[Xy], loading: Loading) -> DelaunayTriangulation<Site> {
     let site = |(index, [x, y]): (usize, &Xy)| Site { position: Point2::new(*x, *y), index };
     let sites = points.iter().enumerate().map(site);
-    let loaded = if points.len() <= MOST_IN_ORDER {
+    let loaded = if loading == Loading::InOrder {
         let mut delaunay = DelaunayTriangulation::new();
         sites.map(|site| delaunay.insert(site)).collect::<Result<Vec<_>, _>>().map(|_| delaunay)
     } else {
