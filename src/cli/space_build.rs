@@ -61,8 +61,9 @@ pub(crate) struct Args {
     /// How an axis is predicted from features: as in the paper, or better.
     #[arg(long, default_value = "practical", value_parser = Method::ALL.map(Method::id))]
     selection: String,
-    /// Where textures are put: where they were felt, or where their features predict, as in the paper.
-    #[arg(long, default_value = "felt", value_parser = ["felt", "predicted"])]
+    /// Where textures are put: where they were felt, or where their features predict, as in the paper; auto takes, axis by
+    /// axis, what is likely nearer to what people feel.
+    #[arg(long, default_value = "auto", value_parser = ["auto", "felt", "predicted"])]
     placement: String,
     /// Permutations of the null distribution.
     #[arg(long, default_value_t = 1000, value_name = "N")]
@@ -169,7 +170,8 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         features,
         mfcc: mfcc(args.mfcc.as_deref()),
         method: Method::from_id(&args.selection).ok_or_else(|| unknown(&args.selection))?,
-        placement: PlacedBy::from_id(&args.placement).ok_or_else(|| unknown(&args.placement))?,
+        // "auto" is none of them.
+        placement: PlacedBy::from_id(&args.placement),
         n_permutations: args.permutations,
         ..usual
     })

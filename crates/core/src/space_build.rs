@@ -30,7 +30,7 @@ use crate::sorting::{Similarity, Sort, SortingError, similarity};
 use crate::space::{LabelSource, Space, SpacePoint};
 
 pub use crate::space_build::adjectives::Adjective;
-pub use crate::space_build::axes::{Axis, Prediction};
+pub use crate::space_build::axes::{Axis, Prediction, TRUSTED_NESTED_R};
 pub use crate::space_build::error::SpaceBuildError;
 pub use crate::space_build::stability::{MIN_DRAWN, Stability};
 pub use crate::space_build::verdict::{kruskal_word, verdict};
@@ -72,8 +72,9 @@ pub struct SpaceOptions {
     pub mfcc: MfccOptions,
     /// How an axis is predicted from features.
     pub method: Method,
-    /// What a texture's place is.
-    pub placement: PlacedBy,
+    /// What a texture's place is; `None` takes on each axis what is likely nearer to what people feel
+    /// ([`TRUSTED_NESTED_R`]).
+    pub placement: Option<PlacedBy>,
     /// How often positions are exchanged for the null distribution.
     pub n_permutations: usize,
     /// How often participants are drawn anew, to see how far places hang on who took part.
@@ -95,7 +96,7 @@ pub enum FeatureKind {
     MfccAndPhysical,
 }
 
-/// What the place of a texture is.
+/// What the place of a texture on an axis is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlacedBy {
     /// Where people put it.
@@ -181,8 +182,8 @@ impl Step {
 }
 
 impl SpaceOptions {
-    /// Two dimensions, mean coefficients in the recommended way, the practical prediction, places as they were felt, a
-    /// thousand permutations, a hundred draws.
+    /// Two dimensions, mean coefficients in the recommended way, the practical prediction, places by what can be trusted
+    /// more, a thousand permutations, a hundred draws.
     pub fn usual(seed: u64) -> Self {
         Self {
             n_dims: 2,
@@ -192,7 +193,7 @@ impl SpaceOptions {
             features: FeatureKind::Mfcc,
             mfcc: crate::mfcc::recommended(),
             method: Method::Practical,
-            placement: PlacedBy::Felt,
+            placement: None,
             n_permutations: 1000,
             n_draws: 100,
             seed,
@@ -268,7 +269,7 @@ pub fn build_space(
     };
     let mut go_on = || on_step(Step::Stability);
     let stability = stability(&drawn, options.n_draws, options.seed, &mut go_on, &mut findings)?;
-    let positions = positions(&axes, options.placement);
+    let positions = positions(&axes);
     findings.extend(oddities::of_places(&textures, &positions));
     let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
     Ok(SpaceBuild {
@@ -347,16 +348,9 @@ fn features(
     })
 }
 
-fn positions([first, second]: &[Axis; 2], placement: PlacedBy) -> Vec<SpacePoint> {
-    let of = |axis: &Axis| match placement {
-        PlacedBy::Felt => axis.felt.clone(),
-        // Without a prediction there would have been an error.
-        PlacedBy::Predicted => {
-            axis.prediction.as_ref().map_or_else(|| axis.felt.clone(), |p| p.predicted.clone())
-        }
-    };
-    let pairs = of(first).into_iter().zip(of(second));
-    pairs.map(|(rough_smooth, hard_soft)| SpacePoint { rough_smooth, hard_soft }).collect()
+fn positions([first, second]: &[Axis; 2]) -> Vec<SpacePoint> {
+    let pairs = first.places().iter().zip(second.places());
+    pairs.map(|(x, y)| SpacePoint { rough_smooth: *x, hard_soft: *y }).collect()
 }
 
 impl FeatureKind {

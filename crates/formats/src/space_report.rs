@@ -26,7 +26,7 @@ pub const FIGURES: [&str; 8] = [
 ];
 
 /// Version of the report.
-const VERSION: &str = "1.1";
+const VERSION: &str = "1.2";
 
 /// The report: everything that was measured on the way, in one object.
 pub fn space_report(build: &SpaceBuild) -> Value {
@@ -58,7 +58,7 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         })),
         "features": {"kind": options.features.id(), "label": build.features.label, "n": build.features.names.len()},
         "selection": options.method.id(),
-        "placed_by": options.placement.id(),
+        "placed_by": placed_by(build).map_or("felt+predicted", PlacedBy::id),
         "positions": positions(build),
         "raters": build.raters.iter().map(|(name, fit)| json!({
             "participant": name,
@@ -75,6 +75,12 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         "verdict": verdict(build),
         "warnings": build.findings,
     })
+}
+
+/// What places are, where they are the same on both axes.
+fn placed_by(build: &SpaceBuild) -> Option<PlacedBy> {
+    let [first, second] = build.axes.each_ref().map(|axis| axis.placed_by);
+    (first == second).then_some(first)
 }
 
 fn adjective(adjective: &Adjective) -> Value {
@@ -106,6 +112,7 @@ fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
         "name": axis.pair.name(),
         "direction": axis.direction,
         "r2": build.adjectives[axis.adjective].line.as_ref().ok().map(|line| line.r_squared),
+        "placed_by": axis.placed_by.id(),
         "features": prediction.map_or(&[][..], |prediction| &prediction.features),
         "cv_r": v.map(|v| v.cv_r),
         "cv_rms_percent": v.map(|v| v.cv_rms_percent),
@@ -223,9 +230,10 @@ pub fn space_subtitle(build: &SpaceBuild) -> String {
         build.similarity.agreements.len(),
         build.raters.len(),
         build.options.seed,
-        match build.options.placement {
-            PlacedBy::Felt => "placed where they were felt, predicted",
-            PlacedBy::Predicted => "placed",
+        match placed_by(build) {
+            Some(PlacedBy::Felt) => "placed where they were felt, predicted",
+            Some(PlacedBy::Predicted) => "placed",
+            None => "placed where they were felt on one axis, on the other",
         },
         build.features.label,
         build.options.method.id()

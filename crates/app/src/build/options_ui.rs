@@ -54,7 +54,7 @@ pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rat
             &Method::ALL,
             |method| strings::selection(*method).to_owned(),
         );
-        let placements = [PlacedBy::Felt, PlacedBy::Predicted];
+        let placements = [None, Some(PlacedBy::Felt), Some(PlacedBy::Predicted)];
         choice(
             ui,
             strings::PLACEMENT,

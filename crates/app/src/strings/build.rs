@@ -69,7 +69,7 @@ pub const SELECTION_HELP: &str = "How features are chosen and weighed.";
 /// Option: placement.
 pub const PLACEMENT: &str = "Places";
 /// What the option does.
-pub const PLACEMENT_HELP: &str = "Textures lie where people felt them, or where their features predict.";
+pub const PLACEMENT_HELP: &str = "Textures lie where people felt them, or where their features predict; automatic takes, axis by axis, what is likely nearer to what people feel.";
 /// Option: axes at right angles.
 pub const ORTHOGONAL: &str = "Second axis at right angles";
 /// What the option does.
@@ -258,10 +258,11 @@ pub fn selection(method: Method) -> &'static str {
 }
 
 /// Where textures lie.
-pub fn placement(placement: PlacedBy) -> &'static str {
+pub fn placement(placement: Option<PlacedBy>) -> &'static str {
     match placement {
-        PlacedBy::Felt => "as felt",
-        PlacedBy::Predicted => "as predicted",
+        None => AUTOMATIC,
+        Some(PlacedBy::Felt) => "as felt",
+        Some(PlacedBy::Predicted) => "as predicted",
     }
 }
 

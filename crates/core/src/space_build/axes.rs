@@ -22,9 +22,27 @@ pub struct Axis {
     pub felt: Vec<f64>,
     /// What features make of it; `None` with fewer textures than [`selection::MIN_TEXTURES`].
     pub prediction: Option<Prediction>,
+    /// Which of the two is the place of a texture.
+    pub placed_by: PlacedBy,
 }
 
+/// Nested correlation from which predicted places are taken to be nearer to what people feel than the places where a few of
+/// them felt textures: the noise of a panel is not in the vibrations.
+///
+/// Found with simulated panels of 3 and 10 raters of the starter library, whose truth was moved away from what vibrations
+/// tell, by a standard deviation of 0 to 60 points: of 46 axes at or above this, 36 correlated better with the truth as
+/// predicted, the others worse by 0.02 at most; of 74 below it, 60 correlated better as felt.
+pub const TRUSTED_NESTED_R: f64 = 0.85;
+
 impl Axis {
+    /// The place of each texture, 0..100.
+    pub fn places(&self) -> &[f64] {
+        match (&self.prediction, self.placed_by) {
+            (Some(prediction), PlacedBy::Predicted) => &prediction.predicted,
+            _ => &self.felt,
+        }
+    }
+
     /// Whether the axis is this pair with its poles exchanged.
     pub fn is_turned(&self, pair: &AdjectivePair) -> bool {
         self.pair.low == pair.high && self.pair.high == pair.low
@@ -86,10 +104,13 @@ pub(super) fn fit_axes(
             Ok(prediction) => Some(prediction),
             Err(SelectionError::Stopped) => return Err(SpaceBuildError::Stopped),
             // A space of few textures is a space all the same.
-            Err(SelectionError::TooFew { .. }) if options.placement == PlacedBy::Felt => None,
+            Err(SelectionError::TooFew { .. }) if options.placement != Some(PlacedBy::Predicted) => None,
             Err(source) => return Err(SpaceBuildError::Selection { pair: pair.name(), source }),
         };
-        Ok(Axis { pair, adjective, direction, felt, prediction })
+        let nested_r = prediction.as_ref().map_or(0.0, |p: &Prediction| p.validation.nested_cv_r);
+        let trusted = if nested_r >= TRUSTED_NESTED_R { PlacedBy::Predicted } else { PlacedBy::Felt };
+        let placed_by = options.placement.unwrap_or(trusted);
+        Ok(Axis { pair, adjective, direction, felt, prediction, placed_by })
     };
     Ok(Axes { fitted: [fit(0, first)?, fit(1, second)?], angle_degrees, chosen })
 }

@@ -1,4 +1,7 @@
-use super::{FeatureKind, PlacedBy, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space};
+use super::{
+    FeatureKind, PlacedBy, SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, TRUSTED_NESTED_R,
+    build_space,
+};
 use crate::features::NamedTexture;
 use crate::mds::{Mds, MdsOptions, Ties};
 use crate::panel::{PanelConfig, simulated_ratings, simulated_sorts};
@@ -100,13 +103,52 @@ fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
     // Ratings at random lie along no line.
     let random = built.adjectives[2].line.as_ref().unwrap();
     assert!(random.r_squared < 0.5 && built.adjectives[0].line.as_ref().unwrap().r_squared > 0.8);
-    assert_eq!(built.positions[3].rough_smooth, built.axes[0].felt[3]);
     let said = verdict(&built).join("\n");
     for words in
         ["simulated raters: nobody felt anything", "nested cross-validation", "19 permutations", "ICC"]
     {
         assert!(said.contains(words), "{words} is not in {said}");
     }
+}
+
+#[test]
+fn places_are_predictions_where_those_can_be_trusted() {
+    let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
+    let built = |placement: Option<PlacedBy>, step: usize| {
+        let models = models();
+        // Vibrations of other textures tell nothing.
+        let textures = (0..N).map(|i| NamedTexture { name: &models[i].0, model: &models[(i * step) % N].1 });
+        let textures = textures.collect();
+        let data = SpaceData {
+            textures,
+            sorts: sorts.clone(),
+            ratings: ratings.clone(),
+            votes: Vec::new(),
+            source: LabelSource::SimulatedRaters,
+        };
+        build_space(&data, &SpaceOptions { placement, ..quick() }, &mut |_| true).unwrap()
+    };
+    let (own, others) = (built(None, 1), built(None, 5));
+    for (built, placed_by, words) in [
+        (&own, PlacedBy::Predicted, "lie where their features predict, by models that have seen them, since"),
+        (&others, PlacedBy::Felt, "lie where they were felt, since the nested r"),
+    ] {
+        for axis in &built.axes {
+            let nested_r = axis.prediction.as_ref().unwrap().validation.nested_cv_r;
+            assert_eq!(nested_r >= TRUSTED_NESTED_R, placed_by == PlacedBy::Predicted, "{nested_r}");
+            assert_eq!(axis.placed_by, placed_by);
+        }
+        assert!(verdict(built).join("\n").contains(words), "{:?}", verdict(built));
+    }
+    assert_eq!(own.positions[3].hard_soft, own.axes[1].prediction.as_ref().unwrap().predicted[3]);
+    assert_eq!(others.positions[3].hard_soft, others.axes[1].felt[3]);
+    // What is asked for is done, whatever it is worth.
+    let [felt, predicted] = [built(Some(PlacedBy::Felt), 1), built(Some(PlacedBy::Predicted), 5)];
+    assert_eq!(felt.positions[3].rough_smooth, felt.axes[0].felt[3]);
+    assert_eq!(
+        predicted.positions[3].rough_smooth,
+        predicted.axes[0].prediction.as_ref().unwrap().predicted[3]
+    );
 }
 
 #[test]
@@ -125,7 +167,7 @@ fn an_axis_may_be_named_the_other_way_round() {
 
 #[test]
 fn axes_are_the_best_of_each_dimension_where_none_is_usual_and_turned_on_request() {
-    let options = SpaceOptions { is_orthogonal: true, placement: PlacedBy::Predicted, ..quick() };
+    let options = SpaceOptions { is_orthogonal: true, placement: Some(PlacedBy::Predicted), ..quick() };
     let built = build(judgments(&["warm-cold", "dull-sharp", "one-two"]), &options).unwrap();
     let mut names = built.axes.each_ref().map(|axis| axis.pair.name());
     names.sort();
@@ -227,7 +269,8 @@ fn textures_that_nobody_parts_are_named() {
         let group = sort.placements[0].group.clone();
         sort.placements[1].group = group;
     }
-    let options = SpaceOptions { mds: MdsOptions { ties: Ties::Secondary, ..quick().mds }, ..quick() };
+    let mds = MdsOptions { ties: Ties::Secondary, ..quick().mds };
+    let options = SpaceOptions { mds, placement: Some(PlacedBy::Felt), ..quick() };
     let built = build((sorts, ratings), &options).unwrap();
     let findings = built.findings.join("\n");
     assert!(findings.contains("t00 and t01 lie at one place"), "{findings}");
@@ -380,7 +423,7 @@ fn what_makes_no_space_says_why() {
         for sort in sorts {
             sort.placements.truncate(6);
         }
-        options.placement = PlacedBy::Predicted;
+        options.placement = Some(PlacedBy::Predicted);
     };
     check(&predicted_of_few, "too few to predict");
     let same = |_: &mut Vec<Sort>, ratings: &mut Vec<Rating>, _: &mut SpaceOptions| {

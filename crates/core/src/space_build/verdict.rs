@@ -1,7 +1,7 @@
 //! How far a space can be believed, in sentences.
 
 use crate::space::LabelSource;
-use crate::space_build::{Axis, PlacedBy, SpaceBuild};
+use crate::space_build::{Axis, PlacedBy, SpaceBuild, TRUSTED_NESTED_R};
 use crate::words::counted;
 
 /// Goodness of fit of an adjective's line below which it is called weak: less than half of what was rated lies along it.
@@ -57,13 +57,27 @@ pub fn verdict(build: &SpaceBuild) -> Vec<String> {
         said.extend(prediction(axis));
     }
     said.extend(stability(build));
-    said.push(match build.options.placement {
-        PlacedBy::Felt => "Textures lie where they were felt.".to_owned(),
-        PlacedBy::Predicted => {
-            "Textures lie where their features predict, by models that have seen them.".to_owned()
-        }
-    });
+    said.extend(build.axes.iter().map(|axis| place(axis, build.options.placement.is_none())));
     said
+}
+
+/// What places on an axis are, and why, if that was not asked for.
+fn place(axis: &Axis, is_chosen_here: bool) -> String {
+    let pair = &axis.pair;
+    let why = match axis.placed_by {
+        _ if !is_chosen_here => String::new(),
+        PlacedBy::Predicted => format!(", since their nested r is {TRUSTED_NESTED_R} or more"),
+        PlacedBy::Felt if axis.prediction.is_none() => ", since nothing predicts them".to_owned(),
+        PlacedBy::Felt => format!(", since the nested r of predictions is below {TRUSTED_NESTED_R}"),
+    };
+    match axis.placed_by {
+        PlacedBy::Felt => format!("Along {pair} textures lie where they were felt{why}."),
+        PlacedBy::Predicted => {
+            format!(
+                "Along {pair} textures lie where their features predict, by models that have seen them{why}."
+            )
+        }
+    }
 }
 
 fn angle(build: &SpaceBuild) -> String {
