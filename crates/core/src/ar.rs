@@ -5,6 +5,7 @@
 
 mod burg;
 mod lags;
+mod side_by_side;
 mod varying;
 
 use std::f64::consts::TAU;
@@ -14,6 +15,7 @@ pub(crate) use crate::ar::lags::sum_of;
 pub(crate) use crate::ar::varying::{Part, burg_varying};
 
 use crate::ar::lags::lag_sums;
+pub(crate) use crate::ar::side_by_side::{SIDE_BY_SIDE, levinson_side_by_side};
 use crate::units::Hertz;
 
 /// A predictor fitted to a signal.

@@ -3,6 +3,7 @@
 //! Frequencies are angles in radians (0, π), ascending. A predictor is stable exactly when its frequencies are distinct
 //! and lie inside, and so is any weighted mean of such sets: that is why models are interpolated in this form.
 
+mod arc_cosine;
 mod quick;
 
 use std::f64::consts::PI;
@@ -128,13 +129,17 @@ pub(crate) fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
 /// Frequencies put back in order and at least [`MIN_GAP`] apart and from both ends, for interpolators that can break
 /// the order. Sets that keep the rule already are returned as they are.
 pub fn repair(lsf: &[f64]) -> Vec<f64> {
-    repair_to(lsf, MIN_GAP)
+    repair_to(lsf.to_vec(), MIN_GAP)
 }
 
 /// The same with a smallest distance of `gap` radians, at most π over one more than there are frequencies.
-pub fn repair_to(lsf: &[f64], gap: f64) -> Vec<f64> {
+pub fn repair_to(lsf: Vec<f64>, gap: f64) -> Vec<f64> {
     let n = lsf.len();
-    let mut out = lsf.to_vec();
+    let is_within = n == 0 || (lsf[0] >= gap && lsf[n - 1] <= PI - gap);
+    if is_within && lsf.windows(2).all(|w| w[1] >= w[0] + gap) {
+        return lsf;
+    }
+    let mut out = lsf;
     out.sort_by(f64::total_cmp);
     for i in 0..n {
         let floor = if i == 0 { gap } else { out[i - 1] + gap };

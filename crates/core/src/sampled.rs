@@ -5,7 +5,7 @@ mod bins;
 mod exponential;
 mod lattice;
 
-use crate::ar::levinson;
+use crate::ar::{SIDE_BY_SIDE, levinson_side_by_side};
 use crate::lsf::{QuickLsf, repair_to};
 use crate::plane::{Grain, Plane};
 use crate::sampled::bins::Bins;
@@ -20,6 +20,8 @@ const BINS_AT_1_KHZ: f64 = 128.0;
 const MIN_ORDER: usize = 20;
 /// Poles more that stand for a moving average.
 const POLES_FOR_ZEROS: usize = 8;
+/// White noise that is added to a signal, as a share of its power: it keeps rounding from making a predictor unstable.
+const NOISE: f64 = 1e-9;
 /// Distance of frequencies that is kept, in radians.
 const GAP: f64 = 1e-4;
 /// Density below which nothing is told apart, in (m/s²)²/Hz: its root over 500 Hz is a hundred-thousandth of what a
@@ -98,7 +100,7 @@ impl Sampling {
         (FLOOR_PSD * 0.5 * self.rate.0).sqrt()
     }
 
-    fn node(&self, at: Contact, lsf: &[f64], level_mps2: f64) -> GrainNode {
+    fn node(&self, at: Contact, lsf: Vec<f64>, level_mps2: f64) -> GrainNode {
         let level_mps2 = if level_mps2 < 2.0 * self.floor_mps2() { 0.0 } else { level_mps2 };
         GrainNode { speed: at.speed, force: at.force, lsf: repair_to(lsf, GAP), level_mps2 }
     }
@@ -113,18 +115,17 @@ impl Sampling {
                 return lsf;
             }
         }
-        self.fit(ln_psd).0
+        self.fit(&[ln_psd])[0].0.clone()
     }
 
-    /// The predictor whose spectrum is nearest to densities `e^ln_psd` (Levinson's), as line spectral frequencies, and the
-    /// level.
-    fn fit(&self, ln_psd: &[f32]) -> (Vec<f64>, f64) {
-        let mut lags = self.bins.lags(ln_psd);
-        let level = lags[0].sqrt();
-        // A billionth of white noise keeps rounding from making the predictor unstable.
-        lags[0] *= 1.0 + 1e-9;
-        let ar = levinson(&lags, self.order).ar;
-        (self.quick.of(&ar).unwrap_or_else(|| even(self.order)), level)
+    /// The predictors whose spectra are nearest to densities `e^ln_psd` (Levinson's), as line spectral frequencies, and
+    /// their levels; at most [`SIDE_BY_SIDE`].
+    fn fit(&self, ln_psds: &[&[f32]]) -> Vec<(Vec<f64>, f64)> {
+        let lags = self.bins.lags(ln_psds);
+        let levels = lags[0].map(f64::sqrt);
+        let predictors = levinson_side_by_side(&lags, NOISE);
+        let of_predictor = |ar: &Vec<f64>| self.quick.of(ar).unwrap_or_else(|| even(self.order));
+        predictors.iter().map(of_predictor).zip(levels).take(ln_psds.len()).collect()
     }
 
     /// A texture whose grain has these densities, as ln, bin by bin, contact by contact.
@@ -137,11 +138,10 @@ impl Sampling {
         friction: Option<f64>,
         tap: Option<Tap>,
     ) -> Result<TextureModel, TextureModelError> {
-        let spectra = ln_psd.chunks_exact(self.bins.len());
-        let nodes = self.contacts.iter().zip(spectra).map(|(at, ln_psd)| {
-            let (lsf, level_mps2) = self.fit(ln_psd);
-            self.node(*at, &lsf, level_mps2)
-        });
+        let spectra: Vec<&[f32]> = ln_psd.chunks_exact(self.bins.len()).collect();
+        let fitted = spectra.chunks(SIDE_BY_SIDE).flat_map(|spectra| self.fit(spectra));
+        let nodes = self.contacts.iter().zip(fitted);
+        let nodes = nodes.map(|(at, (lsf, level_mps2))| self.node(*at, lsf, level_mps2));
         Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))
     }
 
@@ -157,7 +157,7 @@ impl Sampling {
         tap: Option<Tap>,
     ) -> Result<TextureModel, TextureModelError> {
         let nodes = self.contacts.iter().zip(lsf.chunks_exact(self.order)).zip(ln_level);
-        let nodes = nodes.map(|((at, lsf), ln_level)| self.node(*at, lsf, ln_level.exp()));
+        let nodes = nodes.map(|((at, lsf), ln_level)| self.node(*at, lsf.to_vec(), ln_level.exp()));
         Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))
     }
 }

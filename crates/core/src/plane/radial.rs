@@ -68,7 +68,7 @@ impl RadialGrain {
     fn lsf(&self, at: Xy) -> Vec<f64> {
         let mut lsf = self.basis.at(self.inside(at));
         lsf.pop();
-        repair_to(&lsf, self.gap)
+        repair_to(lsf, self.gap)
     }
 
     /// The nearest contact within what was measured.

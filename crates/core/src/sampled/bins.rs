@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::ar::SIDE_BY_SIDE;
 use crate::sampled::exponential::exp;
 use crate::units::Hertz;
 
@@ -41,48 +42,52 @@ impl Bins {
         (0..self.len).map(|bin| Hertz(0.5 * self.rate.0 * share(bin))).collect()
     }
 
-    /// Autocorrelation of a signal with densities `e^ln_psd`, in (m/s²)², from lag zero on.
-    pub(super) fn lags(&self, ln_psd: &[f32]) -> Vec<f64> {
-        let width_hz = 0.5 * self.rate.0 / self.len as f64;
-        let mut lags = vec![0.0; self.n_lags];
-        Arch::new().dispatch(Autocorrelation { bins: self, ln_psd, lags: &mut lags });
-        for lag in &mut lags {
-            *lag *= width_hz;
-        }
+    /// Autocorrelations of signals with densities `e^ln_psd`, in (m/s²)², from lag zero on; at most [`SIDE_BY_SIDE`].
+    pub(super) fn lags(&self, ln_psds: &[&[f32]]) -> Vec<[f64; SIDE_BY_SIDE]> {
+        let mut lags = vec![[0.0; SIDE_BY_SIDE]; self.n_lags];
+        Arch::new().dispatch(Autocorrelations { bins: self, ln_psds, lags: &mut lags });
         lags
     }
 }
 
-struct Autocorrelation<'a> {
+struct Autocorrelations<'a> {
     bins: &'a Bins,
-    ln_psd: &'a [f32],
-    lags: &'a mut [f64],
+    ln_psds: &'a [&'a [f32]],
+    lags: &'a mut [[f64; SIDE_BY_SIDE]],
 }
 
-impl WithSimd for Autocorrelation<'_> {
+impl WithSimd for Autocorrelations<'_> {
     type Output = ();
 
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
     fn with_simd<S: Simd>(self, _: S) {
-        let half = self.bins.len / 2;
-        let (low, high) = self.ln_psd.split_at(half);
-        let (mut sums, mut differences) = (vec![0.0; half], vec![0.0; half]);
-        for i in 0..half {
-            let (below, above) = (exp(f64::from(low[i])), exp(f64::from(high[half - 1 - i])));
-            sums[i] = below + above;
-            differences[i] = below - above;
-        }
-        for (k, (lag, cosines)) in self.lags.iter_mut().zip(self.bins.cosines.chunks_exact(half)).enumerate()
-        {
-            let values = if k % 2 == 0 { &sums } else { &differences };
-            let mut parts = [0.0; LANES];
-            for (value, cosine) in values.as_chunks::<LANES>().0.iter().zip(cosines.as_chunks::<LANES>().0) {
-                for i in 0..LANES {
-                    parts[i] += value[i] * cosine[i];
-                }
+        let Self { bins, ln_psds, lags } = self;
+        let half = bins.len / 2;
+        let width_hz = 0.5 * bins.rate.0 / bins.len as f64;
+        let mut powers = vec![0.0; 2 * bins.len];
+        let (powers, folded) = powers.split_at_mut(bins.len);
+        let (sums, differences) = folded.split_at_mut(half);
+        for (side, ln_psd) in ln_psds.iter().enumerate() {
+            for (power, ln) in powers.iter_mut().zip(*ln_psd) {
+                *power = width_hz * exp(f64::from(*ln));
             }
-            *lag = parts.iter().sum();
+            let (low, high) = powers.split_at(half);
+            for (i, (below, above)) in low.iter().zip(high.iter().rev()).enumerate() {
+                (sums[i], differences[i]) = (below + above, below - above);
+            }
+            for (k, (lag, cosines)) in lags.iter_mut().zip(bins.cosines.chunks_exact(half)).enumerate() {
+                let values = if k % 2 == 0 { &*sums } else { &*differences };
+                let mut parts = [0.0; LANES];
+                for (value, cosine) in
+                    values.as_chunks::<LANES>().0.iter().zip(cosines.as_chunks::<LANES>().0)
+                {
+                    for i in 0..LANES {
+                        parts[i] += value[i] * cosine[i];
+                    }
+                }
+                lag[side] = parts.iter().sum();
+            }
         }
     }
 }
@@ -99,7 +104,9 @@ mod tests {
         let bins = Bins::new(Hertz(2000.0), 100, 9);
         let mut random = Random::new(1);
         let ln_psd: Vec<f32> = (0..bins.len()).map(|_| (3.0 * random.normal()) as f32).collect();
-        let lags = bins.lags(&ln_psd);
+        let turned: Vec<f32> = ln_psd.iter().rev().copied().collect();
+        let both = bins.lags(&[&turned, &ln_psd]);
+        let lags: Vec<f64> = both.iter().map(|lag| lag[1]).collect();
         assert_eq!((bins.len(), lags.len()), (112, 10));
         for (k, lag) in lags.iter().enumerate() {
             let term =

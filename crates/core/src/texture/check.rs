@@ -1,6 +1,5 @@
 //! What the numbers of a texture must keep.
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
@@ -114,20 +113,32 @@ fn highest(places: &[[f64; 2]]) -> [f64; 2] {
 
 /// Whether nodes lie far enough from each other.
 fn apart_in_plane(places: &[[f64; 2]], highest: [f64; 2]) -> Result<(), TextureModelError> {
-    // Cells as wide as the smallest distance: whoever is too near is in the same cell or in one around it.
-    let mut in_cell = BTreeMap::new();
-    for (index, place) in places.iter().enumerate() {
-        let at = [0, 1].map(|axis| place[axis] / highest[axis] / MIN_NODE_DISTANCE);
-        let cell = at.map(|c| c as i64);
-        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-            if let Some((first, other)) = in_cell.get(&[cell[0] + dx, cell[1] + dy]) {
-                let other: &[f64; 2] = other;
-                if (at[0] - other[0]).abs().max((at[1] - other[1]).abs()) < 1.0 {
-                    return Err(TextureModelError::SamePlace { first: *first, second: index });
-                }
-            }
+    // Columns as wide as the smallest distance, and from bottom to top in each: whoever is too near is the next one in the
+    // column, or in the column to the right.
+    let at = |place: &[f64; 2]| [0, 1].map(|axis| place[axis] / highest[axis] / MIN_NODE_DISTANCE);
+    let mut ordered: Vec<(i64, [f64; 2], usize)> = places
+        .iter()
+        .enumerate()
+        .map(|(index, place)| {
+            let at = at(place);
+            (at[0] as i64, at, index)
+        })
+        .collect();
+    ordered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1[1].total_cmp(&b.1[1])));
+    for (i, (column, at, index)) in ordered.iter().enumerate() {
+        let rest = &ordered[i + 1..];
+        let is_before = |other: &(i64, [f64; 2], usize)| {
+            other.0 <= *column || (other.0 == column + 1 && other.1[1] <= at[1] - 1.0)
+        };
+        let right = &rest[rest.partition_point(is_before)..];
+        let right = right.iter().take_while(|other| other.0 == column + 1 && other.1[1] < at[1] + 1.0);
+        let mut near = rest.iter().take_while(|other| other.0 == *column).take(1).chain(right);
+        let is_near = |other: &&(i64, [f64; 2], usize)| {
+            (at[0] - other.1[0]).abs().max((at[1] - other.1[1]).abs()) < 1.0
+        };
+        if let Some((_, _, other)) = near.find(is_near) {
+            return Err(TextureModelError::SamePlace { first: *index.min(other), second: *index.max(other) });
         }
-        in_cell.insert(cell, (index, at));
     }
     Ok(())
 }
