@@ -14,10 +14,11 @@ use std::sync::Arc;
 use measure::bench;
 use shagreen_core::authoring::{Authored, Authoring, Blending, Layers, Models, Outside, Weights};
 use shagreen_core::blend::Mode;
+use shagreen_core::lsf::repair;
 use shagreen_core::plane::Plane;
 use shagreen_core::rng::Random;
 use shagreen_core::space::{Space, SpacePoint};
-use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::{GrainNode, TextureModel};
 use shagreen_formats::starter::starter_library;
 
 fn main() {
@@ -57,21 +58,37 @@ fn dragged(i: u32) -> SpacePoint {
     SpacePoint { rough_smooth: 50.0 + 49.0 * (1.9 * t).sin(), hard_soft: 50.0 + 49.0 * (3.0 * t).cos() }
 }
 
-/// The starter library, or copies of its textures at random places.
+/// The starter library, or changed copies of its textures at random places: no two are alike.
 fn authoring(n: usize) -> Authoring {
     let library = starter_library().expect("the starter library");
-    let planes: Vec<Plane> = library.textures.iter().map(|texture| Plane::new(&texture.model)).collect();
     let mut random = Random::new(7);
+    let models: Vec<TextureModel> = (0..n)
+        .map(|i| {
+            let model = &library.textures[i % library.textures.len()].model;
+            if i < library.textures.len() { model.clone() } else { changed(model, &mut random) }
+        })
+        .collect();
     let place = |i: usize| match library.textures.get(i) {
         Some(texture) => texture.at(),
         None => SpacePoint::new(100.0 * random.uniform(), 100.0 * random.uniform()).ok(),
     };
     let space = Space::new(&(0..n).map(place).collect::<Vec<_>>()).expect("a space");
-    let layers = (0..n).map(|i| {
-        let i = i % library.textures.len();
-        let model = &library.textures[i].model;
-        Some(Layers { plane: &planes[i], friction: model.friction(), tap: model.tap() })
-    });
+    let planes: Vec<Plane> = models.iter().map(Plane::new).collect();
+    let layers = models.iter().zip(&planes).map(|(model, plane)| Some(Layers::of(model, plane)));
     let models = Models::new(&space, &layers.collect::<Vec<_>>()).expect("textures of one rate");
     Authoring::new(space).with_models(Arc::new(models))
+}
+
+/// The same texture with its frequencies bent and its levels changed, alike at all speeds and forces.
+fn changed(model: &TextureModel, random: &mut Random) -> TextureModel {
+    let order = model.nodes()[0].lsf.len();
+    let bends: Vec<f64> = (0..order).map(|_| 0.03 * random.normal()).collect();
+    let gain = (0.3 * random.normal()).exp();
+    let nodes = model.nodes().iter().map(|node| GrainNode {
+        lsf: repair(&node.lsf.iter().zip(&bends).map(|(w, bend)| w + bend).collect::<Vec<_>>()),
+        level_mps2: gain * node.level_mps2,
+        ..node.clone()
+    });
+    let friction = model.friction().map(|friction| friction * (0.2 * random.normal()).exp());
+    TextureModel::new(model.rate(), nodes.collect(), friction).expect("a texture").with_tap(model.tap())
 }

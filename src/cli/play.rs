@@ -173,14 +173,9 @@ const FOLLOW_STEP_SECS: f64 = 0.005;
 
 impl<'a> Follow<'a> {
     fn new(path: &'a TexturePath, motion: &Motion) -> Self {
-        let mut traveler = Traveler::new(path.along());
-        let n_steps = (motion.seconds() / FOLLOW_STEP_SECS).ceil() as usize + 1;
-        let traveled = (0..n_steps).map(|step| {
-            let now = traveler.traveled();
-            traveler.go(motion.contact_at(FOLLOW_STEP_SECS * (step as f64 + 0.5)), FOLLOW_STEP_SECS);
-            now
-        });
-        Self { path, traveled: traveled.collect() }
+        let mut contact_at = |secs| motion.contact_at(secs);
+        let traveled = Traveler::ahead(path.along(), motion.seconds(), FOLLOW_STEP_SECS, &mut contact_at);
+        Self { path, traveled }
     }
 
     /// Sets the mix of the place that is reached at a time of the motion.

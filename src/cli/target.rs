@@ -36,7 +36,7 @@ pub(crate) struct BlendArgs {
     /// How the textures around a point become one: field is a smooth field over all of them, parametric the mean of those
     /// around; shared, power and paper mix their signals (one excitation; independent, at the mean of the levels; as
     /// published).
-    #[arg(long, value_name = "MODE", value_parser = blend_parser(), default_value = Mode::default().id())]
+    #[arg(long, value_name = "MODE", value_parser = words(Mode::ALL, Mode::id), default_value = Mode::default().id())]
     blend: Mode,
     /// Take natural-neighbor weights instead of those of the triangle; with --blend parametric.
     #[arg(long)]
@@ -103,10 +103,14 @@ pub(crate) fn parse_point(text: &str) -> Result<SpacePoint, String> {
     SpacePoint::new(number(rough_smooth)?, number(hard_soft)?).map_err(|error| error.to_string())
 }
 
-fn blend_parser() -> impl clap::builder::TypedValueParser<Value = Mode> {
+/// What takes one of these, by its word.
+pub(crate) fn words<T: Copy + Default + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    id: fn(T) -> &'static str,
+) -> impl clap::builder::TypedValueParser<Value = T> {
     use clap::builder::TypedValueParser as _;
-    clap::builder::PossibleValuesParser::new(Mode::ALL.map(Mode::id))
-        .map(|id| Mode::from_id(&id).unwrap_or_default())
+    clap::builder::PossibleValuesParser::new(all.map(id))
+        .map(move |word| all.into_iter().find(|each| id(*each) == word).unwrap_or_default())
 }
 
 impl SoundArgs {
@@ -234,10 +238,7 @@ pub(crate) fn authoring(library: &Library, mode: Mode) -> anyhow::Result<Authori
     let layers: Vec<Option<Layers<'_>>> = planes
         .iter()
         .zip(&library.textures)
-        .map(|(plane, entry)| {
-            let (friction, tap) = (entry.model.friction(), entry.model.tap());
-            plane.as_ref().map(|plane| Layers { plane, friction, tap })
-        })
+        .map(|(plane, entry)| plane.as_ref().map(|plane| Layers::of(&entry.model, plane)))
         .collect();
     let models = Models::new(authoring.space(), &layers)?;
     Ok(authoring.with_models(Arc::new(models)))

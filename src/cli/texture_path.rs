@@ -13,7 +13,7 @@ use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::motion::quantity;
 use crate::cli::output;
-use crate::cli::target::{BlendArgs, authoring, parse_point};
+use crate::cli::target::{BlendArgs, authoring, parse_point, words};
 
 /// Makes a texture that changes along a stroke, from stop to stop through the space, and writes it as a library of its own:
 /// `render`, `play` and the window take it as any other texture.
@@ -24,11 +24,11 @@ pub(crate) struct Args {
     #[arg(long = "stop", value_name = "RS,HS@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
     stops: Vec<(SpacePoint, f64)>,
     /// What counts along the stroke: the distance that the tip has traveled, or the time that it has touched.
-    #[arg(long, value_name = "WHAT", value_parser = ["distance", "time"], default_value = "distance")]
-    along: String,
+    #[arg(long, value_name = "WHAT", value_parser = words([Along::Distance, Along::Time], Along::id), default_value = Along::default().id())]
+    along: Along,
     /// What happens at the end: the last texture stays, it goes back, or it begins again.
-    #[arg(long, value_name = "WHAT", value_parser = ["hold", "turn", "repeat"], default_value = "hold")]
-    at_end: String,
+    #[arg(long, value_name = "WHAT", value_parser = words(AtEnd::ALL, AtEnd::id), default_value = AtEnd::default().id())]
+    at_end: AtEnd,
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
@@ -54,21 +54,21 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "a path", is_path)?;
     let library = load(&args.library)?;
     let blending = args.blending.blending(&library)?;
-    let along = Along::from_id(&args.along).unwrap_or_default();
-    let unit = if along == Along::Distance { (1e-3, "mm") } else { (1.0, "s") };
+    let unit = if args.along == Along::Distance { (1e-3, "mm") } else { (1.0, "s") };
     let stops = args.stops.iter().map(|(at, x)| Stop { at: *at, along: unit.0 * x }).collect();
-    let route = Route::new(along, AtEnd::from_id(&args.at_end).unwrap_or_default(), stops)?;
+    let route = Route::new(args.along, args.at_end, stops)?;
     let authoring = authoring(&library, blending.mode)?;
     let path = TexturePath::of_route(&authoring, &route, &blending)?;
-    let (n_clamped, n_extrapolated) = outside(&authoring, &path, &blending);
+    let outside = Outside::of(&authoring, &path, &blending);
     let (n_keys, length) = (path.keys().len(), path.length() / unit.0);
     let of: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
     let made = made(&library, &args.name, path, &of);
     let id = made.textures[0].id.clone();
     let is_restricted = made.textures[0].provenance == Provenance::Restricted;
-    let warning =
-        Provenance::warning(&is_restricted.then_some(args.name.as_str()).into_iter().collect::<Vec<_>>());
-    if let Some(warning) = &warning {
+    let restricted: Vec<&str> = is_restricted.then_some(args.name.as_str()).into_iter().collect();
+    let mut warnings = outside.warnings(n_keys);
+    warnings.extend(Provenance::warning(&restricted));
+    for warning in &warnings {
         output::warn(warning);
     }
     atomic::write(&args.out, &write_library(&made))?;
@@ -77,37 +77,44 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         args.json,
         &json!({
             "out": file, "id": id, "keys": n_keys, "length": length, "unit": unit.1,
-            "along": args.along, "at_end": args.at_end, "blend": blending.mode.id(), "clamped": n_clamped, "extrapolated": n_extrapolated,
-            "warnings": warning.into_iter().collect::<Vec<_>>(),
+            "along": args.along.id(), "at_end": args.at_end.id(), "blend": blending.mode.id(),
+            "clamped": outside.n_clamped, "extrapolated": outside.n_extrapolated,
+            "warnings": warnings,
         }),
         || format!("Wrote \"{id}\", {length} {} long, {n_keys} textures along it: {file}", unit.1),
     );
     Ok(())
 }
 
-/// How many keys lie outside the textures and were moved to where there is a texture, and how many were extrapolated;
-/// both are said.
-fn outside(authoring: &Authoring, path: &TexturePath, blending: &Blending) -> (usize, usize) {
-    let authored = path.keys().iter().filter_map(|key| authoring.author(key.stop.at, blending));
-    let (mut n_clamped, mut n_extrapolated) = (0, 0);
-    for authored in authored {
-        n_clamped += usize::from(authored.location.clamped);
-        n_extrapolated += usize::from(authored.is_extrapolated);
+/// How many keys lie outside the textures.
+struct Outside {
+    /// Those that were moved to where there is a texture.
+    n_clamped: usize,
+    /// Those that were extrapolated.
+    n_extrapolated: usize,
+}
+
+impl Outside {
+    fn of(authoring: &Authoring, path: &TexturePath, blending: &Blending) -> Self {
+        let authored: Vec<_> =
+            path.keys().iter().filter_map(|key| authoring.author(key.stop.at, blending)).collect();
+        Self {
+            n_clamped: authored.iter().filter(|authored| authored.location.clamped).count(),
+            n_extrapolated: authored.iter().filter(|authored| authored.is_extrapolated).count(),
+        }
     }
-    if n_clamped > 0 {
-        output::warn(&format!(
-            "{n_clamped} of {} textures along the path lie outside the textures of the library; the nearest points that \
-             they support are used",
-            path.keys().len()
-        ));
+
+    fn warnings(&self, n_keys: usize) -> Vec<String> {
+        let of_all =
+            |n: usize, what: &str| (n > 0).then(|| format!("{n} of {n_keys} textures along the path {what}"));
+        let clamped =
+            "lie outside the textures of the library; the nearest points that they support are used";
+        let extrapolated = "are extrapolated: nothing was measured there";
+        [of_all(self.n_clamped, clamped), of_all(self.n_extrapolated, extrapolated)]
+            .into_iter()
+            .flatten()
+            .collect()
     }
-    if n_extrapolated > 0 {
-        output::warn(&format!(
-            "{n_extrapolated} of {} textures along the path are extrapolated: nothing was measured there",
-            path.keys().len()
-        ));
-    }
-    (n_clamped, n_extrapolated)
 }
 
 /// Whether a file is a library of one path, which a newer one may replace.

@@ -41,6 +41,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         library.textures.remove(index);
     }
     let chosen = args.sound.choose(&library)?;
+    if let Some(path) = &chosen.path {
+        let n_keys = path.keys().len();
+        output::note(&format!(
+            "this texture changes along a path of {n_keys}; the spectrum is that of its beginning"
+        ));
+    }
     let rate = chosen.rate(&library)?;
     let contact = Contact::from_mm_per_s_and_n(args.speed, args.force);
     let planes = chosen.planes(&library)?;

@@ -26,6 +26,20 @@ fn drawn(harness: &Author) -> DrawnPath {
     window(harness).project().path.clone().expect("a path")
 }
 
+/// Draws from brick to cotton, where it stays, in so many seconds.
+fn draw_in_time(harness: &mut Author, secs: f64) {
+    click(harness, path::PATH);
+    click(harness, &strings::go_to("Brick"));
+    click(harness, &strings::go_to("Cotton weave"));
+    choose(harness, path::ALONG, path::TIME);
+    choose(harness, path::AT_END, path::HOLD);
+    harness.get_by_role_and_label(Role::SpinButton, path::LENGTH).set_value_accesskit(secs);
+    harness.run_steps(2);
+    let set = drawn(harness);
+    assert_eq!((set.points.len(), set.along, set.at_end), (2, Along::Time, AtEnd::Hold));
+    assert!((set.length_secs - secs).abs() < 1e-9);
+}
+
 /// Draws from one texture by a second to a third.
 fn draw(harness: &mut Author, [from, by, to]: [&str; 3]) {
     let places = [from, by, to].map(|name| center(harness, &strings::go_to(name)));
@@ -113,16 +127,7 @@ fn a_path_is_drawn_changed_and_undone() {
 fn the_texture_follows_the_path() {
     let mut harness = author();
     wait_for_field(&mut harness);
-    click(&mut harness, path::PATH);
-    click(&mut harness, &strings::go_to("Brick"));
-    click(&mut harness, &strings::go_to("Cotton weave"));
-    choose(&mut harness, path::ALONG, path::TIME);
-    choose(&mut harness, path::AT_END, path::HOLD);
-    let set = drawn(&harness);
-    assert_eq!((set.points.len(), set.along, set.at_end), (2, Along::Time, AtEnd::Hold));
-    harness.get_by_role_and_label(Role::SpinButton, path::LENGTH).set_value_accesskit(1.5);
-    harness.run_steps(2);
-    assert!((drawn(&harness).length_secs - 1.5).abs() < 1e-9);
+    draw_in_time(&mut harness, 1.5);
     click(&mut harness, path::PLAY);
     assert!(window(&harness).session().is_path_playing());
     let says_wait =
@@ -194,13 +199,7 @@ fn a_path_is_kept_as_a_texture() {
 fn a_kept_path_is_heard_along_the_stroke() {
     let mut harness = author();
     wait_for_field(&mut harness);
-    click(&mut harness, path::PATH);
-    click(&mut harness, &strings::go_to("Brick"));
-    click(&mut harness, &strings::go_to("Cotton weave"));
-    choose(&mut harness, path::ALONG, path::TIME);
-    choose(&mut harness, path::AT_END, path::HOLD);
-    harness.get_by_role_and_label(Role::SpinButton, path::LENGTH).set_value_accesskit(1.0);
-    harness.run_steps(2);
+    draw_in_time(&mut harness, 1.0);
     click(&mut harness, path::KEEP);
     // The list scrolls to what joined it.
     harness.run_steps(40);

@@ -18,8 +18,10 @@ pub const N_CONDITIONS: usize = SPEEDS_MM_PER_S.len() * FORCES_N.len();
 /// Models of lower rates are converted to it.
 pub const COMPARED_RATE: Hertz = Hertz(1000.0);
 
-const SPEEDS_MM_PER_S: [f64; 3] = [50.0, 80.0, 110.0];
-const FORCES_N: [f64; 3] = [0.3, 0.6, 0.9];
+/// Speeds at which textures are compared, in mm/s, each with every force.
+pub const SPEEDS_MM_PER_S: [f64; 3] = [50.0, 80.0, 110.0];
+/// Forces at which textures are compared, in N.
+pub const FORCES_N: [f64; 3] = [0.3, 0.6, 0.9];
 const N_BINS: usize = 256;
 const LOWEST_CENTER_HZ: f64 = 20.0;
 const HIGHEST_CENTER_HZ: f64 = 480.0;
@@ -187,7 +189,8 @@ pub fn chance_db(seconds: f64) -> f64 {
     10.0 / std::f64::consts::LN_10 * mean.sqrt()
 }
 
-fn center(channel: usize) -> Hertz {
+/// Center of a channel, counted from zero.
+pub fn center(channel: usize) -> Hertz {
     let share = channel as f64 / (N_CHANNELS - 1) as f64;
     Hertz(LOWEST_CENTER_HZ * (HIGHEST_CENTER_HZ / LOWEST_CENTER_HZ).powf(share))
 }

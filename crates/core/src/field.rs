@@ -141,11 +141,6 @@ impl Field {
         self.smoother.weights(at)
     }
 
-    /// The ridge that was chosen.
-    pub(crate) fn ridge(&self) -> f64 {
-        self.smoother.ridge()
-    }
-
     /// How far from `inside` towards `to` the field supports a texture: as long as the noise of the measurements weighs
     /// no more than in a copy of one texture, `Σ w² ≤ 1`.
     pub(crate) fn supported(&self, inside: Xy, to: Xy) -> Xy {

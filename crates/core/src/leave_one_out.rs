@@ -17,7 +17,7 @@ use crate::statistics::mean;
 use crate::texture::TextureModel;
 use crate::triangulation::TriangulationError;
 
-use crate::leave_one_out::rest::{Made, Placed, Rests, is_inside};
+use crate::leave_one_out::rest::{Made, Placed, Rests, is_inside, nearest};
 use crate::leave_one_out::signals::Rendered;
 
 /// Fewest textures that have a place: three, and one between them.
@@ -114,6 +114,8 @@ pub struct LeftOut {
     pub texture: usize,
     /// Its place.
     pub at: SpacePoint,
+    /// Library index of the texture nearest to it in the space.
+    pub nearest: usize,
     /// What each method came to.
     pub outcomes: Vec<Outcome>,
 }
@@ -130,6 +132,8 @@ pub struct Outcome {
     /// Normalized similarity `1 - d / reach`: one for the same model, zero for what is as far off as the two textures
     /// farthest apart on the first axis; `None` where these are the same.
     pub nrs: Option<f64>,
+    /// Distance of rendered signals of the two in dB; `None` where none were rendered.
+    pub signal_error_db: Option<f64>,
 }
 
 /// Why nothing was measured.
@@ -267,7 +271,7 @@ fn measure(
         let original = &placed[index];
         let made = author(original)?;
         let authored: Vec<Profile> = made.iter().map(|made| made.profile(&channels)).collect();
-        let outcomes =
+        let mut outcomes: Vec<Outcome> =
             authored.iter().map(|authored| outcome(authored, index, &profiles, reach_db)).collect();
         if let (Some(plan), Some(every)) = (signals, rendered_every)
             && n_done.is_multiple_of(every)
@@ -275,9 +279,13 @@ fn measure(
             let rendered = signals::compare(&plan, original, &profiles[index], &made, &authored);
             let rendered =
                 rendered.map_err(|source| LeaveOneOutError::Render { texture: original.texture, source })?;
-            checks.iter_mut().zip(rendered).for_each(|(checks, rendered)| checks.push(rendered));
+            for ((outcome, checks), rendered) in outcomes.iter_mut().zip(&mut checks).zip(rendered) {
+                outcome.signal_error_db = Some(rendered.error_db);
+                checks.push(rendered);
+            }
         }
-        left_out.push(LeftOut { texture: original.texture, at: original.at, outcomes });
+        let nearest = nearest(&placed, original.texture, original.at).map_or(original.texture, |p| p.texture);
+        left_out.push(LeftOut { texture: original.texture, at: original.at, nearest, outcomes });
     }
     on_progress(inside.len(), inside.len());
     let summaries = methods.into_iter().zip(&checks).enumerate().map(|(index, (method, rendered))| {
@@ -317,6 +325,7 @@ fn outcome(authored: &Profile, original: usize, profiles: &[Profile], reach_db: 
         level_error_db: level_error_db(authored, &profiles[original]),
         rank: 1 + profiles.iter().filter(|other| error_db(authored, other) < distance).count(),
         nrs: (reach_db > 0.0).then_some(1.0 - distance / reach_db),
+        signal_error_db: None,
     }
 }
 

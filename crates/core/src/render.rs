@@ -173,20 +173,11 @@ pub fn render_path(
     }
     let lent = Lent(plan.prepared.iter().collect());
     let output = output(&lent, plan.rate, plan.seconds, plan.seed)?;
-    let mut traveler = Traveler::new(plan.path.along());
     // Worked out ahead, since the mix and the contact are asked for by turns.
-    let n_steps = (plan.seconds / MIX_STEP_SECS).ceil() as usize + 1;
-    let traveled: Vec<f64> = (0..n_steps)
-        .map(|step| {
-            let from_secs = step as f64 * MIX_STEP_SECS;
-            let now = traveler.traveled();
-            traveler.go(contact_at(from_secs + 0.5 * MIX_STEP_SECS), MIX_STEP_SECS);
-            now
-        })
-        .collect();
+    let traveled = Traveler::ahead(plan.path.along(), plan.seconds, MIX_STEP_SECS, contact_at);
     let mut mix_at = |time_secs: f64| {
         let step = (time_secs.max(0.0) / MIX_STEP_SECS).round() as usize;
-        path_mix(plan.path, traveled[step.min(n_steps - 1)])
+        path_mix(plan.path, traveled[step.min(traveled.len() - 1)])
     };
     rendered(&lent, &output, &mut mix_at, contact_at)
 }

@@ -39,6 +39,13 @@ pub struct Layers<'a> {
     pub tap: Option<Tap>,
 }
 
+impl<'a> Layers<'a> {
+    /// Those of a texture whose plane this is.
+    pub fn of(model: &TextureModel, plane: &'a Plane) -> Self {
+        Self { plane, friction: model.friction(), tap: model.tap() }
+    }
+}
+
 /// Grain at the contacts of a lattice.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SampledGrain {

@@ -22,10 +22,9 @@ const MOST_FOR_RIDGE: usize = 200;
 
 /// The weights of a smooth surface over points.
 #[derive(Clone, Debug)]
-pub struct Smoother {
+pub(crate) struct Smoother {
     basis: Basis,
     n_points: usize,
-    ridge: f64,
     /// Inverse of the system of equations, a row and a column for each term.
     inverse: DMatrix<f64>,
 }
@@ -35,28 +34,23 @@ impl Smoother {
     ///
     /// `None` without points, and where points lie so near each other that there is no telling them apart. Cost: the
     /// number of points cubed.
-    pub fn new(points: &[Xy], ridge: f64) -> Option<Self> {
+    pub(crate) fn new(points: &[Xy], ridge: f64) -> Option<Self> {
         let n_points = points.len();
         if n_points == 0 {
             return None;
         }
         let basis = Basis::new(points, Kernel::ThinPlate);
         let inverse = system(&basis, points, ridge).try_inverse()?;
-        inverse.iter().all(|x| x.is_finite()).then_some(Self { basis, n_points, ridge, inverse })
+        inverse.iter().all(|x| x.is_finite()).then_some(Self { basis, n_points, inverse })
     }
 
     /// The same with the ridge of [`chosen_ridge`].
-    pub fn fitted(points: &[Xy], values: &DMatrix<f64>) -> Option<Self> {
+    pub(crate) fn fitted(points: &[Xy], values: &DMatrix<f64>) -> Option<Self> {
         Self::new(points, chosen_ridge(points, values))
     }
 
-    /// The ridge.
-    pub fn ridge(&self) -> f64 {
-        self.ridge
-    }
-
     /// Weights of the measurements at a place, in the order of the points: they sum to one, and may be below zero.
-    pub fn weights(&self, at: Xy) -> Vec<f64> {
+    pub(crate) fn weights(&self, at: Xy) -> Vec<f64> {
         let mut weights = vec![0.0; self.n_points];
         for (column, term) in self.inverse.column_iter().zip(self.basis.terms(at)) {
             for (weight, x) in weights.iter_mut().zip(column.iter()) {
@@ -67,7 +61,7 @@ impl Smoother {
     }
 
     /// The surface over `values`, a row for each point and a column for each quantity.
-    pub fn surface(&self, values: &DMatrix<f64>) -> Surface {
+    pub(crate) fn surface(&self, values: &DMatrix<f64>) -> Surface {
         let coefficients = self.inverse.columns(0, self.n_points) * values;
         Surface { basis: self.basis.clone(), coefficients: coefficients.transpose() }
     }
@@ -75,7 +69,7 @@ impl Smoother {
 
 /// Smooth surfaces, several at once.
 #[derive(Clone, Debug)]
-pub struct Surface {
+pub(crate) struct Surface {
     basis: Basis,
     /// A row for each quantity, a column for each term.
     coefficients: DMatrix<f64>,
@@ -83,7 +77,7 @@ pub struct Surface {
 
 impl Surface {
     /// The quantities at a place.
-    pub fn at(&self, at: Xy) -> Vec<f64> {
+    pub(crate) fn at(&self, at: Xy) -> Vec<f64> {
         let mut sum = vec![0.0; self.coefficients.nrows()];
         for (column, term) in self.coefficients.column_iter().zip(self.basis.terms(at)) {
             for (s, c) in sum.iter_mut().zip(column.iter()) {
@@ -97,7 +91,7 @@ impl Surface {
 /// The ridge by generalized cross-validation: the one nearest to the usual one whose score
 /// `(‖(I - S) Y‖² / n) / (tr(I - S) / n)²` is within 6 % of the lowest (P. Craven and G. Wahba 1979).
 /// The usual one where there are too few points to tell.
-pub fn chosen_ridge(points: &[Xy], values: &DMatrix<f64>) -> f64 {
+pub(crate) fn chosen_ridge(points: &[Xy], values: &DMatrix<f64>) -> f64 {
     let kept = scattered(points.len(), MOST_FOR_RIDGE);
     let points: Vec<Xy> = kept.iter().map(|i| points[*i]).collect();
     let values = DMatrix::from_fn(kept.len(), values.ncols(), |i, j| values[(kept[i], j)]);

@@ -153,15 +153,6 @@ impl Space {
         }
     }
 
-    /// As [`Space::locate`], along a drag: `hint` is the triangle of the last point and becomes that of this one. Any
-    /// number will do to begin with.
-    pub fn locate_near(&self, point: SpacePoint, hint: &mut usize) -> Option<Location> {
-        match self.triangulation.locate_near(point.xy(), hint) {
-            Some((triangle, weights)) => Some(self.inside(point, triangle, weights)),
-            None => self.on_hull(point),
-        }
-    }
-
     /// Distance of a point from the hull's outline, in points of the axes; infinite in a space without textures.
     pub fn hull_distance(&self, point: SpacePoint) -> f64 {
         let nearest = self.triangulation.nearest_on_outline(point.xy());
@@ -228,17 +219,11 @@ mod tests {
     }
 
     #[test]
-    fn a_drag_says_the_same_as_each_of_its_points() {
+    fn positions_are_those_of_the_library() {
         let places: Vec<_> = (0..40)
             .map(|i| (i % 3 > 0).then(|| point(f64::from(i * 37 % 101), f64::from(i * 59 % 97))))
             .collect();
         let space = Space::new(&places).unwrap();
-        let mut hint = usize::MAX;
-        for step in 0..1000 {
-            let angle = 0.02 * f64::from(step);
-            let at = point(50.0 + 50.0 * angle.sin(), 50.0 + 50.0 * (1.7 * angle).cos());
-            assert_eq!(space.locate_near(at, &mut hint), space.locate(at));
-        }
         for (texture, place) in places.iter().enumerate() {
             assert_eq!(space.position(texture), *place);
         }

@@ -299,9 +299,31 @@ impl Traveler {
         Self { along, traveled: 0.0, touches: false }
     }
 
+    /// What is counted.
+    pub fn along(&self) -> Along {
+        self.along
+    }
+
     /// How far the stroke has come, in m or s.
     pub fn traveled(&self) -> f64 {
         self.traveled
+    }
+
+    /// How far a stroke of this length comes, every `step_secs` from its beginning to its end.
+    pub fn ahead(
+        along: Along,
+        seconds: f64,
+        step_secs: f64,
+        contact_at: &mut dyn FnMut(f64) -> Contact,
+    ) -> Vec<f64> {
+        let mut traveler = Self::new(along);
+        let n_steps = (seconds / step_secs).ceil() as usize + 1;
+        let step = |step: usize| {
+            let now = traveler.traveled();
+            traveler.go(contact_at(step_secs * (step as f64 + 0.5)), step_secs);
+            now
+        };
+        (0..n_steps).map(step).collect()
     }
 
     /// The tip is like this for so long.

@@ -127,7 +127,8 @@ impl Triangulation {
     }
 
     /// Neighbor of a triangle across the edge opposite each of its corners.
-    pub fn neighbors(&self, triangle: usize) -> [Option<usize>; 3] {
+    #[cfg(test)]
+    pub(crate) fn neighbors(&self, triangle: usize) -> [Option<usize>; 3] {
         self.shapes[triangle].neighbors.map(|next| (next != NONE).then_some(next as usize))
     }
 

@@ -1,6 +1,7 @@
 //! What leaving one texture out came to: a JSON report for scripts and figures for people.
 
 use serde_json::{Map, Value, json};
+use shagreen_core::fidelity::{FORCES_N, N_CHANNELS, SPEEDS_MM_PER_S, center};
 use shagreen_core::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, SignalCheck, Summary};
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
@@ -46,6 +47,11 @@ pub fn evaluation_report(library: &Library, measured: &LeaveOneOut) -> Value {
         "nearest": nearest,
         "best": best(measured).map(|summary| method_id(&summary.method)),
         "reach_db": measured.reach_db,
+        "compared_at": {
+            "speeds_mm_per_s": SPEEDS_MM_PER_S,
+            "forces_n": FORCES_N,
+            "channels_hz": (0..N_CHANNELS).map(|channel| center(channel).0).collect::<Vec<_>>(),
+        },
         "textures": measured.textures.iter().map(|left| texture(library, measured, left)).collect::<Vec<_>>(),
         "on_hull": measured.on_hull.iter().map(id).collect::<Vec<_>>(),
     })
@@ -89,10 +95,12 @@ fn texture(library: &Library, measured: &LeaveOneOut, left: &LeftOut) -> Value {
     json!({
         "id": library.textures[left.texture].id,
         "at": [left.at.rough_smooth, left.at.hard_soft],
+        "nearest": library.textures[left.nearest].id,
         "error_db": by_method(&|outcome| json!(outcome.error_db)),
         "level_error_db": by_method(&|outcome| json!(outcome.level_error_db)),
         "rank": by_method(&|outcome| json!(outcome.rank)),
         "nrs": by_method(&|outcome| json!(outcome.nrs)),
+        "signal_error_db": by_method(&|outcome| json!(outcome.signal_error_db)),
     })
 }
 
@@ -219,10 +227,17 @@ mod tests {
             nrs_mean: None,
             signals: None,
         };
-        let outcome = |error_db: f64| Outcome { error_db, level_error_db: 1.0, rank: 2, nrs: None };
+        let outcome = |error_db: f64| Outcome {
+            error_db,
+            level_error_db: 1.0,
+            rank: 2,
+            nrs: None,
+            signal_error_db: Some(2.5),
+        };
         let left_out = |texture: usize, errors_db: [f64; 2]| LeftOut {
             texture,
             at: SpacePoint::new(10.0, 20.0 + texture as f64).unwrap(),
+            nearest: texture + 1,
             outcomes: errors_db.map(outcome).to_vec(),
         };
         LeaveOneOut {
@@ -246,6 +261,9 @@ mod tests {
         assert!(report["modes"].get("nearest").is_none() && report["nearest"]["nrs_mean"].is_null());
         assert_eq!(report["textures"][1]["id"], library.textures[4].id.as_str());
         assert_eq!(report["textures"][1]["error_db"]["field"], 4.75);
+        assert_eq!(report["textures"][1]["signal_error_db"]["nearest"], 2.5);
+        assert_eq!(report["textures"][0]["nearest"], library.textures[4].id.as_str());
+        assert_eq!(report["compared_at"]["channels_hz"].as_array().unwrap().len(), 40);
         assert_eq!(report["on_hull"].as_array().unwrap().len(), 3);
         assert_eq!(best(&measured()).map(|s| method_id(&s.method)), Some("field"));
     }

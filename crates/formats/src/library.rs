@@ -184,7 +184,16 @@ pub struct Unknown {
     tap: Map<String, Value>,
     path: Map<String, Value>,
     /// Empty, or one for each key of the path.
-    keys: Vec<Map<String, Value>>,
+    keys: Vec<UnknownOfKey>,
+    /// Empty, or one for each node of the model.
+    anchors: Vec<Map<String, Value>>,
+}
+
+/// The same of a key of a path.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct UnknownOfKey {
+    key: Map<String, Value>,
+    tap: Map<String, Value>,
     /// Empty, or one for each node of the model.
     anchors: Vec<Map<String, Value>>,
 }

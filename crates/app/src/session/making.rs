@@ -8,7 +8,6 @@ use shagreen_core::blend::Mode;
 use shagreen_core::rate::at_rate;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::units::Hertz;
-use shagreen_device::touch::Touch;
 
 use super::Session;
 use super::heard::Heard;
@@ -35,13 +34,13 @@ impl Session {
 
     /// The texture of the path that is heard alone, where the stroke is on it; `None` where what is heard alone is no path.
     pub(super) fn follow_key(&mut self, solo: Option<usize>) -> Option<usize> {
+        let touch = self.touch();
         let Some((texture, path)) =
             solo.and_then(|texture| Some((texture, self.library.textures[texture].path.as_ref()?)))
         else {
             self.walk_alone = None;
             return None;
         };
-        let touch = self.player.status.map_or(Touch::default(), |status| status.touch);
         let (of, walk) = self.walk_alone.get_or_insert_with(|| (texture, PathWalk::new(path.along())));
         if *of != texture {
             (*of, *walk) = (texture, PathWalk::new(path.along()));

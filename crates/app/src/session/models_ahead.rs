@@ -102,6 +102,8 @@ impl ModelsAhead {
 #[cfg(test)]
 mod tests {
     use super::{Ingredients, Job, ModelsAhead};
+    use shagreen_core::authoring::Authoring;
+    use shagreen_core::blend::Mode;
     use shagreen_core::plane::Plane;
     use shagreen_core::space::{Space, SpacePoint};
     use shagreen_formats::starter::starter_library;
@@ -135,12 +137,16 @@ mod tests {
             assert!(start.elapsed() < Duration::from_secs(30));
             std::thread::sleep(Duration::from_millis(2));
         };
-        assert_eq!(models.n_textures(), 9);
+        let authoring = Authoring::new(job(9).space).with_models(models);
+        let authored = authoring.author(SpacePoint::new(40.0, 40.0).unwrap(), &Mode::Field.into());
+        assert_eq!(authored.unwrap().parents.len(), 9, "a field is over all textures of its space");
         assert!(ahead.awaited_secs().is_none() && ahead.collect(&ctx).is_none());
         ahead.ask(job(25));
         assert!(ahead.collect(&ctx).is_none());
         ahead.cancel();
-        std::thread::sleep(Duration::from_millis(200));
-        assert!(ahead.collect(&ctx).is_none(), "nobody asks for these any more");
+        while ahead.running.is_some() {
+            assert!(ahead.collect(&ctx).is_none(), "nobody asks for these any more");
+            std::thread::sleep(Duration::from_millis(2));
+        }
     }
 }

@@ -9,7 +9,6 @@ use shagreen_device::touch::Touch;
 /// The place of the stroke on a path that is played.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathWalk {
-    along: Along,
     traveler: Traveler,
     last: Option<Instant>,
 }
@@ -17,12 +16,12 @@ pub(super) struct PathWalk {
 impl PathWalk {
     /// Before the stroke.
     pub(super) fn new(along: Along) -> Self {
-        Self { along, traveler: Traveler::new(along), last: None }
+        Self { traveler: Traveler::new(along), last: None }
     }
 
     /// What is counted.
     pub(super) fn along(&self) -> Along {
-        self.along
+        self.traveler.along()
     }
 
     /// How far the stroke has come, in m or s.

@@ -26,6 +26,12 @@ struct Sampled {
     tap: Option<Tap>,
 }
 
+impl Sampled {
+    fn at(&self, at: SpacePoint) -> Site<'_> {
+        Site { at: at.xy(), grain: &self.grain, friction: self.friction, tap: self.tap }
+    }
+}
+
 /// Why textures cannot be blended into new ones.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -84,18 +90,10 @@ impl Models {
                 tap,
             })
             .collect();
-        let field = field(space, &sites).ok_or(ModelsError::Degenerate)?;
+        let at_places: Vec<Site<'_>> =
+            sites.iter().zip(space.sites()).map(|(site, (_, at))| site.at(*at)).collect();
+        let field = Field::new(&at_places).ok_or(ModelsError::Degenerate)?;
         Ok(Self { sampling, sites, field })
-    }
-
-    /// How many textures there are.
-    pub fn n_textures(&self) -> usize {
-        self.sites.len()
-    }
-
-    /// The ridge of the field.
-    pub fn ridge(&self) -> f64 {
-        self.field.ridge()
     }
 
     /// The texture of the field at a place, or so far on the way to a locked one.
@@ -105,8 +103,7 @@ impl Models {
         lock: Option<(usize, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
         let own = |(texture, share): (usize, f64)| {
-            let site = self.sites.iter().find(|site| site.texture == texture)?;
-            Some((Site { at: at.xy(), grain: &site.grain, friction: site.friction, tap: site.tap }, share))
+            Some((self.sites.iter().find(|site| site.texture == texture)?.at(at), share))
         };
         self.field.texture(&self.sampling, at.xy(), lock.and_then(own))
     }
@@ -141,16 +138,4 @@ impl Models {
         let tap = mean_tap(known.iter().map(|(site, weight)| (site.tap, *weight)));
         self.sampling.texture_of_frequencies(&lsf, &ln_level, friction, tap)
     }
-}
-
-fn field(space: &Space, sites: &[Sampled]) -> Option<Field> {
-    let site =
-        |(sampled, (_, at)): (&'_ Sampled, &(usize, SpacePoint))| (at.xy(), sampled.friction, sampled.tap);
-    let rest: Vec<_> = sites.iter().zip(space.sites()).map(site).collect();
-    let sites: Vec<Site<'_>> = sites
-        .iter()
-        .zip(rest)
-        .map(|(sampled, (at, friction, tap))| Site { at, grain: &sampled.grain, friction, tap })
-        .collect();
-    Field::new(&sites)
 }

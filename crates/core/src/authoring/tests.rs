@@ -51,11 +51,7 @@ pub(crate) fn world(n: usize, noise_db: f64, seed: u64) -> World {
     let textures: Vec<TextureModel> =
         places.iter().map(|at| truth(*at, noise_db * random.normal() / 8.686)).collect();
     let planes: Vec<Plane> = textures.iter().map(Plane::new).collect();
-    let layers: Vec<_> = textures
-        .iter()
-        .zip(&planes)
-        .map(|(t, plane)| Some(Layers { plane, friction: t.friction(), tap: t.tap() }))
-        .collect();
+    let layers: Vec<_> = textures.iter().zip(&planes).map(|(t, plane)| Some(Layers::of(t, plane))).collect();
     let space = Space::new(&places.iter().map(|p| Some(*p)).collect::<Vec<_>>()).unwrap();
     let models = Models::new(&space, &layers).unwrap();
     World { places, planes, authoring: Authoring::new(space).with_models(Arc::new(models)) }

@@ -65,22 +65,13 @@ impl Placed {
 
 /// Whether a place lies inside the hull of a space, and not on it.
 pub(super) fn is_inside(space: &Space, at: SpacePoint) -> bool {
-    if space.locate(at).is_none_or(|location| location.clamped) {
-        return false;
-    }
-    let place = |texture: usize| space.position(texture).unwrap_or(at);
-    space.hull().all(|ends| distance_from_edge(at, ends.map(place)) > ON_HULL)
+    space.locate(at).is_some_and(|location| !location.clamped) && space.hull_distance(at) > ON_HULL
 }
 
-fn distance_from_edge(at: SpacePoint, [a, b]: [SpacePoint; 2]) -> f64 {
-    let along = [b.rough_smooth - a.rough_smooth, b.hard_soft - a.hard_soft];
-    let length_squared = along[0] * along[0] + along[1] * along[1];
-    let dot = (at.rough_smooth - a.rough_smooth) * along[0] + (at.hard_soft - a.hard_soft) * along[1];
-    let t = if length_squared > 0.0 { (dot / length_squared).clamp(0.0, 1.0) } else { 0.0 };
-    at.distance(SpacePoint {
-        rough_smooth: a.rough_smooth + t * along[0],
-        hard_soft: a.hard_soft + t * along[1],
-    })
+/// The texture nearest to a place, other than the one that is left out.
+pub(super) fn nearest(placed: &[Placed], left_out: usize, at: SpacePoint) -> Option<&Placed> {
+    let rest = placed.iter().filter(|placed| placed.texture != left_out);
+    rest.min_by(|a, b| a.at.distance(at).total_cmp(&b.at.distance(at)))
 }
 
 /// The textures of a library, for all spaces that lack one of them.
@@ -110,10 +101,8 @@ impl<'a> Rests<'a> {
         let planes = self.planes_without(left_out)?;
         let mut authoring = Authoring::new(space);
         if blendings.iter().any(|blending| blending.mode.makes_a_model()) {
-            let layers = self.textures.iter().zip(&planes).map(|((model, _), plane)| {
-                let plane = plane.as_deref()?;
-                Some(Layers { plane, friction: model.friction(), tap: model.tap() })
-            });
+            let layers = self.textures.iter().zip(&planes);
+            let layers = layers.map(|((model, _), plane)| Some(Layers::of(model, plane.as_deref()?)));
             let layers: Vec<Option<Layers<'_>>> = layers.collect();
             let models = Models::new(authoring.space(), &layers)
                 .map_err(|source| LeaveOneOutError::Models { texture: left_out, source })?;
@@ -124,13 +113,8 @@ impl<'a> Rests<'a> {
             let authored = authoring.author(at, blending);
             authored.and_then(|authored| made(&authored, &planes)).ok_or(unmade)
         });
-        self.nearest(left_out, at).into_iter().map(Ok).chain(authored).collect()
-    }
-
-    fn nearest(&self, left_out: usize, at: SpacePoint) -> Option<Made> {
-        let rest = self.placed.iter().filter(|placed| placed.texture != left_out);
-        let nearest = rest.min_by(|a, b| a.at.distance(at).total_cmp(&b.at.distance(at)));
-        nearest.map(Placed::original)
+        let copied = nearest(&self.placed, left_out, at).map(Placed::original);
+        copied.into_iter().map(Ok).chain(authored).collect()
     }
 
     /// The planes of the rest, at the highest rate among them.

@@ -14,7 +14,7 @@ use crate::units::Hertz;
 #[expect(clippy::struct_field_names, reason = "the unit comes last, and all have the same")]
 pub(super) struct Rendered {
     /// Distance of the signals of authored and original, in dB.
-    error_db: f64,
+    pub(super) error_db: f64,
     /// The same of their models.
     model_error_db: f64,
     /// Distance of the authored signal from its own model, in dB.

@@ -1,15 +1,14 @@
 //! Paths of a file and paths of the program, both ways.
 
-use serde_json::Map;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
 use shagreen_core::units::Hertz;
 
 use crate::library::anchors::{anchors, grain};
 use crate::library::read::tap;
-use crate::library::v1::{KeyV1, PathV1};
+use crate::library::v1::{KeyV1, PathV1, TapV1};
 use crate::library::write::{CONVERSION_DIGITS, DIGITS, decimals, digits, tap as tap_v1};
-use crate::library::{LibraryError, Unknown};
+use crate::library::{LibraryError, Unknown, UnknownOfKey};
 
 /// Millimeters of a file to a meter; seconds stay seconds.
 fn scale(along: Along) -> f64 {
@@ -38,17 +37,23 @@ pub(super) fn read(
         .ok_or_else(|| word("path at_end", &wire.at_end, "hold, turn or repeat"))?;
     unknown.path = wire.unknown;
     let key = |wire: KeyV1| {
-        unknown.keys.push(wire.unknown);
+        let mut left = UnknownOfKey { key: wire.unknown, ..UnknownOfKey::default() };
         let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
             .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
-        let model = grain(id, None, wire.anchors, &mut Vec::new())?
+        let tap = wire.tap.map(|wire| {
+            let read = tap(id, &wire);
+            left.tap = wire.unknown;
+            read
+        });
+        let model = grain(id, None, wire.anchors, &mut left.anchors)?
             .model(rate, wire.mu)
             .map_err(|source| LibraryError::Model { id: id.to_owned(), source })?
-            .with_tap(wire.tap.map(|wire| tap(id, &wire)).transpose()?);
+            .with_tap(tap.transpose()?);
+        unknown.keys.push(left);
         Ok(Key { stop: Stop { at, along: scale(along) * wire.along }, is_stop: wire.stop, model })
     };
     let keys = wire.keys.into_iter().map(key).collect::<Result<_, _>>()?;
-    if unknown.keys.iter().all(Map::is_empty) {
+    if unknown.keys.iter().all(|left| *left == UnknownOfKey::default()) {
         unknown.keys.clear();
     }
     TexturePath::new(along, at_end, keys).map_err(|source| LibraryError::Path { id: id.to_owned(), source })
@@ -57,19 +62,22 @@ pub(super) fn read(
 /// The path as a file has it.
 pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
     // Where keys were added or taken away, nobody knows which unknown fields belong to which.
-    let unknown_at = |index: usize| match unknown.keys.get(index) {
-        Some(fields) if unknown.keys.len() == path.keys().len() => Map::clone(fields),
-        _ => Map::new(),
+    let left_at = |index: usize| match unknown.keys.get(index) {
+        Some(left) if unknown.keys.len() == path.keys().len() => left.clone(),
+        _ => UnknownOfKey::default(),
     };
-    let key = |(index, key): (usize, &Key)| KeyV1 {
-        unknown: unknown_at(index),
-        along: digits(key.stop.along / scale(path.along()), CONVERSION_DIGITS),
-        rough_smooth: decimals(key.stop.at.rough_smooth),
-        hard_soft: decimals(key.stop.at.hard_soft),
-        stop: key.is_stop,
-        mu: key.model.friction().map(|mu| digits(mu, DIGITS)),
-        tap: key.model.tap().map(tap_v1),
-        anchors: anchors(&key.model, &[]),
+    let key = |(index, key): (usize, &Key)| {
+        let UnknownOfKey { key: unknown, tap, anchors: of_anchors } = left_at(index);
+        KeyV1 {
+            unknown,
+            along: digits(key.stop.along / scale(path.along()), CONVERSION_DIGITS),
+            rough_smooth: decimals(key.stop.at.rough_smooth),
+            hard_soft: decimals(key.stop.at.hard_soft),
+            stop: key.is_stop,
+            mu: key.model.friction().map(|mu| digits(mu, DIGITS)),
+            tap: key.model.tap().map(|of| TapV1 { unknown: tap, ..tap_v1(of) }),
+            anchors: anchors(&key.model, &of_anchors),
+        }
     };
     PathV1 {
         along: path.along().id().to_owned(),

@@ -213,6 +213,15 @@ pub(super) fn tap(id: &str, wire: &TapV1) -> Result<Tap, LibraryError> {
     if let Some((field, value)) = fields.into_iter().find(|(_, value)| *value <= 0.0) {
         return Err(LibraryError::Tap { id: id.to_owned(), field, value, needs: "it must be above zero" });
     }
+    let (field, value) = ("amplitude_mps2", wire.amplitude_mps2);
+    if value < 0.0 {
+        return Err(LibraryError::Tap {
+            id: id.to_owned(),
+            field,
+            value,
+            needs: "it must not be below zero",
+        });
+    }
     Ok(Tap {
         frequency: Hertz(wire.frequency_hz),
         decay_per_sec: wire.decay_per_s,

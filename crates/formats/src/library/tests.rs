@@ -105,6 +105,28 @@ fn unknown_fields_survive() {
 }
 
 #[test]
+fn unknown_fields_of_a_path_survive() {
+    let mut value = wire();
+    let texture = &mut value["textures"][0];
+    let mut key = json!({"along": 0.0, "rough_smooth": 10.0, "hard_soft": 20.0, "stop": true, "anchors": texture["anchors"]});
+    key["tap"] = json!({"frequency_hz": 200.0, "decay_per_s": 90.0, "amplitude_mps2": 3.0, "ring": "long"});
+    key["mood"] = json!(1);
+    key["anchors"][0]["extra"] = json!([2]);
+    let mut end = key.clone();
+    end["along"] = json!(5.0);
+    texture["path"] = json!({"along": "distance", "at_end": "turn", "color": "red", "keys": [key, end]});
+    let read = read_library(&serde_json::to_vec(&value).unwrap()).unwrap().value;
+    let written: Value = serde_json::from_slice(&write_library(&read)).unwrap();
+    assert_eq!(written["textures"][0]["path"], value["textures"][0]["path"]);
+}
+
+#[test]
+fn a_landing_is_not_below_zero() {
+    let tap = json!({"frequency_hz": 200.0, "decay_per_s": 90.0, "amplitude_mps2": -3.0});
+    check_error(|v| v["textures"][0]["tap"] = tap.clone(), &["amplitude_mps2", "-3", "below zero"]);
+}
+
+#[test]
 fn unknown_fields_of_anchors_are_not_given_to_others() {
     let read = read_changed(|v| v["textures"][0]["anchors"][1]["extra"] = json!(1)).unwrap();
     let mut library = read;
