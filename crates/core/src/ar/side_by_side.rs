@@ -1,0 +1,71 @@
+//! Levinson's recursion for several signals at once: each of its steps waits for the one before, so that a processor has
+//! time for others.
+
+/// Signals at once.
+pub(crate) const SIDE_BY_SIDE: usize = 4;
+
+/// A number for each signal.
+type Each = [f64; SIDE_BY_SIDE];
+
+/// The predictors that [`levinson`](crate::ar::levinson) finds for autocorrelations, lag by lag, of signals to each of which
+/// white noise is added that has this share of its power. Of a signal without power they are not numbers.
+pub(crate) fn levinson_side_by_side(lags: &[Each], noise: f64) -> [Vec<f64>; SIDE_BY_SIDE] {
+    let order = lags.len().saturating_sub(1);
+    let mut ar = vec![Each::default(); order];
+    let mut variance = lags.first().map_or(Each::default(), |power| power.map(|p| p * (1.0 + noise)));
+    for n in 0..order {
+        let mut sum = lags[n + 1];
+        for (a, lag) in ar[..n].iter().zip(lags[1..=n].iter().rev()) {
+            for i in 0..SIDE_BY_SIDE {
+                sum[i] += a[i] * lag[i];
+            }
+        }
+        let mut reflection = Each::default();
+        for i in 0..SIDE_BY_SIDE {
+            reflection[i] = -sum[i] / variance[i];
+            variance[i] *= 1.0 - reflection[i] * reflection[i];
+        }
+        // In place, from both ends: each pair needs only itself.
+        for j in 0..n.div_ceil(2) {
+            let (x, y) = (ar[j], ar[n - 1 - j]);
+            for i in 0..SIDE_BY_SIDE {
+                (ar[j][i], ar[n - 1 - j][i]) = (x[i] + reflection[i] * y[i], y[i] + reflection[i] * x[i]);
+            }
+        }
+        ar[n] = reflection;
+    }
+    std::array::from_fn(|i| ar.iter().map(|a| a[i]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SIDE_BY_SIDE, levinson_side_by_side};
+    use crate::ar::levinson;
+    use crate::rng::Random;
+
+    #[test]
+    fn each_is_as_if_it_were_alone() {
+        let mut random = Random::new(1);
+        for order in [0, 1, 2, 7, 20, 32] {
+            // Powers of three cosines in noise.
+            let signals: [Vec<f64>; SIDE_BY_SIDE] = std::array::from_fn(|_| {
+                let cosines: Vec<f64> = (0..3).map(|_| 3.0 * random.uniform()).collect();
+                let lag = |k: usize| cosines.iter().map(|w| (w * k as f64).cos()).sum::<f64>();
+                (0..=order).map(|k| lag(k) + if k == 0 { 0.5 } else { 0.0 }).collect()
+            });
+            let lags: Vec<[f64; SIDE_BY_SIDE]> =
+                (0..=order).map(|k| std::array::from_fn(|i| signals[i][k])).collect();
+            let together = levinson_side_by_side(&lags, 0.25);
+            for (signal, found) in signals.iter().zip(together) {
+                let mut noisy = signal.clone();
+                noisy[0] *= 1.25;
+                let alone = levinson(&noisy, order).ar;
+                assert_eq!(found.len(), order);
+                for (a, b) in found.iter().zip(&alone) {
+                    assert!((a - b).abs() < 1e-11, "order {order}: {a} for {b}");
+                }
+            }
+        }
+        assert_eq!(levinson_side_by_side(&[], 0.0), <[Vec<f64>; SIDE_BY_SIDE]>::default());
+    }
+}
