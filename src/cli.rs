@@ -28,6 +28,7 @@ mod target;
 mod texture_path;
 mod texture_psd;
 mod window;
+mod words;
 
 use std::process::ExitCode;
 use std::time::Instant;

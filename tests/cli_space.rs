@@ -87,6 +87,15 @@ fn a_space_is_built_from_a_simulated_panel() {
     }
     let positions = report["positions"].as_array().unwrap();
     assert_eq!(positions.len(), 25);
+    // Both axes are predicted well; what is asked for is done all the same.
+    let felt =
+        "space build --sorting s.csv --ratings r.csv --out felt.json --permutations 0 --placement felt";
+    for (report, placed_by) in [(&report, "predicted"), (&bench.json(felt), "felt")] {
+        assert_eq!(report["placed_by"], placed_by);
+        assert!(report["axes"].as_array().unwrap().iter().all(|axis| axis["placed_by"] == placed_by));
+        let mut positions = report["positions"].as_array().unwrap().iter();
+        assert!(positions.all(|position| position["at"] == position[placed_by]));
+    }
     // Everything says that nobody felt anything.
     let on_disk: Value =
         serde_json::from_slice(&std::fs::read(bench.path("l2.report.json")).unwrap()).unwrap();

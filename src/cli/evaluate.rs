@@ -87,6 +87,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let signals = SignalPlan { n_textures, seconds: args.seconds, seed: args.seed };
     let plan = Plan { blendings, signals: (n_textures > 0).then_some(signals) };
     let measured = measure(&library, &plan).map_err(|error| explained(error, &library, &args.library))?;
+    let beyond = measured.textures.iter().filter(|left| !left.is_within_measured).count();
+    if beyond > 0 {
+        output::warn(&format!(
+            "{} of {} textures were not measured at all speeds and forces of the comparison; the nearest are taken for them",
+            beyond,
+            measured.textures.len()
+        ));
+    }
     let report = evaluation_report(&library, &measured);
     if let Some(folder) = &args.figures {
         let figures = evaluation_figures(&library, &measured);
@@ -132,7 +140,7 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     let n = measured.textures.len();
     let mut lines = vec![
         format!(
-            "{}: {} left out one by one, of {} that have a place ({}; no human rating)",
+            "{}: {} left out one by one, of {} that have a place ({}; nobody felt what was authored)",
             library.name,
             counted(n, "texture"),
             n + measured.on_hull.len(),

@@ -2,7 +2,6 @@
 
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
-use shagreen_core::texture_path::{Along, TexturePath};
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
 
 use crate::cli::library_source::{LibraryArgs, load};
@@ -39,20 +38,13 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
         "order": texture.model.order(),
         "rate_hz": texture.model.rate().0,
         "path": texture.path.as_ref().map(|path| {
-            let (length, unit) = path_length(path);
+            let (scale, unit) = path.along().unit();
+            let length = path.length() / scale;
             json!({"keys": path.keys().len(), "length": length, "unit": unit, "at_end": path.at_end().id()})
         }),
         "restricted": texture.provenance == Provenance::Restricted,
         "licence": library.license_of(texture),
     })
-}
-
-/// Length of a path in mm or s.
-fn path_length(path: &TexturePath) -> (f64, &'static str) {
-    match path.along() {
-        Along::Distance => (1e3 * path.length(), "mm"),
-        Along::Time => (path.length(), "s"),
-    }
 }
 
 fn table(library: &Library) -> String {
@@ -64,7 +56,8 @@ fn table(library: &Library) -> String {
         );
         let model = &texture.model;
         let path = texture.path.as_ref().map_or_else(String::new, |path| {
-            let (length, unit) = path_length(path);
+            let (scale, unit) = path.along().unit();
+            let length = path.length() / scale;
             format!(", a path of {} textures along {length} {unit}", path.keys().len())
         });
         format!(

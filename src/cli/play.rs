@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use serde_json::json;
 use shagreen_core::plane::Plane;
 use shagreen_core::render::{path_mix, synth_blend};
-use shagreen_core::texture_path::{TexturePath, Traveler};
+use shagreen_core::texture_path::{TexturePath, TraveledAhead};
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{ChannelMask, FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
@@ -164,8 +164,7 @@ fn start(handle: &mut Handle, motion: Motion) -> anyhow::Result<()> {
 /// Follows a path while a motion is played.
 struct Follow<'a> {
     path: &'a TexturePath,
-    /// What was traveled every [`FOLLOW_STEP_SECS`].
-    traveled: Vec<f64>,
+    ahead: TraveledAhead,
 }
 
 /// Steps in which what is traveled is summed up, in seconds.
@@ -174,14 +173,13 @@ const FOLLOW_STEP_SECS: f64 = 0.005;
 impl<'a> Follow<'a> {
     fn new(path: &'a TexturePath, motion: &Motion) -> Self {
         let mut contact_at = |secs| motion.contact_at(secs);
-        let traveled = Traveler::ahead(path.along(), motion.seconds(), FOLLOW_STEP_SECS, &mut contact_at);
-        Self { path, traveled }
+        let ahead = TraveledAhead::new(path.along(), motion.seconds(), FOLLOW_STEP_SECS, &mut contact_at);
+        Self { path, ahead }
     }
 
     /// Sets the mix of the place that is reached at a time of the motion.
     fn go(&mut self, handle: &mut Handle, secs: f64) -> anyhow::Result<()> {
-        let step = ((secs / FOLLOW_STEP_SECS) as usize).min(self.traveled.len() - 1);
-        Ok(handle.set_mix(path_mix(self.path, self.traveled[step]))?)
+        Ok(handle.set_mix(path_mix(self.path, self.ahead.at(secs)))?)
     }
 }
 

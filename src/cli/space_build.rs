@@ -24,6 +24,7 @@ use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
 use crate::cli::space_judgments::{JudgmentArgs, Judgments};
+use crate::cli::words::words;
 
 /// Builds an authoring space from what people felt and what was measured.
 ///
@@ -53,18 +54,18 @@ pub(crate) struct Args {
     #[arg(long)]
     orthogonal: bool,
     /// What is taken from the vibrations.
-    #[arg(long, default_value = "mfcc", value_parser = FeatureKind::ALL.map(FeatureKind::id))]
-    features: String,
+    #[arg(long, default_value = "mfcc", value_parser = words(FeatureKind::ALL, FeatureKind::id))]
+    features: FeatureKind,
     /// How coefficients are taken, where features are made of them [default: recommended].
     #[arg(long, value_parser = ["recommended", "paper", "htk"])]
     mfcc: Option<String>,
     /// How an axis is predicted from features: as in the paper, or better.
-    #[arg(long, default_value = "practical", value_parser = Method::ALL.map(Method::id))]
-    selection: String,
+    #[arg(long, default_value = "practical", value_parser = words(Method::ALL, Method::id))]
+    selection: Method,
     /// Where textures are put: where they were felt, or where their features predict, as in the paper; auto takes, axis by
     /// axis, what is likely nearer to what people feel.
-    #[arg(long, default_value = "auto", value_parser = ["auto", "felt", "predicted"])]
-    placement: String,
+    #[arg(long, default_value = "auto", value_parser = words(Placement::ALL, Placement::id))]
+    placement: Placement,
     /// Permutations of the null distribution.
     #[arg(long, default_value_t = 1000, value_name = "N")]
     permutations: usize,
@@ -77,6 +78,18 @@ pub(crate) struct Args {
     /// Print one JSON object: the report.
     #[arg(long)]
     json: bool,
+}
+
+/// Where textures are put; nothing where that is found out.
+#[derive(Clone, Copy, Debug)]
+struct Placement(Option<PlacedBy>);
+
+impl Placement {
+    const ALL: [Self; 3] = [Self(None), Self(Some(PlacedBy::Felt)), Self(Some(PlacedBy::Predicted))];
+
+    fn id(self) -> &'static str {
+        self.0.map_or("auto", PlacedBy::id)
+    }
 }
 
 /// Two adjective pairs.
@@ -151,10 +164,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
-    let unknown = |what: &str| Usage(format!("{what} is not known"));
     let usual = SpaceOptions::usual(args.seed);
-    let features = FeatureKind::from_id(&args.features).ok_or_else(|| unknown(&args.features))?;
-    if let (Some(mfcc), FeatureKind::Physical) = (&args.mfcc, features) {
+    if let (Some(mfcc), FeatureKind::Physical) = (&args.mfcc, args.features) {
         let text = format!(
             "--mfcc {mfcc} changes nothing where --features is physical: leave it out, or say --features mfcc+physical"
         );
@@ -167,11 +178,10 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         mds,
         axes: args.axes.clone().map(|axes| axes.0),
         is_orthogonal: args.orthogonal,
-        features,
+        features: args.features,
         mfcc: mfcc(args.mfcc.as_deref()),
-        method: Method::from_id(&args.selection).ok_or_else(|| unknown(&args.selection))?,
-        // "auto" is none of them.
-        placement: PlacedBy::from_id(&args.placement),
+        method: args.selection,
+        placement: args.placement.0,
         n_permutations: args.permutations,
         ..usual
     })

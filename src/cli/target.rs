@@ -18,6 +18,7 @@ use shagreen_formats::library::{Library, TextureEntry};
 use crate::cli::library_source::{self, LibraryArgs};
 use crate::cli::motion::Motion;
 use crate::cli::output;
+use crate::cli::words::words;
 
 /// What sounds.
 #[derive(clap::Args)]
@@ -103,16 +104,6 @@ pub(crate) fn parse_point(text: &str) -> Result<SpacePoint, String> {
     SpacePoint::new(number(rough_smooth)?, number(hard_soft)?).map_err(|error| error.to_string())
 }
 
-/// What takes one of these, by its word.
-pub(crate) fn words<T: Copy + Default + Send + Sync + 'static, const N: usize>(
-    all: [T; N],
-    id: fn(T) -> &'static str,
-) -> impl clap::builder::TypedValueParser<Value = T> {
-    use clap::builder::TypedValueParser as _;
-    clap::builder::PossibleValuesParser::new(all.map(id))
-        .map(move |word| all.into_iter().find(|each| id(*each) == word).unwrap_or_default())
-}
-
 impl SoundArgs {
     /// The library that the arguments name, and what they choose of it.
     pub(crate) fn load(&self) -> anyhow::Result<(Library, Chosen)> {
@@ -154,7 +145,23 @@ impl BlendArgs {
             locked: self.lock.iter().map(index).collect::<anyhow::Result<_>>()?,
         };
         blending.check()?;
+        warn_of_hidden_locks(library, &blending.locked);
         Ok(blending)
+    }
+}
+
+/// Of locked textures at one place only the first is met.
+fn warn_of_hidden_locks(library: &Library, locked: &[usize]) {
+    for (i, later) in locked.iter().enumerate() {
+        let at = library.textures[*later].at();
+        let first =
+            locked[..i].iter().find(|first| **first != *later && library.textures[**first].at() == at);
+        if let Some(first) = first {
+            let [first, later] = [first, later].map(|texture| library.textures[*texture].id.as_str());
+            output::warn(&format!(
+                "\"{first}\" and \"{later}\" lie at one place: only \"{first}\" is met there"
+            ));
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::json;
 use shagreen_core::authoring::{Authoring, Blending};
 use shagreen_core::space::SpacePoint;
-use shagreen_core::texture_path::{Along, AtEnd, Route, Stop, TexturePath};
+use shagreen_core::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePath};
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, Provenance, read_library, write_library};
 
@@ -13,7 +13,8 @@ use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::motion::quantity;
 use crate::cli::output;
-use crate::cli::target::{BlendArgs, authoring, parse_point, words};
+use crate::cli::target::{BlendArgs, authoring, parse_point};
+use crate::cli::words::words;
 
 /// Makes a texture that changes along a stroke, from stop to stop through the space, and writes it as a library of its own:
 /// `render`, `play` and the window take it as any other texture.
@@ -24,7 +25,7 @@ pub(crate) struct Args {
     #[arg(long = "stop", value_name = "RS,HS@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
     stops: Vec<(SpacePoint, f64)>,
     /// What counts along the stroke: the distance that the tip has traveled, or the time that it has touched.
-    #[arg(long, value_name = "WHAT", value_parser = words([Along::Distance, Along::Time], Along::id), default_value = Along::default().id())]
+    #[arg(long, value_name = "WHAT", value_parser = words(Along::ALL, Along::id), default_value = Along::default().id())]
     along: Along,
     /// What happens at the end: the last texture stays, it goes back, or it begins again.
     #[arg(long, value_name = "WHAT", value_parser = words(AtEnd::ALL, AtEnd::id), default_value = AtEnd::default().id())]
@@ -44,6 +45,9 @@ pub(crate) struct Args {
     json: bool,
 }
 
+/// Distance of neighboring textures of a path from which it is called coarse, in points of the axes.
+const COARSE: f64 = 8.0;
+
 fn parse_stop(text: &str) -> Result<(SpacePoint, f64), String> {
     let (at, along) = text.split_once('@').ok_or("write RS,HS@X as in 30,70@0")?;
     Ok((parse_point(at)?, quantity(along.trim())?))
@@ -54,19 +58,20 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "a path", is_path)?;
     let library = load(&args.library)?;
     let blending = args.blending.blending(&library)?;
-    let unit = if args.along == Along::Distance { (1e-3, "mm") } else { (1.0, "s") };
-    let stops = args.stops.iter().map(|(at, x)| Stop { at: *at, along: unit.0 * x }).collect();
+    let (scale, unit) = args.along.unit();
+    let stops = args.stops.iter().map(|(at, x)| Stop { at: *at, along: scale * x }).collect();
     let route = Route::new(args.along, args.at_end, stops)?;
     let authoring = authoring(&library, blending.mode)?;
     let path = TexturePath::of_route(&authoring, &route, &blending)?;
-    let outside = Outside::of(&authoring, &path, &blending);
-    let (n_keys, length) = (path.keys().len(), path.length() / unit.0);
+    let outside = OutsideKeys::of(&authoring, &path, &blending);
+    let (n_keys, length) = (path.keys().len(), path.length() / scale);
     let of: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
     let made = made(&library, &args.name, path, &of);
     let id = made.textures[0].id.clone();
     let is_restricted = made.textures[0].provenance == Provenance::Restricted;
     let restricted: Vec<&str> = is_restricted.then_some(args.name.as_str()).into_iter().collect();
     let mut warnings = outside.warnings(n_keys);
+    warnings.extend(coarse(made.textures[0].path.as_ref()));
     warnings.extend(Provenance::warning(&restricted));
     for warning in &warnings {
         output::warn(warning);
@@ -76,25 +81,25 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     output::print(
         args.json,
         &json!({
-            "out": file, "id": id, "keys": n_keys, "length": length, "unit": unit.1,
+            "out": file, "id": id, "keys": n_keys, "length": length, "unit": unit,
             "along": args.along.id(), "at_end": args.at_end.id(), "blend": blending.mode.id(),
             "clamped": outside.n_clamped, "extrapolated": outside.n_extrapolated,
             "warnings": warnings,
         }),
-        || format!("Wrote \"{id}\", {length} {} long, {n_keys} textures along it: {file}", unit.1),
+        || format!("Wrote \"{id}\", {length} {unit} long, {n_keys} textures along it: {file}"),
     );
     Ok(())
 }
 
 /// How many keys lie outside the textures.
-struct Outside {
+struct OutsideKeys {
     /// Those that were moved to where there is a texture.
     n_clamped: usize,
     /// Those that were extrapolated.
     n_extrapolated: usize,
 }
 
-impl Outside {
+impl OutsideKeys {
     fn of(authoring: &Authoring, path: &TexturePath, blending: &Blending) -> Self {
         let authored: Vec<_> =
             path.keys().iter().filter_map(|key| authoring.author(key.stop.at, blending)).collect();
@@ -117,6 +122,17 @@ impl Outside {
     }
 }
 
+/// What is to be known of a path whose textures lie far apart.
+fn coarse(path: Option<&TexturePath>) -> Option<String> {
+    let step = path?.widest_step();
+    (step > COARSE).then(|| {
+        format!(
+            "some textures along the path lie {step:.0} points of the space apart, and between them is only their mixture: \
+             a path has {MAX_KEYS} textures at most; take fewer stops, or a shorter way"
+        )
+    })
+}
+
 /// Whether a file is a library of one path, which a newer one may replace.
 fn is_path(bytes: &[u8]) -> bool {
     let Ok(library) = read_library(bytes) else { return false };
@@ -131,6 +147,7 @@ fn made(library: &Library, name: &str, path: TexturePath, of: &[usize]) -> Libra
         origin: entry.origin.clone(),
         license: entry.license.clone(),
         created_by: output::CREATED_BY.to_owned(),
+        axes: library.axes.clone(),
         textures: vec![entry],
         ..Library::default()
     }

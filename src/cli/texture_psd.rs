@@ -44,7 +44,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(path) = &chosen.path {
         let n_keys = path.keys().len();
         output::note(&format!(
-            "this texture changes along a path of {n_keys}; the spectrum is that of its beginning"
+            "this texture changes along a path of {n_keys} textures; the spectrum is that of its beginning"
         ));
     }
     let rate = chosen.rate(&library)?;
@@ -67,6 +67,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
+            "begins_path": chosen.path.is_some(),
         }),
         || {
             let lines = hz.iter().zip(&psd).map(|(hz, psd)| format!("{hz:.2}\t{psd:.6e}\n"));

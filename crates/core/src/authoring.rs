@@ -54,7 +54,7 @@ pub struct Blending {
 #[non_exhaustive]
 pub enum BlendingError {
     /// Natural weights for a mixture of signals.
-    #[error("natural weights need the mode parametric: the renderer mixes no more than three signals")]
+    #[error("natural weights are for the mode parametric alone")]
     Natural,
     /// Extrapolation without a field.
     #[error("only the mode field goes beyond the textures: the others have nothing to go by there")]
@@ -185,11 +185,6 @@ impl Authoring {
     /// The space.
     pub fn space(&self) -> &Space {
         &self.space
-    }
-
-    /// What the modes that make a texture need, once it is there.
-    pub fn models(&self) -> Option<&Models> {
-        self.models.as_deref()
     }
 
     /// The texture at `point`; `None` in a space without textures. What the mode cannot do is left undone

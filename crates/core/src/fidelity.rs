@@ -137,16 +137,23 @@ pub fn conditions<'a, I: Iterator<Item = &'a Plane>>(planes: I) -> [Contact; N_C
         }
     }
     std::array::from_fn(|index| {
-        let wanted = Contact::from_mm_per_s_and_n(
-            SPEEDS_MM_PER_S[index / FORCES_N.len()],
-            FORCES_N[index % FORCES_N.len()],
-        );
+        let wanted = wanted(index);
         // Each lowest is at most the highest of its own plane.
         Contact {
             speed: MetersPerSecond(wanted.speed.0.clamp(low[0], high[0])),
             force: Newtons(wanted.force.0.clamp(low[1], high[1])),
         }
     })
+}
+
+/// Whether a texture was measured at all speeds and forces of the comparison.
+pub fn is_within_measured(plane: &Plane) -> bool {
+    conditions(std::iter::once(plane)).into_iter().enumerate().all(|(index, at)| at == wanted(index))
+}
+
+/// Speed and force of a comparison, as far as textures were measured there.
+fn wanted(index: usize) -> Contact {
+    Contact::from_mm_per_s_and_n(SPEEDS_MM_PER_S[index / FORCES_N.len()], FORCES_N[index % FORCES_N.len()])
 }
 
 /// Root mean square over conditions and channels of the difference of levels, in dB.

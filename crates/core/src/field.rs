@@ -78,7 +78,8 @@ pub(crate) struct Site<'a> {
 }
 
 impl Field {
-    /// The field through sites, in the unit square; `None` without any.
+    /// The field through sites, in the unit square; `None` without any, and where they are too near each other to be told
+    /// apart.
     pub(crate) fn new(sites: &[Site<'_>]) -> Option<Self> {
         let n = sites.len();
         let width = sites.first()?.grain.ln_psd.len();

@@ -8,7 +8,7 @@ mod rest;
 mod signals;
 
 use crate::authoring::{Blending, BlendingError, ModelsError};
-use crate::fidelity::{Channels, Profile, error_db, level_error_db};
+use crate::fidelity::{Channels, Profile, error_db, is_within_measured, level_error_db};
 use crate::rate::AtRateError;
 use crate::render::RenderError;
 use crate::space::{Space, SpacePoint};
@@ -116,6 +116,8 @@ pub struct LeftOut {
     pub at: SpacePoint,
     /// Library index of the texture nearest to it in the space.
     pub nearest: usize,
+    /// Whether the speeds and forces of the comparison lie within what was measured of it; else the nearest were taken.
+    pub is_within_measured: bool,
     /// What each method came to.
     pub outcomes: Vec<Outcome>,
 }
@@ -148,7 +150,8 @@ pub enum LeaveOneOutError {
     },
     /// All lie on the hull.
     #[error(
-        "none of the {n} textures lies strictly between others, so none can be authored from the rest; place some inside"
+        "none of the {n} textures lies strictly inside the outline of the others (all on one line, perhaps), so none can be \
+         authored from the rest; place some inside"
     )]
     NoneInside {
         /// How many have a place.
@@ -230,19 +233,25 @@ pub fn leave_one_out(
     for blending in &plan.blendings {
         blending.check()?;
     }
-    let mut rests = Rests::new(textures)?;
+    let mut rests = Rests::new(textures);
     let nearest_first = std::iter::once(Method::Nearest);
     let methods = nearest_first.chain(plan.blendings.iter().cloned().map(Method::Blended)).collect();
-    let mut author = |left_out: &Placed| rests.made_without(left_out.texture, &plan.blendings);
+    let mut author = |left_out: &Placed, nearest: &Placed| {
+        let authored = rests.made_without(left_out, &plan.blendings)?;
+        Ok(std::iter::once(nearest.original()).chain(authored).collect())
+    };
     measure(textures, methods, plan.signals, &mut author, on_progress)
 }
 
-/// As [`leave_one_out`], with whatever `author` makes of each texture's place, by each method.
+/// What makes something of the place of a texture, by each method; it is told which texture is the nearest.
+type Author<'a> = dyn FnMut(&Placed, &Placed) -> Result<Vec<Made>, LeaveOneOutError> + 'a;
+
+/// As [`leave_one_out`], with whatever `author` makes of each texture's place.
 fn measure(
     textures: &[(&TextureModel, Option<SpacePoint>)],
     methods: Vec<Method>,
     signals: Option<SignalPlan>,
-    author: &mut dyn FnMut(&Placed) -> Result<Vec<Made>, LeaveOneOutError>,
+    author: &mut Author<'_>,
     on_progress: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<LeaveOneOut, LeaveOneOutError> {
     let placed = Placed::all(textures)?;
@@ -269,7 +278,10 @@ fn measure(
             return Err(LeaveOneOutError::Stopped);
         }
         let original = &placed[index];
-        let made = author(original)?;
+        let Some(nearest) = nearest(&placed, original) else {
+            return Err(LeaveOneOutError::TooFew { n: placed.len() });
+        };
+        let made = author(original, nearest)?;
         let authored: Vec<Profile> = made.iter().map(|made| made.profile(&channels)).collect();
         let mut outcomes: Vec<Outcome> =
             authored.iter().map(|authored| outcome(authored, index, &profiles, reach_db)).collect();
@@ -284,8 +296,9 @@ fn measure(
                 checks.push(rendered);
             }
         }
-        let nearest = nearest(&placed, original.texture, original.at).map_or(original.texture, |p| p.texture);
-        left_out.push(LeftOut { texture: original.texture, at: original.at, nearest, outcomes });
+        let (texture, at) = (original.texture, original.at);
+        let is_within_measured = is_within_measured(&original.plane);
+        left_out.push(LeftOut { texture, at, nearest: nearest.texture, is_within_measured, outcomes });
     }
     on_progress(inside.len(), inside.len());
     let summaries = methods.into_iter().zip(&checks).enumerate().map(|(index, (method, rendered))| {

@@ -133,7 +133,7 @@ pub fn repair(lsf: &[f64]) -> Vec<f64> {
 }
 
 /// The same with a smallest distance of `gap` radians, at most π over one more than there are frequencies.
-pub fn repair_to(lsf: Vec<f64>, gap: f64) -> Vec<f64> {
+pub(crate) fn repair_to(lsf: Vec<f64>, gap: f64) -> Vec<f64> {
     let n = lsf.len();
     let is_within = n == 0 || (lsf[0] >= gap && lsf[n - 1] <= PI - gap);
     if is_within && lsf.windows(2).all(|w| w[1] >= w[0] + gap) {

@@ -9,7 +9,7 @@ use shagreen_synth::voice::MAX_TICK;
 
 use crate::blend::Mode;
 use crate::plane::Prepared;
-use crate::texture_path::{TexturePath, Traveler};
+use crate::texture_path::{TexturePath, TraveledAhead};
 use crate::units::{Contact, Hertz};
 
 /// How long the textures sound under the first contact before the first sample is kept, in seconds: the memory of a
@@ -174,11 +174,8 @@ pub fn render_path(
     let lent = Lent(plan.prepared.iter().collect());
     let output = output(&lent, plan.rate, plan.seconds, plan.seed)?;
     // Worked out ahead, since the mix and the contact are asked for by turns.
-    let traveled = Traveler::ahead(plan.path.along(), plan.seconds, MIX_STEP_SECS, contact_at);
-    let mut mix_at = |time_secs: f64| {
-        let step = (time_secs.max(0.0) / MIX_STEP_SECS).round() as usize;
-        path_mix(plan.path, traveled[step.min(traveled.len() - 1)])
-    };
+    let ahead = TraveledAhead::new(plan.path.along(), plan.seconds, MIX_STEP_SECS, contact_at);
+    let mut mix_at = |time_secs: f64| path_mix(plan.path, ahead.at(time_secs));
     rendered(&lent, &output, &mut mix_at, contact_at)
 }
 

@@ -20,8 +20,6 @@ const BINS_AT_1_KHZ: f64 = 128.0;
 const MIN_ORDER: usize = 20;
 /// Poles more that stand for a moving average.
 const POLES_FOR_ZEROS: usize = 8;
-/// White noise that is added to a signal, as a share of its power: it keeps rounding from making a predictor unstable.
-const NOISE: f64 = 1e-9;
 /// Distance of frequencies that is kept, in radians.
 const GAP: f64 = 1e-4;
 /// Density below which nothing is told apart, in (m/s²)²/Hz: its root over 500 Hz is a hundred-thousandth of what a
@@ -122,15 +120,17 @@ impl Sampling {
                 return lsf;
             }
         }
-        self.fit(&[ln_psd])[0].0.clone()
+        self.fit(&[ln_psd]).swap_remove(0).0
     }
 
     /// The predictors whose spectra are nearest to densities `e^ln_psd` (Levinson's), as line spectral frequencies, and
     /// their levels; at most [`SIDE_BY_SIDE`].
     fn fit(&self, ln_psds: &[&[f32]]) -> Vec<(Vec<f64>, f64)> {
-        let lags = self.bins.lags(ln_psds);
+        let mut lags = self.bins.lags(ln_psds);
         let levels = lags[0].map(f64::sqrt);
-        let predictors = levinson_side_by_side(&lags, NOISE);
+        // A billionth of white noise keeps rounding from making a predictor unstable.
+        lags[0] = lags[0].map(|power| power * (1.0 + 1e-9));
+        let predictors = levinson_side_by_side(&lags);
         let of_predictor = |ar: &Vec<f64>| self.quick.of(ar).unwrap_or_else(|| even(self.order));
         predictors.iter().map(of_predictor).zip(levels).take(ln_psds.len()).collect()
     }

@@ -366,11 +366,6 @@ impl FeatureKind {
             Self::MfccAndPhysical => "mfcc+physical",
         }
     }
-
-    /// The kind that has this [`FeatureKind::id`].
-    pub fn from_id(id: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.id() == id)
-    }
 }
 
 impl PlacedBy {
@@ -380,11 +375,6 @@ impl PlacedBy {
             Self::Felt => "felt",
             Self::Predicted => "predicted",
         }
-    }
-
-    /// The placement that has this [`PlacedBy::id`].
-    pub fn from_id(id: &str) -> Option<Self> {
-        [Self::Felt, Self::Predicted].into_iter().find(|placement| placement.id() == id)
     }
 }
 

@@ -71,14 +71,18 @@ pub enum TexturePathError {
     },
     /// The stops do not go on.
     #[error(
-        "point {number} of the path is at {along} (m or s) of the stroke; the first must be at 0, and each farther on \
-         than the one before it"
+        "point {number} of the path is at {} {} of the stroke; the first must be at 0, and each farther on than the one \
+         before it",
+        .at / .along.unit().0,
+        .along.unit().1
     )]
     Order {
         /// Which point, counted from one.
         number: usize,
         /// Where along the stroke, in m or s.
-        along: f64,
+        at: f64,
+        /// What is counted along it.
+        along: Along,
     },
     /// Textures of different rates.
     #[error("the textures of a path have different rates, {first_hz} and {other_hz} Hz")]
@@ -100,6 +104,17 @@ pub enum TexturePathError {
 }
 
 impl Along {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Distance, Self::Time];
+
+    /// What people count it in: how many m or s one is, and its name.
+    pub fn unit(self) -> (f64, &'static str) {
+        match self {
+            Self::Distance => (1e-3, "mm"),
+            Self::Time => (1.0, "s"),
+        }
+    }
+
     /// The word for files and scripts.
     pub fn id(self) -> &'static str {
         match self {
@@ -110,7 +125,7 @@ impl Along {
 
     /// What has this [`Along::id`].
     pub fn from_id(id: &str) -> Option<Self> {
-        [Self::Distance, Self::Time].into_iter().find(|along| along.id() == id)
+        Self::ALL.into_iter().find(|along| along.id() == id)
     }
 }
 
@@ -152,18 +167,13 @@ impl Route {
     /// # Errors
     /// See [`TexturePathError`].
     pub fn new(along: Along, at_end: AtEnd, stops: Vec<Stop>) -> Result<Self, TexturePathError> {
-        check(stops.iter().map(|stop| stop.along))?;
+        check(along, stops.iter().map(|stop| stop.along))?;
         Ok(Self { along, at_end, stops })
     }
 
     /// What is counted along it.
     pub fn along(&self) -> Along {
         self.along
-    }
-
-    /// What happens at its end.
-    pub fn at_end(&self) -> AtEnd {
-        self.at_end
     }
 
     /// Its stops, at least two.
@@ -209,7 +219,7 @@ impl TexturePath {
     /// # Errors
     /// See [`TexturePathError`].
     pub fn new(along: Along, at_end: AtEnd, keys: Vec<Key>) -> Result<Self, TexturePathError> {
-        check(keys.iter().map(|key| key.stop.along))?;
+        check(along, keys.iter().map(|key| key.stop.along))?;
         let rate = |key: &Key| key.model.rate().0;
         let first_hz = rate(&keys[0]);
         if let Some(other) = keys.iter().find(|key| rate(key) != first_hz) {
@@ -230,10 +240,9 @@ impl TexturePath {
         if !blending.mode.makes_a_model() {
             return Err(TexturePathError::Mode);
         }
-        let n_keys = |step: f64| {
-            let between = |s: &[Stop]| ((s[0].at.distance(s[1].at) / step).ceil() as usize).max(1);
-            route.stops.windows(2).map(between).sum::<usize>() + 1
-        };
+        let n_steps =
+            |pair: &[Stop], step: f64| ((pair[0].at.distance(pair[1].at) / step).ceil() as usize).max(1);
+        let n_keys = |step: f64| route.stops.windows(2).map(|pair| n_steps(pair, step)).sum::<usize>() + 1;
         let mut step = KEY_STEP;
         while n_keys(step) > MAX_KEYS {
             step *= 1.1;
@@ -241,7 +250,7 @@ impl TexturePath {
         let mut places: Vec<(Stop, bool)> = Vec::new();
         for pair in route.stops.windows(2) {
             let [from, to] = [pair[0], pair[1]];
-            let n = ((from.at.distance(to.at) / step).ceil() as usize).max(1);
+            let n = n_steps(pair, step);
             places.extend((0..n).map(|i| {
                 let share = i as f64 / n as f64;
                 let along = from.along + share * (to.along - from.along);
@@ -277,6 +286,11 @@ impl TexturePath {
         self.keys.last().map_or(0.0, |key| key.stop.along)
     }
 
+    /// Largest distance of neighboring keys in the space, in points of the axes.
+    pub fn widest_step(&self) -> f64 {
+        self.keys.windows(2).map(|pair| pair[0].stop.at.distance(pair[1].stop.at)).fold(0.0, f64::max)
+    }
+
     /// The key at or before the place where so much was traveled, in m or s, and the share of the one after it, 0..1.
     pub fn between(&self, traveled: f64) -> (usize, f64) {
         let place = self.at_end.folded(self.length(), traveled);
@@ -309,23 +323,6 @@ impl Traveler {
         self.traveled
     }
 
-    /// How far a stroke of this length comes, every `step_secs` from its beginning to its end.
-    pub fn ahead(
-        along: Along,
-        seconds: f64,
-        step_secs: f64,
-        contact_at: &mut dyn FnMut(f64) -> Contact,
-    ) -> Vec<f64> {
-        let mut traveler = Self::new(along);
-        let n_steps = (seconds / step_secs).ceil() as usize + 1;
-        let step = |step: usize| {
-            let now = traveler.traveled();
-            traveler.go(contact_at(step_secs * (step as f64 + 0.5)), step_secs);
-            now
-        };
-        (0..n_steps).map(step).collect()
-    }
-
     /// The tip is like this for so long.
     pub fn go(&mut self, contact: Contact, secs: f64) {
         let touches = contact.force.0 > 0.0;
@@ -342,9 +339,41 @@ impl Traveler {
     }
 }
 
+/// How far a stroke comes along a path, worked out ahead of it in steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TraveledAhead {
+    step_secs: f64,
+    /// At the beginning of each step, in m or s; at least one.
+    traveled: Vec<f64>,
+}
+
+impl TraveledAhead {
+    /// That of a stroke of this length whose tip is as `contact_at` says, time in seconds.
+    pub fn new(
+        along: Along,
+        length_secs: f64,
+        step_secs: f64,
+        contact_at: &mut dyn FnMut(f64) -> Contact,
+    ) -> Self {
+        let mut traveler = Traveler::new(along);
+        let step = |step: usize| {
+            let now = traveler.traveled();
+            traveler.go(contact_at(step_secs * (step as f64 + 0.5)), step_secs);
+            now
+        };
+        Self { step_secs, traveled: (0..=(length_secs / step_secs).ceil() as usize).map(step).collect() }
+    }
+
+    /// How far it has come at a time, to the nearest step, in m or s.
+    pub fn at(&self, time_secs: f64) -> f64 {
+        let step = (time_secs.max(0.0) / self.step_secs).round() as usize;
+        self.traveled[step.min(self.traveled.len() - 1)]
+    }
+}
+
 /// Whether places along a stroke are a way.
-fn check(along: impl ExactSizeIterator<Item = f64>) -> Result<(), TexturePathError> {
-    let n = along.len();
+fn check(along: Along, places: impl ExactSizeIterator<Item = f64>) -> Result<(), TexturePathError> {
+    let n = places.len();
     if n < 2 {
         return Err(TexturePathError::TooFew { n });
     }
@@ -352,12 +381,12 @@ fn check(along: impl ExactSizeIterator<Item = f64>) -> Result<(), TexturePathErr
         return Err(TexturePathError::TooMany { n });
     }
     let mut before = None;
-    for (i, along) in along.enumerate() {
-        let goes_on = before.map_or(along == 0.0, |before| along > before && along.is_finite());
+    for (i, at) in places.enumerate() {
+        let goes_on = before.map_or(at == 0.0, |before| at > before && at.is_finite());
         if !goes_on {
-            return Err(TexturePathError::Order { number: i + 1, along });
+            return Err(TexturePathError::Order { number: i + 1, at, along });
         }
-        before = Some(along);
+        before = Some(at);
     }
     Ok(())
 }
@@ -386,7 +415,9 @@ fn mean(from: SpacePoint, to: SpacePoint, share: f64) -> SpacePoint {
 
 #[cfg(test)]
 mod tests {
-    use super::{Along, AtEnd, Key, MAX_KEYS, Route, Stop, TexturePath, TexturePathError, Traveler};
+    use super::{
+        Along, AtEnd, Key, MAX_KEYS, Route, Stop, TexturePath, TexturePathError, TraveledAhead, Traveler,
+    };
     use crate::authoring::tests::world;
     use crate::blend::Mode;
     use crate::space::SpacePoint;
@@ -462,7 +493,8 @@ mod tests {
         let new = |stops: Vec<Stop>| Route::new(Along::Time, AtEnd::Hold, stops).unwrap_err();
         assert_eq!(new(vec![stop(1.0, 1.0, 0.0)]), TexturePathError::TooFew { n: 1 });
         let back = new(vec![stop(1.0, 1.0, 0.0), stop(2.0, 2.0, 1.0), stop(3.0, 3.0, 1.0)]);
-        assert_eq!(back, TexturePathError::Order { number: 3, along: 1.0 });
+        assert_eq!(back, TexturePathError::Order { number: 3, at: 1.0, along: Along::Time });
+        assert!(back.to_string().contains("point 3 of the path is at 1 s"), "{back}");
         assert!(matches!(new(vec![stop(1.0, 1.0, 0.5); 2]), TexturePathError::Order { number: 1, .. }));
         assert!(matches!(
             new(vec![stop(1.0, 1.0, 0.0), stop(1.0, 1.0, f64::NAN)]),
@@ -489,6 +521,11 @@ mod tests {
             assert!((traveler.traveled() - want).abs() < 1e-12, "a lifted tip stays");
             traveler.go(down, 0.02);
             assert!((traveler.traveled() - 0.04 * want).abs() < 1e-12, "{}", traveler.traveled());
+            let mut contact_at = |secs| if secs < 0.5 { down } else { up };
+            let ahead = TraveledAhead::new(along, 0.6, 0.02, &mut contact_at);
+            let [begin, middle, end, after] = [-1.0, 0.25, 0.6, 9.0].map(|secs| ahead.at(secs));
+            assert_eq!((begin, end), (0.0, after));
+            assert!((middle - 0.52 * want).abs() < 1e-12 && (end - want).abs() < 1e-12, "{middle} {end}");
         }
     }
 
@@ -497,7 +534,7 @@ mod tests {
         for at_end in AtEnd::ALL {
             assert_eq!(AtEnd::from_id(at_end.id()), Some(at_end));
         }
-        for along in [Along::Distance, Along::Time] {
+        for along in Along::ALL {
             assert_eq!(Along::from_id(along.id()), Some(along));
         }
     }

@@ -96,6 +96,7 @@ fn texture(library: &Library, measured: &LeaveOneOut, left: &LeftOut) -> Value {
         "id": library.textures[left.texture].id,
         "at": [left.at.rough_smooth, left.at.hard_soft],
         "nearest": library.textures[left.nearest].id,
+        "within_measured": left.is_within_measured,
         "error_db": by_method(&|outcome| json!(outcome.error_db)),
         "level_error_db": by_method(&|outcome| json!(outcome.level_error_db)),
         "rank": by_method(&|outcome| json!(outcome.rank)),
@@ -238,6 +239,7 @@ mod tests {
             texture,
             at: SpacePoint::new(10.0, 20.0 + texture as f64).unwrap(),
             nearest: texture + 1,
+            is_within_measured: true,
             outcomes: errors_db.map(outcome).to_vec(),
         };
         LeaveOneOut {

@@ -156,7 +156,7 @@ fn positions(build: &SpaceBuild) -> Vec<Value> {
             "id": id,
             "at": [build.positions[i].rough_smooth, build.positions[i].hard_soft],
             "felt": [first.felt[i], second.felt[i]],
-            "deviation": build.stability.as_ref().map(|stability| stability.deviations[i]),
+            "felt_deviation": build.stability.as_ref().map(|stability| stability.deviations[i]),
             "predicted": of_both(&|prediction| prediction.predicted[i]),
             "nested_predicted": of_both(&|prediction| prediction.validation.predicted[i]),
             "perceptual": build.perceptual.points[i],
@@ -231,9 +231,13 @@ pub fn space_subtitle(build: &SpaceBuild) -> String {
         build.raters.len(),
         build.options.seed,
         match placed_by(build) {
-            Some(PlacedBy::Felt) => "placed where they were felt, predicted",
-            Some(PlacedBy::Predicted) => "placed",
-            None => "placed where they were felt on one axis, on the other",
+            Some(PlacedBy::Felt) => "placed where they were felt, predicted".to_owned(),
+            Some(PlacedBy::Predicted) => "placed".to_owned(),
+            None => {
+                let felt = build.axes.iter().find(|axis| axis.placed_by == PlacedBy::Felt);
+                let felt = felt.map_or_else(String::new, |axis| axis.pair.to_string());
+                format!("placed where they were felt along {felt}, otherwise")
+            }
         },
         build.features.label,
         build.options.method.id()

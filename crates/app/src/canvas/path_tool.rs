@@ -199,13 +199,15 @@ fn settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath) -> Vec<Command>
         commands.push(Command::PlayPath(!is_playing));
     }
     let mut changed = path.clone();
-    let (value, range, unit, factor) = match path.along {
-        Along::Distance => (&mut changed.length_m, LENGTHS_MM, " mm", 1e-3),
-        Along::Time => (&mut changed.length_secs, LENGTHS_SECS, " s", 1.0),
+    let (factor, unit) = path.along.unit();
+    let (value, range) = match path.along {
+        Along::Distance => (&mut changed.length_m, LENGTHS_MM),
+        Along::Time => (&mut changed.length_secs, LENGTHS_SECS),
     };
     let mut shown = *value / factor;
     let speed = 0.01 * shown.max(1.0);
-    let length = DragValue::new(&mut shown).range(range).speed(speed).max_decimals(1).suffix(unit);
+    let length =
+        DragValue::new(&mut shown).range(range).speed(speed).max_decimals(1).suffix(format!(" {unit}"));
     let length = ui.add(length).accessible_name(strings::LENGTH).on_hover_text(strings::LENGTH_HELP);
     if length.changed() {
         *value = shown * factor;
@@ -214,7 +216,7 @@ fn settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath) -> Vec<Command>
     let name = |along: Along| if along == Along::Distance { strings::DISTANCE } else { strings::TIME };
     let combo = ComboBox::from_id_salt("path along").width(76.0).selected_text(name(path.along));
     let shown = combo.show_ui(ui, |ui| {
-        for along in [Along::Distance, Along::Time] {
+        for along in Along::ALL {
             if ui.selectable_label(path.along == along, name(along)).clicked() {
                 commands.push(change(PathChange::Along, Some(DrawnPath { along, ..path.clone() })));
             }

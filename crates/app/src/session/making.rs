@@ -89,7 +89,7 @@ impl Session {
         for (texture, _) in space.sites() {
             let model = &self.library.textures[*texture].model;
             let plane = Arc::clone(&self.planes[*texture]);
-            textures[*texture] = Some(Ingredients { plane, friction: model.friction(), tap: model.tap() });
+            textures[*texture] = Some(Ingredients::of(model, plane));
         }
         self.models.ask(Job { space, textures });
     }

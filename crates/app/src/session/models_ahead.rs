@@ -8,6 +8,7 @@ use shagreen_core::authoring::{Layers, Models};
 use shagreen_core::plane::Plane;
 use shagreen_core::space::Space;
 use shagreen_core::tap::Tap;
+use shagreen_core::texture::TextureModel;
 
 use crate::strings;
 
@@ -36,6 +37,12 @@ pub(super) struct ModelsAhead {
     waiting: Option<Job>,
     running: Option<(u64, Receiver<Outcome>)>,
     since: Option<Instant>,
+}
+
+impl Ingredients {
+    pub(super) fn of(model: &TextureModel, plane: Arc<Plane>) -> Self {
+        Self { plane, friction: model.friction(), tap: model.tap() }
+    }
 }
 
 impl Job {
@@ -114,10 +121,9 @@ mod tests {
         let library = starter_library().unwrap();
         let textures = &library.textures[..n_textures];
         let positions: Vec<Option<SpacePoint>> = textures.iter().map(|t| t.place.map(|p| p.at)).collect();
-        let ingredients = textures.iter().map(|texture| {
-            let (friction, tap) = (texture.model.friction(), texture.model.tap());
-            Some(Ingredients { plane: Arc::new(Plane::new(&texture.model)), friction, tap })
-        });
+        let ingredients = textures
+            .iter()
+            .map(|texture| Some(Ingredients::of(&texture.model, Arc::new(Plane::new(&texture.model)))));
         Job { space: Space::new(&positions).unwrap(), textures: ingredients.collect() }
     }
 
@@ -144,7 +150,9 @@ mod tests {
         ahead.ask(job(25));
         assert!(ahead.collect(&ctx).is_none());
         ahead.cancel();
+        let start = Instant::now();
         while ahead.running.is_some() {
+            assert!(start.elapsed() < Duration::from_secs(30));
             assert!(ahead.collect(&ctx).is_none(), "nobody asks for these any more");
             std::thread::sleep(Duration::from_millis(2));
         }

@@ -68,35 +68,32 @@ pub(super) fn is_inside(space: &Space, at: SpacePoint) -> bool {
     space.locate(at).is_some_and(|location| !location.clamped) && space.hull_distance(at) > ON_HULL
 }
 
-/// The texture nearest to a place, other than the one that is left out.
-pub(super) fn nearest(placed: &[Placed], left_out: usize, at: SpacePoint) -> Option<&Placed> {
-    let rest = placed.iter().filter(|placed| placed.texture != left_out);
-    rest.min_by(|a, b| a.at.distance(at).total_cmp(&b.at.distance(at)))
+/// The texture nearest to another in the space.
+pub(super) fn nearest<'a>(placed: &'a [Placed], to: &Placed) -> Option<&'a Placed> {
+    let rest = placed.iter().filter(|placed| placed.texture != to.texture);
+    rest.min_by(|a, b| a.at.distance(to.at).total_cmp(&b.at.distance(to.at)))
 }
 
 /// The textures of a library, for all spaces that lack one of them.
 pub(super) struct Rests<'a> {
     textures: &'a [(&'a TextureModel, Option<SpacePoint>)],
-    placed: Vec<Placed>,
     /// Planes of one rate, indexed like the library; of a texture of a higher rate there is none. Two entries at most:
     /// the highest rate of all, and that without the only texture which has it.
     at_rates: Vec<(Hertz, Vec<Option<Arc<Plane>>>)>,
 }
 
 impl<'a> Rests<'a> {
-    pub(super) fn new(
-        textures: &'a [(&'a TextureModel, Option<SpacePoint>)],
-    ) -> Result<Self, LeaveOneOutError> {
-        Ok(Self { textures, placed: Placed::all(textures)?, at_rates: Vec::new() })
+    pub(super) fn new(textures: &'a [(&'a TextureModel, Option<SpacePoint>)]) -> Self {
+        Self { textures, at_rates: Vec::new() }
     }
 
-    /// What the rest makes of the place of `left_out`: a copy of the nearest, then each blending.
+    /// What the rest makes of the place of `left_out`, by each blending.
     pub(super) fn made_without(
         &mut self,
-        left_out: usize,
+        left_out: &Placed,
         blendings: &[Blending],
     ) -> Result<Vec<Made>, LeaveOneOutError> {
-        let Some(at) = self.textures[left_out].1 else { return Ok(Vec::new()) };
+        let (left_out, at) = (left_out.texture, left_out.at);
         let space = rest_of(self.textures, left_out)?;
         let planes = self.planes_without(left_out)?;
         let mut authoring = Authoring::new(space);
@@ -113,8 +110,7 @@ impl<'a> Rests<'a> {
             let authored = authoring.author(at, blending);
             authored.and_then(|authored| made(&authored, &planes)).ok_or(unmade)
         });
-        let copied = nearest(&self.placed, left_out, at).map(Placed::original);
-        copied.into_iter().map(Ok).chain(authored).collect()
+        authored.collect()
     }
 
     /// The planes of the rest, at the highest rate among them.

@@ -10,6 +10,7 @@ use crate::leave_one_out::{
 use crate::plane::Plane;
 use crate::rng::Random;
 use crate::space::SpacePoint;
+use crate::statistics::mean;
 use crate::texture::test_textures::{arma, two_resonances};
 use crate::texture::{GrainNode, TextureModel};
 use crate::units::Hertz;
@@ -57,7 +58,7 @@ fn an_oracle_is_right_and_its_opposite_wrong() {
     let textures = lent(&world);
     let placed = Placed::all(&textures).unwrap();
     let profile = |placed: &Placed| placed.original().profile(&Channels::of_models());
-    let mut author = |left_out: &Placed| {
+    let mut author = |left_out: &Placed, _: &Placed| {
         let own = profile(left_out);
         let distance = |other: &&Placed| error_db(&profile(other), &own);
         let farthest = placed.iter().max_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
@@ -82,7 +83,9 @@ fn nothing_leaks_from_what_is_left_out() {
     let channels = Channels::of_models();
     let profiles = |world: &[(TextureModel, Option<SpacePoint>)]| -> Vec<Profile> {
         let textures = lent(world);
-        let made = Rests::new(&textures).unwrap().made_without(left_out, &all_modes().blendings).unwrap();
+        let placed = Placed::all(&textures).unwrap();
+        let left_out = placed.iter().find(|placed| placed.texture == left_out).unwrap();
+        let made = Rests::new(&textures).made_without(left_out, &all_modes().blendings).unwrap();
         made.iter().map(|made| made.profile(&channels)).collect()
     };
     let leaking = |world: &[(TextureModel, Option<SpacePoint>)]| {
@@ -136,6 +139,13 @@ fn figures_sum_up_the_textures() {
         let nrs = outcomes.iter().map(|o| 1.0 - o.error_db / measured.reach_db).sum::<f64>() / n as f64;
         assert!((summary.nrs_mean.unwrap() - nrs).abs() < 1e-12 && summary.signals.is_none());
     }
+    let world = world(20, 1.0);
+    for left in &measured.textures {
+        let distance = |texture: &usize| world[*texture].1.unwrap().distance(left.at);
+        let others = (0..world.len()).filter(|texture| *texture != left.texture);
+        assert_eq!(others.min_by(|a, b| distance(a).total_cmp(&distance(b))), Some(left.nearest));
+        assert_eq!(left.outcomes[0].signal_error_db, None);
+    }
 }
 
 /// The reach is that of the roughest and the smoothest.
@@ -162,6 +172,12 @@ fn signals_agree_with_models() {
         assert!(check.n == 2 && check.mean_difference_db < 0.3, "{summary:?}");
         // Twice what chance makes, since spectra are not level within a channel.
         assert!(check.from_model_db < 2.0 * check.chance_db, "{summary:?}");
+    }
+    for (index, summary) in measured.methods.iter().enumerate() {
+        let errors: Vec<f64> =
+            measured.textures.iter().filter_map(|left| left.outcomes[index].signal_error_db).collect();
+        let check = summary.signals.unwrap();
+        assert!(errors.len() == check.n && (mean(&errors) - check.error_db_mean).abs() < 1e-12);
     }
     let world = world(6, 2.0);
     let textures = lent(&world);

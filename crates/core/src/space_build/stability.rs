@@ -31,7 +31,7 @@ pub struct Stability {
     pub n_draws: usize,
     /// Draws that made none: nobody who parts two textures, or an adjective that points nowhere.
     pub n_failed: usize,
-    /// Standard deviation of each texture's place along both axes, in points of 100.
+    /// Standard deviation along both axes of the place where each texture was felt, in points of 100.
     pub deviations: Vec<[f64; 2]>,
     /// Their root mean square over the textures.
     pub typical: [f64; 2],

@@ -64,20 +64,20 @@ pub fn verdict(build: &SpaceBuild) -> Vec<String> {
 /// What places on an axis are, and why, if that was not asked for.
 fn place(axis: &Axis, is_chosen_here: bool) -> String {
     let pair = &axis.pair;
-    let why = match axis.placed_by {
-        _ if !is_chosen_here => String::new(),
-        PlacedBy::Predicted => format!(", since their nested r is {TRUSTED_NESTED_R} or more"),
-        PlacedBy::Felt if axis.prediction.is_none() => ", since nothing predicts them".to_owned(),
-        PlacedBy::Felt => format!(", since the nested r of predictions is below {TRUSTED_NESTED_R}"),
+    let place = match axis.placed_by {
+        PlacedBy::Felt => "where they were felt",
+        PlacedBy::Predicted => "where their features predict, by models that have seen them",
     };
-    match axis.placed_by {
-        PlacedBy::Felt => format!("Along {pair} textures lie where they were felt{why}."),
-        PlacedBy::Predicted => {
-            format!(
-                "Along {pair} textures lie where their features predict, by models that have seen them{why}."
-            )
+    let nested_r = axis.prediction.as_ref().map(|prediction| prediction.validation.nested_cv_r);
+    let why = match (is_chosen_here, nested_r) {
+        (false, _) => String::new(),
+        (true, None) => ", since nothing predicts them".to_owned(),
+        (true, Some(r)) => {
+            let side = if axis.placed_by == PlacedBy::Predicted { "not below" } else { "below" };
+            format!(", since the nested r of predictions, {r:.3}, is {side} {TRUSTED_NESTED_R}")
         }
-    }
+    };
+    format!("Along {pair} textures lie {place}{why}.")
 }
 
 fn angle(build: &SpaceBuild) -> String {

@@ -111,34 +111,61 @@ fn highest(places: &[[f64; 2]]) -> [f64; 2] {
     places.iter().fold([0.0, 0.0], |[v, f], p| [v.max(p[0]), f.max(p[1])])
 }
 
+/// A node among others, in smallest distances.
+struct InColumn {
+    column: i64,
+    x: f64,
+    y: f64,
+    index: usize,
+}
+
 /// Whether nodes lie far enough from each other.
 fn apart_in_plane(places: &[[f64; 2]], highest: [f64; 2]) -> Result<(), TextureModelError> {
-    // Columns as wide as the smallest distance, and from bottom to top in each: whoever is too near is the next one in the
+    // Columns as wide as the smallest distance, from bottom to top in each: whoever is too near is the next one in the
     // column, or in the column to the right.
-    let at = |place: &[f64; 2]| [0, 1].map(|axis| place[axis] / highest[axis] / MIN_NODE_DISTANCE);
-    let mut ordered: Vec<(i64, [f64; 2], usize)> = places
-        .iter()
-        .enumerate()
-        .map(|(index, place)| {
-            let at = at(place);
-            (at[0] as i64, at, index)
-        })
-        .collect();
-    ordered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1[1].total_cmp(&b.1[1])));
-    for (i, (column, at, index)) in ordered.iter().enumerate() {
+    let in_column = |(index, place): (usize, &[f64; 2])| {
+        let [x, y] = [0, 1].map(|axis| place[axis] / highest[axis] / MIN_NODE_DISTANCE);
+        InColumn { column: x as i64, x, y, index }
+    };
+    let mut ordered: Vec<InColumn> = places.iter().enumerate().map(in_column).collect();
+    ordered.sort_by(|a, b| a.column.cmp(&b.column).then(a.y.total_cmp(&b.y)));
+    for (i, node) in ordered.iter().enumerate() {
         let rest = &ordered[i + 1..];
-        let is_before = |other: &(i64, [f64; 2], usize)| {
-            other.0 <= *column || (other.0 == column + 1 && other.1[1] <= at[1] - 1.0)
-        };
-        let right = &rest[rest.partition_point(is_before)..];
-        let right = right.iter().take_while(|other| other.0 == column + 1 && other.1[1] < at[1] + 1.0);
-        let mut near = rest.iter().take_while(|other| other.0 == *column).take(1).chain(right);
-        let is_near = |other: &&(i64, [f64; 2], usize)| {
-            (at[0] - other.1[0]).abs().max((at[1] - other.1[1]).abs()) < 1.0
-        };
-        if let Some((_, _, other)) = near.find(is_near) {
-            return Err(TextureModelError::SamePlace { first: *index.min(other), second: *index.max(other) });
+        let is_right = |other: &InColumn| other.column == node.column + 1;
+        let is_before =
+            |other: &InColumn| other.column <= node.column || (is_right(other) && other.y <= node.y - 1.0);
+        let above = rest.first().filter(|other| other.column == node.column);
+        let right = rest[rest.partition_point(is_before)..].iter();
+        let right = right.take_while(|other| is_right(other) && other.y < node.y + 1.0);
+        let is_near = |other: &&InColumn| (node.x - other.x).abs().max((node.y - other.y).abs()) < 1.0;
+        if let Some(other) = above.into_iter().chain(right).find(is_near) {
+            let (first, second) = (node.index.min(other.index), node.index.max(other.index));
+            return Err(TextureModelError::SamePlace { first, second });
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MIN_NODE_DISTANCE, apart_in_plane};
+    use proptest::prelude::{prop, prop_assert_eq, proptest};
+
+    proptest! {
+        #[test]
+        fn whoever_is_too_near_is_found(
+            cells in prop::collection::vec((0_u8..12, 0_u8..12, 0.0_f64..1.0, 0.0_f64..1.0), 1..30)
+        ) {
+            let place = |(i, j, x, y): &(u8, u8, f64, f64)| {
+                [f64::from(*i) + x, f64::from(*j) + y].map(|cell| cell * MIN_NODE_DISTANCE)
+            };
+            let places: Vec<[f64; 2]> = cells.iter().map(place).collect();
+            let is_near = |a: &[f64; 2], b: &[f64; 2]| {
+                let apart = |axis: usize| (a[axis] / MIN_NODE_DISTANCE - b[axis] / MIN_NODE_DISTANCE).abs();
+                apart(0).max(apart(1)) < 1.0
+            };
+            let any = (0..places.len()).any(|i| places[..i].iter().any(|b| is_near(&places[i], b)));
+            prop_assert_eq!(apart_in_plane(&places, [1.0, 1.0]).is_err(), any);
+        }
+    }
 }

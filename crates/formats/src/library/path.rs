@@ -10,14 +10,6 @@ use crate::library::v1::{KeyV1, PathV1, TapV1};
 use crate::library::write::{CONVERSION_DIGITS, DIGITS, decimals, digits, tap as tap_v1};
 use crate::library::{LibraryError, Unknown, UnknownOfKey};
 
-/// Millimeters of a file to a meter; seconds stay seconds.
-fn scale(along: Along) -> f64 {
-    match along {
-        Along::Distance => 1e-3,
-        Along::Time => 1.0,
-    }
-}
-
 /// The path of a texture.
 pub(super) fn read(
     id: &str,
@@ -36,23 +28,20 @@ pub(super) fn read(
     let at_end = AtEnd::from_id(&wire.at_end)
         .ok_or_else(|| word("path at_end", &wire.at_end, "hold, turn or repeat"))?;
     unknown.path = wire.unknown;
-    let key = |wire: KeyV1| {
+    let key = |(index, wire): (usize, KeyV1)| {
+        let id = &format!("{id}, point {} of its path", index + 1);
         let mut left = UnknownOfKey { key: wire.unknown, ..UnknownOfKey::default() };
         let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
             .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
-        let tap = wire.tap.map(|wire| {
-            let read = tap(id, &wire);
-            left.tap = wire.unknown;
-            read
-        });
+        let tap = wire.tap.map(|wire| tap(id, wire, &mut left.tap)).transpose()?;
         let model = grain(id, None, wire.anchors, &mut left.anchors)?
             .model(rate, wire.mu)
             .map_err(|source| LibraryError::Model { id: id.to_owned(), source })?
-            .with_tap(tap.transpose()?);
+            .with_tap(tap);
         unknown.keys.push(left);
-        Ok(Key { stop: Stop { at, along: scale(along) * wire.along }, is_stop: wire.stop, model })
+        Ok(Key { stop: Stop { at, along: along.unit().0 * wire.along }, is_stop: wire.stop, model })
     };
-    let keys = wire.keys.into_iter().map(key).collect::<Result<_, _>>()?;
+    let keys = wire.keys.into_iter().enumerate().map(key).collect::<Result<_, _>>()?;
     if unknown.keys.iter().all(|left| *left == UnknownOfKey::default()) {
         unknown.keys.clear();
     }
@@ -70,7 +59,7 @@ pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
         let UnknownOfKey { key: unknown, tap, anchors: of_anchors } = left_at(index);
         KeyV1 {
             unknown,
-            along: digits(key.stop.along / scale(path.along()), CONVERSION_DIGITS),
+            along: digits(key.stop.along / path.along().unit().0, CONVERSION_DIGITS),
             rough_smooth: decimals(key.stop.at.rough_smooth),
             hard_soft: decimals(key.stop.at.hard_soft),
             stop: key.is_stop,

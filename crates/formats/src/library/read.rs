@@ -166,12 +166,7 @@ fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
         }
     });
     let provenance = wire.provenance.map(|word| provenance(&id, word)).transpose()?.unwrap_or_default();
-    let tap = wire.tap.map(|wire| {
-        let read = tap(&id, &wire);
-        unknown.tap = wire.unknown;
-        read
-    });
-    let tap = tap.transpose()?;
+    let tap = wire.tap.map(|wire| tap(&id, wire, &mut unknown.tap)).transpose()?;
     let rate = Hertz(wire.rate_hz);
     let path = wire.path.map(|wire| path::read(&id, wire, rate, &mut unknown)).transpose()?;
     let model = grain(&id, wire.interpolation.as_deref(), wire.anchors, &mut unknown.anchors)?
@@ -208,19 +203,20 @@ fn provenance(id: &str, word: String) -> Result<Provenance, LibraryError> {
     }
 }
 
-pub(super) fn tap(id: &str, wire: &TapV1) -> Result<Tap, LibraryError> {
-    let fields = [("frequency_hz", wire.frequency_hz), ("decay_per_s", wire.decay_per_s)];
-    if let Some((field, value)) = fields.into_iter().find(|(_, value)| *value <= 0.0) {
-        return Err(LibraryError::Tap { id: id.to_owned(), field, value, needs: "it must be above zero" });
-    }
-    let (field, value) = ("amplitude_mps2", wire.amplitude_mps2);
-    if value < 0.0 {
-        return Err(LibraryError::Tap {
-            id: id.to_owned(),
-            field,
-            value,
-            needs: "it must not be below zero",
-        });
+pub(super) fn tap(
+    id: &str,
+    wire: TapV1,
+    unknown: &mut serde_json::Map<String, Value>,
+) -> Result<Tap, LibraryError> {
+    *unknown = wire.unknown;
+    for (field, value, is_fine, needs) in [
+        ("frequency_hz", wire.frequency_hz, wire.frequency_hz > 0.0, "it must be above zero"),
+        ("decay_per_s", wire.decay_per_s, wire.decay_per_s > 0.0, "it must be above zero"),
+        ("amplitude_mps2", wire.amplitude_mps2, wire.amplitude_mps2 >= 0.0, "it must not be below zero"),
+    ] {
+        if !is_fine {
+            return Err(LibraryError::Tap { id: id.to_owned(), field, value, needs });
+        }
     }
     Ok(Tap {
         frequency: Hertz(wire.frequency_hz),
