@@ -76,7 +76,7 @@ fn a_table_says_what_was_measured_and_which_is_best() {
     let said = bench.run("evaluate leave-one-out --signals 0");
     assert_eq!(said.code, 0, "{said:?}");
     assert!(
-        said.stdout.contains("measured on signals, places from physical labels; no human rating"),
+        said.stdout.contains("measured on signals, places from physical labels; the errors are no human rating"),
         "{said:?}"
     );
     let lines: Vec<&str> = said.stdout.lines().collect();
@@ -99,7 +99,7 @@ fn what_cannot_be_evaluated_is_one_sentence() {
         bench.fails(&format!("evaluate leave-one-out {arguments}"), code, words);
     };
     fails("--library three.json", 1, &["needs 4 textures", "got 3", "three.json"]);
-    fails("--library square.json", 1, &["none of the 4 textures", "strictly between", "square.json"]);
+    fails("--library square.json", 1, &["none of the 4 textures", "strictly inside", "square.json"]);
     fails("--blend loud", 2, &["loud", "field", "all"]);
     fails("--seconds 1", 2, &["4 to 600"]);
     bench.write("notes.txt", "x");

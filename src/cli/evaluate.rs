@@ -140,7 +140,7 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     let n = measured.textures.len();
     let mut lines = vec![
         format!(
-            "{}: {} left out one by one, of {} that have a place ({}; nobody felt what was authored)",
+            "{}: {} left out one by one, of {} that have a place ({}; the errors are no human rating)",
             library.name,
             counted(n, "texture"),
             n + measured.on_hull.len(),

@@ -36,7 +36,7 @@ pub(crate) fn refuse_foreign(
         return Ok(());
     }
     bail!(
-        "{what} would be written over a file that is something else; choose another name, or move that file: {}",
+        "{what} would replace a file that is something else; choose another name, or move that file: {}",
         output.display()
     );
 }

@@ -139,6 +139,7 @@ fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rat
         texture: chosen.texture.clone(),
         at: chosen.at_json(),
         clamped: chosen.clamped,
+        extrapolated: chosen.extrapolated,
         blend: chosen.mode.id().to_owned(),
         parents: chosen.parents.iter().map(parent).collect(),
         library: library.name.clone(),

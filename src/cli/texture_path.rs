@@ -7,7 +7,7 @@ use shagreen_core::authoring::{Authoring, Blending};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePath};
 use shagreen_formats::atomic;
-use shagreen_formats::library::{Library, Provenance, read_library, write_library};
+use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
@@ -66,7 +66,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let outside = OutsideKeys::of(&authoring, &path, &blending);
     let (n_keys, length) = (path.keys().len(), path.length() / scale);
     let of: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
-    let made = made(&library, &args.name, path, &of);
+    let entry = library.entry_of_path(&args.name, path, &of, outside.n_extrapolated);
+    let made = alone(&library, entry);
     let id = made.textures[0].id.clone();
     let is_restricted = made.textures[0].provenance == Provenance::Restricted;
     let restricted: Vec<&str> = is_restricted.then_some(args.name.as_str()).into_iter().collect();
@@ -140,10 +141,9 @@ fn is_path(bytes: &[u8]) -> bool {
 }
 
 /// A library of the path alone.
-fn made(library: &Library, name: &str, path: TexturePath, of: &[usize]) -> Library {
-    let entry = library.entry_of_path(name, path, of);
+fn alone(library: &Library, entry: TextureEntry) -> Library {
     Library {
-        name: name.to_owned(),
+        name: entry.name.clone(),
         origin: entry.origin.clone(),
         license: entry.license.clone(),
         created_by: output::CREATED_BY.to_owned(),

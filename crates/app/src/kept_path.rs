@@ -15,7 +15,12 @@ pub(crate) fn kept_path(
     session: &Session,
 ) -> Option<Result<TextureEntry, TexturePathError>> {
     let route = project.path.as_ref()?.route()?;
-    let made = TexturePath::of_route(session.authoring(), &route, &project.heard_blending());
+    let (authoring, blending) = (session.authoring(), project.heard_blending());
+    let made = TexturePath::of_route(authoring, &route, &blending);
     let of: Vec<usize> = session.space().sites().iter().map(|(texture, _)| *texture).collect();
-    Some(made.map(|path| session.library().entry_of_path(&project.name, path, &of)))
+    Some(made.map(|path| {
+        let authored = path.keys().iter().filter_map(|key| authoring.author(key.stop.at, &blending));
+        let n_extrapolated = authored.filter(|authored| authored.is_extrapolated).count();
+        session.library().entry_of_path(&project.name, path, &of, n_extrapolated)
+    }))
 }

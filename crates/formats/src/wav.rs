@@ -46,6 +46,9 @@ pub struct SidecarV1 {
     pub at: Option<[f64; 2]>,
     /// Whether that point was moved to the hull of the textures.
     pub clamped: bool,
+    /// Whether it lies outside that hull, where nothing was measured, and was authored nevertheless.
+    #[serde(default)]
+    pub extrapolated: bool,
     /// How the parents were mixed.
     pub blend: String,
     /// The textures that were mixed.
@@ -185,6 +188,7 @@ mod tests {
             texture: None,
             at: Some([30.0, 70.0]),
             clamped: false,
+            extrapolated: false,
             blend: "shared".into(),
             parents: vec![ParentV1 { id: "cork".into(), weight: 1.0, licence: "CC0-1.0".into() }],
             library: "Starter".into(),

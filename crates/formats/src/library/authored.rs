@@ -11,7 +11,14 @@ const UNKNOWN_TERMS: &str = "LicenseRef-unknown";
 impl Library {
     /// The entry of a path through the space of the textures at these indices, with an identifier that is free in this
     /// library. It owes something to each of them: it has the terms of all, and may not be passed on where one may not.
-    pub fn entry_of_path(&self, name: &str, path: TexturePath, of: &[usize]) -> TextureEntry {
+    /// So many of its keys are extrapolated.
+    pub fn entry_of_path(
+        &self,
+        name: &str,
+        path: TexturePath,
+        of: &[usize],
+        n_extrapolated: usize,
+    ) -> TextureEntry {
         let owed = || of.iter().filter_map(|index| self.textures.get(*index));
         let is_restricted = owed().any(|texture| texture.provenance == Provenance::Restricted);
         let mut sources: Vec<&str> = Vec::new();
@@ -24,11 +31,18 @@ impl Library {
             [] => String::new(),
             some => format!(", whose places come from {}", some.join(" and ")),
         };
+        let guessed = match n_extrapolated {
+            0 => String::new(),
+            n => format!(
+                " {n} of its {} textures are extrapolated: nothing was measured there.",
+                path.keys().len()
+            ),
+        };
         let first = path.keys()[0].model.clone();
         let id = free_id(&id_from_name(name), |id| self.index_of(id).is_some());
         TextureEntry {
             license: all_terms(&owed().map(|texture| self.license_of(texture)).collect::<Vec<_>>()),
-            origin: format!("Authored as a path through the space of \"{}\"{places}.", self.name),
+            origin: format!("Authored as a path through the space of \"{}\"{places}.{guessed}", self.name),
             provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
             path: Some(path),
             ..TextureEntry::new(id, name, first)
@@ -73,17 +87,18 @@ mod tests {
     #[test]
     fn a_path_has_the_terms_of_all_that_it_is_made_of() {
         let mut library = starter_library().unwrap();
-        let free = library.entry_of_path("Cork", path(&library), &[0, 1, 3]);
+        let free = library.entry_of_path("Cork", path(&library), &[0, 1, 3], 0);
         assert_eq!((free.license.as_str(), free.provenance), (library.license.as_str(), Provenance::Free));
         assert!(library.index_of("cork").is_some() && library.index_of(&free.id).is_none(), "{}", free.id);
         assert_eq!(free.model, library.textures[0].model);
         "CC-BY-4.0".clone_into(&mut library.textures[3].license);
         library.textures[3].provenance = Provenance::Restricted;
-        let bound = library.entry_of_path("Way", path(&library), &[0, 1, 3]);
+        let bound = library.entry_of_path("Way", path(&library), &[0, 1, 3], 2);
+        assert!(bound.origin.contains("2 of its"), "{}", bound.origin);
         assert_eq!(bound.license, "(MIT OR Apache-2.0) AND CC-BY-4.0");
         assert!(bound.origin.contains("from physical labels"), "{}", bound.origin);
         assert_eq!((bound.id.as_str(), bound.provenance), ("way", Provenance::Restricted));
         // What has no say is owed nothing.
-        assert_eq!(library.entry_of_path("Way", path(&library), &[0, 1]).provenance, Provenance::Free);
+        assert_eq!(library.entry_of_path("Way", path(&library), &[0, 1], 0).provenance, Provenance::Free);
     }
 }

@@ -73,6 +73,7 @@ fn what_render_wrote_comes_back_with_its_trace() {
         texture: None,
         at: None,
         clamped: false,
+        extrapolated: false,
         blend: "shared".into(),
         parents: Vec::new(),
         library: String::new(),
