@@ -76,7 +76,8 @@ fn a_table_says_what_was_measured_and_which_is_best() {
     let said = bench.run("evaluate leave-one-out --signals 0");
     assert_eq!(said.code, 0, "{said:?}");
     assert!(
-        said.stdout.contains("measured on signals, places from physical labels; the errors are no human rating"),
+        said.stdout
+            .contains("measured on signals, places from physical labels; the errors are no human rating"),
         "{said:?}"
     );
     let lines: Vec<&str> = said.stdout.lines().collect();
