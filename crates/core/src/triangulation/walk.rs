@@ -41,37 +41,44 @@ impl Triangulation {
     /// number will do for the first point.
     #[inline]
     pub fn locate_near(&self, at: Xy, hint: &mut usize) -> Option<(usize, [f64; 3])> {
-        if let Some(shape) = self.shapes.get(*hint) {
-            let weights = shape.weights(at);
-            if lowest(weights).1 >= 0.0 {
-                return Some((*hint, weights));
-            }
+        let shape = self.shapes.get(*hint).or_else(|| {
+            *hint = 0;
+            self.shapes.first()
+        })?;
+        let weights = shape.weights(at);
+        let (corner, least) = lowest(weights);
+        if least >= 0.0 {
+            return Some((*hint, weights));
         }
-        self.walk(at, hint)
+        // A drag stays outside for as long as it stays inside.
+        if least < SURELY_OUTSIDE && shape.neighbors[corner] == NONE {
+            return None;
+        }
+        self.walk(at, hint, (corner, least))
     }
 
-    fn walk(&self, at: Xy, hint: &mut usize) -> Option<(usize, [f64; 3])> {
-        let mut triangle = if *hint < self.shapes.len() { *hint } else { 0 };
-        let mut shape = self.shapes.get(triangle)?;
+    /// The rest of the walk from the triangle `hint`, which has this lowest weight below zero.
+    fn walk(&self, at: Xy, hint: &mut usize, mut out: (usize, f64)) -> Option<(usize, [f64; 3])> {
+        let mut triangle = *hint;
         for _ in 0..self.shapes.len() {
-            let weights = shape.weights(at);
-            let (corner, least) = lowest(weights);
-            if least >= 0.0 {
+            let (corner, least) = out;
+            // The lowest may be no number.
+            if least >= SURELY_OUTSIDE || least.is_nan() {
+                break;
+            }
+            match self.shapes[triangle].neighbors[corner] {
+                NONE => {
+                    *hint = triangle;
+                    return None;
+                }
+                next => triangle = next as usize,
+            }
+            let weights = self.shapes[triangle].weights(at);
+            out = lowest(weights);
+            if out.1 >= 0.0 {
                 *hint = triangle;
                 return Some((triangle, weights));
             }
-            if least < SURELY_OUTSIDE {
-                match shape.neighbors[corner] {
-                    NONE => {
-                        *hint = triangle;
-                        return None;
-                    }
-                    next => triangle = next as usize,
-                }
-            } else {
-                break;
-            }
-            shape = &self.shapes[triangle];
         }
         *hint = triangle;
         self.locate_closely(at, hint)
