@@ -34,13 +34,18 @@
     allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
 )]
 
+pub mod budget;
 pub mod contact;
+pub mod drive;
+pub mod equalizer;
 pub mod limiter;
+pub mod look_ahead;
 pub mod lsf;
 mod moving_average;
 pub mod noise;
 pub mod renderer;
 pub mod resampler;
 pub mod stream;
+pub mod tap;
 pub mod texture;
 pub mod voice;

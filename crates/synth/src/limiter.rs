@@ -35,13 +35,7 @@ impl Limiter {
             return sample;
         }
         self.limited_samples += 1;
-        let room = self.ceiling - self.knee;
-        if room <= 0.0 {
-            return 0.0;
-        }
-        let excess = (magnitude - self.knee) / room;
-        // 1 - 1/(1+u) is u/(1+u) without the overflow of u/u for a huge u.
-        let bent = (self.knee + room * (1.0 - 1.0 / (1.0 + excess))).min(self.ceiling);
+        let bent = bend(magnitude, self.knee, self.ceiling);
         if sample < 0.0 { -bent } else { bent }
     }
 
@@ -59,6 +53,18 @@ impl Limiter {
     pub fn reset(&mut self) {
         self.tripped = false;
     }
+}
+
+/// The soft knee's curve above the knee: the excess `u`, in units of the room between knee and ceiling, becomes
+/// `u / (1 + u)` of it. Zero where there is no room.
+pub(crate) fn bend(magnitude: f32, knee: f32, ceiling: f32) -> f32 {
+    let room = ceiling - knee;
+    if room <= 0.0 {
+        return 0.0;
+    }
+    let excess = (magnitude - knee) / room;
+    // 1 - 1/(1+u) is u/(1+u) without the overflow of u/u for a huge u.
+    (knee + room * (1.0 - 1.0 / (1.0 + excess))).min(ceiling)
 }
 
 #[cfg(test)]

@@ -1,5 +1,9 @@
 //! What an engine is made for.
 
+use shagreen_synth::budget::Budget;
+use shagreen_synth::drive::{DriveConfig, Inverse, MAX_LOOK_AHEAD_SECS};
+use shagreen_synth::equalizer::Resonance;
+
 /// The channels of a device that get the signal; the others are silent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelMask(u64);
@@ -44,10 +48,8 @@ pub struct EngineConfig {
     pub device_rate_hz: f32,
     /// What the noise depends on: same seed, same samples.
     pub seed: u64,
-    /// Acceleration at which the device is at full scale, in m/s².
-    pub full_scale_mps2: f32,
-    /// Share of the full scale that is never exceeded, 0..1.
-    pub ceiling: f32,
+    /// How acceleration becomes the drive of the actuator.
+    pub drive: DriveConfig,
     /// The channels that get the signal.
     pub channels: ChannelMask,
 }
@@ -71,10 +73,12 @@ pub enum ConfigError {
         model_rate_hz: f32,
     },
     /// The full scale is not a positive number with a finite inverse.
-    #[error("the full scale is {full_scale_mps2} m/s²; it must be a positive number")]
+    #[error("the full scale is {full_scale} {unit}; it must be a positive number")]
     FullScale {
-        /// Full scale that was asked for, in m/s².
-        full_scale_mps2: f32,
+        /// Full scale that was asked for.
+        full_scale: f32,
+        /// Its unit: that of acceleration, or of voltage where the actuator's response is known.
+        unit: &'static str,
     },
     /// The ceiling is not a share.
     #[error("the limiter's ceiling is {ceiling}; it must be between 0 and 1")]
@@ -82,39 +86,103 @@ pub enum ConfigError {
         /// Ceiling that was asked for.
         ceiling: f32,
     },
+    /// The limiter cannot see so far.
+    #[error("the limiter's look-ahead is {look_ahead_secs} s; it must be 0 to {MAX_LOOK_AHEAD_SECS} s")]
+    LookAhead {
+        /// Look-ahead that was asked for, in seconds.
+        look_ahead_secs: f32,
+    },
+    /// The budget of the coil's heat has no meaning.
+    #[error("the coil stands a share of {rms} of the full scale over {time_secs} s; both must be positive numbers")]
+    Budget {
+        /// Root mean square that was asked for, as a share of the full scale.
+        rms: f32,
+        /// Its time constant, in seconds.
+        time_secs: f32,
+    },
+    /// The actuator's response cannot be undone.
+    #[error(
+        "the actuator's response cannot be undone: resonance {frequency_hz} Hz, Q {q}, gain {gain_mps2_per_volt} m/s² for \
+         a volt, from {lowest_hz} Hz on; all must be positive, and the frequencies below half the device's {rate_hz} Hz"
+    )]
+    Response {
+        /// Resonance that was asked for, in Hz.
+        frequency_hz: f64,
+        /// Its quality.
+        q: f64,
+        /// Gain far above it, in m/s² for a volt.
+        gain_mps2_per_volt: f64,
+        /// Lowest frequency to be reproduced, in Hz.
+        lowest_hz: f64,
+        /// The device's rate, in Hz.
+        rate_hz: f32,
+    },
 }
 
 impl EngineConfig {
     pub(super) fn check(self) -> Result<Self, ConfigError> {
-        let Self { model_rate_hz, device_rate_hz, full_scale_mps2, ceiling, .. } = self;
+        let Self { model_rate_hz, device_rate_hz, .. } = self;
         if !(200.0..=4000.0).contains(&model_rate_hz) {
             return Err(ConfigError::ModelRate { model_rate_hz });
         }
         if !(device_rate_hz.is_finite() && device_rate_hz >= model_rate_hz) {
             return Err(ConfigError::DeviceRate { device_rate_hz, model_rate_hz });
         }
-        if !(full_scale_mps2.is_normal() && full_scale_mps2 > 0.0 && full_scale_mps2.recip().is_normal()) {
-            return Err(ConfigError::FullScale { full_scale_mps2 });
-        }
-        if !(0.0..=1.0).contains(&ceiling) {
-            return Err(ConfigError::Ceiling { ceiling });
-        }
+        check_drive(self.drive, device_rate_hz)?;
         Ok(self)
     }
 }
 
+fn check_drive(drive: DriveConfig, rate_hz: f32) -> Result<(), ConfigError> {
+    let DriveConfig { inverse, full_scale, ceiling, look_ahead_secs, budget } = drive;
+    if !(full_scale.is_normal() && full_scale > 0.0 && full_scale.recip().is_normal()) {
+        let unit = if inverse.is_some() { "V" } else { "m/s²" };
+        return Err(ConfigError::FullScale { full_scale, unit });
+    }
+    if !(0.0..=1.0).contains(&ceiling) {
+        return Err(ConfigError::Ceiling { ceiling });
+    }
+    if !(0.0..=MAX_LOOK_AHEAD_SECS).contains(&look_ahead_secs) {
+        return Err(ConfigError::LookAhead { look_ahead_secs });
+    }
+    if let Some(Budget { rms, time_secs }) = budget
+        && ![rms, time_secs].iter().all(|x| x.is_normal() && *x > 0.0)
+    {
+        return Err(ConfigError::Budget { rms, time_secs });
+    }
+    if let Some(Inverse { resonance: Resonance { frequency_hz, q, gain_mps2_per_volt }, lowest_hz }) = inverse {
+        let are_numbers =
+            [frequency_hz, q, gain_mps2_per_volt, lowest_hz].iter().all(|x| x.is_normal() && *x > 0.0);
+        if !(are_numbers && 2.0 * frequency_hz.max(lowest_hz) < f64::from(rate_hz)) {
+            return Err(ConfigError::Response { frequency_hz, q, gain_mps2_per_volt, lowest_hz, rate_hz });
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{ChannelMask, ConfigError, EngineConfig};
+    use super::{Budget, ChannelMask, ConfigError, DriveConfig, EngineConfig, Inverse, Resonance};
 
     const GOOD: EngineConfig = EngineConfig {
         model_rate_hz: 1000.0,
         device_rate_hz: 48_000.0,
         seed: 0,
-        full_scale_mps2: 10.0,
-        ceiling: 1.0,
+        drive: DRIVE,
         channels: ChannelMask::FIRST_TWO,
     };
+    const RESONANCE: Resonance = Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 };
+    const DRIVE: DriveConfig = DriveConfig {
+        inverse: Some(Inverse { resonance: RESONANCE, lowest_hz: 20.0 }),
+        full_scale: 5.0,
+        ceiling: 1.0,
+        look_ahead_secs: 0.002,
+        budget: Some(Budget { rms: 0.3, time_secs: 10.0 }),
+    };
+
+    fn refusal(drive: DriveConfig) -> ConfigError {
+        EngineConfig { drive, ..GOOD }.check().unwrap_err()
+    }
 
     #[test]
     fn contradictions_are_named() {
@@ -128,12 +196,35 @@ mod tests {
             assert!(matches!(error, ConfigError::DeviceRate { .. }), "{error}");
         }
         for bad in [f32::NAN, f32::INFINITY, 0.0, -1.0, f32::from_bits(1), f32::MAX] {
-            let error = EngineConfig { full_scale_mps2: bad, ..GOOD }.check().unwrap_err();
-            assert!(matches!(error, ConfigError::FullScale { .. }), "{error}");
+            let error = refusal(DriveConfig { full_scale: bad, ..DRIVE });
+            assert!(matches!(error, ConfigError::FullScale { unit: "V", .. }), "{error}");
+            let error = refusal(DriveConfig::proportional(bad, 0.9));
+            assert!(matches!(error, ConfigError::FullScale { unit: "m/s²", .. }), "{error}");
         }
         for bad in [f32::NAN, -0.1, 1.1] {
-            let error = EngineConfig { ceiling: bad, ..GOOD }.check().unwrap_err();
+            let error = refusal(DriveConfig { ceiling: bad, ..DRIVE });
             assert!(matches!(error, ConfigError::Ceiling { .. }), "{error}");
+        }
+        for bad in [f32::NAN, -0.001, 0.0021] {
+            let error = refusal(DriveConfig { look_ahead_secs: bad, ..DRIVE });
+            assert!(matches!(error, ConfigError::LookAhead { .. }), "{error}");
+        }
+        for bad in [f32::NAN, f32::INFINITY, 0.0, -1.0] {
+            for budget in [Budget { rms: bad, time_secs: 1.0 }, Budget { rms: 1.0, time_secs: bad }] {
+                let error = refusal(DriveConfig { budget: Some(budget), ..DRIVE });
+                assert!(matches!(error, ConfigError::Budget { .. }), "{error}");
+            }
+        }
+        for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0, 24_000.0] {
+            let of = |resonance, lowest_hz| Some(Inverse { resonance, lowest_hz });
+            for inverse in [
+                of(Resonance { frequency_hz: bad, ..RESONANCE }, 20.0),
+                of(Resonance { q: if bad > 1.0 { f64::NAN } else { bad }, ..RESONANCE }, 20.0),
+                of(RESONANCE, bad),
+            ] {
+                let error = refusal(DriveConfig { inverse, ..DRIVE });
+                assert!(matches!(error, ConfigError::Response { .. }), "{error}");
+            }
         }
     }
 

@@ -1,0 +1,113 @@
+//! A signal that is played as it is: a test tone, or the sweep that measures an actuator.
+
+use std::f64::consts::TAU;
+
+use shagreen_synth::drive::Driven;
+
+/// Longest signal, in seconds at 48 kHz: two minutes.
+pub const MAX_SIGNAL_FRAMES: usize = 120 * 48_000;
+/// How long a tone takes to come and to go, in seconds.
+const TONE_FADE_SECS: f64 = 0.05;
+
+/// Samples at the device's rate, and what they are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signal {
+    samples: Box<[f32]>,
+    driven: Driven,
+}
+
+/// Why samples are not a signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SignalError {
+    /// There is none, or there are too many.
+    #[error("a signal has 1 to {MAX_SIGNAL_FRAMES} samples, not {n_samples}; play a shorter one")]
+    Length {
+        /// How many.
+        n_samples: usize,
+    },
+    /// A sample is not a number.
+    #[error("sample {index} of the signal is not a finite number")]
+    NotFinite {
+        /// Which, from zero.
+        index: usize,
+    },
+}
+
+impl Signal {
+    /// A signal of these samples: m/s², or shares of the device's full scale, which still are limited.
+    ///
+    /// # Errors
+    /// [`SignalError`] says what is wrong with them.
+    pub fn new(samples: Vec<f32>, driven: Driven) -> Result<Self, SignalError> {
+        if samples.is_empty() || samples.len() > MAX_SIGNAL_FRAMES {
+            return Err(SignalError::Length { n_samples: samples.len() });
+        }
+        if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
+            return Err(SignalError::NotFinite { index });
+        }
+        Ok(Self { samples: samples.into_boxed_slice(), driven })
+    }
+
+    /// A sine of acceleration that comes and goes softly.
+    ///
+    /// # Errors
+    /// [`SignalError`] where it is too long, or a number of it is not finite.
+    pub fn tone(frequency_hz: f64, amplitude_mps2: f64, secs: f64, rate_hz: f64) -> Result<Self, SignalError> {
+        let n_samples = (secs * rate_hz).round() as usize;
+        if n_samples > MAX_SIGNAL_FRAMES {
+            return Err(SignalError::Length { n_samples });
+        }
+        let sample = |i: usize| {
+            let t = i as f64 / rate_hz;
+            let fade = (t.min(secs - t) / TONE_FADE_SECS).clamp(0.0, 1.0);
+            (amplitude_mps2 * fade * (TAU * frequency_hz * t).sin()) as f32
+        };
+        Self::new((0..n_samples).map(sample).collect(), Driven::Acceleration)
+    }
+
+    /// How many samples.
+    pub fn n_frames(&self) -> usize {
+        self.samples.len()
+    }
+
+    pub(crate) fn driven(&self) -> Driven {
+        self.driven
+    }
+
+    /// The samples from one on, as many as there are up to `n`.
+    pub(crate) fn part(&self, begin: usize, n: usize) -> &[f32] {
+        let begin = begin.min(self.samples.len());
+        &self.samples[begin..self.samples.len().min(begin + n)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Driven, MAX_SIGNAL_FRAMES, Signal, SignalError};
+
+    #[test]
+    fn what_is_no_signal_is_refused() {
+        let of = |samples| Signal::new(samples, Driven::Drive).unwrap_err();
+        assert_eq!(of(Vec::new()), SignalError::Length { n_samples: 0 });
+        assert_eq!(of(vec![0.0, f32::NAN]), SignalError::NotFinite { index: 1 });
+        let n_samples = MAX_SIGNAL_FRAMES + 1;
+        assert_eq!(of(vec![0.0; n_samples]), SignalError::Length { n_samples });
+        for secs in [0.0, 1e9, f64::NAN] {
+            assert!(Signal::tone(100.0, 1.0, secs, 48_000.0).is_err());
+        }
+        assert!(Signal::tone(f64::NAN, 1.0, 1.0, 48_000.0).is_err());
+    }
+
+    #[test]
+    fn a_tone_comes_and_goes_softly() {
+        let tone = Signal::tone(250.0, 2.0, 0.5, 48_000.0).unwrap();
+        assert_eq!((tone.n_frames(), tone.driven()), (24_000, Driven::Acceleration));
+        let samples = tone.part(0, usize::MAX / 2);
+        let peak = |x: &[f32]| x.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+        assert!(peak(&samples[..24]) < 0.03 && peak(&samples[23_976..]) < 0.03);
+        assert!((peak(&samples[4800..19_200]) - 2.0).abs() < 1e-3);
+        assert_eq!(tone.part(23_999, 10).len(), 1);
+        assert!(tone.part(24_000, 10).is_empty());
+    }
+}

@@ -1,0 +1,255 @@
+//! A limiter that sees a peak before it comes, and turns it down without bending it.
+
+use crate::limiter::bend;
+
+/// Longest look-ahead, in samples: 2 ms at 192 kHz, and room.
+pub const MAX_LOOK_AHEAD: usize = 512;
+/// Time constant of the gain's way back, in seconds.
+const RELEASE_SECS: f64 = 0.05;
+/// The gain of one, as a whole number: sums of whole numbers never drift.
+const ONE: u32 = 1 << 30;
+/// What is nearer to one than this counts as one.
+const NEARLY: f64 = 1e-5;
+
+/// Delays by the look-ahead and multiplies by a gain that is smooth, at most 1, and for each sample at most what brings it
+/// to the curve of the soft knee.
+///
+/// The gain that each sample needs (and, on the way back, what a release of 50 ms leaves of it) is taken as the lowest over
+/// the look-ahead and averaged over the look-ahead: every mean that a sample meets is of minima that include its own need.
+/// Below the knee, and once the release is over, samples pass unchanged. Cost: a few comparisons a sample, amortized.
+#[derive(Clone, Debug)]
+pub struct LookAhead {
+    knee: f32,
+    ceiling: f32,
+    release: f64,
+    /// Samples of delay; the minimum and the mean each span one more.
+    delay: usize,
+    samples: [f32; MAX_LOOK_AHEAD],
+    minima: [u32; MAX_LOOK_AHEAD],
+    sum: u64,
+    /// Candidates for the minimum, lowest first, in a ring: the gain and the time from which it counts.
+    candidates: [(u32, u64); MAX_LOOK_AHEAD],
+    first: usize,
+    n_candidates: usize,
+    now: u64,
+    envelope: f64,
+    limited_samples: u64,
+}
+
+impl LookAhead {
+    /// A limiter between `-ceiling` and `ceiling`, transparent up to `knee_share` of it, that looks ahead so many samples
+    /// (fewer than [`MAX_LOOK_AHEAD`]: more are pulled to that).
+    pub fn new(ceiling: f32, knee_share: f32, delay: usize, rate_hz: f32) -> Self {
+        let delay = delay.min(MAX_LOOK_AHEAD - 1);
+        Self {
+            knee: ceiling * knee_share,
+            ceiling,
+            release: 1.0 / (RELEASE_SECS * f64::from(rate_hz)).max(1.0),
+            delay,
+            samples: [0.0; MAX_LOOK_AHEAD],
+            minima: [ONE; MAX_LOOK_AHEAD],
+            sum: (delay as u64 + 1) * u64::from(ONE),
+            candidates: [(ONE, 0); MAX_LOOK_AHEAD],
+            first: 0,
+            n_candidates: 0,
+            now: 0,
+            envelope: 1.0,
+            limited_samples: 0,
+        }
+    }
+
+    /// Samples by which the output is later than the input.
+    pub fn delay(&self) -> usize {
+        self.delay
+    }
+
+    /// How many samples were turned down since the start.
+    pub fn limited_samples(&self) -> u64 {
+        self.limited_samples
+    }
+
+    /// Takes a sample and gives the one of `delay` samples ago. A sample that is not finite comes out not finite.
+    pub fn next(&mut self, sample: f32) -> f32 {
+        let needed = f64::from(self.needed(sample));
+        self.envelope = if needed < self.envelope {
+            needed
+        } else {
+            self.envelope + self.release * (needed - self.envelope)
+        };
+        if self.envelope > 1.0 - NEARLY {
+            self.envelope = 1.0;
+        }
+        let minimum = self.lowest((self.envelope * f64::from(ONE)) as u32);
+        let slot = (self.now % (self.delay as u64 + 1)) as usize;
+        self.now += 1;
+        self.sum = self.sum + u64::from(minimum) - u64::from(self.minima[slot]);
+        self.minima[slot] = minimum;
+        let next_slot = if slot == self.delay { 0 } else { slot + 1 };
+        self.samples[slot] = sample;
+        // With no delay it is the slot just filled.
+        let delayed = self.samples[next_slot];
+        let whole = (self.delay as u64 + 1) * u64::from(ONE);
+        if self.sum == whole {
+            return delayed;
+        }
+        self.limited_samples += u64::from(delayed != 0.0);
+        delayed * (self.sum as f64 / whole as f64) as f32
+    }
+
+    /// Forgets all that was.
+    pub fn reset(&mut self) {
+        self.samples = [0.0; MAX_LOOK_AHEAD];
+        self.minima = [ONE; MAX_LOOK_AHEAD];
+        self.sum = (self.delay as u64 + 1) * u64::from(ONE);
+        self.n_candidates = 0;
+        self.envelope = 1.0;
+    }
+
+    /// The gain that brings a sample to the knee's curve, 0..1.
+    fn needed(&self, sample: f32) -> f32 {
+        let magnitude = sample.abs();
+        if magnitude <= self.knee {
+            return 1.0;
+        }
+        let gain = bend(magnitude, self.knee, self.ceiling) / magnitude;
+        // Infinity over infinity: what is not finite needs silence.
+        if gain.is_finite() { gain } else { 0.0 }
+    }
+
+    /// The lowest gain of this and the last `delay` samples.
+    fn lowest(&mut self, gain: u32) -> u32 {
+        let place = |first: usize, i: usize| (first + i) % MAX_LOOK_AHEAD;
+        while self.n_candidates > 0 && self.candidates[place(self.first, self.n_candidates - 1)].0 >= gain {
+            self.n_candidates -= 1;
+        }
+        if self.n_candidates > 0 && self.candidates[self.first].1 + (self.delay as u64) < self.now {
+            self.first = place(self.first, 1);
+            self.n_candidates -= 1;
+        }
+        self.candidates[place(self.first, self.n_candidates)] = (gain, self.now);
+        self.n_candidates += 1;
+        self.candidates[self.first].0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::{LookAhead, MAX_LOOK_AHEAD, bend};
+    use proptest::prelude::{any, prop_assert, proptest};
+    use std::vec::Vec;
+
+    const RATE_HZ: f32 = 48_000.0;
+
+    fn limiter(delay: usize) -> LookAhead {
+        LookAhead::new(0.9, 0.8, delay, RATE_HZ)
+    }
+
+    /// Minima and means from their definitions, in `f64`.
+    fn oracle(input: &[f32], delay: usize) -> Vec<f64> {
+        let release = 1.0 / (0.05 * f64::from(RATE_HZ));
+        let mut envelope = 1.0_f64;
+        let needs: Vec<f64> = input
+            .iter()
+            .map(|x| {
+                let x = x.abs();
+                let need = if x <= 0.72 { 1.0 } else { f64::from(bend(x, 0.9 * 0.8, 0.9) / x) };
+                envelope = if need < envelope { need } else { envelope + release * (need - envelope) };
+                if envelope > 1.0 - 1e-5 {
+                    envelope = 1.0;
+                }
+                envelope
+            })
+            .collect();
+        let at = |values: &[f64], i: i64| if i < 0 { 1.0 } else { values[i as usize] };
+        let back = |i: usize, k: usize| i as i64 - k as i64;
+        let minima: Vec<f64> = (0..needs.len())
+            .map(|i| (0..=delay).map(|k| at(&needs, back(i, k))).fold(1.0, f64::min))
+            .collect();
+        (0..input.len())
+            .map(|i| {
+                let gain = (0..=delay).map(|k| at(&minima, back(i, k))).sum::<f64>() / (delay as f64 + 1.0);
+                if i < delay { 0.0 } else { gain * f64::from(input[i - delay]) }
+            })
+            .collect()
+    }
+
+    fn bursts() -> Vec<f32> {
+        (0..6000)
+            .map(|i| {
+                let loud = if i / 700 % 3 == 1 { 2.5 } else { 0.6 };
+                loud * ((i * i % 1013) as f32 / 506.0 - 1.0)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn does_what_its_definition_says() {
+        for delay in [0, 1, 5, 96, MAX_LOOK_AHEAD - 1] {
+            let mut limiter = limiter(delay);
+            assert_eq!(limiter.delay(), delay);
+            let input = bursts();
+            for (i, (x, expected)) in input.iter().zip(oracle(&input, delay)).enumerate() {
+                let out = f64::from(limiter.next(*x));
+                // Gains are f32 where they meet the samples.
+                assert!((out - expected).abs() < 1e-6, "{out} for {expected} at {i}, delay {delay}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_stays_below_the_knee_comes_out_as_it_went_in() {
+        let mut limiter = limiter(96);
+        let input: Vec<f32> = bursts().iter().map(|x| 0.28 * x).collect();
+        let out: Vec<f32> = input.iter().map(|x| limiter.next(*x)).collect();
+        assert_eq!(out[96..], input[..input.len() - 96]);
+        assert_eq!(limiter.limited_samples(), 0);
+        // And again once a peak has passed and the release is over.
+        limiter.next(5.0);
+        for _ in 0..48_000 {
+            limiter.next(0.5);
+        }
+        let n_limited = limiter.limited_samples();
+        assert!(n_limited > 0);
+        assert_eq!(limiter.next(0.1), 0.5);
+        assert_eq!(limiter.limited_samples(), n_limited);
+    }
+
+    #[test]
+    fn a_peak_is_turned_down_without_a_jump() {
+        let mut limiter = limiter(96);
+        let mut last = 0.0_f32;
+        for i in 0_u16..20_000 {
+            // From one zero of the sine to another.
+            let loud = if (5027..9111).contains(&i) { 2.0 } else { 0.7 };
+            let out = limiter.next(loud * (f32::from(i) * 0.01).sin());
+            // The sine itself moves by 2 x 0.01 a sample where it is not turned down; the gain by a share of 1/96.
+            assert!((out - last).abs() < 0.02 + 2.0 * 2.0 / 97.0, "{last} to {out} at {i}");
+            last = out;
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_comes_out_not_finite() {
+        for bad in [f32::NAN, f32::INFINITY] {
+            let mut limiter = limiter(10);
+            limiter.next(bad);
+            let out: Vec<f32> = (0..10).map(|_| limiter.next(0.1)).collect();
+            assert!(!out[9].is_finite() && out[..9].iter().all(|x| x.is_finite()), "{out:?}");
+            limiter.reset();
+            assert!((0..200).all(|_| limiter.next(0.1).is_finite()));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_exceeds_the_ceiling(input in proptest::collection::vec(any::<f32>(), 1..400), delay in 0_usize..120) {
+            let mut limiter = limiter(delay);
+            for x in input.into_iter().chain([0.0; 120]) {
+                let out = limiter.next(if x.is_finite() { x } else { 1.0 });
+                // A rounding above.
+                prop_assert!(out.abs() <= 0.9 * 1.000_001, "{out}");
+            }
+        }
+    }
+}
