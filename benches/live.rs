@@ -29,6 +29,7 @@ use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_library;
 use shagreen_synth::contact::{Contact, ContactSource};
+use shagreen_synth::drive::DriveConfig;
 use shagreen_synth::noise::{Gaussian, Noise};
 use shagreen_synth::renderer::{Blend, Mix, Parent, Renderer, TextureId, Textures};
 use shagreen_synth::stream::Stream;
@@ -188,8 +189,7 @@ fn reblending(library: &Library, planes: &[Plane]) {
                 model_rate_hz: 1000.0,
                 device_rate_hz: 48_000.0,
                 seed: 1,
-                full_scale_mps2: 20.0,
-                ceiling: 0.9,
+                drive: DriveConfig::proportional(20.0, 0.9),
                 channels: ChannelMask::FIRST_TWO,
             })
             .expect("an engine");

@@ -12,6 +12,7 @@ use shagreen_device::engine::{ChannelMask, FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::output::{NULL_ID, OpenOptions, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open};
 use shagreen_device::status::{LinkState, Status};
+use shagreen_device::synth::drive::DriveConfig;
 use shagreen_device::synth::renderer::{Mix, Parent};
 use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
@@ -64,8 +65,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         preferred_rate_hz: None,
         buffer_frames: args.buffer,
         seed: args.seed,
-        full_scale_mps2: args.full_scale as f32,
-        ceiling: USUAL_CEILING,
+        drive: DriveConfig::proportional(args.full_scale as f32, USUAL_CEILING),
         channels: ChannelMask::FIRST_TWO,
     };
     let (mut handle, running) = open(&args.output, options).context("cannot play")?;
@@ -248,7 +248,7 @@ impl Beginning {
 
 #[cfg(test)]
 mod tests {
-    use super::{Beginning, ChannelMask, EXTENT_M, Hand, Input, Path, Status, check, wait};
+    use super::{Beginning, ChannelMask, DriveConfig, EXTENT_M, Hand, Input, Path, Status, check, wait};
     use shagreen_device::engine::{self, EngineConfig};
     use std::time::Duration;
 
@@ -270,8 +270,7 @@ mod tests {
             model_rate_hz: 1000.0,
             device_rate_hz: 48_000.0,
             seed: 1,
-            full_scale_mps2: 20.0,
-            ceiling: 0.9,
+            drive: DriveConfig::proportional(20.0, 0.9),
             channels: ChannelMask::FIRST_TWO,
         })
         .unwrap();

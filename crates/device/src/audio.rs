@@ -19,6 +19,11 @@ use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, make_engine};
 /// The one id that needs no search: the search opens every card.
 const ALSA_DEFAULT: &str = "alsa:default";
 
+/// What outputs are called in messages.
+pub(crate) const OUTPUT: &str = "output";
+/// What inputs are called in messages.
+pub(crate) const INPUT: &str = "input";
+
 /// A stream of the system, open until it is dropped.
 pub(crate) struct AudioOutput {
     _stream: cpal::Stream,
@@ -40,7 +45,7 @@ pub(crate) struct Opened {
 }
 
 /// Names under which ALSA lists its plugins: they convert for another output, or are none. Who means one opens it by id.
-const ALSA_CONVERTERS: [&str; 8] = [
+pub(crate) const ALSA_CONVERTERS: [&str; 8] = [
     "alsa:null",
     "alsa:lavrate",
     "alsa:samplerate",
@@ -53,7 +58,7 @@ const ALSA_CONVERTERS: [&str; 8] = [
 
 /// Whether an id names a card by its number (`alsa:hw:CARD=0,DEV=0`, `alsa:plughw:1,0`): after replugging, the number may
 /// be another card's. Names of cards never begin with a digit.
-fn is_by_number(id: &str) -> bool {
+pub(crate) fn is_by_number(id: &str) -> bool {
     let Some((_, arguments)) = id.strip_prefix("alsa:").and_then(|pcm| pcm.split_once(':')) else {
         return false;
     };
@@ -86,7 +91,7 @@ fn list_of(host: &cpal::Host) -> Vec<OutputInfo> {
 }
 
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
-    let device = find(id)?;
+    let device = find(OUTPUT, id)?;
     let configs = configs_of(id, &device)?;
     let Some((range, rate_hz)) = choose(&configs, options) else {
         let message = format!(
@@ -107,7 +112,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
             }
             built => built?,
         };
-    stream.play().map_err(|error| explain(id, "started", &error))?;
+    stream.play().map_err(|error| explain(OUTPUT, id, "started", &error))?;
     let opened = Opened {
         rate_hz,
         channels: range.channels(),
@@ -119,33 +124,35 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
 }
 
 /// The device of exactly this id.
-fn find(id: &str) -> Result<cpal::Device, DeviceError> {
+pub(crate) fn find(what: &str, id: &str) -> Result<cpal::Device, DeviceError> {
     let not_found = || {
         let message = format!(
-            "there is no output `{id}` on this machine; `shagreen devices` lists those that there are"
+            "there is no {what} `{id}` on this machine; `shagreen devices` lists those that there are"
         );
         DeviceError::new(DeviceErrorKind::NotFound, message)
     };
     if is_by_number(id) {
         let message = format!(
-            "the output `{id}` names a card by its number, which may be another card's tomorrow; `shagreen devices` lists \
+            "the {what} `{id}` names a card by its number, which may be another card's tomorrow; `shagreen devices` lists \
              it by its name"
         );
         return Err(DeviceError::new(DeviceErrorKind::NotFound, message));
     }
     let device_id: cpal::DeviceId = id.parse().map_err(|_| not_found())?;
-    let host = cpal::host_from_id(device_id.host()).map_err(|error| explain(id, "found", &error))?;
+    let host = cpal::host_from_id(device_id.host()).map_err(|error| explain(what, id, "found", &error))?;
     if id == ALSA_DEFAULT {
         // A name like any other to ALSA. Elsewhere the default device is one that is followed when it changes, and
         // must be opened by its own id.
-        return host.default_output_device().ok_or_else(not_found);
+        let default = if what == INPUT { host.default_input_device() } else { host.default_output_device() };
+        return default.ok_or_else(not_found);
     }
     host.device_by_id(&device_id).ok_or_else(not_found)
 }
 
 fn configs_of(id: &str, device: &cpal::Device) -> Result<Vec<SupportedStreamConfigRange>, DeviceError> {
-    let configs =
-        device.supported_output_configs().map_err(|error| explain(id, "asked what it can do", &error))?;
+    let configs = device
+        .supported_output_configs()
+        .map_err(|error| explain(OUTPUT, id, "asked what it can do", &error))?;
     Ok(configs.collect())
 }
 
@@ -183,11 +190,14 @@ fn build_as<T: SizedSample + FromSample<f32>>(
     let stream = device
         .build_output_stream::<T, _, _>(
             config,
-            move |out, _| edge.fill(out, channels),
+            move |out, info| {
+                let times = info.timestamp();
+                edge.fill(out, channels, times.playback.duration_since(times.callback));
+            },
             move |error| note_error(&id_of_errors, &mut reporter, &error),
             Some(Duration::from_secs(1)),
         )
-        .map_err(|error| explain(id, "opened", &error))?;
+        .map_err(|error| explain(OUTPUT, id, "opened", &error))?;
     Ok((handle, stream, engine_latency_secs))
 }
 
@@ -221,7 +231,7 @@ fn note_error(id: &str, reporter: &mut Reporter, error: &cpal::Error) {
 }
 
 /// An error of the system before anything played.
-fn explain(id: &str, done: &str, error: &cpal::Error) -> DeviceError {
+pub(crate) fn explain(what: &str, id: &str, done: &str, error: &cpal::Error) -> DeviceError {
     let (kind, advice) = match error.kind() {
         ErrorKind::DeviceBusy => (DeviceErrorKind::Busy, "close the program that uses it and try again"),
         ErrorKind::DeviceNotAvailable => {
@@ -234,15 +244,15 @@ fn explain(id: &str, done: &str, error: &cpal::Error) -> DeviceError {
             (DeviceErrorKind::Unavailable, "start the system's sound and try again")
         }
         ErrorKind::InvalidInput | ErrorKind::UnsupportedConfig | ErrorKind::UnsupportedOperation => {
-            (DeviceErrorKind::Unsupported, "ask for another rate or buffer, or choose another output")
+            (DeviceErrorKind::Unsupported, "ask for another rate or buffer, or choose another")
         }
         _ => (DeviceErrorKind::Backend, "try again, or choose another: `shagreen devices` lists them"),
     };
-    DeviceError::new(kind, format!("the output `{id}` cannot be {done}: {}; {advice}", reason(error)))
+    DeviceError::new(kind, format!("the {what} `{id}` cannot be {done}: {}; {advice}", reason(error)))
 }
 
 /// The system's words, to go in the middle of a sentence.
-fn reason(error: &cpal::Error) -> String {
+pub(crate) fn reason(error: &cpal::Error) -> String {
     error.to_string().trim_end_matches('.').to_owned()
 }
 

@@ -1,6 +1,7 @@
 //! What the callback is told, all at once: a `Copy` struct, since its parts must agree.
 
 use shagreen_synth::renderer::{Blend, Mix};
+use shagreen_synth::tap::Tap;
 
 use crate::hand::Hand;
 
@@ -47,6 +48,8 @@ impl Drive {
 pub struct Controls {
     /// Which textures sound, and how they are blended.
     pub mix: Mix,
+    /// What a landing sounds like.
+    pub tap: Tap,
     /// How much of it goes out.
     pub drive: Drive,
     /// What moves over them.
@@ -56,7 +59,12 @@ pub struct Controls {
 impl Default for Controls {
     /// Nothing sounds, so that how it would be blended does not matter, and nothing moves.
     fn default() -> Self {
-        Self { mix: Mix::silent(Blend::Power), drive: Drive::default(), input: Input::default() }
+        Self {
+            mix: Mix::silent(Blend::Power),
+            tap: Tap::SILENT,
+            drive: Drive::default(),
+            input: Input::default(),
+        }
     }
 }
 

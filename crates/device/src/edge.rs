@@ -1,7 +1,7 @@
 //! Between a device and the engine: the clock, the load, and the device's format of samples.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use cpal::{FromSample, Sample};
 
@@ -29,10 +29,16 @@ impl Edge {
         Self { engine, shared, rate_hz, load: 0.0, load_max: 0.0, scratch: [0.0; SCRATCH] }
     }
 
-    /// What the callback does: fills `out`, interleaved frames of `channels` samples, and measures how long it took.
+    /// What the callback does: fills `out`, interleaved frames of `channels` samples, which will be heard so much later, and
+    /// measures how long it took.
     ///
     /// Reads the clock twice; does nothing else that could wait.
-    pub(crate) fn fill<T: Sample + FromSample<f32>>(&mut self, out: &mut [T], channels: usize) {
+    pub(crate) fn fill<T: Sample + FromSample<f32>>(
+        &mut self,
+        out: &mut [T],
+        channels: usize,
+        device_latency: Duration,
+    ) {
         let begun = Instant::now();
         let channels = channels.max(1);
         // A device that came back by itself stays silent until a person opens it again.
@@ -41,7 +47,12 @@ impl Edge {
             return;
         }
         self.shared.note_callback(begun);
-        let edge = BlockEdge { now: begun, load: self.load as f32, load_max: self.load_max as f32 };
+        let edge = BlockEdge {
+            now: begun,
+            load: self.load as f32,
+            load_max: self.load_max as f32,
+            device_latency_secs: device_latency.as_secs_f32(),
+        };
         self.engine.begin_block(edge);
         let at_once = (SCRATCH / channels).max(1) * channels;
         for part in out.chunks_mut(at_once.min(SCRATCH)) {
@@ -75,6 +86,7 @@ mod tests {
     use crate::touch::Touch;
     use cpal::{FromSample, Sample};
     use shagreen_synth::contact::Contact;
+    use shagreen_synth::drive::DriveConfig;
     use shagreen_synth::renderer::Mix;
     use std::time::{Duration, Instant};
 
@@ -85,8 +97,7 @@ mod tests {
             model_rate_hz: 1000.0,
             device_rate_hz: 48_000.0,
             seed: 3,
-            full_scale_mps2: 2.0,
-            ceiling: 1.0,
+            drive: DriveConfig::proportional(2.0, 1.0),
             channels: ChannelMask::FIRST_TWO,
         };
         let (mut handle, engine) = engine::new(config).unwrap();
@@ -103,7 +114,7 @@ mod tests {
         let (_handle, mut edge, _reporter) = edge();
         let mut out = vec![T::from_sample(0.7_f32); 9600 * channels];
         for part in out.chunks_mut(block * channels) {
-            edge.fill(part, channels);
+            edge.fill(part, channels, Duration::ZERO);
         }
         out
     }
@@ -142,14 +153,14 @@ mod tests {
     fn load_is_measured_and_shown() {
         let (mut handle, mut edge, _reporter) = edge();
         for _ in 0..100 {
-            edge.fill(&mut [0.0_f32; 512], 2);
+            edge.fill(&mut [0.0_f32; 512], 2, Duration::ZERO);
         }
         let status = handle.status();
         assert!(status.load > 0.0 && status.load_max >= status.load, "{} {}", status.load, status.load_max);
         assert_eq!(status.frames_played, 25_600);
         let mut edge = edge;
         edge.note_load(3.0, 1.0);
-        edge.fill(&mut [0.0_f32; 512], 2);
+        edge.fill(&mut [0.0_f32; 512], 2, Duration::ZERO);
         assert!(handle.status().load_max >= 3.0);
     }
 
@@ -160,9 +171,9 @@ mod tests {
             handle.set_input(Input::Live);
             let mut live = handle.take_live_input().unwrap();
             let touch = Touch { contact: Contact { speed_mps: 0.4, force_n: 0.5 }, ..Touch::default() };
-            edge.fill(&mut vec![0.0_f32; 4800], 2);
+            edge.fill(&mut vec![0.0_f32; 4800], 2, Duration::ZERO);
             live.send(touch, time).unwrap();
-            edge.fill(&mut vec![0.0_f32; 480], 2);
+            edge.fill(&mut vec![0.0_f32; 480], 2, Duration::ZERO);
             handle.status().touch.contact.speed_mps
         };
         // A time yet to come has no age, however busy the machine is.
@@ -176,7 +187,7 @@ mod tests {
         let (mut handle, mut edge, mut reporter) = edge();
         reporter.lose(DeviceError::new(DeviceErrorKind::Lost, "pulled out"));
         let mut out = [1_u16; 4096];
-        edge.fill(&mut out, 2);
+        edge.fill(&mut out, 2, Duration::ZERO);
         assert_eq!(out, [32_768; 4096]);
         assert_eq!(handle.loss().unwrap().message(), "pulled out");
         handle.set_drive(Drive::default());

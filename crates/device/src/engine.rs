@@ -13,6 +13,7 @@ mod config;
 mod handle;
 mod meter;
 mod player;
+mod signal_player;
 mod slots;
 #[cfg(test)]
 mod tests;
@@ -20,9 +21,10 @@ mod tests;
 use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
-use shagreen_synth::limiter::Limiter;
+use shagreen_synth::drive::{DriveChain, Driven};
 use shagreen_synth::renderer::{Mix, TextureId};
 use shagreen_synth::stream::Stream;
+use shagreen_synth::tap::{Tap, Taps};
 use triple_buffer::triple_buffer;
 
 pub use self::config::{ChannelMask, ConfigError, EngineConfig};
@@ -30,11 +32,13 @@ pub use self::handle::{Handle, LoadError, LoadReason, MixError};
 pub use crate::link::{STALL_SECS, START_SECS};
 
 use self::meter::{Meter, Ramp};
-use self::player::Player;
+use self::player::{Landing, Player};
+use self::signal_player::SignalPlayer;
 use self::slots::Slots;
 use crate::controls::Controls;
 use crate::live::{LiveInput, TimedTouch};
-use crate::status::{LinkState, Status};
+use crate::signal::Signal;
+use crate::status::{Latency, LinkState, Status};
 use crate::texture::OwnedTexture;
 use crate::track::Track;
 
@@ -52,8 +56,6 @@ const TOUCHES: usize = 256;
 const SCOPE: usize = 32_768;
 /// Frames rendered at a time.
 const SCRATCH: usize = 256;
-/// The limiter is linear up to this share of its ceiling.
-const KNEE_SHARE: f32 = 0.8;
 
 /// What must arrive together and only whose newest counts.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,6 +63,8 @@ struct Orders {
     controls: Controls,
     /// Counts the wishes to end the limiter's latched silence.
     n_resets: u32,
+    /// Counts the wishes to end the signal that is played.
+    n_stops: u32,
 }
 
 /// What must not be missed.
@@ -69,6 +73,7 @@ enum Command {
     Load(TextureId, Box<OwnedTexture>),
     Unload(TextureId),
     Play(Box<Track>),
+    Signal(Box<Signal>),
 }
 
 /// What the callback is done with and does not free.
@@ -76,6 +81,7 @@ enum Command {
 enum Returned {
     Texture(TextureId, #[expect(dead_code, reason = "held to be freed with its box")] Box<OwnedTexture>),
     Track(#[expect(dead_code, reason = "held to be freed with its box")] Box<Track>),
+    Signal(#[expect(dead_code, reason = "held to be freed with its box")] Box<Signal>),
 }
 
 /// What the edge of a device knows and an engine does not: it has no clock.
@@ -87,6 +93,8 @@ pub(crate) struct BlockEdge {
     pub(crate) load: f32,
     /// Highest load up to the last block.
     pub(crate) load_max: f32,
+    /// How much later than now the block will be heard, in seconds.
+    pub(crate) device_latency_secs: f32,
 }
 
 /// The callback's half.
@@ -97,15 +105,24 @@ pub struct Engine {
     fresh_stream: Stream,
     slots: Slots,
     player: Player,
-    limiter: Limiter,
+    taps: Taps,
+    tap: Tap,
+    landing: Option<Landing>,
+    signal: SignalPlayer,
+    chain: DriveChain,
     gain: Ramp,
+    /// Zero while muted: a signal is silenced by muting, not turned down by the gain.
+    unmuted: Ramp,
     meter: Meter,
-    per_mps2: f32,
+    device_rate_hz: f64,
     channels: ChannelMask,
     mix: Mix,
     n_resets: u32,
     edge: Option<BlockEdge>,
+    latency: Latency,
     frames_played: u64,
+    /// Frames since the stream began, or began again.
+    stream_frames: u64,
     leaked: u64,
     orders: triple_buffer::Output<Orders>,
     commands: Consumer<Command>,
@@ -128,20 +145,28 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
     let (returned_in, returned_out) = RingBuffer::new(RETURNED);
     let (scope_in, scope_out) = RingBuffer::new(SCOPE);
     let stream = Stream::new(config.model_rate_hz, config.device_rate_hz, config.seed);
+    let fade_frames = (FADE_SECS * f64::from(config.device_rate_hz)) as u32;
     let engine = Engine {
         fresh_stream: stream.clone(),
         stream,
         slots: Slots::new(),
         player: Player::new(),
-        limiter: Limiter::new(config.ceiling, KNEE_SHARE),
-        gain: Ramp::new((FADE_SECS * f64::from(config.device_rate_hz)) as u32),
+        taps: Taps::new(config.device_rate_hz),
+        tap: Tap::SILENT,
+        landing: None,
+        signal: SignalPlayer::new(fade_frames),
+        chain: DriveChain::new(config.drive, config.device_rate_hz),
+        gain: Ramp::new(fade_frames),
+        unmuted: Ramp::new(fade_frames),
         meter: Meter::new(config.device_rate_hz),
-        per_mps2: config.full_scale_mps2.recip(),
+        device_rate_hz: f64::from(config.device_rate_hz),
         channels: config.channels,
         mix: Controls::default().mix,
         n_resets: 0,
         edge: None,
+        latency: Latency::default(),
         frames_played: 0,
+        stream_frames: 0,
         leaked: 0,
         orders: orders_out,
         commands: commands_out,
@@ -185,7 +210,7 @@ impl Engine {
 
     /// From a change of the contact to its middle in the output, in seconds, not counting the device's own buffers.
     pub fn latency_secs(&self) -> f32 {
-        self.stream.latency_secs()
+        self.stream.latency_secs() + self.chain.latency_secs()
     }
 
     /// Tells what only the edge knows, before a block.
@@ -209,6 +234,11 @@ impl Engine {
                         self.return_or_leak(Returned::Track(replaced));
                     }
                 }
+                Ok(Command::Signal(signal)) => {
+                    if let Some(replaced) = self.signal.play(signal) {
+                        self.return_or_leak(Returned::Signal(replaced));
+                    }
+                }
                 Err(_) => break,
             }
         }
@@ -216,9 +246,12 @@ impl Engine {
 
     fn take_touches(&mut self) {
         for _ in 0..TOUCHES {
-            let Ok(TimedTouch { touch, time }) = self.touches.pop() else { break };
+            let Ok(TimedTouch { touch, time, landing_mps }) = self.touches.pop() else { break };
             let age = self.edge.map_or(Duration::ZERO, |edge| edge.now.saturating_duration_since(time));
-            self.player.report(touch, age.as_secs_f64());
+            self.player.report(touch, landing_mps, age.as_secs_f64());
+            let device_secs = self.edge.map_or(0.0, |edge| edge.device_latency_secs);
+            let out_secs = age.as_secs_f32() + self.chain.latency_secs() + device_secs;
+            self.latency.note(out_secs + self.stream.latency_secs(), out_secs);
         }
     }
 
@@ -233,18 +266,24 @@ impl Engine {
             self.stream.set_mix(self.mix);
         }
         self.player.set_input(orders.controls.input);
+        self.tap = orders.controls.tap;
+        self.signal.follow(orders.n_stops);
         // Without a handle nobody can mute.
         let is_in_hand = !self.commands.is_abandoned();
-        self.gain.aim(if is_in_hand { orders.controls.drive.target() } else { 0.0 });
+        let drive = orders.controls.drive;
+        self.gain.aim(if is_in_hand { drive.target() } else { 0.0 });
+        self.unmuted.aim(if is_in_hand && !drive.muted { 1.0 } else { 0.0 });
     }
 
     /// Ends the limiter's latched silence. What was not finite came from the stream, which would never forget it.
     fn start_again(&mut self) {
-        if self.limiter.is_tripped() {
-            self.limiter.reset();
+        if self.chain.is_tripped() {
+            self.chain.reset();
+            self.taps.reset();
             self.stream = self.fresh_stream.clone();
             self.stream.set_mix(self.mix);
             self.player.restart_clock();
+            (self.stream_frames, self.landing) = (0, None);
             self.meter.reset();
         }
     }
@@ -252,14 +291,45 @@ impl Engine {
     /// Renders frames from the textures to what the device gets.
     fn render(&mut self, mono: &mut [f32]) {
         self.stream.process(&self.slots, &mut self.player, mono);
-        // What does not fit is not drawn: the scope is a picture, not a recording.
-        let _ = self.scope.push_partial_slice(mono);
-        self.meter.note_signal(mono);
-        for sample in mono.iter_mut() {
-            *sample = self.limiter.limit(*sample * self.per_mps2 * self.gain.next());
+        self.add_taps(mono);
+        let driven = self.signal.replace(mono);
+        if driven == Driven::Acceleration {
+            // What does not fit is not drawn: the scope is a picture, not a recording.
+            let _ = self.scope.push_partial_slice(mono);
+            self.meter.note_signal(mono);
         }
+        for sample in mono.iter_mut() {
+            let (gain, unmuted) = (self.gain.next(), self.unmuted.next());
+            *sample *= if driven == Driven::Drive { unmuted } else { gain };
+        }
+        self.chain.process(mono, driven);
         self.meter.note_output(mono);
         self.frames_played += mono.len() as u64;
+        self.stream_frames += mono.len() as u64;
+        if let Some(played) = self.signal.take_played() {
+            self.return_or_leak(Returned::Signal(played));
+        }
+    }
+
+    /// Adds what the landings sound like, from their very frame on.
+    fn add_taps(&mut self, mono: &mut [f32]) {
+        let stream_secs = self.stream_frames as f64 / self.device_rate_hz;
+        if let Some(landing) = self.player.take_landing(stream_secs) {
+            self.landing = Some(landing);
+        }
+        let mut rest = mono;
+        if let Some(landing) = self.landing {
+            let frame = (landing.stream_secs * self.device_rate_hz).round() as u64;
+            let ahead = frame.saturating_sub(self.stream_frames) as usize;
+            if ahead < rest.len() {
+                let (before, after) = rest.split_at_mut(ahead);
+                self.taps.add_to(before);
+                self.taps.strike(self.tap, landing.strength);
+                self.landing = None;
+                rest = after;
+            }
+        }
+        self.taps.add_to(rest);
     }
 
     /// Sends textures that nothing sounds of any more to be freed. One that does not fit waits in its slot.
@@ -294,8 +364,13 @@ impl Engine {
             load_max,
             underruns: 0,
             backend_errors: 0,
-            limited_samples: self.limiter.limited_samples(),
-            tripped: self.limiter.is_tripped(),
+            limited_samples: self.chain.limited_samples(),
+            tripped: self.chain.is_tripped(),
+            heat_used: self.chain.heat_used(),
+            heat_gain: self.chain.heat_gain(),
+            device_latency_secs: self.edge.map_or(0.0, |edge| edge.device_latency_secs),
+            latency: self.latency,
+            plays_signal: self.signal.is_playing(),
             touch: self.player.touch(),
             level_mps2: self.meter.level(),
             peak: self.meter.peak(),

@@ -12,13 +12,13 @@
 //!
 //! ```
 //! use shagreen_device::engine::{self, ChannelMask, EngineConfig};
+//! use shagreen_device::synth::drive::DriveConfig;
 //!
 //! let (mut handle, mut engine) = engine::new(EngineConfig {
 //!     model_rate_hz: 1000.0,
 //!     device_rate_hz: 48_000.0,
 //!     seed: 1,
-//!     full_scale_mps2: 20.0,
-//!     ceiling: 0.9,
+//!     drive: DriveConfig::proportional(20.0, 0.9),
 //!     channels: ChannelMask::FIRST_TWO,
 //! })?;
 //! // What a callback does: here nothing is loaded, so it is silence.
@@ -32,6 +32,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, reason = "tests"))]
 
 mod audio;
+pub mod audio_input;
 pub mod controls;
 mod edge;
 pub mod engine;
@@ -44,11 +45,12 @@ mod null_output;
 pub mod output;
 pub mod pressure;
 pub mod serial;
+pub mod signal;
 pub mod status;
 pub mod stylus;
 pub mod texture;
 pub mod touch;
 pub mod track;
 
-/// The types that an engine is fed with: `Mix`, `Contact`, `Node`, `Triangle`.
+/// The types that an engine is fed with: `Mix`, `Contact`, `DriveConfig`, `Node`, `Tap`, `Triangle`.
 pub use shagreen_synth as synth;

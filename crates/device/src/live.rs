@@ -11,6 +11,8 @@ use crate::touch::Touch;
 pub(crate) struct TimedTouch {
     pub(crate) touch: Touch,
     pub(crate) time: Instant,
+    /// How fast the tip landed, in m/s, where that is known.
+    pub(crate) landing_mps: Option<f32>,
 }
 
 /// The sender's end of a bounded ring of touches: it belongs to whoever reads the stylus, on any thread.
@@ -25,6 +27,19 @@ impl LiveInput {
     /// # Errors
     /// Gives the touch back while the ring is full, which it is only when the output has stopped.
     pub fn send(&mut self, touch: Touch, time: Instant) -> Result<(), Touch> {
-        self.touches.push(TimedTouch { touch, time }).map_err(|PushError::Full(timed)| timed.touch)
+        self.push(TimedTouch { touch, time, landing_mps: None })
+    }
+
+    /// Sends a touch that may be a landing, and how fast it was, in m/s, as far as the stylus tells. A touch is a landing
+    /// where the one before was lifted.
+    ///
+    /// # Errors
+    /// As [`LiveInput::send`].
+    pub fn land(&mut self, touch: Touch, time: Instant, landing_mps: Option<f32>) -> Result<(), Touch> {
+        self.push(TimedTouch { touch, time, landing_mps })
+    }
+
+    fn push(&mut self, touch: TimedTouch) -> Result<(), Touch> {
+        self.touches.push(touch).map_err(|PushError::Full(timed)| timed.touch)
     }
 }

@@ -104,7 +104,8 @@ fn play(mut edge: Edge, mut clock: Clock, shared: &Shared, stop: &AtomicBool, mu
             std::thread::park_timeout(wait);
             continue;
         }
-        edge.fill(&mut block, channels);
+        // What is asked for when it is due is heard at once.
+        edge.fill(&mut block, channels, Duration::ZERO);
         tap(&block);
         clock.blocks_done += 1;
     }
@@ -119,6 +120,7 @@ mod tests {
     use crate::output::{OpenOptions, open_null_with_tap};
     use crate::status::LinkState;
     use crate::texture::tests::white;
+    use shagreen_synth::drive::DriveConfig;
     use shagreen_synth::renderer::Mix;
     use std::sync::mpsc;
 
@@ -127,8 +129,7 @@ mod tests {
         preferred_rate_hz: Some(48_000),
         buffer_frames: Some(256),
         seed: 5,
-        full_scale_mps2: 4.0,
-        ceiling: 1.0,
+        drive: DriveConfig::proportional(4.0, 1.0),
         channels: ChannelMask::FIRST_TWO,
     };
 

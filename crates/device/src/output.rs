@@ -5,6 +5,8 @@
 
 use std::ops::RangeInclusive;
 
+use shagreen_synth::drive::DriveConfig;
+
 use crate::audio::AudioOutput;
 use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
@@ -59,10 +61,8 @@ pub struct OpenOptions {
     pub buffer_frames: Option<u32>,
     /// What the noise depends on: same seed, same samples.
     pub seed: u64,
-    /// Acceleration at which the device is at full scale, in m/s².
-    pub full_scale_mps2: f32,
-    /// Share of the full scale that is never exceeded, 0..1.
-    pub ceiling: f32,
+    /// How acceleration becomes the drive of the actuator.
+    pub drive: DriveConfig,
     /// The channels that get the signal; the others are silent.
     pub channels: ChannelMask,
 }
@@ -200,8 +200,7 @@ pub(crate) fn make_engine(options: OpenOptions, rate_hz: u32) -> Result<Made, De
         model_rate_hz: options.model_rate_hz,
         device_rate_hz: rate_hz as f32,
         seed: options.seed,
-        full_scale_mps2: options.full_scale_mps2,
-        ceiling: options.ceiling,
+        drive: options.drive,
         channels: options.channels,
     };
     let refuse = |error: ConfigError| {
@@ -215,7 +214,9 @@ pub(crate) fn make_engine(options: OpenOptions, rate_hz: u32) -> Result<Made, De
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use super::{BUFFER_FRAMES, ChannelMask, DeviceErrorKind, NULL_ID, OpenOptions, list_outputs, open};
+    use super::{
+        BUFFER_FRAMES, ChannelMask, DeviceErrorKind, DriveConfig, NULL_ID, OpenOptions, list_outputs, open,
+    };
 
     /// What nothing in a test depends on.
     pub(crate) const OPTIONS: OpenOptions = OpenOptions {
@@ -223,8 +224,7 @@ pub(crate) mod tests {
         preferred_rate_hz: None,
         buffer_frames: None,
         seed: 0,
-        full_scale_mps2: 10.0,
-        ceiling: 0.9,
+        drive: DriveConfig::proportional(10.0, 0.9),
         channels: ChannelMask::FIRST_TWO,
     };
 
@@ -265,7 +265,9 @@ pub(crate) mod tests {
 
     #[test]
     fn contradicting_options_are_refused() {
-        let error = open(NULL_ID, OpenOptions { full_scale_mps2: 0.0, ..OPTIONS }).unwrap_err();
+        let error =
+            open(NULL_ID, OpenOptions { drive: DriveConfig { full_scale: 0.0, ..OPTIONS.drive }, ..OPTIONS })
+                .unwrap_err();
         assert_eq!(error.kind(), DeviceErrorKind::Config);
         assert!(error.message().contains("0 m/s²"), "{error}");
         let error = open(NULL_ID, OpenOptions { preferred_rate_hz: Some(0), ..OPTIONS }).unwrap_err();

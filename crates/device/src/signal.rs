@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use shagreen_synth::drive::Driven;
 
-/// Longest signal, in seconds at 48 kHz: two minutes.
+/// Longest signal, in frames: two minutes at 48 kHz.
 pub const MAX_SIGNAL_FRAMES: usize = 120 * 48_000;
 /// How long a tone takes to come and to go, in seconds.
 const TONE_FADE_SECS: f64 = 0.05;
@@ -53,7 +53,12 @@ impl Signal {
     ///
     /// # Errors
     /// [`SignalError`] where it is too long, or a number of it is not finite.
-    pub fn tone(frequency_hz: f64, amplitude_mps2: f64, secs: f64, rate_hz: f64) -> Result<Self, SignalError> {
+    pub fn tone(
+        frequency_hz: f64,
+        amplitude_mps2: f64,
+        secs: f64,
+        rate_hz: f64,
+    ) -> Result<Self, SignalError> {
         let n_samples = (secs * rate_hz).round() as usize;
         if n_samples > MAX_SIGNAL_FRAMES {
             return Err(SignalError::Length { n_samples });

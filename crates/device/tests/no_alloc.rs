@@ -10,8 +10,13 @@ use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, vio
 use shagreen_device::controls::{Drive, Input};
 use shagreen_device::engine::{self, ChannelMask, Engine, EngineConfig, Handle, SLOTS};
 use shagreen_device::hand::{Hand, Path};
+use shagreen_device::signal::Signal;
+use shagreen_device::synth::budget::Budget;
 use shagreen_device::synth::contact::Contact;
+use shagreen_device::synth::drive::{DriveConfig, Driven, Inverse};
+use shagreen_device::synth::equalizer::Resonance;
 use shagreen_device::synth::renderer::{Blend, Mix, Parent};
+use shagreen_device::synth::tap::Tap;
 use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 use shagreen_device::texture::OwnedTexture;
 use shagreen_device::touch::Touch;
@@ -21,6 +26,18 @@ use shagreen_device::track::{PenSample, Track};
 static GATE: AllocDisabler = AllocDisabler;
 
 const HAND: Hand = Hand { path: Path::Line, speed_mps: 0.5, force_n: 0.5, extent_m: 0.06 };
+
+/// An actuator with everything that can stand before one.
+const DRIVE: DriveConfig = DriveConfig {
+    inverse: Some(Inverse {
+        resonance: Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 },
+        lowest_hz: 20.0,
+    }),
+    full_scale: 4.0,
+    ceiling: 0.9,
+    look_ahead_secs: 0.002,
+    budget: Some(Budget { rms: 0.3, time_secs: 5.0 }),
+};
 
 fn texture(level_mps2: f32) -> OwnedTexture {
     let mut lsf = [0.0; MAX_ORDER];
@@ -63,8 +80,7 @@ fn engine() -> (Handle, Engine) {
         model_rate_hz: 1000.0,
         device_rate_hz: 48_000.0,
         seed: 1,
-        full_scale_mps2: 5.0,
-        ceiling: 0.9,
+        drive: DRIVE,
         channels: ChannelMask::FIRST_TWO,
     };
     engine::new(config).unwrap()
@@ -168,6 +184,16 @@ fn changes_of_input_and_nonsense_touches() {
         if round % 9 == 0 {
             handle.play_track(track()).unwrap();
         }
+        if round % 13 == 0 {
+            let driven = if round % 2 == 0 { Driven::Drive } else { Driven::Acceleration };
+            handle
+                .play_signal(Signal::new(vec![x.clamp(-1e9, 1e9).max(-1e9); 1500], driven).unwrap())
+                .unwrap();
+        }
+        if round % 17 == 0 {
+            handle.stop_signal();
+        }
+        handle.set_tap(Tap { frequency_hz: x, decay_per_sec: y, amplitude_mps2: 3.0 });
         play(&mut engine, 1 + round % 5);
         handle.collect();
         handle.read_scope(&mut [0.0; 2048]);

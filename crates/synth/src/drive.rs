@@ -40,7 +40,7 @@ const HEAT_BLOCK: usize = 32;
 
 impl DriveConfig {
     /// Drive in proportion to acceleration, for an actuator of which nothing is known.
-    pub fn proportional(full_scale_mps2: f32, ceiling: f32) -> Self {
+    pub const fn proportional(full_scale_mps2: f32, ceiling: f32) -> Self {
         Self { inverse: None, full_scale: full_scale_mps2, ceiling, look_ahead_secs: 0.0, budget: None }
     }
 }

@@ -86,9 +86,11 @@ impl Taps {
                 *sample += r.last as f32;
                 (r.last, r.before) = (r.twice_cos * r.last - r.square * r.before, r.last);
                 r.left *= r.decay;
-            }
-            if r.left < ENDED_MPS2 {
-                r.left = 0.0;
+                // By the sample, so that blocks do not matter.
+                if r.left < ENDED_MPS2 {
+                    r.left = 0.0;
+                    break;
+                }
             }
         }
     }

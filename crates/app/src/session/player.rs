@@ -18,6 +18,7 @@ use shagreen_device::output::{
 };
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::stylus::MouseStylus;
+use shagreen_device::synth::drive::DriveConfig;
 use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
 use shagreen_device::texture::OwnedTexture;
 
@@ -141,8 +142,7 @@ impl Player {
             preferred_rate_hz: None,
             buffer_frames: Some(BLOCK_FRAMES),
             seed: 1,
-            full_scale_mps2: UNCALIBRATED_FULL_SCALE_MPS2,
-            ceiling: USUAL_CEILING,
+            drive: DriveConfig::proportional(UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING),
             channels: ChannelMask::FIRST_TWO,
         };
         std::thread::spawn(move || {

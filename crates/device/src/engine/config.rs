@@ -93,7 +93,9 @@ pub enum ConfigError {
         look_ahead_secs: f32,
     },
     /// The budget of the coil's heat has no meaning.
-    #[error("the coil stands a share of {rms} of the full scale over {time_secs} s; both must be positive numbers")]
+    #[error(
+        "the coil stands a share of {rms} of the full scale over {time_secs} s; both must be positive numbers"
+    )]
     Budget {
         /// Root mean square that was asked for, as a share of the full scale.
         rms: f32,
@@ -150,7 +152,8 @@ fn check_drive(drive: DriveConfig, rate_hz: f32) -> Result<(), ConfigError> {
     {
         return Err(ConfigError::Budget { rms, time_secs });
     }
-    if let Some(Inverse { resonance: Resonance { frequency_hz, q, gain_mps2_per_volt }, lowest_hz }) = inverse {
+    if let Some(Inverse { resonance: Resonance { frequency_hz, q, gain_mps2_per_volt }, lowest_hz }) = inverse
+    {
         let are_numbers =
             [frequency_hz, q, gain_mps2_per_volt, lowest_hz].iter().all(|x| x.is_normal() && *x > 0.0);
         if !(are_numbers && 2.0 * frequency_hz.max(lowest_hz) < f64::from(rate_hz)) {

@@ -4,12 +4,14 @@ use std::time::Instant;
 
 use rtrb::{Consumer, Producer};
 use shagreen_synth::renderer::{Mix, TextureId};
+use shagreen_synth::tap::Tap;
 
 use super::{Command, EngineConfig, Orders, Returned, SLOTS};
 use crate::controls::{Controls, Drive, Input};
 use crate::error::DeviceError;
 use crate::link::Monitor;
 use crate::live::LiveInput;
+use crate::signal::Signal;
 use crate::status::Status;
 use crate::texture::OwnedTexture;
 use crate::track::Track;
@@ -219,6 +221,12 @@ impl Handle {
         self.publish();
     }
 
+    /// Landings sound like this from now on.
+    pub fn set_tap(&mut self, tap: Tap) {
+        self.orders.controls.tap = tap;
+        self.publish();
+    }
+
     /// Fades to another input, which starts now.
     pub fn set_input(&mut self, input: Input) {
         self.orders.controls.input = input;
@@ -236,6 +244,25 @@ impl Handle {
         self.send(Command::Play(Box::new(track)));
         self.set_input(Input::Track);
         Ok(())
+    }
+
+    /// Plays a signal in the place of the texture, once that has faded; one that is played ends. Muting silences it, the
+    /// limits of the actuator hold.
+    ///
+    /// # Errors
+    /// Gives the signal back while the output is busy: try again after its next block.
+    pub fn play_signal(&mut self, signal: Signal) -> Result<(), Signal> {
+        if self.commands.is_full() {
+            return Err(signal);
+        }
+        self.send(Command::Signal(Box::new(signal)));
+        Ok(())
+    }
+
+    /// Lets the signal fade that is played, if one is.
+    pub fn stop_signal(&mut self) {
+        self.orders.n_stops = self.orders.n_stops.wrapping_add(1);
+        self.publish();
     }
 
     /// The way in for a person's touches, for whoever reads the stylus: there is one, and it can be taken once.

@@ -13,7 +13,22 @@ pub(super) struct Ramp {
 impl Ramp {
     /// A ramp at zero.
     pub(super) fn new(n_frames: u32) -> Self {
-        Self { n_frames: n_frames.max(1), value: 0.0, target: 0.0, step: 0.0, n_left: 0 }
+        Self::at(0.0, n_frames)
+    }
+
+    /// A ramp at a value.
+    pub(super) fn at(value: f32, n_frames: u32) -> Self {
+        Self { n_frames: n_frames.max(1), value, target: value, step: 0.0, n_left: 0 }
+    }
+
+    /// Goes to a value at once.
+    pub(super) fn jump(&mut self, value: f32) {
+        *self = Self::at(value, self.n_frames);
+    }
+
+    /// Whether it has arrived at a value.
+    pub(super) fn is_at(&self, value: f32) -> bool {
+        self.n_left == 0 && self.value == value
     }
 
     /// Starts towards `target`, unless it already is on its way there.

@@ -8,6 +8,24 @@ use crate::kinematics::held_speed;
 use crate::touch::{Touch, mix_contacts};
 use crate::track::Track;
 
+/// Speed of the landings that taps were measured at, in m/s. Recordings do not say it; this is a light tap by hand.
+const USUAL_LANDING_MPS: f32 = 0.1;
+/// How much weaker or stronger than measured a landing may be: estimates of its speed are rough.
+const STRENGTHS: (f32, f32) = (0.1, 3.0);
+/// Two landings are at least this far apart, in seconds: what comes sooner is a switch that chatters.
+const CHATTER_SECS: f64 = 0.030;
+/// A live landing is still played where the input is switched to the person's this much later, in seconds.
+const PATIENCE_SECS: f64 = 0.030;
+
+/// The tip has landed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Landing {
+    /// When it is to be heard, on the stream's clock.
+    pub(super) stream_secs: f64,
+    /// How hard, over the landing that the tap was measured at.
+    pub(super) strength: f32,
+}
+
 /// The input, its clock, and the fade from the input before.
 #[derive(Debug)]
 pub(super) struct Player {
@@ -24,6 +42,10 @@ pub(super) struct Player {
     touch: Touch,
     fade_from: Contact,
     fade_start_secs: f64,
+    /// A landing of the person that has not been played: when it was reported on the engine's clock, and how hard.
+    live_landing: Option<(f64, f32)>,
+    track_landing: Option<Landing>,
+    last_landing_secs: f64,
 }
 
 impl Player {
@@ -41,6 +63,9 @@ impl Player {
             touch: Touch::default(),
             fade_from: Contact::LIFTED,
             fade_start_secs: f64::NEG_INFINITY,
+            live_landing: None,
+            track_landing: None,
+            last_landing_secs: f64::NEG_INFINITY,
         }
     }
 
@@ -69,10 +94,33 @@ impl Player {
         self.track.replace(track)
     }
 
-    /// Takes what the person did `age_secs` ago.
-    pub(super) fn report(&mut self, touch: Touch, age_secs: f64) {
+    /// Takes what the person did `age_secs` ago, and how fast the tip landed if it did.
+    pub(super) fn report(&mut self, touch: Touch, landing_mps: Option<f32>, age_secs: f64) {
+        let was_touching = self.live.contact.force_n > 0.0;
         self.live = touch.sanitized();
         self.live_secs = self.clock_secs - age_secs;
+        if self.live.contact.force_n == 0.0 {
+            self.live_landing = None;
+        } else if !was_touching {
+            let relative = landing_mps.map_or(1.0, |mps| mps / USUAL_LANDING_MPS);
+            let strength = if relative.is_nan() { 1.0 } else { relative.clamp(STRENGTHS.0, STRENGTHS.1) };
+            self.live_landing = Some((self.clock_secs, strength));
+        }
+    }
+
+    /// The landing that is to be played next, if there is one; `stream_secs` is the stream's clock at the next frame.
+    pub(super) fn take_landing(&mut self, stream_secs: f64) -> Option<Landing> {
+        let landing = match self.input {
+            Input::Live => self.live_landing.take().and_then(|(reported_secs, strength)| {
+                let is_new = self.clock_secs - reported_secs <= PATIENCE_SECS;
+                is_new.then_some(Landing { stream_secs, strength })
+            }),
+            Input::Track => self.track_landing.take(),
+            _ => None,
+        }?;
+        let is_chatter = self.clock_secs - self.last_landing_secs < CHATTER_SECS;
+        self.last_landing_secs = self.clock_secs;
+        (!is_chatter).then_some(landing)
     }
 
     /// The stream's clock starts at zero again.
@@ -131,6 +179,9 @@ impl ContactSource for Player {
         self.stream_secs = time_secs;
         self.clock_secs += step_secs;
         let mut touch = self.asked(step_secs).sanitized();
+        if self.input == Input::Track && self.touch.contact.force_n == 0.0 && touch.contact.force_n > 0.0 {
+            self.track_landing = Some(Landing { stream_secs: time_secs, strength: 1.0 });
+        }
         let share = (self.clock_secs - self.fade_start_secs) / FADE_SECS;
         if share < 1.0 {
             touch.contact = mix_contacts(self.fade_from, touch.contact, share.max(0.0) as f32);
@@ -212,7 +263,11 @@ mod tests {
             ..PenSample::default()
         });
         player.play(Box::new(Track::new(&samples).unwrap()));
-        player.report(Touch { contact: Contact { speed_mps: 0.4, force_n: 2.0 }, ..Touch::default() }, 0.0);
+        player.report(
+            Touch { contact: Contact { speed_mps: 0.4, force_n: 2.0 }, ..Touch::default() },
+            None,
+            0.0,
+        );
         let mut last = 0.0;
         for input in
             [Input::Hand(HAND), Input::Lifted, Input::Live, Input::Hand(HAND), Input::Track, Input::Lifted]
@@ -235,15 +290,18 @@ mod tests {
         run(&mut player, 10);
         let live = Touch { x_m: 0.01, y_m: 0.02, contact: Contact { speed_mps: 0.2, force_n: 1.0 } };
         // Five milliseconds on its way.
-        player.report(live, 0.005);
+        player.report(live, None, 0.005);
         let touches = run(&mut player, 100);
         assert_eq!(touches[2].1, live, "held at an age of 20 ms");
         assert!(touches[3].1.contact.speed_mps < 0.2);
         assert!(touches[99].1.contact.speed_mps < 1e-9);
         assert_eq!((touches[99].1.x_m, touches[99].1.contact.force_n), (0.01, 1.0));
         // Nonsense is a lifted tip.
-        player
-            .report(Touch { contact: Contact { speed_mps: f32::NAN, force_n: f32::INFINITY }, ..live }, 0.0);
+        player.report(
+            Touch { contact: Contact { speed_mps: f32::NAN, force_n: f32::INFINITY }, ..live },
+            None,
+            0.0,
+        );
         assert_eq!(run(&mut player, 1)[0].1.contact, Contact::LIFTED);
     }
 

@@ -5,13 +5,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use shagreen_synth::contact::Contact;
+use shagreen_synth::drive::{DriveConfig, Driven};
 use shagreen_synth::renderer::{Blend, Mix, Parent};
+use shagreen_synth::tap::Tap;
 
 use super::{
     COMMANDS, ChannelMask, Engine, EngineConfig, Handle, LoadReason, MixError, RETURNED, SCOPE, SLOTS, new,
 };
 use crate::controls::{Controls, Drive, Input};
 use crate::hand::{Hand, Path};
+use crate::signal::Signal;
 use crate::texture::tests::{white, white_at};
 use crate::touch::Touch;
 use crate::track::{PenSample, Track};
@@ -20,8 +23,7 @@ const CONFIG: EngineConfig = EngineConfig {
     model_rate_hz: 1000.0,
     device_rate_hz: 48_000.0,
     seed: 11,
-    full_scale_mps2: 10.0,
-    ceiling: 1.0,
+    drive: DriveConfig::proportional(10.0, 1.0),
     channels: ChannelMask::FIRST_TWO,
 };
 
@@ -274,7 +276,8 @@ fn nonsense_latches_silence_until_a_person_resets_it() {
 
 #[test]
 fn the_ceiling_is_never_exceeded_and_bent_samples_are_counted() {
-    let (mut handle, mut engine) = stroking(EngineConfig { ceiling: 0.25, ..CONFIG }, 50.0);
+    let (mut handle, mut engine) =
+        stroking(EngineConfig { drive: DriveConfig::proportional(10.0, 0.25), ..CONFIG }, 50.0);
     let out = play(&mut engine, 48_000, 256);
     assert!(peak(&out) <= 0.25 && peak(&out) > 0.2);
     let status = handle.status();
@@ -286,7 +289,8 @@ fn the_ceiling_is_never_exceeded_and_bent_samples_are_counted() {
 
 #[test]
 fn the_scope_shows_the_signal_before_gain_and_limiter() {
-    let (mut handle, mut engine) = stroking(EngineConfig { full_scale_mps2: 1000.0, ..CONFIG }, 1.0);
+    let (mut handle, mut engine) =
+        stroking(EngineConfig { drive: DriveConfig::proportional(1000.0, 1.0), ..CONFIG }, 1.0);
     handle.set_drive(Drive { muted: false, gain: 0.5 });
     let out = play(&mut engine, 9600, 256);
     let mut scope = vec![f32::NAN; 20_000];
@@ -388,4 +392,113 @@ fn a_texture_and_the_mix_that_names_it_arrive_together() {
     assert_eq!(handle.status().leaked, 0);
     stop.store(true, Ordering::Relaxed);
     callback.join().unwrap();
+}
+
+const WOOD: Tap = Tap { frequency_hz: 200.0, decay_per_sec: 80.0, amplitude_mps2: 5.0 };
+
+fn landed(force_n: f32) -> Touch {
+    Touch { contact: Contact { speed_mps: 0.0, force_n }, ..Touch::default() }
+}
+
+/// A silent texture under a person's hand, with landings that sound.
+fn tapping() -> (Handle, Engine, crate::live::LiveInput) {
+    let (mut handle, engine) = new(CONFIG).unwrap();
+    handle.set_tap(WOOD);
+    handle.set_input(Input::Live);
+    let live = handle.take_live_input().unwrap();
+    (handle, engine, live)
+}
+
+#[test]
+fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
+    let (mut handle, mut engine, mut live) = tapping();
+    assert_eq!(peak(&play(&mut engine, 4800, 480)), 0.0);
+    live.send(landed(0.5), Instant::now()).unwrap();
+    let out = play(&mut engine, 4800, 480);
+    for (i, x) in out.iter().enumerate() {
+        let t = i as f64 / 48_000.0;
+        let expected = 0.5 * (-80.0 * t).exp() * (std::f64::consts::TAU * 200.0 * t).sin();
+        assert!((f64::from(*x) - expected).abs() < 1e-5, "{x} for {expected} at {t}");
+    }
+    // Held down it is no new landing; lifted and landed faster it is, and as much stronger.
+    live.send(landed(0.6), Instant::now()).unwrap();
+    assert!(peak(&play(&mut engine, 48_000, 480)) < 1e-2);
+    live.send(Touch::default(), Instant::now()).unwrap();
+    play(&mut engine, 480, 480);
+    live.land(landed(0.5), Instant::now(), Some(0.15)).unwrap();
+    let strong = play(&mut engine, 4800, 480);
+    assert!((peak(&strong) / peak(&out) - 1.5).abs() < 1e-3);
+    assert!(handle.status().latency.n_touches == 4);
+    // Nonsense and chatter are not.
+    play(&mut engine, 48_000, 480);
+    for landing in [f32::NAN, f32::INFINITY, -1.0] {
+        for _ in 0..10 {
+            live.send(Touch::default(), Instant::now()).unwrap();
+            live.land(landed(0.5), Instant::now(), Some(landing)).unwrap();
+            assert!(peak(&play(&mut engine, 48, 48)) < 2.0);
+        }
+    }
+}
+
+#[test]
+fn landings_of_a_stroke_do_not_depend_on_blocks() {
+    let run = |block| {
+        let (mut handle, mut engine) = stroking(CONFIG, 1.0);
+        handle.set_tap(WOOD);
+        handle.play_track(track(200)).unwrap();
+        play(&mut engine, 48_000, block)
+    };
+    let whole = run(48_000);
+    for block in [1, 7, 85, 256, 480] {
+        assert!(run(block) == whole, "blocks of {block}");
+    }
+    let (mut handle, mut engine) = stroking(CONFIG, 1.0);
+    handle.play_track(track(200)).unwrap();
+    assert_ne!(play(&mut engine, 48_000, 256), whole, "without its landings");
+}
+
+#[test]
+fn a_signal_takes_the_place_of_the_texture_and_gives_it_back() {
+    let (mut handle, mut engine) = stroking(CONFIG, 1.0);
+    let (_undisturbed, mut undisturbed) = stroking(CONFIG, 1.0);
+    play(&mut engine, 9600, 256);
+    let samples: Vec<f32> = (0..4800).map(|i| 0.5 * (i as f32 * 0.05).sin()).collect();
+    handle.play_signal(Signal::new(samples.clone(), Driven::Drive).unwrap()).unwrap();
+    handle.set_drive(Drive { muted: false, gain: 0.1 });
+    let out = play(&mut engine, 48_000, 256);
+    // The texture fades in 960 samples; a signal begins with a block.
+    assert!(out[1024..5824] == samples, "as it is, whatever the gain");
+    assert!(peak(&out[5900..]) < 0.1 && peak(&out[20_000..]) > 0.0);
+    assert_eq!(handle.collect(), 1);
+    assert!(!handle.status().plays_signal);
+    play(&mut undisturbed, 57_600, 256);
+    handle.set_drive(Drive::default());
+    let (before, after) = (play(&mut undisturbed, 9600, 256), play(&mut engine, 9600, 256));
+    assert!(before[960..] == after[960..], "the texture went on beneath");
+}
+
+#[test]
+fn signals_are_stopped_muted_replaced_and_limited() {
+    let signal = |level| Signal::new(vec![level; 480_000], Driven::Drive).unwrap();
+    let (mut handle, mut engine) = stroking(CONFIG, 1.0);
+    handle.play_signal(signal(7.0)).unwrap();
+    let out = play(&mut engine, 9600, 256);
+    assert!(handle.status().plays_signal && peak(&out) <= 1.0 && out[9000] > 0.9);
+    handle.set_drive(Drive { muted: true, gain: 1.0 });
+    play(&mut engine, 960, 256);
+    assert_eq!(peak(&play(&mut engine, 9600, 256)), 0.0);
+    handle.set_drive(Drive::default());
+    handle.play_signal(signal(0.25)).unwrap();
+    let out = play(&mut engine, 9600, 256);
+    assert_eq!((out[9000], handle.collect()), (0.25, 1));
+    handle.stop_signal();
+    let out = play(&mut engine, 9600, 256);
+    let steps = out.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f32::max);
+    assert!(steps < 0.05, "it fades: {steps}");
+    assert!(!handle.status().plays_signal && handle.collect() == 1);
+    // A stop without a signal stops none that comes later.
+    handle.stop_signal();
+    play(&mut engine, 256, 256);
+    handle.play_signal(signal(0.25)).unwrap();
+    assert_eq!(play(&mut engine, 9600, 256)[9000], 0.25);
 }
