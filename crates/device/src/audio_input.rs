@@ -1,5 +1,6 @@
 //! Inputs of the system's sound: the accelerometer that an actuator is measured with, or a loop back.
 
+use std::cmp::Reverse;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -188,7 +189,7 @@ fn choose(
                 rate_hz.abs_diff(preferred_rate_hz),
                 c.channels(),
                 !is_float,
-                c.sample_format().sample_size().min(4) ^ 7,
+                Reverse(c.sample_format().sample_size()),
             )
         })
 }
@@ -208,10 +209,9 @@ impl Intake {
     where
         f32: FromSample<T>,
     {
-        let begun = self.told.opened.elapsed().as_nanos() as i64 - since_capture.as_nanos() as i64;
-        let taken_nanos =
-            u128::from(self.n_taken) * 1_000_000_000 / u128::from(self.config.sample_rate.max(1));
-        self.told.first_nanos.fetch_min(begun - taken_nanos as i64, Ordering::Relaxed);
+        let begun = nanos(self.told.opened.elapsed()) - nanos(since_capture);
+        let taken = Duration::from_secs_f64(self.n_taken as f64 / f64::from(self.config.sample_rate.max(1)));
+        self.told.first_nanos.fetch_min(begun - nanos(taken), Ordering::Relaxed);
         for frame in block.chunks_exact(usize::from(self.config.channels.max(1))) {
             let Some(sample) = frame.get(self.channel_idx) else { continue };
             if self.producer.push(f32::from_sample(*sample)).is_err() {
@@ -220,6 +220,11 @@ impl Intake {
             self.n_taken += 1;
         }
     }
+}
+
+/// Nanoseconds of a time that is no more than centuries.
+fn nanos(time: Duration) -> i64 {
+    i64::try_from(time.as_nanos()).unwrap_or(i64::MAX)
 }
 
 fn build<T: SizedSample>(
@@ -306,7 +311,7 @@ mod tests {
         // Two frames and the beginning of a third.
         intake.take(&[0_i16, 16_384, 0, 0, -16_384, 0, 7], Duration::from_millis(2));
         let first = told.first_nanos.load(Ordering::Relaxed);
-        assert!(first < told.opened.elapsed().as_nanos() as i64 - 2_000_000);
+        assert!(first < super::nanos(told.opened.elapsed()) - 2_000_000);
         intake.take(&[0.0_f32, 0.25, 0.0].repeat(4), Duration::ZERO);
         let read: Vec<f32> = std::iter::from_fn(|| samples.pop().ok()).collect();
         assert_eq!(read, [0.5, -0.5, 0.25, 0.25, 0.25]);

@@ -20,6 +20,8 @@ pub enum DeviceErrorKind {
     Config,
     /// The system of devices (sound server, driver) does not answer: start it, then try again.
     Unavailable,
+    /// The person stopped it.
+    Canceled,
     /// Anything else that the system reports: show the message; trying again may help.
     Backend,
 }

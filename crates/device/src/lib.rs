@@ -41,6 +41,7 @@ pub mod hand;
 pub mod kinematics;
 mod link;
 pub mod live;
+pub mod measure;
 mod null_output;
 pub mod output;
 pub mod pressure;

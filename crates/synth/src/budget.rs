@@ -45,7 +45,7 @@ impl Heat {
     /// Takes the samples that the coil got. Call it for a hundred samples or fewer at a time.
     pub fn note(&mut self, driven: &[f32]) {
         let budget = f64::from(self.budget.rms);
-        if !(budget > 0.0) {
+        if budget.is_nan() || budget <= 0.0 {
             (self.share, self.gain) = (1.0, 0.0);
             return;
         }

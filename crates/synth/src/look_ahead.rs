@@ -161,14 +161,12 @@ mod tests {
                 envelope
             })
             .collect();
-        let at = |values: &[f64], i: i64| if i < 0 { 1.0 } else { values[i as usize] };
-        let back = |i: usize, k: usize| i as i64 - k as i64;
-        let minima: Vec<f64> = (0..needs.len())
-            .map(|i| (0..=delay).map(|k| at(&needs, back(i, k))).fold(1.0, f64::min))
-            .collect();
+        let back = |values: &[f64], i: usize, k: usize| if k > i { 1.0 } else { values[i - k] };
+        let minima: Vec<f64> =
+            (0..needs.len()).map(|i| (0..=delay).map(|k| back(&needs, i, k)).fold(1.0, f64::min)).collect();
         (0..input.len())
             .map(|i| {
-                let gain = (0..=delay).map(|k| at(&minima, back(i, k))).sum::<f64>() / (delay as f64 + 1.0);
+                let gain = (0..=delay).map(|k| back(&minima, i, k)).sum::<f64>() / (delay as f64 + 1.0);
                 if i < delay { 0.0 } else { gain * f64::from(input[i - delay]) }
             })
             .collect()

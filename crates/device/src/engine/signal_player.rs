@@ -53,13 +53,8 @@ impl SignalPlayer {
 
     /// Puts the signal in the place of the texture's samples, and says what they are now.
     pub(super) fn replace(&mut self, mono: &mut [f32]) -> Driven {
-        let Some(signal) = &self.playing else {
-            self.texture.aim(1.0);
-            mono.iter_mut().for_each(|sample| *sample *= self.texture.next());
-            return Driven::Acceleration;
-        };
-        self.texture.aim(0.0);
-        if self.texture.is_at(0.0) {
+        self.texture.aim(if self.playing.is_some() { 0.0 } else { 1.0 });
+        if let Some(signal) = self.playing.as_ref().filter(|_| self.texture.is_at(0.0)) {
             let part = signal.part(self.next_frame, mono.len());
             let (begun, rest) = mono.split_at_mut(part.len());
             for (sample, signal) in begun.iter_mut().zip(part) {
@@ -73,7 +68,9 @@ impl SignalPlayer {
             }
             return driven;
         }
-        mono.iter_mut().for_each(|sample| *sample *= self.texture.next());
+        for sample in mono {
+            *sample *= self.texture.next();
+        }
         Driven::Acceleration
     }
 
