@@ -14,22 +14,27 @@ mod measure;
 
 use std::hint::black_box;
 use std::path::Path;
+use std::sync::Arc;
 
 use measure::bench;
 use shagreen_core::ar::power_gain;
-use shagreen_core::authoring::Authoring;
+use shagreen_core::authoring::{Authoring, Layers, Models};
 use shagreen_core::blend::Mode;
 use shagreen_core::lsf::ar_from_lsf;
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::space::{Space, SpacePoint};
 use shagreen_core::texture::{GrainNode, TextureModel};
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
+use shagreen_device::controls::Input;
 use shagreen_device::engine::{self, ChannelMask, EngineConfig};
+use shagreen_device::hand::{Hand, Path as HandPath};
 use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_library;
+use shagreen_synth::budget::Budget;
 use shagreen_synth::contact::{Contact, ContactSource};
-use shagreen_synth::drive::DriveConfig;
+use shagreen_synth::drive::{DriveConfig, Inverse};
+use shagreen_synth::equalizer::Resonance;
 use shagreen_synth::noise::{Gaussian, Noise};
 use shagreen_synth::renderer::{Blend, Mix, Parent, Renderer, TextureId, Textures};
 use shagreen_synth::stream::Stream;
@@ -155,8 +160,63 @@ fn main() {
         },
     );
 
+    callback(&library);
     reblending(&library, &planes);
 }
+
+/// What a device's callback costs: one texture of the field, an equalized actuator with its budget, and the limiter.
+fn callback(library: &Library) {
+    let space = Space::new(&library.positions()).expect("the starter space");
+    let layers: Vec<Option<Layers>> =
+        library.textures.iter().map(|t| Some(Layers::of(&t.model, &Plane::new(&t.model)))).collect();
+    let models = Models::new(&space, &layers).expect("textures of one rate");
+    let authoring = Authoring::new(space).with_models(Arc::new(models));
+    let point = SpacePoint { rough_smooth: 40.0, hard_soft: 60.0 };
+    let authored = authoring.author(point, &Mode::Field.into()).expect("a texture");
+    let texture = Plane::new(&authored.model.expect("a texture of its own")).prepare();
+    let (mut handle, mut engine) = engine::new(EngineConfig {
+        model_rate_hz: texture.parts().rate_hz,
+        device_rate_hz: 48_000.0,
+        seed: 1,
+        drive: MARK_II,
+        channels: ChannelMask::FIRST_TWO,
+    })
+    .expect("an engine");
+    let id = handle.load(OwnedTexture::new(texture.parts()).expect("a texture")).expect("a slot");
+    handle.set_mix(Mix::solo(id)).expect("a loaded texture");
+    handle.set_input(Input::Hand(Hand {
+        path: HandPath::Line,
+        speed_mps: 0.1,
+        force_n: 1.0,
+        extent_m: 0.06,
+    }));
+    let mut block = [0.0; 2 * 128];
+    let n_blocks = 48_000 * 20 / 128;
+    bench(
+        "callback: one authored texture, equalizer, budget, look-ahead, limiter; 48 kHz, 128 frames of two channels",
+        f64::from(n_blocks) * 128.0,
+        "frame",
+        || {
+            for _ in 0..n_blocks {
+                engine.process(&mut block, 2);
+                black_box(&block);
+            }
+        },
+    );
+    assert!(handle.status().level_mps2 > 0.0 && handle.status().peak > 0.0, "it was not silence");
+}
+
+/// Haptuator Mark II on 100 g, on an amplifier of 5 V.
+const MARK_II: DriveConfig = DriveConfig {
+    inverse: Some(Inverse {
+        resonance: Resonance { frequency_hz: 65.0, q: 4.086, gain_mps2_per_volt: 2.134 },
+        lowest_hz: 20.0,
+    }),
+    full_scale: 5.0,
+    ceiling: 0.9,
+    look_ahead_secs: 0.002,
+    budget: Some(Budget { rms: 0.282, time_secs: 10.0 }),
+};
 
 /// What a drag costs on the window's thread.
 fn reblending(library: &Library, planes: &[Plane]) {

@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "seconds": seconds,
             "underruns": status.underruns,
             "callback_load_max": status.load_max,
-            "latency_ms": 1e3 * running.latency_secs(),
+            "latency_ms": 1e3 * running.latency_secs(&status),
             "limited": status.limited_samples,
             "tripped": status.tripped,
             "parents": chosen.parents_json(&library),
@@ -102,7 +102,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 chosen.parents_text(&library),
                 running.id(),
                 running.rate_hz(),
-                1e3 * running.latency_secs(),
+                1e3 * running.latency_secs(&status),
                 status.underruns,
                 100.0 * status.load_max,
                 status.limited_samples

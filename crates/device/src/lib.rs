@@ -45,6 +45,8 @@ pub mod measure;
 mod null_output;
 pub mod output;
 pub mod pressure;
+#[cfg(target_os = "linux")]
+mod pulse;
 pub mod serial;
 pub mod signal;
 pub mod status;

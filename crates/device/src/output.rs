@@ -12,6 +12,7 @@ use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::{Reporter, link};
 use crate::null_output::NullOutput;
+use crate::status::Status;
 
 /// The id of the output that plays to nobody.
 pub const NULL_ID: &str = "null";
@@ -25,6 +26,9 @@ pub const USUAL_CEILING: f32 = 0.9;
 
 /// Frames a block that can be asked for: fewer no system keeps up with, more are over a second late.
 pub const BUFFER_FRAMES: RangeInclusive<u32> = 16..=65_536;
+
+/// Frames in a block where nobody asks for another number: 5 ms at 48 kHz.
+pub const USUAL_BUFFER_FRAMES: u32 = 256;
 
 /// What sort of output it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,7 +78,8 @@ pub struct Running {
     rate_hz: u32,
     channels: u16,
     buffer_frames: Option<u32>,
-    latency_secs: f64,
+    engine_latency_secs: f64,
+    device_latency_secs: f64,
     #[expect(dead_code, reason = "held to be dropped")]
     device: Device,
 }
@@ -83,6 +88,8 @@ pub struct Running {
 #[expect(dead_code, reason = "held to be dropped")]
 enum Device {
     Audio(AudioOutput),
+    #[cfg(target_os = "linux")]
+    Pulse(crate::pulse::PulseOutput),
     Null(NullOutput),
 }
 
@@ -107,10 +114,11 @@ impl Running {
         self.buffer_frames
     }
 
-    /// From a change of the contact to the actuator's terminals, in seconds: the renderer's own delay and two blocks of
-    /// the device. A sound server behind the device may add to it.
-    pub fn latency_secs(&self) -> f64 {
-        self.latency_secs
+    /// From a change of the contact to the actuator's terminals, in seconds: the renderer's own delay, and that of the
+    /// device as far as it says, or else two of its blocks.
+    pub fn latency_secs(&self, status: &Status) -> f64 {
+        let told_secs = f64::from(status.device_latency_secs);
+        self.engine_latency_secs + if told_secs > 0.0 { told_secs } else { self.device_latency_secs }
     }
 }
 
@@ -122,7 +130,14 @@ pub fn list_outputs() -> Vec<OutputInfo> {
         kind: OutputKind::Null,
         is_default: false,
     };
-    std::iter::once(null).chain(crate::audio::list()).collect()
+    let mut outputs = vec![null];
+    #[cfg(target_os = "linux")]
+    outputs.extend(crate::pulse::list());
+    // Where a server names its default itself, a route to it is none of ours to prefer.
+    let has_default = outputs.iter().any(|output| output.is_default);
+    let audio = crate::audio::list().into_iter();
+    outputs.extend(audio.map(|o| OutputInfo { is_default: o.is_default && !has_default, ..o }));
+    outputs
 }
 
 /// Opens output `id`, silent until its handle is told otherwise.
@@ -139,6 +154,10 @@ pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceE
         return open_null_with_tap(options, |_| {});
     }
     check_buffer(options)?;
+    #[cfg(target_os = "linux")]
+    if id.starts_with(crate::pulse::PREFIX) {
+        return open_pulse(id, options);
+    }
     let (handle, opened) = crate::audio::open(id, options)?;
     let buffer_frames = opened.buffer_frames;
     let running = Running {
@@ -146,9 +165,24 @@ pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceE
         rate_hz: opened.rate_hz,
         channels: opened.channels,
         buffer_frames,
-        latency_secs: opened.engine_latency_secs
-            + 2.0 * f64::from(buffer_frames.unwrap_or(0)) / f64::from(opened.rate_hz),
+        engine_latency_secs: opened.engine_latency_secs,
+        device_latency_secs: 2.0 * f64::from(buffer_frames.unwrap_or(0)) / f64::from(opened.rate_hz),
         device: Device::Audio(opened.output),
+    };
+    Ok((handle, running))
+}
+
+#[cfg(target_os = "linux")]
+fn open_pulse(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
+    let (handle, opened) = crate::pulse::open(id, options)?;
+    let running = Running {
+        id: id.into(),
+        rate_hz: opened.rate_hz,
+        channels: opened.channels,
+        buffer_frames: Some(opened.buffer_frames),
+        engine_latency_secs: opened.engine_latency_secs,
+        device_latency_secs: 2.0 * f64::from(opened.buffer_frames) / f64::from(opened.rate_hz),
+        device: Device::Pulse(opened.output),
     };
     Ok((handle, running))
 }
@@ -164,16 +198,17 @@ pub fn open_null_with_tap(
 ) -> Result<(Handle, Running), DeviceError> {
     check_buffer(options)?;
     let rate_hz = options.preferred_rate_hz.unwrap_or(USUAL_RATE_HZ);
-    let frames = options.buffer_frames.unwrap_or(crate::null_output::USUAL_BUFFER_FRAMES);
+    let frames = options.buffer_frames.unwrap_or(USUAL_BUFFER_FRAMES);
     let made = make_engine(options, rate_hz)?;
-    let latency_secs = f64::from(made.engine.latency_secs()) + f64::from(frames) / f64::from(rate_hz);
+    let engine_latency_secs = f64::from(made.engine.latency_secs());
     let output = NullOutput::start(made.engine, &made.reporter, rate_hz, frames, tap)?;
     let running = Running {
         id: NULL_ID.into(),
         rate_hz,
         channels: crate::null_output::CHANNELS,
         buffer_frames: Some(frames),
-        latency_secs,
+        engine_latency_secs,
+        device_latency_secs: f64::from(frames) / f64::from(rate_hz),
         device: Device::Null(output),
     };
     Ok((made.handle, running))

@@ -365,6 +365,6 @@ impl Player {
     }
 
     pub(super) fn latency_ms(&self) -> Option<f64> {
-        self.running.as_ref().map(|r| r.latency_secs() * 1e3)
+        Some(self.running.as_ref()?.latency_secs(&self.status?) * 1e3)
     }
 }

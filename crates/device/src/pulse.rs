@@ -1,0 +1,125 @@
+//! Outputs of a PulseAudio server, or of PipeWire, which speaks the same protocol.
+//!
+//! The routes by which other libraries reach such a server let it move a stream to another sink when its own goes: drive
+//! that was meant for an actuator would then sound in somebody's headphones. Here a stream names its sink and forbids the
+//! server to move it, so that the server ends it instead. The protocol itself is that of the crate `pulseaudio`, which
+//! `cpal` uses too; its own client tells nobody of a stream that was ended, moved or ran dry, so only its messages are used.
+
+mod connection;
+mod playback;
+
+use std::net::Shutdown;
+use std::os::unix::net::UnixStream;
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use pulseaudio::protocol::{Command, ServerInfo, SinkInfo, SinkInfoList};
+
+use self::connection::Connection;
+use self::playback::{Playback, StreamKind};
+use crate::edge::Edge;
+use crate::engine::Handle;
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
+
+/// What ids of such outputs begin with; the rest is the sink's name.
+pub(crate) const PREFIX: &str = "pulse:";
+
+/// The sinks of the server, if one answers.
+pub(crate) fn list() -> Vec<OutputInfo> {
+    // Without a server there are no such outputs.
+    let Ok(mut connection) = Connection::open() else { return Vec::new() };
+    let default =
+        connection.ask::<ServerInfo>(&Command::GetServerInfo).ok().and_then(|i| i.default_sink_name);
+    let sinks = connection.ask::<SinkInfoList>(&Command::GetSinkInfoList).unwrap_or_default();
+    let describe = |sink: SinkInfo| {
+        let name = sink.name.to_string_lossy().into_owned();
+        OutputInfo {
+            id: format!("{PREFIX}{name}"),
+            name: sink.description.map_or(name, |d| d.to_string_lossy().into_owned()),
+            kind: OutputKind::Audio,
+            is_default: default.as_ref() == Some(&sink.name),
+        }
+    };
+    sinks.into_iter().map(describe).collect()
+}
+
+/// An open stream; it ends when it is dropped.
+#[derive(Debug)]
+pub(crate) struct PulseOutput {
+    socket: UnixStream,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for PulseOutput {
+    fn drop(&mut self) {
+        self.socket.shutdown(Shutdown::Both).ok(); // The server may have gone first.
+        if let Some(thread) = self.thread.take() {
+            thread.join().ok(); // A callback that panicked has said so on its own thread.
+        }
+    }
+}
+
+/// What came of opening.
+pub(crate) struct Opened {
+    pub(crate) output: PulseOutput,
+    pub(crate) rate_hz: u32,
+    pub(crate) channels: u16,
+    pub(crate) buffer_frames: u32,
+    pub(crate) engine_latency_secs: f64,
+}
+
+/// Opens sink `id`.
+pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
+    let name = id.strip_prefix(PREFIX).unwrap_or(id);
+    let unavailable = |error: connection::Failure| {
+        let message = format!("the sound server does not answer: {error}; start it and try again");
+        DeviceError::new(DeviceErrorKind::Unavailable, message)
+    };
+    let mut connection = Connection::open().map_err(unavailable)?;
+    let sinks = connection.ask::<SinkInfoList>(&Command::GetSinkInfoList).map_err(unavailable)?;
+    let Some(sink) = sinks.into_iter().find(|sink| sink.name.to_bytes() == name.as_bytes()) else {
+        let message = format!(
+            "there is no output `{id}` on this machine; `shagreen devices` lists those that there are"
+        );
+        return Err(DeviceError::new(DeviceErrorKind::NotFound, message));
+    };
+    let n_channels = usize::from(sink.sample_spec.channels);
+    if n_channels < options.channels.n_least() {
+        let message =
+            format!("the output `{id}` has {n_channels} channels; choose others, or another output");
+        return Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
+    }
+    // The sink's own rate, so that nobody resamples, where it holds the texture's.
+    let own_hz = sink.sample_spec.sample_rate;
+    let rate_hz = options.preferred_rate_hz.unwrap_or(own_hz).max(options.model_rate_hz.ceil() as u32);
+    let kind = StreamKind {
+        sink: sink.index,
+        channels: sink.sample_spec.channels,
+        channel_map: sink.channel_map,
+        rate_hz,
+        buffer_frames: options.buffer_frames.unwrap_or(USUAL_BUFFER_FRAMES),
+    };
+    let Made { handle, engine, reporter } = make_engine(options, rate_hz)?;
+    let engine_latency_secs = f64::from(engine.latency_secs());
+    let edge = Edge::new(engine, Arc::clone(&reporter.shared), f64::from(rate_hz));
+    let refused = |error: connection::Failure| {
+        let message = format!(
+            "the output `{id}` cannot be opened: {error}; choose another, or look at the sound server"
+        );
+        DeviceError::new(DeviceErrorKind::Backend, message)
+    };
+    let socket = connection.socket().map_err(refused)?;
+    let playback = Playback::start(connection, kind, edge, reporter, id).map_err(refused)?;
+    let block_frames = playback.block_frames();
+    let thread = std::thread::Builder::new().name("sound server".into()).spawn(move || playback.run());
+    let thread = thread.map_err(|error| {
+        DeviceError::new(
+            DeviceErrorKind::Backend,
+            format!("the system gives no thread for the output: {error}"),
+        )
+    })?;
+    let output = PulseOutput { socket, thread: Some(thread) };
+    let channels = u16::from(sink.sample_spec.channels);
+    Ok((handle, Opened { output, rate_hz, channels, buffer_frames: block_frames, engine_latency_secs }))
+}

@@ -1,0 +1,169 @@
+//! A line to the server, and questions over it.
+
+use std::ffi::CString;
+use std::io::{Cursor, Read as _, Write as _};
+use std::os::unix::net::UnixStream;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use pulseaudio::protocol::{
+    AuthParams, AuthReply, Command, CommandReply, DESCRIPTOR_SIZE, Descriptor, DescriptorFlags, MAX_VERSION,
+    Prop, Props, ProtocolError, SetClientNameReply, TagStructRead, TagStructReader, encode_descriptor,
+    read_descriptor, write_command_message,
+};
+
+/// Why there is no answer.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    /// No server is named, or none listens there.
+    #[error("there is none here")]
+    NoServer,
+    /// It listens, and says nothing.
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+    /// It says something else.
+    #[error("{0}")]
+    Protocol(#[from] ProtocolError),
+}
+
+/// How long a question may wait for its answer.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Longest message that is believed, in bytes: lists of sinks are some kilobytes.
+const MAX_MESSAGE: u32 = 16 * 1024 * 1024;
+
+/// A message from the server: its number, what it is, and what follows for a reply.
+pub(super) struct Message {
+    pub(super) seq: u32,
+    pub(super) command: Command,
+    payload: Cursor<Vec<u8>>,
+}
+
+impl Message {
+    /// What a reply says.
+    pub(super) fn reply<T: TagStructRead>(mut self, version: u16) -> Result<T, Failure> {
+        let mut reader = TagStructReader::new(&mut self.payload, version);
+        Ok(T::read(&mut reader, version)?)
+    }
+}
+
+/// A line to the server of this session.
+pub(super) struct Connection {
+    socket: UnixStream,
+    version: u16,
+    next_seq: u32,
+    out: Vec<u8>,
+}
+
+impl Connection {
+    /// Calls the server that the environment names.
+    pub(super) fn open() -> Result<Self, Failure> {
+        let path = socket_path().ok_or(Failure::NoServer)?;
+        let socket = UnixStream::connect(path).map_err(|_| Failure::NoServer)?;
+        socket.set_read_timeout(Some(PATIENCE))?;
+        socket.set_write_timeout(Some(PATIENCE))?;
+        let mut connection = Self { socket, version: MAX_VERSION, next_seq: 0, out: Vec::new() };
+        // Without a cookie a server that trusts this user answers all the same.
+        let cookie = cookie_paths().into_iter().find_map(|path| std::fs::read(path).ok()).unwrap_or_default();
+        let auth = AuthParams { version: MAX_VERSION, supports_shm: false, supports_memfd: false, cookie };
+        let reply: AuthReply = connection.ask(&Command::Auth(auth))?;
+        connection.version = MAX_VERSION.min(reply.version);
+        let mut props = Props::new();
+        props.set(Prop::ApplicationName, c"Shagreen");
+        if let Ok(id) = CString::new(std::process::id().to_string()) {
+            props.set(Prop::ApplicationProcessId, id);
+        }
+        let _: SetClientNameReply = connection.ask(&Command::SetClientName(props))?;
+        Ok(connection)
+    }
+
+    /// Another end of the same line, to hang up by.
+    pub(super) fn socket(&self) -> Result<UnixStream, Failure> {
+        Ok(self.socket.try_clone()?)
+    }
+
+    /// From now on waits as long as the server says nothing.
+    pub(super) fn wait_for_ever(&self) -> Result<(), Failure> {
+        Ok(self.socket.set_read_timeout(None)?)
+    }
+
+    /// The version that both speak.
+    pub(super) fn version(&self) -> u16 {
+        self.version
+    }
+
+    /// Says something, and gives it a number.
+    pub(super) fn say(&mut self, command: &Command) -> Result<u32, Failure> {
+        let seq = self.next_seq;
+        self.next_seq = self.next_seq.wrapping_add(1);
+        write_command_message(&mut self.socket, seq, command, self.version)?;
+        Ok(seq)
+    }
+
+    /// Asks something; what the server says meanwhile is not for anybody yet.
+    pub(super) fn ask<T: CommandReply>(&mut self, command: &Command) -> Result<T, Failure> {
+        let seq = self.say(command)?;
+        loop {
+            let message = self.next()?;
+            match message.command {
+                Command::Reply if message.seq == seq => return message.reply(self.version),
+                Command::Error(error) if message.seq == seq => {
+                    return Err(ProtocolError::ServerError(error).into());
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The next message that makes sense.
+    pub(super) fn next(&mut self) -> Result<Message, Failure> {
+        loop {
+            let descriptor = read_descriptor(&mut self.socket)?;
+            if descriptor.length > MAX_MESSAGE {
+                return Err(ProtocolError::Invalid("a message of a strange length".into()).into());
+            }
+            let mut bytes = vec![0; descriptor.length as usize];
+            self.socket.read_exact(&mut bytes)?;
+            let mut payload = Cursor::new(bytes);
+            // What this version of the protocol does not know is not for us.
+            if let Ok((seq, command)) = Command::read_tag_prefixed(&mut payload, self.version) {
+                return Ok(Message { seq, command, payload });
+            }
+        }
+    }
+
+    /// Sends samples of stream `channel`.
+    pub(super) fn send_samples(&mut self, channel: u32, samples: &[f32]) -> Result<(), Failure> {
+        let descriptor = Descriptor {
+            length: 4 * samples.len() as u32,
+            channel,
+            offset: 0,
+            flags: DescriptorFlags::empty(),
+        };
+        let mut head = [0; DESCRIPTOR_SIZE];
+        encode_descriptor(&mut head, &descriptor);
+        self.out.clear();
+        self.out.extend_from_slice(&head);
+        self.out.extend(samples.iter().flat_map(|sample| sample.to_le_bytes()));
+        Ok(self.socket.write_all(&self.out)?)
+    }
+}
+
+/// The socket that the environment names, or the usual one.
+fn socket_path() -> Option<PathBuf> {
+    let env = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    if let Some(server) = env("PULSE_SERVER") {
+        // A server on another machine is too far for a hand.
+        let server = server.into_string().ok()?;
+        return server.split_whitespace().find_map(|s| s.strip_prefix("unix:")).map(PathBuf::from);
+    }
+    let runtime = env("PULSE_RUNTIME_PATH").map(PathBuf::from);
+    let usual = env("XDG_RUNTIME_DIR").map(|folder| PathBuf::from(folder).join("pulse"));
+    runtime.into_iter().chain(usual).map(|folder| folder.join("native")).find(|path| path.exists())
+}
+
+/// Where the secret of this user may lie.
+fn cookie_paths() -> Vec<PathBuf> {
+    let home = |rest: &str| std::env::home_dir().map(|home| home.join(rest));
+    let named = std::env::var_os("PULSE_COOKIE").map(PathBuf::from);
+    named.into_iter().chain(home(".config/pulse/cookie")).chain(home(".pulse-cookie")).collect()
+}

@@ -1,0 +1,199 @@
+//! A stream to one sink: samples when the server asks for them, silence for ever when it ends the stream.
+
+use std::time::{Duration, Instant, SystemTime};
+
+use pulseaudio::protocol::stream::{BufferAttr, StreamFlags};
+use pulseaudio::protocol::{
+    ChannelMap, ChannelVolume, Command, CorkStreamParams, CreatePlaybackStreamReply, LatencyParams,
+    PlaybackLatency, PlaybackStreamParams, Prop, Props, SampleFormat, SampleSpec,
+};
+
+use super::connection::{Connection, Failure, Message};
+use crate::edge::Edge;
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::link::Reporter;
+
+/// What stream to open.
+pub(super) struct StreamKind {
+    /// Number of the sink.
+    pub(super) sink: u32,
+    /// As many channels as the sink has, so that each is one of its own.
+    pub(super) channels: u8,
+    /// The sink's.
+    pub(super) channel_map: ChannelMap,
+    pub(super) rate_hz: u32,
+    /// Frames of the buffer that was asked for: the server asks for half of it at a time, and three of it are the latency
+    /// that it is given to share between itself, the sink and the line.
+    pub(super) buffer_frames: u32,
+}
+
+/// Buffers that the server may hold in all. Two of them leave its sink no time of its own, and it runs dry; with four the
+/// hand is 5 ms later.
+const BUFFERS_AHEAD: f64 = 3.0;
+/// Buffers that it asks for at once.
+const BUFFERS_AT_ONCE: f64 = 0.5;
+/// How often the server is asked how late it is.
+const LATENCY_EVERY: Duration = Duration::from_millis(50);
+
+/// An open stream and what fills it.
+pub(super) struct Playback {
+    connection: Connection,
+    edge: Edge,
+    reporter: Reporter,
+    id: String,
+    channel: u32,
+    n_channels: usize,
+    rate_hz: u32,
+    block_frames: u32,
+    block: Vec<f32>,
+    requested_bytes: usize,
+    latency: Duration,
+    latency_asked: Option<(u32, Instant)>,
+    has_started: bool,
+}
+
+impl Playback {
+    /// Opens the stream; nothing sounds before [`Playback::run`].
+    pub(super) fn start(
+        mut connection: Connection,
+        kind: StreamKind,
+        edge: Edge,
+        reporter: Reporter,
+        id: &str,
+    ) -> Result<Self, Failure> {
+        let n_channels = usize::from(kind.channels);
+        let buffer_bytes = |n_buffers: f64| {
+            (n_buffers * f64::from(kind.buffer_frames)).round() as u32 * 4 * u32::from(kind.channels)
+        };
+        let mut props = Props::new();
+        props.set(Prop::MediaName, c"Actuator drive");
+        let params = PlaybackStreamParams {
+            sample_spec: SampleSpec {
+                format: SampleFormat::Float32Le,
+                channels: kind.channels,
+                sample_rate: kind.rate_hz,
+            },
+            channel_map: kind.channel_map,
+            sink_index: Some(kind.sink),
+            buffer_attr: BufferAttr {
+                target_length: buffer_bytes(BUFFERS_AHEAD),
+                // The clock never stops: what comes late is missing, not delayed.
+                pre_buffering: 0,
+                minimum_request_length: buffer_bytes(BUFFERS_AT_ONCE),
+                ..BufferAttr::default()
+            },
+            cvolume: Some(ChannelVolume::norm(kind.channels)),
+            props,
+            flags: StreamFlags {
+                start_corked: true,
+                no_remap_channels: true,
+                no_remix_channels: true,
+                no_move: true,
+                start_muted: Some(false),
+                adjust_latency: true,
+                fail_on_suspend: true,
+                ..StreamFlags::default()
+            },
+            ..PlaybackStreamParams::default()
+        };
+        let reply: CreatePlaybackStreamReply = connection.ask(&Command::CreatePlaybackStream(params))?;
+        connection.wait_for_ever()?;
+        let frame_bytes = 4 * u32::from(kind.channels);
+        Ok(Self {
+            connection,
+            edge,
+            reporter,
+            id: id.to_owned(),
+            channel: reply.channel,
+            n_channels,
+            rate_hz: kind.rate_hz,
+            block_frames: reply.buffer_attr.minimum_request_length / frame_bytes,
+            block: Vec::new(),
+            requested_bytes: reply.requested_bytes as usize,
+            latency: Duration::from_micros(reply.stream_latency),
+            latency_asked: None,
+            has_started: false,
+        })
+    }
+
+    /// Frames that the server asks for at a time.
+    pub(super) fn block_frames(&self) -> u32 {
+        self.block_frames
+    }
+
+    /// Plays until the stream or the line ends.
+    pub(super) fn run(mut self) {
+        let ended = self.play();
+        if let Err(reason) = ended {
+            let message = format!(
+                "the output `{}` is lost: {reason}; it stays silent until you open it again, or another that \
+                 `shagreen devices` lists",
+                self.id
+            );
+            self.reporter.lose(DeviceError::new(DeviceErrorKind::Lost, message));
+        }
+    }
+
+    fn play(&mut self) -> Result<(), String> {
+        let hung_up = |_: Failure| "the sound server has gone".to_owned();
+        self.fill().map_err(hung_up)?;
+        let uncork = CorkStreamParams { channel: self.channel, cork: false };
+        self.connection.say(&Command::CorkPlaybackStream(uncork)).map_err(hung_up)?;
+        loop {
+            let message = self.connection.next().map_err(hung_up)?;
+            match message.command {
+                Command::Request(request) if request.channel == self.channel => {
+                    self.requested_bytes += request.length as usize;
+                    self.fill().map_err(hung_up)?;
+                }
+                Command::Started(_) => self.has_started = true,
+                Command::Underflow(_) if self.has_started => self.reporter.shared.note_underrun(),
+                Command::PlaybackStreamKilled(_) => return Err("its sink is gone".to_owned()),
+                Command::PlaybackStreamMoved(_) => {
+                    return Err("the sound server has moved it to another sink".to_owned());
+                }
+                Command::PlaybackStreamSuspended(params) if params.suspended => {
+                    return Err("its sink is suspended".to_owned());
+                }
+                Command::Reply => self.note_latency(message),
+                _ => {}
+            }
+        }
+    }
+
+    /// Sends what was asked for.
+    fn fill(&mut self) -> Result<(), Failure> {
+        let frame_bytes = 4 * self.n_channels;
+        let frames = self.requested_bytes / frame_bytes;
+        if frames == 0 {
+            return Ok(());
+        }
+        // Asked before the samples are sent, the server says how late they will be.
+        self.ask_latency()?;
+        self.requested_bytes -= frames * frame_bytes;
+        self.block.resize(frames * self.n_channels, 0.0);
+        self.edge.fill(&mut self.block, self.n_channels, self.latency);
+        self.connection.send_samples(self.channel, &self.block)
+    }
+
+    fn ask_latency(&mut self) -> Result<(), Failure> {
+        let now = Instant::now();
+        if self.latency_asked.is_none_or(|(_, asked)| now.duration_since(asked) >= LATENCY_EVERY) {
+            let params = LatencyParams { channel: self.channel, now: SystemTime::now() };
+            self.latency_asked = Some((self.connection.say(&Command::GetPlaybackLatency(params))?, now));
+        }
+        Ok(())
+    }
+
+    fn note_latency(&mut self, message: Message) {
+        if self.latency_asked.is_none_or(|(seq, _)| seq != message.seq) {
+            return;
+        }
+        // A latency that cannot be read is that of before.
+        let Ok(reply) = message.reply::<PlaybackLatency>(self.connection.version()) else { return };
+        let waiting_bytes = (reply.write_offset - reply.read_offset).max(0) as f64;
+        let waiting_secs = waiting_bytes / (4.0 * self.n_channels as f64 * f64::from(self.rate_hz));
+        self.latency =
+            Duration::from_micros(reply.sink_usec) + Duration::from_secs_f64(waiting_secs.min(60.0));
+    }
+}
