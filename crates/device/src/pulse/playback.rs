@@ -14,6 +14,7 @@ use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Reporter;
 
 /// What stream to open.
+#[derive(Clone, Copy)]
 pub(super) struct StreamKind {
     /// Number of the sink.
     pub(super) sink: u32,

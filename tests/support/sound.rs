@@ -1,0 +1,119 @@
+//! A sound server of a test's own, with null sinks that are recorded.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::guard::Guard;
+
+/// What the sinks run at, in Hz.
+pub(crate) const RATE_HZ: f64 = 48_000.0;
+
+/// The server, with a null sink `ci`, its default, and another, `other`.
+pub(crate) struct SoundServer {
+    folder: tempfile::TempDir,
+    _daemon: Guard,
+}
+
+impl SoundServer {
+    pub(crate) fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let d = folder.path();
+        for name in ["run", "state"] {
+            std::fs::create_dir(d.join(name)).unwrap();
+        }
+        let write = |name: &str, text: String| std::fs::write(d.join(name), text).unwrap();
+        write(
+            "daemon.conf",
+            "default-sample-format = float32le\ndefault-sample-rate = 48000\navoid-resampling = yes\n\
+             flat-volumes = no\nenable-shm = no\n"
+                .to_owned(),
+        );
+        // Without norewinds the null sink runs up to two seconds ahead and every stream stalls at its start.
+        write(
+            "pulse.pa",
+            format!(
+                ".fail\nload-module module-null-sink sink_name=ci rate=48000 channels=2 format=float32le norewinds=1\n\
+                 load-module module-null-sink sink_name=other rate=48000 channels=2 format=float32le norewinds=1\n\
+                 load-module module-native-protocol-unix auth-anonymous=1 socket={}/native\n\
+                 set-default-sink ci\nset-default-source ci.monitor\n",
+                d.display()
+            ),
+        );
+        write(
+            "asound.conf",
+            "</usr/share/alsa/alsa.conf>\npcm.!default { type pulse }\nctl.!default { type pulse }\n\
+             pcm.pulse { type pulse }\n"
+                .to_owned(),
+        );
+        let daemon = with_server(Command::new("pulseaudio"), d)
+            .args(["-n", "-F"])
+            .arg(d.join("pulse.pa"))
+            .args(["--daemonize=no", "--exit-idle-time=-1", "--disallow-exit", "--use-pid-file=no"])
+            .args(["--log-target=stderr", "--high-priority=no", "--realtime=no"])
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let server = Self { folder, _daemon: Guard(daemon) };
+        let start = Instant::now();
+        while !server.command("pactl").arg("info").output().unwrap().status.success() {
+            assert!(start.elapsed() < Duration::from_secs(20), "the sound server does not answer");
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        server
+    }
+
+    pub(crate) fn command(&self, program: &str) -> Command {
+        with_server(Command::new(program), self.folder.path())
+    }
+
+    /// Both channels of what sink `ci` gets while `during` runs, as the device's samples, -1..1.
+    pub(crate) fn record(&self, during: impl FnOnce(&Self)) -> Vec<[f64; 2]> {
+        self.record_of("ci", during)
+    }
+
+    /// The same of any sink. A recording ends where its sink goes.
+    pub(crate) fn record_of(&self, sink: &str, during: impl FnOnce(&Self)) -> Vec<[f64; 2]> {
+        let path = self.folder.path().join(format!("{sink}.raw"));
+        let recorder = self
+            .command("parec")
+            .args([
+                "-d",
+                &format!("{sink}.monitor"),
+                "--format=float32le",
+                "--rate=48000",
+                "--channels=2",
+                "--raw",
+            ])
+            .arg("--latency-msec=20")
+            .stdout(std::fs::File::create(&path).unwrap())
+            .spawn()
+            .unwrap();
+        let recorder = Guard(recorder);
+        std::thread::sleep(Duration::from_millis(700));
+        during(self);
+        std::thread::sleep(Duration::from_millis(700));
+        drop(recorder);
+        let bytes = std::fs::read(&path).unwrap();
+        let float = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+        bytes.chunks_exact(8).map(|b| [float(&b[..4]), float(&b[4..])]).collect()
+    }
+}
+
+fn with_server(mut command: Command, d: &Path) -> Command {
+    command
+        .env("XDG_RUNTIME_DIR", d.join("run"))
+        .env("PULSE_RUNTIME_PATH", d.join("run/pulse"))
+        .env("PULSE_STATE_PATH", d.join("state"))
+        .env("PULSE_COOKIE", d.join("cookie"))
+        .env("PULSE_SERVER", format!("unix:{}/native", d.display()))
+        .env("PULSE_CONFIG", d.join("daemon.conf"))
+        .env("ALSA_CONFIG_PATH", d.join("asound.conf"));
+    command
+}
+
+pub(crate) fn shagreen(server: &SoundServer, words: &[&str]) -> serde_json::Value {
+    let output = server.command(env!("CARGO_BIN_EXE_shagreen")).args(words).arg("--json").output().unwrap();
+    assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
