@@ -52,6 +52,8 @@ const COMMANDS: usize = 128;
 const RETURNED: usize = 32;
 /// Touches that can wait for the next block: a quarter of a second of a fast stylus.
 const TOUCHES: usize = 256;
+/// Ways in for touches: a pen's and the mouse's.
+pub const LIVE_INPUTS: usize = 2;
 /// Samples of the scope that can wait to be drawn: more than half a second at 48 kHz.
 const SCOPE: usize = 32_768;
 /// Frames rendered at a time.
@@ -126,7 +128,7 @@ pub struct Engine {
     leaked: u64,
     orders: triple_buffer::Output<Orders>,
     commands: Consumer<Command>,
-    touches: Consumer<TimedTouch>,
+    touches: [Consumer<TimedTouch>; LIVE_INPUTS],
     returned: Producer<Returned>,
     scope: Producer<f32>,
     status: triple_buffer::Input<Status>,
@@ -141,7 +143,12 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
     let (orders_in, orders_out) = triple_buffer(&Orders::default());
     let (status_in, status_out) = triple_buffer(&Status::default());
     let (commands_in, commands_out) = RingBuffer::new(COMMANDS);
-    let (touches_in, touches_out) = RingBuffer::new(TOUCHES);
+    let rings: [_; LIVE_INPUTS] = std::array::from_fn(|_| RingBuffer::new(TOUCHES));
+    let mut live = Vec::with_capacity(LIVE_INPUTS);
+    let touches_out = rings.map(|(touches, touches_out)| {
+        live.push(LiveInput { touches });
+        touches_out
+    });
     let (returned_in, returned_out) = RingBuffer::new(RETURNED);
     let (scope_in, scope_out) = RingBuffer::new(SCOPE);
     let stream = Stream::new(config.model_rate_hz, config.device_rate_hz, config.seed);
@@ -175,7 +182,6 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
         scope: scope_in,
         status: status_in,
     };
-    let live = LiveInput { touches: touches_in };
     Ok((Handle::new(config, orders_in, commands_in, live, returned_out, scope_out, status_out), engine))
 }
 
@@ -245,13 +251,16 @@ impl Engine {
     }
 
     fn take_touches(&mut self) {
-        for _ in 0..TOUCHES {
-            let Ok(TimedTouch { touch, time, landing_mps }) = self.touches.pop() else { break };
-            let age = self.edge.map_or(Duration::ZERO, |edge| edge.now.saturating_duration_since(time));
-            self.player.report(touch, landing_mps, age.as_secs_f64());
-            let device_secs = self.edge.map_or(0.0, |edge| edge.device_latency_secs);
-            let out_secs = age.as_secs_f32() + self.chain.latency_secs() + device_secs;
-            self.latency.note(out_secs + self.stream.latency_secs(), out_secs);
+        let Self { touches, player, latency, edge, chain, stream, .. } = self;
+        let after_secs = chain.latency_secs() + edge.map_or(0.0, |edge| edge.device_latency_secs);
+        for touches in touches {
+            for _ in 0..TOUCHES {
+                let Ok(TimedTouch { touch, time, landing_mps }) = touches.pop() else { break };
+                let age = edge.map_or(Duration::ZERO, |edge| edge.now.saturating_duration_since(time));
+                player.report(touch, landing_mps, age.as_secs_f64());
+                let out_secs = age.as_secs_f32() + after_secs;
+                latency.note(out_secs + stream.latency_secs(), out_secs);
+            }
         }
     }
 

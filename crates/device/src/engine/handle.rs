@@ -84,7 +84,7 @@ pub struct Handle {
     orders: Orders,
     orders_in: triple_buffer::Input<Orders>,
     commands: Producer<Command>,
-    live: Option<LiveInput>,
+    live: Vec<LiveInput>,
     returned: Consumer<Returned>,
     scope: Consumer<f32>,
     status: triple_buffer::Output<Status>,
@@ -97,7 +97,7 @@ impl Handle {
         config: EngineConfig,
         orders_in: triple_buffer::Input<Orders>,
         commands: Producer<Command>,
-        live: LiveInput,
+        live: Vec<LiveInput>,
         returned: Consumer<Returned>,
         scope: Consumer<f32>,
         status: triple_buffer::Output<Status>,
@@ -107,7 +107,7 @@ impl Handle {
             orders: Orders::default(),
             orders_in,
             commands,
-            live: Some(live),
+            live,
             returned,
             scope,
             status,
@@ -265,9 +265,10 @@ impl Handle {
         self.publish();
     }
 
-    /// The way in for a person's touches, for whoever reads the stylus: there is one, and it can be taken once.
+    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`], and the newest touch
+    /// of all counts: who holds two pens lifts one.
     pub fn take_live_input(&mut self) -> Option<LiveInput> {
-        self.live.take()
+        self.live.pop()
     }
 
     /// Ends the silence that a sample that was not finite has latched: a person has looked.
