@@ -4,6 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::import::source::Source;
 use crate::project::Edit;
+use crate::rig::Rig;
 use crate::save::FigureFile;
 use crate::workspace::Workspace;
 
@@ -34,6 +35,21 @@ pub enum Command {
     ListOutputs,
     /// Open the output with this identity.
     OpenOutput(String),
+    /// Open the sheet of devices.
+    OpenDevices,
+    /// Take over another rig.
+    SetRig(Box<Rig>),
+    /// Play a tone in the place of the texture: frequency in Hz, amplitude in m/s².
+    PlayTone {
+        /// In Hz.
+        frequency_hz: f64,
+        /// In m/s².
+        amplitude_mps2: f64,
+    },
+    /// End the tone.
+    StopTone,
+    /// Look for pens again.
+    ListPens,
     /// End the latched silence of the limiter.
     ResetLimiter,
     /// Open the sheet that imports files.
@@ -51,7 +67,7 @@ pub enum Command {
 }
 
 /// The commands that have a key.
-pub const WITH_KEYS: [Command; 8] = [
+pub const WITH_KEYS: [Command; 9] = [
     Command::Undo,
     Command::Redo,
     Command::Show(Workspace::Author),
@@ -60,6 +76,7 @@ pub const WITH_KEYS: [Command; 8] = [
     Command::ToggleHand,
     Command::ToggleMute,
     Command::ToggleTheme,
+    Command::OpenDevices,
 ];
 
 impl Command {
@@ -74,6 +91,7 @@ impl Command {
             Self::ToggleHand => (Modifiers::NONE, Key::Space),
             Self::ToggleMute => (Modifiers::NONE, Key::M),
             Self::ToggleTheme => (Modifiers::COMMAND, Key::T),
+            Self::OpenDevices => (Modifiers::COMMAND, Key::D),
             _ => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))

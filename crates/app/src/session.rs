@@ -7,10 +7,12 @@ mod making;
 mod models_ahead;
 mod open_library;
 mod path_walk;
+mod pen;
 mod places;
 mod player;
 
 use std::cell::OnceCell;
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
@@ -25,6 +27,7 @@ use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
 use shagreen_device::output::OutputInfo;
 use shagreen_device::status::Status;
+use shagreen_device::stylus::StylusInfo;
 use shagreen_device::touch::Touch;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::space_report::placed_library;
@@ -32,14 +35,17 @@ use shagreen_formats::space_report::placed_library;
 use crate::libraries::BuiltIn;
 use crate::pad::MouseReport;
 use crate::project::{Project, UsedSpace};
+use crate::rig::Rig;
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
 
+pub use self::pen::PenFacts;
 pub use self::player::OutputChoice;
 
 use self::heard::Heard;
 use self::models_ahead::ModelsAhead;
 use self::path_walk::PathWalk;
+use self::pen::Pen;
 use self::places::{Opened, attribute_names, join, places, poles_of};
 use self::player::Player;
 
@@ -49,6 +55,8 @@ pub const BAND_HZ: (f64, f64) = (10.0, 500.0);
 const N_FREQUENCIES: usize = 160;
 /// Parents that are shown one by one, in colors of their own.
 pub const N_SHOWN_PARENTS: usize = 3;
+/// How far back latencies are remembered, in seconds.
+pub const LATENCY_HISTORY_SECS: f64 = 10.0;
 /// How long the field may take before the window speaks of it, in seconds.
 const PATIENCE_SECS: f64 = 0.3;
 
@@ -103,6 +111,10 @@ pub struct Session {
     /// Where the stroke is on the path that is played.
     path_point: Option<SpacePoint>,
     player: Player,
+    rig: Rig,
+    pen: Pen,
+    /// Strokes and taps of late: when they were measured, and how late both were, in seconds.
+    latencies: VecDeque<(Instant, f32, f32)>,
     hand: Option<Hand>,
     scope: ScopeBuffer,
     /// The rate of what lies in the space, in Hz.
@@ -142,6 +154,9 @@ impl Session {
             walk_alone: None,
             path_point: None,
             player: Player::new(library.textures.len()),
+            rig: Rig::default(),
+            pen: Pen::default(),
+            latencies: VecDeque::new(),
             built_in: None,
             first: None,
             first_as: OnceCell::new(),
@@ -410,9 +425,14 @@ impl Session {
                 self.prepared[texture] = Some(prepared);
             }
         }
+        let n_touches = self.status().map_or(0, |status| status.latency.n_touches);
         if self.player.collect(&mut self.scope) {
             self.player.set_hand(self.hand);
+            self.pen.give(&mut self.player.pen_live);
         }
+        self.pen.collect();
+        self.player.set_pen_near(self.pen.is_near(), self.hand);
+        self.note_latency(n_touches);
         self.scope.update();
         let touching = self.touch().contact;
         let contact = if touching.force_n > 0.0 && touching.speed_mps > 1e-3 {
@@ -484,7 +504,83 @@ impl Session {
 
     /// Opens an output in the background; the one that is open closes when the new one is there.
     pub fn open_output(&mut self, choice: OutputChoice, ctx: &egui::Context) {
-        self.player.open(choice, self.rate_hz as f32, ctx.clone());
+        match self.rig.drive() {
+            Ok(drive) => self.player.open(choice, &self.rig, drive, self.rate_hz as f32, ctx.clone()),
+            Err(error) => self.say(error.to_string()),
+        }
+    }
+
+    /// How the output is opened, what hangs on it, and which pen is held.
+    pub fn rig(&self) -> &Rig {
+        &self.rig
+    }
+
+    /// Takes over another rig; the output is opened again where it depends on what changed.
+    pub fn set_rig(&mut self, rig: Rig, ctx: &egui::Context) {
+        let opens_again = self.rig.opens_unlike(&rig);
+        self.rig = rig;
+        self.pen.follow(&self.rig, &mut self.player.pen_live);
+        if let Some(id) = self.player.output_id.clone().filter(|_| opens_again) {
+            self.open_output(OutputChoice::Id(id), ctx);
+        }
+    }
+
+    /// Rate in Hz, channels and frames in a block of the open output.
+    pub fn stream(&self) -> Option<(u32, u16, Option<u32>)> {
+        self.player.stream()
+    }
+
+    /// Plays a tone in the place of the texture.
+    pub fn play_tone(&mut self, frequency_hz: f64, amplitude_mps2: f64) {
+        self.player.play_tone(frequency_hz, amplitude_mps2);
+    }
+
+    /// Ends the tone.
+    pub fn stop_tone(&mut self) {
+        self.player.stop_tone();
+    }
+
+    /// The latencies of late: seconds before now, of strokes and of taps in seconds; the oldest first.
+    pub fn latencies(&self) -> Vec<(f64, f32, f32)> {
+        let before = |time: &Instant| -time.elapsed().as_secs_f64();
+        self.latencies.iter().map(|(time, stroke, tap)| (before(time), *stroke, *tap)).collect()
+    }
+
+    fn note_latency(&mut self, n_touches_before: u64) {
+        let is_old = |(time, ..): &(Instant, f32, f32)| time.elapsed().as_secs_f64() > LATENCY_HISTORY_SECS;
+        while self.latencies.front().is_some_and(is_old) {
+            self.latencies.pop_front();
+        }
+        if let Some(latency) = self.status().map(|status| status.latency)
+            && latency.n_touches != n_touches_before
+        {
+            self.latencies.push_back((Instant::now(), latency.stroke_secs, latency.tap_secs));
+        }
+    }
+
+    /// The pens that can be chosen, as far as they are known yet.
+    pub fn pens(&self) -> &[StylusInfo] {
+        &self.pen.pens
+    }
+
+    /// Looks for pens in the background.
+    pub fn list_pens(&mut self, ctx: &egui::Context) {
+        self.pen.list(ctx.clone());
+    }
+
+    /// What the pen has said of itself, while it is read.
+    pub fn pen_facts(&self) -> Option<&PenFacts> {
+        self.pen.facts.as_ref()
+    }
+
+    /// Why the pen is not read.
+    pub fn pen_message(&self) -> Option<&str> {
+        self.pen.message.as_deref()
+    }
+
+    /// Pressure of the pen at the moment, 0..1, while it touches.
+    pub fn pen_pressure(&self) -> Option<f64> {
+        self.pen.moments.back().filter(|m| m.report.touching())?.report.pressure
     }
 
     /// Ends the latched silence of the limiter.

@@ -3,6 +3,7 @@
 use egui::{Align2, Context, FontId, Id, LayerId, Order, Stroke, StrokeKind};
 
 use crate::command::Command;
+use crate::devices::DevicesSheet;
 use crate::import::sheet::{ImportSheet, Surroundings};
 use crate::import::source::Source;
 use crate::save::SaveSheet;
@@ -21,6 +22,8 @@ pub(crate) enum Sheet {
     Import(Box<ImportSheet>),
     /// The library or a figure goes into a file.
     Save(SaveSheet),
+    /// The output, its actuator and the pen.
+    Devices(Box<DevicesSheet>),
 }
 
 impl Sheet {
@@ -49,6 +52,7 @@ impl Sheet {
                 sheet.show(ctx, around)
             }
             Self::Save(sheet) => sheet.show(ctx, session.library()),
+            Self::Devices(sheet) => sheet.show(ctx, session),
         };
         if matches!(self, Self::Save(sheet) if sheet.is_saving()) {
             // It stays until its outcome has been shown.

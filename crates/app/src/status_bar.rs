@@ -5,6 +5,7 @@ use shagreen_device::status::LinkState;
 
 use crate::command::Command;
 use crate::panel::Panel;
+use crate::session::Session;
 use crate::strings;
 use crate::theme::tokens;
 
@@ -14,7 +15,7 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.horizontal_centered(|ui| {
         let session = panel.session;
-        commands.extend(output_ui(ui, panel));
+        commands.extend(output_ui(ui, session));
         let weak = |ui: &mut Ui, text: String, help: &str| {
             ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).selectable(false))
                 .on_hover_text(help);
@@ -58,9 +59,9 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     commands
 }
 
-fn output_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
+/// The choice of outputs.
+pub(crate) fn output_ui(ui: &mut Ui, session: &Session) -> Option<Command> {
     let mut chosen = None;
-    let session = panel.session;
     let current = session.output_name().unwrap_or(if session.is_opening() {
         strings::OPENING
     } else {

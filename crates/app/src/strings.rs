@@ -3,9 +3,12 @@
 use shagreen_core::space::SpacePoint;
 
 pub mod build;
+pub mod devices;
 pub mod import;
 pub mod path;
 
+/// The output takes no more at the moment.
+pub const OUTPUT_BUSY: &str = "The output is busy; try again";
 /// Name of the program.
 pub const APP: &str = "Shagreen";
 /// Left end of the first axis.

@@ -5,11 +5,13 @@ use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Ui};
 use shagreen_core::units::Contact;
+use shagreen_formats::actuator_toml::built_in_actuators;
 use shagreen_formats::library::Library;
 
 use crate::build::page::BuildPage;
 use crate::canvas::{PathTool, canvas_ui, point_id};
 use crate::command::{Command, pressed};
+use crate::devices::DevicesSheet;
 use crate::history::{Gesture, History};
 use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
@@ -199,6 +201,11 @@ impl Window {
                 if ui.button(to).clicked() {
                     commands.push(Command::ToggleTheme);
                 }
+                let keys = Command::OpenDevices.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let help = format!("{} ({keys})", strings::devices::OPEN_HELP);
+                if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
+                    commands.push(Command::OpenDevices);
+                }
                 let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
                 if ui.selectable_label(self.session.is_muted(), mute).clicked() {
                     commands.push(Command::ToggleMute);
@@ -290,6 +297,21 @@ impl Window {
             Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
             Command::ResetLimiter => self.session.reset_limiter(),
+            Command::OpenDevices => match built_in_actuators() {
+                Ok(actuators) => {
+                    self.session.list_outputs(ctx);
+                    self.session.list_pens(ctx);
+                    let sheet = DevicesSheet::new(self.session.rig(), actuators);
+                    self.sheet = Sheet::Devices(Box::new(sheet));
+                }
+                Err(error) => self.session.say(error.to_string()),
+            },
+            Command::SetRig(rig) => self.session.set_rig(*rig, ctx),
+            Command::PlayTone { frequency_hz, amplitude_mps2 } => {
+                self.session.play_tone(frequency_hz, amplitude_mps2);
+            }
+            Command::StopTone => self.session.stop_tone(),
+            Command::ListPens => self.session.list_pens(ctx),
             Command::OpenImport => self.sheet.import(Vec::new(), ctx),
             Command::Import(sources) => self.sheet.import(sources, ctx),
             Command::Show(workspace) => self.workspace = workspace,

@@ -10,9 +10,11 @@ use std::sync::{Arc, OnceLock};
 pub use crate::authoring::models::{Models, ModelsError};
 pub use crate::sampled::Layers;
 
+use self::layers::mean_tap;
 use crate::blend::{Mode, inverse_distance};
 use crate::natural_neighbor::NaturalNeighbors;
 use crate::space::{Location, Space, SpacePoint};
+use crate::tap::Tap;
 use crate::texture::TextureModel;
 
 /// Which textures have a say at a point, and how much, in the modes that blend a few.
@@ -153,6 +155,16 @@ impl Authored {
             // Without the rest, a part of a locked texture would only be too quiet.
             None => lock.filter(|(_, share)| *share == 1.0).into_iter().collect(),
         }
+    }
+
+    /// What a landing sounds like: the weighted geometric mean of what is known of the voices' landings; `of` tells that of
+    /// a texture of the library.
+    pub fn tap(&self, of: impl Fn(usize) -> Option<Tap>) -> Option<Tap> {
+        let known = |(voice, share): (Voice<'_>, f64)| match voice {
+            Voice::Texture(texture) => (of(texture), share),
+            Voice::Made(model) => (model.tap(), share),
+        };
+        mean_tap(self.voices().into_iter().map(known))
     }
 
     /// How the voices are mixed: what was made is one signal, and joins a locked texture under one excitation.

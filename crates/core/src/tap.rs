@@ -31,6 +31,16 @@ impl Tap {
     }
 }
 
+impl From<Tap> for shagreen_synth::tap::Tap {
+    fn from(tap: Tap) -> Self {
+        Self {
+            frequency_hz: tap.frequency.0 as f32,
+            decay_per_sec: tap.decay_per_sec as f32,
+            amplitude_mps2: tap.amplitude_mps2 as f32,
+        }
+    }
+}
+
 /// The oscillation that stands for the landings of some recordings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landed {

@@ -8,6 +8,7 @@ use shagreen_core::blend::Mode;
 use shagreen_core::rate::at_rate;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::units::Hertz;
+use shagreen_device::synth::tap::Tap;
 
 use super::Session;
 use super::heard::Heard;
@@ -75,6 +76,9 @@ impl Session {
             return;
         }
         self.heard = heard;
+        let tap_of = |texture: usize| self.library.textures[texture].model.tap();
+        let tap = self.authored.as_ref().and_then(|authored| authored.tap(tap_of));
+        self.player.tap = tap.map_or(Tap::SILENT, Tap::from);
         self.player.mix_is_new = true;
     }
 

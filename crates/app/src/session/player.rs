@@ -7,28 +7,28 @@ use shagreen_core::authoring::Blending;
 use shagreen_core::plane::Prepared;
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
-use shagreen_device::controls::{Drive, Input};
-use shagreen_device::engine::{ChannelMask, Handle, LoadError, LoadReason, SLOTS};
+use shagreen_device::controls::{Controls, Drive, Input};
+use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
 use shagreen_device::error::DeviceError;
 use shagreen_device::hand::Hand;
 use shagreen_device::live::LiveInput;
-use shagreen_device::output::{
-    NULL_ID, OpenOptions, OutputInfo, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, list_outputs,
-    open,
-};
+use shagreen_device::output::{NULL_ID, OpenOptions, OutputInfo, Running, list_outputs, open};
+use shagreen_device::signal::Signal;
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::stylus::MouseStylus;
 use shagreen_device::synth::drive::DriveConfig;
 use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
+use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 
 use super::heard::{Heard, Made, Source};
 use crate::pad::MouseReport;
+use crate::rig::Rig;
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
 
-/// Frames in a block: 5 ms at 48 kHz.
-const BLOCK_FRAMES: u32 = 256;
+/// Length of a test tone, in seconds.
+const TONE_SECS: f64 = 2.0;
 /// Textures kept loaded; the least recently heard makes room.
 const KEPT: usize = SLOTS - 16;
 
@@ -75,6 +75,8 @@ pub(super) struct Player {
     /// What the mix was last worked out for: the point, the blending, what is heard alone, and where on its path.
     pub(super) wanted: Option<(SpacePoint, Blending, Option<usize>, Option<usize>)>,
     pub(super) mix_is_new: bool,
+    /// What landings sound like, from the next mix on.
+    pub(super) tap: Tap,
     pub(super) outputs: Vec<OutputInfo>,
     pub(super) output_id: Option<String>,
     pub(super) message: Option<String>,
@@ -84,6 +86,9 @@ pub(super) struct Player {
     handle: Option<Handle>,
     running: Option<Running>,
     live: Option<LiveInput>,
+    /// The way in for a pen, until it is given away.
+    pub(super) pen_live: Option<LiveInput>,
+    pen_is_near: bool,
     opening: Option<Receiver<Opened>>,
     listing: Option<Receiver<Vec<OutputInfo>>>,
     /// Slot of each texture of the library, and when it was last in a mix.
@@ -100,6 +105,7 @@ impl Player {
         Self {
             wanted: None,
             mix_is_new: false,
+            tap: Tap::SILENT,
             outputs: Vec::new(),
             output_id: None,
             message: None,
@@ -109,6 +115,8 @@ impl Player {
             handle: None,
             running: None,
             live: None,
+            pen_live: None,
+            pen_is_near: false,
             opening: None,
             listing: None,
             slots: vec![None; n_textures],
@@ -130,7 +138,14 @@ impl Player {
         self.listing = Some(receiver);
     }
 
-    pub(super) fn open(&mut self, choice: OutputChoice, model_rate_hz: f32, ctx: egui::Context) {
+    pub(super) fn open(
+        &mut self,
+        choice: OutputChoice,
+        rig: &Rig,
+        drive: DriveConfig,
+        model_rate_hz: f32,
+        ctx: egui::Context,
+    ) {
         let is_same = matches!(&choice, OutputChoice::Id(id) if self.output_id.as_ref() == Some(id));
         if is_same || self.status.is_some_and(|s| s.state == LinkState::Lost) {
             // Some devices can be held only once: let go before asking again.
@@ -140,10 +155,10 @@ impl Player {
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
-            buffer_frames: Some(BLOCK_FRAMES),
+            buffer_frames: Some(rig.buffer_frames),
             seed: 1,
-            drive: DriveConfig::proportional(UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING),
-            channels: ChannelMask::FIRST_TWO,
+            drive,
+            channels: rig.channels(),
         };
         std::thread::spawn(move || {
             let _ = sender.send(choice.open(options));
@@ -201,6 +216,7 @@ impl Player {
                 let config = handle.config();
                 *scope = ScopeBuffer::new(f64::from(config.device_rate_hz), f64::from(config.model_rate_hz));
                 self.live = handle.take_live_input();
+                self.pen_live = handle.take_live_input();
                 handle.set_drive(Drive { muted: self.muted, ..Drive::default() });
                 self.output_id = Some(running.id().to_owned());
                 // The old output falls silent only now that the new one stands.
@@ -232,7 +248,7 @@ impl Player {
             *parent = Parent { id, weight: voice.share as f32 };
         }
         if let Some(handle) = &mut self.handle
-            && handle.set_mix(mix).is_ok()
+            && handle.set_controls(Controls { mix, tap: self.tap, ..handle.controls() }).is_ok()
         {
             self.mix_is_new = false;
             let is_sounding =
@@ -320,6 +336,7 @@ impl Player {
     pub(super) fn set_hand(&mut self, hand: Option<Hand>) {
         if let Some(handle) = &mut self.handle
             && !self.mouse_is_down
+            && !self.pen_is_near
         {
             handle.set_input(hand.map_or(Input::Lifted, Input::Hand));
         }
@@ -328,6 +345,10 @@ impl Player {
     pub(super) fn mouse(&mut self, report: MouseReport, force_n: f32, hand: Option<Hand>) {
         let now = Instant::now();
         let time_secs = now.duration_since(self.started).as_secs_f64();
+        if self.pen_is_near {
+            // The system moves the mouse along with the pen.
+            return;
+        }
         self.stylus.set_force_n(f64::from(force_n));
         let touch = self.stylus.report(time_secs, report.x_m, report.y_m, report.pressed);
         if let Some(live) = &mut self.live {
@@ -343,6 +364,43 @@ impl Player {
             } else {
                 self.set_hand(hand);
             }
+        }
+    }
+
+    /// A pen that is near is the hand: it must be heard from the moment it touches.
+    pub(super) fn set_pen_near(&mut self, is_near: bool, hand: Option<Hand>) {
+        if is_near == self.pen_is_near {
+            return;
+        }
+        self.pen_is_near = is_near;
+        self.mouse_is_down = false;
+        if !is_near {
+            self.set_hand(hand);
+        } else if let Some(handle) = &mut self.handle {
+            handle.set_input(Input::Live);
+        }
+    }
+
+    pub(super) fn stream(&self) -> Option<(u32, u16, Option<u32>)> {
+        self.running.as_ref().map(|r| (r.rate_hz(), r.channels(), r.buffer_frames()))
+    }
+
+    pub(super) fn play_tone(&mut self, frequency_hz: f64, amplitude_mps2: f64) {
+        let Some(handle) = &mut self.handle else { return };
+        let rate_hz = f64::from(handle.config().device_rate_hz);
+        match Signal::tone(frequency_hz, amplitude_mps2, TONE_SECS, rate_hz) {
+            Ok(tone) => {
+                if handle.play_signal(tone).is_err() {
+                    self.message = Some(strings::OUTPUT_BUSY.to_owned());
+                }
+            }
+            Err(error) => self.message = Some(error.to_string()),
+        }
+    }
+
+    pub(super) fn stop_tone(&mut self) {
+        if let Some(handle) = &mut self.handle {
+            handle.stop_signal();
         }
     }
 

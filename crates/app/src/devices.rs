@@ -1,0 +1,139 @@
+//! The sheet of devices: the output and its actuator, the pen, and how late they are.
+
+mod actuator_ui;
+mod latency_ui;
+mod output_ui;
+mod pen_ui;
+
+use egui::{Align, Context, Key, Label, Layout, Modal, RichText, ScrollArea, Ui, vec2};
+use shagreen_core::actuator::Actuator;
+
+use crate::command::Command;
+use crate::rig::Rig;
+use crate::session::Session;
+use crate::strings::devices as strings;
+use crate::theme::{GAP, GROUP_GAP, tokens};
+
+/// Room that the sheet leaves around itself.
+const AROUND: f32 = 24.0;
+/// Widest that the sheet grows.
+const MAX_SIZE: egui::Vec2 = vec2(1040.0, 760.0);
+
+/// The sheet, as long as it is open.
+pub struct DevicesSheet {
+    /// The rig as it is being changed; it is taken over when nothing is held any more.
+    rig: Rig,
+    built_in: Vec<Actuator>,
+    /// The actuator as it is in its profile, before another load.
+    profile: Option<Actuator>,
+    load_g: Option<f64>,
+    profile_path: String,
+    message: Option<String>,
+    tone_hz: f64,
+    tone_mps2: f64,
+}
+
+impl DevicesSheet {
+    /// The sheet on a rig.
+    pub fn new(rig: &Rig, built_in: Vec<Actuator>) -> Self {
+        let profile = rig.actuator.as_ref();
+        let original = profile.map(|a| built_in.iter().find(|b| b.id == a.id).unwrap_or(a).clone());
+        Self {
+            load_g: profile.and_then(|a| a.measured?.load).map(|load| load.g()),
+            profile: original,
+            rig: rig.clone(),
+            built_in,
+            profile_path: String::new(),
+            message: None,
+            tone_hz: 100.0,
+            tone_mps2: 1.0,
+        }
+    }
+
+    /// Draws the sheet over the window and returns what the user asked of it.
+    pub fn show(&mut self, ctx: &Context, session: &Session) -> Vec<Command> {
+        let t = tokens(ctx);
+        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
+        let size = (ctx.content_rect().size() - vec2(2.0 * AROUND, 2.0 * AROUND)).min(MAX_SIZE);
+        let inner = size - vec2(28.0, 28.0);
+        let shown = Modal::new(egui::Id::unique("devices sheet")).frame(frame).show(ctx, |ui| {
+            ui.set_min_size(inner);
+            ui.set_max_size(inner);
+            self.content_ui(ui, session)
+        });
+        let mut commands = shown.inner;
+        // What is dragged is taken over when it is let go: every change of the output interrupts it.
+        let is_held = ctx.input(|i| i.pointer.any_down()) || ctx.text_edit_focused();
+        if !is_held && self.rig != *session.rig() {
+            commands.push(Command::SetRig(Box::new(self.rig.clone())));
+        }
+        if !shown.any_popup_open && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape)) {
+            commands.push(Command::CloseSheet);
+        }
+        commands
+    }
+
+    fn content_ui(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.horizontal(|ui| {
+            ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if ui.button(strings::CLOSE).clicked() {
+                    commands.push(Command::CloseSheet);
+                }
+            });
+        });
+        ui.add_space(GAP);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            let width = 0.5 * (ui.available_width() - 2.0 * GROUP_GAP);
+            let column = Layout::top_down(Align::Min);
+            ui.horizontal_top(|ui| {
+                ui.allocate_ui_with_layout(vec2(width, 0.0), column, |ui| {
+                    ui.set_width(width);
+                    commands.extend(self.output_ui(ui, session));
+                    ui.add_space(GROUP_GAP);
+                    latency_ui::latency_ui(ui, session);
+                });
+                ui.add_space(GROUP_GAP);
+                ui.allocate_ui_with_layout(vec2(width, 0.0), column, |ui| {
+                    ui.set_width(width);
+                    self.actuator_ui(ui);
+                    ui.add_space(GROUP_GAP);
+                    commands.extend(self.pen_ui(ui, session));
+                });
+            });
+        });
+        commands
+    }
+}
+
+/// The heading of a part.
+fn heading(ui: &mut Ui, text: &str) {
+    ui.add(Label::new(RichText::new(text).strong()).selectable(false));
+}
+
+/// A line that explains.
+fn note(ui: &mut Ui, text: &str) {
+    let weak = tokens(ui.ctx()).text_weak;
+    ui.add(Label::new(RichText::new(text).small().color(weak)).wrap());
+}
+
+/// A line that warns.
+fn warning(ui: &mut Ui, text: &str) {
+    let color = tokens(ui.ctx()).warning;
+    ui.add(Label::new(RichText::new(text).small().color(color)).wrap());
+}
+
+/// The label of a row, before its control.
+fn row(ui: &mut Ui, text: &str, control: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        ui.allocate_ui_with_layout(vec2(ROW_LABEL_WIDTH, 20.0), Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(ROW_LABEL_WIDTH);
+            ui.add(Label::new(text).selectable(false));
+        });
+        control(ui);
+    });
+}
+
+/// Width of the labels of rows.
+const ROW_LABEL_WIDTH: f32 = 168.0;

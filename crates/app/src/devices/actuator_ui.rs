@@ -1,0 +1,162 @@
+//! The actuator: which, what it carries, what drives it, and what it stands.
+
+use std::path::Path;
+
+use egui::{Button, Checkbox, ComboBox, DragValue, TextEdit, Ui};
+use egui_plot::{GridMark, Line, Plot, PlotPoints};
+use shagreen_core::actuator::Actuator;
+use shagreen_core::units::{Hertz, Kilograms};
+use shagreen_device::synth::equalizer::Biquad;
+use shagreen_formats::actuator_toml::read_actuator;
+
+use super::{DevicesSheet, heading, note, row, warning};
+use crate::scope::fixed;
+use crate::strings::devices as strings;
+use crate::theme::tokens;
+
+/// Height of the graph.
+const HEIGHT: f32 = 110.0;
+/// Rate at which the equalizer is drawn, in Hz.
+const DRAWN_RATE_HZ: f64 = 48_000.0;
+
+impl DevicesSheet {
+    pub(super) fn actuator_ui(&mut self, ui: &mut Ui) {
+        heading(ui, strings::ACTUATOR);
+        row(ui, strings::ACTUATOR, |ui| self.choice_ui(ui));
+        row(ui, strings::PROFILE_PATH, |ui| self.file_ui(ui));
+        if let Some(message) = &self.message {
+            warning(ui, message);
+        }
+        let Some(actuator) = self.rig.actuator.clone() else {
+            row(ui, strings::FULL_SCALE, |ui| {
+                let value = DragValue::new(&mut self.rig.full_scale_mps2).range(0.1..=1000.0).speed(0.1);
+                let value = value.suffix(" m/s²");
+                ui.add(value).accessible_name(strings::FULL_SCALE).on_hover_text(strings::FULL_SCALE_HELP);
+            });
+            return;
+        };
+        row(ui, strings::VOLTS, |ui| {
+            let value = DragValue::new(&mut self.rig.full_scale_volts).range(0.01..=100.0).speed(0.01);
+            ui.add(value.suffix(" V")).accessible_name(strings::VOLTS).on_hover_text(strings::VOLTS_HELP);
+        });
+        if let Some(load_g) = &mut self.load_g {
+            let before = *load_g;
+            row(ui, strings::LOAD, |ui| {
+                let value = DragValue::new(load_g).range(1.0..=2000.0).speed(1.0).suffix(" g");
+                ui.add(value).accessible_name(strings::LOAD).on_hover_text(strings::LOAD_HELP);
+            });
+            if *load_g != before {
+                let load = Kilograms::from_g(*load_g);
+                self.take(self.profile.clone(), Some(load));
+            }
+        }
+        match actuator.response() {
+            Ok(response) => {
+                let equalize = Checkbox::new(&mut self.rig.equalizes, strings::EQUALIZE);
+                ui.add(equalize).on_hover_text(strings::EQUALIZE_HELP);
+                let load_g = actuator.measured.and_then(|m| m.load).map(Kilograms::g);
+                let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
+                note(ui, &strings::response(hz, q, gain, load_g));
+                response_ui(ui, &actuator, self.rig.equalizes);
+            }
+            Err(error) => warning(ui, &error.to_string()),
+        }
+        let limits = actuator.limits;
+        note(ui, &strings::limits(limits.rated_volts_rms.map(|v| v.0), limits.peak_volts.map(|v| v.0)));
+        note(ui, &actuator.source);
+    }
+
+    fn choice_ui(&mut self, ui: &mut Ui) {
+        let chosen = self.rig.actuator.as_ref().map_or(strings::UNCALIBRATED, |a| a.name.as_str()).to_owned();
+        let mut taken = None;
+        let combo = ComboBox::from_id_salt("actuator").width(260.0).truncate().selected_text(&chosen);
+        let shown = combo.show_ui(ui, |ui| {
+            if ui.selectable_label(self.rig.actuator.is_none(), strings::UNCALIBRATED).clicked() {
+                taken = Some(None);
+            }
+            for actuator in &self.built_in {
+                let is_chosen = self.rig.actuator.as_ref().is_some_and(|a| a.id == actuator.id);
+                if ui.selectable_label(is_chosen, &actuator.name).on_hover_text(&actuator.maker).clicked() {
+                    taken = Some(Some(actuator.clone()));
+                }
+            }
+        });
+        shown.response.accessible_name(strings::ACTUATOR).on_hover_text(strings::ACTUATOR_HELP);
+        if let Some(actuator) = taken {
+            self.take(actuator, None);
+        }
+    }
+
+    fn file_ui(&mut self, ui: &mut Ui) {
+        let field = TextEdit::singleline(&mut self.profile_path).hint_text(strings::PROFILE_HINT);
+        ui.add(field.desired_width(200.0)).accessible_name(strings::PROFILE_PATH);
+        let path = self.profile_path.trim().to_owned();
+        if ui.add_enabled(!path.is_empty(), Button::new(strings::OPEN_PROFILE)).clicked() {
+            let read = std::fs::read(Path::new(&path)).map_err(anyhow::Error::from);
+            match read.and_then(|bytes| Ok(read_actuator(&bytes)?)) {
+                Ok(actuator) => {
+                    if let Some(volts) = actuator.calibrated.map(|c| c.full_scale.0) {
+                        // It was measured at this voltage: what it says holds there.
+                        self.rig.full_scale_volts = volts;
+                    }
+                    self.take(Some(actuator), None);
+                }
+                Err(error) => self.message = Some(format!("{path}: {error}")),
+            }
+        }
+    }
+
+    /// Takes an actuator, on another load than its profile's where one is given.
+    fn take(&mut self, profile: Option<Actuator>, load: Option<Kilograms>) {
+        let on_load = match (&profile, load) {
+            (Some(actuator), Some(load)) => actuator.at_load(load).map(Some),
+            _ => Ok(profile.clone()),
+        };
+        match on_load {
+            Ok(actuator) => {
+                if load.is_none() {
+                    self.load_g = actuator.as_ref().and_then(|a| a.measured?.load).map(Kilograms::g);
+                }
+                (self.rig.actuator, self.profile, self.message) = (actuator, profile, None);
+            }
+            Err(error) => self.message = Some(error.to_string()),
+        }
+    }
+}
+
+/// What the actuator does, with and without the equalizer, over frequency.
+fn response_ui(ui: &mut Ui, actuator: &Actuator, equalizes: bool) {
+    let t = tokens(ui.ctx());
+    let Ok(response) = actuator.response() else { return };
+    let inverse = Biquad::bounded_inverse(response.resonance_for_synth(), actuator.lowest.0, DRAWN_RATE_HZ);
+    let frequencies = (0..120).map(|i| 10.0 * 100.0_f64.powf(f64::from(i) / 119.0));
+    let db = |share: f64| 20.0 * share.max(1e-6).log10();
+    let gain = response.gain_mps2_per_v();
+    let bare: PlotPoints<'_> = frequencies
+        .clone()
+        .map(|hz| [hz.log10(), db(response.magnitude_at(Hertz(hz)) / gain)])
+        .collect();
+    let equalized: PlotPoints<'_> = frequencies
+        .map(|hz| [hz.log10(), db(response.magnitude_at(Hertz(hz)) * inverse.gain(hz, DRAWN_RATE_HZ))])
+        .collect();
+    let marks = |_: egui_plot::GridInput| {
+        [10.0_f64, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0]
+            .map(|hz| GridMark { value: hz.log10(), step_size: 0.3 })
+            .to_vec()
+    };
+    fixed(Plot::new("response"), t.line)
+        .height(HEIGHT)
+        .x_grid_spacer(marks)
+        .x_axis_formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)))
+        .y_axis_formatter(|mark, _| format!("{:.0} dB", mark.value + 0.0))
+        .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [40.0, 20.0, 20.0]))
+        .show(ui, |plot| {
+            plot.set_plot_bounds_x(1.0..=3.0);
+            plot.set_plot_bounds_y(-40.0..=30.0);
+            let (weak, strong) = (t.text_weak, t.accent);
+            plot.line(Line::new("", bare).color(if equalizes { weak } else { strong }).width(1.5));
+            if equalizes {
+                plot.line(Line::new("", equalized).color(strong).width(2.0));
+            }
+        });
+}

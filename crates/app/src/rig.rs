@@ -1,0 +1,101 @@
+//! The rig: how the output is opened, which actuator hangs on it, and which pen is held. It belongs to the machine, not to
+//! the project: undo does not touch it.
+
+use shagreen_core::actuator::{Actuator, Drive, drive_config};
+use shagreen_core::units::Volts;
+use shagreen_device::engine::ChannelMask;
+use shagreen_device::output::{UNCALIBRATED_FULL_SCALE_MPS2, USUAL_BUFFER_FRAMES, USUAL_CEILING};
+use shagreen_device::pressure::PressureMap;
+use shagreen_device::synth::drive::DriveConfig;
+
+/// Sizes of buffers that can be chosen, in frames.
+pub const BUFFERS: [u32; 6] = [32, 64, 128, 256, 512, 1024];
+
+/// What stands around the program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    /// Frames of the output's buffer.
+    pub buffer_frames: u32,
+    /// The only channel that is driven, counted from zero; without it the first two.
+    pub channel: Option<usize>,
+    /// The actuator, on what it carries; without it drive is in proportion to acceleration.
+    pub actuator: Option<Actuator>,
+    /// Whether the actuator's response is undone.
+    pub equalizes: bool,
+    /// Volts at the actuator when the output is at full scale.
+    pub full_scale_volts: f64,
+    /// Acceleration at full scale in m/s², where no actuator is known.
+    pub full_scale_mps2: f64,
+    /// The pen that is read, by its id.
+    pub pen: Option<String>,
+    /// From pressure to force, for pens that tell no force.
+    pub pressure_map: PressureMap,
+    /// Width and height of the pen's area in mm, for pens that do not tell it.
+    pub pen_size_mm: Option<[f64; 2]>,
+}
+
+impl Default for Rig {
+    fn default() -> Self {
+        Self {
+            buffer_frames: USUAL_BUFFER_FRAMES,
+            channel: None,
+            actuator: None,
+            equalizes: true,
+            full_scale_volts: 1.0,
+            full_scale_mps2: f64::from(UNCALIBRATED_FULL_SCALE_MPS2),
+            pen: None,
+            pressure_map: PressureMap::USUAL,
+            pen_size_mm: None,
+        }
+    }
+}
+
+impl Rig {
+    /// How acceleration becomes drive.
+    ///
+    /// # Errors
+    /// Says what of the actuator does not go together.
+    pub fn drive(&self) -> anyhow::Result<DriveConfig> {
+        match &self.actuator {
+            None => Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING)),
+            Some(actuator) => {
+                Ok(drive_config(actuator, Drive::new(Volts(self.full_scale_volts))?, self.equalizes)?)
+            }
+        }
+    }
+
+    /// The channels that are driven.
+    pub fn channels(&self) -> ChannelMask {
+        self.channel.map_or(ChannelMask::FIRST_TWO, ChannelMask::only)
+    }
+
+    /// Whether an output that was opened for `other` must be opened again.
+    pub fn opens_unlike(&self, other: &Self) -> bool {
+        let opening = |rig: &Self| {
+            (
+                rig.buffer_frames,
+                rig.channel,
+                rig.actuator.clone(),
+                rig.equalizes,
+                rig.full_scale_volts,
+                rig.full_scale_mps2,
+            )
+        };
+        opening(self) != opening(other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Rig;
+
+    #[test]
+    fn only_what_the_output_depends_on_opens_it_again() {
+        let rig = Rig::default();
+        let other = Rig { pen: Some("hid:056a:0061".into()), pen_size_mm: Some([100.0, 80.0]), ..rig.clone() };
+        assert!(!rig.opens_unlike(&other));
+        assert!(rig.opens_unlike(&Rig { buffer_frames: 64, ..rig.clone() }));
+        assert!(rig.opens_unlike(&Rig { channel: Some(1), ..rig.clone() }));
+        assert!(rig.opens_unlike(&Rig { full_scale_mps2: 5.0, ..rig.clone() }));
+    }
+}

@@ -1,0 +1,125 @@
+//! The pen that is read beside the mouse: what it says, and whether it is near.
+
+use std::collections::VecDeque;
+use std::sync::mpsc::{Receiver, channel};
+
+use shagreen_device::hid::live::{PenNotice, PenOptions, PenThread};
+use shagreen_device::hid::system::SystemPens;
+use shagreen_device::hid::tracker::{PenMoment, TrackerOptions};
+use shagreen_device::kinematics::SpeedFilter;
+use shagreen_device::live::LiveInput;
+use shagreen_device::stylus::{StylusInfo, StylusKind, list_styluses};
+
+use crate::rig::Rig;
+
+/// Moments that are kept to be shown.
+const KEPT: usize = 512;
+
+/// What a pen has said of itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PenFacts {
+    /// Its name.
+    pub name: String,
+    /// Width and height of its area in m, told or given.
+    pub size_m: Option<[f64; 2]>,
+    /// Whether it tells pressure.
+    pub has_pressure: bool,
+    /// Force at full pressure in N, where it tells force.
+    pub full_n: Option<f64>,
+}
+
+/// A thread that reads a pen, and the newest of what it told.
+#[derive(Default)]
+pub(super) struct Pen {
+    thread: Option<PenThread>,
+    id: Option<String>,
+    pub(super) pens: Vec<StylusInfo>,
+    listing: Option<Receiver<Vec<StylusInfo>>>,
+    pub(super) facts: Option<PenFacts>,
+    pub(super) message: Option<String>,
+    pub(super) moments: VecDeque<PenMoment>,
+}
+
+impl Pen {
+    /// Looks for pens.
+    pub(super) fn list(&mut self, ctx: egui::Context) {
+        let (sender, receiver) = channel();
+        std::thread::spawn(move || {
+            let mut found = list_styluses().styluses;
+            found.retain(|stylus| stylus.kind == StylusKind::Pen);
+            // The window may have closed meanwhile: then nobody asks any more.
+            let _ = sender.send(found);
+            ctx.request_repaint();
+        });
+        self.listing = Some(receiver);
+    }
+
+    /// Reads the pen that is chosen, the way that it is set; `live` is taken where a thread is started.
+    pub(super) fn follow(&mut self, rig: &Rig, live: &mut Option<LiveInput>) {
+        if self.id == rig.pen {
+            if let Some(thread) = &self.thread {
+                thread.set_pressure_map(rig.pressure_map);
+                thread.set_size_m(size_m(rig));
+            }
+            return;
+        }
+        self.id.clone_from(&rig.pen);
+        (self.thread, self.facts, self.message) = (None, None, None);
+        self.moments.clear();
+        let Some(id) = rig.pen.clone() else { return };
+        let tracking =
+            TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: rig.pressure_map };
+        let options = PenOptions { id, tracking, size_m: size_m(rig) };
+        match PenThread::start(SystemPens, options, live.take()) {
+            Ok(thread) => self.thread = Some(thread),
+            Err(error) => self.message = Some(error.to_string()),
+        }
+    }
+
+    /// Touches go to another engine from now on.
+    pub(super) fn give(&mut self, live: &mut Option<LiveInput>) {
+        if let Some(thread) = &self.thread
+            && let Some(live) = live.take()
+        {
+            thread.set_live(live);
+        }
+    }
+
+    /// Takes in what the thread told.
+    pub(super) fn collect(&mut self) {
+        if let Some(pens) = self.listing.as_ref().and_then(|r| r.try_recv().ok()) {
+            self.pens = pens;
+            self.listing = None;
+        }
+        let Some(thread) = &mut self.thread else { return };
+        while let Some(moment) = thread.next_moment() {
+            if self.moments.len() == KEPT {
+                self.moments.pop_front();
+            }
+            self.moments.push_back(moment);
+        }
+        while let Some(notice) = thread.next_notice() {
+            match notice {
+                PenNotice::Connected { pen, size_m, has_pressure, full_n } => {
+                    self.facts = Some(PenFacts { name: pen.name, size_m, has_pressure, full_n });
+                    self.message = None;
+                }
+                PenNotice::Lost(error) | PenNotice::Waiting(error) => {
+                    self.facts = None;
+                    self.moments.clear();
+                    self.message = Some(error.to_string());
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether the pen is read and near: then it is the hand.
+    pub(super) fn is_near(&self) -> bool {
+        self.facts.is_some() && self.moments.back().is_some_and(|m| m.report.in_range || m.report.touching())
+    }
+}
+
+fn size_m(rig: &Rig) -> Option<[f64; 2]> {
+    rig.pen_size_mm.map(|mm| mm.map(|x| 1e-3 * x))
+}
