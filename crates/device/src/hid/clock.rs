@@ -19,9 +19,10 @@ pub struct ReportClock {
 
 #[derive(Clone, Copy, Debug)]
 struct Last {
-    arrival_secs: f64,
-    reading_secs: Option<f64>,
-    time_secs: f64,
+    /// All in s.
+    arrival: f64,
+    reading: Option<f64>,
+    time: f64,
 }
 
 impl ReportClock {
@@ -34,22 +35,22 @@ impl ReportClock {
     pub fn time_secs(&mut self, arrival_secs: f64, reading_secs: Option<f64>) -> f64 {
         let time_secs = match self.last {
             None => arrival_secs,
-            Some(last) => self.next_secs(last, arrival_secs, reading_secs).max(last.time_secs),
+            Some(last) => self.next_secs(last, arrival_secs, reading_secs).max(last.time),
         };
-        self.last = Some(Last { arrival_secs, reading_secs, time_secs });
+        self.last = Some(Last { arrival: arrival_secs, reading: reading_secs, time: time_secs });
         time_secs
     }
 
     fn next_secs(&mut self, last: Last, arrival_secs: f64, reading_secs: Option<f64>) -> f64 {
         let is_trusted = self.n_disagreements < MAX_DISAGREEMENTS;
         let Some(round_secs) = self.round_secs.filter(|_| is_trusted) else { return arrival_secs };
-        let Some((before_secs, now_secs)) = last.reading_secs.zip(reading_secs) else { return arrival_secs };
-        let time_secs = last.time_secs + (now_secs - before_secs).rem_euclid(round_secs);
+        let Some((before_secs, now_secs)) = last.reading.zip(reading_secs) else { return arrival_secs };
+        let time_secs = last.time + (now_secs - before_secs).rem_euclid(round_secs);
         if (time_secs - arrival_secs).abs() <= MAX_DISAGREEMENT_SECS {
             return time_secs;
         }
         // After a pause anything goes: only what happens between reports that follow each other counts.
-        if arrival_secs - last.arrival_secs <= MAX_DISAGREEMENT_SECS {
+        if arrival_secs - last.arrival <= MAX_DISAGREEMENT_SECS {
             self.n_disagreements += 1;
         }
         arrival_secs

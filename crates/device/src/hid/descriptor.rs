@@ -61,6 +61,7 @@ pub struct Collection {
 }
 
 /// Fields of one main item: `count` equal ones in a row.
+#[expect(clippy::struct_excessive_bools, reason = "the flags of a main item are independent bits")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
     /// The innermost collection around them, as an index into [`Descriptor::collections`].
@@ -205,7 +206,7 @@ impl Field {
         let bits = bytes.iter().rev().fold(0_u64, |bits, byte| bits << 8 | u64::from(*byte));
         let bits = bits >> (start % 8) & ((1 << self.bit_size) - 1);
         let is_negative = self.logical_min < 0 && bits >> (self.bit_size - 1) == 1;
-        Some(bits as i64 - if is_negative { 1 << self.bit_size } else { 0 })
+        Some(bits.cast_signed() - if is_negative { 1 << self.bit_size } else { 0 })
     }
 }
 
@@ -236,4 +237,4 @@ impl Descriptor {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

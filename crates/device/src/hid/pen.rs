@@ -11,6 +11,7 @@ use crate::hid::descriptor::Descriptor;
 use crate::hid::pen::fields::{PenFields, Slot};
 
 /// One report of a pen, in SI units where the device states them.
+#[expect(clippy::struct_excessive_bools, reason = "a pen has so many independent switches")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PenReport {
     /// Place from the left edge of the area, as a share of its width, 0..1.

@@ -139,4 +139,4 @@ impl PenTracker {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

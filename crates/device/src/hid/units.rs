@@ -142,7 +142,7 @@ mod tests {
     /// A field of 16 bits with these ranges and this unit.
     fn field(logical: (i16, i32), physical: (i16, i32), unit: u16, exponent: u8) -> Field {
         let mut bytes = vec![0x05, 0x01, 0x09, 0x30, 0x75, 0x10, 0x95, 0x01, 0x55, exponent];
-        for (prefix, value) in [(0x16, logical.0), (0x36, physical.0), (0x66, unit as i16)] {
+        for (prefix, value) in [(0x16, logical.0), (0x36, physical.0), (0x66, unit.cast_signed())] {
             bytes.push(prefix);
             bytes.extend(value.to_le_bytes());
         }

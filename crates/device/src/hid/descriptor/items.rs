@@ -28,9 +28,9 @@ impl Item {
     /// Its data with the sign of its highest bit.
     pub(super) fn signed(self) -> i64 {
         match self.n_bytes {
-            1 => i64::from(self.data as u8 as i8),
-            2 => i64::from(self.data as u16 as i16),
-            _ => i64::from(self.data as i32),
+            1 => i64::from((self.data as u8).cast_signed()),
+            2 => i64::from((self.data as u16).cast_signed()),
+            _ => i64::from(self.data.cast_signed()),
         }
     }
 }

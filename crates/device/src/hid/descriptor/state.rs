@@ -249,8 +249,8 @@ fn range(min: i64, max: Option<Item>) -> (i64, i64) {
 /// A power of ten: a nibble with a sign, though many devices write a whole signed number.
 fn exponent(item: Item) -> i32 {
     match item.data {
-        nibble @ 0..=7 => nibble as i32,
-        nibble @ 8..=15 => nibble as i32 - 16,
+        nibble @ 0..=7 => nibble.cast_signed(),
+        nibble @ 8..=15 => nibble.cast_signed() - 16,
         _ => item.signed().clamp(-16, 16) as i32,
     }
 }

@@ -133,6 +133,7 @@ fn the_published_parser_tells_the_same() {
 }
 
 /// Descriptors of real devices, where they are at hand.
+#[expect(clippy::print_stdout, reason = "a test that skips says so")]
 pub(crate) fn corpus() -> Vec<(String, Vec<u8>)> {
     let folder = std::env::var_os("SHAGREEN_DATA").map_or_else(
         || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
