@@ -82,7 +82,7 @@ pub struct PenAxis {
 /// How pressure is told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenPressure {
-    /// Bits that its numbers need.
+    /// Bits of the field, which may be more than its numbers need.
     pub bits: u32,
     /// Lowest number.
     pub logical_min: i64,

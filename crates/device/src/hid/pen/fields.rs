@@ -218,9 +218,9 @@ impl PenFields {
             side_m: units::side_m(&slot.field),
         };
         let pressure = self.pressure.as_ref().map(|slot| {
-            let Field { logical_min, logical_max, .. } = slot.field;
+            let Field { bit_size, logical_min, logical_max, .. } = slot.field;
             PenPressure {
-                bits: 64 - ((logical_max - logical_min) as u64).leading_zeros(),
+                bits: bit_size,
                 logical_min,
                 logical_max,
                 full_n: self.force_scale.map(|scale| scale.of(logical_max)),

@@ -37,7 +37,7 @@ fn a_report_in_si_units() {
     check(format.x.side_m, 0.209_66);
     check(format.y.side_m, 0.157_25);
     let pressure = format.pressure.unwrap();
-    assert_eq!((pressure.bits, pressure.logical_max), (12, 4095));
+    assert_eq!((pressure.bits, pressure.logical_max), (16, 4095));
     check(pressure.full_n, 4.016);
     // Tip and in range; X 10483, Y 15725, pressure 2048, tilts 45 and -60 degrees.
     let bytes = [0x1a, 0x21, 0xf3, 0x28, 0x6d, 0x3d, 0x00, 0x08, 0x94, 0x11, 0x90, 0xe8];

@@ -93,7 +93,7 @@ fn a_recorded_stretch_replays_as_it_was_felt() {
         .filter_map(|i| {
             let angle = f64::from(i) * 0.05;
             let at = |f: f64| (8000.0 + 3000.0 * f) as u16;
-            let switches = if !(5..=190).contains(&i) { HOVER } else { DOWN };
+            let switches = if (5..=190).contains(&i) { DOWN } else { HOVER };
             let pressure = if switches == DOWN { 900 + 10 * i } else { 0 };
             tracker
                 .report(f64::from(i) * 0.005, &report(at(angle.cos()), at(angle.sin()), pressure, switches))
