@@ -37,7 +37,8 @@ pub(crate) fn list_descriptors(files: &[PathBuf], size_m: Option<[f64; 2]>, as_j
 
 fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
     // The file is named beside it.
-    let causes: Vec<String> = error.chain().map(ToString::to_string).filter(|c| *c != output::in_file(file)).collect();
+    let causes: Vec<String> =
+        error.chain().map(ToString::to_string).filter(|c| *c != output::in_file(file)).collect();
     json!({
         "file": file.display().to_string(), "name": null, "pen": false, "report_id": null, "x": null, "y": null,
         "pressure": null, "tilt": false, "reports": [], "warnings": [], "error": causes.join(": "),
@@ -175,7 +176,9 @@ fn moments(recording: &PenRecording) -> Vec<(f64, PenMoment)> {
     let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: PressureMap::USUAL };
     let mut tracker = PenTracker::new(recording.decoder.clone(), options);
     let reports = recording.reports.iter();
-    reports.filter_map(|report| Some((report.time_secs, tracker.report(report.time_secs, &report.bytes)?))).collect()
+    reports
+        .filter_map(|report| Some((report.time_secs, tracker.report(report.time_secs, &report.bytes)?)))
+        .collect()
 }
 
 fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
@@ -187,8 +190,8 @@ fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
         "y_mm": report.y_m.map(|y_m| short(1e3 * y_m)),
         "pressure": report.pressure.map(short),
         "tip": report.tip,
-        "x": short(report.x_share),
-        "y": short(report.y_share),
+        "x_share": short(report.x_share),
+        "y_share": short(report.y_share),
         "force_n": report.force_n.map(short),
         "in_range": report.in_range,
         "eraser": report.eraser || report.inverted && report.tip,

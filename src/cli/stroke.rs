@@ -130,7 +130,8 @@ fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>>
     output::note(&format!("the pen's area is {:.1} by {:.1} mm", 1e3 * size_m[0], 1e3 * size_m[1]));
     let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: args.pressure_map() };
     let mut tracker = PenTracker::new(recording.decoder, options);
-    let moments = recording.reports.iter().filter_map(|report| tracker.report(report.time_secs, &report.bytes));
+    let moments =
+        recording.reports.iter().filter_map(|report| tracker.report(report.time_secs, &report.bytes));
     Ok(stroke_samples(&moments.collect::<Vec<_>>()))
 }
 

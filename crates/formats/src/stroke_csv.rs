@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 
 use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
 use crate::imported::Imported;
-use crate::stroke::{PenSample, Stroke, TimedContact};
+use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
 
 /// Longest stroke, in seconds, whose time column is taken for seconds where it does not say its unit.

@@ -57,7 +57,7 @@ pub(super) fn read(text: &str) -> (Vec<HidRecording>, Vec<Damage>) {
                     && text.starts_with(char::is_alphabetic)
                     && !is_cut(text) => {}
             (Some(block), _) => {
-                block.bytes = Err(format!("below it is \"{}\", which is no row of bytes", short(text)))
+                block.bytes = Err(format!("below it is \"{}\", which is no row of bytes", short(text)));
             }
             (None, _) => {
                 damages.push(Damage { line, problem: format!("\"{}\" is below no heading", short(text)) });
