@@ -22,7 +22,7 @@ pub(crate) struct Args {
     /// left out where the recording holds it.
     #[arg(long, value_names = ["DESCRIPTOR", "REPORTS"], num_args = 1..=2)]
     decode: Vec<PathBuf>,
-    /// Width and height of the pen's area in mm, such as 216x135, where the pen declares none.
+    /// Width and height of the pen's area in mm, such as 216x135, where the pen declares none or wrong ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm)]
     size_mm: Option<[f64; 2]>,
     /// Write the decoded stroke as a table (.csv).

@@ -84,6 +84,7 @@ fn format_json(format: &PenFormat) -> Value {
         "bytes": format.n_bytes,
         "x": axis(&format.x),
         "y": axis(&format.y),
+        "size_doubtful": format.is_size_doubtful,
         "pressure": pressure,
         "tilt": format.has_tilt,
         "clock": format.clock_round_secs.is_some(),
@@ -99,6 +100,9 @@ fn in_words(entry: &Value) -> String {
         return format!("{file}: not a pen");
     }
     let size = match (entry["x"]["mm"].as_f64(), entry["y"]["mm"].as_f64()) {
+        (Some(width), Some(height)) if entry["size_doubtful"] == json!(true) => {
+            format!("{width} x {height} mm (doubtful)")
+        }
         (Some(width), Some(height)) => format!("{width} x {height} mm"),
         _ => "size not declared".to_owned(),
     };
@@ -137,6 +141,11 @@ pub(crate) fn decode(
     let size_m = recording.decoder.best().size_m();
     if size_m.is_none() {
         output::warn("the pen declares no size, so that there are no mm; state it with --size-mm 216x135");
+    }
+    if recording.decoder.best().is_size_doubtful {
+        output::warn(
+            "the size that the pen declares is doubtful; state the right one with --size-mm 216x135",
+        );
     }
     let moments = moments(&recording);
     if let Some(out) = out {

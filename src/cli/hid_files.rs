@@ -62,8 +62,8 @@ pub(crate) struct PenRecording {
 }
 
 /// The pen of a recording: of several devices the one with the most reports of a pen. `declared` is what another file
-/// declares; without it the recording must hold the descriptor, or be of a known device. `size_m` is for a pen that
-/// declares no size.
+/// declares; without it the recording must hold the descriptor, or be of a known device. `size_m` is the size
+/// that the person gives.
 pub(crate) fn read_pen_recording(
     bytes: &[u8],
     declared: Option<&DeclaredDevice>,

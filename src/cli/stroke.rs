@@ -32,7 +32,8 @@ pub(crate) struct StrokeArgs {
     /// for whole numbers, 1 for fractions.
     #[arg(long, value_name = "P", value_parser = quantity, allow_negative_numbers = true)]
     pressure_max: Option<f64>,
-    /// Width and height of the area of a recorded HID pen in mm, such as 216x135, where it declares none.
+    /// Width and height of the area of a recorded HID pen in mm, such as 216x135, where it declares none
+    /// or wrong ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm)]
     size_mm: Option<[f64; 2]>,
     /// Force at the lowest pressure, in N.

@@ -66,7 +66,7 @@ pub struct PenOptions {
     pub id: String,
     /// How reports become touches.
     pub tracking: TrackerOptions,
-    /// Width and height of its area in m, for a pen that declares none.
+    /// Width and height of its area in m, where the person gives them: for a pen that declares none, or wrong ones.
     pub size_m: Option<[f64; 2]>,
 }
 
@@ -80,6 +80,8 @@ pub enum PenNotice {
         pen: HidPen,
         /// Width and height of its area in m. Without it nothing can be felt, since there is no speed: ask the person.
         size_m: Option<[f64; 2]>,
+        /// Whether that size is likely wrong: see [`crate::hid::pen::PenFormat::is_size_doubtful`].
+        is_size_doubtful: bool,
         /// Whether it tells pressure.
         has_pressure: bool,
         /// Force at full pressure in N, if it declares it; else the map of pressure is used.
@@ -158,7 +160,7 @@ impl PenThread {
         self.command(Command::Map(map));
     }
 
-    /// Takes `size_m` (width, height) for the area of a pen that declares none, from now on.
+    /// Takes `size_m` (width, height) for the area from now on; `None` is what the pen declares.
     pub fn set_size_m(&self, size_m: Option<[f64; 2]>) {
         self.command(Command::Size(size_m));
     }

@@ -103,6 +103,8 @@ pub struct PenFormat {
     pub x: PenAxis,
     /// From the upper edge down.
     pub y: PenAxis,
+    /// Whether the declared size is likely wrong: some tablets declare one length for both sides and for the pressure.
+    pub is_size_doubtful: bool,
     /// Pressure of the tip, if it is told.
     pub pressure: Option<PenPressure>,
     /// Whether tilt is told, along two axes or as azimuth and altitude.
@@ -124,10 +126,10 @@ impl PenDecoder {
         let mut found: Vec<_> = descriptor
             .reports
             .iter()
-            .filter_map(|report| fields::pen_fields(descriptor, report))
-            .map(|(rank, fields, report)| {
+            .filter_map(|report| {
+                let (rank, fields) = fields::pen_fields(descriptor, report)?;
                 let format = fields.into_format(report.id, report.n_bytes());
-                ((rank, format.pressure.is_some(), format.size_m().is_some()), format)
+                Some(((rank, format.pressure.is_some(), format.size_m().is_some()), format))
             })
             .collect();
         // A stable order: of equally good reports the first declared.
@@ -162,13 +164,14 @@ impl PenDecoder {
         &self.formats[0]
     }
 
-    /// The same with an area of `size_m` (width, height) where the device declares none.
+    /// The same with an area of `size_m` (width, height), if it is given, whatever the device declares.
     #[must_use]
     pub fn with_size_m(mut self, size_m: Option<[f64; 2]>) -> Self {
         if let Some([width_m, height_m]) = size_m {
-            for format in self.formats.iter_mut().filter(|format| format.size_m().is_none()) {
+            for format in &mut self.formats {
                 format.x.side_m = Some(width_m);
                 format.y.side_m = Some(height_m);
+                format.is_size_doubtful = false;
             }
         }
         self

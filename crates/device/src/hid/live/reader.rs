@@ -142,6 +142,7 @@ impl Reader {
         self.tell(PenNotice::Connected {
             pen: open.pen.clone(),
             size_m: format.size_m(),
+            is_size_doubtful: format.is_size_doubtful,
             has_pressure: format.pressure.is_some(),
             full_n: format.pressure.and_then(|pressure| pressure.full_n),
         });

@@ -110,10 +110,7 @@ pub(crate) struct PenFields {
 }
 
 /// The pen's numbers in a report, if it is a pen's.
-pub(super) fn pen_fields<'a>(
-    descriptor: &Descriptor,
-    report: &'a Report,
-) -> Option<(Rank, PenFields, &'a Report)> {
+pub(super) fn pen_fields(descriptor: &Descriptor, report: &Report) -> Option<(Rank, PenFields)> {
     if report.kind != ReportKind::Input {
         return None;
     }
@@ -155,7 +152,7 @@ pub(super) fn pen_fields<'a>(
         serial: slot(SERIAL),
         not_a_pen: None,
     };
-    Some((rank, fields, report))
+    Some((rank, fields))
 }
 
 /// Whether a field tells one thing at a time, and where it is: no padding, no array, no change.
@@ -230,11 +227,16 @@ impl PenFields {
             let counts = slot.field.logical_max - slot.field.logical_min + 1;
             slot.scale.map(|scale| scale.per_count() * counts as f64)
         });
+        let declared = |slot: &Slot| (slot.field.unit, slot.field.unit_exponent, slot.field.physical_max);
+        let is_size_doubtful = declared(&self.x) == declared(&self.y)
+            && self.pressure.as_ref().is_some_and(|slot| declared(slot) == declared(&self.x))
+            && self.x.field.unit != 0;
         PenFormat {
             report_id,
             n_bytes,
             x: axis(&self.x),
             y: axis(&self.y),
+            is_size_doubtful,
             pressure,
             has_tilt: self.x_tilt.is_some() && self.y_tilt.is_some()
                 || self.azimuth.is_some() && self.altitude.is_some(),

@@ -120,11 +120,26 @@ fn a_makers_copy_of_the_usages_is_read_like_the_original() {
 }
 
 #[test]
-fn a_size_is_taken_only_where_none_is_declared() {
+fn a_size_that_is_given_counts() {
     let size = Some([0.2, 0.1]);
-    assert_eq!(decoder(&simple(0x0d, 0x02, &[])).unwrap().with_size_m(size).best().size_m(), size);
-    let declared = decoder(PEN).unwrap();
-    assert_eq!(declared.clone().with_size_m(size), declared);
+    for bytes in [&simple(0x0d, 0x02, &[])[..], PEN] {
+        let given = decoder(bytes).unwrap().with_size_m(size);
+        assert_eq!(given.best().size_m(), size);
+        assert_eq!(given.clone().with_size_m(None), given);
+    }
+}
+
+#[test]
+fn one_length_for_everything_is_doubtful() {
+    // As some tablets of 279 by 174 mm declare it: 2048 thousandths of a (cubic) inch for X, Y and pressure.
+    let mut bytes = simple(0x0d, 0x02, &PRESSURE);
+    let at = bytes.windows(2).position(|w| w == [0x05, 0x01]).unwrap();
+    bytes.splice(at..at, [0x65, 0x33, 0x55, 0x0d, 0x46, 0x00, 0x08]);
+    let found = decoder(&bytes).unwrap();
+    assert!(found.best().is_size_doubtful);
+    check(found.best().x.side_m, 2.048 * 0.0254);
+    assert!(!found.with_size_m(Some([0.279, 0.174])).best().is_size_doubtful);
+    assert!(!decoder(PEN).unwrap().best().is_size_doubtful);
 }
 
 /// Every descriptor of a real device is read; pens are those with a place and a pressure, as another parser finds them.
