@@ -178,8 +178,8 @@ fn standard(usage: Usage) -> Usage {
 }
 
 fn rank_of(descriptor: &Descriptor, x: &Field, has_pressure: bool) -> Option<Rank> {
-    /// Digitizer, pen, light pen, white board, stylus, digitizer armature.
-    const PENS: [u16; 6] = [0x01, 0x02, 0x03, 0x06, 0x20, 0x21];
+    /// Digitizer, pen, light pen, white board, stylus.
+    const PENS: [u16; 5] = [0x01, 0x02, 0x03, 0x06, 0x20];
     const STYLUS: Usage = digitizer(0x20);
     const FINGER: Usage = digitizer(0x22);
     const PEN: Usage = digitizer(0x02);
@@ -196,13 +196,13 @@ fn rank_of(descriptor: &Descriptor, x: &Field, has_pressure: bool) -> Option<Ran
             is_pen.then_some(rank)
         }
         (DIGITIZER, _) => None,
-        (0xff00.., _) => (has_pressure && has_standard_pressure(x)).then_some(Rank::Vendor),
+        (0xff00.., _) => (has_pressure && is_standard_x(x)).then_some(Rank::Vendor),
         _ => has_pressure.then_some(Rank::Pressure),
     }
 }
 
 /// In collections of the maker's own, numbers of the maker's own page may be anything; X must be X.
-fn has_standard_pressure(x: &Field) -> bool {
+fn is_standard_x(x: &Field) -> bool {
     x.usage(0).is_some_and(|usage| usage.page() == DESKTOP)
 }
 
