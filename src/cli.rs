@@ -4,10 +4,12 @@
 //! error. Exit status 0 is done, 1 could not, 2 wrong usage.
 
 mod devices;
+mod devices_pens;
 mod evaluate;
 mod export;
 mod figures_folder;
 mod guard;
+mod hid_files;
 mod import;
 mod import_hatt;
 mod import_recording;
@@ -65,7 +67,6 @@ enum Command {
     /// Measures on signals how well authoring works.
     #[command(subcommand)]
     Evaluate(EvaluateCommand),
-    /// Lists styluses, outputs and serial ports.
     Devices(devices::Args),
     /// Drives an actuator with a texture.
     Play(play::Args),
@@ -126,10 +127,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
-        Some(Command::Devices(args)) => {
-            devices::run(args);
-            Ok(())
-        }
+        Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Play(args)) => play::run(args),
     };
     match done {

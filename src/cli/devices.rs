@@ -1,35 +1,68 @@
 //! `shagreen devices`: what there is to hold and to drive.
 
+use std::path::PathBuf;
+
 use serde_json::{Value, json};
 use shagreen_device::output::{OutputKind, list_outputs};
 use shagreen_device::serial::{SerialPortInfo, SerialPortKind, list_serial_ports};
-use shagreen_device::stylus::{StylusKind, list_styluses};
+use shagreen_device::stylus::{StylusInfo, StylusKind, StylusList, list_styluses};
 
+use crate::cli::devices_pens::{decode, list_descriptors};
+use crate::cli::hid_files::{meters, size_mm};
 use crate::cli::output;
 
-/// Lists styluses, outputs and serial ports. Nothing is opened.
+/// Lists styluses, outputs and serial ports, opening none; or tells what descriptors and reports of pens hold.
 #[derive(clap::Args)]
 pub(crate) struct Args {
+    /// Tell what HID report descriptors declare: raw bytes, the same in hexadecimal, or recordings of hid-recorder or
+    /// usbhid-dump.
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "decode")]
+    descriptor: Vec<PathBuf>,
+    /// Decode the reports of a pen (a recording of hid-recorder or usbhid-dump) by a report descriptor, which may be
+    /// left out where the recording holds it.
+    #[arg(long, value_names = ["DESCRIPTOR", "REPORTS"], num_args = 1..=2)]
+    decode: Vec<PathBuf>,
+    /// Width and height of the pen's area in mm, such as 216x135, where the pen declares none or wrong ones.
+    #[arg(long, value_name = "WxH", value_parser = size_mm)]
+    size_mm: Option<[f64; 2]>,
+    /// Write the decoded stroke as a table (.csv).
+    #[arg(short, long, value_name = "OUT.csv", requires = "decode")]
+    out: Option<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-pub(crate) fn run(args: &Args) {
-    let styluses = list_styluses();
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let size_m = meters(args.size_mm);
+    if !args.descriptor.is_empty() {
+        list_descriptors(&args.descriptor, size_m, args.json);
+        return Ok(());
+    }
+    if !args.decode.is_empty() {
+        return decode(&args.decode, size_m, args.out.as_deref(), args.json);
+    }
+    list(args.json);
+    Ok(())
+}
+
+fn list(as_json: bool) {
+    let StylusList { styluses, warning } = list_styluses();
+    if let Some(warning) = warning {
+        output::warn(warning.message());
+    }
     let outputs = list_outputs();
     let serial = list_serial_ports().unwrap_or_else(|error| {
         output::warn(error.message());
         Vec::new()
     });
-    let stylus_json = |stylus: &shagreen_device::stylus::StylusInfo| json!({"id": stylus.id, "name": stylus.name, "kind": stylus_kind(stylus.kind), "pressure": stylus.has_pressure});
     let output_json = |output: &shagreen_device::output::OutputInfo| json!({"id": output.id, "name": output.name, "kind": output_kind(output.kind), "default": output.is_default});
     let result = json!({
         "styluses": styluses.iter().map(stylus_json).collect::<Vec<_>>(),
         "outputs": outputs.iter().map(output_json).collect::<Vec<_>>(),
         "serial": serial.iter().map(serial_json).collect::<Vec<_>>(),
     });
-    output::print(args.json, &result, || {
+    output::print(as_json, &result, || {
         let mut lines = vec!["Styluses:".to_owned()];
         lines.extend(styluses.iter().map(|stylus| line(&stylus.id, &stylus.name)));
         lines.push("Outputs (play --output ID):".to_owned());
@@ -44,9 +77,21 @@ fn line(id: &str, name: &str) -> String {
     format!("  {id}  {name}")
 }
 
+fn stylus_json(stylus: &StylusInfo) -> Value {
+    json!({
+        "id": stylus.id,
+        "name": stylus.name,
+        "kind": stylus_kind(stylus.kind),
+        "pressure": stylus.has_pressure,
+        "vendor_id": stylus.product.map(|(vendor_id, _)| vendor_id),
+        "product_id": stylus.product.map(|(_, product_id)| product_id),
+    })
+}
+
 fn stylus_kind(kind: StylusKind) -> &'static str {
     match kind {
         StylusKind::Mouse => "mouse",
+        StylusKind::Pen => "pen",
         _ => "other",
     }
 }

@@ -21,7 +21,8 @@ pub(crate) struct MotionArgs {
     /// Length, in seconds.
     #[arg(long, value_name = "S", value_parser = quantity, allow_negative_numbers = true, conflicts_with = "stroke")]
     seconds: Option<f64>,
-    /// Recorded stroke: pen samples (.svc), or a table with t, x, y, pressure or force; or with t, speed, force (.csv).
+    /// Recorded stroke: pen samples (.svc), or a table with t, x, y, pressure or force; or with t, speed, force (.csv); or
+    /// reports of a pen with its descriptor, as hid-recorder and usbhid-dump write them.
     #[arg(long, value_name = "FILE")]
     stroke: Option<PathBuf>,
     #[command(flatten)]

@@ -2,14 +2,18 @@
 
 use std::path::Path;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
+use shagreen_device::hid::tracker::{PenTracker, TrackerOptions, stroke_samples};
+use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::pressure::PressureMap;
 use shagreen_device::track::{MAX_TRACK_SECS, PenSample as TrackSample, Track, TrackError};
+use shagreen_formats::hid_text::is_hid_text;
 use shagreen_formats::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use shagreen_formats::stroke_csv::read_stroke_csv;
 use shagreen_formats::svc::{PenMapping, pen_samples, read_svc};
 
+use crate::cli::hid_files::{meters, read_pen_recording, size_mm};
 use crate::cli::motion::quantity;
 use crate::cli::output;
 
@@ -28,6 +32,10 @@ pub(crate) struct StrokeArgs {
     /// for whole numbers, 1 for fractions.
     #[arg(long, value_name = "P", value_parser = quantity, allow_negative_numbers = true)]
     pressure_max: Option<f64>,
+    /// Width and height of the area of a recorded HID pen in mm, such as 216x135, where it declares none
+    /// or wrong ones.
+    #[arg(long, value_name = "WxH", value_parser = size_mm)]
+    size_mm: Option<[f64; 2]>,
     /// Force at the lowest pressure, in N.
     #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.activation_n)]
     force_min: f64,
@@ -37,6 +45,12 @@ pub(crate) struct StrokeArgs {
     /// Bend of the curve from pressure to force: 0 is a straight line, more is steeper towards full pressure.
     #[arg(long, value_name = "C", value_parser = bend, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.bend)]
     pressure_curve: f64,
+}
+
+impl StrokeArgs {
+    fn pressure_map(&self) -> PressureMap {
+        PressureMap { activation_n: self.force_min, full_n: self.force_max, bend: self.pressure_curve }
+    }
 }
 
 /// Speed and force over time, for at most [`MAX_TRACK_SECS`].
@@ -68,6 +82,9 @@ pub(crate) fn load(path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeConta
 }
 
 fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
+    if is_hid_text(bytes) {
+        return Ok(StrokeContacts::Track(track_of(&read_hid(bytes, args)?)?));
+    }
     let (samples, press_unit) = if is_svc(bytes, path) {
         (read_pen(bytes, args)?, PressUnit::FullScale)
     } else {
@@ -78,7 +95,7 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
             Stroke::Pen { samples, press_unit } => (samples, press_unit),
         }
     };
-    let map = PressureMap { activation_n: args.force_min, full_n: args.force_max, bend: args.pressure_curve };
+    let map = args.pressure_map();
     let sample = |sample: &PenSample| TrackSample {
         time_secs: sample.time_secs,
         x_m: sample.x_m,
@@ -90,15 +107,33 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
         },
         touching: sample.touching,
     };
+    Ok(StrokeContacts::Track(track_of(&samples.iter().map(sample).collect::<Vec<_>>())?))
+}
+
+fn track_of(samples: &[TrackSample]) -> anyhow::Result<Track> {
     if !samples.iter().any(|sample| sample.touching) {
         output::warn("the tip never touches in this stroke: it is silent");
     }
-    let track = Track::new(&samples.iter().map(sample).collect::<Vec<_>>()).context(CORRECT)?;
+    let track = Track::new(samples).context(CORRECT)?;
     let n_equal = track.warnings.n_equal_timestamps;
     if n_equal > 0 {
         output::warn(&format!("{n_equal} samples have the time of the next one and were left out"));
     }
-    Ok(StrokeContacts::Track(track))
+    Ok(track)
+}
+
+/// Reads the reports of a pen: its own force where it declares one, else by the map.
+fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>> {
+    let recording = read_pen_recording(bytes, None, meters(args.size_mm))?;
+    let Some(size_m) = recording.decoder.best().size_m() else {
+        bail!("the pen declares no size, without which there is no speed; state it with --size-mm 216x135");
+    };
+    output::note(&format!("the pen's area is {:.1} by {:.1} mm", 1e3 * size_m[0], 1e3 * size_m[1]));
+    let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: args.pressure_map() };
+    let mut tracker = PenTracker::new(recording.decoder, options);
+    let moments =
+        recording.reports.iter().filter_map(|report| tracker.report(report.time_secs, &report.bytes));
+    Ok(stroke_samples(&moments.collect::<Vec<_>>()))
 }
 
 /// Whether bytes are a pen recording: by the name of the file, or by a first line that is nothing but a count.

@@ -38,6 +38,7 @@ mod edge;
 pub mod engine;
 pub mod error;
 pub mod hand;
+pub mod hid;
 pub mod kinematics;
 mod link;
 pub mod live;

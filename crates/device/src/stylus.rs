@@ -1,5 +1,9 @@
-//! What a hand holds. The mouse is always there; it has no pressure, so it presses with a set force.
+//! What a hand holds. The mouse is always there; it has no pressure, so it presses with a set force. Pens come and go.
 
+use crate::error::DeviceError;
+use crate::hid::identity::HidPen;
+use crate::hid::live::PenBus as _;
+use crate::hid::system::SystemPens;
 use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
 use crate::touch::Touch;
 use shagreen_synth::contact::Contact;
@@ -10,6 +14,8 @@ use shagreen_synth::contact::Contact;
 pub enum StylusKind {
     /// The mouse, with a set force.
     Mouse,
+    /// A pen that is read by HID: see [`crate::hid`].
+    Pen,
 }
 
 /// One stylus of this machine.
@@ -21,18 +27,50 @@ pub struct StylusInfo {
     pub name: String,
     /// What sort it is.
     pub kind: StylusKind,
-    /// Whether it measures how hard it is pressed.
+    /// Whether it measures how hard it is pressed. Of a pen that the system tells little of, this is assumed.
     pub has_pressure: bool,
+    /// Vendor and product, as the USB forum and the vendor assigned them; the mouse has none.
+    pub product: Option<(u16, u16)>,
 }
 
-/// The styluses of this machine: the mouse.
-pub fn list_styluses() -> Vec<StylusInfo> {
-    vec![StylusInfo {
+/// The styluses of this machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StylusList {
+    /// The mouse, then the pens.
+    pub styluses: Vec<StylusInfo>,
+    /// Why there may be more pens than are listed.
+    pub warning: Option<DeviceError>,
+}
+
+/// The styluses of this machine. None is opened.
+pub fn list_styluses() -> StylusList {
+    let mouse = StylusInfo {
         id: "mouse".into(),
         name: "Mouse (set force)".into(),
         kind: StylusKind::Mouse,
         has_pressure: false,
-    }]
+        product: None,
+    };
+    let (pens, warning) = match SystemPens.list() {
+        Ok(pens) => (pens, None),
+        Err(error) => (Vec::new(), Some(error)),
+    };
+    StylusList {
+        styluses: std::iter::once(mouse).chain(pens.into_iter().map(StylusInfo::from)).collect(),
+        warning,
+    }
+}
+
+impl From<HidPen> for StylusInfo {
+    fn from(pen: HidPen) -> Self {
+        Self {
+            id: pen.id,
+            name: pen.name,
+            kind: StylusKind::Pen,
+            has_pressure: pen.has_pressure.unwrap_or(true),
+            product: Some((pen.vendor_id, pen.product_id)),
+        }
+    }
 }
 
 /// The mouse as a stylus: pressed with a set force while its button is down.
@@ -87,7 +125,7 @@ mod tests {
 
     #[test]
     fn the_mouse_is_there() {
-        let styluses = list_styluses();
+        let styluses = list_styluses().styluses;
         assert_eq!(styluses[0].id, "mouse");
         assert!(!styluses[0].has_pressure);
     }

@@ -26,6 +26,7 @@ pub mod evaluation_report;
 pub mod figure;
 pub mod fit_report;
 pub mod hatt;
+pub mod hid_text;
 pub mod imported;
 mod layout;
 pub mod library;

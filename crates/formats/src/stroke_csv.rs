@@ -7,9 +7,11 @@
 
 mod columns;
 
+use std::fmt::Write as _;
+
 use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
 use crate::imported::Imported;
-use crate::stroke::{PenSample, Stroke, TimedContact};
+use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
 
 /// Longest stroke, in seconds, whose time column is taken for seconds where it does not say its unit.
@@ -139,6 +141,27 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
         }
     };
     Ok(Imported { value: stroke, warnings })
+}
+
+/// A stroke of a pen as a table that [`read_stroke_csv`] reads: `t_s`, `x_mm`, `y_mm`, `pressure` or `force_n`, and
+/// `touching`. Its time starts at zero; of samples at one time the last is kept, since a time can be there but once.
+pub fn stroke_csv(samples: &[PenSample], press_unit: PressUnit) -> String {
+    let press = match press_unit {
+        PressUnit::FullScale => "pressure",
+        PressUnit::Newtons => "force_n",
+    };
+    let start_secs = samples.first().map_or(0.0, |sample| sample.time_secs);
+    let mut text = format!("t_s,x_mm,y_mm,{press},touching\n");
+    for (index, sample) in samples.iter().enumerate() {
+        if samples.get(index + 1).is_some_and(|next| next.time_secs <= sample.time_secs) {
+            continue;
+        }
+        let PenSample { time_secs, x_m, y_m, press, touching } = sample;
+        let (time_secs, x_mm, y_mm) = (time_secs - start_secs, 1e3 * x_m, 1e3 * y_m);
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{time_secs},{x_mm},{y_mm},{press},{}", u8::from(*touching));
+    }
+    text
 }
 
 /// Whether a field is NaN or infinity spelled out, which is no column name.

@@ -1,5 +1,5 @@
-use super::{StrokeCsvError, read_stroke_csv};
-use crate::stroke::{PressUnit, Stroke, TimedContact};
+use super::{StrokeCsvError, read_stroke_csv, stroke_csv};
+use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use proptest::prelude::{any, prop, proptest};
 
 fn contacts(text: &str) -> Vec<TimedContact> {
@@ -100,4 +100,34 @@ proptest! {
             let _ = read_stroke_csv(&bytes);
         }
     }
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    for press_unit in [PressUnit::FullScale, PressUnit::Newtons] {
+        let samples: Vec<PenSample> = (0..200)
+            .map(|i| PenSample {
+                time_secs: f64::from(i) / 133.0,
+                x_m: 0.03 * (f64::from(i) * 0.1).sin(),
+                y_m: -0.001 * f64::from(i),
+                press: if i % 50 < 5 { 0.0 } else { 0.5 + 0.002 * f64::from(i % 100) },
+                touching: i % 50 >= 5,
+            })
+            .collect();
+        let read = read_stroke_csv(stroke_csv(&samples, press_unit).as_bytes()).unwrap();
+        let Stroke::Pen { samples: again, press_unit: again_unit } = read.value else { panic!("no pen") };
+        assert_eq!((again_unit, again.len(), read.warnings.len()), (press_unit, 200, 0));
+        for (a, b) in samples.iter().zip(&again) {
+            // A product with a thousand and one with a thousandth.
+            assert!((a.x_m - b.x_m).abs() < 1e-16 && (a.y_m - b.y_m).abs() < 1e-16);
+            assert_eq!((a.time_secs, a.press, a.touching), (b.time_secs, b.press, b.touching));
+        }
+    }
+}
+
+#[test]
+fn of_samples_at_one_time_the_last_is_written() {
+    let sample = |time_secs, x_m| PenSample { time_secs, x_m, y_m: 0.0, press: 1.0, touching: true };
+    let text = stroke_csv(&[sample(5.0, 0.001), sample(5.0, 0.002), sample(5.5, 0.003)], PressUnit::Newtons);
+    assert_eq!(text, "t_s,x_mm,y_mm,force_n,touching\n0,2,0,1,1\n0.5,3,0,1,1\n");
 }

@@ -1,0 +1,198 @@
+//! How fast a pen came down when it tapped: an estimate, since no pen measures it.
+//!
+//! Where a pen tells its height, the speed is that of the last heights ahead of the contact. Else it is told from how
+//! fast the force rises: at the beginning of a contact of stiffness `k`, a tip that comes down at `v` presses by
+//! `dF/dt = k v`. The stiffness of a hand's grip, the pen's tip and the pad in a row is not known for the pen at hand, so
+//! [`STIFFNESS_N_PER_M`] stands for all; and a pen reports each 4 to 8 ms, so that short taps are underestimated. The
+//! estimate orders taps by speed; its scale is nominal.
+
+use std::collections::VecDeque;
+
+/// Stiffness taken for the contact of a pen with a pad, in N/m: a tip that gives by 0.4 mm under 4 N.
+pub const STIFFNESS_N_PER_M: f64 = 1e4;
+/// Fastest landing that is told, in m/s: hands are slower.
+pub const MAX_LANDING_MPS: f64 = 3.0;
+
+/// Reports of a contact that are waited for.
+const N_RISING: u32 = 3;
+/// Heights and forces further apart in time than this tell nothing, in s.
+const MAX_GAP_SECS: f64 = 0.050;
+
+/// A landing of the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Landing {
+    /// When the tip was first reported to touch, in s on the clock of the reports.
+    pub time_secs: f64,
+    /// How fast it came down in m/s, estimated: see the module.
+    pub speed_mps: f32,
+    /// Whether it was told from heights; else from the force.
+    pub is_from_height: bool,
+}
+
+/// What is remembered from report to report.
+#[derive(Clone, Debug, Default)]
+pub struct LandingEstimator {
+    /// Times and heights of the last reports in the air.
+    heights: VecDeque<(f64, f64)>,
+    last_in_air_secs: Option<f64>,
+    contact: Option<Contact>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Contact {
+    time_secs: f64,
+    last_secs: f64,
+    last_n: f64,
+    rise_nps: f64,
+    n_reports: u32,
+    is_told: bool,
+}
+
+impl LandingEstimator {
+    /// Takes a report in; gives a landing once it can be told, which by force takes three reports.
+    pub fn report(
+        &mut self,
+        time_secs: f64,
+        height_m: Option<f64>,
+        force_n: f64,
+        touching: bool,
+    ) -> Option<Landing> {
+        if !touching {
+            let landing = self.contact.take().and_then(Contact::tell_by_force);
+            self.last_in_air_secs = Some(time_secs);
+            if let Some(height_m) = height_m {
+                self.heights.push_back((time_secs, height_m));
+                if self.heights.len() > 3 {
+                    self.heights.pop_front();
+                }
+            }
+            return landing;
+        }
+        let Some(contact) = &mut self.contact else { return self.land(time_secs, force_n) };
+        let step_secs = time_secs - contact.last_secs;
+        if step_secs > 0.0 && step_secs <= MAX_GAP_SECS {
+            contact.rise_nps = contact.rise_nps.max((force_n - contact.last_n) / step_secs);
+        }
+        (contact.last_secs, contact.last_n) = (time_secs, force_n);
+        contact.n_reports += 1;
+        if contact.n_reports < N_RISING || contact.is_told {
+            return None;
+        }
+        let landing = contact.tell_by_force();
+        contact.is_told = true;
+        landing
+    }
+
+    /// Forgets everything: the device is gone, or another pen has come.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The first report of a contact.
+    fn land(&mut self, time_secs: f64, force_n: f64) -> Option<Landing> {
+        let recent = |(time, _): &&(f64, f64)| time_secs - time <= MAX_GAP_SECS;
+        let (first, last) = (self.heights.iter().find(recent), self.heights.back());
+        let by_height = first.zip(last).and_then(|((t0, h0), (t1, h1))| {
+            (t1 > t0 && h0 > h1).then(|| Landing {
+                time_secs,
+                speed_mps: ((h0 - h1) / (t1 - t0)).min(MAX_LANDING_MPS) as f32,
+                is_from_height: true,
+            })
+        });
+        // In the air there was no force; when the last report there was long ago, nothing is known of the rise.
+        let gap_secs = self.last_in_air_secs.map(|last| time_secs - last);
+        let rise_nps =
+            gap_secs.filter(|gap| (1e-4..=MAX_GAP_SECS).contains(gap)).map_or(0.0, |gap| force_n / gap);
+        self.heights.clear();
+        self.contact = Some(Contact {
+            time_secs,
+            last_secs: time_secs,
+            last_n: force_n,
+            rise_nps,
+            n_reports: 1,
+            is_told: by_height.is_some(),
+        });
+        by_height
+    }
+}
+
+impl Contact {
+    fn tell_by_force(self) -> Option<Landing> {
+        let speed_mps = (self.rise_nps / STIFFNESS_N_PER_M).min(MAX_LANDING_MPS) as f32;
+        (!self.is_told && speed_mps > 0.0).then_some(Landing {
+            time_secs: self.time_secs,
+            speed_mps,
+            is_from_height: false,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Landing, LandingEstimator, STIFFNESS_N_PER_M};
+
+    /// Landings of a pen that comes down at `speed_mps` from 1 cm, reporting each `step_secs`, and stays 50 ms.
+    fn landings(speed_mps: f64, step_secs: f64, tells_height: bool) -> Vec<Landing> {
+        let mut estimator = LandingEstimator::default();
+        let contact_secs = 0.01 / speed_mps;
+        let n = ((contact_secs + 0.05) / step_secs) as u32;
+        (0..n)
+            .filter_map(|i| {
+                let time = f64::from(i) * step_secs;
+                let depth_m = (time - contact_secs) * speed_mps;
+                // The tip yields for 20 ms and is then held.
+                let force_n = STIFFNESS_N_PER_M * depth_m.clamp(0.0, 0.02 * speed_mps);
+                let height_m = tells_height.then_some((-depth_m).max(0.0));
+                estimator.report(time, height_m, force_n, depth_m > 0.0)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn heights_tell_the_speed() {
+        for speed_mps in [0.02, 0.1, 0.5] {
+            let found = landings(speed_mps, 0.004, true);
+            assert_eq!(found.len(), 1);
+            assert!(
+                found[0].is_from_height && (f64::from(found[0].speed_mps) / speed_mps - 1.0).abs() < 1e-6
+            );
+            assert!((found[0].time_secs - 0.01 / speed_mps).abs() < 0.004 + 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_force_that_rises_tells_the_speed_by_the_nominal_stiffness() {
+        for speed_mps in [0.02, 0.1, 0.5] {
+            for step_secs in [0.001, 0.004, 0.008] {
+                let found = landings(speed_mps, step_secs, false);
+                assert_eq!(found.len(), 1);
+                let share = f64::from(found[0].speed_mps) / speed_mps;
+                // At least one whole step lies in the rise.
+                assert!(!found[0].is_from_height && (share - 1.0).abs() < 1e-5, "{share}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_tap_that_ends_early_is_told_when_it_ends() {
+        let mut estimator = LandingEstimator::default();
+        assert_eq!(estimator.report(0.0, None, 0.0, false), None);
+        assert_eq!(estimator.report(0.005, None, 1.0, true), None);
+        let landing = estimator.report(0.010, None, 0.0, false).unwrap();
+        assert!((landing.time_secs - 0.005).abs() < 1e-12 && (landing.speed_mps - 0.02).abs() < 1e-7);
+    }
+
+    #[test]
+    fn nothing_is_told_of_a_contact_whose_beginning_was_not_seen() {
+        let mut estimator = LandingEstimator::default();
+        for i in 0..20 {
+            assert_eq!(estimator.report(f64::from(i) * 0.005, None, 1.0, true), None);
+        }
+        estimator.forget();
+        assert_eq!(estimator.report(0.2, None, 0.0, false), None);
+        // A long silence, then pressed already.
+        for i in 0..20 {
+            assert_eq!(estimator.report(5.0 + f64::from(i) * 0.005, None, 2.0, true), None);
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! What the thread does.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError};
+use std::time::{Duration, Instant};
+
+use rtrb::Producer;
+
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::hid::descriptor::{self, MAX_REPORT_BYTES};
+use crate::hid::identity::HidPen;
+use crate::hid::live::{LOOK_AGAIN, PenBus, PenNotice, PenOptions, READ_TIMEOUT, ReportSource, Shared};
+use crate::hid::pen::PenDecoder;
+use crate::hid::tracker::{PenMoment, PenTracker};
+use crate::live::LiveInput;
+use crate::pressure::PressureMap;
+use crate::touch::Touch;
+
+/// What the handle asks for; when it is gone, the thread ends.
+#[derive(Debug)]
+pub(super) enum Command {
+    Live(LiveInput),
+    Map(PressureMap),
+    Size(Option<[f64; 2]>),
+}
+
+/// A pen that is open.
+struct Open {
+    source: Box<dyn ReportSource>,
+    tracker: PenTracker,
+    pen: HidPen,
+    declared: PenDecoder,
+}
+
+pub(super) struct Reader {
+    bus: Box<dyn PenBus>,
+    options: PenOptions,
+    live: Option<LiveInput>,
+    moments: Producer<PenMoment>,
+    notices: SyncSender<PenNotice>,
+    shared: Arc<Shared>,
+    open: Option<Open>,
+    buffer: Vec<u8>,
+    started: Instant,
+    last_reason: Option<DeviceError>,
+}
+
+impl Reader {
+    pub(super) fn new(
+        bus: Box<dyn PenBus>,
+        options: PenOptions,
+        live: Option<LiveInput>,
+        moments: Producer<PenMoment>,
+        notices: SyncSender<PenNotice>,
+        shared: Arc<Shared>,
+    ) -> Self {
+        Self {
+            bus,
+            options,
+            live,
+            moments,
+            notices,
+            shared,
+            open: None,
+            buffer: vec![0; MAX_REPORT_BYTES as usize + 1],
+            started: Instant::now(),
+            last_reason: None,
+        }
+    }
+
+    /// Reads until the handle is gone.
+    pub(super) fn run(mut self, commands: &Receiver<Command>) {
+        loop {
+            loop {
+                match commands.try_recv() {
+                    Ok(command) => self.obey(command),
+                    Err(TryRecvError::Empty) => break,
+                    Err(TryRecvError::Disconnected) => {
+                        self.lift();
+                        return;
+                    }
+                }
+            }
+            if self.open.is_some() {
+                self.read();
+                continue;
+            }
+            if let Err(error) = self.look() {
+                self.wait_for(error);
+                match wait(commands, LOOK_AGAIN) {
+                    Waited::Command(command) => self.obey(command),
+                    Waited::Time => {}
+                    Waited::End => return,
+                }
+            }
+        }
+    }
+
+    fn obey(&mut self, command: Command) {
+        match command {
+            Command::Live(live) => self.live = Some(live),
+            Command::Map(map) => {
+                self.options.tracking.pressure_map = map;
+                if let Some(open) = &mut self.open {
+                    open.tracker.set_pressure_map(map);
+                }
+            }
+            Command::Size(size_m) => {
+                self.options.size_m = size_m;
+                self.lift();
+                if let Some(open) = &mut self.open {
+                    let decoder = open.declared.clone().with_size_m(size_m);
+                    open.tracker = PenTracker::new(decoder, self.options.tracking);
+                    self.connected();
+                }
+            }
+        }
+    }
+
+    /// Looks for the pen and opens it.
+    fn look(&mut self) -> Result<(), DeviceError> {
+        let id = &self.options.id;
+        let pen = self.bus.list()?.into_iter().find(|pen| pen.id == *id).ok_or_else(|| {
+            let message = format!("the pen {id} is not there; plug it in, or choose another");
+            DeviceError::new(DeviceErrorKind::NotFound, message)
+        })?;
+        let mut source = self.bus.open(&pen)?;
+        let declared = decoder_of(&source.descriptor()?, &pen)?;
+        let tracker =
+            PenTracker::new(declared.clone().with_size_m(self.options.size_m), self.options.tracking);
+        self.open = Some(Open { source, tracker, pen, declared });
+        self.last_reason = None;
+        self.shared.is_connected.store(true, Ordering::Relaxed);
+        self.connected();
+        Ok(())
+    }
+
+    fn connected(&mut self) {
+        let Some(open) = &self.open else { return };
+        let format = open.tracker.decoder().best();
+        self.tell(PenNotice::Connected {
+            pen: open.pen.clone(),
+            size_m: format.size_m(),
+            is_size_doubtful: format.is_size_doubtful,
+            has_pressure: format.pressure.is_some(),
+            full_n: format.pressure.and_then(|pressure| pressure.full_n),
+        });
+    }
+
+    /// Waits for one report and passes it on.
+    fn read(&mut self) {
+        let Some(open) = &mut self.open else { return };
+        let read = open.source.read(&mut self.buffer, READ_TIMEOUT);
+        let now = Instant::now();
+        match read {
+            Ok(0) => {}
+            Ok(length) => {
+                let bytes = self.buffer.get(..length).unwrap_or(&self.buffer);
+                let arrival_secs = now.saturating_duration_since(self.started).as_secs_f64();
+                let Some(moment) = open.tracker.report(arrival_secs, bytes) else {
+                    self.shared.n_ignored.fetch_add(1, Ordering::Relaxed);
+                    return;
+                };
+                self.shared.n_reports.fetch_add(1, Ordering::Relaxed);
+                self.send(moment.touch, now);
+                if self.moments.push(moment).is_err() {
+                    self.shared.n_dropped.fetch_add(1, Ordering::Relaxed);
+                }
+            }
+            Err(error) => {
+                self.lift();
+                self.open = None;
+                self.shared.is_connected.store(false, Ordering::Relaxed);
+                self.tell(PenNotice::Lost(error));
+            }
+        }
+    }
+
+    /// Lifts the tip for the engine: nobody holds it any more.
+    fn lift(&mut self) {
+        if let Some(open) = &mut self.open {
+            let touch = open.tracker.lift();
+            self.send(touch, Instant::now());
+        }
+    }
+
+    fn send(&mut self, touch: Touch, time: Instant) {
+        if let Some(live) = &mut self.live {
+            live.send(touch, time).ok(); // Full only when the output has stopped: nobody feels it then.
+        }
+    }
+
+    /// Says why there is no pen, unless it was said.
+    fn wait_for(&mut self, reason: DeviceError) {
+        if self.last_reason.as_ref() != Some(&reason) {
+            self.last_reason = Some(reason.clone());
+            self.tell(PenNotice::Waiting(reason));
+        }
+    }
+
+    fn tell(&mut self, notice: PenNotice) {
+        self.notices.try_send(notice).ok(); // Full: nobody reads them.
+    }
+}
+
+enum Waited {
+    Command(Command),
+    Time,
+    End,
+}
+
+fn wait(commands: &Receiver<Command>, time: Duration) -> Waited {
+    match commands.recv_timeout(time) {
+        Ok(command) => Waited::Command(command),
+        Err(RecvTimeoutError::Timeout) => Waited::Time,
+        Err(RecvTimeoutError::Disconnected) => Waited::End,
+    }
+}
+
+fn decoder_of(bytes: &[u8], pen: &HidPen) -> Result<PenDecoder, DeviceError> {
+    let unsupported = |why: String| {
+        let message = format!("the pen {} cannot be read: {why}; use another pen", pen.name);
+        DeviceError::new(DeviceErrorKind::Unsupported, message)
+    };
+    let descriptor = descriptor::parse(bytes).map_err(|error| unsupported(error.to_string()))?;
+    PenDecoder::of_device(&descriptor, Some((pen.vendor_id, pen.product_id)))
+        .ok_or_else(|| unsupported("its descriptor declares no pen".into()))
+}

@@ -1,0 +1,283 @@
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::{PenBus, PenNotice, PenOptions, PenThread, ReportSource};
+use crate::controls::Input;
+use crate::engine::ChannelMask;
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::hid::descriptor::tests::PEN;
+use crate::hid::identity::{HidBus, HidPen, denied, with_ids};
+use crate::hid::tracker::TrackerOptions;
+use crate::hid::tracker::tests::{DOWN, HOVER, report};
+use crate::kinematics::SpeedFilter;
+use crate::output::{OpenOptions, open_null_with_tap};
+use crate::pressure::PressureMap;
+use crate::texture::tests::white;
+use shagreen_synth::renderer::Mix;
+
+/// A machine into which pens can be plugged.
+#[derive(Clone, Default)]
+struct Machine(Arc<Mutex<State>>);
+
+#[derive(Default)]
+struct State {
+    plugged: Vec<&'static str>,
+    is_denied: bool,
+    descriptor: Vec<u8>,
+    reports: VecDeque<Vec<u8>>,
+    opened: Vec<String>,
+}
+
+struct Source(Machine, String);
+
+fn pen(serial: &str) -> HidPen {
+    HidPen {
+        id: String::new(),
+        name: "Test pen".into(),
+        vendor_id: 1,
+        product_id: 2,
+        serial: Some(serial.into()),
+        interface: None,
+        path: format!("/dev/{serial}"),
+        bus: HidBus::Usb,
+        has_pressure: None,
+    }
+}
+
+impl PenBus for Machine {
+    fn list(&mut self) -> Result<Vec<HidPen>, DeviceError> {
+        Ok(with_ids(self.0.lock().unwrap().plugged.iter().map(|serial| pen(serial)).collect()))
+    }
+
+    fn open(&mut self, pen: &HidPen) -> Result<Box<dyn ReportSource>, DeviceError> {
+        let mut state = self.0.lock().unwrap();
+        if state.is_denied {
+            return Err(denied(pen));
+        }
+        state.opened.push(pen.id.clone());
+        Ok(Box::new(Source(self.clone(), pen.serial.clone().unwrap())))
+    }
+}
+
+impl ReportSource for Source {
+    fn descriptor(&mut self) -> Result<Vec<u8>, DeviceError> {
+        Ok(self.0.0.lock().unwrap().descriptor.clone())
+    }
+
+    fn read(&mut self, buffer: &mut [u8], _: Duration) -> Result<usize, DeviceError> {
+        let mut state = self.0.0.lock().unwrap();
+        if !state.plugged.contains(&self.1.as_str()) {
+            return Err(DeviceError::new(DeviceErrorKind::Lost, "unplugged"));
+        }
+        if let Some(report) = state.reports.pop_front() {
+            let length = report.len().min(buffer.len());
+            buffer[..length].copy_from_slice(&report[..length]);
+            return Ok(length);
+        }
+        drop(state);
+        std::thread::sleep(Duration::from_millis(1));
+        Ok(0)
+    }
+}
+
+impl Machine {
+    fn new(plugged: &[&'static str]) -> Self {
+        let machine = Self::default();
+        machine.0.lock().unwrap().descriptor = PEN.to_vec();
+        machine.plug(plugged);
+        machine
+    }
+
+    fn plug(&self, plugged: &[&'static str]) {
+        self.0.lock().unwrap().plugged = plugged.to_vec();
+    }
+
+    fn send(&self, report: Vec<u8>) {
+        self.0.lock().unwrap().reports.push_back(report);
+    }
+
+    /// A stroke of 0.2 m/s to the right at 2 N for 300 ms, in reports each 5 ms.
+    fn stroke(&self) {
+        for i in 0..60 {
+            self.send(report(3000 + 100 * i, 8000, 2039, DOWN));
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+}
+
+fn options(serial: &str) -> PenOptions {
+    PenOptions {
+        id: format!("hid:0001:0002:{serial}"),
+        tracking: TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: PressureMap::USUAL },
+        size_m: None,
+    }
+}
+
+/// The next notice, within five seconds.
+fn notice(thread: &PenThread) -> PenNotice {
+    let begun = Instant::now();
+    loop {
+        if let Some(notice) = thread.next_notice() {
+            return notice;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(5), "no notice");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// Waits until so many reports were read or ignored.
+fn wait_for(thread: &PenThread, n: u64) {
+    let begun = Instant::now();
+    while thread.counts().n_reports + thread.counts().n_ignored < n {
+        assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", thread.counts());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+#[test]
+fn a_stroke_is_felt_until_the_pen_is_unplugged_and_again_when_it_is_back() {
+    let output = OpenOptions {
+        model_rate_hz: 1000.0,
+        preferred_rate_hz: Some(48_000),
+        buffer_frames: Some(256),
+        seed: 5,
+        full_scale_mps2: 4.0,
+        ceiling: 1.0,
+        channels: ChannelMask::FIRST_TWO,
+    };
+    let loud = Arc::new(Mutex::new(0.0_f32));
+    let heard = Arc::clone(&loud);
+    let tap = move |block: &[f32]| {
+        let peak = block.iter().fold(0.0_f32, |peak, sample| peak.max(sample.abs()));
+        let mut loud = heard.lock().unwrap();
+        *loud = loud.max(peak);
+    };
+    let (mut handle, _running) = open_null_with_tap(output, tap).unwrap();
+    let id = handle.load(white(1.0)).unwrap();
+    handle.set_mix(Mix::solo(id)).unwrap();
+    handle.set_input(Input::Live);
+    let machine = Machine::new(&["a"]);
+    let mut thread = PenThread::start(machine.clone(), options("a"), handle.take_live_input()).unwrap();
+    let PenNotice::Connected { size_m: Some(size_m), full_n: Some(full_n), .. } = notice(&thread) else {
+        panic!("not connected")
+    };
+    assert!((size_m[0] - 0.209_66).abs() < 1e-9 && (full_n - 4.016).abs() < 1e-9);
+    for round in 1..=2_u64 {
+        *loud.lock().unwrap() = 0.0;
+        machine.stroke();
+        let contact = handle.status().touch.contact;
+        // The machine may be busy: reports then arrive late, and together.
+        assert!(contact.speed_mps > 0.02 && contact.speed_mps < 1.0, "{contact:?}");
+        assert!((contact.force_n - 2.0).abs() < 0.01, "{contact:?}");
+        assert!(*loud.lock().unwrap() > 0.01);
+        wait_for(&thread, 60 * round);
+        machine.plug(&[]);
+        assert!(matches!(notice(&thread), PenNotice::Lost(error) if error.kind() == DeviceErrorKind::Lost));
+        assert!(!thread.counts().is_connected);
+        assert!(
+            matches!(notice(&thread), PenNotice::Waiting(error) if error.kind() == DeviceErrorKind::NotFound)
+        );
+        std::thread::sleep(Duration::from_millis(50));
+        assert_eq!(handle.status().touch.contact.force_n, 0.0);
+        // Another pen of the same sort is not this one.
+        machine.plug(&["b"]);
+        std::thread::sleep(Duration::from_millis(50));
+        machine.plug(&["b", "a"]);
+        assert!(matches!(notice(&thread), PenNotice::Connected { pen, .. } if pen.id == "hid:0001:0002:a"));
+    }
+    let moments: Vec<_> = std::iter::from_fn(|| thread.next_moment()).collect();
+    assert_eq!(moments.len(), 120);
+    assert!(moments.iter().all(|moment| moment.report.tip && moment.place_m.is_some()));
+    assert_eq!(machine.0.lock().unwrap().opened, ["hid:0001:0002:a"; 3]);
+}
+
+#[test]
+fn nonsense_is_counted_and_felt_by_nobody() {
+    let machine = Machine::new(&["a"]);
+    let mut thread = PenThread::start(machine.clone(), options("a"), None).unwrap();
+    notice(&thread);
+    let mut seed = 7_u32;
+    for i in 0..300 {
+        let length = [1, 5, 11, 12, 64, 20_000][i % 6];
+        let bytes = (0..length).map(|_| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            // Never the id of the pen.
+            (seed >> 24) as u8 | 0x80
+        });
+        machine.send(bytes.collect());
+    }
+    machine.send(report(1000, 1000, 0, HOVER)[..11].to_vec());
+    wait_for(&thread, 301);
+    assert_eq!((thread.counts().n_reports, thread.counts().n_ignored), (0, 301));
+    assert!(thread.next_moment().is_none() && thread.counts().is_connected);
+    // A report of a size that nobody declared is read as far as it goes.
+    machine.send([report(1000, 1000, 4095, DOWN), vec![0xff; 30_000]].concat());
+    wait_for(&thread, 302);
+    assert!((thread.next_moment().unwrap().force_n - 4.016).abs() < 1e-9);
+}
+
+#[test]
+fn a_refused_pen_is_told_once_and_read_when_it_is_allowed() {
+    let machine = Machine::new(&["a"]);
+    machine.0.lock().unwrap().is_denied = true;
+    let thread = PenThread::start(machine.clone(), options("a"), None).unwrap();
+    assert!(matches!(notice(&thread), PenNotice::Waiting(error) if error.kind() == DeviceErrorKind::Denied));
+    std::thread::sleep(Duration::from_millis(1200));
+    assert_eq!(thread.next_notice(), None);
+    machine.0.lock().unwrap().is_denied = false;
+    assert!(matches!(notice(&thread), PenNotice::Connected { .. }));
+}
+
+#[test]
+fn a_device_that_is_no_pen_is_told() {
+    for descriptor in
+        [&[0x05, 0x01, 0x09, 0x06, 0xa1, 0x01, 0x75, 0x08, 0x95, 0x01, 0x81, 0x02, 0xc0][..], &[0xc0]]
+    {
+        let machine = Machine::new(&["a"]);
+        machine.0.lock().unwrap().descriptor = descriptor.to_vec();
+        let thread = PenThread::start(machine, options("a"), None).unwrap();
+        assert!(
+            matches!(notice(&thread), PenNotice::Waiting(error) if error.kind() == DeviceErrorKind::Unsupported)
+        );
+    }
+}
+
+#[test]
+fn without_a_size_nothing_is_felt_until_one_is_given() {
+    let machine = Machine::new(&["a"]);
+    {
+        let mut state = machine.0.lock().unwrap();
+        let at = state.descriptor.windows(2).position(|w| w == [0x65, 0x11]).unwrap();
+        state.descriptor[at + 1] = 0;
+    }
+    let mut thread = PenThread::start(machine.clone(), options("a"), None).unwrap();
+    assert!(matches!(notice(&thread), PenNotice::Connected { size_m: None, .. }));
+    machine.stroke();
+    wait_for(&thread, 60);
+    while let Some(moment) = thread.next_moment() {
+        assert_eq!((moment.place_m, moment.touch.contact.force_n), (None, 0.0));
+        assert!(moment.report.x_share > 0.1);
+    }
+    thread.set_size_m(Some([0.2, 0.15]));
+    assert!(matches!(notice(&thread), PenNotice::Connected { size_m: Some(_), .. }));
+    machine.stroke();
+    wait_for(&thread, 120);
+    let last = std::iter::from_fn(|| thread.next_moment()).last().unwrap();
+    assert!(last.touch.contact.speed_mps > 0.02 && last.force_n > 1.9);
+}
+
+#[test]
+fn a_ring_that_nobody_empties_is_counted_and_harmless() {
+    let machine = Machine::new(&["a"]);
+    let thread = PenThread::start(machine.clone(), options("a"), None).unwrap();
+    let n = super::N_MOMENTS as u64 + 100;
+    for i in 0..n {
+        machine.send(report((i % 20_000) as u16, 0, 0, HOVER));
+    }
+    wait_for(&thread, n);
+    assert_eq!(thread.counts().n_dropped, 100);
+    let begun = Instant::now();
+    drop(thread);
+    assert!(begun.elapsed() < Duration::from_secs(1));
+}

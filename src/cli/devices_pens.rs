@@ -1,0 +1,237 @@
+//! `shagreen devices --descriptor` and `--decode`: what raw HID descriptors declare, and what reports say by them.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use serde_json::{Value, json};
+use shagreen_device::hid::pen::{PenAxis, PenDecoder, PenFormat};
+use shagreen_device::hid::tracker::{PenMoment, PenTracker, TrackerOptions};
+use shagreen_device::kinematics::SpeedFilter;
+use shagreen_device::pressure::PressureMap;
+use shagreen_formats::atomic;
+use shagreen_formats::stroke::{PenSample, PressUnit};
+use shagreen_formats::stroke_csv::{read_stroke_csv, stroke_csv};
+
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
+use crate::cli::hid_files::{DeclaredDevice, PenRecording, read_descriptors, read_pen_recording};
+use crate::cli::output;
+
+/// Lists what the files declare. Every file is listed, a broken one with what is wrong with it.
+pub(crate) fn list_descriptors(files: &[PathBuf], size_m: Option<[f64; 2]>, as_json: bool) {
+    let mut entries: Vec<Value> = Vec::new();
+    for file in files {
+        match read_descriptors(file) {
+            Ok(devices) => {
+                entries.extend(devices.iter().map(|device| match device {
+                    Ok(device) => declared_json(file, device, size_m),
+                    Err(error) => broken_json(file, error),
+                }));
+            }
+            Err(error) => entries.push(broken_json(file, &error)),
+        }
+    }
+    output::print(as_json, &json!({"descriptors": entries}), || {
+        entries.iter().map(in_words).collect::<Vec<_>>().join("\n")
+    });
+}
+
+fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
+    // The file is named beside it.
+    let causes: Vec<String> =
+        error.chain().map(ToString::to_string).filter(|c| *c != output::in_file(file)).collect();
+    json!({
+        "file": file.display().to_string(), "name": null, "pen": false, "report_id": null, "x": null, "y": null,
+        "pressure": null, "tilt": false, "reports": [], "warnings": [], "error": causes.join(": "),
+    })
+}
+
+fn declared_json(file: &Path, device: &DeclaredDevice, size_m: Option<[f64; 2]>) -> Value {
+    let decoder = device.pen().map(|decoder| decoder.with_size_m(size_m));
+    let best = decoder.as_ref().map(PenDecoder::best);
+    let reports = decoder.iter().flat_map(PenDecoder::formats).map(format_json).collect::<Vec<_>>();
+    let warnings: Vec<String> = device.descriptor.warnings.iter().map(ToString::to_string).collect();
+    let mut entry = best.map_or_else(
+        || json!({"report_id": null, "x": null, "y": null, "pressure": null, "tilt": false}),
+        format_json,
+    );
+    entry["file"] = json!(file.display().to_string());
+    entry["name"] = json!(device.name);
+    entry["pen"] = json!(best.is_some());
+    entry["reports"] = json!(reports);
+    entry["warnings"] = json!(warnings);
+    entry["error"] = Value::Null;
+    entry
+}
+
+fn format_json(format: &PenFormat) -> Value {
+    let axis = |axis: &PenAxis| {
+        json!({
+            "logical_min": axis.logical_min,
+            "logical_max": axis.logical_max,
+            "mm": axis.side_m.map(|side_m| short(1e3 * side_m)),
+        })
+    };
+    let pressure = format.pressure.map(|pressure| {
+        json!({
+            "bits": pressure.bits,
+            "logical_min": pressure.logical_min,
+            "logical_max": pressure.logical_max,
+            "newtons_max": pressure.full_n.map(short),
+        })
+    });
+    json!({
+        "report_id": format.report_id,
+        "bytes": format.n_bytes,
+        "x": axis(&format.x),
+        "y": axis(&format.y),
+        "size_doubtful": format.is_size_doubtful,
+        "pressure": pressure,
+        "tilt": format.has_tilt,
+        "clock": format.clock_round_secs.is_some(),
+    })
+}
+
+fn in_words(entry: &Value) -> String {
+    let file = entry["file"].as_str().unwrap_or_default();
+    if let Some(error) = entry["error"].as_str() {
+        return format!("{file}: {error}");
+    }
+    if entry["pen"] == json!(false) {
+        return format!("{file}: not a pen");
+    }
+    let size = match (entry["x"]["mm"].as_f64(), entry["y"]["mm"].as_f64()) {
+        (Some(width), Some(height)) if entry["size_doubtful"] == json!(true) => {
+            format!("{width} x {height} mm (doubtful)")
+        }
+        (Some(width), Some(height)) => format!("{width} x {height} mm"),
+        _ => "size not declared".to_owned(),
+    };
+    let levels = entry["pressure"]["logical_max"].as_i64().map_or("no pressure".to_owned(), |max| {
+        let force = entry["pressure"]["newtons_max"].as_f64();
+        force.map_or(format!("pressure to {max}"), |force| format!("pressure to {max}, {force} N"))
+    });
+    let id = entry["report_id"].as_u64().map_or("reports without id".to_owned(), |id| format!("report {id}"));
+    let tilt = if entry["tilt"] == json!(true) { ", tilt" } else { "" };
+    format!("{file}: pen, {id}, {size}, {levels}{tilt}")
+}
+
+/// Decodes the reports of a file, by the descriptor of another or by its own. `files` is one or two.
+pub(crate) fn decode(
+    files: &[PathBuf],
+    size_m: Option<[f64; 2]>,
+    out: Option<&Path>,
+    as_json: bool,
+) -> anyhow::Result<()> {
+    let (declared, reports) = match files {
+        [reports] => (None, reports),
+        [descriptor, reports] => (Some(descriptor), reports),
+        _ => bail!(output::Usage("give --decode DESCRIPTOR REPORTS, or --decode REPORTS".to_owned())),
+    };
+    if let Some(out) = out {
+        refuse_inputs(&[out], &[declared.map(PathBuf::as_path), Some(reports)])?;
+        refuse_foreign(out, "the stroke", |bytes| read_stroke_csv(bytes).is_ok())?;
+    }
+    let declared = match declared {
+        Some(file) => Some(first_pen(file).map_err(|error| error.context(output::in_file(file)))?),
+        None => None,
+    };
+    let bytes = output::read_file(reports)?;
+    let recording = read_pen_recording(&bytes, declared.as_ref(), size_m)
+        .map_err(|error| error.context(output::in_file(reports)))?;
+    let size_m = recording.decoder.best().size_m();
+    if size_m.is_none() {
+        output::warn("the pen declares no size, so that there are no mm; state it with --size-mm 216x135");
+    }
+    if recording.decoder.best().is_size_doubtful {
+        output::warn(
+            "the size that the pen declares is doubtful; state the right one with --size-mm 216x135",
+        );
+    }
+    let moments = moments(&recording);
+    if let Some(out) = out {
+        write_stroke(&moments, out)?;
+    }
+    let moving = moments.iter().filter(|(_, moment)| moment.report.touching());
+    let speed_max = moving.clone().map(|(_, moment)| moment.touch.contact.speed_mps).fold(0.0_f32, f32::max);
+    let result = json!({
+        "samples": moments.iter().map(|(t, moment)| sample_json(*t, moment)).collect::<Vec<_>>(),
+        "ignored": recording.reports.len() - moments.len(),
+        "size_mm": size_m.map(|sides| sides.map(|side| short(1e3 * side))),
+        "speed_max": size_m.map(|_| short(1e3 * f64::from(speed_max))),
+        "out": out.map(|out| out.display().to_string()),
+    });
+    output::print(as_json, &result, || {
+        let n_touching = moving.count();
+        let seconds = moments.last().zip(moments.first()).map_or(0.0, |(last, first)| last.0 - first.0);
+        format!(
+            "{} samples of a pen in {seconds:.3} s, {n_touching} of them touching, at up to {:.0} mm/s; {} reports of something else",
+            moments.len(),
+            1e3 * speed_max,
+            recording.reports.len() - moments.len()
+        )
+    });
+    Ok(())
+}
+
+/// The device of a file that has a pen, else the first: what it is may be known from the recording.
+fn first_pen(file: &Path) -> anyhow::Result<DeclaredDevice> {
+    let mut devices = read_descriptors(file)?.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
+    let index = devices.iter().position(|device| device.pen().is_some()).unwrap_or(0);
+    Ok(devices.swap_remove(index))
+}
+
+/// What the pen did, with the times of the file.
+fn moments(recording: &PenRecording) -> Vec<(f64, PenMoment)> {
+    let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: PressureMap::USUAL };
+    let mut tracker = PenTracker::new(recording.decoder.clone(), options);
+    let reports = recording.reports.iter();
+    reports
+        .filter_map(|report| Some((report.time_secs, tracker.report(report.time_secs, &report.bytes)?)))
+        .collect()
+}
+
+fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
+    let report = &moment.report;
+    let degrees = |angle: Option<f64>| angle.map(|angle| short(angle.to_degrees()));
+    json!({
+        "t": time_secs,
+        "x_mm": report.x_m.map(|x_m| short(1e3 * x_m)),
+        "y_mm": report.y_m.map(|y_m| short(1e3 * y_m)),
+        "pressure": report.pressure.map(short),
+        "tip": report.tip,
+        "x_share": short(report.x_share),
+        "y_share": short(report.y_share),
+        "force_n": report.force_n.map(short),
+        "in_range": report.in_range,
+        "eraser": report.eraser || report.inverted && report.tip,
+        "barrel": report.barrel,
+        "tilt_x_deg": degrees(report.tilt_x_rad),
+        "tilt_y_deg": degrees(report.tilt_y_rad),
+        "speed": moment.place_m.map(|_| short(1e3 * f64::from(moment.touch.contact.speed_mps))),
+        "landing_speed": moment.landing.map(|landing| short(1e3 * f64::from(landing.speed_mps))),
+    })
+}
+
+/// Writes the stroke as a table: in newtons where the pen declares them, else as a share of full pressure.
+fn write_stroke(moments: &[(f64, PenMoment)], out: &Path) -> anyhow::Result<()> {
+    let is_in_newtons = moments.iter().all(|(_, moment)| moment.report.force_n.is_some());
+    let samples: Vec<PenSample> = moments
+        .iter()
+        .filter_map(|(_, moment)| {
+            let sample = moment.sample()?;
+            let press = if is_in_newtons { sample.force_n } else { moment.report.pressure.unwrap_or(0.0) };
+            let (x_m, y_m, touching) = (sample.x_m, sample.y_m, sample.touching);
+            Some(PenSample { time_secs: sample.time_secs, x_m, y_m, press, touching })
+        })
+        .collect();
+    if samples.is_empty() {
+        bail!("there is no stroke in mm to write; state the size of the pen's area with --size-mm");
+    }
+    let unit = if is_in_newtons { PressUnit::Newtons } else { PressUnit::FullScale };
+    Ok(atomic::write(out, stroke_csv(&samples, unit).as_bytes())?)
+}
+
+/// Rounded to a millionth: finer than any pen.
+fn short(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}

@@ -1,0 +1,143 @@
+//! Report descriptors and recorded reports of pens, from files.
+
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use shagreen_device::hid::descriptor::{self, Descriptor};
+use shagreen_device::hid::pen::PenDecoder;
+use shagreen_formats::hid_text::{HidRecording, TimedReport, bytes_of_hex, is_hid_text, read_hid_text};
+
+use crate::cli::output;
+
+/// A descriptor of a file.
+pub(crate) struct DeclaredDevice {
+    /// The device's name, where the file tells it.
+    pub(crate) name: Option<String>,
+    /// Its vendor and product, where the file tells them.
+    pub(crate) identity: Option<(u16, u16)>,
+    /// What it declares.
+    pub(crate) descriptor: Descriptor,
+}
+
+impl DeclaredDevice {
+    /// Its pen: what it declares, else what is known of it.
+    pub(crate) fn pen(&self) -> Option<PenDecoder> {
+        PenDecoder::of_device(&self.descriptor, self.identity)
+    }
+}
+
+/// The descriptors of a file: raw bytes, the same in hexadecimal, or a recording of `hid-recorder` or `usbhid-dump`.
+pub(crate) fn read_descriptors(path: &Path) -> anyhow::Result<Vec<anyhow::Result<DeclaredDevice>>> {
+    let bytes = output::read_file(path)?;
+    let declared = |name: Option<String>, identity, bytes: &[u8]| {
+        let descriptor = descriptor::parse(bytes)?;
+        Ok(DeclaredDevice { name, identity, descriptor })
+    };
+    if is_hid_text(&bytes) {
+        let recording = read_hid_text(&bytes)?;
+        recording.warnings.iter().for_each(|warning| output::warn(warning));
+        let found: Vec<_> = recording
+            .value
+            .into_iter()
+            .filter_map(|device| {
+                let bytes = device.descriptor?;
+                Some(declared(device.name, device.identity, &bytes))
+            })
+            .collect();
+        if found.is_empty() {
+            bail!("the recording holds no report descriptor; record again with one");
+        }
+        return Ok(found);
+    }
+    let hex = std::str::from_utf8(&bytes).ok().and_then(bytes_of_hex); // What is no text is bytes.
+    Ok(vec![declared(None, None, hex.as_deref().unwrap_or(&bytes))])
+}
+
+/// The reports of one pen and what they say.
+pub(crate) struct PenRecording {
+    /// How they are read.
+    pub(crate) decoder: PenDecoder,
+    /// In the order of time.
+    pub(crate) reports: Vec<TimedReport>,
+}
+
+/// The pen of a recording: of several devices the one with the most reports of a pen. `declared` is what another file
+/// declares; without it the recording must hold the descriptor, or be of a known device. `size_m` is the size
+/// that the person gives.
+pub(crate) fn read_pen_recording(
+    bytes: &[u8],
+    declared: Option<&DeclaredDevice>,
+    size_m: Option<[f64; 2]>,
+) -> anyhow::Result<PenRecording> {
+    let recording = read_hid_text(bytes)?;
+    recording.warnings.iter().for_each(|warning| output::warn(warning));
+    let (mut best, mut n_best) = (None, 0);
+    let (mut n_reports, mut n_pens) = (0, 0);
+    for device in recording.value {
+        n_reports += device.reports.len();
+        let Some(decoder) = decoder_of(&device, declared)? else { continue };
+        n_pens += 1;
+        let n_decoded =
+            device.reports.iter().filter(|report| decoder.decode(&report.bytes).is_some()).count();
+        if n_decoded > n_best {
+            (best, n_best) = (Some((decoder, device.reports)), n_decoded);
+        }
+    }
+    if n_pens == 0 {
+        bail!(
+            "no pen is declared; give the report descriptor of the pen, or a recording that holds it (lines R: or DESCRIPTOR)"
+        );
+    }
+    let Some((decoder, reports)) = best else {
+        bail!("none of the {n_reports} reports is one of the pen; record again and move the pen");
+    };
+    Ok(PenRecording { decoder: decoder.with_size_m(size_m), reports })
+}
+
+fn decoder_of(
+    device: &HidRecording,
+    declared: Option<&DeclaredDevice>,
+) -> anyhow::Result<Option<PenDecoder>> {
+    if let Some(declared) = declared {
+        let identity = device.identity.or(declared.identity);
+        return Ok(PenDecoder::of_device(&declared.descriptor, identity));
+    }
+    match &device.descriptor {
+        Some(bytes) => {
+            let descriptor = descriptor::parse(bytes)
+                .with_context(|| format!("device {} of the recording", device.device))?;
+            Ok(PenDecoder::of_device(&descriptor, device.identity))
+        }
+        None => Ok(device.identity.and_then(|(vendor, product)| PenDecoder::of_known(vendor, product))),
+    }
+}
+
+/// Width and height in mm, as `216x135`.
+pub(crate) fn size_mm(text: &str) -> Result<[f64; 2], String> {
+    let sides: Vec<f64> = text.split(['x', 'X']).filter_map(|side| side.trim().parse().ok()).collect(); // Others are missed below.
+    match sides[..] {
+        [width, height] if [width, height].iter().all(|side| (1.0..=10_000.0).contains(side)) => {
+            Ok([width, height])
+        }
+        _ => Err("it must be width and height in mm, such as 216x135".to_owned()),
+    }
+}
+
+/// In m.
+pub(crate) fn meters(size_mm: Option<[f64; 2]>) -> Option<[f64; 2]> {
+    size_mm.map(|sides| sides.map(|side| 1e-3 * side))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::size_mm;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size_mm("216x135"), Ok([216.0, 135.0]));
+        assert_eq!(size_mm("81.25X58"), Ok([81.25, 58.0]));
+        for text in ["", "216", "216x", "0x10", "1x2x3", "-5x10", "nanx1", "axb"] {
+            assert!(size_mm(text).is_err(), "{text}");
+        }
+    }
+}

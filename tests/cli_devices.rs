@@ -1,0 +1,199 @@
+//! `shagreen devices --descriptor` and `--decode`, and strokes recorded from pens.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use std::fmt::Write as _;
+
+use serde_json::json;
+use support::{Bench, shared_data};
+
+/// A pen of 209.66 by 157.25 mm with 4.016 N at a pressure of 4095, report 26.
+const PEN: &str = "05 0d 09 02 a1 01 85 1a 09 20 a1 00 15 00 25 01 75 01 95 06 09 42 09 44 09 45 09 3c 09 5a 09 32 \
+    81 02 95 02 81 03 05 01 a4 75 10 95 01 65 11 55 0d 09 30 26 e6 51 46 e6 51 81 02 09 31 26 6d 3d 46 6d 3d 81 02 \
+    b4 05 0d 75 10 95 01 67 11 e1 00 00 55 02 26 ff 0f 46 b0 0f 09 30 81 02 65 14 55 0e 16 d8 dc 26 28 23 36 d8 dc \
+    46 28 23 09 3d 09 3e 95 02 81 02 c0 c0";
+const KEYBOARD: &str = "05 01 09 06 a1 01 05 07 19 e0 29 e7 15 00 25 01 75 01 95 08 81 02 c0";
+
+fn bytes(hex: &str) -> Vec<u8> {
+    hex.split_whitespace().map(|pair| u8::from_str_radix(pair, 16).unwrap()).collect()
+}
+
+/// A stroke to the right at 100 mm/s and half of full pressure: 1 mm each 10 ms, lines of hid-recorder.
+fn events() -> String {
+    let mut text = String::new();
+    for i in 0..100_u16 {
+        let [low, high] = (5000 + 100 * i).to_le_bytes();
+        let switches = if i < 5 { 0x20 } else { 0x21 };
+        writeln!(
+            text,
+            "E: {:.6} 12 1a {switches:02x} {low:02x} {high:02x} b6 1e 00 08 00 00 00 00",
+            0.01 * f64::from(i)
+        )
+        .unwrap();
+    }
+    text
+}
+
+fn recording() -> String {
+    format!("# made up\nR: {} {PEN}\nN: Test pen\nI: 3 0001 0002\n{}", bytes(PEN).len(), events())
+}
+
+#[test]
+fn what_descriptors_declare() {
+    let bench = Bench::new();
+    bench.write("pen.bin", bytes(PEN));
+    bench.write("pen.txt", PEN);
+    bench.write("pen.rec", recording());
+    bench.write("keyboard.bin", bytes(KEYBOARD));
+    bench.write("broken.bin", &bytes(PEN)[..40]);
+    bench.write("nonsense.bin", [0xc0, 0xff]);
+    bench.write("empty.bin", []);
+    let files = "pen.bin pen.txt pen.rec keyboard.bin broken.bin nonsense.bin empty.bin missing.bin";
+    let found = bench.json(&format!("devices --descriptor {files}"));
+    let found = found["descriptors"].as_array().unwrap();
+    let names: Vec<&str> = found.iter().map(|entry| entry["file"].as_str().unwrap()).collect();
+    assert_eq!(names, files.split(' ').collect::<Vec<_>>());
+    for pen in &found[..3] {
+        assert_eq!(pen["pen"], true);
+        assert_eq!(
+            (&pen["report_id"], &pen["tilt"], &pen["error"]),
+            (&json!(26), &json!(true), &json!(null))
+        );
+        assert_eq!(pen["x"], json!({"logical_min": 0, "logical_max": 20966, "mm": 209.66}));
+        assert_eq!(pen["y"]["mm"], 157.25);
+        let pressure = json!({"bits": 16, "logical_min": 0, "logical_max": 4095, "newtons_max": 4.016});
+        assert_eq!(pen["pressure"], pressure);
+    }
+    assert_eq!(found[2]["name"], "Test pen");
+    assert_eq!((&found[3]["pen"], &found[3]["error"]), (&json!(false), &json!(null)));
+    for (index, word) in [(4, "collection"), (5, "byte 0"), (6, "empty"), (7, "cannot read")] {
+        let entry = &found[index];
+        assert_eq!(
+            (&entry["pen"], &entry["x"], &entry["pressure"]),
+            (&json!(false), &json!(null), &json!(null))
+        );
+        if index > 4 {
+            let error = entry["error"].as_str().unwrap();
+            assert!(error.contains(word), "{error}");
+        }
+    }
+    let said = bench.run(&format!("devices --descriptor {files}"));
+    assert_eq!((said.code, said.stdout.lines().count()), (0, 8));
+    assert!(
+        said.stdout.contains("pen.bin: pen, report 26, 209.66 x 157.25 mm, pressure to 4095, 4.016 N, tilt")
+    );
+}
+
+#[test]
+fn reports_are_decoded_by_a_descriptor_or_their_own() {
+    let bench = Bench::new();
+    bench.write("pen.bin", bytes(PEN));
+    bench.write("events.txt", events());
+    bench.write("pen.rec", recording());
+    let mut dump = format!("001:002:003:DESCRIPTOR 1234567.5\n {PEN}\n\n");
+    for line in events().lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        write!(dump, "001:002:003:STREAM {}\n {}\n\n", words[1], words[3..].join(" ")).unwrap();
+    }
+    bench.write("pen.dump", dump);
+    let by_file = bench.json("devices --decode pen.bin events.txt");
+    for own in ["pen.rec", "pen.dump", "pen.bin pen.rec", "pen.bin pen.dump"] {
+        assert_eq!(bench.json(&format!("devices --decode {own}"))["samples"], by_file["samples"], "{own}");
+    }
+    let samples = by_file["samples"].as_array().unwrap();
+    assert_eq!((samples.len(), &by_file["ignored"]), (100, &json!(0)));
+    assert_eq!((&samples[4]["tip"], &samples[5]["tip"]), (&json!(false), &json!(true)));
+    let number = |index: usize, name: &str| samples[index][name].as_f64().unwrap();
+    assert!((number(50, "x_mm") - 100.0).abs() < 1e-6 && (number(50, "y_mm") - 78.62).abs() < 1e-6);
+    assert!((number(50, "t") - 0.5).abs() < 1e-9);
+    assert!((number(50, "pressure") - 2048.0 / 4095.0).abs() < 1e-6);
+    assert!((number(50, "force_n") - 4.016 * 2048.0 / 4095.0).abs() < 1e-6);
+    assert!((number(99, "speed") - 100.0).abs() < 0.1);
+}
+
+#[test]
+fn a_decoded_stroke_is_a_table_that_renders_the_same() {
+    let bench = Bench::new();
+    bench.write("pen.rec", recording());
+    bench.json("devices --decode pen.rec -o stroke.csv");
+    for stroke in ["pen.rec", "stroke.csv"] {
+        let rendered =
+            bench.json(&format!("render --texture cork --stroke {stroke} --seed 1 -o {stroke}.wav"));
+        assert!(rendered["rms"].as_f64().unwrap() > 0.0);
+    }
+    let ((a, _), (b, _)) = (bench.wav("pen.rec.wav"), bench.wav("stroke.csv.wav"));
+    assert_eq!(a.len(), b.len());
+    // The table holds the same places and forces to the last digits.
+    assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-4));
+}
+
+#[test]
+fn a_pen_without_a_size_takes_one() {
+    let bench = Bench::new();
+    let unit = PEN.replace("65 11 55 0d", "65 00 55 00");
+    bench.write("pen.rec", recording().replace(PEN, &unit));
+    let bare = bench.json("devices --decode pen.rec");
+    assert_eq!((&bare["samples"][9]["x_mm"], &bare["size_mm"]), (&json!(null), &json!(null)));
+    let sized = bench.json("devices --decode pen.rec --size-mm 209.66x157.25");
+    assert_eq!(sized["samples"][50]["x_mm"], 100.0);
+    bench.fails("render --texture cork --stroke pen.rec -o a.wav", 1, &["declares no size", "--size-mm"]);
+    bench.json("render --texture cork --stroke pen.rec --size-mm 209.66x157.25 -o a.wav");
+}
+
+#[test]
+fn what_cannot_be_decoded_says_why() {
+    let bench = Bench::new();
+    bench.write("pen.bin", bytes(PEN));
+    bench.write("keyboard.bin", bytes(KEYBOARD));
+    bench.write("events.txt", events());
+    bench.write("other.txt", "E: 0.0 3 01 02 03\n");
+    bench.write("notes.txt", "nothing");
+    bench.fails("devices --decode events.txt", 1, &["no pen is declared", "events.txt"]);
+    bench.fails("devices --decode keyboard.bin events.txt", 1, &["no pen is declared"]);
+    bench.fails("devices --decode pen.bin other.txt", 1, &["none of the 1 reports", "other.txt"]);
+    bench.fails("devices --decode pen.bin notes.txt", 1, &["no recording", "notes.txt"]);
+    bench.fails("devices --decode pen.bin missing.txt", 1, &["missing.txt"]);
+    bench.fails("devices --decode missing.bin events.txt", 1, &["missing.bin"]);
+    bench.fails("devices --decode pen.bin events.txt -o events.txt", 1, &["write over"]);
+    bench.fails("devices --decode pen.bin events.txt --size-mm 12", 2, &["width and height"]);
+    bench.fails("devices --descriptor pen.bin --decode pen.bin events.txt", 2, &[]);
+}
+
+#[test]
+fn descriptors_of_real_devices() {
+    let Some(folder) = shared_data("hid-descriptors") else { return };
+    let bench = Bench::new();
+    let mut files: Vec<String> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path().display().to_string())
+        .filter(|file| file.ends_with(".bin"))
+        .collect();
+    files.sort();
+    let found = bench.json(&format!("devices --descriptor {}", files.join(" ")));
+    let found = found["descriptors"].as_array().unwrap();
+    assert_eq!(found.len(), files.len());
+    for entry in found {
+        assert_eq!(entry["error"], json!(null), "{entry}");
+        assert_eq!(entry["pen"], !entry["x"].is_null(), "{entry}");
+    }
+}
+
+/// A real stroke on a pen whose descriptor declares no pen: where and how fast it may be, and no faster.
+#[test]
+fn a_recorded_pen_partner_draws_a_plausible_stroke() {
+    let Some(file) = shared_data("hid-descriptors/penpartner-hid-recorder.txt") else { return };
+    let bench = Bench::new();
+    let decoded = bench.json(&format!("devices --decode {}", file.display()));
+    let samples = decoded["samples"].as_array().unwrap();
+    assert_eq!(samples.len(), 757);
+    let touching = samples.iter().filter(|sample| sample["tip"] == true && sample["in_range"] == true);
+    assert_eq!(touching.clone().count(), 38);
+    for sample in touching {
+        assert!(sample["pressure"].as_f64().unwrap() > 0.2);
+        assert!((0.0..=81.25).contains(&sample["x_mm"].as_f64().unwrap()));
+        // A hand that signs its name.
+        assert!(sample["speed"].as_f64().unwrap() < 1000.0);
+    }
+    bench.json(&format!("render --texture cork --stroke {} --seed 1 -o a.wav", file.display()));
+}
