@@ -10,6 +10,7 @@ use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::{Reporter, link};
 use crate::null_output::NullOutput;
+use crate::serial::{SerialOptions, SerialOutput};
 
 /// The id of the output that plays to nobody.
 pub const NULL_ID: &str = "null";
@@ -32,6 +33,8 @@ pub enum OutputKind {
     Null,
     /// A device of the system's sound.
     Audio,
+    /// A microcontroller on a serial port.
+    Serial,
 }
 
 /// One output of this machine.
@@ -84,9 +87,22 @@ pub struct Running {
 enum Device {
     Audio(AudioOutput),
     Null(NullOutput),
+    Serial(SerialOutput),
 }
 
 impl Running {
+    /// An open serial output.
+    pub(crate) fn of_serial(
+        id: String,
+        rate_hz: u32,
+        window: u16,
+        latency_secs: f64,
+        output: SerialOutput,
+    ) -> Self {
+        let buffer_frames = Some(u32::from(window));
+        Self { id, rate_hz, channels: 1, buffer_frames, latency_secs, device: Device::Serial(output) }
+    }
+
     /// Id of the output.
     pub fn id(&self) -> &str {
         &self.id
@@ -125,7 +141,8 @@ pub fn list_outputs() -> Vec<OutputInfo> {
     std::iter::once(null).chain(crate::audio::list()).collect()
 }
 
-/// Opens output `id`, silent until its handle is told otherwise.
+/// Opens output `id`, silent until its handle is told otherwise. `serial:` and a port's name opens the receiver on that
+/// port by [`SerialOptions::default`].
 ///
 /// # Errors
 /// - [`DeviceErrorKind::NotFound`] where there is no such output.
@@ -133,12 +150,16 @@ pub fn list_outputs() -> Vec<OutputInfo> {
 /// - [`DeviceErrorKind::Denied`] where the system refuses it.
 /// - [`DeviceErrorKind::Unsupported`] where it has no rate, format or channel that would do.
 /// - [`DeviceErrorKind::Config`] where the options contradict themselves.
-/// - [`DeviceErrorKind::Unavailable`] or [`DeviceErrorKind::Backend`] where the system fails.
+/// - [`DeviceErrorKind::Unavailable`], also where nothing answers on a serial port, or [`DeviceErrorKind::Backend`] where the system fails.
 pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
     if id == NULL_ID {
         return open_null_with_tap(options, |_| {});
     }
     check_buffer(options)?;
+    if id.starts_with(crate::serial::ID_PREFIX) {
+        let connection = crate::serial::open(id, options, SerialOptions::default())?;
+        return Ok((connection.handle, connection.running));
+    }
     let (handle, opened) = crate::audio::open(id, options)?;
     let buffer_frames = opened.buffer_frames;
     let running = Running {

@@ -98,7 +98,7 @@ impl Decoder {
             self.note_bad();
             return None;
         };
-        let [kind, low, high, ..] = self.bytes else { return None };
+        let [kind, low, high, ..] = self.bytes;
         Some(Frame { kind, seq: u16::from_le_bytes([low, high]), payload: &self.bytes[HEADER..body] })
     }
 

@@ -110,12 +110,7 @@ impl Sender {
     }
 
     /// Takes what arrived; `hear` gets what is not about the stream.
-    pub(super) fn receive(
-        &mut self,
-        bytes: &[u8],
-        now: Duration,
-        hear: &mut dyn FnMut(DeviceMessage<'_>),
-    ) {
+    pub(super) fn receive(&mut self, bytes: &[u8], now: Duration, hear: &mut dyn FnMut(DeviceMessage<'_>)) {
         let mut decoder = std::mem::take(&mut self.decoder);
         for &byte in bytes {
             let Some(frame) = decoder.push(byte) else { continue };
@@ -254,13 +249,7 @@ impl Sender {
         self.allowance = (self.allowance + more).min(most);
     }
 
-    fn stream(
-        &mut self,
-        now: Duration,
-        status: DeviceStatus,
-        source: &mut dyn Source,
-        outbox: &mut Outbox,
-    ) {
+    fn stream(&mut self, now: Duration, status: DeviceStatus, source: &mut dyn Source, outbox: &mut Outbox) {
         let Configure { window, rate_hz, .. } = self.plan.configure;
         let block = self.plan.block;
         // Nothing can be on its way for so long: it was lost, or it waits somewhere and is old when it arrives.

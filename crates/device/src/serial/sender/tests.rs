@@ -70,7 +70,13 @@ struct Way {
 
 impl Way {
     fn new() -> Self {
-        Self { on_it: VecDeque::new(), held: None, fates: Box::new(|_| Fate::Arrives), is_stuck: false, most: 0 }
+        Self {
+            on_it: VecDeque::new(),
+            held: None,
+            fates: Box::new(|_| Fate::Arrives),
+            is_stuck: false,
+            most: 0,
+        }
     }
 
     fn put(&mut self, tick: u64, mut frame: Vec<u8>) {
