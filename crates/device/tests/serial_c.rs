@@ -194,7 +194,9 @@ fn steps(seed: u64, mode: Mode, percent: u64) -> Vec<Step> {
         }
         for part in &parts {
             part.bytes.iter().for_each(|&byte| mirror.receive(byte));
-            (0..part.n_ticks).for_each(|_| drop(mirror.tick(0)));
+            for _ in 0..part.n_ticks {
+                mirror.tick(0);
+            }
         }
         steps.extend(parts);
     }

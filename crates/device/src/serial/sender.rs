@@ -253,7 +253,8 @@ impl Sender {
         let Configure { window, rate_hz, .. } = self.plan.configure;
         let block = self.plan.block;
         // Nothing can be on its way for so long: it was lost, or it waits somewhere and is old when it arrives.
-        let longest = REPEAT.max(Duration::from_secs_f64(2.0 * f64::from(window) / f64::from(rate_hz)));
+        let window_secs = f64::from(window) / f64::from(rate_hz);
+        let longest = (self.plan.stall * 4 / 5).max(Duration::from_secs_f64(2.0 * window_secs));
         let is_overdue = now.saturating_sub(self.last_samples) > longest;
         loop {
             let begin = if status.state == RunState::Armed { self.run_begin } else { status.seq };
