@@ -84,7 +84,7 @@ fn played_by_rust(steps: &[Step]) -> (Vec<u8>, usize) {
             speed = receiver.control().map_or(speed, |control| control.speed_dmmps);
         }
         for _ in 0..step.n_ticks {
-            let sample = receiver.tick((speed & 0x7FFF) as i16);
+            let sample = receiver.tick((speed & 0x7FFF).cast_signed());
             n_heard += usize::from(sample != 0);
             said.extend(sample.to_le_bytes());
         }

@@ -69,7 +69,7 @@ fn open_writer(port: &str) -> io::Result<std::fs::File> {
     use rustix::fs::OFlags;
     use std::os::unix::fs::OpenOptionsExt as _;
     let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
-    std::fs::OpenOptions::new().read(true).write(true).custom_flags(flags.bits() as i32).open(port)
+    std::fs::OpenOptions::new().read(true).write(true).custom_flags(flags.bits().cast_signed()).open(port)
 }
 
 #[cfg(unix)]

@@ -401,7 +401,9 @@ fn write_configure(w: &mut Writer, configure: Configure) {
         configure.fade,
         configure.full_scale_cmps2,
     ];
-    numbers.into_iter().for_each(|number| w.u16(number));
+    for number in numbers {
+        w.u16(number);
+    }
 }
 
 fn read_control(r: &mut Reader<'_>) -> Result<Control, Malformed> {
@@ -542,7 +544,9 @@ impl Writer {
     }
 
     fn bytes(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.u8(byte));
+        for &byte in bytes {
+            self.u8(byte);
+        }
     }
 
     fn u16(&mut self, number: u16) {
@@ -554,7 +558,9 @@ impl Writer {
     }
 
     fn samples(&mut self, samples: &[i16]) {
-        samples.iter().for_each(|sample| self.bytes(&sample.to_le_bytes()));
+        for sample in samples {
+            self.bytes(&sample.to_le_bytes());
+        }
     }
 }
 

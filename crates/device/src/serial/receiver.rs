@@ -302,7 +302,7 @@ impl<const N: usize> Receiver<N> {
     }
 
     fn take_control(&mut self, seq: u16, run: u8, control: Control) {
-        let is_newer = self.control_seq.is_none_or(|last| (seq.wrapping_sub(last) as i16) > 0);
+        let is_newer = self.control_seq.is_none_or(|last| seq.wrapping_sub(last).cast_signed() > 0);
         if self.is_configured_for(Mode::Control) && run == self.run && is_newer {
             (self.control, self.control_seq) = (control, Some(seq));
             (self.is_playing, self.unfed_ticks) = (true, 0);

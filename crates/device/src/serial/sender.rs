@@ -180,7 +180,7 @@ impl Sender {
         if let Some(last) = self.status {
             let n_ticks = status.clock.wrapping_sub(last.clock);
             // A line that changes the order of frames brings old news. After silence, any news is good.
-            if (n_ticks as i32) < 0 && !self.is_stalled {
+            if n_ticks.cast_signed() < 0 && !self.is_stalled {
                 return;
             }
             self.counts.underruns += u64::from(status.underruns.wrapping_sub(last.underruns));

@@ -1,5 +1,6 @@
 //! Real pseudo terminals, and a receiver whose clock waits for samples: so nothing here depends on how busy the machine
 //! is. Times are tested in `sender`.
+#![allow(clippy::print_stdout, reason = "a test says what it measured")]
 
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
@@ -113,7 +114,9 @@ fn run_board(
         let n = master.read(&mut bytes).unwrap_or(0);
         let mut bytes = bytes[..n].to_vec();
         spoil(&mut bytes);
-        bytes.iter().for_each(|&byte| receiver.receive(byte));
+        for &byte in &bytes {
+            receiver.receive(byte);
+        }
         loop {
             // The clock stands while there is nothing to play.
             let status = receiver.status();
@@ -126,7 +129,7 @@ fn run_board(
                 Some(Mode::Control) => status.clock % 16 != 15,
                 None => false,
             };
-            let rendered = receiver.control().map_or(0, |control| control.speed_dmmps as i16);
+            let rendered = receiver.control().map_or(0, |control| control.speed_dmmps.cast_signed());
             if is_ready {
                 let sample = receiver.tick(rendered);
                 let _ = teller.send((status.run, sample));
@@ -145,7 +148,7 @@ fn run_board(
             }
         }
         if receiver.settings().is_some() && n > 0 {
-            let len = write_sensor((n_sensor, 3200, 7, 38_307), &[n_sensor as i16, -1], &mut wire);
+            let len = write_sensor((n_sensor, 3200, 7, 38_307), &[n_sensor.cast_signed(), -1], &mut wire);
             n_sensor = n_sensor.wrapping_add(2);
             words.extend(&wire[..len]);
         }
@@ -182,7 +185,7 @@ fn expected(n: usize) -> Vec<i16> {
     stroke(&mut handle);
     let mut samples = vec![0_i16; n];
     Edge::new(engine, reporter.shared, 4000.0).fill(&mut samples, 1);
-    let faded = samples.iter().enumerate().map(|(k, &x)| (i32::from(x) * (k + 1).min(12) as i32 / 12) as i16);
+    let faded = (1..).zip(samples).map(|(k, x)| (i32::from(x) * k.min(12) / 12) as i16);
     faded.collect()
 }
 
@@ -224,23 +227,23 @@ fn a_line_that_corrupts_is_survived() {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             if is_bad.load(Ordering::Relaxed) {
                 match state >> 54 {
-                    0..10 => bytes[i] ^= 1 << (state >> 40 & 7),
-                    10..15 => drop(bytes.remove(i)),
-                    15..20 => bytes.insert(i, state as u8),
+                    0..3 => bytes[i] ^= 1 << (state >> 40 & 7),
+                    3..5 => drop(bytes.remove(i)),
+                    5..7 => bytes.insert(i, state as u8),
                     _ => {}
                 }
             }
         }
     };
     let board = Board::new(Vec::new(), Box::new(spoil));
-    let (mut handle, _output, _heard) = start(&board, SerialOptions { watchdog_ms: 100, ..PATIENT });
-    let played = board.play(8000);
+    let (mut handle, _output, _heard) = start(&board, SerialOptions { watchdog_ms: 50, ..PATIENT });
+    let played = board.play(3000);
     assert!(played.iter().all(|(_, x)| x.unsigned_abs() <= 29_491));
     assert!(handle.status().backend_errors > 10, "{:?}", handle.status());
     n_left.store(false, Ordering::Relaxed);
-    board.play(2000);
+    board.play(1000);
     let after = handle.status();
-    let played = board.play(4000);
+    let played = board.play(2000);
     assert!(played.iter().any(|(_, x)| x.abs() > 3000));
     wait_for("it runs", || handle.status().state == LinkState::Running);
     assert!(handle.status().backend_errors >= after.backend_errors);
@@ -293,7 +296,7 @@ fn a_plug_that_is_pulled_is_a_loss_and_stays_one() {
 
 #[test]
 fn garbage_before_hello_is_no_matter() {
-    let mut garbage: Vec<u8> = (0..2000_u32).map(|i| (i * 7919 >> 3) as u8).collect();
+    let mut garbage: Vec<u8> = (0..2000_u32).map(|i| ((i * 7919) >> 3) as u8).collect();
     garbage.extend(b"\x02\x81\nBooting...\r\n");
     let board = Board::new(garbage, Box::new(|_| {}));
     let (_handle, _output, _heard) = start(&board, PATIENT);

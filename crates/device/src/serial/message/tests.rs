@@ -161,7 +161,7 @@ fn what_is_short_or_means_nothing_is_malformed() {
         assert_eq!(device(kind, &long[..least - 1]), Err(Malformed), "{kind}");
     }
     assert_eq!(host(0x03, &long[..4]), Err(Malformed), "half a sample");
-    assert_eq!(host(0x03, &long[..1 + 2 * MAX_SAMPLES]), Ok(()));
+    assert_eq!(host(0x03, &long[..=(2 * MAX_SAMPLES)]), Ok(()));
     assert_eq!(host(0x03, &long[..3 + 2 * MAX_SAMPLES]), Err(Malformed), "too many samples");
     assert_eq!(host(0x02, &[0; 18]), Err(Malformed), "configuration 0");
     assert_eq!(host(0x02, &[2; 18]), Err(Malformed), "no such mode");

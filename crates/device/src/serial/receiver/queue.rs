@@ -55,7 +55,7 @@ impl<const N: usize> Queue<N> {
         let mut n_new = 0;
         for (i, sample) in samples.iter().enumerate() {
             // Half of all indices lie behind, half ahead.
-            let ahead = seq.wrapping_add(i as u16).wrapping_sub(base) as i16;
+            let ahead = seq.wrapping_add(i as u16).wrapping_sub(base).cast_signed();
             let Some(offset) = usize::try_from(ahead).ok().filter(|&offset| offset < limit) else { continue };
             while self.len <= offset {
                 self.is_there[(self.head + self.len) % N] = false;
@@ -91,7 +91,9 @@ mod tests {
 
     fn put(queue: &mut Queue<8>, seq: u16, samples: &[i16], limit: usize) -> u16 {
         let mut payload = vec![0];
-        samples.iter().for_each(|sample| payload.extend(sample.to_le_bytes()));
+        for sample in samples {
+            payload.extend(sample.to_le_bytes());
+        }
         let frame = Frame { kind: 3, seq, payload: &payload };
         let Ok(Some(HostMessage::Samples { samples, .. })) = from_host(frame) else { panic!("samples") };
         queue.put(seq, samples, limit)

@@ -33,7 +33,7 @@ fn configured(configure: Configure) -> (Small, u8) {
 
 /// What is heard of a run of equal samples: the fade in, then themselves.
 fn faded_in(sample: i16, n: usize) -> Vec<i16> {
-    (1..=n).map(|k| (i32::from(sample) * k.min(12) as i32 / 12) as i16).collect()
+    (1..).take(n).map(|k| (i32::from(sample) * k.min(12) / 12) as i16).collect()
 }
 
 /// One message that is due to the host, by a name.

@@ -1,5 +1,6 @@
 //! Both sides on a line of this file's own time: a step is a tick of the receiver's clock, so that every test is the same
 //! on every machine, however busy it is.
+#![allow(clippy::print_stdout, reason = "a test says what it measured")]
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -157,7 +158,8 @@ impl Bench {
             for byte in self.down.take(self.tick) {
                 self.receiver.receive(byte);
             }
-            let rendered = self.receiver.control().map_or(0, |control| control.speed_dmmps as i16 & 0x3FFF);
+            let rendered =
+                self.receiver.control().map_or(0, |control| control.speed_dmmps.cast_signed() & 0x3FFF);
             let sample = self.receiver.tick(rendered);
             assert!(sample.unsigned_abs() <= CONFIGURE.ceiling, "above the ceiling");
             self.played.push(sample);
@@ -374,7 +376,7 @@ fn control_follows_the_hand_and_stops_with_it() {
     assert_eq!(control.texture, 1);
     // The engine's clock is the receiver's.
     let n_played = bench.receiver.status().clock;
-    assert!((i64::from(n_played) - bench.source.n_rendered as i64).abs() <= 40);
+    assert!(u64::from(n_played).abs_diff(bench.source.n_rendered) <= 40);
     bench.down.is_stuck = true;
     bench.run(SECOND);
     assert_eq!(bench.receiver.control(), None);
