@@ -27,7 +27,9 @@ impl Line {
     pub(super) fn open(id: &str, port: &str, baud: u32) -> Result<Self, DeviceError> {
         #[cfg(unix)]
         let writer = open_writer(port).map_err(|error| explain_io(id, &error))?;
-        let builder = serialport::new(port, baud).timeout(READ_WAIT).dtr_on_open(true);
+        // The pseudo terminals of macOS refuse every rate.
+        let baud_to_set = if cfg!(target_os = "macos") && port.starts_with("/dev/ttys") { 0 } else { baud };
+        let builder = serialport::new(port, baud_to_set).timeout(READ_WAIT).dtr_on_open(true);
         let mut port = builder.open().map_err(|error| explain(id, baud, &error))?;
         // What is not there on every port: a pseudo terminal has no such wires, and some have no buffers to clear.
         let _ = port.write_request_to_send(true);
