@@ -1,5 +1,8 @@
 //! What the frames of the serial protocol say, both ways. Every number is little-endian.
 
+mod payload;
+
+use self::payload::{Reader, Writer};
 use crate::serial::frame::{Frame, MAX_PAYLOAD, MAX_WIRE, encode};
 
 /// Version of the protocol that is spoken here.
@@ -244,7 +247,7 @@ const HAS_SENSOR: u8 = 4;
 /// [`Malformed`] where the payload is too short or holds a number that means nothing. Longer ones are taken: later
 /// versions may add to the end.
 pub fn from_host(frame: Frame<'_>) -> Result<Option<HostMessage<'_>>, Malformed> {
-    let mut r = Reader(frame.payload);
+    let mut r = Reader::new(frame.payload);
     let seq = frame.seq;
     let message = match frame.kind {
         HELLO => HostMessage::Hello { nonce: seq, version: r.u8()? },
@@ -263,7 +266,7 @@ pub fn from_host(frame: Frame<'_>) -> Result<Option<HostMessage<'_>>, Malformed>
 /// # Errors
 /// [`Malformed`] as for [`from_host`].
 pub fn from_device(frame: Frame<'_>) -> Result<Option<DeviceMessage<'_>>, Malformed> {
-    let mut r = Reader(frame.payload);
+    let mut r = Reader::new(frame.payload);
     let seq = frame.seq;
     let message = match frame.kind {
         HELLO_REPLY => DeviceMessage::HelloReply(read_hello_reply(seq, &mut r)?),
@@ -482,86 +485,6 @@ fn write_status(w: &mut Writer, status: DeviceStatus) {
     w.u16(status.bad_frames);
     w.u16(status.dropped);
     w.u16(status.ping);
-}
-
-/// What is left of a payload.
-struct Reader<'a>(&'a [u8]);
-
-impl<'a> Reader<'a> {
-    fn take(&mut self, n: usize) -> Result<&'a [u8], Malformed> {
-        let (taken, left) = self.0.split_at_checked(n).ok_or(Malformed)?;
-        self.0 = left;
-        Ok(taken)
-    }
-
-    fn u8(&mut self) -> Result<u8, Malformed> {
-        Ok(self.take(1)?[0])
-    }
-
-    fn u16(&mut self) -> Result<u16, Malformed> {
-        let bytes = self.take(2)?;
-        Ok(u16::from_le_bytes([bytes[0], bytes[1]]))
-    }
-
-    fn u32(&mut self) -> Result<u32, Malformed> {
-        Ok(u32::from(self.u16()?) | u32::from(self.u16()?) << 16)
-    }
-
-    /// All that is left: one sample to `most`.
-    fn samples(&mut self, most: usize) -> Result<SampleBytes<'a>, Malformed> {
-        let bytes = core::mem::take(&mut self.0);
-        let is_whole = bytes.len().is_multiple_of(2) && (1..=most).contains(&(bytes.len() / 2));
-        if is_whole { Ok(SampleBytes(bytes)) } else { Err(Malformed) }
-    }
-
-    /// All that is left, up to `most` bytes.
-    fn text(&mut self, most: usize) -> &'a [u8] {
-        let bytes = core::mem::take(&mut self.0);
-        &bytes[..bytes.len().min(most)]
-    }
-}
-
-/// A payload in the making. What does not fit is left out: no message is that long.
-struct Writer {
-    bytes: [u8; MAX_PAYLOAD],
-    len: usize,
-}
-
-impl Writer {
-    fn new() -> Self {
-        Self { bytes: [0; MAX_PAYLOAD], len: 0 }
-    }
-
-    fn payload(&self) -> &[u8] {
-        &self.bytes[..self.len]
-    }
-
-    fn u8(&mut self, byte: u8) {
-        if let Some(place) = self.bytes.get_mut(self.len) {
-            *place = byte;
-            self.len += 1;
-        }
-    }
-
-    fn bytes(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.u8(byte);
-        }
-    }
-
-    fn u16(&mut self, number: u16) {
-        self.bytes(&number.to_le_bytes());
-    }
-
-    fn u32(&mut self, number: u32) {
-        self.bytes(&number.to_le_bytes());
-    }
-
-    fn samples(&mut self, samples: &[i16]) {
-        for sample in samples {
-            self.bytes(&sample.to_le_bytes());
-        }
-    }
 }
 
 #[cfg(test)]
