@@ -124,7 +124,7 @@ impl Running {
     }
 
     /// From a change of the contact to the actuator's terminals, in seconds: the renderer's own delay and two blocks of
-    /// the device. A sound server behind the device may add to it.
+    /// the device, or the receiver's queue and the line to it. A sound server behind the device may add to it.
     pub fn latency_secs(&self) -> f64 {
         self.latency_secs
     }
