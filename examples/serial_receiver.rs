@@ -6,7 +6,6 @@
 //! played (else levels are printed).
 #![allow(clippy::print_stdout, reason = "an example shows what it does")]
 
-use std::io::{Read as _, Write as _};
 use std::time::{Duration, Instant};
 
 use serialport::SerialPort;
