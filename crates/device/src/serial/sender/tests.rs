@@ -258,7 +258,7 @@ fn a_good_line_plays_without_a_gap_and_never_late() {
 #[test]
 fn a_bad_line_is_survived_and_the_stream_stands_again_within_50_ms() {
     let mut slowest = 0;
-    for seed in 1..=100 {
+    for seed in 1..=40 {
         let mut bench = Bench::new(Mode::Stream);
         let ends = 2 * SECOND;
         let fates = |salt: u64| -> Fates {
@@ -310,7 +310,7 @@ fn a_line_that_was_away_plays_what_is_current_within_50_ms() {
     use Ailment::{DeadBoth, DeadDown, DeadUp, Halted, Stalled, StuckDown, StuckUp};
     let mut slowest = 0;
     for ailment in [DeadBoth, DeadDown, DeadUp, StuckDown, StuckUp, Stalled, Halted] {
-        for shift in 0..60 {
+        for shift in (0..60).step_by(4) {
             let mut bench = Bench::new(Mode::Stream);
             bench.run(SECOND / 2 + shift);
             let (begins, ends) = (bench.tick, bench.tick + 2 * SECOND + shift * 7 % 41);
@@ -347,7 +347,7 @@ fn a_line_that_was_away_plays_what_is_current_within_50_ms() {
 #[test]
 fn a_receiver_that_resets_is_configured_and_plays_again_within_50_ms() {
     let mut slowest = 0;
-    for shift in 0..60 {
+    for shift in (0..60).step_by(4) {
         for is_hello_lost in [false, true] {
             let mut bench = Bench::new(Mode::Stream);
             bench.run(SECOND / 2 + shift);
