@@ -67,7 +67,7 @@ fn list(as_json: bool) {
         lines.extend(styluses.iter().map(|stylus| line(&stylus.id, &stylus.name)));
         lines.push("Outputs (play --output ID):".to_owned());
         lines.extend(outputs.iter().map(|output| line(&output.id, &output.name)));
-        lines.push("Serial ports:".to_owned());
+        lines.push("Serial ports (play --serial ID):".to_owned());
         lines.extend(serial.iter().map(|port| line(&port.id, &port.name)));
         lines.join("\n")
     });
@@ -100,6 +100,7 @@ fn output_kind(kind: OutputKind) -> &'static str {
     match kind {
         OutputKind::Null => "null",
         OutputKind::Audio => "audio",
+        OutputKind::Serial => "serial",
         _ => "other",
     }
 }
@@ -113,5 +114,5 @@ fn serial_json(port: &SerialPortInfo) -> Value {
         SerialPortKind::Bluetooth => ("bluetooth", None),
         SerialPortKind::Unknown => ("unknown", None),
     };
-    json!({"id": port.id, "name": port.name, "kind": kind, "usb": usb})
+    json!({"id": port.id, "port": port.port, "name": port.name, "kind": kind, "usb": usb})
 }

@@ -9,8 +9,13 @@ use shagreen_core::render::{path_mix, synth_blend};
 use shagreen_core::texture_path::{TexturePath, TraveledAhead};
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{ChannelMask, FADE_SECS, Handle};
+use shagreen_device::error::DeviceError;
 use shagreen_device::hand::{Hand, Path};
-use shagreen_device::output::{NULL_ID, OpenOptions, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open};
+use shagreen_device::output::{
+    NULL_ID, OpenOptions, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open,
+};
+use shagreen_device::serial::message::Mode;
+use shagreen_device::serial::{self, SerialOptions, USUAL_BAUD};
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::synth::drive::DriveConfig;
 use shagreen_device::synth::renderer::{Mix, Parent};
@@ -30,6 +35,17 @@ pub(crate) struct Args {
     /// guessed, since actuator drive does not belong in someone's headphones.
     #[arg(long, value_name = "ID", default_value = NULL_ID)]
     output: String,
+    /// Receiver on a serial port to play on, by the port's id or name: a microcontroller that speaks the protocol of
+    /// docs/serial-protocol.md.
+    #[arg(long, value_name = "PORT", conflicts_with = "output")]
+    serial: Option<String>,
+    /// Baud rate of the serial port, on both sides; USB has none and does not care.
+    #[arg(long, value_name = "N", requires = "serial", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
+    baud: u32,
+    /// Who renders: `stream` sends samples to the serial port, `control` speed, force and texture for firmware that renders
+    /// by itself.
+    #[arg(long, value_name = "MODE", requires = "serial", default_value = "stream")]
+    serial_mode: SerialMode,
     /// Acceleration at which the output is at full scale, in m/s².
     #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2))]
     full_scale: f64,
@@ -44,6 +60,13 @@ pub(crate) struct Args {
     json: bool,
     #[command(flatten)]
     motion: MotionArgs,
+}
+
+/// Who renders for a serial port.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum SerialMode {
+    Stream,
+    Control,
 }
 
 /// Speed in mm/s, force in N and length in seconds where none are given.
@@ -68,7 +91,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         drive: DriveConfig::proportional(args.full_scale as f32, USUAL_CEILING),
         channels: ChannelMask::FIRST_TWO,
     };
-    let (mut handle, running) = open(&args.output, options).context("cannot play")?;
+    let (mut handle, running) = open_output(args, options).context("cannot play")?;
     chosen.note_limits(&library, &motion);
     load_textures(&mut handle, &library, &chosen)?;
     let seconds = motion.seconds();
@@ -87,6 +110,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "buffer_frames": running.buffer_frames(),
             "seconds": seconds,
             "underruns": status.underruns,
+            "errors": status.backend_errors,
             "callback_load_max": status.load_max,
             "latency_ms": 1e3 * running.latency_secs(&status),
             "limited": status.limited_samples,
@@ -110,6 +134,20 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     check(&status)
+}
+
+fn open_output(args: &Args, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
+    let Some(port) = &args.serial else { return open(&args.output, options) };
+    let mode = match args.serial_mode {
+        SerialMode::Stream => Mode::Stream,
+        SerialMode::Control => Mode::Control,
+    };
+    let serial = SerialOptions { baud: args.baud, mode, ..SerialOptions::default() };
+    let connection = serial::open(port, options, serial)?;
+    if !connection.receiver.name.is_empty() {
+        output::note(&format!("the receiver is `{}`", connection.receiver.name));
+    }
+    Ok((connection.handle, connection.running))
 }
 
 /// Whether all of it was played: where the limiter has tripped, the rest was silence.

@@ -92,7 +92,8 @@ mod tests {
     #[test]
     fn only_what_the_output_depends_on_opens_it_again() {
         let rig = Rig::default();
-        let other = Rig { pen: Some("hid:056a:0061".into()), pen_size_mm: Some([100.0, 80.0]), ..rig.clone() };
+        let other =
+            Rig { pen: Some("hid:056a:0061".into()), pen_size_mm: Some([100.0, 80.0]), ..rig.clone() };
         assert!(!rig.opens_unlike(&other));
         assert!(rig.opens_unlike(&Rig { buffer_frames: 64, ..rig.clone() }));
         assert!(rig.opens_unlike(&Rig { channel: Some(1), ..rig.clone() }));

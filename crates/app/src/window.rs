@@ -201,7 +201,8 @@ impl Window {
                 if ui.button(to).clicked() {
                     commands.push(Command::ToggleTheme);
                 }
-                let keys = Command::OpenDevices.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let keys =
+                    Command::OpenDevices.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
                 let help = format!("{} ({keys})", strings::devices::OPEN_HELP);
                 if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
                     commands.push(Command::OpenDevices);

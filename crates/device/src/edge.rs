@@ -65,6 +65,11 @@ impl Edge {
         self.note_load(begun.elapsed().as_secs_f64(), (out.len() / channels) as f64 / self.rate_hz);
     }
 
+    /// The engine, as it was after the last block.
+    pub(crate) fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
     fn note_load(&mut self, used_secs: f64, allotted_secs: f64) {
         if allotted_secs > 0.0 {
             let load = used_secs / allotted_secs;

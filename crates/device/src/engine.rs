@@ -40,6 +40,7 @@ use crate::live::{LiveInput, TimedTouch};
 use crate::signal::Signal;
 use crate::status::{Latency, LinkState, Status};
 use crate::texture::OwnedTexture;
+use crate::touch::Touch;
 use crate::track::Track;
 
 /// Textures that an engine can hold at once.
@@ -217,6 +218,13 @@ impl Engine {
     /// From a change of the contact to its middle in the output, in seconds, not counting the device's own buffers.
     pub fn latency_secs(&self) -> f32 {
         self.stream.latency_secs() + self.chain.latency_secs()
+    }
+
+    /// What a receiver that renders by itself has to know: the touch, the texture of the highest weight, and the gain.
+    pub(crate) fn now(&self) -> (Touch, Option<TextureId>, f32) {
+        let parents = self.mix.parents.iter().filter(|parent| parent.weight > 0.0);
+        let loudest = parents.max_by(|a, b| a.weight.total_cmp(&b.weight));
+        (self.player.touch(), loudest.map(|parent| parent.id), self.gain.value())
     }
 
     /// Tells what only the edge knows, before a block.

@@ -36,6 +36,16 @@ impl Shared {
         self.underruns.fetch_add(1, Ordering::Relaxed);
     }
 
+    /// The device says that it ran out of samples so many times more.
+    pub(crate) fn note_underruns(&self, n: u64) {
+        self.underruns.fetch_add(n, Ordering::Relaxed);
+    }
+
+    /// The device says that it went on after so many more errors.
+    pub(crate) fn note_errors(&self, n: u64) {
+        self.backend_errors.fetch_add(n, Ordering::Relaxed);
+    }
+
     pub(crate) fn is_lost(&self) -> bool {
         self.lost.load(Ordering::Relaxed)
     }

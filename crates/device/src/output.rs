@@ -12,6 +12,7 @@ use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::{Reporter, link};
 use crate::null_output::NullOutput;
+use crate::serial::{SerialOptions, SerialOutput};
 use crate::status::Status;
 
 /// The id of the output that plays to nobody.
@@ -38,6 +39,8 @@ pub enum OutputKind {
     Null,
     /// A device of the system's sound.
     Audio,
+    /// A microcontroller on a serial port.
+    Serial,
 }
 
 /// One output of this machine.
@@ -91,9 +94,23 @@ enum Device {
     #[cfg(target_os = "linux")]
     Pulse(crate::pulse::PulseOutput),
     Null(NullOutput),
+    Serial(SerialOutput),
 }
 
 impl Running {
+    /// An open serial output.
+    pub(crate) fn of_serial(
+        id: String,
+        rate_hz: u32,
+        window: u16,
+        (engine_latency_secs, device_latency_secs): (f64, f64),
+        output: SerialOutput,
+    ) -> Self {
+        let buffer_frames = Some(u32::from(window));
+        let device = Device::Serial(output);
+        Self { id, rate_hz, channels: 1, buffer_frames, engine_latency_secs, device_latency_secs, device }
+    }
+
     /// Id of the output.
     pub fn id(&self) -> &str {
         &self.id
@@ -140,7 +157,8 @@ pub fn list_outputs() -> Vec<OutputInfo> {
     outputs
 }
 
-/// Opens output `id`, silent until its handle is told otherwise.
+/// Opens output `id`, silent until its handle is told otherwise. `serial:` and a port's name opens the receiver on that
+/// port by [`SerialOptions::default`].
 ///
 /// # Errors
 /// - [`DeviceErrorKind::NotFound`] where there is no such output.
@@ -148,7 +166,7 @@ pub fn list_outputs() -> Vec<OutputInfo> {
 /// - [`DeviceErrorKind::Denied`] where the system refuses it.
 /// - [`DeviceErrorKind::Unsupported`] where it has no rate, format or channel that would do.
 /// - [`DeviceErrorKind::Config`] where the options contradict themselves.
-/// - [`DeviceErrorKind::Unavailable`] or [`DeviceErrorKind::Backend`] where the system fails.
+/// - [`DeviceErrorKind::Unavailable`], also where nothing answers on a serial port, or [`DeviceErrorKind::Backend`] where the system fails.
 pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
     if id == NULL_ID {
         return open_null_with_tap(options, |_| {});
@@ -157,6 +175,10 @@ pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceE
     #[cfg(target_os = "linux")]
     if id.starts_with(crate::pulse::PREFIX) {
         return open_pulse(id, options);
+    }
+    if id.starts_with(crate::serial::ID_PREFIX) {
+        let connection = crate::serial::open(id, options, SerialOptions::default())?;
+        return Ok((connection.handle, connection.running));
     }
     let (handle, opened) = crate::audio::open(id, options)?;
     let buffer_frames = opened.buffer_frames;

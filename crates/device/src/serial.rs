@@ -1,91 +1,102 @@
-//! Serial ports: which there are.
+//! Actuators behind a microcontroller on a serial port: USB CDC or a UART.
+//!
+//! `docs/serial-protocol.md` is the protocol: all that firmware needs to know. [`receiver`] is the microcontroller's side
+//! of it, [`open`] the host's.
 
-use crate::error::{DeviceError, DeviceErrorKind};
+mod agreement;
+mod connection;
+pub mod frame;
+mod greeting;
+mod line;
+pub mod message;
+mod outbox;
+mod ports;
+pub mod receiver;
+mod sender;
 
-/// How a serial port is connected.
+pub use self::agreement::{ReceiverInfo, USUAL_SERIAL_RATE_HZ};
+pub use self::connection::{Heard, SensorBlock};
+pub use self::ports::{ID_PREFIX, SerialPortInfo, SerialPortKind, list_serial_ports};
+
+use std::time::Duration;
+
+use rtrb::Consumer;
+
+pub(crate) use self::connection::SerialOutput;
+use self::line::Line;
+use self::message::Mode;
+use crate::engine::Handle;
+use crate::error::DeviceError;
+use crate::output::{Made, OpenOptions, Running, make_engine};
+
+/// Baud rate where nobody asks for another: adapters and microcontrollers have it without rounding.
+pub const USUAL_BAUD: u32 = 1_000_000;
+/// Silence after this long without samples, in ms, where nobody asks for another time.
+pub const USUAL_WATCHDOG_MS: u16 = 50;
+
+/// How to open a serial output, beyond what every output is opened by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SerialPortKind {
-    /// By USB, from a maker and product.
-    Usb {
-        /// Number of the maker.
-        vendor_id: u16,
-        /// The maker's number of the product.
-        product_id: u16,
-    },
-    /// On the bus of the machine.
-    Pci,
-    /// By Bluetooth.
-    Bluetooth,
-    /// The system does not say.
-    Unknown,
+pub struct SerialOptions {
+    /// Baud rate; USB CDC has none and does not care.
+    pub baud: u32,
+    /// Who renders.
+    pub mode: Mode,
+    /// The receiver is silent this long after samples or control stop, in ms, at least 10.
+    pub watchdog_ms: u16,
+    /// How long a receiver may take to answer: some are reset when the port is opened.
+    pub patience: Duration,
 }
 
-/// One serial port of this machine.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SerialPortInfo {
-    /// Name by which it is opened.
-    pub id: String,
-    /// Name to show: that of the product where it is known.
-    pub name: String,
-    /// How it is connected.
-    pub kind: SerialPortKind,
+impl Default for SerialOptions {
+    /// The host renders; three seconds are enough for a boot loader.
+    fn default() -> Self {
+        Self {
+            baud: USUAL_BAUD,
+            mode: Mode::Stream,
+            watchdog_ms: USUAL_WATCHDOG_MS,
+            patience: Duration::from_secs(3),
+        }
+    }
 }
 
-/// The serial ports of this machine, by name.
+/// An open serial output.
+#[derive(Debug)]
+pub struct Connection {
+    /// For whoever is in charge.
+    pub handle: Handle,
+    /// Plays until it is dropped.
+    pub running: Running,
+    /// What the receiver says of itself.
+    pub receiver: ReceiverInfo,
+    /// What it says beside the stream; bounded: what nobody takes is dropped.
+    pub heard: Consumer<Heard>,
+}
+
+/// Opens the receiver on a serial port as an output, silent until its handle is told otherwise. The id is one of
+/// [`list_serial_ports`], or any port's name; `serial:` before it may be left out. Blocks until the receiver answers.
+///
+/// [`OpenOptions::buffer_frames`] is the number of samples that are queued in the receiver.
 ///
 /// # Errors
-/// - [`DeviceErrorKind::Backend`] where the system does not give its list.
-pub fn list_serial_ports() -> Result<Vec<SerialPortInfo>, DeviceError> {
-    let ports = serialport::available_ports().map_err(|error| {
-        DeviceError::new(DeviceErrorKind::Backend, format!("the serial ports cannot be listed: {error}"))
-    })?;
-    let mut ports: Vec<_> = ports.into_iter().map(describe).collect();
-    ports.sort_by(|a, b| a.id.cmp(&b.id));
-    Ok(ports)
-}
-
-fn describe(port: serialport::SerialPortInfo) -> SerialPortInfo {
-    let (kind, product) = match port.port_type {
-        serialport::SerialPortType::UsbPort(usb) => {
-            (SerialPortKind::Usb { vendor_id: usb.vid, product_id: usb.pid }, usb.product)
-        }
-        serialport::SerialPortType::PciPort => (SerialPortKind::Pci, None),
-        serialport::SerialPortType::BluetoothPort => (SerialPortKind::Bluetooth, None),
-        serialport::SerialPortType::Unknown => (SerialPortKind::Unknown, None),
-    };
-    let name = product.unwrap_or_else(|| port.port_name.clone());
-    SerialPortInfo { id: port.port_name, name, kind }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{SerialPortKind, describe, list_serial_ports};
-
-    #[test]
-    fn lists_without_opening_in_order() {
-        let ports = list_serial_ports().unwrap();
-        assert!(ports.windows(2).all(|w| w[0].id <= w[1].id));
-    }
-
-    #[test]
-    fn a_port_is_shown_by_its_product() {
-        let usb = serialport::UsbPortInfo {
-            vid: 0x2341,
-            pid: 0x0043,
-            serial_number: None,
-            manufacturer: None,
-            product: Some("Uno".into()),
-        };
-        let named = describe(serialport::SerialPortInfo {
-            port_name: "ttyACM0".into(),
-            port_type: serialport::SerialPortType::UsbPort(usb),
-        });
-        assert_eq!((named.id.as_str(), named.name.as_str()), ("ttyACM0", "Uno"));
-        assert_eq!(named.kind, SerialPortKind::Usb { vendor_id: 0x2341, product_id: 0x0043 });
-        let plain = describe(serialport::SerialPortInfo {
-            port_name: "ttyS0".into(),
-            port_type: serialport::SerialPortType::Unknown,
-        });
-        assert_eq!((plain.name.as_str(), plain.kind), ("ttyS0", SerialPortKind::Unknown));
-    }
+/// - [`crate::error::DeviceErrorKind::NotFound`], `Busy` or `Denied` where the port is so.
+/// - [`crate::error::DeviceErrorKind::Unavailable`] where nothing answers on it.
+/// - [`crate::error::DeviceErrorKind::Unsupported`] where the receiver or the line cannot do what is asked.
+/// - [`crate::error::DeviceErrorKind::Config`] where the options contradict themselves.
+/// - [`crate::error::DeviceErrorKind::Backend`] where the system fails.
+pub fn open(id: &str, options: OpenOptions, serial: SerialOptions) -> Result<Connection, DeviceError> {
+    let id = if id.starts_with(ID_PREFIX) { id.to_owned() } else { format!("{ID_PREFIX}{id}") };
+    let port = ports::resolve(&id)?;
+    let mut line = Line::open(&id, &port, serial.baud)?;
+    let receiver = greeting::greet(&id, &mut line, serial)?;
+    let plan = agreement::agree(&id, &receiver, options, serial)?;
+    let rate_hz = u32::from(plan.configure.rate_hz);
+    let Made { handle, engine, reporter } = make_engine(options, rate_hz)?;
+    let window_secs = f64::from(plan.configure.window) / f64::from(rate_hz);
+    let engine_latency_secs = f64::from(engine.latency_secs());
+    let line_latency_secs = window_secs + agreement::line_secs(plan, serial.baud);
+    let line_latency = Duration::from_secs_f64(line_latency_secs);
+    let (output, heard) = SerialOutput::start(&id, line, plan, engine, reporter, line_latency)?;
+    let latencies_secs = (engine_latency_secs, line_latency_secs);
+    let running = Running::of_serial(id, rate_hz, plan.configure.window, latencies_secs, output);
+    Ok(Connection { handle, running, receiver, heard })
 }

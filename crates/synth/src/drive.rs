@@ -43,6 +43,12 @@ impl DriveConfig {
     pub const fn proportional(full_scale_mps2: f32, ceiling: f32) -> Self {
         Self { inverse: None, full_scale: full_scale_mps2, ceiling, look_ahead_secs: 0.0, budget: None }
     }
+
+    /// Acceleration at full scale in m/s², far above the resonance.
+    pub fn full_scale_mps2(&self) -> f32 {
+        self.inverse
+            .map_or(self.full_scale, |inverse| self.full_scale * inverse.resonance.gain_mps2_per_volt as f32)
+    }
 }
 
 /// What samples are before they are driven.

@@ -132,10 +132,8 @@ fn response_ui(ui: &mut Ui, actuator: &Actuator, equalizes: bool) {
     let frequencies = (0..120).map(|i| 10.0 * 100.0_f64.powf(f64::from(i) / 119.0));
     let db = |share: f64| 20.0 * share.max(1e-6).log10();
     let gain = response.gain_mps2_per_v();
-    let bare: PlotPoints<'_> = frequencies
-        .clone()
-        .map(|hz| [hz.log10(), db(response.magnitude_at(Hertz(hz)) / gain)])
-        .collect();
+    let bare: PlotPoints<'_> =
+        frequencies.clone().map(|hz| [hz.log10(), db(response.magnitude_at(Hertz(hz)) / gain)]).collect();
     let equalized: PlotPoints<'_> = frequencies
         .map(|hz| [hz.log10(), db(response.magnitude_at(Hertz(hz)) * inverse.gain(hz, DRAWN_RATE_HZ))])
         .collect();

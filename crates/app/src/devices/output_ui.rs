@@ -23,16 +23,22 @@ impl DevicesSheet {
         let rate_hz = session.stream().map_or(USUAL_RATE_HZ, |(rate_hz, ..)| f64::from(rate_hz));
         row(ui, strings::BUFFER, |ui| {
             let combo = ComboBox::from_id_salt("buffer").width(210.0);
-            let shown = combo.selected_text(strings::buffer(self.rig.buffer_frames, rate_hz)).show_ui(ui, |ui| {
-                for frames in BUFFERS {
-                    ui.selectable_value(&mut self.rig.buffer_frames, frames, strings::buffer(frames, rate_hz));
-                }
-            });
+            let shown =
+                combo.selected_text(strings::buffer(self.rig.buffer_frames, rate_hz)).show_ui(ui, |ui| {
+                    for frames in BUFFERS {
+                        ui.selectable_value(
+                            &mut self.rig.buffer_frames,
+                            frames,
+                            strings::buffer(frames, rate_hz),
+                        );
+                    }
+                });
             shown.response.accessible_name(strings::BUFFER).on_hover_text(strings::BUFFER_HELP);
         });
         row(ui, strings::CHANNELS, |ui| {
             let n_channels = session.stream().map_or(CHANNELS, |(_, channels, _)| usize::from(channels));
-            let name = |channel: Option<usize>| channel.map_or(strings::FIRST_TWO.to_owned(), strings::channel);
+            let name =
+                |channel: Option<usize>| channel.map_or(strings::FIRST_TWO.to_owned(), strings::channel);
             let combo = ComboBox::from_id_salt("channels").width(210.0).selected_text(name(self.rig.channel));
             let shown = combo.show_ui(ui, |ui| {
                 for channel in std::iter::once(None).chain((0..n_channels).map(Some)) {

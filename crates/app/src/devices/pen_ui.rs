@@ -30,7 +30,9 @@ impl DevicesSheet {
                 warning(ui, strings::NO_SIZE);
             }
         }
-        if self.rig.pen.is_some() && (self.rig.pen_size_mm.is_some() || facts.is_some_and(|f| f.size_m.is_none())) {
+        if self.rig.pen.is_some()
+            && (self.rig.pen_size_mm.is_some() || facts.is_some_and(|f| f.size_m.is_none()))
+        {
             let mut size = self.rig.pen_size_mm.unwrap_or(FIRST_SIZE_MM);
             for (i, name) in [strings::WIDTH, strings::HEIGHT].into_iter().enumerate() {
                 row(ui, name, |ui| {

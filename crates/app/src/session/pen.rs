@@ -67,8 +67,7 @@ impl Pen {
         (self.thread, self.facts, self.message) = (None, None, None);
         self.moments.clear();
         let Some(id) = rig.pen.clone() else { return };
-        let tracking =
-            TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: rig.pressure_map };
+        let tracking = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: rig.pressure_map };
         let options = PenOptions { id, tracking, size_m: size_m(rig) };
         match PenThread::start(SystemPens, options, live.take()) {
             Ok(thread) => self.thread = Some(thread),

@@ -13,7 +13,8 @@ pub const OUTPUT: &str = "Output";
 /// Name of the choice of the size of blocks.
 pub const BUFFER: &str = "Buffer";
 /// What the size of blocks does.
-pub const BUFFER_HELP: &str = "Shorter is felt sooner and drops out more easily. The device may take another length.";
+pub const BUFFER_HELP: &str =
+    "Shorter is felt sooner and drops out more easily. The device may take another length.";
 /// Name of the choice of channels.
 pub const CHANNELS: &str = "Channels";
 /// What the choice of channels does.
@@ -23,8 +24,7 @@ pub const FIRST_TWO: &str = "first two";
 /// The level of the drive.
 pub const METER: &str = "Drive";
 /// What the meter shows.
-pub const METER_HELP: &str =
-    "Highest drive of late, as a share of the device's full scale. The limiter begins at four fifths of its ceiling.";
+pub const METER_HELP: &str = "Highest drive of late, as a share of the device's full scale. The limiter begins at four fifths of its ceiling.";
 /// Heading of the test tone.
 pub const TONE: &str = "Test tone";
 /// Frequency of the tone.
@@ -36,7 +36,8 @@ pub const PLAY_TONE: &str = "Play tone";
 /// Ends the tone.
 pub const STOP_TONE: &str = "Stop tone";
 /// What the tone does.
-pub const TONE_HELP: &str = "A sine of this acceleration for two seconds, in the place of the texture, through equalizer and limits";
+pub const TONE_HELP: &str =
+    "A sine of this acceleration for two seconds, in the place of the texture, through equalizer and limits";
 /// Heading of the latency.
 pub const LATENCY: &str = "From hand to drive";
 /// Unit of the latency.
@@ -48,17 +49,16 @@ pub const ACTUATOR: &str = "Actuator";
 /// No actuator is known.
 pub const UNCALIBRATED: &str = "Unknown: in proportion to acceleration";
 /// What choosing an actuator does.
-pub const ACTUATOR_HELP: &str =
-    "A known actuator is equalized, and kept within what it stands. Profiles of your own come from shagreen calibrate.";
+pub const ACTUATOR_HELP: &str = "A known actuator is equalized, and kept within what it stands. Profiles of your own come from shagreen calibrate.";
 /// Turns the equalizer on.
 pub const EQUALIZE: &str = "Undo the actuator's response";
 /// What the equalizer does.
-pub const EQUALIZE_HELP: &str = "Drives less at the resonance and more beside it, so that what is felt is what was measured";
+pub const EQUALIZE_HELP: &str =
+    "Drives less at the resonance and more beside it, so that what is felt is what was measured";
 /// Volts at full scale.
 pub const VOLTS: &str = "Volts at full scale";
 /// What the volts are.
-pub const VOLTS_HELP: &str =
-    "Peak voltage at the actuator's terminals when the output plays as loud as it can. Measure it with a test tone and a meter: every limit rests on it.";
+pub const VOLTS_HELP: &str = "Peak voltage at the actuator's terminals when the output plays as loud as it can. Measure it with a test tone and a meter: every limit rests on it.";
 /// What the actuator carries.
 pub const LOAD: &str = "Load";
 /// What the load does.
@@ -88,8 +88,7 @@ pub const FULL: &str = "Force at full pressure";
 /// Bend of the curve.
 pub const BEND: &str = "Bend";
 /// What the curve does.
-pub const CURVE_HELP: &str =
-    "From pressure to force, for pens that do not tell newtons. Press on a kitchen scale and bend the curve until both agree: 100 g are 0.98 N.";
+pub const CURVE_HELP: &str = "From pressure to force, for pens that do not tell newtons. Press on a kitchen scale and bend the curve until both agree: 100 g are 0.98 N.";
 /// Heading of the curve.
 pub const CURVE: &str = "Pressure to force";
 /// Width of the pen's area.
@@ -97,11 +96,13 @@ pub const WIDTH: &str = "Width of the pen's area";
 /// Height of the pen's area.
 pub const HEIGHT: &str = "Height of the pen's area";
 /// The size is not known.
-pub const NO_SIZE: &str = "The pen does not tell its size. Without it there is no speed: measure its active area.";
+pub const NO_SIZE: &str =
+    "The pen does not tell its size. Without it there is no speed: measure its active area.";
 /// The coil is warm.
 pub const HEAT: &str = "Heat";
 /// What the heat is.
-pub const HEAT_HELP: &str = "Root mean square of the drive over the coil's thermal time, as a share of what it stands for long";
+pub const HEAT_HELP: &str =
+    "Root mean square of the drive over the coil's thermal time, as a share of what it stands for long";
 
 /// Length of a buffer.
 pub fn buffer(frames: u32, rate_hz: f64) -> String {
@@ -141,5 +142,9 @@ pub fn limits(rated_v: Option<f64>, peak_v: Option<f64>) -> String {
     let rated = rated_v.map(|v| format!("{v:.2} V rms for long"));
     let peak = peak_v.map(|v| format!("{v:.1} V at most"));
     let known: Vec<String> = rated.into_iter().chain(peak).collect();
-    if known.is_empty() { "its limits are not known: only full scale limits it".to_owned() } else { known.join(", ") }
+    if known.is_empty() {
+        "its limits are not known: only full scale limits it".to_owned()
+    } else {
+        known.join(", ")
+    }
 }

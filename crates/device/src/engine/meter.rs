@@ -40,6 +40,11 @@ impl Ramp {
         }
     }
 
+    /// The value at the last frame.
+    pub(super) fn value(&self) -> f32 {
+        self.value
+    }
+
     /// The value at the next frame.
     pub(super) fn next(&mut self) -> f32 {
         if self.n_left > 0 {

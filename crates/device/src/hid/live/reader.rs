@@ -163,7 +163,8 @@ impl Reader {
                     return;
                 };
                 self.shared.n_reports.fetch_add(1, Ordering::Relaxed);
-                self.send(moment.touch, now);
+                let landing_mps = moment.landing.map(|landing| landing.speed_mps as f32);
+                self.send(moment.touch, now, landing_mps);
                 if self.moments.push(moment).is_err() {
                     self.shared.n_dropped.fetch_add(1, Ordering::Relaxed);
                 }
@@ -181,13 +182,13 @@ impl Reader {
     fn lift(&mut self) {
         if let Some(open) = &mut self.open {
             let touch = open.tracker.lift();
-            self.send(touch, Instant::now());
+            self.send(touch, Instant::now(), None);
         }
     }
 
-    fn send(&mut self, touch: Touch, time: Instant) {
+    fn send(&mut self, touch: Touch, time: Instant, landing_mps: Option<f32>) {
         if let Some(live) = &mut self.live {
-            live.send(touch, time).ok(); // Full only when the output has stopped: nobody feels it then.
+            live.land(touch, time, landing_mps).ok(); // Full only when the output has stopped: nobody feels it then.
         }
     }
 

@@ -14,6 +14,7 @@ use crate::kinematics::SpeedFilter;
 use crate::output::{OpenOptions, open_null_with_tap};
 use crate::pressure::PressureMap;
 use crate::texture::tests::white;
+use shagreen_synth::drive::DriveConfig;
 use shagreen_synth::renderer::Mix;
 
 /// A machine into which pens can be plugged.
@@ -142,8 +143,7 @@ fn a_stroke_is_felt_until_the_pen_is_unplugged_and_again_when_it_is_back() {
         preferred_rate_hz: Some(48_000),
         buffer_frames: Some(256),
         seed: 5,
-        full_scale_mps2: 4.0,
-        ceiling: 1.0,
+        drive: DriveConfig::proportional(4.0, 1.0),
         channels: ChannelMask::FIRST_TWO,
     };
     let loud = Arc::new(Mutex::new(0.0_f32));

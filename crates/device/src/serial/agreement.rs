@@ -1,0 +1,284 @@
+//! What host and receiver agree on: the rate, the window and the blocks that receiver and line can carry.
+
+use std::time::Duration;
+
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::output::OpenOptions;
+use crate::serial::SerialOptions;
+use crate::serial::frame::OVERHEAD;
+use crate::serial::message::{Configure, HelloReply, Mode, VERSION};
+use crate::serial::sender::Plan;
+
+/// Rate where nobody prefers another, in Hz.
+pub const USUAL_SERIAL_RATE_HZ: u32 = 4000;
+/// Samples that are queued in the receiver, in seconds.
+const WINDOW_SECS: f64 = 0.010;
+/// A fade in or out in the receiver, in seconds.
+const FADE_SECS: f64 = 0.003;
+/// Share of the line that may be used: the rest is for the clocks to differ, and for the host to be late.
+const LINE_SHARE: f64 = 0.9;
+/// Bits on the line for a byte: with start and stop.
+const BITS_PER_BYTE: f64 = 10.0;
+/// Bytes of a status on the wire.
+const STATUS_BYTES: f64 = 26.0;
+/// Smallest queue that can be worked with.
+const LEAST_BUFFER: u16 = 8;
+
+/// The receiver as the greeting told it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReceiverInfo {
+    /// Its name, or nothing.
+    pub name: String,
+    /// Its version of the protocol.
+    pub version: u8,
+    /// Whether it plays samples.
+    pub has_stream: bool,
+    /// Whether it renders by itself.
+    pub has_control: bool,
+    /// Whether it sends samples of an accelerometer.
+    pub has_sensor: bool,
+    /// Lowest rate, in Hz.
+    pub rate_min_hz: u16,
+    /// Highest rate, in Hz.
+    pub rate_max_hz: u16,
+    /// Most samples that it queues.
+    pub buffer: u16,
+    /// Most samples a frame.
+    pub frame_max: u8,
+}
+
+impl ReceiverInfo {
+    pub(super) fn of(reply: HelloReply<'_>) -> Self {
+        Self {
+            name: String::from_utf8_lossy(reply.name).into_owned(),
+            version: reply.version,
+            has_stream: reply.has_stream,
+            has_control: reply.has_control,
+            has_sensor: reply.has_sensor,
+            rate_min_hz: reply.rate_min_hz,
+            rate_max_hz: reply.rate_max_hz,
+            buffer: reply.buffer,
+            frame_max: reply.frame_max,
+        }
+    }
+}
+
+/// Bits a second on a line that carries `rate_hz` in blocks of so many samples.
+fn line_bits_per_sec(rate_hz: f64, block: f64) -> f64 {
+    // A byte for the run.
+    BITS_PER_BYTE * rate_hz / block * (2.0 * block + 1.0 + OVERHEAD as f64)
+}
+
+/// Samples a window, where the buffer is not asked for, and a block, at a rate.
+fn window_and_block(rate_hz: u32, asked: Option<u32>, info: &ReceiverInfo) -> (u16, u16) {
+    let usual = (WINDOW_SECS * f64::from(rate_hz)) as u32;
+    let window = asked.unwrap_or(usual).clamp(u32::from(LEAST_BUFFER), u32::from(info.buffer)) as u16;
+    // Two blocks and a half: while one is played, one waits, and one may be on its way.
+    (window, (window * 2 / 5).clamp(1, u16::from(info.frame_max).min(120)))
+}
+
+/// What to play by.
+///
+/// # Errors
+/// - [`DeviceErrorKind::Unsupported`] where the receiver or the line cannot do what is asked.
+pub(super) fn agree(
+    id: &str,
+    info: &ReceiverInfo,
+    options: OpenOptions,
+    serial: SerialOptions,
+) -> Result<Plan, DeviceError> {
+    let refuse = |message: String| Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
+    if info.version != VERSION {
+        return refuse(format!(
+            "the receiver on `{id}` speaks version {} of the protocol, not {VERSION}; update its firmware or Shagreen",
+            info.version
+        ));
+    }
+    let (has_mode, mode_name) = match serial.mode {
+        Mode::Stream => (info.has_stream, "play samples"),
+        Mode::Control => (info.has_control, "render textures by itself"),
+    };
+    if !has_mode {
+        return refuse(format!("the receiver on `{id}` cannot {mode_name}; ask for the other mode"));
+    }
+    if info.buffer < LEAST_BUFFER || info.frame_max == 0 || info.buffer > 0x7FFF {
+        return refuse(format!(
+            "the receiver on `{id}` queues {} samples, {} a frame; it must queue {LEAST_BUFFER} to 32767: change its firmware",
+            info.buffer, info.frame_max
+        ));
+    }
+    if !options.channels.contains(0) {
+        return refuse(format!(
+            "the receiver on `{id}` has one channel, and that is not among those asked for"
+        ));
+    }
+    let rate_hz = choose_rate(id, info, options, serial)?;
+    let (window, block) = window_and_block(rate_hz, options.buffer_frames, info);
+    // On a slow line, statuses take half of their way at most.
+    let report = f64::from(block / 2)
+        .max(2.0 * BITS_PER_BYTE * STATUS_BYTES * f64::from(rate_hz) / f64::from(serial.baud));
+    let rate = f64::from(rate_hz);
+    let configure = Configure {
+        config: 1,
+        mode: serial.mode,
+        rate_hz: rate_hz as u16,
+        // As the limiter's ceiling becomes a sample, so that both are the same.
+        ceiling: (options.drive.ceiling.clamp(0.0, 1.0) * 32_768.0).min(32_767.0) as u16,
+        watchdog_ms: serial.watchdog_ms.max(10),
+        window,
+        prefill: (window * 3 / 5).min(window / block * block).max(1),
+        report: (report.ceil() as u16).max(1),
+        fade: ((FADE_SECS * rate) as u16).max(1),
+        full_scale_cmps2: (100.0 * options.drive.full_scale_mps2()).round() as u16,
+    };
+    let stall = Duration::from_millis(u64::from(configure.watchdog_ms / 2));
+    Ok(Plan { configure, block, stall })
+}
+
+/// Time that a block is on the line, in seconds.
+pub(super) fn line_secs(plan: Plan, baud: u32) -> f64 {
+    BITS_PER_BYTE * (2.0 * f64::from(plan.block) + 1.0 + OVERHEAD as f64) / f64::from(baud.max(1))
+}
+
+fn choose_rate(
+    id: &str,
+    info: &ReceiverInfo,
+    options: OpenOptions,
+    serial: SerialOptions,
+) -> Result<u32, DeviceError> {
+    let refuse = |message: String| Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
+    let model_rate_hz = options.model_rate_hz.max(1.0).ceil() as u32;
+    let (least, most) = (u32::from(info.rate_min_hz), u32::from(info.rate_max_hz));
+    let is_carried = |rate_hz: u32| {
+        let (_, block) = window_and_block(rate_hz, options.buffer_frames, info);
+        let bits = line_bits_per_sec(f64::from(rate_hz), f64::from(block));
+        serial.mode == Mode::Control || bits <= LINE_SHARE * f64::from(serial.baud)
+    };
+    let wished = options.preferred_rate_hz.unwrap_or_else(|| {
+        // As much as the line carries, in steps of 100 Hz, and no less than the textures need.
+        let usual = USUAL_SERIAL_RATE_HZ.max(model_rate_hz).clamp(least, most.max(least));
+        let steps = (model_rate_hz.max(least)..=usual).rev();
+        steps
+            .filter(|rate_hz| rate_hz % 100 == 0 || *rate_hz == usual)
+            .find(|&rate_hz| is_carried(rate_hz))
+            .unwrap_or(usual)
+    });
+    if !(least..=most).contains(&wished) {
+        return refuse(format!(
+            "the receiver on `{id}` plays {least} to {most} Hz, not {wished} Hz; ask for another rate"
+        ));
+    }
+    if wished < model_rate_hz {
+        return refuse(format!(
+            "the receiver on `{id}` plays at {wished} Hz, the textures need {model_rate_hz} Hz; ask for a higher rate, or take other textures"
+        ));
+    }
+    if !is_carried(wished) {
+        let (_, block) = window_and_block(wished, options.buffer_frames, info);
+        let needed = line_bits_per_sec(f64::from(wished), f64::from(block)) / LINE_SHARE;
+        return refuse(format!(
+            "{} baud do not carry {wished} Hz to `{id}`: that takes {needed:.0} baud; ask for more on both sides (--baud)",
+            serial.baud
+        ));
+    }
+    Ok(wished)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ReceiverInfo, agree, line_bits_per_sec};
+    use crate::engine::ChannelMask;
+    use crate::error::DeviceErrorKind;
+    use crate::output::OpenOptions;
+    use crate::output::tests::OPTIONS;
+    use crate::serial::SerialOptions;
+    use crate::serial::message::Mode;
+
+    fn info() -> ReceiverInfo {
+        ReceiverInfo {
+            name: "test".into(),
+            version: 1,
+            has_stream: true,
+            has_control: false,
+            has_sensor: false,
+            rate_min_hz: 500,
+            rate_max_hz: 8000,
+            buffer: 256,
+            frame_max: 120,
+        }
+    }
+
+    fn rate(baud: u32, options: OpenOptions) -> Result<u16, String> {
+        let serial = SerialOptions { baud, ..SerialOptions::default() };
+        agree("serial:x", &info(), options, serial)
+            .map(|plan| plan.configure.rate_hz)
+            .map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn the_usual_agreement() {
+        let plan = agree("serial:x", &info(), OPTIONS, SerialOptions::default()).unwrap();
+        let c = plan.configure;
+        assert_eq!((c.rate_hz, c.window, plan.block, c.prefill, c.report, c.fade), (4000, 40, 16, 24, 8, 12));
+        assert_eq!((c.ceiling, c.watchdog_ms, c.full_scale_cmps2), (29_491, 50, 1000));
+        // 250 frames of 40 bytes of 10 bits.
+        assert_eq!(line_bits_per_sec(4000.0, 16.0), 100_000.0);
+    }
+
+    #[test]
+    fn the_rate_is_what_the_line_carries() {
+        assert_eq!(rate(1_000_000, OPTIONS), Ok(4000));
+        assert_eq!(rate(115_200, OPTIONS), Ok(4000));
+        let slower = rate(57_600, OPTIONS).unwrap();
+        assert!((1000..2000).contains(&slower), "{slower}");
+        let error = rate(9600, OPTIONS).unwrap_err();
+        assert!(
+            error.contains("9600 baud") && error.contains("111111 baud") && error.contains("--baud"),
+            "{error}"
+        );
+        let error = rate(57_600, OpenOptions { preferred_rate_hz: Some(8000), ..OPTIONS }).unwrap_err();
+        assert!(error.contains("8000 Hz"), "{error}");
+        // Control is little.
+        let serial = SerialOptions { baud: 19_200, mode: Mode::Control, ..SerialOptions::default() };
+        let able = ReceiverInfo { has_control: true, ..info() };
+        assert_eq!(agree("x", &able, OPTIONS, serial).unwrap().configure.rate_hz, 4000);
+    }
+
+    #[test]
+    fn what_the_receiver_cannot_do_is_said() {
+        let agreed = |info: ReceiverInfo, options: OpenOptions| {
+            let error = agree("serial:x", &info, options, SerialOptions::default()).unwrap_err();
+            assert_eq!(error.kind(), DeviceErrorKind::Unsupported);
+            assert!(error.message().contains("serial:x"), "{error}");
+            error.to_string()
+        };
+        assert!(agreed(ReceiverInfo { version: 2, ..info() }, OPTIONS).contains("version 2"));
+        assert!(agreed(ReceiverInfo { has_stream: false, ..info() }, OPTIONS).contains("play samples"));
+        assert!(agreed(ReceiverInfo { buffer: 0, ..info() }, OPTIONS).contains("queues 0"));
+        assert!(agreed(ReceiverInfo { frame_max: 0, ..info() }, OPTIONS).contains("0 a frame"));
+        assert!(agreed(ReceiverInfo { rate_max_hz: 800, ..info() }, OPTIONS).contains("1000 Hz"));
+        assert!(agreed(ReceiverInfo { rate_min_hz: 9000, ..info() }, OPTIONS).contains("9000 to 8000 Hz"));
+        let fast = OpenOptions { preferred_rate_hz: Some(16_000), ..OPTIONS };
+        assert!(agreed(info(), fast).contains("500 to 8000 Hz"));
+        let slow = OpenOptions { preferred_rate_hz: Some(800), ..OPTIONS };
+        assert!(agreed(info(), slow).contains("need 1000 Hz"));
+        let other = OpenOptions { channels: ChannelMask::only(1), ..OPTIONS };
+        assert!(agreed(info(), other).contains("one channel"));
+    }
+
+    #[test]
+    fn every_window_can_be_filled_to_its_prefill() {
+        for buffer in 8..=400 {
+            for asked in [None, Some(16), Some(100), Some(65_536)] {
+                for frame_max in [1, 3, 16, 255] {
+                    let info = ReceiverInfo { buffer, frame_max, ..info() };
+                    let options = OpenOptions { buffer_frames: asked, ..OPTIONS };
+                    let Ok(plan) = agree("x", &info, options, SerialOptions::default()) else { continue };
+                    let c = plan.configure;
+                    assert!(c.window <= buffer && plan.block <= u16::from(frame_max));
+                    assert!(c.prefill >= 1 && c.prefill <= c.window / plan.block * plan.block, "{plan:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! What waits to be written: bounded, and never for long.
+
+use std::io;
+use std::time::Duration;
+
+use crate::serial::frame::MAX_WIRE;
+
+/// Bytes that may wait.
+const SIZE: usize = 1024;
+/// What the line has not taken within this time is dropped.
+const LONGEST: Duration = Duration::from_millis(20);
+
+/// Frames on their way to the line.
+#[derive(Debug)]
+pub(super) struct Outbox {
+    bytes: [u8; SIZE],
+    len: usize,
+    /// Since when something waits.
+    since: Option<Duration>,
+    /// A frame may have been cut off: the next begins after a zero.
+    is_cut: bool,
+}
+
+impl Outbox {
+    /// With nothing in it. What another program wrote before may be half a frame.
+    pub(super) fn new() -> Self {
+        Self { bytes: [0; SIZE], len: 0, since: None, is_cut: true }
+    }
+
+    /// Whether any frame fits.
+    pub(super) fn has_room(&self) -> bool {
+        self.len + 1 + MAX_WIRE <= SIZE
+    }
+
+    /// Takes a frame if it fits; whether it does.
+    pub(super) fn push(&mut self, frame: &[u8]) -> bool {
+        if self.len + 1 + frame.len() > SIZE {
+            return false;
+        }
+        if std::mem::take(&mut self.is_cut) {
+            self.bytes[self.len] = 0;
+            self.len += 1;
+        }
+        self.bytes[self.len..self.len + frame.len()].copy_from_slice(frame);
+        self.len += frame.len();
+        true
+    }
+
+    /// Drops what waits.
+    pub(super) fn clear(&mut self) {
+        self.is_cut |= self.len > 0;
+        (self.len, self.since) = (0, None);
+    }
+
+    /// Gives the line what it takes now, and drops what it has not taken for too long.
+    ///
+    /// # Errors
+    /// What the line says, but for that it has no room.
+    pub(super) fn flush(
+        &mut self,
+        now: Duration,
+        write: &mut dyn FnMut(&[u8]) -> io::Result<usize>,
+    ) -> io::Result<()> {
+        while self.len > 0 {
+            let n = match write(&self.bytes[..self.len]) {
+                Ok(n) => n.min(self.len),
+                Err(error) if is_no_room(&error) => 0,
+                Err(error) => return Err(error),
+            };
+            if n == 0 {
+                break;
+            }
+            self.bytes.copy_within(n..self.len, 0);
+            self.len -= n;
+        }
+        if self.len == 0 {
+            self.since = None;
+        } else if now.saturating_sub(*self.since.get_or_insert(now)) > LONGEST {
+            self.clear();
+        }
+        Ok(())
+    }
+}
+
+/// Whether an error of reading or writing only says that nothing can be done now.
+pub(super) fn is_no_room(error: &io::Error) -> bool {
+    use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
+    matches!(error.kind(), Interrupted | TimedOut | WouldBlock)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Duration, Outbox, SIZE};
+    use std::io;
+
+    fn all(outbox: &mut Outbox, now_ms: u64, mut n: usize) -> Vec<u8> {
+        let mut taken = Vec::new();
+        let mut write = |bytes: &[u8]| {
+            let now = n.min(bytes.len());
+            if now == 0 {
+                return Err(io::ErrorKind::WouldBlock.into());
+            }
+            taken.extend(&bytes[..now]);
+            n -= now;
+            Ok(now)
+        };
+        outbox.flush(Duration::from_millis(now_ms), &mut write).unwrap();
+        taken
+    }
+
+    #[test]
+    fn what_is_not_taken_in_time_is_dropped_and_its_rest_is_no_frame() {
+        let mut outbox = Outbox::new();
+        outbox.push(&[1, 2, 3, 0]);
+        assert_eq!(all(&mut outbox, 0, 3), [0, 1, 2]);
+        outbox.push(&[4, 5, 0]);
+        assert!(all(&mut outbox, 10, 0).is_empty());
+        assert!(all(&mut outbox, 31, 0).is_empty());
+        outbox.push(&[6, 0]);
+        assert_eq!(all(&mut outbox, 32, 99), [0, 6, 0]);
+        outbox.push(&[7, 0]);
+        assert_eq!(all(&mut outbox, 99, 99), [7, 0]);
+    }
+
+    #[test]
+    fn it_is_bounded_and_errors_are_passed_on() {
+        let mut outbox = Outbox::new();
+        while outbox.push(&[1; 100]) {}
+        assert!(outbox.len <= SIZE && !outbox.has_room());
+        let mut gone = |_: &[u8]| Err(io::ErrorKind::BrokenPipe.into());
+        assert_eq!(outbox.flush(Duration::ZERO, &mut gone).unwrap_err().kind(), io::ErrorKind::BrokenPipe);
+    }
+}
