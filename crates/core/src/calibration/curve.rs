@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use crate::calibration::impulse::{HIGH_EDGE, Impulse, LOW_EDGE, Window, magnitude_at};
 use crate::calibration::sweep::Sweep;
 use crate::calibration::{CurvePoint, DistortionPoint};
+use crate::spectrum::median;
 use crate::units::Hertz;
 
 /// Points of a curve in an octave: as fine as a resonance of Q 30 asks for.
@@ -20,6 +21,14 @@ const HARMONICS: std::ops::RangeInclusive<u32> = 2..=5;
 /// Length of a piece of silence, in seconds, and the shortest that is one.
 const PIECE_SECS: f64 = 1.0;
 const LEAST_PIECE_SECS: f64 = 0.25;
+/// How many points to either side say what noise is like at a point.
+const N_NEIGHBORS: usize = 5;
+/// The mean of powers of noise over their median: between 1.44 for one piece and 1 for many.
+const MEAN_OVER_MEDIAN: f64 = 1.2;
+/// Power over that around it from which on it is hum and not chance.
+const HUM_POWER: f64 = 6.0;
+/// Power of a harmonic over that of the noise from which on it is one.
+const HARMONIC_POWER: f64 = 6.0;
 /// What lies this close to the sweep is no silence, in seconds: it may have begun a little earlier, and rings on.
 const MARGIN_BEFORE_SECS: f64 = 0.1;
 const MARGIN_AFTER_SECS: f64 = 0.5;
@@ -53,16 +62,17 @@ pub(super) fn gains(
     let kept = impulse.windowed(&window);
     let kept_energy: f64 = window.shape(rate).iter().map(|w| w * w).sum();
     let pieces: Vec<Vec<f64>> = silence.iter().map(|piece| hann(piece)).collect();
-    let points = frequencies(sweep).map(|frequency| {
-        // Noise that is there all the time falls into the window as it falls into a piece of silence, by the energy of each.
+    // Noise that is there all the time falls into the window as it falls into a piece of silence, by the energy of each.
+    let power_at = |frequency: Hertz| {
         let power = |piece: &Vec<f64>| {
             let energy = 0.375 * piece.len() as f64;
             magnitude_at(piece, frequency, rate).powi(2) * kept_energy / energy
         };
-        let noise = (!pieces.is_empty()).then(|| {
-            let mean = pieces.iter().map(power).sum::<f64>() / pieces.len() as f64;
-            mean.sqrt() / impulse.sweep_at(frequency)
-        });
+        pieces.iter().map(power).sum::<f64>() / pieces.len() as f64
+    };
+    let powers = steady(&frequencies(sweep).map(power_at).collect::<Vec<f64>>());
+    let points = frequencies(sweep).zip(powers).map(|(frequency, power)| {
+        let noise = (!pieces.is_empty()).then(|| power.sqrt() / impulse.sweep_at(frequency));
         let gain = magnitude_at(&kept, frequency, rate);
         // What the noise adds to the power is taken off it again, as long as something is left.
         let without = (gain * gain - noise.map_or(0.0, |n| n * n)).max(0.0).sqrt();
@@ -73,6 +83,17 @@ pub(super) fn gains(
         }
     });
     points.collect()
+}
+
+/// Powers of noise without most of the chance that is in powers of few pieces: the middle one of those around, but for what
+/// stands out as hum does.
+fn steady(powers: &[f64]) -> Vec<f64> {
+    let around = |(at, own): (usize, &f64)| {
+        let neighbors = &powers[at.saturating_sub(N_NEIGHBORS)..(at + N_NEIGHBORS + 1).min(powers.len())];
+        let middle = MEAN_OVER_MEDIAN * median(neighbors.to_vec());
+        if *own > HUM_POWER * middle { *own } else { middle }
+    };
+    powers.iter().enumerate().map(around).collect()
 }
 
 /// Harmonics over the fundamental, where at least the second is within the sweep.
@@ -108,7 +129,8 @@ pub(super) fn distortion(
                 break;
             }
             let noise = noise_at(curve, hz).powi(2) * energy / window_energy;
-            power += (magnitude_at(kept, Hertz(hz), impulse.rate).powi(2) - noise).max(0.0);
+            let found = magnitude_at(kept, Hertz(hz), impulse.rate).powi(2);
+            power += if found > HARMONIC_POWER * noise { found - noise } else { 0.0 };
         }
         DistortionPoint { frequency: point.frequency, share: power.sqrt() / point.gain_mps2_per_v }
     };

@@ -185,6 +185,7 @@ impl Point {
 /// Where a search ended.
 struct Found {
     at: Vector3<f64>,
+    /// Sum of residuals: searches have scales of their own, and their robust costs cannot be compared.
     cost: f64,
     /// Standard errors; not numbers where they are not known.
     errors: Vector3<f64>,
@@ -235,15 +236,24 @@ fn descend(points: &[Point], start: Vector3<f64>) -> Found {
             }
         }
     }
-    let (normal, _) = normal_equations(points, &at, scale);
-    let freedom = (points.len() as f64 - 3.0).max(1.0);
-    let spread = points.iter().map(|p| weight(p.residual(&at) / scale) * p.residual(&at).powi(2)).sum::<f64>();
-    let nothing = Vector3::repeat(f64::NAN);
-    let errors = normal.try_inverse().map_or(nothing, |inverse| {
-        inverse.diagonal().map(|variance| (variance * (spread / freedom)).sqrt())
-    });
-    // Costs are compared between searches, each of which has its own scale.
-    Found { at, cost: points.iter().map(|p| p.residual(&at).abs()).sum(), errors }
+    Found { at, cost: points.iter().map(|p| p.residual(&at).abs()).sum(), errors: errors(points, &at, scale) }
+}
+
+/// Standard errors as Huber has them for weights that fall: `s² n/(n-3) mean(ψ²) / mean(ψ')²` of the inverse normal matrix.
+fn errors(points: &[Point], at: &Vector3<f64>, scale: f64) -> Vector3<f64> {
+    let n = points.len() as f64;
+    let (mut normal, mut pull, mut stiffness) = (Matrix3::zeros(), 0.0, 0.0);
+    for point in points {
+        let slope = slope(at, point.ln_hz) / point.deviation;
+        normal += slope * slope.transpose();
+        let away = point.residual(at) / scale;
+        let square = (away / CAUCHY).powi(2);
+        pull += (away * weight(away)).powi(2) / n;
+        stiffness += (1.0 - square) / (1.0 + square).powi(2) / n;
+    }
+    let spread = scale * scale * n / (n - 3.0).max(1.0) * pull / stiffness.max(0.1).powi(2);
+    let unknown = Vector3::repeat(f64::NAN);
+    normal.try_inverse().map_or(unknown, |inverse| inverse.diagonal().map(|v| (v * spread).sqrt()))
 }
 
 /// How far points lie off usually, in their deviations; at least one.

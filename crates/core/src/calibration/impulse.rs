@@ -50,7 +50,7 @@ impl Impulse {
         let n = (signal.len() + played.len()).next_power_of_two();
         let mut planner = RealFftPlanner::<f64>::new();
         let (forward, back) = (planner.plan_fft_forward(n), planner.plan_fft_inverse(n));
-        let mut transform = |values: &[f64], scale: f64| {
+        let transform = |values: &[f64], scale: f64| {
             let (mut input, mut bins) = (forward.make_input_vec(), forward.make_output_vec());
             for (to, from) in input.iter_mut().zip(values) {
                 *to = scale * from;
