@@ -81,7 +81,9 @@ pub enum CalibrationError {
         index: usize,
     },
     /// The rate leaves too little of the sweep.
-    #[error("a recording at {rate_hz} Hz holds the sweep from {low_hz} Hz only to {high_hz:.0} Hz; record at 1000 Hz or more")]
+    #[error(
+        "a recording at {rate_hz} Hz holds the sweep from {low_hz} Hz only to {high_hz:.0} Hz; record at 1000 Hz or more"
+    )]
     Rate {
         /// The rate of the recording.
         rate_hz: f64,
@@ -94,7 +96,9 @@ pub enum CalibrationError {
     #[error("the recording is silent; check the sensor, its cable and the input that was recorded")]
     Silent,
     /// Much shorter than the sweep.
-    #[error("the recording has {seconds:.1} s, the sweep {sweep_secs:.1} s; record from before its beginning to after its end")]
+    #[error(
+        "the recording has {seconds:.1} s, the sweep {sweep_secs:.1} s; record from before its beginning to after its end"
+    )]
     Short {
         /// Length of the recording in seconds.
         seconds: f64,
@@ -118,7 +122,9 @@ pub enum CalibrationError {
         n_bands: usize,
     },
     /// The sweep is buried in noise.
-    #[error("the sweep is {MIN_SNR_DB} dB above the noise in {octaves:.1} octaves only, needs {LEAST_OCTAVES}; play it louder, or find what hums")]
+    #[error(
+        "the sweep is {MIN_SNR_DB} dB above the noise in {octaves:.1} octaves only, needs {LEAST_OCTAVES}; play it louder, or find what hums"
+    )]
     Noisy {
         /// Octaves that are clear of noise.
         octaves: f64,

@@ -78,7 +78,8 @@ impl Mechanics {
         let motional = impedance - sheet.resistance_ohm;
         if motional <= 0.0 {
             let resistance = sheet.resistance_ohm;
-            let reason = format!("rated voltage over current is {impedance:.3} Ω, the coil alone {resistance:.3} Ω");
+            let reason =
+                format!("rated voltage over current is {impedance:.3} Ω, the coil alone {resistance:.3} Ω");
             return Err(ActuatorError::Contradiction { reason });
         }
         let case = body + sheet.load.0;

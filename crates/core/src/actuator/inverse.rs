@@ -7,6 +7,7 @@ use crate::filter::Biquad;
 use crate::units::Hertz;
 
 /// Damping of the high-pass that an equalized actuator becomes: that of Butterworth's, to four digits.
+#[expect(clippy::approx_constant, reason = "the reference takes four digits, and its numbers are met")]
 pub const INVERSE_DAMPING: f64 = 0.7071;
 
 /// The bounded inverse: volts for an acceleration in m/s², so that filter and actuator together are a flat high-pass from

@@ -109,7 +109,10 @@ fn the_response_is_that_of_the_reference() {
     for (hz, expected) in numbers(&golden["freq"]).iter().zip(golden["mag_per_V_noL"].as_array().unwrap()) {
         check_near(response.magnitude_at(Hertz(*hz)), expected, 1e-12);
     }
-    assert!((response.magnitude_at(Hertz(65.0)) / (response.q() * response.gain_mps2_per_v()) - 1.0).abs() < 1e-13);
+    assert!(
+        (response.magnitude_at(Hertz(65.0)) / (response.q() * response.gain_mps2_per_v()) - 1.0).abs()
+            < 1e-13
+    );
 }
 
 #[test]

@@ -23,8 +23,7 @@ pub(super) fn clipped_peaks(recording: &[f64]) -> Option<CalibrationWarning> {
         while at < recording.len() {
             let run = recording[at..].iter().take_while(|sample| is_top(sample)).count();
             let edges = [at.checked_sub(1), Some(at + run)].map(|edge| edge.and_then(|i| recording.get(i)));
-            let is_steep =
-                edges.iter().flatten().all(|edge| most - side * **edge > LEAST_DROP * height);
+            let is_steep = edges.iter().flatten().all(|edge| most - side * **edge > LEAST_DROP * height);
             n_peaks += usize::from(run >= LEAST_RUN && is_steep);
             at += run.max(1);
         }

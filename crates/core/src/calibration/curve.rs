@@ -58,9 +58,9 @@ pub(super) fn gains(
     silence: &[&[f64]],
 ) -> Vec<CurvePoint> {
     let rate = impulse.rate;
-    let window = response_window(sweep, begins_secs);
+    let window = response_window(sweep, rate, begins_secs);
     let kept = impulse.windowed(&window);
-    let kept_energy: f64 = window.shape(rate).iter().map(|w| w * w).sum();
+    let kept_energy: f64 = window.shape().iter().map(|w| w * w).sum();
     let pieces: Vec<Vec<f64>> = silence.iter().map(|piece| hann(piece)).collect();
     // Noise that is there all the time falls into the window as it falls into a piece of silence, by the energy of each.
     let power_at = |frequency: Hertz| {
@@ -110,16 +110,17 @@ pub(super) fn distortion(
             // The next harmonic lies before it, the one before it behind it.
             let gap_secs = growth_secs * ((order + 1.0) / order).ln();
             let window = Window {
+                rate: impulse.rate,
                 at_secs: begins_secs - growth_secs * order.ln(),
                 before_secs: 0.3 * gap_secs,
                 after_secs: 0.6 * gap_secs,
             };
-            let energy: f64 = window.shape(impulse.rate).iter().map(|w| w * w).sum();
+            let energy: f64 = window.shape().iter().map(|w| w * w).sum();
             (order, impulse.windowed(&window), energy)
         })
         .collect();
     let window_energy: f64 =
-        response_window(sweep, begins_secs).shape(impulse.rate).iter().map(|w| w * w).sum();
+        response_window(sweep, impulse.rate, begins_secs).shape().iter().map(|w| w * w).sum();
     let most_hz = HIGH_EDGE * sweep.high.0;
     let at = |point: &CurvePoint| {
         let mut power = 0.0;
@@ -134,7 +135,8 @@ pub(super) fn distortion(
         }
         DistortionPoint { frequency: point.frequency, share: power.sqrt() / point.gain_mps2_per_v }
     };
-    let clear = curve.iter().filter(|point| 2.0 * point.frequency.0 <= most_hz && super::fit::is_clear(point));
+    let clear =
+        curve.iter().filter(|point| 2.0 * point.frequency.0 <= most_hz && super::fit::is_clear(point));
     clear.map(at).collect()
 }
 
@@ -145,9 +147,10 @@ fn noise_at(curve: &[CurvePoint], hz: f64) -> f64 {
 }
 
 /// The window of the response itself: behind the second harmonic, which lies before it.
-fn response_window(sweep: &Sweep, begins_secs: f64) -> Window {
+fn response_window(sweep: &Sweep, rate: Hertz, begins_secs: f64) -> Window {
     let second_secs = sweep.growth_secs() * 2.0_f64.ln();
     Window {
+        rate,
         at_secs: begins_secs,
         before_secs: BEFORE_SECS.min(second_secs / 3.0),
         after_secs: AFTER_SECS.min(sweep.seconds),

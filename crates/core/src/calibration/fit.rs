@@ -17,7 +17,7 @@ const LEAST_OCTAVES: f64 = 1.5;
 /// Error of a point without noise, of ln gain: a tenth of a dB.
 const FLOOR: f64 = 0.0115;
 /// Residuals beyond so many deviations count less and less (Cauchy), so that hum or a mode of the case has no say.
-const CAUCHY: f64 = 2.385;
+const CAUCHY: f64 = 2.4;
 /// A resonance is one where its frequency and width are known to this, as standard errors of their logarithms.
 const MOST_RESONANCE_ERROR: f64 = 0.1;
 const MOST_WIDTH_ERROR: f64 = 0.35;
@@ -56,7 +56,10 @@ pub struct Fit {
 #[non_exhaustive]
 pub enum FitError {
     /// Too little is clear of noise.
-    #[error("only {n_points} frequencies over {octaves:.1} octaves up to {} are clear of noise, needs {LEAST_POINTS} over {LEAST_OCTAVES}; play the sweep louder", FIT_HIGH)]
+    #[error(
+        "only {n_points} frequencies over {octaves:.1} octaves up to {} are clear of noise, needs {LEAST_POINTS} over {LEAST_OCTAVES}; play the sweep louder",
+        FIT_HIGH
+    )]
     TooFew {
         /// How many are.
         n_points: usize,
@@ -286,9 +289,9 @@ fn normal_equations(points: &[Point], at: &Vector3<f64>, scale: f64) -> (Matrix3
 fn line_through(points: &[Point]) -> [f64; 2] {
     let n = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.ln_hz / n, y + p.ln_gain / n));
-    let (xy, xx) = points.iter().fold((0.0, 0.0), |(xy, xx), p| {
-        (xy + (p.ln_hz - x) * (p.ln_gain - y), xx + (p.ln_hz - x).powi(2))
-    });
+    let (xy, xx) = points
+        .iter()
+        .fold((0.0, 0.0), |(xy, xx), p| (xy + (p.ln_hz - x) * (p.ln_gain - y), xx + (p.ln_hz - x).powi(2)));
     let slope = xy / xx;
     [y - slope * x, slope]
 }

@@ -66,8 +66,7 @@ impl Impulse {
             let share = band_share(k as f64 * bin_hz, sweep);
             if share > 0.0 { y / x * share } else { Complex::default() }
         };
-        let mut bins: Vec<Complex<f64>> =
-            recorded.iter().zip(&played).enumerate().map(divided).collect();
+        let mut bins: Vec<Complex<f64>> = recorded.iter().zip(&played).enumerate().map(divided).collect();
         // Numbers at the ends of the band have no imaginary part.
         bins[0] = Complex::default();
         bins[n / 2].im = 0.0;
@@ -92,17 +91,19 @@ impl Impulse {
 
     /// What a window keeps of the response.
     pub(super) fn windowed(&self, window: &Window) -> Vec<f64> {
-        let n = self.samples.len() as i64;
-        let first = ((window.at_secs - window.before_secs) * self.rate.0).round() as i64;
-        let shape = window.shape(self.rate);
-        let sample = |(i, share): (usize, f64)| share * self.samples[(first + i as i64).rem_euclid(n) as usize];
-        shape.into_iter().enumerate().map(sample).collect()
+        let n = self.samples.len();
+        let first =
+            ((window.at_secs - window.before_secs) * self.rate.0).round().rem_euclid(n as f64) as usize;
+        let sample = |(i, share): (usize, f64)| share * self.samples[(first + i) % n];
+        window.shape().into_iter().enumerate().map(sample).collect()
     }
 }
 
 /// A stretch of the impulse response with soft edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
+    /// Samples a second.
+    pub(super) rate: Hertz,
     /// What it is about, in seconds.
     pub(super) at_secs: f64,
     /// Where it begins, in seconds before that.
@@ -116,11 +117,11 @@ const EDGE_SHARE: f64 = 0.4;
 
 impl Window {
     /// Its weights, 0 to 1.
-    pub(super) fn shape(&self, rate: Hertz) -> Vec<f64> {
-        let n = ((self.before_secs + self.after_secs) * rate.0).round() as usize;
+    pub(super) fn shape(&self) -> Vec<f64> {
+        let n = ((self.before_secs + self.after_secs) * self.rate.0).round() as usize;
         let soft = |share: f64| 0.5 - 0.5 * (PI * (share / EDGE_SHARE).clamp(0.0, 1.0)).cos();
         let weight = |i: usize| {
-            let t = i as f64 / rate.0;
+            let t = i as f64 / self.rate.0;
             let left = self.before_secs + self.after_secs - t;
             soft(t / self.before_secs) * soft(left / self.after_secs)
         };

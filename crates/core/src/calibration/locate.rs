@@ -16,11 +16,7 @@ const LEAST_FOUND: usize = 3;
 
 /// When the sweep begins, in seconds: octave by octave the response is loudest somewhere, and where it is the sweep that is
 /// heard, most octaves agree on the time. Noise, hum and other sweeps are loudest at another time in each.
-pub(super) fn locate(
-    impulse: &Impulse,
-    sweep: &Sweep,
-    n_recorded: usize,
-) -> Result<f64, CalibrationError> {
+pub(super) fn locate(impulse: &Impulse, sweep: &Sweep, n_recorded: usize) -> Result<f64, CalibrationError> {
     let octaves = (sweep.high.0 / sweep.low.0).log2();
     let n_bands = octaves.floor() as usize;
     let mut planner = FftPlanner::<f64>::new();

@@ -116,9 +116,14 @@ fn a_sweep_that_cannot_be_is_refused() {
         message(Sweep { high: Hertz(50.0), ..Sweep::USUAL }, 8000.0),
         "the end in Hz of the sweep is 50, needs 80 to 24000"
     );
-    assert_eq!(message(Sweep::USUAL, 2000.0), "the end in Hz of the sweep is 1000, needs 900 or less at this rate");
+    assert_eq!(
+        message(Sweep::USUAL, 2000.0),
+        "the end in Hz of the sweep is 1000, needs 900 or less at this rate"
+    );
     assert!(message(Sweep { seconds: f64::NAN, ..Sweep::USUAL }, 8000.0).contains("length in s"));
-    assert!(message(Sweep { amplitude: 1.5, ..Sweep::USUAL }, 8000.0).contains("amplitude of the sweep is 1.5"));
+    assert!(
+        message(Sweep { amplitude: 1.5, ..Sweep::USUAL }, 8000.0).contains("amplitude of the sweep is 1.5")
+    );
 }
 
 #[test]
@@ -215,7 +220,12 @@ fn harmonics_are_told_from_the_response() {
         // Of A sin the square is A²/2 (1 - cos): half of the share times the amplitude, as the response has it an octave up.
         let twice = mark_ii().magnitude_at(Hertz(2.0 * point.frequency.0));
         let expected = 0.5 * square_per_v * 0.5 * twice / mark_ii().magnitude_at(point.frequency);
-        assert!((point.share / expected - 1.0).abs() < 0.1, "{} for {expected} at {}", point.share, point.frequency);
+        assert!(
+            (point.share / expected - 1.0).abs() < 0.1,
+            "{} for {expected} at {}",
+            point.share,
+            point.frequency
+        );
         n_checked += 1;
     }
     assert!(n_checked > 60, "{n_checked}");
@@ -274,7 +284,11 @@ fn what_is_no_recording_of_the_sweep_is_refused() {
     // Another sweep than the one that is looked for.
     for seconds in [4.0, 6.5, 10.0, 16.0] {
         let other = Bench::QUIET.record(&Sweep { seconds, ..QUICK }, &mark_ii());
-        assert!(matches!(of(&other, 4000.0), CalibrationError::NoSweep { .. }), "{seconds}: {}", of(&other, 4000.0));
+        assert!(
+            matches!(of(&other, 4000.0), CalibrationError::NoSweep { .. }),
+            "{seconds}: {}",
+            of(&other, 4000.0)
+        );
     }
     // The right one, far below the noise.
     let buried = Bench { noise_mps2: 200.0, ..Bench::QUIET }.record(&QUICK, &mark_ii());
@@ -313,7 +327,8 @@ fn a_resonance_that_is_not_there_is_not_made_up() {
     }
     // Two, one against the other.
     let two = fit(&bench, &|volts, rate| {
-        let (a, b) = (response(40.0, 25.0, 1.0).drive(volts, rate), response(300.0, 25.0, 1.0).drive(volts, rate));
+        let (a, b) =
+            (response(40.0, 25.0, 1.0).drive(volts, rate), response(300.0, 25.0, 1.0).drive(volts, rate));
         a.iter().zip(&b).map(|(a, b)| a + b).collect()
     });
     let is_told = match &two {
@@ -332,11 +347,8 @@ fn golden_curve(key: &str) -> Vec<CurvePoint> {
         golden[key].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
     };
     let points = numbers("freq").into_iter().zip(numbers(key));
-    let point = |(hz, gain)| CurvePoint {
-        frequency: Hertz(hz),
-        gain_mps2_per_v: gain,
-        noise_mps2_per_v: None,
-    };
+    let point =
+        |(hz, gain)| CurvePoint { frequency: Hertz(hz), gain_mps2_per_v: gain, noise_mps2_per_v: None };
     points.map(point).collect()
 }
 
