@@ -129,16 +129,26 @@ fn a_table_is_a_recording_too() {
 fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
     let bench = Bench::new();
     record(&bench, "good.wav", &[|a| a]);
-    let calibrate = |arguments: &str| format!("calibrate --out p.toml --plots plots --full-scale-volts 2 {arguments}");
+    let calibrate =
+        |arguments: &str| format!("calibrate --out p.toml --plots plots --full-scale-volts 2 {arguments}");
     let fails = |arguments: &str, words: &[&str]| bench.fails(&calibrate(arguments), 1, words);
     fails(&format!("--recording good.wav {SWEEP}"), &["full scale", "--sensitivity", "good.wav"]);
     fails(&format!("--recording none.wav --sensitivity 40 {SWEEP}"), &["cannot read the file", "none.wav"]);
     // The usual sweep was not played, but a quick one.
-    fails("--recording good.wav --sensitivity 40 --seconds 12", &["does not hold the sweep of 12 s", "good.wav"]);
+    fails(
+        "--recording good.wav --sensitivity 40 --seconds 12",
+        &["does not hold the sweep of 12 s", "good.wav"],
+    );
     fails("--recording good.wav --sensitivity 40 --seconds 60", &["8.5 s, the sweep 60.0 s", "good.wav"]);
-    fails(&format!("--recording good.wav --sensitivity 40 --actuator mark-3 {SWEEP}"), &["there is no actuator", "mm1c"]);
+    fails(
+        &format!("--recording good.wav --sensitivity 40 --actuator mark-3 {SWEEP}"),
+        &["there is no actuator", "mm1c"],
+    );
     // The output itself instead of the sensor.
-    fails(&format!("--recording sweep.wav --sensitivity 40 {SWEEP}"), &["no resonance was found", "sweep.wav"]);
+    fails(
+        &format!("--recording sweep.wav --sensitivity 40 {SWEEP}"),
+        &["no resonance was found", "sweep.wav"],
+    );
     record(&bench, "silent.wav", &[|_| 0.0]);
     fails(&format!("--recording silent.wav --sensitivity 40 {SWEEP}"), &["silent", "silent.wav"]);
     bench.write("text.wav", "not sound");
@@ -146,8 +156,16 @@ fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
     bench.write("notes.toml", "title = \"mine\"");
     let over = format!("calibrate --recording good.wav --sensitivity 40 {SWEEP} --out notes.toml");
     bench.fails(&over, 1, &["something else", "notes.toml"]);
-    bench.fails(&format!("calibrate --recording good.wav --sensitivity 40 {SWEEP} --out good.wav"), 1, &["good.wav"]);
-    bench.fails("calibrate --make-sweep s.wav --rate 1500", 1, &["the end in Hz of the sweep is 1000, needs 675"]);
+    bench.fails(
+        &format!("calibrate --recording good.wav --sensitivity 40 {SWEEP} --out good.wav"),
+        1,
+        &["good.wav"],
+    );
+    bench.fails(
+        "calibrate --make-sweep s.wav --rate 1500",
+        1,
+        &["the end in Hz of the sweep is 1000, needs 675"],
+    );
     bench.fails("calibrate --out p.toml", 2, &["--make-sweep"]);
     bench.fails("calibrate --make-sweep s.wav --recording good.wav", 2, &["cannot be used with"]);
     bench.fails(&calibrate("--recording good.wav --sensitivity 0"), 2, &["above 0"]);
@@ -156,10 +174,9 @@ fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
 #[test]
 fn warnings_reach_the_reader() {
     let bench = Bench::new();
-    record(&bench, "loud.wav", &[|a| (2.2 * a).clamp(-39.9, 39.9)]);
-    let said = bench.run(&format!(
-        "calibrate --recording loud.wav --sensitivity 40 --full-scale-volts 2 {SWEEP} --json"
-    ));
+    record(&bench, "loud.wav", &[|a| (4.0 * a).clamp(-39.9, 39.9)]);
+    let said = bench
+        .run(&format!("calibrate --recording loud.wav --sensitivity 40 --full-scale-volts 2 {SWEEP} --json"));
     assert_eq!(said.code, 0, "{}", said.stderr);
     assert!(said.stderr.contains("warning: ") && said.stderr.contains("cut off at 39.9"), "{}", said.stderr);
     let value: Value = serde_json::from_str(&said.stdout).unwrap();
@@ -175,7 +192,9 @@ fn the_built_in_actuators_are_listed_and_shown() {
     assert!(actuators.iter().all(|a| !a["source"].as_str().unwrap().is_empty()));
     let shown = bench.json("actuator show haptuator-mark-ii --rate 2000");
     // Section by section what vectors/b_act has; six digits are in the profile.
-    for (got, expected) in shown["inverse"]["b"].as_array().unwrap().iter().zip([0.464_132, -0.886_970, 0.441_657]) {
+    for (got, expected) in
+        shown["inverse"]["b"].as_array().unwrap().iter().zip([0.464_132, -0.886_970, 0.441_657])
+    {
         assert!((got.as_f64().unwrap() - expected).abs() < 3e-6, "{got} for {expected}");
     }
     assert!((shown["headroom"]["volts_per_mps2"].as_f64().unwrap() / 0.655 - 1.0).abs() < 0.01);

@@ -48,7 +48,8 @@ pub(crate) struct Args {
     /// Answers what a table does not say, as in acceleration_unit=g.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer)]
     answers: Vec<(Ask, String)>,
-    /// Voltage at the actuator for a sample of 1.0, at the volume that was used. Without it a volt is taken: the profile is
+    /// Voltage at the actuator for a sample of 1.0, at the volume that was used: of a sine of full scale the peak, 1.414 times
+    /// what a voltmeter shows. Without it a volt is taken: the profile is
     /// then right for this output at this volume, and its limits in volts mean nothing.
     #[arg(long, value_name = "V", value_parser = volts)]
     full_scale_volts: Option<f64>,
@@ -100,6 +101,31 @@ enum Source<'a> {
     File(&'a Path),
 }
 
+impl Source<'_> {
+    /// The file that is read, where it is one.
+    fn path(&self) -> Option<&Path> {
+        match self {
+            Self::File(path) => Some(path),
+        }
+    }
+
+    /// What people call it.
+    fn name(&self) -> String {
+        match self {
+            Self::File(path) => output::file_name(path),
+        }
+    }
+
+    /// Says where something went wrong.
+    fn told<T, E: Into<anyhow::Error>>(&self, result: Result<T, E>) -> anyhow::Result<T> {
+        let result = result.map_err(Into::into);
+        match self.path() {
+            Some(path) => result.with_context(|| output::in_file(path)),
+            None => result,
+        }
+    }
+}
+
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let sweep = Sweep {
         low: Hertz(args.sweep.low),
@@ -115,8 +141,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!(output::Usage("give a recording".to_owned()));
     };
     let source = Source::File(file);
-    let Source::File(input) = source;
-    let inputs = [Some(input), args.actuator.as_deref().map(Path::new)];
+    let inputs = [source.path(), args.actuator.as_deref().map(Path::new)];
     if let Some(out) = &args.out {
         refuse_inputs(&[out], &inputs)?;
         refuse_foreign(out, "the profile", |bytes| read_actuator(bytes).is_ok())?;
@@ -132,14 +157,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let drive = args.full_scale_volts.map_or(Ok(Drive::ASSUMED), |full| Drive::new(Volts(full)))?;
     let recorded = recorded(&source, args)?;
-    let of_file = || output::in_file(input);
-    let calibration =
-        calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive).with_context(of_file)?;
+    let calibration = source.told(calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive))?;
     for warning in &calibration.warnings {
         output::warn(&warning.to_string());
     }
-    let fit = calibration.fit.clone().with_context(of_file)?;
-    let actuator = profile(args, &output::file_name(input), base, &fit, drive);
+    let fit = source.told(calibration.fit.clone())?;
+    let actuator = profile(args, &source.name(), base, &fit, drive);
     let mut files = Vec::new();
     let mut figures = Vec::new();
     if let Some(out) = &args.out {

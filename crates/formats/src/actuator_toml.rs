@@ -393,10 +393,10 @@ mod tests {
     fn what_is_wrong_is_named_with_its_place() {
         let good = BUILT_IN[0];
         check_error(&good.replace("peak_v", "peak_volts"), "unknown field `peak_volts`");
-        check_error(&good.replace("peak_v", "peak_volts"), "at line 24");
+        check_error(&good.replace("peak_v", "peak_volts"), "at line 20");
         check_error(&good.replace("q = 4.08634", "q = nan"), "Q is NaN, needs 0.1 to 1000");
         check_error(&good.replace("peak_v = 4.5", "peak_v = -4.5"), "the peak voltage in V is -4.5");
-        check_error(&good.replace("lowest_hz = 20", "lowest_hz = \"low\""), "line 10");
+        check_error(&good.replace("lowest_hz = 20", "lowest_hz = \"low\""), "line 9");
         check_error(&good.replace("\"1.0\"", "\"2.0\""), "version 2.0");
         check_error(&good.replace("shagreen-actuator", "shagreen-signal"), "no profile of an actuator");
         check_error(

@@ -8,7 +8,8 @@ use crate::units::Volts;
 ///
 /// Where nobody measured it, [`Drive::ASSUMED`] takes a volt for digital full scale. A calibration that assumed the same
 /// is right nevertheless, since only the product of this and the gain shows in a recording; but limits in volts
-/// mean what they say only where it was measured: play a sine of full scale and put a voltmeter to the coil.
+/// mean what they say only where it was measured: play a sine of full scale, put a voltmeter to the coil, and take 1.414
+/// times what it shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// Voltage at the coil for a sample of 1.0, at the volume that is used.
