@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
-use shagreen_core::recording::{RawClock, RawMotion, RawRecording, RawTrack, Recording};
+use shagreen_core::recording::{RawClock, RawMotion, RawRecording, RawTrack, Recording, check_clock};
 use shagreen_core::statistics::standard_deviation;
 use shagreen_core::units::Hertz;
 use shagreen_formats::recording::{AccelerationUnit, Ask, Channel, ColumnMap, read_recording};
@@ -97,29 +97,38 @@ fn one_axis(raw: RawRecording, channel: Option<usize>) -> anyhow::Result<Recorde
     };
     let axis = axes.swap_remove(place);
     let channel = channel.unwrap_or(place + 1);
-    let rate = match raw.clock {
-        RawClock::Rate(rate) => return Ok(Recorded { acceleration_mps2: axis, rate, channel }),
-        clock @ RawClock::Times(_) => {
-            let raw = RawRecording {
-                clock,
-                acceleration_mps2: vec![axis.clone()],
-                motion: RawMotion::Speed(RawTrack::Constant(0.1)),
-                force_n: RawTrack::Constant(1.0),
-                full_scale_mps2: None,
-            };
-            let (recording, findings) =
-                Recording::from_raw(raw).map_err(|error| anyhow::anyhow!("{error}"))?;
-            if recording.acceleration_mps2.len() != axis.len() {
-                for finding in &findings {
-                    output::warn(&finding.to_string());
-                }
-                let there = |a: f64| if a.is_nan() { 0.0 } else { a };
-                let acceleration_mps2 = recording.acceleration_mps2.into_iter().map(there).collect();
-                return Ok(Recorded { acceleration_mps2, rate: recording.rate, channel });
-            }
-            recording.rate
-        }
+    if let RawClock::Rate(rate) = raw.clock {
+        return Ok(Recorded { acceleration_mps2: axis, rate, channel });
+    }
+    let (odd, _) = check_clock(&raw.clock);
+    let raw = RawRecording {
+        clock: raw.clock,
+        acceleration_mps2: vec![axis.clone()],
+        motion: RawMotion::Speed(RawTrack::Constant(0.1)),
+        force_n: RawTrack::Constant(1.0),
+        full_scale_mps2: None,
     };
-    // On a regular clock rows are samples, and what a stroke would leave out is the silence here.
-    Ok(Recorded { acceleration_mps2: axis, rate, channel })
+    let (recording, findings) = Recording::from_raw(raw).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let rate = recording.rate;
+    if odd.is_empty() {
+        // Rows are samples, and what would be left out of a stroke, as a sensor at rest, is the silence here.
+        return Ok(Recorded { acceleration_mps2: axis, rate, channel });
+    }
+    for finding in &findings {
+        output::warn(&finding.to_string());
+    }
+    Ok(Recorded { acceleration_mps2: held(recording.acceleration_mps2), rate, channel })
+}
+
+/// A signal whose missing samples are the last one before, or the first one behind, that is there.
+fn held(mut signal: Vec<f64>) -> Vec<f64> {
+    let mut last = signal.iter().copied().find(|sample| sample.is_finite()).unwrap_or(0.0);
+    for sample in &mut signal {
+        if sample.is_finite() {
+            last = *sample;
+        } else {
+            *sample = last;
+        }
+    }
+    signal
 }
