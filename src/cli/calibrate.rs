@@ -274,7 +274,7 @@ fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit,
     let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
     let warnings: Vec<Value> = calibration.warnings.iter().map(|w| json!(w.to_string())).collect();
     let curve = &calibration.curve;
-    let worst = calibration.distortion.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+    let worst = calibration.worst_distortion();
     output::print(
         args.json,
         &json!({
@@ -291,7 +291,7 @@ fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit,
             "channel": recorded.channel,
             "rate_hz": recorded.rate.0,
             "begins_s": calibration.begins_secs,
-            "distortion_max": worst.map(|w| json!({"share": w.share, "hz": w.frequency.0})),
+            "distortion_max": worst.as_ref().map(|w| json!({"share": w.share, "hz": w.frequency.0})),
             "curve": {
                 "hz": curve.iter().map(|p| p.frequency.0).collect::<Vec<_>>(),
                 "gain": curve.iter().map(|p| p.gain_mps2_per_v).collect::<Vec<_>>(),
@@ -306,7 +306,7 @@ fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit,
                 "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, {gain:.4} ± {:.4} (m/s²)/V; the fit is off by {:.2} dB rms",
                 fit.resonance_error_hz, fit.q_error, fit.gain_error_mps2_per_v, fit.error_db
             )];
-            if let Some(worst) = worst {
+            if let Some(worst) = &worst {
                 let (percent, at) = (100.0 * worst.share, worst.frequency.0);
                 lines.push(format!("Harmonics up to {percent:.1} % (at {at:.0} Hz)"));
             }

@@ -251,11 +251,26 @@ pub fn calibrate(
     {
         warnings.push(CalibrationWarning::PoorFit { error_db: fit.error_db });
     }
-    let worst = distortion.iter().max_by(|a, b| a.share.total_cmp(&b.share));
-    if let Some(DistortionPoint { frequency, share }) = worst.filter(|worst| worst.share > DISTORTED) {
-        warnings.push(CalibrationWarning::Distorted { share: *share, at_hz: frequency.0 });
+    let mut calibration = Calibration { fit, curve, distortion, begins_secs, warnings };
+    if let Some(DistortionPoint { frequency, share }) =
+        calibration.worst_distortion().filter(|worst| worst.share > DISTORTED)
+    {
+        calibration.warnings.push(CalibrationWarning::Distorted { share, at_hz: frequency.0 });
     }
-    Ok(Calibration { fit, curve, distortion, begins_secs, warnings })
+    Ok(calibration)
+}
+
+impl Calibration {
+    /// The highest distortion from half an octave below the resonance on: further down, harmonics lie nearer to the
+    /// resonance than what is played, and any amplifier makes them stand out.
+    pub fn worst_distortion(&self) -> Option<DistortionPoint> {
+        let resonance_hz = self.fit.as_ref().map_or(0.0, |fit| fit.response.resonance().0);
+        let counts = self
+            .distortion
+            .iter()
+            .filter(|p| p.frequency.0 >= std::f64::consts::FRAC_1_SQRT_2 * resonance_hz);
+        counts.max_by(|a, b| a.share.total_cmp(&b.share)).copied()
+    }
 }
 
 /// The part of the sweep that a recording of this rate can hold.

@@ -177,6 +177,9 @@ pub fn built_in_actuators() -> Result<Vec<Actuator>, ActuatorFileError> {
     BUILT_IN.iter().map(|text| read_actuator(text.as_bytes())).collect()
 }
 
+/// A key with its number, where there is one.
+type Entry = (&'static str, Option<f64>);
+
 /// A profile as the bytes of its file.
 pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
     let volts = |volts: Option<Volts>| volts.map(|volts| volts.0);
@@ -228,7 +231,7 @@ pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
             ("full_scale_v", Some(c.full_scale.0)),
         ]
     });
-    let tables: [(&str, Vec<(&str, Option<f64>)>); 4] = [
+    let tables: [(&str, Vec<Entry>); 4] = [
         ("response", response.into_iter().flatten().collect()),
         ("limits", limits.to_vec()),
         ("physical", physical.to_vec()),

@@ -140,10 +140,11 @@ pub(super) fn distortion(
     clear.map(at).collect()
 }
 
-/// The noise of the curve next to a frequency; zero where it is not known.
+/// The noise of the curve around a frequency, hum next to it included; zero where it is not known.
 fn noise_at(curve: &[CurvePoint], hz: f64) -> f64 {
-    let after = curve.partition_point(|point| point.frequency.0 < hz).min(curve.len() - 1);
-    curve[after].noise_mps2_per_v.unwrap_or(0.0)
+    let after = curve.partition_point(|point| point.frequency.0 < hz);
+    let around = &curve[after.saturating_sub(2).min(curve.len())..(after + 2).min(curve.len())];
+    around.iter().filter_map(|point| point.noise_mps2_per_v).fold(0.0, f64::max)
 }
 
 /// The window of the response itself: behind the second harmonic, which lies before it.

@@ -129,11 +129,11 @@ fn a_sweep_that_cannot_be_is_refused() {
 #[test]
 fn actuators_of_all_kinds_are_recovered() {
     // A rest of noise some 40 dB below the response far above the resonance.
-    for (i, hz) in [30.0, 65.0, 120.0, 210.0, 300.0].into_iter().enumerate() {
-        for (k, q) in [0.6, 1.5, 4.0, 12.0, 30.0].into_iter().enumerate() {
-            let gain = 0.3 * 3.0_f64.powi((i + k) as i32 % 5);
+    for (i, hz) in (0..).zip([30.0, 65.0, 120.0, 210.0, 300.0]) {
+        for (k, q) in (0..).zip([0.6, 1.5, 4.0, 12.0, 30.0]) {
+            let gain = 0.3 * 3.0_f64.powi((i + k) % 5);
             let expected = response(hz, q, gain);
-            let bench = Bench { noise_mps2: 0.005 * gain, latency_secs: 0.05 * k as f64, ..Bench::QUIET };
+            let bench = Bench { noise_mps2: 0.005 * gain, latency_secs: 0.05 * f64::from(k), ..Bench::QUIET };
             let calibration = bench.calibrate(&QUICK, &expected);
             // Q of a flat hump at the upper end of the band is known worst; a sharp one loses a little to the window.
             check_fit(&calibration, &expected, [0.004, 0.015, 0.01]);
@@ -275,7 +275,7 @@ fn what_is_no_recording_of_the_sweep_is_refused() {
     assert!(matches!(of(&noise, 4000.0), CalibrationError::NoSweep { .. }), "{}", of(&noise, 4000.0));
     let hum: Vec<f64> = (0..44_000).map(|i| (TAU * 0.015 * f64::from(i)).sin()).collect();
     assert!(matches!(of(&hum, 4000.0), CalibrationError::NoSweep { .. }), "{}", of(&hum, 4000.0));
-    assert_eq!(of(&[9.81; 44_000], 4000.0), CalibrationError::Silent);
+    assert_eq!(of(&vec![9.81; 44_000], 4000.0), CalibrationError::Silent);
     assert!(matches!(of(&noise[..10_000], 4000.0), CalibrationError::Short { .. }));
     assert!(matches!(of(&noise[..5000], 150.0), CalibrationError::Rate { .. }));
     let mut broken = noise.clone();
