@@ -169,7 +169,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         files.push((out.clone(), write_actuator(&actuator)));
     }
     if let Some(folder) = &args.plots {
-        for (name, figure) in calibration_figures(&calibration, &actuator.source) {
+        // The whole source of a profile is too long for a title.
+        let measured = format!("{}, {}", actuator.name, source.name());
+        for (name, figure) in calibration_figures(&calibration, &measured) {
             figures.push(folder.join(format!("{name}.svg")).display().to_string());
             files.extend(figure_files(folder, name, &figure));
         }
