@@ -3,6 +3,12 @@
 //! Results go to standard output, as text or as one JSON object; progress, notes, warnings and errors go to standard
 //! error. Exit status 0 is done, 1 could not, 2 wrong usage.
 
+mod actuator_acf;
+mod actuator_list;
+mod actuator_show;
+mod actuator_source;
+mod calibrate;
+mod calibrate_recording;
 mod devices;
 mod devices_pens;
 mod evaluate;
@@ -70,6 +76,17 @@ enum Command {
     Devices(devices::Args),
     /// Drives an actuator with a texture.
     Play(play::Args),
+    /// Profiles of actuators.
+    #[command(subcommand)]
+    Actuator(ActuatorCommand),
+    Calibrate(Box<calibrate::Args>),
+}
+
+#[derive(clap::Subcommand)]
+enum ActuatorCommand {
+    List(actuator_list::Args),
+    Show(actuator_show::Args),
+    Acf(actuator_acf::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -129,6 +146,10 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Play(args)) => play::run(args),
+        Some(Command::Actuator(ActuatorCommand::List(args))) => actuator_list::run(args),
+        Some(Command::Actuator(ActuatorCommand::Show(args))) => actuator_show::run(args),
+        Some(Command::Actuator(ActuatorCommand::Acf(args))) => actuator_acf::run(args),
+        Some(Command::Calibrate(args)) => calibrate::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

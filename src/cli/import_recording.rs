@@ -236,7 +236,7 @@ fn read(
 }
 
 /// The bytes of the file of units beside a WAV file; most have none.
-fn sidecar(file: &Path) -> Result<Option<Vec<u8>>, String> {
+pub(crate) fn sidecar(file: &Path) -> Result<Option<Vec<u8>>, String> {
     if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav")) {
         return Ok(None);
     }
@@ -298,7 +298,8 @@ fn map(args: &Args) -> anyhow::Result<ColumnMap> {
     Ok(map)
 }
 
-fn parse_answer(text: &str) -> Result<(Ask, String), String> {
+/// An answer to a question, as KEY=VALUE.
+pub(crate) fn parse_answer(text: &str) -> Result<(Ask, String), String> {
     let (key, value) = text.split_once('=').ok_or("write KEY=VALUE as in acceleration_unit=g")?;
     let what = Ask::from_key(key.trim()).ok_or_else(|| {
         let keys: Vec<&str> = Ask::ALL.iter().map(|ask| ask.key()).collect();

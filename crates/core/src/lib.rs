@@ -27,11 +27,13 @@
     allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
 )]
 
+pub mod actuator;
 pub mod ar;
 pub mod arma;
 pub mod authoring;
 pub mod blend;
 pub mod boundary;
+pub mod calibration;
 pub mod contact_model;
 pub mod dft321;
 pub mod dissimilarities;

@@ -32,6 +32,17 @@ quantity!(
     "m/s"
 );
 
+quantity!(
+    /// An electric tension in V.
+    Volts,
+    "V"
+);
+quantity!(
+    /// A mass in kg.
+    Kilograms,
+    "kg"
+);
+
 impl MetersPerSecond {
     /// A speed given in mm/s, the unit of hands and of the command line.
     pub fn from_mm_per_s(mm_per_s: f64) -> Self {
@@ -40,6 +51,18 @@ impl MetersPerSecond {
 
     /// The speed in mm/s.
     pub fn mm_per_s(self) -> f64 {
+        self.0 * 1e3
+    }
+}
+
+impl Kilograms {
+    /// A mass given in g, the unit of pens and of data sheets.
+    pub fn from_g(g: f64) -> Self {
+        Self(g * 1e-3)
+    }
+
+    /// The mass in g.
+    pub fn g(self) -> f64 {
         self.0 * 1e3
     }
 }

@@ -20,7 +20,10 @@
     allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
 )]
 
+pub mod acf;
+pub mod actuator_toml;
 pub mod atomic;
+pub mod calibration_report;
 pub mod csv_text;
 pub mod evaluation_report;
 pub mod figure;

@@ -150,6 +150,15 @@ pub fn write_wav(path: &Path, samples: &[f32], sidecar: &SidecarV1) -> Result<()
     Ok(())
 }
 
+/// Writes samples alone, -1 to 1 of digital full scale: for what is played and has no unit.
+///
+/// # Errors
+/// See [`WavWriteError`]; a file that was there is then as it was.
+pub fn write_samples(path: &Path, samples: &[f32], rate_hz: u32) -> Result<(), WavWriteError> {
+    atomic::write(path, &pack(samples, rate_hz)?)?;
+    Ok(())
+}
+
 /// Samples as the bytes of a WAV file of 32-bit floats.
 fn pack(samples: &[f32], rate_hz: u32) -> Result<Vec<u8>, WavWriteError> {
     check_length(samples.len() as u64)?;

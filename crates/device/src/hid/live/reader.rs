@@ -163,7 +163,7 @@ impl Reader {
                     return;
                 };
                 self.shared.n_reports.fetch_add(1, Ordering::Relaxed);
-                let landing_mps = moment.landing.map(|landing| landing.speed_mps as f32);
+                let landing_mps = moment.landing.map(|landing| landing.speed_mps);
                 self.send(moment.touch, now, landing_mps);
                 if self.moments.push(moment).is_err() {
                     self.shared.n_dropped.fetch_add(1, Ordering::Relaxed);

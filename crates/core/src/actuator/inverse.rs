@@ -1,0 +1,56 @@
+//! Filters that make up for an actuator without asking the impossible of it.
+
+use std::f64::consts::PI;
+
+use crate::actuator::{ActuatorError, Response, check_positive};
+use crate::filter::Biquad;
+use crate::units::Hertz;
+
+/// Damping of the high-pass that an equalized actuator becomes: that of Butterworth's, to four digits.
+#[expect(clippy::approx_constant, reason = "the reference takes four digits, and its numbers are met")]
+pub const INVERSE_DAMPING: f64 = 0.7071;
+
+/// The bounded inverse: volts for an acceleration in m/s², so that filter and actuator together are a flat high-pass from
+/// `lowest` on, at which its voltage stops growing.
+///
+/// `C(s) = (1/K) (s² + s ω₀/Q + ω₀²) / (s² + 2·0.7071 ω_h s + ω_h²)` with `ω_h` that of `lowest`, by the bilinear transform
+/// pre-warped at the resonance. Above a tenth of the rate the transform bends frequencies: take the rate of the output.
+///
+/// # Errors
+/// [`ActuatorError`] where the resonance or `lowest` is not below half the rate.
+pub fn inverse(response: &Response, lowest: Hertz, rate: Hertz) -> Result<Biquad, ActuatorError> {
+    check_positive("the rate in Hz", rate.0)?;
+    check_positive("the lowest frequency in Hz", lowest.0)?;
+    for (what, hz) in [("the resonance", response.resonance().0), ("the lowest frequency", lowest.0)] {
+        if 2.0 * hz >= rate.0 {
+            return Err(ActuatorError::Rate { what, hz, rate_hz: rate.0 });
+        }
+    }
+    let (omega, omega_h) = (2.0 * PI * response.resonance().0, 2.0 * PI * lowest.0);
+    let gain = response.gain_mps2_per_v();
+    let above = [1.0 / gain, omega / response.q() / gain, omega * omega / gain];
+    let below = [1.0, 2.0 * INVERSE_DAMPING * omega_h, omega_h * omega_h];
+    let c = omega / (omega / (2.0 * rate.0)).tan();
+    let bilinear = |[two, one, zero]: [f64; 3]| {
+        let (two, one) = (two * c * c, one * c);
+        [two + one + zero, 2.0 * (zero - two), two - one + zero]
+    };
+    let ([b0, b1, b2], [a0, a1, a2]) = (bilinear(above), bilinear(below));
+    Ok(Biquad { b: [b0 / a0, b1 / a0, b2 / a0], a: [a1 / a0, a2 / a0] })
+}
+
+/// A bound of the gain of [`inverse`] at any frequency, in V/(m/s²): `max(1, 1/2Q) / K · √(1 + (f₀/f_h)⁴)`.
+pub fn inverse_gain_bound(response: &Response, lowest: Hertz) -> f64 {
+    let steep = (response.resonance().0 / lowest.0).powi(4);
+    let wide = (0.5 / response.q()).max(1.0);
+    // The damping is Butterworth's to four digits only, which costs two of ten thousand.
+    1.0002 * wide / response.gain_mps2_per_v() * (1.0 + steep).sqrt()
+}
+
+/// The gain of the inverse in the sense of Tikhonov at a frequency, `|G| / (|G|² + λ)` with `λ` the square of `share` (0 to 1) of the
+/// gain at the resonance, in V/(m/s²): for comparison, since it is no filter of second order.
+pub fn tikhonov_inverse(response: &Response, share: f64, frequency: Hertz) -> f64 {
+    let lambda = (share * response.magnitude_at(response.resonance())).powi(2);
+    let gain = response.magnitude_at(frequency);
+    gain / (gain * gain + lambda)
+}

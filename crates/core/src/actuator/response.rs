@@ -1,0 +1,93 @@
+//! The second-order high-pass of a voice coil.
+
+use std::f64::consts::TAU;
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
+use crate::actuator::{ActuatorError, check_positive};
+use crate::units::Hertz;
+
+/// Lowest quality factor that is taken for one: there the two poles of the suspension fall apart.
+pub const MIN_Q: f64 = 0.1;
+/// Highest quality factor that is taken for one.
+pub const MAX_Q: f64 = 1000.0;
+
+/// Share of a ringing that may be left when the next begins, where a signal is worked on in a circle.
+const LEFT: f64 = 1e-9;
+
+/// What the case does for a voltage: `a/V = K s² / (s² + s ω₀/Q + ω₀²)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    resonance: Hertz,
+    q: f64,
+    gain_mps2_per_v: f64,
+}
+
+impl Response {
+    /// A response of this resonance `ω₀ / 2π`, quality factor Q ([`MIN_Q`] to [`MAX_Q`]) and gain K far above the
+    /// resonance, in (m/s²)/V.
+    ///
+    /// # Errors
+    /// [`ActuatorError::Number`].
+    pub fn new(resonance: Hertz, q: f64, gain_mps2_per_v: f64) -> Result<Self, ActuatorError> {
+        check_positive("the resonance in Hz", resonance.0)?;
+        check_positive("the gain in (m/s²)/V", gain_mps2_per_v)?;
+        if !(MIN_Q..=MAX_Q).contains(&q) {
+            return Err(ActuatorError::Number { what: "Q", value: q, needs: "0.1 to 1000" });
+        }
+        Ok(Self { resonance, q, gain_mps2_per_v })
+    }
+
+    /// Where it is loudest, but for the width of the resonance.
+    pub fn resonance(&self) -> Hertz {
+        self.resonance
+    }
+
+    /// Quality factor: the gain at the resonance over that far above it.
+    pub fn q(&self) -> f64 {
+        self.q
+    }
+
+    /// Gain far above the resonance, in (m/s²)/V.
+    pub fn gain_mps2_per_v(&self) -> f64 {
+        self.gain_mps2_per_v
+    }
+
+    /// The gain at a frequency with its phase, in (m/s²)/V.
+    pub fn at(&self, frequency: Hertz) -> Complex<f64> {
+        let x = frequency.0 / self.resonance.0;
+        Complex::new(-self.gain_mps2_per_v * x * x, 0.0) / Complex::new(1.0 - x * x, x / self.q)
+    }
+
+    /// The gain at a frequency, in (m/s²)/V.
+    pub fn magnitude_at(&self, frequency: Hertz) -> f64 {
+        self.at(frequency).norm()
+    }
+
+    /// The acceleration of the case in m/s² for a voltage in V, from rest: exact for what lies below half the rate. As long
+    /// as the voltage.
+    pub fn drive(&self, volts: &[f64], rate: Hertz) -> Vec<f64> {
+        if volts.is_empty() {
+            return Vec::new();
+        }
+        let decay_per_sec = TAU * self.resonance.0 / (2.0 * self.q.max(0.5));
+        let ring = ((1.0 / LEFT).ln() / decay_per_sec * rate.0).ceil() as usize;
+        let n = (volts.len() + ring).next_power_of_two();
+        let mut planner = RealFftPlanner::<f64>::new();
+        let (forward, back) = (planner.plan_fft_forward(n), planner.plan_fft_inverse(n));
+        let (mut signal, mut bins) = (forward.make_input_vec(), forward.make_output_vec());
+        signal[..volts.len()].copy_from_slice(volts);
+        let done = forward.process(&mut signal, &mut bins).and_then(|()| {
+            for (k, bin) in bins.iter_mut().enumerate() {
+                *bin *= self.at(Hertz(k as f64 * rate.0 / n as f64)) / n as f64;
+            }
+            // At half the rate there is no phase.
+            bins[n / 2].im = 0.0;
+            back.process(&mut bins, &mut signal)
+        });
+        assert!(done.is_ok(), "the lengths are those that the plan asked for: {done:?}");
+        signal.truncate(volts.len());
+        signal
+    }
+}

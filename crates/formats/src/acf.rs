@@ -1,0 +1,193 @@
+//! Actuator configurations (ACF) for players of `.haptic` clips, as JSON, which is also JSON5.
+//!
+//! Such a player knows no frequency response: it plays sines between two frequencies, and short bursts at clip's emphases.
+//! What is written is chosen so that it neither overloads the actuator nor plays where it does nothing:
+//!
+//! - frequencies of `continuous` run from where the gain reaches half of that far above the resonance (not below the lowest
+//!   frequency of the profile) to [`HIGHEST_HZ`], or to twice the resonance where that is higher;
+//! - gains are those of a sine that the rated voltage bears for ever (`continuous`), and the peak voltage for a moment
+//!   (`emphasis`), as shares of the digital full scale of the drive, at most 1;
+//! - `emphasis_ducking` is the gain that is left to the continuous signal while an emphasis sounds;
+//! - an emphasis takes two periods, of the lowest frequency at its dullest, of the middle between resonance and highest
+//!   frequency (geometrically) at its sharpest, as a sine and a square; a voice coil rings out by itself, so nothing fades.
+
+use serde::{Deserialize, Serialize};
+use shagreen_core::actuator::{Actuator, ActuatorError, Drive, Response};
+use shagreen_core::units::Hertz;
+
+use crate::layout;
+
+/// Highest frequency of a clip, in Hz: skin feels best around it, and clips are made for it.
+pub const HIGHEST_HZ: f64 = 300.0;
+/// What is left of the continuous signal while an emphasis sounds.
+const DUCKING: f64 = 0.5;
+/// Share of the gain far above the resonance from which on a frequency is worth playing.
+const LEAST_SHARE: f64 = 0.5;
+/// Periods of an emphasis.
+const PERIODS: f64 = 2.0;
+
+/// A configuration as it is written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AcfV1 {
+    /// Whom it is for and where it comes from; players do not read it.
+    pub metadata: MetadataV1,
+    /// How continuous vibration is played.
+    pub continuous: ContinuousV1,
+    /// How short events are played.
+    pub emphasis: EmphasisV1,
+}
+
+/// Free text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MetadataV1 {
+    /// Version of the configuration.
+    pub version: String,
+    /// The actuator.
+    pub device: String,
+    /// The program that wrote it.
+    pub author: String,
+    /// Where the figures come from.
+    pub source: String,
+}
+
+/// How continuous vibration is played.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContinuousV1 {
+    /// Share of full scale at amplitude 1, 0 to 1.
+    pub gain: f64,
+    /// Gain that is left while an emphasis sounds: 1 leaves it alone, 0 silences it.
+    pub emphasis_ducking: f64,
+    /// Frequency in Hz at frequency 0.
+    pub frequency_min: f64,
+    /// Frequency in Hz at frequency 1.
+    pub frequency_max: f64,
+}
+
+/// How short events are played.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EmphasisV1 {
+    /// Share of full scale at amplitude 1, 0 to 1.
+    pub gain: f64,
+    /// By how much it fades to its end, 0 to 100.
+    pub fade_out_percent: f64,
+    /// At frequency 0.
+    pub frequency_min: BurstV1,
+    /// At frequency 1.
+    pub frequency_max: BurstV1,
+}
+
+/// A short event.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BurstV1 {
+    /// Frequency in Hz.
+    pub output_frequency: f64,
+    /// Length in ms.
+    pub duration_ms: f64,
+    /// `sine`, `square`, `saw` or `triangle`.
+    pub shape: String,
+}
+
+/// The configuration of an actuator behind a drive; `author` is the program.
+///
+/// # Errors
+/// [`ActuatorError::NoResponse`].
+pub fn acf(actuator: &Actuator, drive: Drive, author: &str) -> Result<AcfV1, ActuatorError> {
+    let response = actuator.response()?;
+    let share = |volts: Option<f64>| volts.map_or(1.0, |volts| (volts / drive.full_scale.0).min(1.0));
+    let peak = actuator.limits.peak_volts.map(|peak| peak.0);
+    let rated = actuator.limits.rated_volts_rms.map(|rated| rated.0 * std::f64::consts::SQRT_2);
+    let resonance_hz = response.resonance().0;
+    let low_hz = reaching(&response, LEAST_SHARE).0.max(actuator.lowest.0);
+    let high_hz = HIGHEST_HZ.max(2.0 * resonance_hz).max(2.0 * low_hz);
+    let burst = |hz: f64, shape: &str| {
+        let hz = tenths(hz);
+        BurstV1 { output_frequency: hz, duration_ms: tenths(1e3 * PERIODS / hz), shape: shape.to_owned() }
+    };
+    Ok(AcfV1 {
+        metadata: MetadataV1 {
+            version: "1.0.0".to_owned(),
+            device: actuator.name.clone(),
+            author: author.to_owned(),
+            source: actuator.source.clone(),
+        },
+        continuous: ContinuousV1 {
+            gain: share(rated).min(share(peak)),
+            emphasis_ducking: DUCKING,
+            frequency_min: tenths(low_hz),
+            frequency_max: tenths(high_hz),
+        },
+        emphasis: EmphasisV1 {
+            gain: share(peak),
+            fade_out_percent: 0.0,
+            frequency_min: burst(low_hz, "sine"),
+            frequency_max: burst((resonance_hz.max(low_hz) * high_hz).sqrt(), "square"),
+        },
+    })
+}
+
+/// The bytes of a configuration.
+pub fn write_acf(acf: &AcfV1) -> Vec<u8> {
+    layout::to_bytes(acf, 3)
+}
+
+/// The lowest frequency at which the gain is a share of that far above the resonance: with `x = (f/f₀)²`,
+/// `x² = share² ((1 - x)² + x/Q²)`.
+fn reaching(response: &Response, share: f64) -> Hertz {
+    let square = share * share;
+    let half = 0.5 * (response.q().powi(-2) - 2.0) * square;
+    let x = (half + (half * half + (1.0 - square) * square).sqrt()) / (1.0 - square);
+    Hertz(response.resonance().0 * x.sqrt())
+}
+
+fn tenths(value: f64) -> f64 {
+    (10.0 * value).round() / 10.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AcfV1, acf, reaching, write_acf};
+    use crate::actuator_toml::built_in_actuators;
+    use shagreen_core::actuator::{Drive, Response};
+    use shagreen_core::units::{Hertz, Volts};
+
+    #[test]
+    fn a_configuration_is_json_and_comes_back() {
+        let actuator = built_in_actuators().unwrap().remove(0);
+        let made = acf(&actuator, Drive::new(Volts(5.0)).unwrap(), "shagreen").unwrap();
+        let bytes = write_acf(&made);
+        assert_eq!(serde_json::from_slice::<AcfV1>(&bytes).unwrap(), made);
+        let value: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+        // 1.41 V rms is a sine of 1.994 V; 4.5 V are nine tenths of 5 V.
+        assert!((value["continuous"]["gain"].as_f64().unwrap() - 0.3988).abs() < 1e-4);
+        assert!((value["emphasis"]["gain"].as_f64().unwrap() - 0.9).abs() < 1e-12);
+        assert_eq!(value["continuous"]["frequency_max"], 300.0);
+        assert_eq!(value["emphasis"]["frequency_max"]["shape"], "square");
+        // The geometric mean of 65 and 300 Hz, and two periods of it.
+        assert_eq!(value["emphasis"]["frequency_max"]["output_frequency"], 139.6);
+        assert_eq!(value["emphasis"]["frequency_max"]["duration_ms"], 14.3);
+    }
+
+    #[test]
+    fn no_gain_goes_beyond_full_scale() {
+        let actuator = built_in_actuators().unwrap().remove(0);
+        let made = acf(&actuator, Drive::ASSUMED, "").unwrap();
+        assert_eq!((made.continuous.gain, made.emphasis.gain), (1.0, 1.0));
+    }
+
+    #[test]
+    fn the_band_begins_where_the_gain_does() {
+        for (q, share) in [(0.5, 0.5), (4.0, 0.5), (30.0, 0.9), (0.2, 0.1)] {
+            let response = Response::new(Hertz(65.0), q, 2.0).unwrap();
+            let gain = response.magnitude_at(reaching(&response, share));
+            // A closed root in f64.
+            assert!((gain / (2.0 * share) - 1.0).abs() < 1e-12, "{gain} for Q {q}");
+        }
+    }
+
+    #[test]
+    fn without_a_response_there_is_none() {
+        let unknown = built_in_actuators().unwrap().pop().unwrap();
+        let message = acf(&unknown, Drive::ASSUMED, "").unwrap_err().to_string();
+        assert!(message.contains("mm1c; calibrate it"), "{message}");
+    }
+}

@@ -1,0 +1,413 @@
+//! Profiles of actuators, as TOML files.
+//!
+//! Every key has its unit in its name; files are in grams and microhenries, values in SI units. What is not stated is left
+//! out. A key that is not known is an error, for it would be a figure without effect.
+//!
+//! ```
+//! use shagreen_core::units::{Hertz, Kilograms};
+//! use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator, write_actuator};
+//!
+//! let mark_ii = built_in_actuators()?.remove(0);
+//! assert_eq!(read_actuator(&write_actuator(&mark_ii))?, mark_ii);
+//! let on_a_pen = mark_ii.at_load(Kilograms::from_g(40.0))?;
+//! assert!(on_a_pen.response()?.resonance() > Hertz(65.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use serde::Deserialize;
+use shagreen_core::actuator::{
+    Actuator, ActuatorError, Calibrated, Limits, Measured, Physical, Response, USUAL_LOWEST,
+    USUAL_THERMAL_SECS, validate,
+};
+use shagreen_core::units::{Hertz, Kilograms, Volts};
+
+use crate::library::id_from_name;
+
+/// What the key `format` holds.
+pub const FORMAT: &str = "shagreen-actuator";
+/// Version of the format.
+pub const VERSION: &str = "1.0";
+
+/// The profiles that are built into the program, in the order of their list.
+const BUILT_IN: [&str; 4] = [
+    include_str!("../../../assets/actuators/haptuator-mark-ii.toml"),
+    include_str!("../../../assets/actuators/haptuator-redesign.toml"),
+    include_str!("../../../assets/actuators/alps-aft14a903a.toml"),
+    include_str!("../../../assets/actuators/mm1c.toml"),
+];
+
+/// Why bytes are no profile.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ActuatorFileError {
+    /// Not UTF-8.
+    #[error("the profile is not UTF-8 text from byte {at} on; save the file as UTF-8")]
+    NotText {
+        /// The first byte that is not.
+        at: usize,
+    },
+    /// Not TOML, or a key is missing, unknown or of the wrong kind.
+    #[error("the profile cannot be read: {reason}; correct the file")]
+    Damaged {
+        /// What is wrong, with the line, on one line.
+        reason: String,
+    },
+    /// Of another kind.
+    #[error("this is no profile of an actuator: its format is \"{found}\", not \"{FORMAT}\"")]
+    Format {
+        /// What the key `format` holds.
+        found: String,
+    },
+    /// Of another version.
+    #[error("the profile has version {found}, this program reads {VERSION}; open it with a newer Shagreen")]
+    Version {
+        /// What the key `version` holds.
+        found: String,
+    },
+    /// The identifier is none.
+    #[error("\"{id}\" is no identifier of a profile; use lower-case letters, digits and hyphens")]
+    Id {
+        /// What it is.
+        id: String,
+    },
+    /// A number has no meaning.
+    #[error("{0}; correct the profile")]
+    Number(#[from] ActuatorError),
+}
+
+#[derive(Deserialize)]
+struct HeaderV1 {
+    format: String,
+    version: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ActuatorV1 {
+    #[serde(rename = "format")]
+    _format: String,
+    #[serde(rename = "version")]
+    _version: String,
+    id: String,
+    name: String,
+    #[serde(default)]
+    maker: String,
+    source: String,
+    #[serde(default)]
+    licence: String,
+    lowest_hz: Option<f64>,
+    response: Option<ResponseV1>,
+    #[serde(default)]
+    limits: LimitsV1,
+    #[serde(default)]
+    physical: PhysicalV1,
+    calibration: Option<CalibrationV1>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ResponseV1 {
+    load_g: Option<f64>,
+    resonance_hz: f64,
+    q: f64,
+    gain_mps2_per_v: f64,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LimitsV1 {
+    rated_v_rms: Option<f64>,
+    rated_a_rms: Option<f64>,
+    peak_v: Option<f64>,
+    thermal_time_s: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PhysicalV1 {
+    moving_mass_g: Option<f64>,
+    body_mass_g: Option<f64>,
+    resistance_ohm: Option<f64>,
+    inductance_uh: Option<f64>,
+    force_factor_n_per_a: Option<f64>,
+    stiffness_n_per_m: Option<f64>,
+    damping_n_s_per_m: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CalibrationV1 {
+    fit_error_db: f64,
+    resonance_error_hz: f64,
+    q_error: f64,
+    gain_error_mps2_per_v: f64,
+    full_scale_v: f64,
+}
+
+/// Reads a profile.
+///
+/// # Errors
+/// See [`ActuatorFileError`]; every number is checked by [`validate`].
+pub fn read_actuator(bytes: &[u8]) -> Result<Actuator, ActuatorFileError> {
+    let text =
+        std::str::from_utf8(bytes).map_err(|error| ActuatorFileError::NotText { at: error.valid_up_to() })?;
+    let damaged = |error: toml::de::Error| damaged(&error, text);
+    // What it is comes first: of a newer version, other keys are no mistake.
+    let header: HeaderV1 = toml::from_str(text).map_err(damaged)?;
+    if header.format != FORMAT {
+        return Err(ActuatorFileError::Format { found: header.format });
+    }
+    if header.version != VERSION {
+        return Err(ActuatorFileError::Version { found: header.version });
+    }
+    let wire: ActuatorV1 = toml::from_str(text).map_err(damaged)?;
+    if wire.id.is_empty() || id_from_name(&wire.id) != wire.id {
+        return Err(ActuatorFileError::Id { id: wire.id });
+    }
+    let actuator = actuator(wire)?;
+    validate(&actuator)?;
+    Ok(actuator)
+}
+
+/// The profiles that are built into the program; the first has a response.
+///
+/// # Errors
+/// None, as long as the committed files are sound, which a test holds.
+pub fn built_in_actuators() -> Result<Vec<Actuator>, ActuatorFileError> {
+    BUILT_IN.iter().map(|text| read_actuator(text.as_bytes())).collect()
+}
+
+/// A key with its number, where there is one.
+type Entry = (&'static str, Option<f64>);
+
+/// A profile as the bytes of its file.
+pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
+    let volts = |volts: Option<Volts>| volts.map(|volts| volts.0);
+    let grams = |mass: Option<Kilograms>| mass.map(|mass| exact(mass.0, 1e3, |g| Kilograms::from_g(g).0));
+    let Actuator { measured, limits, physical, calibrated, .. } = actuator;
+    let mut lines = vec![format!("format = {}", quoted(FORMAT)), format!("version = {}", quoted(VERSION))];
+    let texts = [
+        ("id", &actuator.id),
+        ("name", &actuator.name),
+        ("maker", &actuator.maker),
+        ("source", &actuator.source),
+        ("licence", &actuator.license),
+    ];
+    // A profile has an id, a name and a source in any case.
+    let is_told = |(key, text): &(&str, &String)| !text.is_empty() || ["id", "name", "source"].contains(key);
+    lines.extend(
+        texts.iter().filter(|entry| is_told(entry)).map(|(key, text)| format!("{key} = {}", quoted(text))),
+    );
+    lines.push(format!("lowest_hz = {}", actuator.lowest.0));
+    let response = measured.map(|Measured { response, load }| {
+        [
+            ("load_g", grams(load)),
+            ("resonance_hz", Some(response.resonance().0)),
+            ("q", Some(response.q())),
+            ("gain_mps2_per_v", Some(response.gain_mps2_per_v())),
+        ]
+    });
+    let limits = [
+        ("rated_v_rms", volts(limits.rated_volts_rms)),
+        ("rated_a_rms", limits.rated_amps_rms),
+        ("peak_v", volts(limits.peak_volts)),
+        ("thermal_time_s", Some(limits.thermal_secs)),
+    ];
+    let physical = [
+        ("moving_mass_g", grams(physical.moving_mass)),
+        ("body_mass_g", grams(physical.body_mass)),
+        ("resistance_ohm", physical.resistance_ohm),
+        ("inductance_uh", physical.inductance_h.map(|h| exact(h, 1e6, |uh| uh * 1e-6))),
+        ("force_factor_n_per_a", physical.force_factor_n_per_a),
+        ("stiffness_n_per_m", physical.stiffness_n_per_m),
+        ("damping_n_s_per_m", physical.damping_n_s_per_m),
+    ];
+    let calibration = calibrated.map(|c| {
+        [
+            ("fit_error_db", Some(c.fit_error_db)),
+            ("resonance_error_hz", Some(c.resonance_error_hz)),
+            ("q_error", Some(c.q_error)),
+            ("gain_error_mps2_per_v", Some(c.gain_error_mps2_per_v)),
+            ("full_scale_v", Some(c.full_scale.0)),
+        ]
+    });
+    let tables: [(&str, Vec<Entry>); 4] = [
+        ("response", response.into_iter().flatten().collect()),
+        ("limits", limits.to_vec()),
+        ("physical", physical.to_vec()),
+        ("calibration", calibration.into_iter().flatten().collect()),
+    ];
+    for (table, entries) in tables {
+        let told: Vec<String> = entries
+            .iter()
+            .filter_map(|(key, value)| value.map(|value| format!("{key} = {value:?}")))
+            .collect();
+        if !told.is_empty() {
+            lines.extend([String::new(), format!("[{table}]")]);
+            lines.extend(told);
+        }
+    }
+    lines.push(String::new());
+    lines.join("\n").into_bytes()
+}
+
+/// An SI value in the unit of the file, `per_si` of which are one, so that it comes back exactly: of the numbers near the
+/// product the one that does, with the fewest digits.
+fn exact(si: f64, per_si: f64, back: impl Fn(f64) -> f64) -> f64 {
+    let product = si * per_si;
+    let rounded = (0..=15).filter_map(|digits| format!("{product:.digits$e}").parse::<f64>().ok());
+    rounded
+        .chain([product, product.next_up(), product.next_down()])
+        .find(|value| back(*value) == si)
+        .unwrap_or(product)
+}
+
+/// A text as TOML has it: JSON's escapes, and one character more.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
+}
+
+/// The parser's message on one line, with the line of the file.
+fn damaged(error: &toml::de::Error, text: &str) -> ActuatorFileError {
+    let message = error.message().replace('\n', " ");
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let reason = match before {
+        Some(before) => format!("{message} at line {}", before.matches('\n').count() + 1),
+        None => message,
+    };
+    ActuatorFileError::Damaged { reason }
+}
+
+fn actuator(wire: ActuatorV1) -> Result<Actuator, ActuatorError> {
+    let kilograms = |g: Option<f64>| g.map(Kilograms::from_g);
+    let measured = wire.response.map(|r| {
+        let response = Response::new(Hertz(r.resonance_hz), r.q, r.gain_mps2_per_v)?;
+        Ok(Measured { response, load: kilograms(r.load_g) })
+    });
+    Ok(Actuator {
+        id: wire.id,
+        name: wire.name,
+        maker: wire.maker,
+        source: wire.source,
+        license: wire.licence,
+        measured: measured.transpose()?,
+        limits: Limits {
+            rated_volts_rms: wire.limits.rated_v_rms.map(Volts),
+            rated_amps_rms: wire.limits.rated_a_rms,
+            peak_volts: wire.limits.peak_v.map(Volts),
+            thermal_secs: wire.limits.thermal_time_s.unwrap_or(USUAL_THERMAL_SECS),
+        },
+        physical: Physical {
+            moving_mass: kilograms(wire.physical.moving_mass_g),
+            body_mass: kilograms(wire.physical.body_mass_g),
+            resistance_ohm: wire.physical.resistance_ohm,
+            inductance_h: wire.physical.inductance_uh.map(|uh| uh * 1e-6),
+            force_factor_n_per_a: wire.physical.force_factor_n_per_a,
+            stiffness_n_per_m: wire.physical.stiffness_n_per_m,
+            damping_n_s_per_m: wire.physical.damping_n_s_per_m,
+        },
+        lowest: wire.lowest_hz.map_or(USUAL_LOWEST, Hertz),
+        calibrated: wire.calibration.map(|c| Calibrated {
+            fit_error_db: c.fit_error_db,
+            resonance_error_hz: c.resonance_error_hz,
+            q_error: c.q_error,
+            gain_error_mps2_per_v: c.gain_error_mps2_per_v,
+            full_scale: Volts(c.full_scale_v),
+        }),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BUILT_IN, Calibrated, built_in_actuators, read_actuator, write_actuator};
+    use shagreen_core::actuator::{DataSheet, Mechanics};
+    use shagreen_core::units::{Hertz, Kilograms, Volts};
+
+    #[track_caller]
+    fn check_error(text: &str, expected: &str) {
+        let message = read_actuator(text.as_bytes()).unwrap_err().to_string();
+        assert!(message.contains(expected) && !message.contains('\n'), "{message}");
+    }
+
+    #[test]
+    fn the_built_in_profiles_say_where_they_come_from() {
+        let actuators = built_in_actuators().unwrap();
+        let ids: Vec<&str> = actuators.iter().map(|a| a.id.as_str()).collect();
+        assert_eq!(ids, ["haptuator-mark-ii", "haptuator-redesign", "alps-aft14a903a", "mm1c"]);
+        for actuator in &actuators {
+            assert!(actuator.source.len() > 20, "{}", actuator.id);
+            // One has a response; the others ask to be calibrated.
+            assert_eq!(actuator.measured.is_some(), actuator.id == "haptuator-mark-ii");
+            assert!(actuator.measured.is_some() || actuator.source.contains("calibrate it"));
+        }
+    }
+
+    #[test]
+    fn the_mark_ii_follows_from_its_data_sheet() {
+        let actuator = built_in_actuators().unwrap().remove(0);
+        let (limits, physical) = (actuator.limits, actuator.physical);
+        let mechanics = Mechanics::identified(&DataSheet {
+            moving_mass: physical.moving_mass.unwrap(),
+            total_mass: Kilograms::from_g(8.7),
+            load: Kilograms::from_g(100.0),
+            resistance_ohm: physical.resistance_ohm.unwrap(),
+            resonance: Hertz(65.0),
+            rated_volts_rms: limits.rated_volts_rms.unwrap(),
+            rated_amps_rms: limits.rated_amps_rms.unwrap(),
+            peak_volts: limits.peak_volts.unwrap(),
+            peak_mps2: 4.0 * 9.81,
+        })
+        .unwrap();
+        let (written, derived) =
+            (actuator.response().unwrap(), mechanics.response_on(Kilograms::from_g(100.0)).unwrap());
+        for (written, derived) in [
+            (written.resonance().0, derived.resonance().0),
+            (written.q(), derived.q()),
+            (written.gain_mps2_per_v(), derived.gain_mps2_per_v()),
+            (physical.body_mass.unwrap().0, mechanics.body_mass.0),
+            (physical.force_factor_n_per_a.unwrap(), mechanics.force_factor_n_per_a),
+            (physical.stiffness_n_per_m.unwrap(), mechanics.stiffness_n_per_m),
+            (physical.damping_n_s_per_m.unwrap(), mechanics.damping_n_s_per_m),
+        ] {
+            // Six digits are written.
+            assert!((written / derived - 1.0).abs() < 5e-6, "{written} for {derived}");
+        }
+    }
+
+    #[test]
+    fn every_profile_comes_back_exactly() {
+        for mut actuator in built_in_actuators().unwrap() {
+            assert_eq!(read_actuator(&write_actuator(&actuator)).unwrap(), actuator);
+            actuator.name = "A \"name\"\n\\ \u{7f} µ".to_owned();
+            actuator.physical.moving_mass = Some(Kilograms(0.1 + 0.2));
+            actuator.physical.inductance_h = Some(1.0 / 3.0e4);
+            actuator.calibrated = Some(Calibrated {
+                fit_error_db: 0.1,
+                resonance_error_hz: 1e-9,
+                q_error: 0.0,
+                gain_error_mps2_per_v: 1.0 / 3.0,
+                full_scale: Volts(2.0),
+            });
+            assert_eq!(read_actuator(&write_actuator(&actuator)).unwrap(), actuator);
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_place() {
+        let good = BUILT_IN[0];
+        check_error(&good.replace("peak_v", "peak_volts"), "unknown field `peak_volts`");
+        check_error(&good.replace("peak_v", "peak_volts"), "at line 20");
+        check_error(&good.replace("q = 4.08634", "q = nan"), "Q is NaN, needs 0.1 to 1000");
+        check_error(&good.replace("peak_v = 4.5", "peak_v = -4.5"), "the peak voltage in V is -4.5");
+        check_error(&good.replace("lowest_hz = 20", "lowest_hz = \"low\""), "line 9");
+        check_error(&good.replace("\"1.0\"", "\"2.0\""), "version 2.0");
+        check_error(&good.replace("shagreen-actuator", "shagreen-signal"), "no profile of an actuator");
+        check_error(
+            &good.replace("id = \"haptuator-mark-ii\"", "id = \"Mark II\""),
+            "\"Mark II\" is no identifier",
+        );
+        check_error("x = 1", "missing field");
+        check_error("[", "line 1");
+        assert!(read_actuator(b"a = \"\xff\"").unwrap_err().to_string().contains("byte 5"));
+    }
+}

@@ -1,0 +1,84 @@
+//! A calibration as figures.
+
+use shagreen_core::calibration::{Calibration, CurvePoint};
+
+use crate::figure::{Chart, Figure, Mark, Point, Series, Tone};
+
+/// The figures of a calibration with their names: gain over frequency, what is left of it beside the fit, distortion.
+/// `source` says what was measured.
+pub fn calibration_figures(calibration: &Calibration, source: &str) -> Vec<(&'static str, Figure)> {
+    let decades = |hz: f64| hz.log10();
+    let db = |ratio: f64| 20.0 * ratio.log10();
+    let chart = |title: &str, y_label: &str, series: Vec<Series>| {
+        Figure::Chart(Chart {
+            title: title.to_owned(),
+            x_label: "log10 of the frequency in Hz (1 is 10 Hz, 2 is 100 Hz, 3 is 1000 Hz)".to_owned(),
+            y_label: y_label.to_owned(),
+            is_isotropic: false,
+            series,
+            source: source.to_owned(),
+        })
+    };
+    let over = |name: &str, tone: Tone, mark: Mark, value: &dyn Fn(&CurvePoint) -> Option<f64>| {
+        let point = |p: &CurvePoint| value(p).map(|y| Point::new(decades(p.frequency.0), y));
+        let points = calibration.curve.iter().filter_map(point).filter(|p| p.y.is_finite()).collect();
+        Series { name: name.to_owned(), mark, tone, points }
+    };
+    let fit = calibration.fit.as_ref().ok().map(|fit| fit.response);
+    let fitted = |p: &CurvePoint| fit.map(|response| response.magnitude_at(p.frequency));
+    let mut gains = vec![
+        over("noise", Tone::Faint, Mark::Line, &|p| p.noise_mps2_per_v.map(db)),
+        over("measured", Tone::Main, Mark::Line, &|p| Some(db(p.gain_mps2_per_v))),
+        over("fit", Tone::Second, Mark::Line, &|p| fitted(p).map(db)),
+    ];
+    gains.retain(|series| !series.points.is_empty());
+    let left =
+        over("measured over fit", Tone::Main, Mark::Line, &|p| fitted(p).map(|f| db(p.gain_mps2_per_v / f)));
+    let harmonics = calibration.distortion.iter();
+    let harmonics = harmonics.map(|p| Point::new(decades(p.frequency.0), 100.0 * p.share)).collect();
+    let harmonics = Series {
+        name: "second to fifth harmonic".to_owned(),
+        mark: Mark::Line,
+        tone: Tone::Third,
+        points: harmonics,
+    };
+    let mut figures = vec![("gain", chart("Gain of the actuator", "gain in dB over 1 (m/s²)/V", gains))];
+    if !left.points.is_empty() {
+        let title = "What the fit leaves";
+        figures.push(("residual", chart(title, "measured over fit in dB", vec![left])));
+    }
+    figures.push(("distortion", chart("Harmonics", "share of the fundamental in %", vec![harmonics])));
+    figures
+}
+
+#[cfg(test)]
+mod tests {
+    use super::calibration_figures;
+    use crate::figure::{Figure, figure_csv, figure_svg};
+    use shagreen_core::actuator::{Drive, Response};
+    use shagreen_core::calibration::{Sweep, calibrate};
+    use shagreen_core::units::Hertz;
+
+    #[test]
+    fn the_gain_and_its_fit_are_drawn() {
+        let rate = Hertz(4000.0);
+        let sweep = Sweep { seconds: 4.0, ..Sweep::USUAL };
+        let response = Response::new(Hertz(65.0), 4.0, 2.0).unwrap();
+        let recording = response.drive(&sweep.signal(rate).unwrap(), rate);
+        let calibration = calibrate(&recording, rate, &sweep, Drive::ASSUMED).unwrap();
+        let figures = calibration_figures(&calibration, "a test");
+        assert_eq!(
+            figures.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
+            ["gain", "residual", "distortion"]
+        );
+        let Figure::Chart(gain) = &figures[0].1 else { panic!("a chart") };
+        let measured = gain.series.iter().find(|s| s.name == "measured").unwrap();
+        let most = measured.points.iter().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
+        // 65 Hz at 20 log10 8 dB, on a grid of 24 to the octave.
+        assert!((most.x - 65.0_f64.log10()).abs() < 0.01 && (most.y - 18.06).abs() < 0.3, "{most:?}");
+        for (_, figure) in &figures {
+            assert!(figure_svg(figure).ends_with("</svg>\n"));
+            assert!(String::from_utf8(figure_csv(figure)).unwrap().contains("a test"));
+        }
+    }
+}

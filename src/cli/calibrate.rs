@@ -1,0 +1,320 @@
+//! `shagreen calibrate`: measures what an actuator does on its load.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use serde_json::{Value, json};
+use shagreen_core::actuator::{Actuator, Calibrated, Drive, Limits, Measured, Physical, USUAL_LOWEST};
+use shagreen_core::calibration::{Calibration, Fit, Sweep, calibrate};
+use shagreen_core::units::{Hertz, Kilograms, Volts};
+use shagreen_formats::actuator_toml::{read_actuator, write_actuator};
+use shagreen_formats::calibration_report::calibration_figures;
+use shagreen_formats::library::id_from_name;
+use shagreen_formats::recording::Ask;
+use shagreen_formats::wav;
+
+use crate::cli::actuator_source::{grams, load_actuator, positive, volts};
+use crate::cli::calibrate_recording::{Recorded, recorded_file};
+use crate::cli::figures_folder::{check_figures, figure_files, write_together};
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
+use crate::cli::import_recording::parse_answer;
+use crate::cli::output;
+
+/// Names of the figures, without the endings.
+const FIGURES: [&str; 3] = ["gain", "residual", "distortion"];
+
+/// Fits an actuator's response to a recorded sweep.
+///
+/// Write the sweep with --make-sweep, play it through the amplifier with the actuator on its load, record the acceleration
+/// from a second before to a second after, and give the recording.
+#[derive(clap::Args)]
+#[command(group(clap::ArgGroup::new("what").required(true).args(["make_sweep", "recording"])))]
+pub(crate) struct Args {
+    /// Write the sweep to play, and nothing else.
+    #[arg(long, value_name = "OUT.wav")]
+    make_sweep: Option<PathBuf>,
+    /// Rate of the sweep to write, in Hz.
+    #[arg(long, value_name = "HZ", default_value_t = 48_000, value_parser = clap::value_parser!(u32).range(1..=768_000))]
+    rate: u32,
+    /// The recorded sweep: WAV, or a table with a column of acceleration.
+    #[arg(long, value_name = "FILE")]
+    recording: Option<PathBuf>,
+    /// Acceleration of a WAV sample of 1.0, in m/s².
+    #[arg(long, value_name = "MPS2", value_parser = |text: &str| positive(text, "an acceleration in m/s²"))]
+    sensitivity: Option<f64>,
+    /// The axis of acceleration to take, from 1; without it the one that moves most.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    channel: Option<u16>,
+    /// Answers what a table does not say, as in acceleration_unit=g.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer)]
+    answers: Vec<(Ask, String)>,
+    /// Voltage at the actuator for a sample of 1.0, at the volume that was used: of a sine of full scale the peak, 1.414 times
+    /// what a voltmeter shows. Without it a volt is taken: the profile is
+    /// then right for this output at this volume, and its limits in volts mean nothing.
+    #[arg(long, value_name = "V", value_parser = volts)]
+    full_scale_volts: Option<f64>,
+    /// Mass of what the actuator was fixed to, in g, without the actuator.
+    #[arg(long, value_name = "G", value_parser = grams)]
+    load_g: Option<f64>,
+    /// The actuator that was measured, where there is a profile of it: maker, limits and masses are taken from there.
+    #[arg(long, value_name = "ID_OR_FILE")]
+    actuator: Option<String>,
+    /// What to call it.
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Profile to write.
+    #[arg(long, value_name = "PROFILE.toml")]
+    out: Option<PathBuf>,
+    /// Folder for figures, as SVG and CSV.
+    #[arg(long, value_name = "FOLDER")]
+    plots: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    sweep: SweepArgs,
+}
+
+/// The sweep that is written, or was played.
+#[derive(clap::Args)]
+struct SweepArgs {
+    /// Frequency at which the sweep begins, in Hz.
+    #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.low.0)]
+    low: f64,
+    /// Frequency at which it ends, in Hz.
+    #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.high.0)]
+    high: f64,
+    /// How long it takes, in s.
+    #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.seconds)]
+    seconds: f64,
+    /// Its peak as a share of digital full scale.
+    #[arg(long, value_name = "SHARE", default_value_t = Sweep::USUAL.amplitude)]
+    amplitude: f64,
+    /// Silence before and behind it, in s.
+    #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.silence_secs)]
+    silence: f64,
+}
+
+/// Where the recording comes from.
+enum Source<'a> {
+    /// A file that was recorded by whatever.
+    File(&'a Path),
+}
+
+impl Source<'_> {
+    /// The file that is read, where it is one.
+    fn path(&self) -> Option<&Path> {
+        match self {
+            Self::File(path) => Some(path),
+        }
+    }
+
+    /// What people call it.
+    fn name(&self) -> String {
+        match self {
+            Self::File(path) => output::file_name(path),
+        }
+    }
+
+    /// Says where something went wrong.
+    fn told<T, E: Into<anyhow::Error>>(&self, result: Result<T, E>) -> anyhow::Result<T> {
+        let result = result.map_err(Into::into);
+        match self.path() {
+            Some(path) => result.with_context(|| output::in_file(path)),
+            None => result,
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let sweep = Sweep {
+        low: Hertz(args.sweep.low),
+        high: Hertz(args.sweep.high),
+        seconds: args.sweep.seconds,
+        amplitude: args.sweep.amplitude,
+        silence_secs: args.sweep.silence,
+    };
+    if let Some(out) = &args.make_sweep {
+        return make_sweep(args, &sweep, out);
+    }
+    let Some(file) = &args.recording else {
+        bail!(output::Usage("give a recording".to_owned()));
+    };
+    let source = Source::File(file);
+    let inputs = [source.path(), args.actuator.as_deref().map(Path::new)];
+    if let Some(out) = &args.out {
+        refuse_inputs(&[out], &inputs)?;
+        refuse_foreign(out, "the profile", |bytes| read_actuator(bytes).is_ok())?;
+    }
+    if let Some(folder) = &args.plots {
+        check_figures(folder, &FIGURES, &inputs)?;
+    }
+    let base = args.actuator.as_deref().map(|name| load_actuator(name, None)).transpose()?;
+    if args.full_scale_volts.is_none() {
+        output::note(
+            "a volt is taken for digital full scale: the profile is right for this output at this volume; measure it and say --full-scale-volts for limits in volts",
+        );
+    }
+    let drive = args.full_scale_volts.map_or(Ok(Drive::ASSUMED), |full| Drive::new(Volts(full)))?;
+    let recorded = recorded(&source, args)?;
+    let calibration = source.told(calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive))?;
+    for warning in &calibration.warnings {
+        output::warn(&warning.to_string());
+    }
+    let fit = source.told(calibration.fit.clone())?;
+    let actuator = profile(args, &source.name(), base, &fit, drive);
+    let mut files = Vec::new();
+    let mut figures = Vec::new();
+    if let Some(out) = &args.out {
+        files.push((out.clone(), write_actuator(&actuator)));
+    }
+    if let Some(folder) = &args.plots {
+        // The whole source of a profile is too long for a title.
+        let measured = format!("{}, {}", actuator.name, source.name());
+        for (name, figure) in calibration_figures(&calibration, &measured) {
+            figures.push(folder.join(format!("{name}.svg")).display().to_string());
+            files.extend(figure_files(folder, name, &figure));
+        }
+    }
+    write_together(&files, args.plots.as_deref())?;
+    print(args, &recorded, &calibration, &fit, &figures);
+    Ok(())
+}
+
+fn recorded(source: &Source<'_>, args: &Args) -> anyhow::Result<Recorded> {
+    match source {
+        Source::File(path) => {
+            recorded_file(path, args.sensitivity, args.channel.map(usize::from), &args.answers)
+        }
+    }
+}
+
+fn make_sweep(args: &Args, sweep: &Sweep, out: &Path) -> anyhow::Result<()> {
+    let samples = sweep.signal(Hertz(f64::from(args.rate)))?;
+    let samples: Vec<f32> = samples.iter().map(|sample| *sample as f32).collect();
+    wav::write_samples(out, &samples, args.rate)?;
+    let seconds = samples.len() as f64 / f64::from(args.rate);
+    output::print(
+        args.json,
+        &json!({
+            "sweep": out.display().to_string(),
+            "rate_hz": args.rate,
+            "seconds": seconds,
+            "sweep_seconds": sweep.seconds,
+            "low_hz": sweep.low.0,
+            "high_hz": sweep.high.0,
+            "amplitude": sweep.amplitude,
+        }),
+        || {
+            format!(
+                "Wrote a sweep of {} s from {} to {} Hz, {seconds} s with the silence around it, to play at once and record\n{}",
+                sweep.seconds,
+                sweep.low.0,
+                sweep.high.0,
+                out.display()
+            )
+        },
+    );
+    Ok(())
+}
+
+/// The profile of what was measured, on top of one that was known.
+fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit, drive: Drive) -> Actuator {
+    let name = args
+        .name
+        .clone()
+        .or_else(|| base.as_ref().map(|b| b.name.clone()))
+        .unwrap_or("My actuator".to_owned());
+    let load = args.load_g.map(Kilograms::from_g);
+    let on = load.map_or("an unknown load".to_owned(), |load| format!("{} g", load.g()));
+    let assumed = if args.full_scale_volts.is_none() { ", which is assumed" } else { "" };
+    let mut source = format!(
+        "Response measured on {on} with a sweep ({file}), taking {} V for digital full scale{assumed}",
+        drive.full_scale.0
+    );
+    if let Some(base) = &base {
+        source = format!("{source}; everything else from the profile {}: {}", base.id, base.source);
+    }
+    let known = base.unwrap_or(Actuator {
+        id: String::new(),
+        name: String::new(),
+        maker: String::new(),
+        source: String::new(),
+        license: String::new(),
+        measured: None,
+        limits: Limits::default(),
+        physical: Physical::default(),
+        lowest: USUAL_LOWEST,
+        calibrated: None,
+    });
+    // What followed from another response is no figure of this one.
+    let physical = Physical {
+        force_factor_n_per_a: None,
+        stiffness_n_per_m: None,
+        damping_n_s_per_m: None,
+        ..known.physical
+    };
+    Actuator {
+        id: id_from_name(&name),
+        name,
+        source,
+        measured: Some(Measured { response: fit.response, load }),
+        physical,
+        calibrated: Some(Calibrated {
+            fit_error_db: fit.error_db,
+            resonance_error_hz: fit.resonance_error_hz,
+            q_error: fit.q_error,
+            gain_error_mps2_per_v: fit.gain_error_mps2_per_v,
+            full_scale: drive.full_scale,
+        }),
+        ..known
+    }
+}
+
+fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit, figures: &[String]) {
+    let response = fit.response;
+    let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
+    let warnings: Vec<Value> = calibration.warnings.iter().map(|w| json!(w.to_string())).collect();
+    let curve = &calibration.curve;
+    let worst = calibration.worst_distortion();
+    output::print(
+        args.json,
+        &json!({
+            "f0_hz": hz,
+            "q": q,
+            "gain": gain,
+            "fit_error_db": fit.error_db,
+            "f0_error_hz": fit.resonance_error_hz,
+            "q_error": fit.q_error,
+            "gain_error": fit.gain_error_mps2_per_v,
+            "band_hz": [fit.band.0.0, fit.band.1.0],
+            "full_scale_volts": args.full_scale_volts,
+            "load_g": args.load_g,
+            "channel": recorded.channel,
+            "rate_hz": recorded.rate.0,
+            "begins_s": calibration.begins_secs,
+            "distortion_max": worst.as_ref().map(|w| json!({"share": w.share, "hz": w.frequency.0})),
+            "curve": {
+                "hz": curve.iter().map(|p| p.frequency.0).collect::<Vec<_>>(),
+                "gain": curve.iter().map(|p| p.gain_mps2_per_v).collect::<Vec<_>>(),
+                "noise": curve.iter().map(|p| p.noise_mps2_per_v).collect::<Vec<_>>(),
+            },
+            "warnings": warnings,
+            "figures": figures,
+            "out": args.out.as_ref().map(|out| out.display().to_string()),
+        }),
+        || {
+            let mut lines = vec![format!(
+                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, {gain:.4} ± {:.4} (m/s²)/V; the fit is off by {:.2} dB rms",
+                fit.resonance_error_hz, fit.q_error, fit.gain_error_mps2_per_v, fit.error_db
+            )];
+            if let Some(worst) = &worst {
+                let (percent, at) = (100.0 * worst.share, worst.frequency.0);
+                lines.push(format!("Harmonics up to {percent:.1} % (at {at:.0} Hz)"));
+            }
+            lines.extend(args.out.iter().map(|out| out.display().to_string()));
+            lines.extend_from_slice(figures);
+            lines.join("\n")
+        },
+    );
+}

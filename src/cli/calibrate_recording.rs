@@ -1,0 +1,134 @@
+//! The acceleration in a recorded file, of one axis on a regular clock.
+
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use shagreen_core::recording::{RawClock, RawMotion, RawRecording, RawTrack, Recording, check_clock};
+use shagreen_core::statistics::standard_deviation;
+use shagreen_core::units::Hertz;
+use shagreen_formats::recording::{AccelerationUnit, Ask, Channel, ColumnMap, read_recording};
+
+use crate::cli::import_recording::sidecar;
+use crate::cli::output::{self, file_name};
+
+/// What was recorded of a sweep.
+pub(crate) struct Recorded {
+    /// Acceleration in m/s².
+    pub(crate) acceleration_mps2: Vec<f64>,
+    /// Samples a second.
+    pub(crate) rate: Hertz,
+    /// The axis, from 1.
+    pub(crate) channel: usize,
+}
+
+/// Reads a WAV file or a table. What a WAV sample of 1.0 is, is `sensitivity`, or in its sidecar.
+pub(crate) fn recorded_file(
+    path: &Path,
+    sensitivity_mps2: Option<f64>,
+    channel: Option<usize>,
+    answers: &[(Ask, String)],
+) -> anyhow::Result<Recorded> {
+    let of_file = || output::in_file(path);
+    let bytes = output::read_file(path)?;
+    let sidecar = sidecar(path).map_err(anyhow::Error::msg).with_context(of_file)?;
+    let mut map = ColumnMap::default();
+    // Nothing is stroked here, and the reader of strokes need not ask.
+    let nothing = [(Ask::Speed, "100 mm/s".to_owned()), (Ask::Force, "1 N".to_owned())];
+    for (what, answer) in nothing.iter().chain(answers) {
+        map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
+    }
+    if let Some(sensitivity) = sensitivity_mps2 {
+        if map.full_scale.is_some_and(|full_scale| full_scale != sensitivity) {
+            bail!(output::Usage("--sensitivity and --set full_scale say two things".to_owned()));
+        }
+        map.full_scale = Some(sensitivity);
+        map.acceleration_unit = Some(AccelerationUnit::MetersPerSecondSquared);
+    }
+    if map.channels.is_none() {
+        map.channels =
+            wav_channels(&bytes).map(|n| vec![Channel::Acceleration; n]).filter(|all| all.len() <= 3);
+        if let (Some(channel), Some(n)) = (channel, wav_channels(&bytes).filter(|n| *n > 3)) {
+            let kind = |place| if place + 1 == channel { Channel::Acceleration } else { Channel::Unused };
+            map.channels = Some((0..n).map(kind).collect());
+        }
+    }
+    let read = read_recording(&file_name(path), &bytes, sidecar.as_deref(), &map);
+    let read = read
+        .map_err(|error| anyhow::anyhow!("{error}; answer by --sensitivity, --channel or --set KEY=VALUE"))
+        .with_context(of_file)?;
+    for question in &read.questions {
+        output::warn(&format!("guessed {question}"));
+    }
+    for warning in &read.warnings {
+        output::warn(warning);
+    }
+    one_axis(read.raw, channel).with_context(of_file)
+}
+
+/// The channels that a WAV file states, as far as it is one.
+fn wav_channels(bytes: &[u8]) -> Option<usize> {
+    let at = bytes.windows(4).take(4096).position(|four| four == b"fmt ")?;
+    let count = bytes.get(at + 10..at + 12)?.try_into().ok()?;
+    bytes.starts_with(b"RIFF").then(|| usize::from(u16::from_le_bytes(count)))
+}
+
+fn one_axis(raw: RawRecording, channel: Option<usize>) -> anyhow::Result<Recorded> {
+    let mut axes = raw.acceleration_mps2;
+    // Of many channels the one that was asked for is all there is.
+    let n_axes = axes.len();
+    let place = match channel {
+        Some(_) if n_axes == 1 => 0,
+        Some(channel) if channel <= n_axes => channel - 1,
+        Some(channel) => bail!("there is no channel {channel} of acceleration, there are {n_axes}"),
+        None => {
+            let moves = |place: &usize| {
+                let there: Vec<f64> = axes[*place].iter().copied().filter(|a| a.is_finite()).collect();
+                standard_deviation(&there)
+            };
+            let most = (0..n_axes).max_by(|a, b| moves(a).total_cmp(&moves(b))).unwrap_or(0);
+            if n_axes > 1 {
+                output::note(&format!(
+                    "channel {} of {n_axes} moves most and was taken; --channel takes another",
+                    most + 1
+                ));
+            }
+            most
+        }
+    };
+    let axis = axes.swap_remove(place);
+    let channel = channel.unwrap_or(place + 1);
+    if let RawClock::Rate(rate) = raw.clock {
+        return Ok(Recorded { acceleration_mps2: axis, rate, channel });
+    }
+    let (odd, _) = check_clock(&raw.clock);
+    let raw = RawRecording {
+        clock: raw.clock,
+        acceleration_mps2: vec![axis.clone()],
+        motion: RawMotion::Speed(RawTrack::Constant(0.1)),
+        force_n: RawTrack::Constant(1.0),
+        full_scale_mps2: None,
+    };
+    let (recording, findings) = Recording::from_raw(raw).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let rate = recording.rate;
+    if odd.is_empty() {
+        // Rows are samples, and what would be left out of a stroke, as a sensor at rest, is the silence here.
+        return Ok(Recorded { acceleration_mps2: axis, rate, channel });
+    }
+    for finding in &findings {
+        output::warn(&finding.to_string());
+    }
+    Ok(Recorded { acceleration_mps2: held(recording.acceleration_mps2), rate, channel })
+}
+
+/// A signal whose missing samples are the last one before, or the first one behind, that is there.
+fn held(mut signal: Vec<f64>) -> Vec<f64> {
+    let mut last = signal.iter().copied().find(|sample| sample.is_finite()).unwrap_or(0.0);
+    for sample in &mut signal {
+        if sample.is_finite() {
+            last = *sample;
+        } else {
+            *sample = last;
+        }
+    }
+    signal
+}

@@ -1,0 +1,210 @@
+//! Profiles of actuators and their calibration, from outside: a simulated actuator plays the sweep that the program wrote.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
+
+mod support;
+
+use serde_json::Value;
+use shagreen_core::actuator::Response;
+use shagreen_core::units::Hertz;
+
+use support::Bench;
+
+/// A quick sweep at a rate of sensors.
+const SWEEP: &str = "--seconds 6 --silence 1";
+const RATE_HZ: u32 = 4000;
+
+fn actuator() -> Response {
+    Response::new(Hertz(72.0), 5.5, 3.1).unwrap()
+}
+
+/// Writes the sweep and gives the acceleration in m/s² of an actuator that plays it, with 2 V at full scale, half a second
+/// late.
+fn played(bench: &Bench) -> Vec<f64> {
+    let written = bench.json(&format!("calibrate --make-sweep sweep.wav --rate {RATE_HZ} {SWEEP}"));
+    assert_eq!(written["seconds"], 8.0);
+    let (sweep, rate_hz) = bench.wav("sweep.wav");
+    assert_eq!((sweep.len(), rate_hz), (32_000, f64::from(RATE_HZ)));
+    let volts: Vec<f64> = vec![0.0; 2000].into_iter().chain(sweep.into_iter().map(|v| 2.0 * v)).collect();
+    actuator().drive(&volts, Hertz(rate_hz))
+}
+
+/// A WAV file of 16 bits, one channel for each function of the acceleration, with a full scale of 40 m/s².
+fn record(bench: &Bench, name: &str, channels: &[fn(f64) -> f64]) {
+    let spec = hound::WavSpec {
+        channels: channels.len() as u16,
+        sample_rate: RATE_HZ,
+        bits_per_sample: 16,
+        sample_format: hound::SampleFormat::Int,
+    };
+    let mut writer = hound::WavWriter::create(bench.path(name), spec).unwrap();
+    for a in played(bench) {
+        for channel in channels {
+            writer.write_sample((channel(a) / 40.0 * 32_767.0).round() as i16).unwrap();
+        }
+    }
+    writer.finalize().unwrap();
+}
+
+#[track_caller]
+fn check_figures(said: &Value) {
+    let near = |key: &str, expected: f64, share: f64| {
+        let got = said[key].as_f64().unwrap();
+        assert!((got / expected - 1.0).abs() < share, "{key}: {got} for {expected}");
+    };
+    // A converter of 16 bits leaves noise of a thousandth, and the gain below 20 Hz is a fiftieth.
+    near("f0_hz", 72.0, 0.003);
+    near("q", 5.5, 0.01);
+    near("gain", 3.1, 0.01);
+    assert!(said["fit_error_db"].as_f64().unwrap() < 0.5, "{}", said["fit_error_db"]);
+}
+
+#[test]
+fn a_recorded_sweep_becomes_a_profile() {
+    let bench = Bench::new();
+    record(&bench, "recorded.wav", &[|a| a + 9.81]);
+    let said = bench.json(&format!(
+        "calibrate --recording recorded.wav --sensitivity 40 --full-scale-volts 2 --load-g 35 --name Pen --actuator haptuator-mark-ii --out pen.toml --plots plots {SWEEP}"
+    ));
+    check_figures(&said);
+    assert!((said["begins_s"].as_f64().unwrap() - 1.5).abs() < 0.05);
+    let plots = ["distortion", "gain", "residual"].map(|name| [format!("{name}.csv"), format!("{name}.svg")]);
+    for plot in plots.as_flattened() {
+        assert!(bench.path("plots").join(plot).exists(), "{plot}");
+    }
+    // The profile is one: it is shown, on another load too, and exported.
+    let shown = bench.json("actuator show pen.toml");
+    check_figures(&Value::from_iter([
+        ("f0_hz", shown["f0_hz"].clone()),
+        ("q", shown["q"].clone()),
+        ("gain", shown["gain"].clone()),
+        ("fit_error_db", shown["fit_error_db"].clone()),
+    ]));
+    assert_eq!((&shown["id"], &shown["load_g"]), (&"pen".into(), &35.0.into()));
+    // What it bears comes from the profile that was named.
+    assert_eq!(shown["limits"]["peak_v"], 4.5);
+    let lighter = bench.json("actuator show pen.toml --load-g 20");
+    assert!(lighter["gain"].as_f64().unwrap() > 1.3 * shown["gain"].as_f64().unwrap());
+    bench.json("actuator acf pen.toml --full-scale-volts 2 -o pen.acf");
+    let acf: Value = serde_json::from_slice(&std::fs::read(bench.path("pen.acf")).unwrap()).unwrap();
+    assert_eq!(acf["metadata"]["device"], "Pen");
+    // What the program wrote may be written anew.
+    bench.json(&format!(
+        "calibrate --recording recorded.wav --sensitivity 40 --full-scale-volts 2 --out pen.toml --plots plots {SWEEP}"
+    ));
+}
+
+#[test]
+fn the_axis_that_moves_is_taken_unless_another_is_asked_for() {
+    let bench = Bench::new();
+    record(&bench, "three.wav", &[|_| 9.81, |a| a, |a| 0.2 * a]);
+    let arguments = format!("calibrate --recording three.wav --sensitivity 40 --full-scale-volts 2 {SWEEP}");
+    let said = bench.json(&arguments);
+    assert_eq!(said["channel"], 2);
+    check_figures(&said);
+    let third = bench.json(&format!("{arguments} --channel 3"));
+    assert!((third["gain"].as_f64().unwrap() / 0.62 - 1.0).abs() < 0.02, "{}", third["gain"]);
+    bench.fails(&format!("{arguments} --channel 4"), 1, &["no channel 4", "three.wav"]);
+    bench.fails(&format!("{arguments} --channel 1"), 1, &["silent", "three.wav"]);
+}
+
+#[test]
+fn a_table_is_a_recording_too() {
+    let bench = Bench::new();
+    let rows: Vec<String> = played(&bench)
+        .iter()
+        .enumerate()
+        .map(|(i, a)| format!("{:.6},{:.5}", i as f64 / f64::from(RATE_HZ), a + 9.81))
+        .collect();
+    bench.write("recorded.csv", format!("time_s,acceleration_mps2\n{}\n", rows.join("\n")));
+    let said = bench.json(&format!("calibrate --recording recorded.csv --full-scale-volts 2 {SWEEP}"));
+    check_figures(&said);
+    // Without a word on the amplifier the gain is that of digital full scale, and that is said.
+    let said = bench.run(&format!("calibrate --recording recorded.csv {SWEEP} --json"));
+    let value: Value = serde_json::from_str(&said.stdout).unwrap();
+    assert!((value["gain"].as_f64().unwrap() / 6.2 - 1.0).abs() < 0.01, "{}", value["gain"]);
+    assert!(said.stderr.contains("note: a volt is taken"), "{}", said.stderr);
+}
+
+#[test]
+fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
+    let bench = Bench::new();
+    record(&bench, "good.wav", &[|a| a]);
+    let calibrate =
+        |arguments: &str| format!("calibrate --out p.toml --plots plots --full-scale-volts 2 {arguments}");
+    let fails = |arguments: &str, words: &[&str]| bench.fails(&calibrate(arguments), 1, words);
+    fails(&format!("--recording good.wav {SWEEP}"), &["full scale", "--sensitivity", "good.wav"]);
+    fails(&format!("--recording none.wav --sensitivity 40 {SWEEP}"), &["cannot read the file", "none.wav"]);
+    // The usual sweep was not played, but a quick one.
+    fails(
+        "--recording good.wav --sensitivity 40 --seconds 12",
+        &["does not hold the sweep of 12 s", "good.wav"],
+    );
+    fails("--recording good.wav --sensitivity 40 --seconds 60", &["8.5 s, the sweep 60.0 s", "good.wav"]);
+    fails(
+        &format!("--recording good.wav --sensitivity 40 --actuator mark-3 {SWEEP}"),
+        &["there is no actuator", "mm1c"],
+    );
+    // The output itself instead of the sensor.
+    fails(
+        &format!("--recording sweep.wav --sensitivity 40 {SWEEP}"),
+        &["no resonance was found", "sweep.wav"],
+    );
+    record(&bench, "silent.wav", &[|_| 0.0]);
+    fails(&format!("--recording silent.wav --sensitivity 40 {SWEEP}"), &["silent", "silent.wav"]);
+    bench.write("text.wav", "not sound");
+    fails(&format!("--recording text.wav --sensitivity 40 {SWEEP}"), &["WAV", "text.wav"]);
+    bench.write("notes.toml", "title = \"mine\"");
+    let over = format!("calibrate --recording good.wav --sensitivity 40 {SWEEP} --out notes.toml");
+    bench.fails(&over, 1, &["something else", "notes.toml"]);
+    bench.fails(
+        &format!("calibrate --recording good.wav --sensitivity 40 {SWEEP} --out good.wav"),
+        1,
+        &["good.wav"],
+    );
+    bench.fails(
+        "calibrate --make-sweep s.wav --rate 1500",
+        1,
+        &["the end in Hz of the sweep is 1000, needs 675"],
+    );
+    bench.fails("calibrate --out p.toml", 2, &["--make-sweep"]);
+    bench.fails("calibrate --make-sweep s.wav --recording good.wav", 2, &["cannot be used with"]);
+    bench.fails(&calibrate("--recording good.wav --sensitivity 0"), 2, &["above 0"]);
+}
+
+#[test]
+fn warnings_reach_the_reader() {
+    let bench = Bench::new();
+    record(&bench, "loud.wav", &[|a| (4.0 * a).clamp(-39.9, 39.9)]);
+    let said = bench
+        .run(&format!("calibrate --recording loud.wav --sensitivity 40 --full-scale-volts 2 {SWEEP} --json"));
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    assert!(said.stderr.contains("warning: ") && said.stderr.contains("cut off at 39.8"), "{}", said.stderr);
+    let value: Value = serde_json::from_str(&said.stdout).unwrap();
+    assert!(!value["warnings"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn the_built_in_actuators_are_listed_and_shown() {
+    let bench = Bench::new();
+    let listed = bench.json("actuator list");
+    let actuators = listed["actuators"].as_array().unwrap();
+    assert_eq!(actuators.len(), 4);
+    assert!(actuators.iter().all(|a| !a["source"].as_str().unwrap().is_empty()));
+    let shown = bench.json("actuator show haptuator-mark-ii --rate 2000");
+    // Section by section what vectors/b_act has; six digits are in the profile.
+    for (got, expected) in
+        shown["inverse"]["b"].as_array().unwrap().iter().zip([0.464_132, -0.886_970, 0.441_657])
+    {
+        assert!((got.as_f64().unwrap() - expected).abs() < 3e-6, "{got} for {expected}");
+    }
+    assert!((shown["headroom"]["volts_per_mps2"].as_f64().unwrap() / 0.655 - 1.0).abs() < 0.01);
+    let pen = bench.json("actuator show haptuator-mark-ii --load-g 40");
+    assert!(pen["f0_hz"].as_f64().unwrap() > 65.5 && pen["gain"].as_f64().unwrap() > 5.0, "{pen}");
+    let unknown = bench.json("actuator show mm1c");
+    assert!(unknown["f0_hz"].is_null() && unknown["source"].as_str().unwrap().contains("calibrate it"));
+    bench.fails("actuator acf mm1c -o mm1c.acf", 1, &["mm1c", "calibrate it"]);
+    bench.fails("actuator show mm1c --load-g 40", 1, &["mm1c", "calibrate it"]);
+    bench.fails("actuator show nothing", 1, &["no actuator and no file", "haptuator-mark-ii"]);
+    bench.write("broken.toml", "format = \"shagreen-actuator\"\nversion = \"1.0\"\nid = \"x\"\nname = \"x\"\nsource = \"x\"\nloud = 3\n");
+    bench.fails("actuator show broken.toml", 1, &["unknown field `loud`", "line 6", "broken.toml"]);
+}
