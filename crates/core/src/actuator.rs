@@ -11,9 +11,9 @@ mod inverse;
 mod response;
 
 pub use crate::actuator::data_sheet::{DataSheet, Mechanics};
-pub use crate::actuator::drive::Drive;
+pub use crate::actuator::drive::{Drive, drive_config};
 pub use crate::actuator::headroom::Headroom;
-pub use crate::actuator::inverse::{INVERSE_DAMPING, inverse, inverse_gain_bound, tikhonov_inverse};
+pub use crate::actuator::inverse::{inverse, inverse_gain_bound, tikhonov_inverse};
 pub use crate::actuator::response::{MAX_Q, MIN_Q, Response};
 
 use crate::units::{Hertz, Kilograms, Volts};

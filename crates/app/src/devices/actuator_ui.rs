@@ -128,7 +128,7 @@ impl DevicesSheet {
 fn response_ui(ui: &mut Ui, actuator: &Actuator, equalizes: bool) {
     let t = tokens(ui.ctx());
     let Ok(response) = actuator.response() else { return };
-    let inverse = Biquad::bounded_inverse(response.resonance_for_synth(), actuator.lowest.0, DRAWN_RATE_HZ);
+    let inverse = Biquad::bounded_inverse((&response).into(), actuator.lowest.0, DRAWN_RATE_HZ);
     let frequencies = (0..120).map(|i| 10.0 * 100.0_f64.powf(f64::from(i) / 119.0));
     let db = |share: f64| 20.0 * share.max(1e-6).log10();
     let gain = response.gain_mps2_per_v();

@@ -28,10 +28,13 @@ impl DevicesSheet {
             note(ui, &format!("{} {}", facts.name, strings::PEN_READ));
             if facts.size_m.is_none() {
                 warning(ui, strings::NO_SIZE);
+            } else if facts.is_size_doubtful {
+                warning(ui, strings::DOUBTFUL_SIZE);
             }
         }
         if self.rig.pen.is_some()
-            && (self.rig.pen_size_mm.is_some() || facts.is_some_and(|f| f.size_m.is_none()))
+            && (self.rig.pen_size_mm.is_some()
+                || facts.is_some_and(|f| f.size_m.is_none() || f.is_size_doubtful))
         {
             let mut size = self.rig.pen_size_mm.unwrap_or(FIRST_SIZE_MM);
             for (i, name) in [strings::WIDTH, strings::HEIGHT].into_iter().enumerate() {

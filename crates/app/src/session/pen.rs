@@ -22,6 +22,8 @@ pub struct PenFacts {
     pub name: String,
     /// Width and height of its area in m, told or given.
     pub size_m: Option<[f64; 2]>,
+    /// Whether the size that it tells can hardly be true.
+    pub is_size_doubtful: bool,
     /// Whether it tells pressure.
     pub has_pressure: bool,
     /// Force at full pressure in N, where it tells force.
@@ -99,8 +101,9 @@ impl Pen {
         }
         while let Some(notice) = thread.next_notice() {
             match notice {
-                PenNotice::Connected { pen, size_m, has_pressure, full_n } => {
-                    self.facts = Some(PenFacts { name: pen.name, size_m, has_pressure, full_n });
+                PenNotice::Connected { pen, size_m, is_size_doubtful, has_pressure, full_n } => {
+                    let name = pen.name;
+                    self.facts = Some(PenFacts { name, size_m, is_size_doubtful, has_pressure, full_n });
                     self.message = None;
                 }
                 PenNotice::Lost(error) | PenNotice::Waiting(error) => {

@@ -98,6 +98,8 @@ pub const HEIGHT: &str = "Height of the pen's area";
 /// The size is not known.
 pub const NO_SIZE: &str =
     "The pen does not tell its size. Without it there is no speed: measure its active area.";
+/// The size can hardly be true.
+pub const DOUBTFUL_SIZE: &str = "The size that the pen tells can hardly be true. Measure its active area.";
 /// The coil is warm.
 pub const HEAT: &str = "Heat";
 /// What the heat is.

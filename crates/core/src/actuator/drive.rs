@@ -1,6 +1,9 @@
 //! From numbers to volts.
 
-use crate::actuator::{ActuatorError, check_positive};
+use shagreen_synth::budget::Budget;
+use shagreen_synth::drive::{DriveConfig, Inverse, MAX_LOOK_AHEAD_SECS};
+
+use crate::actuator::{Actuator, ActuatorError, check_positive};
 use crate::units::Volts;
 
 /// What stands between the numbers that are played and the coil: converter, volume and amplifier together. It belongs to
@@ -33,4 +36,31 @@ impl Drive {
     pub fn sample_of(&self, volts: Volts) -> f64 {
         volts.0 / self.full_scale.0
     }
+}
+
+/// How acceleration becomes the drive of an actuator: its response undone where `equalizes`, else in proportion to what it
+/// does far above its resonance; within what it stands in any case.
+///
+/// # Errors
+/// [`ActuatorError`] where the actuator has no response.
+pub fn drive_config(
+    actuator: &Actuator,
+    drive: Drive,
+    equalizes: bool,
+) -> Result<DriveConfig, ActuatorError> {
+    let response = actuator.response()?;
+    let limits = actuator.limits;
+    let share = |volts: Volts| drive.sample_of(volts) as f32;
+    let inverse = Inverse { resonance: (&response).into(), lowest_hz: actuator.lowest.0 };
+    let full_scale =
+        if equalizes { drive.full_scale.0 } else { drive.full_scale.0 * response.gain_mps2_per_v() };
+    Ok(DriveConfig {
+        inverse: equalizes.then_some(inverse),
+        full_scale: full_scale as f32,
+        ceiling: limits.peak_volts.map_or(1.0, share).min(1.0),
+        look_ahead_secs: MAX_LOOK_AHEAD_SECS,
+        budget: limits
+            .rated_volts_rms
+            .map(|volts| Budget { rms: share(volts), time_secs: limits.thermal_secs as f32 }),
+    })
 }

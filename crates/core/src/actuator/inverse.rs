@@ -1,14 +1,8 @@
 //! Filters that make up for an actuator without asking the impossible of it.
 
-use std::f64::consts::PI;
-
 use crate::actuator::{ActuatorError, Response, check_positive};
 use crate::filter::Biquad;
 use crate::units::Hertz;
-
-/// Damping of the high-pass that an equalized actuator becomes: that of Butterworth's, to four digits.
-#[expect(clippy::approx_constant, reason = "the reference takes four digits, and its numbers are met")]
-pub const INVERSE_DAMPING: f64 = 0.7071;
 
 /// The bounded inverse: volts for an acceleration in m/s², so that filter and actuator together are a flat high-pass from
 /// `lowest` on, at which its voltage stops growing.
@@ -26,17 +20,9 @@ pub fn inverse(response: &Response, lowest: Hertz, rate: Hertz) -> Result<Biquad
             return Err(ActuatorError::Rate { what, hz, rate_hz: rate.0 });
         }
     }
-    let (omega, omega_h) = (2.0 * PI * response.resonance().0, 2.0 * PI * lowest.0);
-    let gain = response.gain_mps2_per_v();
-    let above = [1.0 / gain, omega / response.q() / gain, omega * omega / gain];
-    let below = [1.0, 2.0 * INVERSE_DAMPING * omega_h, omega_h * omega_h];
-    let c = omega / (omega / (2.0 * rate.0)).tan();
-    let bilinear = |[two, one, zero]: [f64; 3]| {
-        let (two, one) = (two * c * c, one * c);
-        [two + one + zero, 2.0 * (zero - two), two - one + zero]
-    };
-    let ([b0, b1, b2], [a0, a1, a2]) = (bilinear(above), bilinear(below));
-    Ok(Biquad { b: [b0 / a0, b1 / a0, b2 / a0], a: [a1 / a0, a2 / a0] })
+    // The callback's own: what is shown and what is driven are one.
+    let digital = shagreen_synth::equalizer::Biquad::bounded_inverse(response.into(), lowest.0, rate.0);
+    Ok(Biquad { b: digital.b, a: digital.a })
 }
 
 /// A bound of the gain of [`inverse`] at any frequency, in V/(m/s²): `max(1, 1/2Q) / K · √(1 + (f₀/f_h)⁴)`.

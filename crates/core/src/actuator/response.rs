@@ -24,6 +24,16 @@ pub struct Response {
     gain_mps2_per_v: f64,
 }
 
+impl From<&Response> for shagreen_synth::equalizer::Resonance {
+    fn from(response: &Response) -> Self {
+        Self {
+            frequency_hz: response.resonance.0,
+            q: response.q,
+            gain_mps2_per_volt: response.gain_mps2_per_v,
+        }
+    }
+}
+
 impl Response {
     /// A response of this resonance `ω₀ / 2π`, quality factor Q ([`MIN_Q`] to [`MAX_Q`]) and gain K far above the
     /// resonance, in (m/s²)/V.

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{
     Actuator, ActuatorError, DataSheet, Drive, Limits, Measured, Mechanics, Physical, Response, USUAL_LOWEST,
-    inverse, inverse_gain_bound, tikhonov_inverse, validate,
+    drive_config, inverse, inverse_gain_bound, tikhonov_inverse, validate,
 };
 use crate::filter::Biquad;
 use crate::rng::lcg_noise;
@@ -315,4 +315,41 @@ fn a_driven_actuator_follows_its_differential_equation() {
         }
     }
     assert!(response.drive(&[], Hertz(rate_hz)).is_empty());
+}
+
+#[test]
+fn a_drive_keeps_within_what_the_actuator_stands() {
+    let actuator = Actuator {
+        id: "coil".into(),
+        name: "Coil".into(),
+        maker: String::new(),
+        source: String::new(),
+        license: String::new(),
+        measured: Some(Measured { response: response(), load: None }),
+        limits: Limits {
+            rated_volts_rms: Some(Volts(1.41)),
+            peak_volts: Some(Volts(4.5)),
+            ..Limits::default()
+        },
+        physical: Physical::default(),
+        lowest: USUAL_LOWEST,
+        calibrated: None,
+    };
+    let drive = Drive::new(Volts(5.0)).unwrap();
+    let config = drive_config(&actuator, drive, true).unwrap();
+    let budget = config.budget.unwrap();
+    assert_eq!((config.full_scale, config.ceiling, config.look_ahead_secs), (5.0, 0.9, 0.002));
+    assert_eq!((budget.rms, budget.time_secs), (0.282, 10.0));
+    let inverse = config.inverse.unwrap();
+    assert_eq!((inverse.lowest_hz, inverse.resonance.frequency_hz), (20.0, response().resonance().0));
+    let bare = drive_config(&actuator, drive, false).unwrap();
+    assert!(bare.inverse.is_none() && bare.budget == config.budget && bare.ceiling == config.ceiling);
+    // What is felt far above the resonance is the same.
+    assert!((f64::from(bare.full_scale) - 5.0 * response().gain_mps2_per_v()).abs() < 1e-5);
+    assert!((config.full_scale_mps2() - bare.full_scale_mps2()).abs() < 1e-5);
+    // An amplifier that cannot hurt it is not limited below its own full scale.
+    assert_eq!(drive_config(&actuator, Drive::ASSUMED, true).unwrap().ceiling, 1.0);
+    let unknown = Actuator { measured: None, ..actuator };
+    let error = drive_config(&unknown, drive, true).unwrap_err();
+    assert!(matches!(error, ActuatorError::NoResponse { .. }), "{error}");
 }
