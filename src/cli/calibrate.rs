@@ -103,6 +103,7 @@ enum Source<'a> {
 
 impl Source<'_> {
     /// The file that is read, where it is one.
+    #[expect(clippy::unnecessary_wraps, reason = "what is recorded live is no file")]
     fn path(&self) -> Option<&Path> {
         match self {
             Self::File(path) => Some(path),
