@@ -8,6 +8,7 @@ mod actuator_list;
 mod actuator_show;
 mod actuator_source;
 mod calibrate;
+mod calibrate_live;
 mod calibrate_recording;
 mod devices;
 mod devices_pens;
@@ -19,6 +20,7 @@ mod hid_files;
 mod import;
 mod import_hatt;
 mod import_recording;
+mod latency;
 mod library_list;
 mod library_make;
 mod library_places;
@@ -27,6 +29,7 @@ mod motion;
 mod output;
 mod play;
 mod render;
+mod rig;
 mod space_build;
 mod space_judgments;
 mod space_panel;
@@ -76,6 +79,7 @@ enum Command {
     Devices(devices::Args),
     /// Drives an actuator with a texture.
     Play(play::Args),
+    Latency(latency::Args),
     /// Profiles of actuators.
     #[command(subcommand)]
     Actuator(ActuatorCommand),
@@ -146,6 +150,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Play(args)) => play::run(args),
+        Some(Command::Latency(args)) => latency::run(args),
         Some(Command::Actuator(ActuatorCommand::List(args))) => actuator_list::run(args),
         Some(Command::Actuator(ActuatorCommand::Show(args))) => actuator_show::run(args),
         Some(Command::Actuator(ActuatorCommand::Acf(args))) => actuator_acf::run(args),

@@ -33,9 +33,9 @@ const FORCE_N: f64 = 0.7;
 
 /// The strokes as a table of speed and force.
 fn strokes() -> String {
-    let mut table = "t,speed,force\n".to_owned();
+    let mut table = vec!["t,speed,force".to_owned()];
     let mut begin = 0.5;
-    let mut row = |t: f64, speed: f64, force: f64| table.push_str(&format!("{t},{speed},{force}\n"));
+    let mut row = |t: f64, speed: f64, force: f64| table.push(format!("{t},{speed},{force}"));
     row(0.0, 0.0, 0.0);
     for speed in SPEEDS {
         row(begin - 0.01, 0.0, 0.0);
@@ -45,7 +45,7 @@ fn strokes() -> String {
         begin += STROKE_SECS + LIFT_SECS;
     }
     row(begin, 0.0, 0.0);
-    table
+    table.join("\n")
 }
 
 #[test]

@@ -167,7 +167,7 @@ fn descriptors_of_real_devices() {
     let mut files: Vec<String> = std::fs::read_dir(&folder)
         .unwrap()
         .map(|entry| entry.unwrap().path().display().to_string())
-        .filter(|file| file.ends_with(".bin"))
+        .filter(|file| std::path::Path::new(file).extension().is_some_and(|end| end == "bin"))
         .collect();
     files.sort();
     let found = bench.json(&format!("devices --descriptor {}", files.join(" ")));

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use shagreen_core::actuator::{Actuator, Calibrated, Drive, Limits, Measured, Physical, USUAL_LOWEST};
 use shagreen_core::calibration::{Calibration, Fit, Sweep, calibrate};
 use shagreen_core::units::{Hertz, Kilograms, Volts};
+use shagreen_device::serial::USUAL_BAUD;
 use shagreen_formats::actuator_toml::{read_actuator, write_actuator};
 use shagreen_formats::calibration_report::calibration_figures;
 use shagreen_formats::library::id_from_name;
@@ -14,6 +15,7 @@ use shagreen_formats::recording::Ask;
 use shagreen_formats::wav;
 
 use crate::cli::actuator_source::{grams, load_actuator, positive, volts};
+use crate::cli::calibrate_live::{Listener, record_live};
 use crate::cli::calibrate_recording::{Recorded, recorded_file};
 use crate::cli::figures_folder::{check_figures, figure_files, write_together};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
@@ -23,12 +25,13 @@ use crate::cli::output;
 /// Names of the figures, without the endings.
 const FIGURES: [&str; 3] = ["gain", "residual", "distortion"];
 
-/// Fits an actuator's response to a recorded sweep.
+/// Fits an actuator's response to a sweep.
 ///
-/// Write the sweep with --make-sweep, play it through the amplifier with the actuator on its load, record the acceleration
-/// from a second before to a second after, and give the recording.
+/// Either play it here: --output names what drives the actuator, --input or --serial-sensor what feels it. Or write the
+/// sweep with --make-sweep, play it through the amplifier with the actuator on its load, record the acceleration from a
+/// second before to a second after, and give the recording.
 #[derive(clap::Args)]
-#[command(group(clap::ArgGroup::new("what").required(true).args(["make_sweep", "recording"])))]
+#[command(group(clap::ArgGroup::new("what").required(true).args(["make_sweep", "recording", "output"])))]
 pub(crate) struct Args {
     /// Write the sweep to play, and nothing else.
     #[arg(long, value_name = "OUT.wav")]
@@ -39,10 +42,22 @@ pub(crate) struct Args {
     /// The recorded sweep: WAV, or a table with a column of acceleration.
     #[arg(long, value_name = "FILE")]
     recording: Option<PathBuf>,
-    /// Acceleration of a WAV sample of 1.0, in m/s².
+    /// Output to play the sweep on, by its id; `shagreen devices` lists them.
+    #[arg(long, value_name = "ID")]
+    output: Option<String>,
+    /// Input of the system's sound that an accelerometer is on, by its id.
+    #[arg(long, value_name = "ID", requires_all = ["output", "sensitivity"])]
+    input: Option<String>,
+    /// Serial port of a receiver with an accelerometer: docs/serial-protocol.md.
+    #[arg(long, value_name = "PORT", requires = "output", conflicts_with = "input")]
+    serial_sensor: Option<String>,
+    /// Baud rate of that port.
+    #[arg(long, value_name = "N", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
+    baud: u32,
+    /// Acceleration of a sample of 1.0 of a WAV file or an input, in m/s².
     #[arg(long, value_name = "MPS2", value_parser = |text: &str| positive(text, "an acceleration in m/s²"))]
     sensitivity: Option<f64>,
-    /// The axis of acceleration to take, from 1; without it the one that moves most.
+    /// The axis of acceleration to take, or the channel of an input, from 1; without it the one that moves most, or the first.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     channel: Option<u16>,
     /// Answers what a table does not say, as in acceleration_unit=g.
@@ -99,14 +114,16 @@ struct SweepArgs {
 enum Source<'a> {
     /// A file that was recorded by whatever.
     File(&'a Path),
+    /// A sweep that is played now.
+    Live(&'a str, Listener<'a>),
 }
 
 impl Source<'_> {
     /// The file that is read, where it is one.
-    #[expect(clippy::unnecessary_wraps, reason = "what is recorded live is no file")]
     fn path(&self) -> Option<&Path> {
         match self {
             Self::File(path) => Some(path),
+            Self::Live(..) => None,
         }
     }
 
@@ -114,6 +131,7 @@ impl Source<'_> {
     fn name(&self) -> String {
         match self {
             Self::File(path) => output::file_name(path),
+            Self::Live(id, _) => format!("played on {id}"),
         }
     }
 
@@ -138,10 +156,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(out) = &args.make_sweep {
         return make_sweep(args, &sweep, out);
     }
-    let Some(file) = &args.recording else {
-        bail!(output::Usage("give a recording".to_owned()));
-    };
-    let source = Source::File(file);
+    let source = source(args)?;
     let inputs = [source.path(), args.actuator.as_deref().map(Path::new)];
     if let Some(out) = &args.out {
         refuse_inputs(&[out], &inputs)?;
@@ -157,7 +172,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         );
     }
     let drive = args.full_scale_volts.map_or(Ok(Drive::ASSUMED), |full| Drive::new(Volts(full)))?;
-    let recorded = recorded(&source, args)?;
+    let recorded = match &source {
+        Source::File(path) => {
+            recorded_file(path, args.sensitivity, args.channel.map(usize::from), &args.answers)?
+        }
+        Source::Live(id, listener) => record_live(id, listener, &sweep, base.as_ref(), drive)?,
+    };
     let calibration = source.told(calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive))?;
     for warning in &calibration.warnings {
         output::warn(&warning.to_string());
@@ -182,12 +202,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn recorded(source: &Source<'_>, args: &Args) -> anyhow::Result<Recorded> {
-    match source {
-        Source::File(path) => {
-            recorded_file(path, args.sensitivity, args.channel.map(usize::from), &args.answers)
+fn source(args: &Args) -> anyhow::Result<Source<'_>> {
+    let Some(id) = &args.output else {
+        let Some(file) = &args.recording else {
+            bail!(output::Usage("give --recording, or --output and what listens".to_owned()));
+        };
+        return Ok(Source::File(file));
+    };
+    let listener = match (&args.input, &args.serial_sensor, args.sensitivity) {
+        (_, Some(port), _) => Listener::Serial { port, baud: args.baud },
+        (Some(id), None, Some(sensitivity_mps2)) => {
+            let channel_idx = args.channel.map_or(0, |channel| usize::from(channel) - 1);
+            Listener::Input { id, channel_idx, sensitivity_mps2 }
         }
-    }
+        _ => bail!(output::Usage(
+            "say what listens: --input ID and its --sensitivity, or --serial-sensor PORT".to_owned()
+        )),
+    };
+    Ok(Source::Live(id, listener))
 }
 
 fn make_sweep(args: &Args, sweep: &Sweep, out: &Path) -> anyhow::Result<()> {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
+use shagreen_device::audio_input::list_inputs;
 use shagreen_device::output::{OutputKind, list_outputs};
 use shagreen_device::serial::{SerialPortInfo, SerialPortKind, list_serial_ports};
 use shagreen_device::stylus::{StylusInfo, StylusKind, StylusList, list_styluses};
@@ -11,7 +12,7 @@ use crate::cli::devices_pens::{decode, list_descriptors};
 use crate::cli::hid_files::{meters, size_mm};
 use crate::cli::output;
 
-/// Lists styluses, outputs and serial ports, opening none; or tells what descriptors and reports of pens hold.
+/// Lists styluses, outputs, inputs and serial ports, opening none; or tells what descriptors and reports of pens hold.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Tell what HID report descriptors declare: raw bytes, the same in hexadecimal, or recordings of hid-recorder or
@@ -51,7 +52,7 @@ fn list(as_json: bool) {
     if let Some(warning) = warning {
         output::warn(warning.message());
     }
-    let outputs = list_outputs();
+    let (outputs, inputs) = (list_outputs(), list_inputs());
     let serial = list_serial_ports().unwrap_or_else(|error| {
         output::warn(error.message());
         Vec::new()
@@ -60,6 +61,7 @@ fn list(as_json: bool) {
     let result = json!({
         "styluses": styluses.iter().map(stylus_json).collect::<Vec<_>>(),
         "outputs": outputs.iter().map(output_json).collect::<Vec<_>>(),
+        "inputs": inputs.iter().map(|input| json!({"id": input.id, "name": input.name})).collect::<Vec<_>>(),
         "serial": serial.iter().map(serial_json).collect::<Vec<_>>(),
     });
     output::print(as_json, &result, || {
@@ -67,6 +69,8 @@ fn list(as_json: bool) {
         lines.extend(styluses.iter().map(|stylus| line(&stylus.id, &stylus.name)));
         lines.push("Outputs (play --output ID):".to_owned());
         lines.extend(outputs.iter().map(|output| line(&output.id, &output.name)));
+        lines.push("Inputs (calibrate and latency --input ID):".to_owned());
+        lines.extend(inputs.iter().map(|input| line(&input.id, &input.name)));
         lines.push("Serial ports (play --serial ID):".to_owned());
         lines.extend(serial.iter().map(|port| line(&port.id, &port.name)));
         lines.join("\n")

@@ -8,22 +8,17 @@ use shagreen_core::plane::Plane;
 use shagreen_core::render::{path_mix, synth_blend};
 use shagreen_core::texture_path::{TexturePath, TraveledAhead};
 use shagreen_device::controls::Input;
-use shagreen_device::engine::{ChannelMask, FADE_SECS, Handle};
-use shagreen_device::error::DeviceError;
+use shagreen_device::engine::{FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
-use shagreen_device::output::{
-    NULL_ID, OpenOptions, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open,
-};
-use shagreen_device::serial::message::Mode;
-use shagreen_device::serial::{self, SerialOptions, USUAL_BAUD};
 use shagreen_device::status::{LinkState, Status};
-use shagreen_device::synth::drive::DriveConfig;
 use shagreen_device::synth::renderer::{Mix, Parent};
+use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
 
-use crate::cli::motion::{Motion, MotionArgs, motion, quantity};
+use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Progress};
+use crate::cli::rig::RigArgs;
 use crate::cli::target::{Chosen, SoundArgs};
 
 /// Drives an actuator with a texture, in real time: a steady contact, or a recorded stroke.
@@ -31,27 +26,6 @@ use crate::cli::target::{Chosen, SoundArgs};
 pub(crate) struct Args {
     #[command(flatten)]
     sound: SoundArgs,
-    /// Output to play on, by its id; `shagreen devices` lists them. Without it the silent one: no output is ever
-    /// guessed, since actuator drive does not belong in someone's headphones.
-    #[arg(long, value_name = "ID", default_value = NULL_ID)]
-    output: String,
-    /// Receiver on a serial port to play on, by the port's id or name: a microcontroller that speaks the protocol of
-    /// docs/serial-protocol.md.
-    #[arg(long, value_name = "PORT", conflicts_with = "output")]
-    serial: Option<String>,
-    /// Baud rate of the serial port, on both sides; USB has none and does not care.
-    #[arg(long, value_name = "N", requires = "serial", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
-    baud: u32,
-    /// Who renders: `stream` sends samples to the serial port, `control` speed, force and texture for firmware that renders
-    /// by itself.
-    #[arg(long, value_name = "MODE", requires = "serial", default_value = "stream")]
-    serial_mode: SerialMode,
-    /// Acceleration at which the output is at full scale, in m/s².
-    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2))]
-    full_scale: f64,
-    /// Frames a block to ask the output for: fewer are faster and harder to keep up with.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65_536))]
-    buffer: Option<u32>,
     /// Seed of the noise.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -59,14 +33,9 @@ pub(crate) struct Args {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
+    rig: RigArgs,
+    #[command(flatten)]
     motion: MotionArgs,
-}
-
-/// Who renders for a serial port.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-enum SerialMode {
-    Stream,
-    Control,
 }
 
 /// Speed in mm/s, force in N and length in seconds where none are given.
@@ -83,19 +52,13 @@ const PATIENCE: Duration = Duration::from_secs(10);
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let motion = motion(&args.motion, Some(DEFAULT_MOTION))?;
     let (library, chosen) = args.sound.load()?;
-    let options = OpenOptions {
-        model_rate_hz: chosen.rate(&library)?.0 as f32,
-        preferred_rate_hz: None,
-        buffer_frames: args.buffer,
-        seed: args.seed,
-        drive: DriveConfig::proportional(args.full_scale as f32, USUAL_CEILING),
-        channels: ChannelMask::FIRST_TWO,
-    };
-    let (mut handle, running) = open_output(args, options).context("cannot play")?;
+    let (mut handle, running) =
+        args.rig.open(chosen.rate(&library)?.0 as f32, args.seed).context("cannot play")?;
     chosen.note_limits(&library, &motion);
     load_textures(&mut handle, &library, &chosen)?;
     let seconds = motion.seconds();
     let mut follow = chosen.path.as_ref().map(|path| Follow::new(path, &motion));
+    handle.set_tap(chosen.tap.map_or(Tap::SILENT, Tap::from));
     start(&mut handle, motion)?;
     let status = wait(&mut handle, seconds, &mut |handle, secs| match &mut follow {
         Some(follow) => follow.go(handle, secs),
@@ -114,6 +77,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "callback_load_max": status.load_max,
             "latency_ms": 1e3 * running.latency_secs(&status),
             "limited": status.limited_samples,
+            "heat_used": status.heat_used,
             "tripped": status.tripped,
             "parents": chosen.parents_json(&library),
             "at": chosen.at_json(),
@@ -134,20 +98,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     check(&status)
-}
-
-fn open_output(args: &Args, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
-    let Some(port) = &args.serial else { return open(&args.output, options) };
-    let mode = match args.serial_mode {
-        SerialMode::Stream => Mode::Stream,
-        SerialMode::Control => Mode::Control,
-    };
-    let serial = SerialOptions { baud: args.baud, mode, ..SerialOptions::default() };
-    let connection = serial::open(port, options, serial)?;
-    if !connection.receiver.name.is_empty() {
-        output::note(&format!("the receiver is `{}`", connection.receiver.name));
-    }
-    Ok((connection.handle, connection.running))
 }
 
 /// Whether all of it was played: where the limiter has tripped, the rest was silence.
@@ -286,8 +236,9 @@ impl Beginning {
 
 #[cfg(test)]
 mod tests {
-    use super::{Beginning, ChannelMask, DriveConfig, EXTENT_M, Hand, Input, Path, Status, check, wait};
-    use shagreen_device::engine::{self, EngineConfig};
+    use super::{Beginning, EXTENT_M, Hand, Input, Path, Status, check, wait};
+    use shagreen_device::engine::{self, ChannelMask, EngineConfig};
+    use shagreen_device::synth::drive::DriveConfig;
     use std::time::Duration;
 
     #[test]

@@ -10,6 +10,7 @@ use shagreen_core::blend::Mode;
 use shagreen_core::plane::Plane;
 use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::tap::Tap;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture_path::TexturePath;
 use shagreen_core::units::Hertz;
@@ -73,6 +74,8 @@ pub(crate) struct Chosen {
     voices: Vec<(Sounding, f64)>,
     /// How it changes along a stroke, where it does.
     pub(crate) path: Option<TexturePath>,
+    /// What a landing sounds like, where that is known.
+    pub(crate) tap: Option<Tap>,
     /// The texture named, where one was.
     pub(crate) texture: Option<String>,
     /// The point authored, where one was: the one asked for, or the nearest of the hull.
@@ -176,6 +179,7 @@ fn choose(library: &Library, target: &TargetArgs, blending: &BlendArgs) -> anyho
             mixing: Mode::Shared,
             voices: vec![(Sounding::Texture(index), 1.0)],
             path: library.textures[index].path.clone(),
+            tap: library.textures[index].model.tap(),
             texture: Some(id.clone()),
             at: None,
             clamped: false,
@@ -203,6 +207,7 @@ fn choose(library: &Library, target: &TargetArgs, blending: &BlendArgs) -> anyho
         mixing: authored.mixing(),
         voices,
         path: None,
+        tap: authored.tap(|index| library.textures[index].model.tap()),
         texture: None,
         at: Some(authored.location.at),
         clamped: authored.location.clamped,

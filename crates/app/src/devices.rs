@@ -7,6 +7,7 @@ mod pen_ui;
 
 use egui::{Align, Context, Key, Label, Layout, Modal, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::actuator::Actuator;
+use shagreen_core::units::Kilograms;
 
 use crate::command::Command;
 use crate::rig::Rig;
@@ -39,7 +40,7 @@ impl DevicesSheet {
         let profile = rig.actuator.as_ref();
         let original = profile.map(|a| built_in.iter().find(|b| b.id == a.id).unwrap_or(a).clone());
         Self {
-            load_g: profile.and_then(|a| a.measured?.load).map(|load| load.g()),
+            load_g: profile.and_then(|a| a.measured?.load).map(Kilograms::g),
             profile: original,
             rig: rig.clone(),
             built_in,
@@ -109,6 +110,7 @@ impl DevicesSheet {
 
 /// The heading of a part.
 fn heading(ui: &mut Ui, text: &str) {
+    ui.add_space(GAP);
     ui.add(Label::new(RichText::new(text).strong()).selectable(false));
 }
 

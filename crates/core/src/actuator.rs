@@ -11,7 +11,7 @@ mod inverse;
 mod response;
 
 pub use crate::actuator::data_sheet::{DataSheet, Mechanics};
-pub use crate::actuator::drive::{Drive, drive_config};
+pub use crate::actuator::drive::{Drive, drive_config, limited_drive};
 pub use crate::actuator::headroom::Headroom;
 pub use crate::actuator::inverse::{inverse, inverse_gain_bound, tikhonov_inverse};
 pub use crate::actuator::response::{MAX_Q, MIN_Q, Response};

@@ -10,6 +10,7 @@ pub mod identity;
 pub mod landing;
 pub mod live;
 pub mod pen;
+pub mod replay;
 pub mod system;
 pub mod tracker;
 mod units;

@@ -55,6 +55,7 @@ pub mod stylus;
 pub mod texture;
 pub mod touch;
 pub mod track;
+mod urgency;
 
 /// The types that an engine is fed with: `Mix`, `Contact`, `DriveConfig`, `Node`, `Tap`, `Triangle`.
 pub use shagreen_synth as synth;

@@ -9,6 +9,7 @@ use crate::edge::Edge;
 use crate::engine::Engine;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::{Reporter, Shared};
+use crate::urgency::run_before_others;
 
 /// Channels of the silent output.
 pub(crate) const CHANNELS: u16 = 2;
@@ -38,7 +39,10 @@ impl NullOutput {
         let clock = Clock { begun: Instant::now(), rate_hz, block_frames: frames, blocks_done: 0 };
         let thread = std::thread::Builder::new()
             .name("null output".into())
-            .spawn(move || play(edge, clock, &shared, &stopped, tap))
+            .spawn(move || {
+                run_before_others();
+                play(edge, clock, &shared, &stopped, tap);
+            })
             .map_err(|error| {
                 let message = format!("the silent output cannot start: the system gives no thread ({error})");
                 DeviceError::new(DeviceErrorKind::Backend, message)

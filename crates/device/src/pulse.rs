@@ -21,6 +21,7 @@ use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
+use crate::urgency::run_before_others;
 
 /// What ids of such outputs begin with; the rest is the sink's name.
 pub(crate) const PREFIX: &str = "pulse:";
@@ -112,7 +113,10 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let socket = connection.socket().map_err(refused)?;
     let playback = Playback::start(connection, kind, edge, reporter, id).map_err(refused)?;
     let block_frames = playback.block_frames();
-    let thread = std::thread::Builder::new().name("sound server".into()).spawn(move || playback.run());
+    let thread = std::thread::Builder::new().name("sound server".into()).spawn(move || {
+        run_before_others();
+        playback.run();
+    });
     let thread = thread.map_err(|error| {
         DeviceError::new(
             DeviceErrorKind::Backend,

@@ -13,10 +13,12 @@ mod outbox;
 mod ports;
 pub mod receiver;
 mod sender;
+mod sensor;
 
 pub use self::agreement::{ReceiverInfo, USUAL_SERIAL_RATE_HZ};
 pub use self::connection::{Heard, SensorBlock};
 pub use self::ports::{ID_PREFIX, SerialPortInfo, SerialPortKind, list_serial_ports};
+pub use self::sensor::SerialSensor;
 
 use std::time::Duration;
 

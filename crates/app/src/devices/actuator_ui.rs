@@ -22,7 +22,7 @@ const DRAWN_RATE_HZ: f64 = 48_000.0;
 impl DevicesSheet {
     pub(super) fn actuator_ui(&mut self, ui: &mut Ui) {
         heading(ui, strings::ACTUATOR);
-        row(ui, strings::ACTUATOR, |ui| self.choice_ui(ui));
+        row(ui, strings::DEVICE, |ui| self.choice_ui(ui));
         row(ui, strings::PROFILE_PATH, |ui| self.file_ui(ui));
         if let Some(message) = &self.message {
             warning(ui, message);

@@ -19,7 +19,7 @@ impl DevicesSheet {
     pub(super) fn output_ui(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         let mut commands = Vec::new();
         heading(ui, strings::OUTPUT);
-        row(ui, strings::OUTPUT, |ui| commands.extend(crate::status_bar::output_ui(ui, session)));
+        row(ui, strings::DEVICE, |ui| commands.extend(crate::status_bar::output_ui(ui, session)));
         let rate_hz = session.stream().map_or(USUAL_RATE_HZ, |(rate_hz, ..)| f64::from(rate_hz));
         row(ui, strings::BUFFER, |ui| {
             let combo = ComboBox::from_id_salt("buffer").width(210.0);

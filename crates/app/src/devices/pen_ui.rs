@@ -19,7 +19,7 @@ impl DevicesSheet {
     pub(super) fn pen_ui(&mut self, ui: &mut Ui, session: &Session) -> Option<Command> {
         let mut command = None;
         heading(ui, strings::PEN);
-        row(ui, strings::PEN, |ui| command = self.pen_choice_ui(ui, session));
+        row(ui, strings::DEVICE, |ui| command = self.pen_choice_ui(ui, session));
         if let Some(message) = session.pen_message() {
             warning(ui, message);
         }
@@ -92,6 +92,7 @@ impl DevicesSheet {
         fixed(Plot::new("pressure"), t.line)
             .height(HEIGHT)
             .x_axis_formatter(|mark, _| format!("{:.0} %", mark.value))
+            .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [50.0, 25.0, 25.0]))
             .y_axis_formatter(|mark, _| format!("{:.0} N", mark.value))
             .show(ui, |plot| {
                 plot.set_plot_bounds_x(0.0..=100.0);

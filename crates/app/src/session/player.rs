@@ -70,6 +70,14 @@ struct MadeSlots {
     next: Option<(u64, TextureId)>,
 }
 
+/// Whose hand is on the pad; nobody's leaves it to the automatic one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Held {
+    Nobody,
+    Mouse,
+    Pen,
+}
+
 /// An output and everything that is on its way to it.
 pub(super) struct Player {
     /// What the mix was last worked out for: the point, the blending, what is heard alone, and where on its path.
@@ -88,7 +96,7 @@ pub(super) struct Player {
     live: Option<LiveInput>,
     /// The way in for a pen, until it is given away.
     pub(super) pen_live: Option<LiveInput>,
-    pen_is_near: bool,
+    held: Held,
     opening: Option<Receiver<Opened>>,
     listing: Option<Receiver<Vec<OutputInfo>>>,
     /// Slot of each texture of the library, and when it was last in a mix.
@@ -97,7 +105,6 @@ pub(super) struct Player {
     n_mixes: u64,
     stylus: MouseStylus,
     started: Instant,
-    mouse_is_down: bool,
 }
 
 impl Player {
@@ -116,7 +123,7 @@ impl Player {
             running: None,
             live: None,
             pen_live: None,
-            pen_is_near: false,
+            held: Held::Nobody,
             opening: None,
             listing: None,
             slots: vec![None; n_textures],
@@ -124,7 +131,6 @@ impl Player {
             n_mixes: 0,
             stylus: MouseStylus::new(1.0),
             started: Instant::now(),
-            mouse_is_down: false,
         }
     }
 
@@ -335,8 +341,7 @@ impl Player {
 
     pub(super) fn set_hand(&mut self, hand: Option<Hand>) {
         if let Some(handle) = &mut self.handle
-            && !self.mouse_is_down
-            && !self.pen_is_near
+            && self.held == Held::Nobody
         {
             handle.set_input(hand.map_or(Input::Lifted, Input::Hand));
         }
@@ -345,7 +350,7 @@ impl Player {
     pub(super) fn mouse(&mut self, report: MouseReport, force_n: f32, hand: Option<Hand>) {
         let now = Instant::now();
         let time_secs = now.duration_since(self.started).as_secs_f64();
-        if self.pen_is_near {
+        if self.held == Held::Pen {
             // The system moves the mouse along with the pen.
             return;
         }
@@ -355,8 +360,9 @@ impl Player {
             // Full only when the output has stopped: then the touch has nowhere to go.
             let _ = live.send(touch, now);
         }
-        if report.pressed != self.mouse_is_down {
-            self.mouse_is_down = report.pressed;
+        let held = if report.pressed { Held::Mouse } else { Held::Nobody };
+        if held != self.held {
+            self.held = held;
             if report.pressed {
                 if let Some(handle) = &mut self.handle {
                     handle.set_input(Input::Live);
@@ -369,14 +375,16 @@ impl Player {
 
     /// A pen that is near is the hand: it must be heard from the moment it touches.
     pub(super) fn set_pen_near(&mut self, is_near: bool, hand: Option<Hand>) {
-        if is_near == self.pen_is_near {
+        if is_near == (self.held == Held::Pen) {
             return;
         }
-        self.pen_is_near = is_near;
-        self.mouse_is_down = false;
         if !is_near {
+            self.held = Held::Nobody;
             self.set_hand(hand);
-        } else if let Some(handle) = &mut self.handle {
+            return;
+        }
+        self.held = Held::Pen;
+        if let Some(handle) = &mut self.handle {
             handle.set_input(Input::Live);
         }
     }

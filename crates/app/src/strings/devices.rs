@@ -10,6 +10,8 @@ pub const TITLE: &str = "Devices";
 pub const CLOSE: &str = "Close";
 /// Heading of the output.
 pub const OUTPUT: &str = "Output";
+/// Label of the choice in each part.
+pub const DEVICE: &str = "Device";
 /// Name of the choice of the size of blocks.
 pub const BUFFER: &str = "Buffer";
 /// What the size of blocks does.

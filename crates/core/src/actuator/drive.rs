@@ -3,7 +3,7 @@
 use shagreen_synth::budget::Budget;
 use shagreen_synth::drive::{DriveConfig, Inverse, MAX_LOOK_AHEAD_SECS};
 
-use crate::actuator::{Actuator, ActuatorError, check_positive};
+use crate::actuator::{Actuator, ActuatorError, Limits, check_positive};
 use crate::units::Volts;
 
 /// What stands between the numbers that are played and the coil: converter, volume and amplifier together. It belongs to
@@ -49,18 +49,25 @@ pub fn drive_config(
     equalizes: bool,
 ) -> Result<DriveConfig, ActuatorError> {
     let response = actuator.response()?;
-    let limits = actuator.limits;
-    let share = |volts: Volts| drive.sample_of(volts) as f32;
     let inverse = Inverse { resonance: (&response).into(), lowest_hz: actuator.lowest.0 };
-    let full_scale =
-        if equalizes { drive.full_scale.0 } else { drive.full_scale.0 * response.gain_mps2_per_v() };
+    let gain = if equalizes { 1.0 } else { response.gain_mps2_per_v() };
     Ok(DriveConfig {
         inverse: equalizes.then_some(inverse),
-        full_scale: full_scale as f32,
+        full_scale: (drive.full_scale.0 * gain) as f32,
+        ..limited_drive(&actuator.limits, drive)
+    })
+}
+
+/// Drive within these limits, for signals that are drive already; acceleration counts as volts.
+pub fn limited_drive(limits: &Limits, drive: Drive) -> DriveConfig {
+    let share = |volts: Volts| drive.sample_of(volts) as f32;
+    DriveConfig {
+        inverse: None,
+        full_scale: drive.full_scale.0 as f32,
         ceiling: limits.peak_volts.map_or(1.0, share).min(1.0),
         look_ahead_secs: MAX_LOOK_AHEAD_SECS,
         budget: limits
             .rated_volts_rms
             .map(|volts| Budget { rms: share(volts), time_secs: limits.thermal_secs as f32 }),
-    })
+    }
 }

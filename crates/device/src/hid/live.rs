@@ -19,6 +19,7 @@ use crate::hid::live::reader::{Command, Reader};
 use crate::hid::tracker::{PenMoment, TrackerOptions};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
+use crate::urgency::run_before_others;
 
 /// Moments that wait for the window at most: at 1000 reports a second, four seconds.
 pub const N_MOMENTS: usize = 4096;
@@ -141,7 +142,10 @@ impl PenThread {
         let (commands, commands_out) = channel();
         let shared = Arc::new(Shared::default());
         let reader = Reader::new(Box::new(bus), options, live, moments_in, notices_in, Arc::clone(&shared));
-        let thread = std::thread::Builder::new().name("pen".into()).spawn(move || reader.run(&commands_out));
+        let thread = std::thread::Builder::new().name("pen".into()).spawn(move || {
+            run_before_others();
+            reader.run(&commands_out);
+        });
         let thread = thread.map_err(|error| {
             let message =
                 format!("the system starts no thread to read the pen: {error}; close other programs");

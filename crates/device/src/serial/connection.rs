@@ -16,6 +16,7 @@ use crate::serial::line::Line;
 use crate::serial::message::{Control, DeviceMessage, MAX_FAULT, MAX_SENSOR_SAMPLES, NO_TEXTURE};
 use crate::serial::outbox::Outbox;
 use crate::serial::sender::{Counts, Plan, Sender, Source};
+use crate::urgency::run_before_others;
 
 /// Things heard that wait to be taken: four seconds of a sensor at 3.2 kHz.
 const HEARD: usize = 128;
@@ -77,7 +78,10 @@ impl SerialOutput {
         let stopped = Arc::clone(&stop);
         let thread = std::thread::Builder::new()
             .name("serial output".into())
-            .spawn(move || player.play(plan, &stopped))
+            .spawn(move || {
+                run_before_others();
+                player.play(plan, &stopped);
+            })
             .map_err(|error| {
                 let message = format!("the serial output cannot start: the system gives no thread ({error})");
                 DeviceError::new(DeviceErrorKind::Backend, message)

@@ -1,0 +1,292 @@
+//! `shagreen latency`: how late a pen is felt, from its report to what was recorded of the output.
+
+use std::time::{Duration, Instant};
+
+use anyhow::{Context as _, bail};
+use serde_json::{Value, json};
+use shagreen_core::plane::Plane;
+use shagreen_device::audio_input::Recorder;
+use shagreen_device::controls::Input;
+use shagreen_device::engine::Handle;
+use shagreen_device::hid::live::{PenOptions, PenThread};
+use shagreen_device::hid::replay::{PLAIN_PEN, REPLAY_ID, ReplayBus, ReplayedReport, plain_report};
+use shagreen_device::hid::tracker::TrackerOptions;
+use shagreen_device::kinematics::SpeedFilter;
+use shagreen_device::pressure::PressureMap;
+use shagreen_device::status::{LinkState, STROKE_BUDGET_SECS, TAP_BUDGET_SECS};
+use shagreen_device::synth::renderer::Mix;
+use shagreen_device::synth::tap::Tap;
+use shagreen_device::texture::OwnedTexture;
+use shagreen_formats::starter::starter_library;
+
+use crate::cli::output::{self, Progress};
+use crate::cli::rig::RigArgs;
+
+/// Measures how late a pen is felt: replays strokes of a pen through all that a real one's go through, records what comes
+/// out of an output, and compares the times.
+///
+/// The input must hear the output: a cable from one to the other, an accelerometer on the actuator, or the monitor of a
+/// sound server's sink. What the input itself adds is in the figures, as far as it does not say so itself.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    rig: RigArgs,
+    /// Input that hears the output, by its id; `shagreen devices` lists them.
+    #[arg(long, value_name = "ID")]
+    input: String,
+    /// Channel of the input, from 1.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
+    input_channel: u16,
+    /// How many strokes to measure.
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    strokes: u16,
+    /// Reports of the pen a second.
+    #[arg(long, value_name = "HZ", default_value_t = 133.0, value_parser = report_rate)]
+    report_rate: f64,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// A rough one, so that it is heard.
+const TEXTURE: &str = "sandpaper-p100";
+/// Speed of the strokes in mm/s, and their pressure.
+const STROKE: (f64, f64) = (150.0, 0.6);
+/// How long a stroke takes, and the air after it, in seconds.
+const STROKE_SECS: f64 = 0.4;
+const AIR_SECS: f64 = 0.4;
+/// Level of the stroke's beginning that counts as felt, over that of the stroke.
+const FELT_SHARE: f64 = 0.5;
+/// Stretch over which the level of a stroke is taken, in seconds.
+const LEVEL_SECS: f64 = 0.004;
+
+fn report_rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(hz) if (20.0..=2000.0).contains(&hz) => Ok(hz),
+        _ => Err("it must be a number from 20 to 2000".to_owned()),
+    }
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    // Half of the strokes land with a tap, and half are strokes alone: each kind is measured where nothing else sounds.
+    let taps = measure(args, true)?;
+    let strokes = measure(args, false)?;
+    let told = |measured: &Measured, budget_secs: f32| {
+        let secs = &measured.latency_secs;
+        json!({
+            "n": secs.len(),
+            "median_ms": 1e3 * quantile(secs, 0.5),
+            "p95_ms": 1e3 * quantile(secs, 0.95),
+            "max_ms": 1e3 * quantile(secs, 1.0),
+            "budget_ms": 1e3 * f64::from(budget_secs),
+            "told_ms": 1e3 * measured.told_secs,
+            "missed": measured.n_missed,
+        })
+    };
+    let (taps, strokes) = (told(&taps, TAP_BUDGET_SECS), told(&strokes, STROKE_BUDGET_SECS));
+    let number = |of: &Value, field: &str| of[field].as_f64().unwrap_or(f64::NAN);
+    for (what, of) in [("strokes", &strokes), ("taps", &taps)] {
+        let (median, budget) = (number(of, "median_ms"), number(of, "budget_ms"));
+        if median > budget {
+            output::warn(&format!(
+                "{what} come {median:.1} ms late, more than the {budget:.0} ms that they may take"
+            ));
+        }
+    }
+    output::print(
+        args.json,
+        &json!({"strokes": strokes, "taps": taps, "report_rate_hz": args.report_rate}),
+        || {
+            let line = |what: &str, of: &Value| {
+                format!(
+                    "{what}: {:.1} ms (median of {}), 95 % within {:.1} ms; the output says {:.1} ms",
+                    number(of, "median_ms"),
+                    of["n"],
+                    number(of, "p95_ms"),
+                    number(of, "told_ms")
+                )
+            };
+            format!(
+                "From the report of a pen to what was recorded\n{}\n{}",
+                line("Strokes, to half their level", &strokes),
+                line("Taps, to their first sample", &taps)
+            )
+        },
+    );
+    Ok(())
+}
+
+/// What came of measuring.
+struct Measured {
+    latency_secs: Vec<f64>,
+    n_missed: usize,
+    /// What the engine says of the same touches.
+    told_secs: f64,
+}
+
+fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
+    let library = starter_library()?;
+    let index = library.index_of(TEXTURE).context("the starter library lacks its sandpaper")?;
+    let model = &library.textures[index].model;
+    let (mut handle, _running) = args.rig.open(model.rate().0 as f32, 1).context("cannot measure")?;
+    let rate_hz = handle.config().device_rate_hz;
+    let mut recorder = Recorder::open(&args.input, usize::from(args.input_channel) - 1, rate_hz as u32)
+        .context("cannot measure")?;
+    if with_taps {
+        let amplitude_mps2 = 0.5 * handle.config().drive.full_scale_mps2();
+        handle.set_tap(Tap { frequency_hz: 250.0, decay_per_sec: 100.0, amplitude_mps2 });
+    } else {
+        let id = handle.load(OwnedTexture::new(Plane::new(model).prepare().parts())?)?;
+        handle.set_mix(Mix::solo(id))?;
+    }
+    handle.set_input(Input::Live);
+    let mut heard = Vec::new();
+    begin(&mut handle, &mut recorder, &mut heard)?;
+
+    let (reports, landings) = strokes(args, with_taps);
+    let seconds = reports.last().map_or(0.0, |report| report.secs) + AIR_SECS;
+    let (bus, came) = ReplayBus::new(PLAIN_PEN.to_vec(), reports);
+    let tracking = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: PressureMap::USUAL };
+    let options = PenOptions { id: REPLAY_ID.to_owned(), tracking, size_m: None };
+    let pen = PenThread::start(bus, options, handle.take_live_input())?;
+    let progress = Progress::new("ms measured", output::in_ms(seconds));
+    let begun = Instant::now();
+    while begun.elapsed().as_secs_f64() < seconds {
+        std::thread::sleep(Duration::from_millis(10));
+        recorder.read(&mut heard);
+        recorder.check()?;
+        handle.collect();
+        if let Some(loss) = handle.loss() {
+            bail!("{loss}");
+        }
+        progress.set_secs(begun.elapsed().as_secs_f64());
+    }
+    progress.finish();
+    drop(pen);
+    let latency = handle.status().latency;
+    let first = recorder.first_sample_at().context("the input has said nothing")?;
+    let rate = f64::from(recorder.rate_hz());
+    let mut latency_secs = Vec::new();
+    let landed: Vec<Instant> =
+        came.try_iter().filter(|(i, _)| landings.contains(i)).map(|(_, at)| at).collect();
+    for at in &landed {
+        let begin = (at.saturating_duration_since(first).as_secs_f64() * rate) as usize;
+        let found =
+            if with_taps { tap_onset(&heard, begin, rate) } else { stroke_onset(&heard, begin, rate) };
+        latency_secs.extend(found.map(|samples| samples as f64 / rate));
+    }
+    if latency_secs.is_empty() {
+        bail!(
+            "the input `{}` hears nothing of the output: connect them, turn the input up, or choose another input or channel",
+            args.input
+        );
+    }
+    latency_secs.sort_by(f64::total_cmp);
+    let told = if with_taps { latency.tap_secs } else { latency.stroke_secs };
+    let n_missed = landed.len() - latency_secs.len();
+    Ok(Measured { latency_secs, n_missed, told_secs: f64::from(told) })
+}
+
+/// Waits until both ends run, and records a moment of silence.
+fn begin(handle: &mut Handle, recorder: &mut Recorder, heard: &mut Vec<f32>) -> anyhow::Result<()> {
+    let begun = Instant::now();
+    while handle.status().state != LinkState::Running || heard.is_empty() {
+        if begun.elapsed() > Duration::from_secs(10) {
+            bail!("the output or the input does not start; look at them with `shagreen devices`");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+        recorder.read(heard);
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    Ok(())
+}
+
+/// The reports of all strokes, and which of them land. The times between strokes differ, so that blocks are met anywhere.
+fn strokes(args: &Args, with_taps: bool) -> (Vec<ReplayedReport>, Vec<usize>) {
+    let (speed_mm_per_s, pressure) = STROKE;
+    let (mut reports, mut landings) = (Vec::new(), Vec::new());
+    let mut begin_secs = 0.3;
+    for i in 0..args.strokes {
+        let n = (STROKE_SECS * args.report_rate) as u32;
+        landings.push(reports.len());
+        for k in 0..n {
+            let secs = f64::from(k) / args.report_rate;
+            let x_mm = 10.0 + if with_taps { 0.0 } else { speed_mm_per_s * secs };
+            reports.push(ReplayedReport {
+                secs: begin_secs + secs,
+                bytes: plain_report(x_mm, 50.0, pressure, true),
+            });
+        }
+        reports.push(ReplayedReport {
+            secs: begin_secs + STROKE_SECS,
+            bytes: plain_report(10.0, 50.0, 0.0, false),
+        });
+        begin_secs += STROKE_SECS + AIR_SECS + 0.0013 * f64::from(i % 7);
+    }
+    (reports, landings)
+}
+
+/// Samples from a landing to the first that stands out of the silence before it.
+fn tap_onset(heard: &[f32], begin: usize, rate_hz: f64) -> Option<usize> {
+    let before = heard.get(begin.checked_sub((0.1 * rate_hz) as usize)?..begin)?;
+    let silence = before.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+    let after = heard.get(begin..begin + (STROKE_SECS * rate_hz) as usize)?;
+    let peak = after.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+    // A hundredth of the tap is reached a twentieth of a millisecond after it begins.
+    let threshold = (2.0 * silence).max(0.01 * peak);
+    (peak > 5.0 * silence + 1e-4).then(|| after.iter().position(|x| x.abs() > threshold))?
+}
+
+/// Samples from a landing to where the level has risen to half that of the stroke.
+fn stroke_onset(heard: &[f32], begin: usize, rate_hz: f64) -> Option<usize> {
+    let window = (LEVEL_SECS * rate_hz) as usize;
+    let rms = |from: usize, n: usize| {
+        let part = heard.get(from..from + n)?;
+        Some((part.iter().map(|x| f64::from(x * x)).sum::<f64>() / n as f64).sqrt())
+    };
+    let level = rms(begin + (0.15 * rate_hz) as usize, (0.2 * rate_hz) as usize)?;
+    let silence = rms(begin.checked_sub((0.1 * rate_hz) as usize)?, (0.08 * rate_hz) as usize)?;
+    if level < 5.0 * silence + 1e-5 {
+        return None;
+    }
+    let step = (window / 8).max(1);
+    let half = window / 2;
+    let is_felt = |at: usize| rms(begin + at - half, window).is_some_and(|l| l > FELT_SHARE * level);
+    (half..(0.3 * rate_hz) as usize).step_by(step).find(|at| is_felt(*at))
+}
+
+/// The value below which a share of sorted numbers lies.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let last = sorted.len().saturating_sub(1);
+    sorted.get((share * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{quantile, stroke_onset, tap_onset};
+
+    #[test]
+    fn onsets_are_found_where_they_are() {
+        let rate_hz = 48_000.0;
+        let at = |i: usize| if i < 10_720 { 1e-5 } else { 0.4 * ((i - 10_720) as f32 * 0.03).sin() };
+        let tap: Vec<f32> = (0..40_000).map(at).collect();
+        let found = tap_onset(&tap, 10_000, rate_hz).unwrap();
+        assert!((720..730).contains(&found), "{found}");
+        assert_eq!(tap_onset(&vec![1e-5; 40_000], 10_000, rate_hz), None);
+        let ramp = |i: usize| {
+            let share = ((i as f32 - 10_480.0) / 480.0).clamp(0.0, 1.0);
+            0.3 * share * if i % 2 == 0 { 1.0 } else { -1.0 }
+        };
+        let stroke: Vec<f32> = (0..40_000).map(ramp).collect();
+        let found = stroke_onset(&stroke, 10_000, rate_hz).unwrap();
+        assert!((690..760).contains(&found), "{found}");
+        assert_eq!(stroke_onset(&vec![0.0; 40_000], 10_000, rate_hz), None);
+    }
+
+    #[test]
+    fn quantiles_of_a_few() {
+        let of = |share| quantile(&[1.0, 2.0, 3.0], share);
+        assert_eq!((of(0.0), of(0.5), of(1.0)), (1.0, 2.0, 3.0));
+        assert!(quantile(&[], 0.5).is_nan());
+    }
+}

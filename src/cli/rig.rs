@@ -1,0 +1,106 @@
+//! What is driven: an output, the actuator on it, and how much of it that stands.
+
+use anyhow::Context as _;
+use shagreen_core::actuator::{Drive, drive_config};
+use shagreen_core::units::Volts;
+use shagreen_device::engine::{ChannelMask, Handle};
+use shagreen_device::output::{
+    NULL_ID, OpenOptions, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open,
+};
+use shagreen_device::serial::message::Mode;
+use shagreen_device::serial::{self, SerialOptions, USUAL_BAUD};
+use shagreen_device::synth::drive::DriveConfig;
+
+use crate::cli::actuator_source::{grams, load_actuator, volts};
+use crate::cli::motion::quantity;
+use crate::cli::output;
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "What is driven")]
+pub(crate) struct RigArgs {
+    /// Output to play on, by its id; `shagreen devices` lists them. Without it the silent one: no output is ever
+    /// guessed, since actuator drive does not belong in someone's headphones.
+    #[arg(long, value_name = "ID", default_value = NULL_ID)]
+    output: String,
+    /// Receiver on a serial port to play on, by the port's id or name: a microcontroller that speaks the protocol of
+    /// docs/serial-protocol.md.
+    #[arg(long, value_name = "PORT", conflicts_with = "output")]
+    serial: Option<String>,
+    /// Baud rate of the serial port, on both sides; USB has none and does not care.
+    #[arg(long, value_name = "N", requires = "serial", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
+    baud: u32,
+    /// Who renders: `stream` sends samples to the serial port, `control` speed, force and texture for firmware that renders
+    /// by itself.
+    #[arg(long, value_name = "MODE", requires = "serial", default_value = "stream")]
+    serial_mode: SerialMode,
+    /// The only channel to drive, from 1; without it the first two.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
+    channel: Option<u16>,
+    /// Frames a block to ask the output for: fewer are faster and harder to keep up with.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65_536))]
+    buffer: Option<u32>,
+    /// The actuator, by its id or its profile: its response is undone, and it is kept within what it stands.
+    #[arg(long, value_name = "ID_OR_FILE", conflicts_with = "full_scale", requires = "full_scale_volts")]
+    actuator: Option<String>,
+    /// Mass that the actuator shakes, in g, where it is another than that of its profile.
+    #[arg(long, value_name = "G", requires = "actuator", value_parser = grams)]
+    load_g: Option<f64>,
+    /// Peak voltage at the actuator when the output is at full scale: every limit rests on it.
+    #[arg(long, value_name = "V", requires = "actuator", value_parser = volts)]
+    full_scale_volts: Option<f64>,
+    /// Leave the actuator's response as it is, and keep only its limits.
+    #[arg(long, requires = "actuator")]
+    no_equalizer: bool,
+    /// Acceleration at which the output is at full scale, in m/s², where no actuator is known.
+    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2))]
+    full_scale: f64,
+}
+
+/// Who renders for a serial port.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum SerialMode {
+    Stream,
+    Control,
+}
+
+impl RigArgs {
+    /// Opens the output for textures of a rate, with noise of a seed.
+    pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<(Handle, Running)> {
+        let options = OpenOptions {
+            model_rate_hz,
+            preferred_rate_hz: None,
+            buffer_frames: self.buffer,
+            seed,
+            drive: self.drive()?,
+            channels: self
+                .channel
+                .map_or(ChannelMask::FIRST_TWO, |channel| ChannelMask::only(usize::from(channel) - 1)),
+        };
+        let Some(port) = &self.serial else { return Ok(open(&self.output, options)?) };
+        let mode = match self.serial_mode {
+            SerialMode::Stream => Mode::Stream,
+            SerialMode::Control => Mode::Control,
+        };
+        let serial = SerialOptions { baud: self.baud, mode, ..SerialOptions::default() };
+        let connection = serial::open(port, options, serial)?;
+        if !connection.receiver.name.is_empty() {
+            output::note(&format!("the receiver is `{}`", connection.receiver.name));
+        }
+        Ok((connection.handle, connection.running))
+    }
+
+    fn drive(&self) -> anyhow::Result<DriveConfig> {
+        let (Some(name), Some(full_scale)) = (&self.actuator, self.full_scale_volts) else {
+            return Ok(DriveConfig::proportional(self.full_scale as f32, USUAL_CEILING));
+        };
+        let actuator = load_actuator(name, self.load_g)?;
+        let config = drive_config(&actuator, Drive::new(Volts(full_scale))?, !self.no_equalizer);
+        let config = config.with_context(|| format!("the actuator `{name}` cannot be driven"))?;
+        if config.budget.is_none() {
+            output::warn(&format!(
+                "nobody has stated what the actuator `{name}` stands for long: it is not kept from getting too warm"
+            ));
+        }
+        Ok(config)
+    }
+}
