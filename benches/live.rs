@@ -167,8 +167,9 @@ fn main() {
 /// What a device's callback costs: one texture of the field, an equalized actuator with its budget, and the limiter.
 fn callback(library: &Library) {
     let space = Space::new(&library.positions()).expect("the starter space");
-    let layers: Vec<Option<Layers>> =
-        library.textures.iter().map(|t| Some(Layers::of(&t.model, &Plane::new(&t.model)))).collect();
+    let planes: Vec<Plane> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
+    let layers: Vec<Option<Layers<'_>>> =
+        library.textures.iter().zip(&planes).map(|(t, plane)| Some(Layers::of(&t.model, plane))).collect();
     let models = Models::new(&space, &layers).expect("textures of one rate");
     let authoring = Authoring::new(space).with_models(Arc::new(models));
     let point = SpacePoint { rough_smooth: 40.0, hard_soft: 60.0 };

@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "median_ms": 1e3 * quantile(secs, 0.5),
             "p95_ms": 1e3 * quantile(secs, 0.95),
             "max_ms": 1e3 * quantile(secs, 1.0),
-            "budget_ms": 1e3 * f64::from(budget_secs),
+            "budget_ms": (1e3 * f64::from(budget_secs)).round(),
             "told_ms": 1e3 * measured.told_secs,
             "missed": measured.n_missed,
         })
@@ -273,9 +273,9 @@ mod tests {
         let found = tap_onset(&tap, 10_000, rate_hz).unwrap();
         assert!((720..730).contains(&found), "{found}");
         assert_eq!(tap_onset(&vec![1e-5; 40_000], 10_000, rate_hz), None);
-        let ramp = |i: usize| {
-            let share = ((i as f32 - 10_480.0) / 480.0).clamp(0.0, 1.0);
-            0.3 * share * if i % 2 == 0 { 1.0 } else { -1.0 }
+        let ramp = |i: u32| {
+            let share = ((f64::from(i) as f32 - 10_480.0) / 480.0).clamp(0.0, 1.0);
+            0.3 * share * if i.is_multiple_of(2) { 1.0 } else { -1.0 }
         };
         let stroke: Vec<f32> = (0..40_000).map(ramp).collect();
         let found = stroke_onset(&stroke, 10_000, rate_hz).unwrap();

@@ -1,5 +1,7 @@
 //! A sound server of a test's own, with null sinks that are recorded.
 
+#![allow(dead_code, reason = "each test uses some of it")]
+
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
