@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::actuator::{Actuator, Calibrated, Drive, Limits, Measured, Physical, USUAL_LOWEST};
-use shagreen_core::calibration::{Calibration, Fit, Sweep, calibrate};
+use shagreen_core::actuator::{Actuator, Drive};
+use shagreen_core::calibration::{Calibration, Fit, Sweep, calibrate, fitted_actuator};
 use shagreen_core::units::{Hertz, Kilograms, Volts};
+use shagreen_device::measure::Listener;
 use shagreen_device::serial::USUAL_BAUD;
 use shagreen_formats::actuator_toml::{read_actuator, write_actuator};
 use shagreen_formats::calibration_report::calibration_figures;
@@ -15,7 +16,7 @@ use shagreen_formats::recording::Ask;
 use shagreen_formats::wav;
 
 use crate::cli::actuator_source::{grams, load_actuator, positive, volts};
-use crate::cli::calibrate_live::{Listener, record_live};
+use crate::cli::calibrate_live::record_live;
 use crate::cli::calibrate_recording::{Recorded, recorded_file};
 use crate::cli::figures_folder::{check_figures, figure_files, write_together};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
@@ -115,7 +116,7 @@ enum Source<'a> {
     /// A file that was recorded by whatever.
     File(&'a Path),
     /// A sweep that is played now.
-    Live(&'a str, Listener<'a>),
+    Live(&'a str, Listener),
 }
 
 impl Source<'_> {
@@ -210,10 +211,10 @@ fn source(args: &Args) -> anyhow::Result<Source<'_>> {
         return Ok(Source::File(file));
     };
     let listener = match (&args.input, &args.serial_sensor, args.sensitivity) {
-        (_, Some(port), _) => Listener::Serial { port, baud: args.baud },
+        (_, Some(port), _) => Listener::Serial { port: port.clone(), baud: args.baud },
         (Some(id), None, Some(sensitivity_mps2)) => {
             let channel_idx = args.channel.map_or(0, |channel| usize::from(channel) - 1);
-            Listener::Input { id, channel_idx, sensitivity_mps2 }
+            Listener::Input { id: id.clone(), channel_idx, sensitivity_mps2 }
         }
         _ => bail!(output::Usage(
             "say what listens: --input ID and its --sensitivity, or --serial-sensor PORT".to_owned()
@@ -268,40 +269,7 @@ fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit, drive: Dr
     if let Some(base) = &base {
         source = format!("{source}; everything else from the profile {}: {}", base.id, base.source);
     }
-    let known = base.unwrap_or(Actuator {
-        id: String::new(),
-        name: String::new(),
-        maker: String::new(),
-        source: String::new(),
-        license: String::new(),
-        measured: None,
-        limits: Limits::default(),
-        physical: Physical::default(),
-        lowest: USUAL_LOWEST,
-        calibrated: None,
-    });
-    // What followed from another response is no figure of this one.
-    let physical = Physical {
-        force_factor_n_per_a: None,
-        stiffness_n_per_m: None,
-        damping_n_s_per_m: None,
-        ..known.physical
-    };
-    Actuator {
-        id: id_from_name(&name),
-        name,
-        source,
-        measured: Some(Measured { response: fit.response, load }),
-        physical,
-        calibrated: Some(Calibrated {
-            fit_error_db: fit.error_db,
-            resonance_error_hz: fit.resonance_error_hz,
-            q_error: fit.q_error,
-            gain_error_mps2_per_v: fit.gain_error_mps2_per_v,
-            full_scale: drive.full_scale,
-        }),
-        ..known
-    }
+    Actuator { id: id_from_name(&name), name, source, ..fitted_actuator(base, fit, load, drive) }
 }
 
 fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit, figures: &[String]) {

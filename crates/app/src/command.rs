@@ -48,6 +48,10 @@ pub enum Command {
     },
     /// End the tone.
     StopTone,
+    /// Close the output, so that something else can have it.
+    LetGoOfOutput,
+    /// Open the output again that was let go of.
+    TakeOutputBack,
     /// Look for pens again.
     ListPens,
     /// End the latched silence of the limiter.

@@ -1,14 +1,17 @@
 //! The sheet of devices: the output and its actuator, the pen, and how late they are.
 
 mod actuator_ui;
+mod calibration;
+mod calibration_ui;
 mod latency_ui;
 mod output_ui;
 mod pen_ui;
 
-use egui::{Align, Context, Key, Label, Layout, Modal, RichText, ScrollArea, Ui, vec2};
+use egui::{Align, Button, Context, Key, Label, Layout, Modal, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::actuator::Actuator;
 use shagreen_core::units::Kilograms;
 
+use self::calibration_ui::Measurement;
 use crate::command::Command;
 use crate::rig::Rig;
 use crate::session::Session;
@@ -32,6 +35,7 @@ pub struct DevicesSheet {
     message: Option<String>,
     tone_hz: f64,
     tone_mps2: f64,
+    measurement: Measurement,
 }
 
 impl DevicesSheet {
@@ -48,6 +52,7 @@ impl DevicesSheet {
             message: None,
             tone_hz: 100.0,
             tone_mps2: 1.0,
+            measurement: Measurement::default(),
         }
     }
 
@@ -65,10 +70,13 @@ impl DevicesSheet {
         let mut commands = shown.inner;
         // What is dragged is taken over when it is let go: every change of the output interrupts it.
         let is_held = ctx.input(|i| i.pointer.any_down()) || ctx.text_edit_focused();
-        if !is_held && self.rig != *session.rig() {
+        if !is_held && !self.measurement.is_running() && self.rig != *session.rig() {
             commands.push(Command::SetRig(Box::new(self.rig.clone())));
         }
-        if !shown.any_popup_open && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape)) {
+        if !shown.any_popup_open
+            && !self.measurement.is_running()
+            && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape))
+        {
             commands.push(Command::CloseSheet);
         }
         commands
@@ -79,7 +87,8 @@ impl DevicesSheet {
         ui.horizontal(|ui| {
             ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if ui.button(strings::CLOSE).clicked() {
+                let close = Button::new(strings::CLOSE);
+                if ui.add_enabled(!self.measurement.is_running(), close).clicked() {
                     commands.push(Command::CloseSheet);
                 }
             });
@@ -94,6 +103,8 @@ impl DevicesSheet {
                     commands.extend(self.output_ui(ui, session));
                     ui.add_space(GROUP_GAP);
                     latency_ui::latency_ui(ui, session);
+                    ui.add_space(GROUP_GAP);
+                    commands.extend(self.calibration_ui(ui, session));
                 });
                 ui.add_space(GROUP_GAP);
                 ui.allocate_ui_with_layout(vec2(width, 0.0), column, |ui| {

@@ -24,6 +24,7 @@ use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
 use shagreen_core::texture_path::Along;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use shagreen_device::audio_input::InputInfo;
 use shagreen_device::hand::Hand;
 use shagreen_device::output::OutputInfo;
 use shagreen_device::status::Status;
@@ -523,6 +524,28 @@ impl Session {
         if let Some(id) = self.player.output_id.clone().filter(|_| opens_again) {
             self.open_output(OutputChoice::Id(id), ctx);
         }
+    }
+
+    /// Closes the output; [`Session::take_output_back`] opens it again.
+    pub fn let_go_of_output(&mut self) {
+        self.player.let_go();
+    }
+
+    /// Opens the output again that was let go of.
+    pub fn take_output_back(&mut self, ctx: &egui::Context) {
+        if let Some(id) = self.player.output_id.clone() {
+            self.open_output(OutputChoice::Id(id), ctx);
+        }
+    }
+
+    /// The inputs that can be listened to, as far as they are known yet.
+    pub fn inputs(&self) -> &[InputInfo] {
+        &self.player.inputs
+    }
+
+    /// Looks for inputs in the background.
+    pub fn list_inputs(&mut self, ctx: &egui::Context) {
+        self.player.list_inputs(ctx.clone());
     }
 
     /// Rate in Hz, channels and frames in a block of the open output.

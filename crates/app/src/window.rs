@@ -302,6 +302,7 @@ impl Window {
                 Ok(actuators) => {
                     self.session.list_outputs(ctx);
                     self.session.list_pens(ctx);
+                    self.session.list_inputs(ctx);
                     let sheet = DevicesSheet::new(self.session.rig(), actuators);
                     self.sheet = Sheet::Devices(Box::new(sheet));
                 }
@@ -312,6 +313,8 @@ impl Window {
                 self.session.play_tone(frequency_hz, amplitude_mps2);
             }
             Command::StopTone => self.session.stop_tone(),
+            Command::LetGoOfOutput => self.session.let_go_of_output(),
+            Command::TakeOutputBack => self.session.take_output_back(ctx),
             Command::ListPens => self.session.list_pens(ctx),
             Command::OpenImport => self.sheet.import(Vec::new(), ctx),
             Command::Import(sources) => self.sheet.import(sources, ctx),

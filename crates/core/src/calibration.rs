@@ -18,12 +18,12 @@ pub use crate::calibration::sweep::{Sweep, SweepError};
 
 use std::fmt;
 
-use crate::actuator::Drive;
+use crate::actuator::{Actuator, Calibrated, Drive, Limits, Measured, Physical, USUAL_LOWEST};
 use crate::calibration::clipping::clipped_peaks;
 use crate::calibration::curve::{distortion, gains, silence};
 use crate::calibration::impulse::{Impulse, prepare};
 use crate::calibration::locate::locate;
-use crate::units::Hertz;
+use crate::units::{Hertz, Kilograms};
 
 /// Least band above [`MIN_SNR_DB`] that tells anything, in octaves.
 const LEAST_OCTAVES: f64 = 1.0;
@@ -198,6 +198,41 @@ impl fmt::Display for CalibrationWarning {
                 100.0 * share
             ),
         }
+    }
+}
+
+/// The actuator of `base`, or one of which nothing else is known, with the response that was fitted to what it did on `load`
+/// through `drive`. Physical figures that followed from another response are left out.
+pub fn fitted_actuator(base: Option<Actuator>, fit: &Fit, load: Option<Kilograms>, drive: Drive) -> Actuator {
+    let known = base.unwrap_or(Actuator {
+        id: String::new(),
+        name: String::new(),
+        maker: String::new(),
+        source: String::new(),
+        license: String::new(),
+        measured: None,
+        limits: Limits::default(),
+        physical: Physical::default(),
+        lowest: USUAL_LOWEST,
+        calibrated: None,
+    });
+    let physical = Physical {
+        force_factor_n_per_a: None,
+        stiffness_n_per_m: None,
+        damping_n_s_per_m: None,
+        ..known.physical
+    };
+    Actuator {
+        measured: Some(Measured { response: fit.response, load }),
+        physical,
+        calibrated: Some(Calibrated {
+            fit_error_db: fit.error_db,
+            resonance_error_hz: fit.resonance_error_hz,
+            q_error: fit.q_error,
+            gain_error_mps2_per_v: fit.gain_error_mps2_per_v,
+            full_scale: drive.full_scale,
+        }),
+        ..known
     }
 }
 

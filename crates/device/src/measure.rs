@@ -2,11 +2,15 @@
 
 use std::time::{Duration, Instant};
 
+use shagreen_synth::drive::Driven;
+
 use crate::audio_input::Recorder;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
+use crate::output::{self, OpenOptions, Running};
+use crate::serial::{self, SerialOptions, SerialSensor};
 use crate::signal::Signal;
-use crate::status::LinkState;
+use crate::status::{LinkState, Status};
 
 /// What listens: samples that come by themselves.
 pub trait Sensor {
@@ -40,6 +44,79 @@ impl Sensor for Recorder {
         }
         Ok(())
     }
+}
+
+/// Who listens.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Listener {
+    /// An input of the system's sound.
+    Input {
+        /// Its id.
+        id: String,
+        /// Which of its channels, from zero.
+        channel_idx: usize,
+        /// Acceleration of a sample of 1.0, in m/s².
+        sensitivity_mps2: f64,
+    },
+    /// The accelerometer of a receiver on a serial port.
+    Serial {
+        /// The port.
+        port: String,
+        /// Its baud rate.
+        baud: u32,
+    },
+}
+
+/// What was heard of a signal.
+#[derive(Clone, Debug)]
+pub struct Heard {
+    /// Acceleration in m/s².
+    pub mps2: Vec<f64>,
+    /// Samples a second.
+    pub rate_hz: f64,
+    /// How the output was doing at the end: whether it was limited, or dropped out.
+    pub status: Status,
+}
+
+/// Opens output `id`, plays on it the drive that `drive_at` makes for its rate in Hz, and returns what was heard.
+///
+/// # Errors
+/// Those of [`crate::output::open`], of the listener and of [`play_and_listen`]; [`DeviceErrorKind::Config`] where
+/// `drive_at` says why there is no drive.
+pub fn measure(
+    id: &str,
+    options: OpenOptions,
+    listener: &Listener,
+    drive_at: &dyn Fn(f64) -> Result<Vec<f32>, String>,
+    go_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<Heard, DeviceError> {
+    let mut through = |handle: &mut Handle, running: &Running, sensor: &mut dyn Sensor| {
+        let refuse = |message: String| DeviceError::new(DeviceErrorKind::Config, message);
+        let samples = drive_at(f64::from(running.rate_hz())).map_err(refuse)?;
+        let signal = Signal::new(samples, Driven::Drive).map_err(|error| refuse(error.to_string()))?;
+        let heard = play_and_listen(handle, signal, sensor, go_on)?;
+        Ok((heard, sensor.rate_hz(), handle.status()))
+    };
+    let ((heard, rate_hz, status), scale) = match listener {
+        Listener::Input { id: input, channel_idx, sensitivity_mps2 } => {
+            let (mut handle, running) = output::open(id, options)?;
+            let mut recorder = Recorder::open(input, *channel_idx, running.rate_hz())?;
+            (through(&mut handle, &running, &mut recorder)?, *sensitivity_mps2)
+        }
+        Listener::Serial { port, baud } => {
+            let serial = SerialOptions { baud: *baud, ..SerialOptions::default() };
+            let mut connection = serial::open(port, options, serial)?;
+            let mut sensor = SerialSensor::new(connection.heard);
+            let heard = if id == connection.running.id() {
+                through(&mut connection.handle, &connection.running, &mut sensor)?
+            } else {
+                let (mut handle, running) = output::open(id, options)?;
+                through(&mut handle, &running, &mut sensor)?
+            };
+            (heard, 1.0)
+        }
+    };
+    Ok(Heard { mps2: heard.iter().map(|x| scale * f64::from(*x)).collect(), rate_hz, status })
 }
 
 /// Silence that is recorded before the signal and after it, in seconds: what the room does by itself, and what rings.

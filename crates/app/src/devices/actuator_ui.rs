@@ -107,7 +107,7 @@ impl DevicesSheet {
     }
 
     /// Takes an actuator, on another load than its profile's where one is given.
-    fn take(&mut self, profile: Option<Actuator>, load: Option<Kilograms>) {
+    pub(super) fn take(&mut self, profile: Option<Actuator>, load: Option<Kilograms>) {
         let on_load = match (&profile, load) {
             (Some(actuator), Some(load)) => actuator.at_load(load).map(Some),
             _ => Ok(profile.clone()),

@@ -7,6 +7,7 @@ use shagreen_core::authoring::Blending;
 use shagreen_core::plane::Prepared;
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
+use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::controls::{Controls, Drive, Input};
 use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
 use shagreen_device::error::DeviceError;
@@ -86,6 +87,7 @@ pub(super) struct Player {
     /// What landings sound like, from the next mix on.
     pub(super) tap: Tap,
     pub(super) outputs: Vec<OutputInfo>,
+    pub(super) inputs: Vec<InputInfo>,
     pub(super) output_id: Option<String>,
     pub(super) message: Option<String>,
     pub(super) status: Option<Status>,
@@ -99,6 +101,7 @@ pub(super) struct Player {
     held: Held,
     opening: Option<Receiver<Opened>>,
     listing: Option<Receiver<Vec<OutputInfo>>>,
+    listing_inputs: Option<Receiver<Vec<InputInfo>>>,
     /// Slot of each texture of the library, and when it was last in a mix.
     slots: Vec<Option<(TextureId, u64)>>,
     made: MadeSlots,
@@ -114,6 +117,7 @@ impl Player {
             mix_is_new: false,
             tap: Tap::SILENT,
             outputs: Vec::new(),
+            inputs: Vec::new(),
             output_id: None,
             message: None,
             status: None,
@@ -126,6 +130,7 @@ impl Player {
             held: Held::Nobody,
             opening: None,
             listing: None,
+            listing_inputs: None,
             slots: vec![None; n_textures],
             made: MadeSlots::default(),
             n_mixes: 0,
@@ -142,6 +147,22 @@ impl Player {
             ctx.request_repaint();
         });
         self.listing = Some(receiver);
+    }
+
+    pub(super) fn list_inputs(&mut self, ctx: egui::Context) {
+        let (sender, receiver) = channel();
+        std::thread::spawn(move || {
+            // The window may have closed meanwhile: then nobody asks any more.
+            let _ = sender.send(list_inputs());
+            ctx.request_repaint();
+        });
+        self.listing_inputs = Some(receiver);
+    }
+
+    /// Closes the output; what it was is remembered.
+    pub(super) fn let_go(&mut self) {
+        (self.handle, self.running, self.live, self.pen_live) = (None, None, None, None);
+        self.status = None;
     }
 
     pub(super) fn open(
@@ -178,6 +199,10 @@ impl Player {
         if let Some(outputs) = self.listing.as_ref().and_then(|r| r.try_recv().ok()) {
             self.outputs = outputs;
             self.listing = None;
+        }
+        if let Some(inputs) = self.listing_inputs.as_ref().and_then(|r| r.try_recv().ok()) {
+            self.inputs = inputs;
+            self.listing_inputs = None;
         }
         let opened = self.take_opened(scope);
         if let Some(handle) = &mut self.handle {

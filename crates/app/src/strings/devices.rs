@@ -108,6 +108,57 @@ pub const HEAT: &str = "Heat";
 pub const HEAT_HELP: &str =
     "Root mean square of the drive over the coil's thermal time, as a share of what it stands for long";
 
+/// Heading of the measurement of the actuator.
+pub const CALIBRATE: &str = "Measure the actuator";
+/// What the measurement does.
+pub const CALIBRATE_HELP: &str = "Plays a sweep from 10 to 1000 Hz for 20 s through the actuator on its load, and listens to an accelerometer on an input. The texture is silent meanwhile.";
+/// The input that the accelerometer is on.
+pub const INPUT: &str = "Accelerometer on";
+/// No input is chosen.
+pub const CHOOSE_INPUT: &str = "choose an input";
+/// A measurement without an input.
+pub const NO_INPUT: &str = "choose the input that the accelerometer is on";
+/// What a sample of one is.
+pub const SENSITIVITY: &str = "Its full scale";
+/// What the sensitivity is.
+pub const SENSITIVITY_HELP: &str =
+    "Acceleration at which the input is at full scale: from the data sheets of the sensor and its amplifier";
+/// How loud the sweep is.
+pub const AMPLITUDE: &str = "Drive of the sweep";
+/// What the drive of the sweep does.
+pub const AMPLITUDE_HELP: &str =
+    "Peak, as a share of full scale. Begin low: at its resonance an actuator moves far.";
+/// Begins the measurement.
+pub const START: &str = "Measure";
+/// Ends the measurement.
+pub const CANCEL: &str = "Cancel";
+/// The measurement ended without a word.
+pub const CALIBRATION_BROKEN: &str = "the measurement ended for no reason that is known; try again";
+/// The sweep was turned down.
+pub const CALIBRATION_LIMITED: &str =
+    "The limits of the actuator turned the sweep down: measure with less drive.";
+
+/// The output dropped out.
+pub fn calibration_dropouts(n: u64) -> String {
+    format!("The output dropped out {n} times: close other programs and measure again.")
+}
+
+/// What came of a measurement.
+pub fn calibrated(fit_error_db: f64) -> String {
+    format!("Measured, and in use; the fit is off by {fit_error_db:.2} dB rms.")
+}
+
+/// What an actuator is called that was measured.
+pub fn calibrated_name(before: Option<&str>) -> String {
+    let name = before.unwrap_or("My actuator");
+    if name.ends_with(", measured") { name.to_owned() } else { format!("{name}, measured") }
+}
+
+/// Where its figures come from.
+pub fn calibrated_source(load_g: f64, volts: f64) -> String {
+    format!("Response measured on {load_g:.0} g with a sweep, taking {volts} V for digital full scale")
+}
+
 /// Length of a buffer.
 pub fn buffer(frames: u32, rate_hz: f64) -> String {
     format!("{frames} frames, {:.1} ms", 1e3 * f64::from(frames) / rate_hz)

@@ -63,6 +63,15 @@ impl Sweep {
         Ok([silence.clone(), self.samples(rate), silence].concat())
     }
 
+    /// The same for an output, or why there is none.
+    ///
+    /// # Errors
+    /// What [`SweepError`] says.
+    pub fn drive_samples(&self, rate_hz: f64) -> Result<Vec<f32>, String> {
+        let signal = self.signal(Hertz(rate_hz)).map_err(|error| error.to_string())?;
+        Ok(signal.iter().map(|sample| *sample as f32).collect())
+    }
+
     /// Whether its numbers have a meaning.
     pub(super) fn check(&self) -> Result<(), SweepError> {
         let numbers = [

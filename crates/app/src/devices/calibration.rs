@@ -1,0 +1,143 @@
+//! Measuring the actuator from the window: a worker plays a sweep on the output, listens, and fits what it heard.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use anyhow::Context as _;
+use shagreen_core::actuator::{Actuator, Drive, Limits, limited_drive};
+use shagreen_core::calibration::{Sweep, calibrate, fitted_actuator};
+use shagreen_core::units::{Hertz, Kilograms, Volts};
+use shagreen_device::audio_input::InputInfo;
+use shagreen_device::measure::{Listener, measure};
+use shagreen_device::output::OpenOptions;
+use shagreen_formats::library::id_from_name;
+
+use crate::rig::Rig;
+use crate::strings::devices as strings;
+
+/// What is asked for before a measurement.
+#[derive(Clone, Debug)]
+pub(super) struct Question {
+    /// Id of the input that the accelerometer is on.
+    pub(super) input: Option<String>,
+    /// Acceleration of a sample of 1.0, in m/s².
+    pub(super) sensitivity_mps2: f64,
+    /// Mass that the actuator shakes, in g.
+    pub(super) load_g: f64,
+    /// Peak of the sweep as a share of full scale.
+    pub(super) amplitude: f64,
+}
+
+impl Default for Question {
+    fn default() -> Self {
+        Self { input: None, sensitivity_mps2: 98.1, load_g: 40.0, amplitude: 0.25 }
+    }
+}
+
+/// What came of a measurement.
+pub(super) struct Outcome {
+    pub(super) actuator: Actuator,
+    pub(super) fit_error_db: f64,
+    pub(super) warnings: Vec<String>,
+}
+
+/// A measurement that runs.
+pub(super) struct Job {
+    outcome: Receiver<anyhow::Result<Outcome>>,
+    /// Thousandths that are done.
+    done: Arc<AtomicU32>,
+    goes_on: Arc<AtomicBool>,
+}
+
+impl Job {
+    /// Begins to measure what hangs on output `id`; that must not be open meanwhile.
+    pub(super) fn start(id: String, question: Question, rig: Rig, ctx: egui::Context) -> Self {
+        let (sender, outcome) = channel();
+        let (done, goes_on) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(true)));
+        let (told, still) = (Arc::clone(&done), Arc::clone(&goes_on));
+        std::thread::spawn(move || {
+            let mut go_on = |share: f64| {
+                told.store((1000.0 * share) as u32, Ordering::Relaxed);
+                ctx.request_repaint();
+                still.load(Ordering::Relaxed)
+            };
+            // The window may have closed meanwhile: then nobody asks any more.
+            let _ = sender.send(measured(&id, &question, &rig, &mut go_on));
+            ctx.request_repaint();
+        });
+        Self { outcome, done, goes_on }
+    }
+
+    /// Share that is done, 0..1.
+    pub(super) fn share(&self) -> f32 {
+        self.done.load(Ordering::Relaxed) as f32 / 1000.0
+    }
+
+    /// Lets the sweep fade.
+    pub(super) fn cancel(&self) {
+        self.goes_on.store(false, Ordering::Relaxed);
+    }
+
+    /// What came of it, once it is over.
+    pub(super) fn outcome(&self) -> Option<anyhow::Result<Outcome>> {
+        match self.outcome.try_recv() {
+            Ok(outcome) => Some(outcome),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err(anyhow::anyhow!(strings::CALIBRATION_BROKEN))),
+        }
+    }
+}
+
+impl Drop for Job {
+    fn drop(&mut self) {
+        self.cancel();
+    }
+}
+
+fn measured(
+    id: &str,
+    question: &Question,
+    rig: &Rig,
+    go_on: &mut dyn FnMut(f64) -> bool,
+) -> anyhow::Result<Outcome> {
+    let input = question.input.clone().context(strings::NO_INPUT)?;
+    let sweep = Sweep { amplitude: question.amplitude, ..Sweep::USUAL };
+    let drive = Drive::new(Volts(rig.full_scale_volts))?;
+    let limits = rig.actuator.as_ref().map_or(Limits::default(), |actuator| actuator.limits);
+    let options = OpenOptions {
+        model_rate_hz: 1000.0,
+        preferred_rate_hz: None,
+        buffer_frames: None,
+        seed: 1,
+        drive: limited_drive(&limits, drive),
+        channels: rig.channels(),
+    };
+    let sensitivity_mps2 = question.sensitivity_mps2;
+    let listener = Listener::Input { id: input, channel_idx: 0, sensitivity_mps2 };
+    let heard = measure(id, options, &listener, &|rate_hz| sweep.drive_samples(rate_hz), go_on)?;
+    let mut warnings = Vec::new();
+    if heard.status.limited_samples > 0 || heard.status.heat_gain < 0.99 {
+        warnings.push(strings::CALIBRATION_LIMITED.to_owned());
+    }
+    if heard.status.underruns > 0 {
+        warnings.push(strings::calibration_dropouts(heard.status.underruns));
+    }
+    let calibration = calibrate(&heard.mps2, Hertz(heard.rate_hz), &sweep, drive)?;
+    warnings.extend(calibration.warnings.iter().map(ToString::to_string));
+    let fit = calibration.fit?;
+    let name = strings::calibrated_name(rig.actuator.as_ref().map(|actuator| actuator.name.as_str()));
+    let load = Kilograms::from_g(question.load_g);
+    let actuator = Actuator {
+        id: id_from_name(&name),
+        source: strings::calibrated_source(question.load_g, drive.full_scale.0),
+        name,
+        ..fitted_actuator(rig.actuator.clone(), &fit, Some(load), drive)
+    };
+    Ok(Outcome { actuator, fit_error_db: fit.error_db, warnings })
+}
+
+/// The name of an input, or its id where it is not listed.
+pub(super) fn name_of(inputs: &[InputInfo], id: &str) -> String {
+    inputs.iter().find(|input| input.id == id).map_or(id.to_owned(), |input| input.name.clone())
+}

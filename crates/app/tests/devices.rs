@@ -1,0 +1,92 @@
+//! The sheet of devices, as a person would use it.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use shagreen_app::rig::Rig;
+use shagreen_app::strings::devices as strings;
+
+use support::{Author, author, choose, click, says, unnamed_controls, wait, window};
+
+fn opened() -> Author {
+    let mut harness = author();
+    click(&mut harness, strings::OPEN);
+    wait(&mut harness, "the sheet opens", |h| says(h, strings::TITLE));
+    harness
+}
+
+fn rig(harness: &Author) -> &Rig {
+    window(harness).session().rig()
+}
+
+#[test]
+fn the_sheet_opens_and_closes_by_keys_and_names_everything() {
+    let mut harness = author();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::D);
+    wait(&mut harness, "the sheet opens", |h| says(h, strings::ACTUATOR));
+    assert_eq!(unnamed_controls(&harness), [""; 0]);
+    assert!(says(&harness, "48000 Hz, 2 channels"));
+    harness.key_press(Key::Escape);
+    wait(&mut harness, "the sheet closes", |h| !says(h, strings::ACTUATOR));
+}
+
+#[test]
+fn an_actuator_is_chosen_equalized_and_limits_the_output() {
+    let mut harness = opened();
+    choose(&mut harness, strings::ACTUATOR, "Haptuator Mark II-D");
+    wait(&mut harness, "it is taken over", |h| rig(h).actuator.is_some());
+    assert!(says(&harness, "65 Hz, Q 4.1") && says(&harness, "1.41 V rms for long, 4.5 V at most"));
+    wait(&mut harness, "the output is open again", |h| window(h).session().status().is_some());
+    let drive = rig(&harness).drive().unwrap();
+    assert!(drive.inverse.is_some() && drive.budget.is_some());
+    click(&mut harness, strings::EQUALIZE);
+    wait(&mut harness, "the equalizer is off", |h| !rig(h).equalizes);
+    assert!(rig(&harness).drive().unwrap().inverse.is_none());
+    choose(&mut harness, strings::ACTUATOR, strings::UNCALIBRATED);
+    wait(&mut harness, "none is known", |h| rig(h).actuator.is_none());
+}
+
+#[test]
+fn an_actuator_without_a_response_is_named_and_can_be_left() {
+    let mut harness = opened();
+    choose(&mut harness, strings::ACTUATOR, "MM1C");
+    wait(&mut harness, "what to do is said", |h| says(h, "calibrate"));
+}
+
+#[test]
+fn buffers_and_channels_open_the_output_again() {
+    let mut harness = opened();
+    choose(&mut harness, strings::BUFFER, &strings::buffer(512, 48_000.0));
+    wait(&mut harness, "the buffer is taken", |h| {
+        window(h).session().stream().is_some_and(|(.., frames)| frames == Some(512))
+    });
+    choose(&mut harness, strings::CHANNELS, &strings::channel(1));
+    wait(&mut harness, "the channel is taken", |h| rig(h).channel == Some(1));
+}
+
+#[test]
+fn a_tone_plays_and_ends() {
+    let mut harness = opened();
+    click(&mut harness, strings::PLAY_TONE);
+    wait(&mut harness, "the tone plays", |h| {
+        window(h).session().status().is_some_and(|s| s.plays_signal && s.peak > 0.01)
+    });
+    wait(&mut harness, "it can be stopped", |h| h.query_by_label(strings::STOP_TONE).is_some());
+    click(&mut harness, strings::STOP_TONE);
+    wait(&mut harness, "the tone ends", |h| window(h).session().status().is_some_and(|s| !s.plays_signal));
+}
+
+#[test]
+fn a_profile_that_cannot_be_read_is_said() {
+    let mut harness = opened();
+    let field = harness.get_by_role_and_label(Role::TextInput, strings::PROFILE_PATH);
+    field.focus();
+    field.type_text("no/such/profile.toml");
+    harness.step();
+    click(&mut harness, strings::OPEN_PROFILE);
+    wait(&mut harness, "the error is shown", |h| says(h, "no/such/profile.toml: "));
+    assert!(rig(&harness).actuator.is_none());
+}
