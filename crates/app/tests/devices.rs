@@ -52,7 +52,7 @@ fn an_actuator_is_chosen_equalized_and_limits_the_output() {
 #[test]
 fn an_actuator_without_a_response_is_named_and_can_be_left() {
     let mut harness = opened();
-    choose(&mut harness, strings::ACTUATOR, "MM1C");
+    choose(&mut harness, strings::ACTUATOR, "Haptuator MM1C");
     wait(&mut harness, "what to do is said", |h| says(h, "calibrate"));
 }
 

@@ -10,7 +10,7 @@ pub struct Budget {
 }
 
 /// Up to this share of the budget nothing is turned down.
-const FREE_SHARE: f64 = 0.95;
+pub const FREE_SHARE: f64 = 0.95;
 
 /// The heat of a coil and the gain that keeps it within its [`Budget`].
 ///
