@@ -149,7 +149,7 @@ fn response_ui(ui: &mut Ui, actuator: &Actuator, equalizes: bool) {
         .y_axis_formatter(|mark, _| format!("{:.0} dB", mark.value + 0.0))
         .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [40.0, 20.0, 20.0]))
         .show(ui, |plot| {
-            plot.set_plot_bounds_x(1.0..=3.0);
+            plot.set_plot_bounds_x(0.96..=3.06);
             plot.set_plot_bounds_y(-40.0..=30.0);
             let (weak, strong) = (t.text_weak, t.accent);
             plot.line(Line::new("", bare).color(if equalizes { weak } else { strong }).width(1.5));

@@ -27,7 +27,7 @@ pub(super) fn latency_ui(ui: &mut Ui, session: &Session) {
     fixed(Plot::new("latency"), t.line)
         .height(HEIGHT)
         .x_axis_formatter(|mark, _| format!("{:.0} s", mark.value + 0.0))
-        .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [5.0, 2.5, 2.5]))
+        .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [5.0, 5.0, 1.0]))
         .y_axis_formatter(|mark, _| format!("{:.0}", mark.value))
         .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [20.0, 10.0, 10.0]))
         .show(ui, |plot| {
