@@ -37,7 +37,7 @@ pub(crate) struct Args {
     /// Channel of the input, from 1.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
     input_channel: u16,
-    /// How many strokes to measure.
+    /// How many taps to measure, and how many strokes.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u16).range(1..=1000))]
     strokes: u16,
     /// Reports of the pen a second.
@@ -68,7 +68,7 @@ fn report_rate(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    // Half of the strokes land with a tap, and half are strokes alone: each kind is measured where nothing else sounds.
+    // Each kind is measured where nothing else sounds.
     let taps = measure(args, true)?;
     let strokes = measure(args, false)?;
     let told = |measured: &Measured, budget_secs: f32| {

@@ -575,7 +575,7 @@ impl Session {
             self.latencies.pop_front();
         }
         if let Some(latency) = self.status().map(|status| status.latency)
-            && latency.n_touches != n_touches_before
+            && latency.n_touches > n_touches_before
         {
             self.latencies.push_back((Instant::now(), latency.stroke_secs, latency.tap_secs));
         }

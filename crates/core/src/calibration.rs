@@ -312,8 +312,7 @@ impl Calibration {
 fn check(recording: &[f64], rate: Hertz, sweep: &Sweep) -> Result<Sweep, CalibrationError> {
     sweep.check()?;
     let high_hz = sweep.high.0.min(sweep::NYQUIST_SHARE * 0.5 * rate.0);
-    // A rate that is no number fails here too.
-    if high_hz.is_nan() || high_hz < sweep::LEAST_RATIO * sweep.low.0 {
+    if !rate.0.is_finite() || high_hz.is_nan() || high_hz < sweep::LEAST_RATIO * sweep.low.0 {
         let (rate_hz, low_hz) = (rate.0, sweep.low.0);
         return Err(CalibrationError::Rate { rate_hz, low_hz, high_hz });
     }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant, SystemTime};
 use pulseaudio::protocol::stream::{BufferAttr, StreamFlags};
 use pulseaudio::protocol::{
     ChannelMap, ChannelVolume, Command, CorkStreamParams, CreatePlaybackStreamReply, LatencyParams,
-    PlaybackLatency, PlaybackStreamParams, Prop, Props, SampleFormat, SampleSpec,
+    MAX_MEMBLOCKQ_LENGTH, PlaybackLatency, PlaybackStreamParams, Prop, Props, SampleFormat, SampleSpec,
 };
 
 use super::connection::{Connection, Failure, Message};
@@ -144,7 +144,9 @@ impl Playback {
             let message = self.connection.next().map_err(hung_up)?;
             match message.command {
                 Command::Request(request) if request.channel == self.channel => {
-                    self.requested_bytes += request.length as usize;
+                    // What it may hold in all is all that it can want.
+                    let requested = self.requested_bytes.saturating_add(request.length as usize);
+                    self.requested_bytes = requested.min(MAX_MEMBLOCKQ_LENGTH);
                     self.fill().map_err(hung_up)?;
                 }
                 Command::Started(_) => self.has_started = true,
@@ -192,7 +194,7 @@ impl Playback {
         }
         // A latency that cannot be read is that of before.
         let Ok(reply) = message.reply::<PlaybackLatency>(self.connection.version()) else { return };
-        let waiting_bytes = (reply.write_offset - reply.read_offset).max(0) as f64;
+        let waiting_bytes = reply.write_offset.saturating_sub(reply.read_offset).max(0) as f64;
         let waiting_secs = waiting_bytes / (4.0 * self.n_channels as f64 * f64::from(self.rate_hz));
         self.latency =
             Duration::from_micros(reply.sink_usec) + Duration::from_secs_f64(waiting_secs.min(60.0));
