@@ -224,6 +224,7 @@ fn source(args: &Args) -> anyhow::Result<Source<'_>> {
 }
 
 fn make_sweep(args: &Args, sweep: &Sweep, out: &Path) -> anyhow::Result<()> {
+    refuse_foreign(out, "the sweep", |bytes| bytes.starts_with(b"RIFF"))?;
     let samples = sweep.signal(Hertz(f64::from(args.rate)))?;
     let samples: Vec<f32> = samples.iter().map(|sample| *sample as f32).collect();
     wav::write_samples(out, &samples, args.rate)?;
