@@ -6,13 +6,9 @@ use shagreen_core::calibration::Sweep;
 use shagreen_core::units::Hertz;
 use shagreen_device::engine::ChannelMask;
 use shagreen_device::measure::{Listener, SILENCE_SECS, measure};
-use shagreen_device::output::OpenOptions;
 
 use crate::cli::calibrate_recording::Recorded;
 use crate::cli::output::{self, Progress};
-
-/// Rate that textures would have: nothing is rendered here.
-const MODEL_RATE_HZ: f32 = 1000.0;
 
 /// Plays the sweep on output `id` and records what the sensor hears. The limits of an actuator that is known hold.
 pub(crate) fn record_live(
@@ -22,23 +18,17 @@ pub(crate) fn record_live(
     actuator: Option<&Actuator>,
     drive: Drive,
 ) -> anyhow::Result<Recorded> {
-    let options = OpenOptions {
-        model_rate_hz: MODEL_RATE_HZ,
-        preferred_rate_hz: None,
-        buffer_frames: None,
-        seed: 1,
-        drive: limited_drive(&actuator.map_or(Limits::default(), |actuator| actuator.limits), drive),
-        channels: ChannelMask::FIRST_TWO,
-    };
+    let limits = actuator.map_or(Limits::default(), |actuator| actuator.limits);
+    let driven = (limited_drive(&limits, drive), ChannelMask::FIRST_TWO);
     let secs = sweep.seconds + 2.0 * sweep.silence_secs + 2.0 * SILENCE_SECS;
     let progress = Progress::new("ms measured", output::in_ms(secs));
-    let heard = measure(id, options, listener, &|rate_hz| sweep.drive_samples(rate_hz), &mut |share| {
+    let heard = measure(id, driven, listener, &|rate_hz| sweep.drive_samples(rate_hz), &mut |share| {
         progress.set_secs(share * secs);
         true
     });
     progress.finish();
     let heard = heard.context("cannot calibrate")?;
-    if heard.status.limited_samples > 0 || heard.status.heat_gain < 0.99 {
+    if heard.was_limited() {
         output::warn("the limits of the actuator turned the sweep down: measure with a lower --amplitude");
     }
     if heard.status.underruns > 0 {

@@ -19,10 +19,43 @@ use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, make_engine};
 /// The one id that needs no search: the search opens every card.
 const ALSA_DEFAULT: &str = "alsa:default";
 
-/// What outputs are called in messages.
-pub(crate) const OUTPUT: &str = "output";
-/// What inputs are called in messages.
-pub(crate) const INPUT: &str = "input";
+/// Which way sound goes through a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    Out,
+    In,
+}
+
+impl Way {
+    /// What such devices are called in messages.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Out => "output",
+            Self::In => "input",
+        }
+    }
+
+    fn default_of(self, host: &cpal::Host) -> Option<cpal::Device> {
+        match self {
+            Self::Out => host.default_output_device(),
+            Self::In => host.default_input_device(),
+        }
+    }
+
+    fn is_supported_by(self, device: &cpal::Device) -> bool {
+        match self {
+            Self::Out => device.supports_output(),
+            Self::In => device.supports_input(),
+        }
+    }
+}
+
+/// A device that can be opened by its id.
+pub(crate) struct Listed {
+    pub(crate) id: String,
+    pub(crate) name: String,
+    pub(crate) is_default: bool,
+}
 
 /// A stream of the system, open until it is dropped.
 pub(crate) struct AudioOutput {
@@ -45,7 +78,7 @@ pub(crate) struct Opened {
 }
 
 /// Names under which ALSA lists its plugins: they convert for another output, or are none. Who means one opens it by id.
-pub(crate) const ALSA_CONVERTERS: [&str; 8] = [
+const ALSA_CONVERTERS: [&str; 8] = [
     "alsa:null",
     "alsa:lavrate",
     "alsa:samplerate",
@@ -58,7 +91,7 @@ pub(crate) const ALSA_CONVERTERS: [&str; 8] = [
 
 /// Whether an id names a card by its number (`alsa:hw:CARD=0,DEV=0`, `alsa:plughw:1,0`): after replugging, the number may
 /// be another card's. Names of cards never begin with a digit.
-pub(crate) fn is_by_number(id: &str) -> bool {
+fn is_by_number(id: &str) -> bool {
     let Some((_, arguments)) = id.strip_prefix("alsa:").and_then(|pcm| pcm.split_once(':')) else {
         return false;
     };
@@ -68,30 +101,37 @@ pub(crate) fn is_by_number(id: &str) -> bool {
 
 /// The outputs of every system of sound that answers. None is opened.
 pub(crate) fn list() -> Vec<OutputInfo> {
-    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Gone since.
-    hosts.flat_map(|host| list_of(&host)).collect()
+    let output =
+        |Listed { id, name, is_default }| OutputInfo { id, name, kind: OutputKind::Audio, is_default };
+    devices(Way::Out).into_iter().map(output).collect()
 }
 
-fn list_of(host: &cpal::Host) -> Vec<OutputInfo> {
-    let default = host.default_output_device();
+/// The devices of every system of sound that answers, which sound goes through this way. None is opened.
+pub(crate) fn devices(way: Way) -> Vec<Listed> {
+    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Gone since.
+    hosts.flat_map(|host| devices_of(&host, way)).collect()
+}
+
+fn devices_of(host: &cpal::Host, way: Way) -> Vec<Listed> {
+    let default = way.default_of(host);
     let default_id = default.as_ref().and_then(|device| device.id().ok()); // Pulled out since.
     // The default is not among the devices of every system.
-    let found = host.devices().into_iter().flatten().filter(cpal::Device::supports_output);
-    let mut outputs: Vec<OutputInfo> = Vec::new();
+    let found = host.devices().into_iter().flatten().filter(|device| way.is_supported_by(device));
+    let mut listed: Vec<Listed> = Vec::new();
     for device in default.into_iter().chain(found) {
         let Ok(id) = device.id() else { continue };
         let is_default = Some(&id) == default_id.as_ref();
         let id = id.to_string();
         let is_device = !ALSA_CONVERTERS.contains(&id.as_str()) && !is_by_number(&id);
-        if is_device && outputs.iter().all(|output| output.id != id) {
-            outputs.push(OutputInfo { id, name: device.to_string(), kind: OutputKind::Audio, is_default });
+        if is_device && listed.iter().all(|other| other.id != id) {
+            listed.push(Listed { id, name: device.to_string(), is_default });
         }
     }
-    outputs
+    listed
 }
 
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
-    let device = find(OUTPUT, id)?;
+    let device = find(Way::Out, id)?;
     let configs = configs_of(id, &device)?;
     let Some((range, rate_hz)) = choose(&configs, options) else {
         let message = format!(
@@ -112,7 +152,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
             }
             built => built?,
         };
-    stream.play().map_err(|error| explain(OUTPUT, id, "started", &error))?;
+    stream.play().map_err(|error| explain(Way::Out, id, "started", &error))?;
     let opened = Opened {
         rate_hz,
         channels: range.channels(),
@@ -124,7 +164,8 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
 }
 
 /// The device of exactly this id.
-pub(crate) fn find(what: &str, id: &str) -> Result<cpal::Device, DeviceError> {
+pub(crate) fn find(way: Way, id: &str) -> Result<cpal::Device, DeviceError> {
+    let what = way.name();
     let not_found = || {
         let message = format!(
             "there is no {what} `{id}` on this machine; `shagreen devices` lists those that there are"
@@ -139,12 +180,11 @@ pub(crate) fn find(what: &str, id: &str) -> Result<cpal::Device, DeviceError> {
         return Err(DeviceError::new(DeviceErrorKind::NotFound, message));
     }
     let device_id: cpal::DeviceId = id.parse().map_err(|_| not_found())?;
-    let host = cpal::host_from_id(device_id.host()).map_err(|error| explain(what, id, "found", &error))?;
+    let host = cpal::host_from_id(device_id.host()).map_err(|error| explain(way, id, "found", &error))?;
     if id == ALSA_DEFAULT {
         // A name like any other to ALSA. Elsewhere the default device is one that is followed when it changes, and
         // must be opened by its own id.
-        let default = if what == INPUT { host.default_input_device() } else { host.default_output_device() };
-        return default.ok_or_else(not_found);
+        return way.default_of(&host).ok_or_else(not_found);
     }
     host.device_by_id(&device_id).ok_or_else(not_found)
 }
@@ -152,7 +192,7 @@ pub(crate) fn find(what: &str, id: &str) -> Result<cpal::Device, DeviceError> {
 fn configs_of(id: &str, device: &cpal::Device) -> Result<Vec<SupportedStreamConfigRange>, DeviceError> {
     let configs = device
         .supported_output_configs()
-        .map_err(|error| explain(OUTPUT, id, "asked what it can do", &error))?;
+        .map_err(|error| explain(Way::Out, id, "asked what it can do", &error))?;
     Ok(configs.collect())
 }
 
@@ -197,7 +237,7 @@ fn build_as<T: SizedSample + FromSample<f32>>(
             move |error| note_error(&id_of_errors, &mut reporter, &error),
             Some(Duration::from_secs(1)),
         )
-        .map_err(|error| explain(OUTPUT, id, "opened", &error))?;
+        .map_err(|error| explain(Way::Out, id, "opened", &error))?;
     Ok((handle, stream, engine_latency_secs))
 }
 
@@ -231,7 +271,7 @@ fn note_error(id: &str, reporter: &mut Reporter, error: &cpal::Error) {
 }
 
 /// An error of the system before anything played.
-pub(crate) fn explain(what: &str, id: &str, done: &str, error: &cpal::Error) -> DeviceError {
+pub(crate) fn explain(way: Way, id: &str, done: &str, error: &cpal::Error) -> DeviceError {
     let (kind, advice) = match error.kind() {
         ErrorKind::DeviceBusy => (DeviceErrorKind::Busy, "close the program that uses it and try again"),
         ErrorKind::DeviceNotAvailable => {
@@ -248,11 +288,11 @@ pub(crate) fn explain(what: &str, id: &str, done: &str, error: &cpal::Error) -> 
         }
         _ => (DeviceErrorKind::Backend, "try again, or choose another: `shagreen devices` lists them"),
     };
-    DeviceError::new(kind, format!("the {what} `{id}` cannot be {done}: {}; {advice}", reason(error)))
+    DeviceError::new(kind, format!("the {} `{id}` cannot be {done}: {}; {advice}", way.name(), reason(error)))
 }
 
 /// The system's words, to go in the middle of a sentence.
-pub(crate) fn reason(error: &cpal::Error) -> String {
+fn reason(error: &cpal::Error) -> String {
     error.to_string().trim_end_matches('.').to_owned()
 }
 

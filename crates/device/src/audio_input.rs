@@ -5,11 +5,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use cpal::traits::{DeviceTrait as _, HostTrait as _, StreamTrait as _};
+use cpal::traits::{DeviceTrait as _, StreamTrait as _};
 use cpal::{FromSample, Sample as _, SampleFormat, SizedSample, StreamConfig, SupportedStreamConfigRange};
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use crate::audio::{ALSA_CONVERTERS, INPUT, explain, find, is_by_number};
+use crate::audio::{Listed, Way, devices, explain, find};
 use crate::error::{DeviceError, DeviceErrorKind};
 
 /// Samples that can wait to be read: more than two seconds at 192 kHz.
@@ -26,20 +26,7 @@ pub struct InputInfo {
 
 /// The inputs of this machine. None is opened.
 pub fn list_inputs() -> Vec<InputInfo> {
-    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Gone since.
-    let mut inputs: Vec<InputInfo> = Vec::new();
-    for host in hosts {
-        let default = host.default_input_device();
-        let found = host.devices().into_iter().flatten().filter(cpal::Device::supports_input);
-        for device in default.into_iter().chain(found) {
-            let Ok(id) = device.id().map(|id| id.to_string()) else { continue }; // Pulled out since.
-            let is_device = !ALSA_CONVERTERS.contains(&id.as_str()) && !is_by_number(&id);
-            if is_device && inputs.iter().all(|input| input.id != id) {
-                inputs.push(InputInfo { id, name: device.to_string() });
-            }
-        }
-    }
-    inputs
+    devices(Way::In).into_iter().map(|Listed { id, name, .. }| InputInfo { id, name }).collect()
 }
 
 /// What the callback tells.
@@ -79,10 +66,10 @@ impl Recorder {
     /// - [`DeviceErrorKind::Unsupported`] where it has no such channel.
     /// - [`DeviceErrorKind::Unavailable`] or [`DeviceErrorKind::Backend`] where the system fails.
     pub fn open(id: &str, channel_idx: usize, preferred_rate_hz: u32) -> Result<Self, DeviceError> {
-        let device = find(INPUT, id)?;
+        let device = find(Way::In, id)?;
         let configs: Vec<SupportedStreamConfigRange> = device
             .supported_input_configs()
-            .map_err(|error| explain(INPUT, id, "asked what it can do", &error))?
+            .map_err(|error| explain(Way::In, id, "asked what it can do", &error))?
             .collect();
         let Some((range, rate_hz)) = choose(&configs, channel_idx, preferred_rate_hz) else {
             let message = format!(
@@ -114,7 +101,7 @@ impl Recorder {
             SampleFormat::U8 => build::<u8>(id, &device, intake),
             _ => build::<f32>(id, &device, intake),
         }?;
-        stream.play().map_err(|error| explain(INPUT, id, "started", &error))?;
+        stream.play().map_err(|error| explain(Way::In, id, "started", &error))?;
         Ok(Self { id: id.to_owned(), rate_hz, samples, told, _stream: stream })
     }
 
@@ -253,7 +240,7 @@ where
             },
             Some(Duration::from_secs(1)),
         )
-        .map_err(|error| explain(INPUT, id, "opened", &error))
+        .map_err(|error| explain(Way::In, id, "opened", &error))
 }
 
 #[cfg(test)]

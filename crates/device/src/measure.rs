@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use shagreen_synth::drive::Driven;
+use shagreen_synth::drive::{DriveConfig, Driven};
 
 use crate::audio_input::Recorder;
-use crate::engine::Handle;
+use crate::engine::{ChannelMask, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::output::{self, OpenOptions, Running};
 use crate::serial::{self, SerialOptions, SerialSensor};
@@ -78,18 +78,34 @@ pub struct Heard {
     pub status: Status,
 }
 
-/// Opens output `id`, plays on it the drive that `drive_at` makes for its rate in Hz, and returns what was heard.
+impl Heard {
+    /// Whether the limits of the actuator turned the signal down.
+    pub fn was_limited(&self) -> bool {
+        self.status.limited_samples > 0 || self.status.heat_gain < 0.99
+    }
+}
+
+/// Opens output `id` with these limits on these channels, plays on it the drive that `drive_at` makes for its rate in Hz, and returns what was heard.
 ///
 /// # Errors
 /// Those of [`crate::output::open`], of the listener and of [`play_and_listen`]; [`DeviceErrorKind::Config`] where
 /// `drive_at` says why there is no drive.
 pub fn measure(
     id: &str,
-    options: OpenOptions,
+    (drive, channels): (DriveConfig, ChannelMask),
     listener: &Listener,
     drive_at: &dyn Fn(f64) -> Result<Vec<f32>, String>,
     go_on: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Heard, DeviceError> {
+    // Nothing is rendered here: the rate of textures and the noise say nothing.
+    let options = OpenOptions {
+        model_rate_hz: 1000.0,
+        preferred_rate_hz: None,
+        buffer_frames: None,
+        seed: 1,
+        drive,
+        channels,
+    };
     let mut through = |handle: &mut Handle, running: &Running, sensor: &mut dyn Sensor| {
         let refuse = |message: String| DeviceError::new(DeviceErrorKind::Config, message);
         let samples = drive_at(f64::from(running.rate_hz())).map_err(refuse)?;

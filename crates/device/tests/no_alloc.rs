@@ -4,6 +4,8 @@
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod support;
+
 use std::time::Instant;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
@@ -11,58 +13,19 @@ use shagreen_device::controls::{Drive, Input};
 use shagreen_device::engine::{self, ChannelMask, Engine, EngineConfig, Handle, SLOTS};
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::signal::Signal;
-use shagreen_device::synth::budget::Budget;
 use shagreen_device::synth::contact::Contact;
-use shagreen_device::synth::drive::{DriveConfig, Driven, Inverse};
-use shagreen_device::synth::equalizer::Resonance;
+use shagreen_device::synth::drive::Driven;
 use shagreen_device::synth::renderer::{Blend, Mix, Parent};
 use shagreen_device::synth::tap::Tap;
-use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
-use shagreen_device::texture::OwnedTexture;
 use shagreen_device::touch::Touch;
 use shagreen_device::track::{PenSample, Track};
+
+use support::{DRIVE, texture};
 
 #[global_allocator]
 static GATE: AllocDisabler = AllocDisabler;
 
 const HAND: Hand = Hand { path: Path::Line, speed_mps: 0.5, force_n: 0.5, extent_m: 0.06 };
-
-/// An actuator with everything that can stand before one.
-const DRIVE: DriveConfig = DriveConfig {
-    inverse: Some(Inverse {
-        resonance: Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 },
-        lowest_hz: 20.0,
-    }),
-    full_scale: 4.0,
-    ceiling: 0.9,
-    look_ahead_secs: 0.002,
-    budget: Some(Budget { rms: 0.3, time_secs: 5.0 }),
-};
-
-fn texture(level_mps2: f32) -> OwnedTexture {
-    let mut lsf = [0.0; MAX_ORDER];
-    (lsf[0], lsf[1]) = (1.0, 2.0);
-    let node = |level_mps2| Node { level_mps2, lsf };
-    let triangle = Triangle {
-        nodes: [0, 1, 2],
-        neighbors: [NO_NEIGHBOR; 3],
-        weights: [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0],
-        ln_gain: [0.0; 6],
-    };
-    let nodes = [node(0.0), node(level_mps2), node(level_mps2)];
-    let (nodes, triangles) = (&nodes, &[triangle]);
-    OwnedTexture::new(Parts {
-        rate_hz: 1000.0,
-        order: 2,
-        ma_order: 0,
-        speed_max_mps: 1.0,
-        force_max_n: 1.0,
-        nodes,
-        excitations: &[],
-        triangles,
-    })
-    .unwrap()
-}
 
 fn track() -> Track {
     let sample = |i: u32| PenSample {

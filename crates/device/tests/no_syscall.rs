@@ -9,6 +9,8 @@
 #![cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "tests")]
 
+mod support;
+
 use std::os::unix::process::ExitStatusExt as _;
 use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,15 +22,13 @@ use shagreen_device::controls::{Drive, Input};
 use shagreen_device::engine::{self, ChannelMask, EngineConfig};
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::signal::Signal;
-use shagreen_device::synth::budget::Budget;
 use shagreen_device::synth::contact::Contact;
-use shagreen_device::synth::drive::{DriveConfig, Driven, Inverse};
-use shagreen_device::synth::equalizer::Resonance;
+use shagreen_device::synth::drive::Driven;
 use shagreen_device::synth::renderer::Mix;
 use shagreen_device::synth::tap::Tap;
-use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
-use shagreen_device::texture::OwnedTexture;
 use shagreen_device::touch::Touch;
+
+use support::{DRIVE, texture};
 
 /// Names what the program of its own does.
 const ROLE: &str = "SHAGREEN_SYSCALL_ROLE";
@@ -110,29 +110,6 @@ fn work_of(role: &str) -> Work {
     }
 }
 
-fn texture() -> OwnedTexture {
-    let mut lsf = [0.0; MAX_ORDER];
-    (lsf[0], lsf[1]) = (1.0, 2.0);
-    let node = |level_mps2| Node { level_mps2, lsf };
-    let triangle = Triangle {
-        nodes: [0, 1, 2],
-        neighbors: [NO_NEIGHBOR; 3],
-        weights: [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0],
-        ln_gain: [0.0; 6],
-    };
-    OwnedTexture::new(Parts {
-        rate_hz: 1000.0,
-        order: 2,
-        ma_order: 0,
-        speed_max_mps: 1.0,
-        force_max_n: 1.0,
-        nodes: &[node(0.0), node(3.0), node(3.0)],
-        excitations: &[],
-        triangles: &[triangle],
-    })
-    .unwrap()
-}
-
 /// Two seconds of all that an engine can do, with orders that lie in its rings.
 fn playing() -> Work {
     handle_time();
@@ -140,20 +117,11 @@ fn playing() -> Work {
         model_rate_hz: 1000.0,
         device_rate_hz: 48_000.0,
         seed: 1,
-        drive: DriveConfig {
-            inverse: Some(Inverse {
-                resonance: Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 },
-                lowest_hz: 20.0,
-            }),
-            full_scale: 4.0,
-            ceiling: 0.9,
-            look_ahead_secs: 0.002,
-            budget: Some(Budget { rms: 0.3, time_secs: 5.0 }),
-        },
+        drive: DRIVE,
         channels: ChannelMask::FIRST_TWO,
     })
     .unwrap();
-    let ids: Vec<_> = (0..8).map(|_| handle.load(texture()).unwrap()).collect();
+    let ids: Vec<_> = (0..8).map(|_| handle.load(texture(3.0)).unwrap()).collect();
     handle.set_mix(Mix::solo(ids[0])).unwrap();
     handle.set_input(Input::Hand(Hand {
         path: Path::Scribble,

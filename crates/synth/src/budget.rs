@@ -10,11 +10,11 @@ pub struct Budget {
 }
 
 /// Up to this share of the budget nothing is turned down.
-pub const FREE_SHARE: f64 = 0.95;
+const FREE_SHARE: f64 = 0.95;
 
 /// The heat of a coil and the gain that keeps it within its [`Budget`].
 ///
-/// With `e` the mean square over that of the budget, the gain is 1 up to [`FREE_SHARE`]² and falls so that its square
+/// With `e` the mean square over that of the budget, the gain is 1 up to `FREE_SHARE`² and falls so that its square
 /// is zero at 1: the budget is never exceeded by more than what is on its way through the look-ahead, whatever the
 /// input, and turned down by 0.4 dB at most while the drive stays at the budget itself.
 #[derive(Clone, Debug)]

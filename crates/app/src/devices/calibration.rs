@@ -10,7 +10,6 @@ use shagreen_core::calibration::{Sweep, calibrate, fitted_actuator};
 use shagreen_core::units::{Hertz, Kilograms, Volts};
 use shagreen_device::audio_input::InputInfo;
 use shagreen_device::measure::{Listener, measure};
-use shagreen_device::output::OpenOptions;
 use shagreen_formats::library::id_from_name;
 
 use crate::rig::Rig;
@@ -105,19 +104,12 @@ fn measured(
     let sweep = Sweep { amplitude: question.amplitude, ..Sweep::USUAL };
     let drive = Drive::new(Volts(rig.full_scale_volts))?;
     let limits = rig.actuator.as_ref().map_or(Limits::default(), |actuator| actuator.limits);
-    let options = OpenOptions {
-        model_rate_hz: 1000.0,
-        preferred_rate_hz: None,
-        buffer_frames: None,
-        seed: 1,
-        drive: limited_drive(&limits, drive),
-        channels: rig.channels(),
-    };
+    let driven = (limited_drive(&limits, drive), rig.channels());
     let sensitivity_mps2 = question.sensitivity_mps2;
     let listener = Listener::Input { id: input, channel_idx: 0, sensitivity_mps2 };
-    let heard = measure(id, options, &listener, &|rate_hz| sweep.drive_samples(rate_hz), go_on)?;
+    let heard = measure(id, driven, &listener, &|rate_hz| sweep.drive_samples(rate_hz), go_on)?;
     let mut warnings = Vec::new();
-    if heard.status.limited_samples > 0 || heard.status.heat_gain < 0.99 {
+    if heard.was_limited() {
         warnings.push(strings::CALIBRATION_LIMITED.to_owned());
     }
     if heard.status.underruns > 0 {

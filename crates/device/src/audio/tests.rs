@@ -1,4 +1,4 @@
-use super::{OUTPUT, Reporter, explain, find, is_by_number, list, note_error};
+use super::{Reporter, Way, explain, find, is_by_number, list, note_error};
 use crate::error::DeviceErrorKind;
 use crate::link::{Monitor, link};
 use crate::status::Status;
@@ -37,7 +37,7 @@ fn cards_are_known_by_name_and_never_by_number() {
         "alsa:hw:DEV=0,CARD=1",
     ] {
         assert!(is_by_number(id), "{id}");
-        let error = find(OUTPUT, id).map(|_| ()).unwrap_err();
+        let error = find(Way::Out, id).map(|_| ()).unwrap_err();
         assert_eq!(error.kind(), DeviceErrorKind::NotFound);
         assert!(error.message().contains("by its number"), "{error}");
     }
@@ -68,7 +68,7 @@ fn what_goes_on_is_counted_and_not_lost() {
 
 #[test]
 fn errors_say_what_where_and_what_to_do() {
-    let error = explain(OUTPUT, "alsa:this", "opened", &Error::new(ErrorKind::DeviceBusy));
+    let error = explain(Way::Out, "alsa:this", "opened", &Error::new(ErrorKind::DeviceBusy));
     assert_eq!(error.kind(), DeviceErrorKind::Busy);
     assert!(error.message().starts_with("the output `alsa:this` cannot be opened: "), "{error}");
     assert!(error.message().contains("close the program") && !error.message().contains(".;"), "{error}");

@@ -1,0 +1,45 @@
+//! What the gates of the callback share: an actuator, and a texture.
+
+use shagreen_device::synth::budget::Budget;
+use shagreen_device::synth::drive::{DriveConfig, Inverse};
+use shagreen_device::synth::equalizer::Resonance;
+use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
+use shagreen_device::texture::OwnedTexture;
+
+/// An actuator with everything that can stand before one.
+pub(crate) const DRIVE: DriveConfig = DriveConfig {
+    inverse: Some(Inverse {
+        resonance: Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 },
+        lowest_hz: 20.0,
+    }),
+    full_scale: 4.0,
+    ceiling: 0.9,
+    look_ahead_secs: 0.002,
+    budget: Some(Budget { rms: 0.3, time_secs: 5.0 }),
+};
+
+/// White noise whose level grows with speed and force.
+pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
+    let mut lsf = [0.0; MAX_ORDER];
+    (lsf[0], lsf[1]) = (1.0, 2.0);
+    let node = |level_mps2| Node { level_mps2, lsf };
+    let triangle = Triangle {
+        nodes: [0, 1, 2],
+        neighbors: [NO_NEIGHBOR; 3],
+        weights: [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0],
+        ln_gain: [0.0; 6],
+    };
+    let nodes = [node(0.0), node(level_mps2), node(level_mps2)];
+    let (nodes, triangles) = (&nodes, &[triangle]);
+    OwnedTexture::new(Parts {
+        rate_hz: 1000.0,
+        order: 2,
+        ma_order: 0,
+        speed_max_mps: 1.0,
+        force_max_n: 1.0,
+        nodes,
+        excitations: &[],
+        triangles,
+    })
+    .unwrap()
+}
