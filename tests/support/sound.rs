@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test uses some of it")]
 
+use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -10,6 +11,8 @@ use crate::guard::Guard;
 
 /// What the sinks run at, in Hz.
 pub(crate) const RATE_HZ: f64 = 48_000.0;
+/// Bytes of a frame that is recorded.
+const FRAME_BYTES: usize = 8;
 
 /// The server, with a null sink `ci`, its default, and another, `other`.
 pub(crate) struct SoundServer {
@@ -48,7 +51,7 @@ impl SoundServer {
              pcm.pulse { type pulse }\n"
                 .to_owned(),
         );
-        let daemon = with_server(Command::new("pulseaudio"), d)
+        let daemon = with_server(first_in_line("pulseaudio"), d)
             .args(["-n", "-F"])
             .arg(d.join("pulse.pa"))
             .args(["--daemonize=no", "--exit-idle-time=-1", "--disallow-exit", "--use-pid-file=no"])
@@ -71,13 +74,12 @@ impl SoundServer {
 
     /// Both channels of what sink `ci` gets while `during` runs, as the device's samples, -1..1.
     pub(crate) fn record(&self, during: impl FnOnce(&Self)) -> Vec<[f64; 2]> {
-        self.record_of("ci", during)
+        self.record_of("ci", during).frames
     }
 
-    /// The same of any sink. A recording ends where its sink goes.
-    pub(crate) fn record_of(&self, sink: &str, during: impl FnOnce(&Self)) -> Vec<[f64; 2]> {
-        let path = self.folder.path().join(format!("{sink}.raw"));
-        let recorder = self
+    /// The same of any sink, with its time. A recording ends where its sink goes.
+    pub(crate) fn record_of(&self, sink: &str, during: impl FnOnce(&Self)) -> Recording {
+        let mut recorder = self
             .command("parec")
             .args([
                 "-d",
@@ -88,18 +90,55 @@ impl SoundServer {
                 "--raw",
             ])
             .arg("--latency-msec=20")
-            .stdout(std::fs::File::create(&path).unwrap())
+            .stdout(Stdio::piped())
             .spawn()
             .unwrap();
+        let mut recorded = recorder.stdout.take().unwrap();
         let recorder = Guard(recorder);
+        let reader = std::thread::spawn(move || {
+            let (mut bytes, mut begun) = (Vec::new(), None::<Instant>);
+            let mut part = [0; 1 << 16];
+            while let Ok(n) = recorded.read(&mut part)
+                && n > 0
+            {
+                bytes.extend_from_slice(&part[..n]);
+                // What came soonest tells best when the first frame was.
+                let frames_secs = (bytes.len() / FRAME_BYTES) as f64 / RATE_HZ;
+                let first = Instant::now().checked_sub(Duration::from_secs_f64(frames_secs)).unwrap();
+                begun = Some(begun.map_or(first, |begun| begun.min(first)));
+            }
+            (bytes, begun)
+        });
         std::thread::sleep(Duration::from_millis(700));
         during(self);
         std::thread::sleep(Duration::from_millis(700));
         drop(recorder);
-        let bytes = std::fs::read(&path).unwrap();
+        let (bytes, begun) = reader.join().unwrap();
         let float = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        bytes.chunks_exact(8).map(|b| [float(&b[..4]), float(&b[4..])]).collect()
+        let frames = bytes.chunks_exact(FRAME_BYTES).map(|b| [float(&b[..4]), float(&b[4..])]).collect();
+        Recording { frames, begun: begun.expect("something is recorded") }
     }
+}
+
+/// What a sink got.
+pub(crate) struct Recording {
+    /// Both channels as the device's samples, -1..1.
+    pub(crate) frames: Vec<[f64; 2]>,
+    /// When the first of them was there, some milliseconds late at most.
+    pub(crate) begun: Instant,
+}
+
+/// A program that runs before all that have no deadline, where the system allows it: a sound server does on any desktop, and
+/// tests beside it must not make it late.
+fn first_in_line(program: &str) -> Command {
+    let first = ["--rr", "20"];
+    let may = Command::new("chrt").args(first).arg("true").stderr(Stdio::null()).status();
+    if !may.is_ok_and(|status| status.success()) {
+        return Command::new(program);
+    }
+    let mut command = Command::new("chrt");
+    command.args(first).arg(program);
+    command
 }
 
 fn with_server(mut command: Command, d: &Path) -> Command {

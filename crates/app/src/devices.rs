@@ -7,13 +7,15 @@ mod latency_ui;
 mod output_ui;
 mod pen_ui;
 
+use std::sync::mpsc::Receiver;
+
 use egui::{Align, Button, Context, Key, Label, Layout, Modal, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::actuator::Actuator;
 use shagreen_core::units::Kilograms;
 
 use self::calibration_ui::Measurement;
 use crate::command::Command;
-use crate::rig::Rig;
+use crate::rig::{Mounted, Rig};
 use crate::session::Session;
 use crate::strings::devices as strings;
 use crate::theme::{GAP, GROUP_GAP, tokens};
@@ -28,10 +30,10 @@ pub struct DevicesSheet {
     /// The rig as it is being changed; it is taken over when nothing is held any more.
     rig: Rig,
     built_in: Vec<Actuator>,
-    /// The actuator as it is in its profile, before another load.
-    profile: Option<Actuator>,
     load_g: Option<f64>,
     profile_path: String,
+    /// A profile that is being read.
+    reading: Option<Receiver<anyhow::Result<Actuator>>>,
     message: Option<String>,
     tone_hz: f64,
     tone_mps2: f64,
@@ -41,14 +43,12 @@ pub struct DevicesSheet {
 impl DevicesSheet {
     /// The sheet on a rig.
     pub fn new(rig: &Rig, built_in: Vec<Actuator>) -> Self {
-        let profile = rig.actuator.as_ref();
-        let original = profile.map(|a| built_in.iter().find(|b| b.id == a.id).unwrap_or(a).clone());
         Self {
-            load_g: profile.and_then(|a| a.measured?.load).map(Kilograms::g),
-            profile: original,
+            load_g: rig.mounted.as_ref().and_then(Mounted::load).map(Kilograms::g),
             rig: rig.clone(),
             built_in,
             profile_path: String::new(),
+            reading: None,
             message: None,
             tone_hz: 100.0,
             tone_mps2: 1.0,
@@ -68,10 +68,14 @@ impl DevicesSheet {
             self.content_ui(ui, session)
         });
         let mut commands = shown.inner;
+        self.carry_on_measuring(ctx, session);
         // What is dragged is taken over when it is let go: every change of the output interrupts it.
         let is_held = ctx.input(|i| i.pointer.any_down()) || ctx.text_edit_focused();
         if !is_held && !self.measurement.is_running() && self.rig != *session.rig() {
             commands.push(Command::SetRig(Box::new(self.rig.clone())));
+        }
+        if self.measurement.has_ended() {
+            commands.push(Command::TakeOutputBack);
         }
         if !shown.any_popup_open
             && !self.measurement.is_running()
@@ -100,7 +104,9 @@ impl DevicesSheet {
             ui.horizontal_top(|ui| {
                 ui.allocate_ui_with_layout(vec2(width, 0.0), column, |ui| {
                     ui.set_width(width);
-                    commands.extend(self.output_ui(ui, session));
+                    // What is measured is neither changed nor played on.
+                    let is_free = !self.measurement.is_running();
+                    commands.extend(ui.add_enabled_ui(is_free, |ui| self.output_ui(ui, session)).inner);
                     ui.add_space(GROUP_GAP);
                     latency_ui::latency_ui(ui, session);
                     ui.add_space(GROUP_GAP);
@@ -109,7 +115,8 @@ impl DevicesSheet {
                 ui.add_space(GROUP_GAP);
                 ui.allocate_ui_with_layout(vec2(width, 0.0), column, |ui| {
                     ui.set_width(width);
-                    self.actuator_ui(ui);
+                    let is_free = !self.measurement.is_running();
+                    ui.add_enabled_ui(is_free, |ui| self.actuator_ui(ui));
                     ui.add_space(GROUP_GAP);
                     commands.extend(self.pen_ui(ui, session));
                 });

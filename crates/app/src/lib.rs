@@ -23,6 +23,7 @@ use crate::session::OutputChoice;
 
 pub mod axes;
 mod axes_choice;
+mod background;
 pub mod blend_choice;
 pub mod build;
 pub mod canvas;

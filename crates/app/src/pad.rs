@@ -1,7 +1,8 @@
 //! The pad: a piece of the texture to stroke, with the mouse or by the automatic hand.
 
 use egui::{
-    Align2, ComboBox, CursorIcon, FontId, Rect, Role, Sense, Slider, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, ComboBox, CursorIcon, Event, FontId, Rect, Role, Sense, Slider, Stroke, Ui, WidgetInfo, pos2,
+    vec2,
 };
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::touch::Touch;
@@ -43,6 +44,8 @@ pub struct MouseReport {
     pub y_m: f64,
     /// Whether the button is down.
     pub pressed: bool,
+    /// How hard, 0..1, where the window system tells: a pen, or a screen that feels.
+    pub pressure: Option<f64>,
 }
 
 /// What happened on the pad in this frame.
@@ -89,14 +92,24 @@ pub fn pad_ui(
     let held_at = response.interact_pointer_pos().filter(|_| pressed || response.clicked());
     if let Some(pos) = dragged_to(ui, &response).or(held_at) {
         let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
-        outcome.mouse =
-            Some(MouseReport { x_m: f64::from(from_middle.x), y_m: f64::from(-from_middle.y), pressed });
+        let (x_m, y_m) = (f64::from(from_middle.x), f64::from(-from_middle.y));
+        outcome.mouse = Some(MouseReport { x_m, y_m, pressed, pressure: pressure(ui) });
     }
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
     if panel.session.touch().contact.force_n <= 0.0 {
         response.on_hover_text(strings::PAD_HELP);
     }
     outcome
+}
+
+/// The pressure that came last in this frame.
+fn pressure(ui: &Ui) -> Option<f64> {
+    ui.input(|i| {
+        i.events.iter().rev().find_map(|event| match event {
+            Event::Touch { force, .. } => force.map(f64::from),
+            _ => None,
+        })
+    })
 }
 
 fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Command> {

@@ -1,8 +1,8 @@
 //! The rig: how the output is opened, which actuator hangs on it, and which pen is held. It belongs to the machine, not to
 //! the project: undo does not touch it.
 
-use shagreen_core::actuator::{Actuator, Drive, drive_config};
-use shagreen_core::units::Volts;
+use shagreen_core::actuator::{Actuator, ActuatorError, Drive, drive_config};
+use shagreen_core::units::{Kilograms, Volts};
 use shagreen_device::engine::ChannelMask;
 use shagreen_device::output::{UNCALIBRATED_FULL_SCALE_MPS2, USUAL_BUFFER_FRAMES, USUAL_CEILING};
 use shagreen_device::pressure::PressureMap;
@@ -10,6 +10,39 @@ use shagreen_device::synth::drive::DriveConfig;
 
 /// Sizes of buffers that can be chosen, in frames.
 pub const BUFFERS: [u32; 6] = [32, 64, 128, 256, 512, 1024];
+
+/// An actuator on what it carries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mounted {
+    profile: Actuator,
+    on_load: Actuator,
+}
+
+impl Mounted {
+    /// An actuator on another load than its profile's where one is given.
+    ///
+    /// # Errors
+    /// Those of [`Actuator::at_load`].
+    pub fn new(profile: Actuator, load: Option<Kilograms>) -> Result<Self, ActuatorError> {
+        let on_load = load.map_or_else(|| Ok(profile.clone()), |load| profile.at_load(load))?;
+        Ok(Self { profile, on_load })
+    }
+
+    /// The actuator as its profile has it.
+    pub fn profile(&self) -> &Actuator {
+        &self.profile
+    }
+
+    /// The actuator on what it carries.
+    pub fn actuator(&self) -> &Actuator {
+        &self.on_load
+    }
+
+    /// What it carries, as far as that is known.
+    pub fn load(&self) -> Option<Kilograms> {
+        self.on_load.measured?.load
+    }
+}
 
 /// What stands around the program.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +52,7 @@ pub struct Rig {
     /// The only channel that is driven, counted from zero; without it the first two.
     pub channel: Option<usize>,
     /// The actuator, on what it carries; without it drive is in proportion to acceleration.
-    pub actuator: Option<Actuator>,
+    pub mounted: Option<Mounted>,
     /// Whether the actuator's response is undone.
     pub equalizes: bool,
     /// Volts at the actuator when the output is at full scale.
@@ -39,7 +72,7 @@ impl Default for Rig {
         Self {
             buffer_frames: USUAL_BUFFER_FRAMES,
             channel: None,
-            actuator: None,
+            mounted: None,
             equalizes: true,
             full_scale_volts: 1.0,
             full_scale_mps2: f64::from(UNCALIBRATED_FULL_SCALE_MPS2),
@@ -56,12 +89,17 @@ impl Rig {
     /// # Errors
     /// Says what of the actuator does not go together.
     pub fn drive(&self) -> anyhow::Result<DriveConfig> {
-        match &self.actuator {
+        match self.actuator() {
             None => Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING)),
             Some(actuator) => {
                 Ok(drive_config(actuator, Drive::new(Volts(self.full_scale_volts))?, self.equalizes)?)
             }
         }
+    }
+
+    /// The actuator, where it is known.
+    pub fn actuator(&self) -> Option<&Actuator> {
+        self.mounted.as_ref().map(Mounted::actuator)
     }
 
     /// The channels that are driven.
@@ -75,7 +113,7 @@ impl Rig {
             (
                 rig.buffer_frames,
                 rig.channel,
-                rig.actuator.clone(),
+                rig.actuator().cloned(),
                 rig.equalizes,
                 rig.full_scale_volts,
                 rig.full_scale_mps2,

@@ -7,6 +7,7 @@ mod heard;
 mod making;
 mod models_ahead;
 mod open_library;
+mod opening;
 mod path_walk;
 mod pen;
 mod places;
@@ -35,8 +36,8 @@ use crate::rig::Rig;
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
 
+pub use self::opening::OutputChoice;
 pub use self::pen::PenFacts;
-pub use self::player::OutputChoice;
 
 use self::heard::Heard;
 use self::models_ahead::ModelsAhead;

@@ -8,6 +8,8 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::rig::Rig;
 use shagreen_app::strings::devices as strings;
+use shagreen_core::actuator::Actuator;
+use shagreen_formats::actuator_toml::{built_in_actuators, write_actuator};
 
 use support::{Author, author, choose, click, says, unnamed_controls, wait, window};
 
@@ -37,7 +39,7 @@ fn the_sheet_opens_and_closes_by_keys_and_names_everything() {
 fn an_actuator_is_chosen_equalized_and_limits_the_output() {
     let mut harness = opened();
     choose(&mut harness, strings::ACTUATOR, "Haptuator Mark II-D");
-    wait(&mut harness, "it is taken over", |h| rig(h).actuator.is_some());
+    wait(&mut harness, "it is taken over", |h| rig(h).actuator().is_some());
     assert!(says(&harness, "65 Hz, Q 4.1") && says(&harness, "1.41 V rms for long, 4.5 V at most"));
     wait(&mut harness, "the output is open again", |h| window(h).session().status().is_some());
     let drive = rig(&harness).drive().unwrap();
@@ -46,7 +48,7 @@ fn an_actuator_is_chosen_equalized_and_limits_the_output() {
     wait(&mut harness, "the equalizer is off", |h| !rig(h).equalizes);
     assert!(rig(&harness).drive().unwrap().inverse.is_none());
     choose(&mut harness, strings::ACTUATOR, strings::UNCALIBRATED);
-    wait(&mut harness, "none is known", |h| rig(h).actuator.is_none());
+    wait(&mut harness, "none is known", |h| rig(h).actuator().is_none());
 }
 
 #[test]
@@ -54,6 +56,45 @@ fn an_actuator_without_a_response_is_named_and_can_be_left() {
     let mut harness = opened();
     choose(&mut harness, strings::ACTUATOR, "Haptuator MM1C");
     wait(&mut harness, "what to do is said", |h| says(h, "calibrate"));
+    // What drove another actuator does not drive this one.
+    wait(&mut harness, "the output is closed", |h| window(h).session().is_output_released());
+    assert!(window(&harness).session().status().is_none());
+    choose(&mut harness, strings::ACTUATOR, "Haptuator Mark II-D");
+    wait(&mut harness, "the output is open again", |h| window(h).session().status().is_some());
+}
+
+#[test]
+fn a_sheet_that_is_opened_again_knows_the_profile_that_was_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let built_in = built_in_actuators().unwrap();
+    let known = built_in.into_iter().find(|a| a.name == "Haptuator Mark II-D").unwrap();
+    // Of the same id as one of the program's.
+    let mine = Actuator { name: "Mine".to_owned(), ..known };
+    std::fs::write(&path, write_actuator(&mine)).unwrap();
+    let mut harness = opened();
+    read_profile(&mut harness, path.to_str().unwrap());
+    wait(&mut harness, "it is taken over", |h| rig(h).actuator().is_some());
+    click(&mut harness, strings::CLOSE);
+    wait(&mut harness, "the sheet closes", |h| !says(h, strings::ACTUATOR));
+    click(&mut harness, strings::OPEN);
+    wait(&mut harness, "the sheet opens", |h| says(h, strings::TITLE));
+    let load = harness.get_by_role_and_label(Role::SpinButton, strings::LOAD);
+    load.focus();
+    load.type_text("77");
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "another load is taken", |h| {
+        rig(h).mounted.as_ref().and_then(|m| m.load()).is_some_and(|load| (load.g() - 77.0).abs() < 1.0)
+    });
+    assert_eq!(rig(&harness).actuator().unwrap().name, "Mine");
+}
+
+fn read_profile(harness: &mut Author, path: &str) {
+    let field = harness.get_by_role_and_label(Role::TextInput, strings::PROFILE_PATH);
+    field.focus();
+    field.type_text(path);
+    harness.step();
+    click(harness, strings::OPEN_PROFILE);
 }
 
 #[test]
@@ -82,11 +123,7 @@ fn a_tone_plays_and_ends() {
 #[test]
 fn a_profile_that_cannot_be_read_is_said() {
     let mut harness = opened();
-    let field = harness.get_by_role_and_label(Role::TextInput, strings::PROFILE_PATH);
-    field.focus();
-    field.type_text("no/such/profile.toml");
-    harness.step();
-    click(&mut harness, strings::OPEN_PROFILE);
-    wait(&mut harness, "the error is shown", |h| says(h, "no/such/profile.toml: "));
-    assert!(rig(&harness).actuator.is_none());
+    read_profile(&mut harness, "no/such/profile.toml");
+    wait(&mut harness, "the error is shown", |h| says(h, "profile no/such/profile.toml cannot be read: "));
+    assert!(rig(&harness).actuator().is_none());
 }

@@ -36,6 +36,7 @@ pub mod library;
 pub mod look_alikes;
 pub mod map_toml;
 pub mod materials_toml;
+pub mod measured_profile;
 pub mod named_table;
 mod pair_columns;
 pub mod panel_labels;

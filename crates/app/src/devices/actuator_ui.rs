@@ -1,7 +1,6 @@
 //! The actuator: which, what it carries, what drives it, and what it stands.
 
-use std::path::Path;
-
+use anyhow::Context as _;
 use egui::{Button, Checkbox, ComboBox, DragValue, TextEdit, Ui};
 use egui_plot::{GridMark, Line, Plot, PlotPoints};
 use shagreen_core::actuator::Actuator;
@@ -10,6 +9,8 @@ use shagreen_device::synth::equalizer::Biquad;
 use shagreen_formats::actuator_toml::read_actuator;
 
 use super::{DevicesSheet, heading, note, row, warning};
+use crate::background::in_background;
+use crate::rig::Mounted;
 use crate::scope::fixed;
 use crate::strings::devices as strings;
 use crate::theme::tokens;
@@ -27,7 +28,7 @@ impl DevicesSheet {
         if let Some(message) = &self.message {
             warning(ui, message);
         }
-        let Some(actuator) = self.rig.actuator.clone() else {
+        let Some(mounted) = self.rig.mounted.clone() else {
             row(ui, strings::FULL_SCALE, |ui| {
                 let value = DragValue::new(&mut self.rig.full_scale_mps2).range(0.1..=1000.0).speed(0.1);
                 let value = value.suffix(" m/s²");
@@ -47,9 +48,10 @@ impl DevicesSheet {
             });
             if *load_g != before {
                 let load = Kilograms::from_g(*load_g);
-                self.take(self.profile.clone(), Some(load));
+                self.take(Some(mounted.profile().clone()), Some(load));
             }
         }
+        let actuator = mounted.actuator();
         match actuator.response() {
             Ok(response) => {
                 let equalize = Checkbox::new(&mut self.rig.equalizes, strings::EQUALIZE);
@@ -57,7 +59,7 @@ impl DevicesSheet {
                 let load_g = actuator.measured.and_then(|m| m.load).map(Kilograms::g);
                 let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
                 note(ui, &strings::response(hz, q, gain, load_g));
-                response_ui(ui, &actuator, self.rig.equalizes);
+                response_ui(ui, actuator, self.rig.equalizes);
             }
             Err(error) => warning(ui, &error.to_string()),
         }
@@ -67,15 +69,15 @@ impl DevicesSheet {
     }
 
     fn choice_ui(&mut self, ui: &mut Ui) {
-        let chosen = self.rig.actuator.as_ref().map_or(strings::UNCALIBRATED, |a| a.name.as_str()).to_owned();
+        let chosen = self.rig.actuator().map_or(strings::UNCALIBRATED, |a| a.name.as_str()).to_owned();
         let mut taken = None;
         let combo = ComboBox::from_id_salt("actuator").width(260.0).truncate().selected_text(&chosen);
         let shown = combo.show_ui(ui, |ui| {
-            if ui.selectable_label(self.rig.actuator.is_none(), strings::UNCALIBRATED).clicked() {
+            if ui.selectable_label(self.rig.mounted.is_none(), strings::UNCALIBRATED).clicked() {
                 taken = Some(None);
             }
             for actuator in &self.built_in {
-                let is_chosen = self.rig.actuator.as_ref().is_some_and(|a| a.id == actuator.id);
+                let is_chosen = self.rig.mounted.as_ref().is_some_and(|m| m.profile() == actuator);
                 if ui.selectable_label(is_chosen, &actuator.name).on_hover_text(&actuator.maker).clicked() {
                     taken = Some(Some(actuator.clone()));
                 }
@@ -91,33 +93,36 @@ impl DevicesSheet {
         let field = TextEdit::singleline(&mut self.profile_path).hint_text(strings::PROFILE_HINT);
         ui.add(field.desired_width(200.0)).accessible_name(strings::PROFILE_PATH);
         let path = self.profile_path.trim().to_owned();
-        if ui.add_enabled(!path.is_empty(), Button::new(strings::OPEN_PROFILE)).clicked() {
-            let read = std::fs::read(Path::new(&path)).map_err(anyhow::Error::from);
-            match read.and_then(|bytes| Ok(read_actuator(&bytes)?)) {
-                Ok(actuator) => {
-                    if let Some(volts) = actuator.calibrated.map(|c| c.full_scale.0) {
-                        // It was measured at this voltage: what it says holds there.
-                        self.rig.full_scale_volts = volts;
-                    }
-                    self.take(Some(actuator), None);
+        let can_read = !path.is_empty() && self.reading.is_none();
+        if ui.add_enabled(can_read, Button::new(strings::OPEN_PROFILE)).clicked() {
+            let read = move || {
+                let bytes = std::fs::read(&path).with_context(|| strings::unreadable_profile(&path))?;
+                read_actuator(&bytes).with_context(|| strings::unreadable_profile(&path))
+            };
+            self.reading = Some(in_background(ui.ctx().clone(), read));
+        }
+        match self.reading.as_ref().and_then(|reading| reading.try_recv().ok()) {
+            None => {}
+            Some(Ok(actuator)) => {
+                self.reading = None;
+                if let Some(volts) = actuator.calibrated.map(|c| c.full_scale.0) {
+                    // It was measured at this voltage: what it says holds there.
+                    self.rig.full_scale_volts = volts;
                 }
-                Err(error) => self.message = Some(format!("{path}: {error}")),
+                self.take(Some(actuator), None);
             }
+            Some(Err(error)) => (self.reading, self.message) = (None, Some(format!("{error:#}"))),
         }
     }
 
     /// Takes an actuator, on another load than its profile's where one is given.
     pub(super) fn take(&mut self, profile: Option<Actuator>, load: Option<Kilograms>) {
-        let on_load = match (&profile, load) {
-            (Some(actuator), Some(load)) => actuator.at_load(load).map(Some),
-            _ => Ok(profile.clone()),
-        };
-        match on_load {
-            Ok(actuator) => {
+        match profile.map(|profile| Mounted::new(profile, load)).transpose() {
+            Ok(mounted) => {
                 if load.is_none() {
-                    self.load_g = actuator.as_ref().and_then(|a| a.measured?.load).map(Kilograms::g);
+                    self.load_g = mounted.as_ref().and_then(Mounted::load).map(Kilograms::g);
                 }
-                (self.rig.actuator, self.profile, self.message) = (actuator, profile, None);
+                (self.rig.mounted, self.message) = (mounted, None);
             }
             Err(error) => self.message = Some(error.to_string()),
         }

@@ -6,11 +6,11 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use anyhow::Context as _;
 use shagreen_core::actuator::{Actuator, Drive, Limits, limited_drive};
-use shagreen_core::calibration::{Sweep, calibrate, fitted_actuator};
+use shagreen_core::calibration::{Sweep, calibrate};
 use shagreen_core::units::{Hertz, Kilograms, Volts};
 use shagreen_device::audio_input::InputInfo;
 use shagreen_device::measure::{Listener, measure};
-use shagreen_formats::library::id_from_name;
+use shagreen_formats::measured_profile::{HowMeasured, measured_profile};
 
 use crate::rig::Rig;
 use crate::strings::devices as strings;
@@ -103,7 +103,7 @@ fn measured(
     let input = question.input.clone().context(strings::NO_INPUT)?;
     let sweep = Sweep { amplitude: question.amplitude, ..Sweep::USUAL };
     let drive = Drive::new(Volts(rig.full_scale_volts))?;
-    let limits = rig.actuator.as_ref().map_or(Limits::default(), |actuator| actuator.limits);
+    let limits = rig.actuator().map_or(Limits::default(), |actuator| actuator.limits);
     let driven = (limited_drive(&limits, drive), rig.channels());
     let sensitivity_mps2 = question.sensitivity_mps2;
     let listener = Listener::Input { id: input, channel_idx: 0, sensitivity_mps2 };
@@ -118,14 +118,15 @@ fn measured(
     let calibration = calibrate(&heard.mps2, Hertz(heard.rate_hz), &sweep, drive)?;
     warnings.extend(calibration.warnings.iter().map(ToString::to_string));
     let fit = calibration.fit?;
-    let name = strings::calibrated_name(rig.actuator.as_ref().map(|actuator| actuator.name.as_str()));
-    let load = Kilograms::from_g(question.load_g);
-    let actuator = Actuator {
-        id: id_from_name(&name),
-        source: strings::calibrated_source(question.load_g, drive.full_scale.0),
-        name,
-        ..fitted_actuator(rig.actuator.clone(), &fit, Some(load), drive)
+    let base = rig.mounted.as_ref().map(|mounted| mounted.profile().clone());
+    let how = HowMeasured {
+        name: strings::calibrated_name(base.as_ref().map(|actuator| actuator.name.as_str())),
+        heard: strings::played_on(id),
+        load: Some(Kilograms::from_g(question.load_g)),
+        drive,
+        is_drive_assumed: false,
     };
+    let actuator = measured_profile(base, &fit, how);
     Ok(Outcome { actuator, fit_error_db: fit.error_db, warnings })
 }
 

@@ -1,6 +1,6 @@
 //! The part of the sheet that measures the actuator.
 
-use egui::{Button, ComboBox, DragValue, ProgressBar, Ui};
+use egui::{Button, ComboBox, Context, DragValue, ProgressBar, Ui};
 
 use super::calibration::{Job, Question, name_of};
 use super::{DevicesSheet, heading, note, row, warning};
@@ -12,29 +12,55 @@ use crate::strings::devices as strings;
 #[derive(Default)]
 pub(super) struct Measurement {
     question: Question,
-    job: Option<Job>,
+    stage: Stage,
     /// What came of the last one.
     told: Option<Result<String, String>>,
     warnings: Vec<String>,
 }
 
+/// What is being done about it.
+#[derive(Default)]
+enum Stage {
+    #[default]
+    Idle,
+    /// The output with this id is being let go of.
+    Releasing(String),
+    Measuring(Job),
+    /// The output can be had again.
+    Ended,
+}
+
 impl Measurement {
     /// Whether one runs: the sheet stays open then.
     pub(super) fn is_running(&self) -> bool {
-        self.job.is_some()
+        matches!(self.stage, Stage::Releasing(_) | Stage::Measuring(_))
+    }
+
+    /// Whether one has ended since this was asked last.
+    pub(super) fn has_ended(&mut self) -> bool {
+        let has_ended = matches!(self.stage, Stage::Ended);
+        if has_ended {
+            self.stage = Stage::Idle;
+        }
+        has_ended
     }
 }
 
 impl DevicesSheet {
-    pub(super) fn calibration_ui(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
-        let mut commands = self.collect_measurement();
+    pub(super) fn calibration_ui(&mut self, ui: &mut Ui, session: &Session) -> Option<Command> {
+        let mut command = None;
         heading(ui, strings::CALIBRATE);
-        if let Some(job) = &self.measurement.job {
-            ui.add(ProgressBar::new(job.share()).desired_width(260.0)).accessible_name(strings::CALIBRATE);
+        if self.measurement.is_running() {
+            let job = if let Stage::Measuring(job) = &self.measurement.stage { Some(job) } else { None };
+            let share = job.map_or(0.0, Job::share);
+            ui.add(ProgressBar::new(share).desired_width(260.0)).accessible_name(strings::CALIBRATE);
             if ui.button(strings::CANCEL).clicked() {
-                job.cancel();
+                match job {
+                    Some(job) => job.cancel(),
+                    None => self.measurement.stage = Stage::Ended,
+                }
             }
-            return commands;
+            return None;
         }
         let question = &mut self.measurement.question;
         let inputs = session.inputs();
@@ -58,7 +84,7 @@ impl DevicesSheet {
                 0.1..=10_000.0,
                 " m/s²",
             ),
-            (strings::LOAD, strings::LOAD_HELP, &mut question.load_g, 1.0..=2000.0, " g"),
+            (strings::MEASURED_LOAD, strings::LOAD_HELP, &mut question.load_g, 1.0..=2000.0, " g"),
             (strings::AMPLITUDE, strings::AMPLITUDE_HELP, &mut question.amplitude, 0.01..=1.0, ""),
         ] {
             row(ui, name, |ui| {
@@ -72,11 +98,10 @@ impl DevicesSheet {
         if start.on_hover_text(strings::CALIBRATE_HELP).clicked()
             && let Some(id) = output
         {
-            let (id, question) = (id.to_owned(), question.clone());
             self.measurement.told = None;
             self.measurement.warnings.clear();
-            self.measurement.job = Some(Job::start(id, question, self.rig.clone(), ui.ctx().clone()));
-            commands.push(Command::LetGoOfOutput);
+            self.measurement.stage = Stage::Releasing(id.to_owned());
+            command = Some(Command::LetGoOfOutput);
         }
         match &self.measurement.told {
             Some(Ok(text)) => note(ui, text),
@@ -86,13 +111,24 @@ impl DevicesSheet {
         for text in &self.measurement.warnings {
             warning(ui, text);
         }
-        commands
+        command
     }
 
-    /// Takes in what came of a measurement, and asks for the output back.
-    fn collect_measurement(&mut self) -> Vec<Command> {
-        let Some(outcome) = self.measurement.job.as_ref().and_then(Job::outcome) else { return Vec::new() };
-        self.measurement.job = None;
+    /// Begins a measurement once the output is free, and takes in what came of it.
+    pub(super) fn carry_on_measuring(&mut self, ctx: &Context, session: &Session) {
+        let measurement = &mut self.measurement;
+        let outcome = match &measurement.stage {
+            Stage::Releasing(id) if session.is_output_released() => {
+                let question = measurement.question.clone();
+                let job = Job::start(id.clone(), question, self.rig.clone(), ctx.clone());
+                measurement.stage = Stage::Measuring(job);
+                return;
+            }
+            Stage::Measuring(job) => job.outcome(),
+            _ => None,
+        };
+        let Some(outcome) = outcome else { return };
+        measurement.stage = Stage::Ended;
         match outcome {
             Ok(outcome) => {
                 self.measurement.told = Some(Ok(strings::calibrated(outcome.fit_error_db)));
@@ -101,6 +137,5 @@ impl DevicesSheet {
             }
             Err(error) => self.measurement.told = Some(Err(format!("{error:#}"))),
         }
-        vec![Command::TakeOutputBack]
     }
 }

@@ -13,8 +13,10 @@ use crate::pad::MouseReport;
 use crate::rig::Rig;
 
 impl Session {
-    /// The mouse strokes, or lets go: then the automatic hand goes on, if it was running.
+    /// The mouse strokes with a force in N, or lets go: then the automatic hand goes on, if it was running. Where the window
+    /// system tells a pressure, that is the force.
     pub fn mouse(&mut self, report: MouseReport, force_n: f32) {
+        let force_n = report.pressure.map_or(f64::from(force_n), |p| self.rig.pressure_map.force_n(p, true));
         self.player.mouse(report, force_n, self.hand);
     }
 
@@ -32,7 +34,11 @@ impl Session {
     pub fn open_output(&mut self, choice: OutputChoice, ctx: &egui::Context) {
         match self.rig.drive() {
             Ok(drive) => self.player.open(choice, &self.rig, drive, self.rate_hz as f32, ctx.clone()),
-            Err(error) => self.say(error.to_string()),
+            Err(error) => {
+                // What is open drives another actuator.
+                self.player.let_go();
+                self.say(error.to_string());
+            }
         }
     }
 
@@ -46,8 +52,8 @@ impl Session {
         let opens_again = self.rig.opens_unlike(&rig);
         self.rig = rig;
         self.pen.follow(&self.rig, &mut self.player.pen_live);
-        if let Some(id) = self.player.output_id.clone().filter(|_| opens_again) {
-            self.open_output(OutputChoice::Id(id), ctx);
+        if opens_again {
+            self.open_output_again(ctx);
         }
     }
 
@@ -56,8 +62,19 @@ impl Session {
         self.player.let_go();
     }
 
+    /// Whether no output is open, nor being opened.
+    pub fn is_output_released(&self) -> bool {
+        self.player.is_released()
+    }
+
     /// Opens the output again that was let go of.
     pub fn take_output_back(&mut self, ctx: &egui::Context) {
+        if self.player.is_released() {
+            self.open_output_again(ctx);
+        }
+    }
+
+    fn open_output_again(&mut self, ctx: &egui::Context) {
         if let Some(id) = self.player.output_id.clone() {
             self.open_output(OutputChoice::Id(id), ctx);
         }

@@ -1,7 +1,7 @@
 //! The pen that is read beside the mouse: what it says, and whether it is near.
 
 use std::collections::VecDeque;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::Receiver;
 
 use shagreen_device::hid::live::{PenNotice, PenOptions, PenThread};
 use shagreen_device::hid::system::SystemPens;
@@ -10,6 +10,7 @@ use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::live::LiveInput;
 use shagreen_device::stylus::{StylusInfo, StylusKind, list_styluses};
 
+use crate::background::in_background;
 use crate::rig::Rig;
 
 /// Moments that are kept to be shown.
@@ -45,15 +46,11 @@ pub(super) struct Pen {
 impl Pen {
     /// Looks for pens.
     pub(super) fn list(&mut self, ctx: egui::Context) {
-        let (sender, receiver) = channel();
-        std::thread::spawn(move || {
+        self.listing = Some(in_background(ctx, || {
             let mut found = list_styluses().styluses;
             found.retain(|stylus| stylus.kind == StylusKind::Pen);
-            // The window may have closed meanwhile: then nobody asks any more.
-            let _ = sender.send(found);
-            ctx.request_repaint();
-        });
-        self.listing = Some(receiver);
+            found
+        }));
     }
 
     /// Reads the pen that is chosen, the way that it is set; `live` is taken where a thread is started.

@@ -1,6 +1,6 @@
 //! The open output: textures on their way to it, touches, and what it tells back.
 
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::Receiver;
 use std::time::Instant;
 
 use shagreen_core::authoring::Blending;
@@ -10,10 +10,10 @@ use shagreen_core::space::SpacePoint;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::controls::{Controls, Drive, Input};
 use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
-use shagreen_device::error::DeviceError;
 use shagreen_device::hand::Hand;
 use shagreen_device::live::LiveInput;
-use shagreen_device::output::{NULL_ID, OpenOptions, OutputInfo, Running, list_outputs, open};
+use shagreen_device::output::{OpenOptions, OutputInfo, OutputKind, Running, list_outputs};
+use shagreen_device::serial::list_serial_ports;
 use shagreen_device::signal::Signal;
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::stylus::MouseStylus;
@@ -23,6 +23,8 @@ use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 
 use super::heard::{Heard, Made, Source};
+use super::opening::{Came, Opening, OutputChoice, Request};
+use crate::background::in_background;
 use crate::pad::MouseReport;
 use crate::rig::Rig;
 use crate::scope_buffer::ScopeBuffer;
@@ -32,35 +34,6 @@ use crate::strings;
 const TONE_SECS: f64 = 2.0;
 /// Textures kept loaded; the least recently heard makes room.
 const KEPT: usize = SLOTS - 16;
-
-/// What came of opening an output, and why it is not the one that was meant.
-type Opened = (Result<(Handle, Running), DeviceError>, Option<String>);
-
-/// Which output to open.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum OutputChoice {
-    /// The one that the system calls its default now, held by its identity from then on; without sound, the silent one.
-    SystemDefault,
-    /// The one with this identity, or none.
-    Id(String),
-}
-
-impl OutputChoice {
-    fn open(&self, options: OpenOptions) -> Opened {
-        match self {
-            Self::Id(id) => (open(id, options), None),
-            Self::SystemDefault => {
-                let Some(found) = list_outputs().into_iter().find(|o| o.is_default && o.id != NULL_ID) else {
-                    return (open(NULL_ID, options), Some(strings::NO_SOUND.to_owned()));
-                };
-                match open(&found.id, options) {
-                    Err(error) => (open(NULL_ID, options), Some(format!("{}: {error}", strings::NO_SOUND))),
-                    opened => (opened, None),
-                }
-            }
-        }
-    }
-}
 
 /// The slots of textures that were made for a point, each with the number of its texture: two at most.
 #[derive(Clone, Copy, Debug, Default)]
@@ -99,7 +72,7 @@ pub(super) struct Player {
     /// The way in for a pen, until it is given away.
     pub(super) pen_live: Option<LiveInput>,
     held: Held,
-    opening: Option<Receiver<Opened>>,
+    opening: Opening,
     listing: Option<Receiver<Vec<OutputInfo>>>,
     listing_inputs: Option<Receiver<Vec<InputInfo>>>,
     /// Slot of each texture of the library, and when it was last in a mix.
@@ -128,7 +101,7 @@ impl Player {
             live: None,
             pen_live: None,
             held: Held::Nobody,
-            opening: None,
+            opening: Opening::default(),
             listing: None,
             listing_inputs: None,
             slots: vec![None; n_textures],
@@ -140,27 +113,36 @@ impl Player {
     }
 
     pub(super) fn list_outputs(&mut self, ctx: egui::Context) {
-        let (sender, receiver) = channel();
-        std::thread::spawn(move || {
-            // The window may have closed meanwhile: then nobody asks any more.
-            let _ = sender.send(list_outputs());
-            ctx.request_repaint();
-        });
-        self.listing = Some(receiver);
+        self.listing = Some(in_background(ctx, || {
+            let mut outputs = list_outputs();
+            // Where the system does not give its ports there is none to choose.
+            let ports = list_serial_ports().unwrap_or_default().into_iter();
+            outputs.extend(ports.map(|port| OutputInfo {
+                id: port.id,
+                name: port.name,
+                kind: OutputKind::Serial,
+                is_default: false,
+            }));
+            outputs
+        }));
     }
 
     pub(super) fn list_inputs(&mut self, ctx: egui::Context) {
-        let (sender, receiver) = channel();
-        std::thread::spawn(move || {
-            // The window may have closed meanwhile: then nobody asks any more.
-            let _ = sender.send(list_inputs());
-            ctx.request_repaint();
-        });
-        self.listing_inputs = Some(receiver);
+        self.listing_inputs = Some(in_background(ctx, list_inputs));
     }
 
-    /// Closes the output; what it was is remembered.
+    /// Closes the output, also one that is only being opened; what it was is remembered.
     pub(super) fn let_go(&mut self) {
+        self.close();
+        self.opening.discard();
+    }
+
+    /// Whether no output is open, nor being opened.
+    pub(super) fn is_released(&self) -> bool {
+        self.handle.is_none() && !self.opening.is_busy()
+    }
+
+    fn close(&mut self) {
         (self.handle, self.running, self.live, self.pen_live) = (None, None, None, None);
         self.status = None;
     }
@@ -173,12 +155,6 @@ impl Player {
         model_rate_hz: f32,
         ctx: egui::Context,
     ) {
-        let is_same = matches!(&choice, OutputChoice::Id(id) if self.output_id.as_ref() == Some(id));
-        if is_same || self.status.is_some_and(|s| s.state == LinkState::Lost) {
-            // Some devices can be held only once: let go before asking again.
-            (self.handle, self.running, self.live) = (None, None, None);
-        }
-        let (sender, receiver) = channel();
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
@@ -187,11 +163,21 @@ impl Player {
             drive,
             channels: rig.channels(),
         };
-        std::thread::spawn(move || {
-            let _ = sender.send(choice.open(options));
-            ctx.request_repaint();
-        });
-        self.opening = Some(receiver);
+        self.begin(Request { choice, options, ctx });
+    }
+
+    /// Opens an output, once what is being opened has come.
+    fn begin(&mut self, request: Request) {
+        if self.opening.is_busy() {
+            self.opening.wait_with(request);
+            return;
+        }
+        let is_same = matches!(&request.choice, OutputChoice::Id(id) if self.output_id.as_ref() == Some(id));
+        if is_same || self.status.is_some_and(|s| s.state == LinkState::Lost) {
+            // Some devices can be held only once: let go before asking again.
+            self.close();
+        }
+        self.opening.begin(request);
     }
 
     /// Takes in what came back; true when an output has just been opened.
@@ -228,19 +214,18 @@ impl Player {
     }
 
     fn take_opened(&mut self, scope: &mut ScopeBuffer) -> bool {
-        let Some(receiver) = &self.opening else { return false };
-        let opened = match receiver.try_recv() {
-            Err(TryRecvError::Empty) => return false,
-            Err(TryRecvError::Disconnected) => Err(strings::OPENING_FAILED.to_owned()),
-            Ok((opened, warning)) => {
-                self.message = warning;
-                opened.map_err(|error| error.to_string())
+        let (opened, warning) = match self.opening.take() {
+            Came::Nothing => return false,
+            Came::Next(request) => {
+                self.begin(*request);
+                return false;
             }
+            Came::Opened(opened) => *opened,
         };
-        self.opening = None;
+        self.message = warning;
         match opened {
-            Err(message) => {
-                self.message = Some(message);
+            Err(error) => {
+                self.message = Some(error.to_string());
                 false
             }
             Ok((mut handle, running)) => {
@@ -372,14 +357,14 @@ impl Player {
         }
     }
 
-    pub(super) fn mouse(&mut self, report: MouseReport, force_n: f32, hand: Option<Hand>) {
+    pub(super) fn mouse(&mut self, report: MouseReport, force_n: f64, hand: Option<Hand>) {
         let now = Instant::now();
         let time_secs = now.duration_since(self.started).as_secs_f64();
         if self.held == Held::Pen {
             // The system moves the mouse along with the pen.
             return;
         }
-        self.stylus.set_force_n(f64::from(force_n));
+        self.stylus.set_force_n(force_n);
         let touch = self.stylus.report(time_secs, report.x_m, report.y_m, report.pressed);
         if let Some(live) = &mut self.live {
             // Full only when the output has stopped: then the touch has nowhere to go.
@@ -438,7 +423,7 @@ impl Player {
     }
 
     pub(super) fn is_opening(&self) -> bool {
-        self.opening.is_some()
+        self.opening.is_busy()
     }
 
     pub(super) fn toggle_mute(&mut self) {

@@ -65,6 +65,8 @@ pub const VOLTS_HELP: &str = "Peak voltage at the actuator's terminals when the 
 pub const LOAD: &str = "Load";
 /// What the load does.
 pub const LOAD_HELP: &str = "Mass that the actuator shakes: the pen, or a test mass";
+/// What the actuator carries while it is measured.
+pub const MEASURED_LOAD: &str = "Load while measured";
 /// Acceleration at full scale.
 pub const FULL_SCALE: &str = "Acceleration at full scale";
 /// What the acceleration at full scale does.
@@ -154,9 +156,14 @@ pub fn calibrated_name(before: Option<&str>) -> String {
     if name.ends_with(", measured") { name.to_owned() } else { format!("{name}, measured") }
 }
 
-/// Where its figures come from.
-pub fn calibrated_source(load_g: f64, volts: f64) -> String {
-    format!("Response measured on {load_g:.0} g with a sweep, taking {volts} V for digital full scale")
+/// What the measured sweep was played on.
+pub fn played_on(id: &str) -> String {
+    format!("played on {id}")
+}
+
+/// A profile that cannot be read.
+pub fn unreadable_profile(path: &str) -> String {
+    format!("the profile {path} cannot be read")
 }
 
 /// Length of a buffer.
