@@ -57,8 +57,10 @@ const BUFFER: u32 = 240;
 const CEILING: f32 = 0.9;
 /// How much later than it should be a processor runs where that is a stall.
 const LATE: Duration = Duration::from_millis(3);
-/// What the server holds ahead, and what the recording's clock and the way there may be late.
-const AHEAD_SECS: f64 = 0.06;
+/// What the server holds ahead, and what the way there may be late: so long after a stall a gap may begin.
+const AFTER_SECS: f64 = 0.06;
+/// How far ahead of its time a sink may render: so long before a stall its gap may be recorded.
+const BEFORE_SECS: f64 = 0.03;
 /// Length of a usual gap.
 const GAP_SECS: f64 = 0.01;
 
@@ -208,7 +210,12 @@ impl Lost {
         // A gap begins when what was ahead has been played, and ends once the server has asked and got.
         let seen: Vec<_> = stalls
             .iter()
-            .map(|stall| (since(recording.begun, stall.from), since(recording.begun, stall.to) + AHEAD_SECS))
+            .map(|stall| {
+                (
+                    since(recording.begun, stall.from) - BEFORE_SECS,
+                    since(recording.begun, stall.to) + AFTER_SECS,
+                )
+            })
             .collect();
         let is_seen = |gap: &(f64, f64)| seen.iter().any(|(from, to)| gap.0 <= *to && gap.1 >= *from);
         let n_probes = 10_000;

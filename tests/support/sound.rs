@@ -4,7 +4,7 @@
 
 use std::io::Read as _;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::guard::Guard;
@@ -17,7 +17,7 @@ const FRAME_BYTES: usize = 8;
 /// The server, with a null sink `ci`, its default, and another, `other`.
 pub(crate) struct SoundServer {
     folder: tempfile::TempDir,
-    _daemon: Guard,
+    daemon: Guard,
 }
 
 impl SoundServer {
@@ -51,7 +51,7 @@ impl SoundServer {
              pcm.pulse { type pulse }\n"
                 .to_owned(),
         );
-        let daemon = with_server(first_in_line("pulseaudio"), d)
+        let daemon = with_server(Command::new("pulseaudio"), d)
             .args(["-n", "-F"])
             .arg(d.join("pulse.pa"))
             .args(["--daemonize=no", "--exit-idle-time=-1", "--disallow-exit", "--use-pid-file=no"])
@@ -59,12 +59,13 @@ impl SoundServer {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        let server = Self { folder, _daemon: Guard(daemon) };
+        let server = Self { folder, daemon: Guard(daemon) };
         let start = Instant::now();
         while !server.command("pactl").arg("info").output().unwrap().status.success() {
             assert!(start.elapsed() < Duration::from_secs(20), "the sound server does not answer");
             std::thread::sleep(Duration::from_millis(100));
         }
+        put_first(&server.daemon.0);
         server
     }
 
@@ -128,17 +129,12 @@ pub(crate) struct Recording {
     pub(crate) begun: Instant,
 }
 
-/// A program that runs before all that have no deadline, where the system allows it: a sound server does on any desktop, and
+/// Lets a process run before all that have no deadline, where the system allows it: a sound server does on any desktop, and
 /// tests beside it must not make it late.
-fn first_in_line(program: &str) -> Command {
-    let first = ["--rr", "20"];
-    let may = Command::new("chrt").args(first).arg("true").stderr(Stdio::null()).status();
-    if !may.is_ok_and(|status| status.success()) {
-        return Command::new(program);
-    }
-    let mut command = Command::new("chrt");
-    command.args(first).arg(program);
-    command
+fn put_first(process: &Child) {
+    let first = ["--all-tasks", "--rr", "--pid", "20"];
+    // Where there is no such program, or it may not, the server waits in line.
+    Command::new("chrt").args(first).arg(process.id().to_string()).stderr(Stdio::null()).status().ok();
 }
 
 fn with_server(mut command: Command, d: &Path) -> Command {
