@@ -150,7 +150,7 @@ fn changes_of_input_and_nonsense_touches() {
         if round % 13 == 0 {
             let driven = if round % 2 == 0 { Driven::Drive } else { Driven::Acceleration };
             handle
-                .play_signal(Signal::new(vec![x.clamp(-1e9, 1e9).max(-1e9); 1500], driven).unwrap())
+                .play_signal(Signal::new(vec![x.clamp(-1e9, 1e9).max(-1e9); 1500], 48_000.0, driven).unwrap())
                 .unwrap();
         }
         if round % 17 == 0 {

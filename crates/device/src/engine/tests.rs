@@ -463,7 +463,7 @@ fn a_signal_takes_the_place_of_the_texture_and_gives_it_back() {
     let (_undisturbed, mut undisturbed) = stroking(CONFIG, 1.0);
     play(&mut engine, 9600, 256);
     let samples: Vec<f32> = (0..4800).map(|i| 0.5 * (i as f32 * 0.05).sin()).collect();
-    handle.play_signal(Signal::new(samples.clone(), Driven::Drive).unwrap()).unwrap();
+    handle.play_signal(Signal::new(samples.clone(), 48_000.0, Driven::Drive).unwrap()).unwrap();
     handle.set_drive(Drive { muted: false, gain: 0.1 });
     let out = play(&mut engine, 48_000, 256);
     // The texture fades in 960 samples; a signal begins with a block.
@@ -479,7 +479,7 @@ fn a_signal_takes_the_place_of_the_texture_and_gives_it_back() {
 
 #[test]
 fn signals_are_stopped_muted_replaced_and_limited() {
-    let signal = |level| Signal::new(vec![level; 480_000], Driven::Drive).unwrap();
+    let signal = |level| Signal::new(vec![level; 480_000], 48_000.0, Driven::Drive).unwrap();
     let (mut handle, mut engine) = stroking(CONFIG, 1.0);
     handle.play_signal(signal(7.0)).unwrap();
     let out = play(&mut engine, 9600, 256);
