@@ -76,7 +76,8 @@ enum Command {
     Load(TextureId, Box<OwnedTexture>),
     Unload(TextureId),
     Play(Box<Track>),
-    Signal(Box<Signal>),
+    /// With the number of wishes to end signals that are older.
+    Signal(Box<Signal>, u32),
 }
 
 /// What the callback is done with and does not free.
@@ -248,8 +249,8 @@ impl Engine {
                         self.return_or_leak(Returned::Track(replaced));
                     }
                 }
-                Ok(Command::Signal(signal)) => {
-                    if let Some(replaced) = self.signal.play(signal) {
+                Ok(Command::Signal(signal, n_stops)) => {
+                    if let Some(replaced) = self.signal.play(signal, n_stops) {
                         self.return_or_leak(Returned::Signal(replaced));
                     }
                 }
@@ -284,7 +285,9 @@ impl Engine {
         }
         self.player.set_input(orders.controls.input);
         self.tap = orders.controls.tap;
-        self.signal.follow(orders.n_stops);
+        for unheard in self.signal.follow(orders.n_stops).into_iter().flatten() {
+            self.return_or_leak(Returned::Signal(unheard));
+        }
         // Without a handle nobody can mute.
         let is_in_hand = !self.commands.is_abandoned();
         let drive = orders.controls.drive;

@@ -246,8 +246,8 @@ impl Handle {
         Ok(())
     }
 
-    /// Plays a signal in the place of the texture, once that has faded; one that is played ends. Muting silences it, the
-    /// limits of the actuator hold.
+    /// Plays a signal in the place of the texture, once that, or the signal that is played, has faded. Muting silences it,
+    /// the limits of the actuator hold.
     ///
     /// # Errors
     /// Gives the signal back while the output is busy: try again after its next block.
@@ -255,11 +255,11 @@ impl Handle {
         if self.commands.is_full() {
             return Err(signal);
         }
-        self.send(Command::Signal(Box::new(signal)));
+        self.send(Command::Signal(Box::new(signal), self.orders.n_stops));
         Ok(())
     }
 
-    /// Lets the signal fade that is played, if one is.
+    /// Lets the signal fade that is played, if one is; one that is sent later is played.
     pub fn stop_signal(&mut self) {
         self.orders.n_stops = self.orders.n_stops.wrapping_add(1);
         self.publish();
