@@ -7,7 +7,7 @@ use shagreen_synth::renderer::{Mix, TextureId};
 use shagreen_synth::tap::Tap;
 
 use super::{Command, EngineConfig, Orders, Returned, SLOTS};
-use crate::controls::{Controls, Drive, Input};
+use crate::controls::{Controls, Drive, Input, Takeover};
 use crate::error::DeviceError;
 use crate::link::Monitor;
 use crate::live::LiveInput;
@@ -233,6 +233,12 @@ impl Handle {
         self.publish();
     }
 
+    /// Says when a person's hand takes over from the input by itself; never where it is `None`.
+    pub fn set_takeover(&mut self, takeover: Option<Takeover>) {
+        self.orders.controls.takeover = takeover;
+        self.publish();
+    }
+
     /// Plays a stroke from its start, and makes it the input.
     ///
     /// # Errors
@@ -265,8 +271,8 @@ impl Handle {
         self.publish();
     }
 
-    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`], and the newest touch
-    /// of all counts: who holds two pens lifts one.
+    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`]: the newest that touches
+    /// or is near counts, until it says itself that it is no more.
     pub fn take_live_input(&mut self) -> Option<LiveInput> {
         self.live.pop()
     }

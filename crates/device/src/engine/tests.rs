@@ -12,7 +12,7 @@ use shagreen_synth::tap::Tap;
 use super::{
     COMMANDS, ChannelMask, Engine, EngineConfig, Handle, LoadReason, MixError, RETURNED, SCOPE, SLOTS, new,
 };
-use crate::controls::{Controls, Drive, Input};
+use crate::controls::{Controls, Drive, Input, Takeover};
 use crate::hand::{Hand, Path};
 use crate::signal::Signal;
 use crate::texture::tests::{white, white_at};
@@ -438,6 +438,30 @@ fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
             assert!(peak(&play(&mut engine, 48, 48)) < 2.0);
         }
     }
+}
+
+#[test]
+fn a_hand_that_takes_over_is_heard_from_the_first_sample_of_the_next_block() {
+    let (mut handle, mut engine) = new(CONFIG).unwrap();
+    handle.set_tap(WOOD);
+    handle.set_input(Input::Hand(HAND));
+    handle.set_takeover(Some(Takeover::USUAL));
+    let mut live = handle.take_live_input().unwrap();
+    assert_eq!(peak(&play(&mut engine, 9600, 480)), 0.0);
+    assert!(!handle.status().follows_live);
+    live.send(landed(0.5), Instant::now()).unwrap();
+    let out = play(&mut engine, 4800, 480);
+    let expected = 0.5 * (-80.0 / 48_000.0_f64).exp() * (std::f64::consts::TAU * 200.0 / 48_000.0).sin();
+    assert!((f64::from(out[1]) - expected).abs() < 1e-5, "{} for {expected}", out[1]);
+    assert!(handle.status().follows_live && handle.status().touch == landed(0.5));
+    // The hand goes on a while after it is let go, and a pen that is near takes it up before it lands.
+    live.send(Touch::default(), Instant::now()).unwrap();
+    play(&mut engine, 48_000, 480);
+    assert!(!handle.status().follows_live);
+    assert_eq!(handle.status().touch.contact.force_n, 0.9, "the hand's");
+    live.hover(landed(0.5), Instant::now()).unwrap();
+    play(&mut engine, 4800, 480);
+    assert!(handle.status().follows_live && handle.status().touch.contact.force_n == 0.0);
 }
 
 #[test]

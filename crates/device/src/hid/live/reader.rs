@@ -15,7 +15,6 @@ use crate::hid::pen::PenDecoder;
 use crate::hid::tracker::{PenMoment, PenTracker};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
-use crate::touch::Touch;
 
 /// What the handle asks for; when it is gone, the thread ends.
 #[derive(Debug)]
@@ -163,8 +162,7 @@ impl Reader {
                     return;
                 };
                 self.shared.n_reports.fetch_add(1, Ordering::Relaxed);
-                let landing_mps = moment.landing.map(|landing| landing.speed_mps);
-                self.send(moment.touch, now, landing_mps);
+                self.tell_engine(&moment, now);
                 if self.moments.push(moment).is_err() {
                     self.shared.n_dropped.fetch_add(1, Ordering::Relaxed);
                 }
@@ -182,14 +180,20 @@ impl Reader {
     fn lift(&mut self) {
         if let Some(open) = &mut self.open {
             let touch = open.tracker.lift();
-            self.send(touch, Instant::now(), None);
+            if let Some(live) = &mut self.live {
+                live.send(touch, Instant::now()).ok(); // Full only when the output has stopped: nobody feels it then.
+            }
         }
     }
 
-    fn send(&mut self, touch: Touch, time: Instant, landing_mps: Option<f32>) {
-        if let Some(live) = &mut self.live {
-            live.land(touch, time, landing_mps).ok(); // Full only when the output has stopped: nobody feels it then.
-        }
+    fn tell_engine(&mut self, moment: &PenMoment, time: Instant) {
+        let Some(live) = &mut self.live else { return };
+        let landing_mps = moment.landing.map(|landing| landing.speed_mps);
+        // Without a place nothing would be felt: then the hand is left to another.
+        let hovers = moment.touch.contact.force_n == 0.0 && moment.place_m.is_some();
+        let sent =
+            if hovers { live.hover(moment.touch, time) } else { live.land(moment.touch, time, landing_mps) };
+        sent.ok(); // Full only when the output has stopped: nobody feels it then.
     }
 
     /// Says why there is no pen, unless it was said.
