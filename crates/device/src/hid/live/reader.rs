@@ -105,6 +105,7 @@ impl Reader {
                     open.tracker.set_pressure_map(map);
                 }
             }
+            Command::Size(size_m) if size_m == self.options.size_m => {}
             Command::Size(size_m) => {
                 self.options.size_m = size_m;
                 self.lift();
