@@ -68,8 +68,8 @@ impl Reader {
         }
     }
 
-    /// Reads until the handle is gone.
-    pub(super) fn run(mut self, commands: &Receiver<Command>) {
+    /// Reads until the handle is gone; gives the way into the engine back.
+    pub(super) fn run(mut self, commands: &Receiver<Command>) -> Option<LiveInput> {
         loop {
             loop {
                 match commands.try_recv() {
@@ -77,7 +77,7 @@ impl Reader {
                     Err(TryRecvError::Empty) => break,
                     Err(TryRecvError::Disconnected) => {
                         self.lift();
-                        return;
+                        return self.live;
                     }
                 }
             }
@@ -90,7 +90,7 @@ impl Reader {
                 match wait(commands, LOOK_AGAIN) {
                     Waited::Command(command) => self.obey(command),
                     Waited::Time => {}
-                    Waited::End => return,
+                    Waited::End => return self.live,
                 }
             }
         }
