@@ -21,6 +21,7 @@ use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
+use crate::link::Shared;
 use crate::urgency::run_before_others;
 
 /// What ids of such outputs begin with; the rest is the sink's name.
@@ -72,6 +73,7 @@ pub(crate) struct Opened {
 
 /// Opens sink `id`.
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
+    pub(crate) shared: Arc<Shared>,
     let name = id.strip_prefix(PREFIX).unwrap_or(id);
     let unavailable = |error: connection::Failure| {
         let message = format!("the sound server does not answer: {error}; start it and try again");
@@ -103,7 +105,8 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     };
     let Made { handle, engine, reporter } = make_engine(options, rate_hz)?;
     let engine_latency_secs = f64::from(engine.latency_secs());
-    let edge = Edge::new(engine, Arc::clone(&reporter.shared), f64::from(rate_hz));
+    let shared = Arc::clone(&reporter.shared);
+    let edge = Edge::new(engine, Arc::clone(&shared), f64::from(rate_hz));
     let refused = |error: connection::Failure| {
         let message = format!(
             "the output `{id}` cannot be opened: {error}; choose another, or look at the sound server"
@@ -125,5 +128,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     })?;
     let output = PulseOutput { socket, thread: Some(thread) };
     let channels = u16::from(sink.sample_spec.channels);
-    Ok((handle, Opened { output, rate_hz, channels, buffer_frames: block_frames, engine_latency_secs }))
+    let opened =
+        Opened { output, rate_hz, channels, buffer_frames: block_frames, engine_latency_secs, shared };
+    Ok((handle, opened))
 }
