@@ -11,6 +11,7 @@ mod playback;
 use std::net::Shutdown;
 use std::os::unix::net::UnixStream;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
 use pulseaudio::protocol::{Command, ServerInfo, SinkInfo, SinkInfoList};
@@ -20,8 +21,8 @@ use self::playback::{Playback, StreamKind};
 use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
-use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
 use crate::link::Shared;
+use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
 use crate::urgency::run_before_others;
 
 /// What ids of such outputs begin with; the rest is the sink's name.
@@ -49,12 +50,15 @@ pub(crate) fn list() -> Vec<OutputInfo> {
 /// An open stream; it ends when it is dropped.
 #[derive(Debug)]
 pub(crate) struct PulseOutput {
+    /// Said before the line is hung up: what ends then is no loss.
+    is_closing: Arc<AtomicBool>,
     socket: UnixStream,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Drop for PulseOutput {
     fn drop(&mut self) {
+        self.is_closing.store(true, Ordering::Relaxed);
         self.socket.shutdown(Shutdown::Both).ok(); // The server may have gone first.
         if let Some(thread) = self.thread.take() {
             thread.join().ok(); // A callback that panicked has said so on its own thread.
@@ -69,11 +73,11 @@ pub(crate) struct Opened {
     pub(crate) channels: u16,
     pub(crate) buffer_frames: u32,
     pub(crate) engine_latency_secs: f64,
+    pub(crate) shared: Arc<Shared>,
 }
 
 /// Opens sink `id`.
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
-    pub(crate) shared: Arc<Shared>,
     let name = id.strip_prefix(PREFIX).unwrap_or(id);
     let unavailable = |error: connection::Failure| {
         let message = format!("the sound server does not answer: {error}; start it and try again");
@@ -116,9 +120,11 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let socket = connection.socket().map_err(refused)?;
     let playback = Playback::start(connection, kind, edge, reporter, id).map_err(refused)?;
     let block_frames = playback.block_frames();
+    let is_closing = Arc::new(AtomicBool::new(false));
+    let closing = Arc::clone(&is_closing);
     let thread = std::thread::Builder::new().name("sound server".into()).spawn(move || {
         run_before_others();
-        playback.run();
+        playback.run(&closing);
     });
     let thread = thread.map_err(|error| {
         DeviceError::new(
@@ -126,7 +132,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
             format!("the system gives no thread for the output: {error}"),
         )
     })?;
-    let output = PulseOutput { socket, thread: Some(thread) };
+    let output = PulseOutput { is_closing, socket, thread: Some(thread) };
     let channels = u16::from(sink.sample_spec.channels);
     let opened =
         Opened { output, rate_hz, channels, buffer_frames: block_frames, engine_latency_secs, shared };
