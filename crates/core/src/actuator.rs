@@ -139,6 +139,23 @@ pub enum ActuatorError {
         /// What is too high.
         what: &'static str,
         /// Where it is.
+/// What of an actuator's limits nothing keeps.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LimitsWarning {
+    /// A current is rated, and no voltage follows from it.
+    #[error(
+        "{id} bears {rated_amps_rms} A in the long run, and nobody has stated a resistance of its coil: nothing keeps that \
+         limit; state its resistance in Ω"
+    )]
+    CurrentWithoutResistance {
+        /// The actuator.
+        id: String,
+        /// Highest root mean square of the current in the long run, in A.
+        rated_amps_rms: f64,
+    },
+}
+
         hz: f64,
         /// The rate.
         rate_hz: f64,
@@ -160,6 +177,23 @@ impl Default for Limits {
             thermal_secs: USUAL_THERMAL_SECS,
         }
     }
+    /// What it bears, in volts: the rated current `I` through the resistance `R` of the coil is the voltage `I R`, and the
+    /// smaller counts where a voltage is rated too. The coil's impedance is nowhere below its resistance, so that `I R`
+    /// never drives more than `I`.
+    pub fn limits_in_volts(&self) -> Limits {
+        let of_current = self.limits.rated_amps_rms.zip(self.physical.resistance_ohm).map(|(i, r)| i * r);
+        let rated = self.limits.rated_volts_rms.map(|volts| volts.0);
+        let smaller = rated.into_iter().chain(of_current).reduce(f64::min);
+        Limits { rated_volts_rms: smaller.map(Volts), ..self.limits }
+    }
+
+    /// What [`Actuator::limits_in_volts`] cannot say, for whoever drives it to be shown.
+    pub fn limits_warning(&self) -> Option<LimitsWarning> {
+        let rated_amps_rms = self.limits.rated_amps_rms?;
+        let is_known = self.physical.resistance_ohm.is_some();
+        (!is_known).then(|| LimitsWarning::CurrentWithoutResistance { id: self.id.clone(), rated_amps_rms })
+    }
+
 }
 
 impl Actuator {

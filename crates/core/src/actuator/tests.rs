@@ -346,6 +346,51 @@ fn a_drive_keeps_within_what_the_actuator_stands() {
     assert!(bare.inverse.is_none() && bare.budget == config.budget && bare.ceiling == config.ceiling);
     // What is felt far above the resonance is the same.
     assert!((f64::from(bare.full_scale) - 5.0 * response().gain_mps2_per_v()).abs() < 1e-5);
+
+#[test]
+fn a_rated_current_is_a_rated_voltage_through_the_resistance() {
+    let of = |volts: Option<f64>, amps: Option<f64>, ohm: Option<f64>| {
+        let limits = Limits { rated_volts_rms: volts.map(Volts), rated_amps_rms: amps, ..actuator().limits };
+        let physical = Physical { resistance_ohm: ohm, ..actuator().physical };
+        Actuator { limits, physical, ..actuator() }
+    };
+    // The redesigned Haptuator: 0.5 A through 6 Ω.
+    for (volts, amps, ohm, expected) in [
+        (None, Some(0.5), Some(6.0), Some(3.0)),
+        (Some(1.41), Some(0.5), Some(6.0), Some(1.41)),
+        (Some(4.0), Some(0.5), Some(6.0), Some(3.0)),
+        (Some(1.41), Some(0.5), None, Some(1.41)),
+        (Some(1.41), None, Some(6.0), Some(1.41)),
+        (None, Some(0.5), None, None),
+        (None, None, Some(6.0), None),
+    ] {
+        let actuator = of(volts, amps, ohm);
+        let limits = actuator.limits_in_volts();
+        assert_eq!(limits, Limits { rated_volts_rms: expected.map(Volts), ..actuator.limits });
+        let budget = drive_config(&actuator, Drive::new(Volts(5.0)).unwrap(), true).unwrap().budget;
+        assert_eq!(budget.map(|b| b.rms), expected.map(|volts| (volts / 5.0) as f32));
+        let headroom = actuator.headroom(Hertz(20.0), Hertz(400.0)).unwrap();
+        assert_eq!(headroom.rated_mps2, expected.map(|volts| volts / headroom.volts_per_mps2));
+        let warning = actuator.limits_warning();
+        assert_eq!(warning.is_some(), amps.is_some() && ohm.is_none());
+        assert!(warning.is_none_or(|w| w.to_string().contains("bears 0.5 A")));
+    }
+    // At any frequency the current of the rated voltage stays within the rated one: the impedance is that of the coil and
+    // of what moves, `R + jωL + Bl² jω / (m_r (ω₀² - ω²) + jω b)`.
+    let mechanics = Mechanics::identified(&sheet()).unwrap();
+    let case = mechanics.body_mass.0 + 0.1;
+    let reduced = mechanics.moving_mass.0 * case / (mechanics.moving_mass.0 + case);
+    for step in 0..200 {
+        let omega = TAU * 5.0 * 200.0_f64.powf(f64::from(step) / 199.0);
+        let moves = Complex::new(
+            mechanics.stiffness_n_per_m - reduced * omega * omega,
+            omega * mechanics.damping_n_s_per_m,
+        );
+        let motional = Complex::new(0.0, omega * mechanics.force_factor_n_per_a.powi(2)) / moves;
+        let impedance = (Complex::new(mechanics.resistance_ohm, omega * 128e-6) + motional).norm();
+        assert!(0.5 * mechanics.resistance_ohm / impedance <= 0.5, "at {omega} rad/s");
+    }
+}
     assert!((config.full_scale_mps2() - bare.full_scale_mps2()).abs() < 1e-5);
     // An amplifier that cannot hurt it is not limited below its own full scale.
     assert_eq!(drive_config(&actuator, Drive::ASSUMED, true).unwrap().ceiling, 1.0);
