@@ -1,4 +1,4 @@
-//! Voice coils: what they make of a voltage, what they bear, and the filter that makes up for them.
+//! Voice coils: what they make of a voltage, what they bear, and how they are driven.
 //!
 //! A mass on a spring moves within a case that is fixed to the load, such as a pen. Driven by a voltage, the case
 //! accelerates as a second-order high-pass does ([`Response`]): loudest at its resonance, flat far above it, falling by
@@ -7,14 +7,12 @@
 mod data_sheet;
 mod drive;
 mod headroom;
-mod inverse;
 mod response;
 
 pub use crate::actuator::data_sheet::{DataSheet, Mechanics};
 pub use crate::actuator::drive::{Drive, drive_config, limited_drive};
 pub use crate::actuator::headroom::Headroom;
-pub use crate::actuator::inverse::{inverse, inverse_gain_bound, tikhonov_inverse};
-pub use crate::actuator::response::{MAX_Q, MIN_Q, Response};
+pub use crate::actuator::response::Response;
 
 use crate::units::{Hertz, Kilograms, Volts};
 
@@ -133,12 +131,14 @@ pub enum ActuatorError {
         /// What is not known of it.
         missing: &'static str,
     },
-    /// The sampling rate is too low for the resonance or the lowest frequency.
-    #[error("{what} of {hz} Hz is not below half of the rate of {rate_hz} Hz; use a higher rate")]
-    Rate {
-        /// What is too high.
-        what: &'static str,
-        /// Where it is.
+    /// The figures of a data sheet contradict each other.
+    #[error("the data sheet contradicts itself: {reason}; check its figures")]
+    Contradiction {
+        /// What does not fit, with the numbers.
+        reason: String,
+    },
+}
+
 /// What of an actuator's limits nothing keeps.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -156,18 +156,6 @@ pub enum LimitsWarning {
     },
 }
 
-        hz: f64,
-        /// The rate.
-        rate_hz: f64,
-    },
-    /// The figures of a data sheet contradict each other.
-    #[error("the data sheet contradicts itself: {reason}; check its figures")]
-    Contradiction {
-        /// What does not fit, with the numbers.
-        reason: String,
-    },
-}
-
 impl Default for Limits {
     fn default() -> Self {
         Self {
@@ -177,6 +165,18 @@ impl Default for Limits {
             thermal_secs: USUAL_THERMAL_SECS,
         }
     }
+}
+
+impl Actuator {
+    /// The response that it has on the load that it was measured on.
+    ///
+    /// # Errors
+    /// [`ActuatorError::NoResponse`].
+    pub fn response(&self) -> Result<Response, ActuatorError> {
+        let measured = self.measured.as_ref().map(|measured| measured.response);
+        measured.ok_or_else(|| ActuatorError::NoResponse { id: self.id.clone() })
+    }
+
     /// What it bears, in volts: the rated current `I` through the resistance `R` of the coil is the voltage `I R`, and the
     /// smaller counts where a voltage is rated too. The coil's impedance is nowhere below its resistance, so that `I R`
     /// never drives more than `I`.
@@ -192,18 +192,6 @@ impl Default for Limits {
         let rated_amps_rms = self.limits.rated_amps_rms?;
         let is_known = self.physical.resistance_ohm.is_some();
         (!is_known).then(|| LimitsWarning::CurrentWithoutResistance { id: self.id.clone(), rated_amps_rms })
-    }
-
-}
-
-impl Actuator {
-    /// The response that it has on the load that it was measured on.
-    ///
-    /// # Errors
-    /// [`ActuatorError::NoResponse`].
-    pub fn response(&self) -> Result<Response, ActuatorError> {
-        let measured = self.measured.as_ref().map(|measured| measured.response);
-        measured.ok_or_else(|| ActuatorError::NoResponse { id: self.id.clone() })
     }
 
     /// The actuator on another load: with `m_t` the mass of case and load and `m_r = m_a m_t / (m_a + m_t)` that of case,
