@@ -1,4 +1,4 @@
-//! Voice coils: what they make of a voltage, what they bear, and the filter that makes up for them.
+//! Voice coils: what they make of a voltage, what they bear, and how they are driven.
 //!
 //! A mass on a spring moves within a case that is fixed to the load, such as a pen. Driven by a voltage, the case
 //! accelerates as a second-order high-pass does ([`Response`]): loudest at its resonance, flat far above it, falling by
@@ -7,14 +7,12 @@
 mod data_sheet;
 mod drive;
 mod headroom;
-mod inverse;
 mod response;
 
 pub use crate::actuator::data_sheet::{DataSheet, Mechanics};
 pub use crate::actuator::drive::{Drive, drive_config, limited_drive};
 pub use crate::actuator::headroom::Headroom;
-pub use crate::actuator::inverse::{inverse, inverse_gain_bound, tikhonov_inverse};
-pub use crate::actuator::response::{MAX_Q, MIN_Q, Response};
+pub use crate::actuator::response::Response;
 
 use crate::units::{Hertz, Kilograms, Volts};
 
@@ -133,21 +131,28 @@ pub enum ActuatorError {
         /// What is not known of it.
         missing: &'static str,
     },
-    /// The sampling rate is too low for the resonance or the lowest frequency.
-    #[error("{what} of {hz} Hz is not below half of the rate of {rate_hz} Hz; use a higher rate")]
-    Rate {
-        /// What is too high.
-        what: &'static str,
-        /// Where it is.
-        hz: f64,
-        /// The rate.
-        rate_hz: f64,
-    },
     /// The figures of a data sheet contradict each other.
     #[error("the data sheet contradicts itself: {reason}; check its figures")]
     Contradiction {
         /// What does not fit, with the numbers.
         reason: String,
+    },
+}
+
+/// What of an actuator's limits nothing keeps.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LimitsWarning {
+    /// A current is rated, and no voltage follows from it.
+    #[error(
+        "{id} bears {rated_amps_rms} A in the long run, and nobody has stated a resistance of its coil: nothing keeps that \
+         limit; state its resistance in Ω"
+    )]
+    CurrentWithoutResistance {
+        /// The actuator.
+        id: String,
+        /// Highest root mean square of the current in the long run, in A.
+        rated_amps_rms: f64,
     },
 }
 
@@ -170,6 +175,23 @@ impl Actuator {
     pub fn response(&self) -> Result<Response, ActuatorError> {
         let measured = self.measured.as_ref().map(|measured| measured.response);
         measured.ok_or_else(|| ActuatorError::NoResponse { id: self.id.clone() })
+    }
+
+    /// What it bears, in volts: the rated current `I` through the resistance `R` of the coil is the voltage `I R`, and the
+    /// smaller counts where a voltage is rated too. The coil's impedance is nowhere below its resistance, so that `I R`
+    /// never drives more than `I`.
+    pub fn limits_in_volts(&self) -> Limits {
+        let of_current = self.limits.rated_amps_rms.zip(self.physical.resistance_ohm).map(|(i, r)| i * r);
+        let rated = self.limits.rated_volts_rms.map(|volts| volts.0);
+        let smaller = rated.into_iter().chain(of_current).reduce(f64::min);
+        Limits { rated_volts_rms: smaller.map(Volts), ..self.limits }
+    }
+
+    /// What [`Actuator::limits_in_volts`] cannot say, for whoever drives it to be shown.
+    pub fn limits_warning(&self) -> Option<LimitsWarning> {
+        let rated_amps_rms = self.limits.rated_amps_rms?;
+        let is_known = self.physical.resistance_ohm.is_some();
+        (!is_known).then(|| LimitsWarning::CurrentWithoutResistance { id: self.id.clone(), rated_amps_rms })
     }
 
     /// The actuator on another load: with `m_t` the mass of case and load and `m_r = m_a m_t / (m_a + m_t)` that of case,

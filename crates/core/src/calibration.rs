@@ -4,7 +4,7 @@
 //! whenever. Divided by the sweep the recording becomes an impulse response, in which distortion lies ahead of the
 //! response itself, by harmonics (Farina 2000); a window keeps the one or the other. What is left is the gain over
 //! frequency ([`CurvePoint`]), with the noise of the silence around the sweep beside it, and a second-order high-pass that
-//! is fitted to it ([`fit_response`]).
+//! is fitted to it ([`Fit`]).
 
 mod clipping;
 mod curve;
@@ -13,7 +13,7 @@ mod impulse;
 mod locate;
 mod sweep;
 
-pub use crate::calibration::fit::{FIT_HIGH, Fit, FitError, MIN_SNR_DB, fit_response};
+pub use crate::calibration::fit::{Fit, FitError};
 pub use crate::calibration::sweep::{Sweep, SweepError};
 
 use std::fmt;
@@ -21,6 +21,7 @@ use std::fmt;
 use crate::actuator::{Actuator, Calibrated, Drive, Limits, Measured, Physical, USUAL_LOWEST};
 use crate::calibration::clipping::clipped_peaks;
 use crate::calibration::curve::{distortion, gains, silence};
+use crate::calibration::fit::{MIN_SNR_DB, fit_response};
 use crate::calibration::impulse::{Impulse, prepare};
 use crate::calibration::locate::locate;
 use crate::units::{Hertz, Kilograms};

@@ -1,7 +1,7 @@
 //! What an accelerometer in a pen feels when the pen is stroked over a material.
 //!
-//! The ball tip rides on the relief ([`dilate`]), its patch of contact smooths what is finer
-//! ([`patch_low_pass`]), and the pen moves on the springs of the contact and of the hand, with loss of contact:
+//! The ball tip rides on the relief (`dilate`), its patch of contact smooths what is finer
+//! (`patch_low_pass`), and the pen moves on the springs of the contact and of the hand, with loss of contact:
 //!
 //! - normal: `m z̈ = F_c − F − B ż − K z`, with `F_c = max(0, F + k (h − z) + c (ḣ − ż))`
 //! - lateral: `m (ü + 2 ζ_l ω_l u̇ + ω_l² u) = µ F s ξ + µ (F_c − F) + F_c dh/dx`
@@ -15,9 +15,8 @@
 mod dynamics;
 mod tip;
 
-pub use crate::contact_model::tip::{dilate, patch_low_pass};
-
 use crate::contact_model::dynamics::{Path, Springs};
+use crate::contact_model::tip::{dilate, patch_low_pass};
 use crate::dft321::dft321;
 use crate::filter::{butterworth_high_pass, decimate, filter_zero_phase};
 use crate::height_field::{HeightField, PROFILE_STEP_M, profile};
@@ -30,7 +29,7 @@ use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 pub const STROKE_RATE: Hertz = Hertz(1000.0);
 
 /// Cut-off of the high-pass that removes the hand's own motion.
-pub const STROKE_HIGH_PASS: Hertz = Hertz(10.0);
+const STROKE_HIGH_PASS: Hertz = Hertz(10.0);
 
 /// Length of surface that serves a second at 250 mm/s, with room to start anywhere.
 pub const STARTER_PATH_M: f64 = 0.45;
@@ -226,13 +225,13 @@ pub fn roughness(surface: &Surface, seed: u64) -> Result<f64, StrokeError> {
     Ok(rms(&signal).log10())
 }
 
-/// Physical label of hardness: log₁₀ of [`hertz_stiffness_n_per_m`] at the force of [`REFERENCE_CONTACT`].
+/// Physical label of hardness: log₁₀ of the stiffness of Hertz, in N/m, at the force of [`REFERENCE_CONTACT`].
 pub fn hardness(material: &Material, tool: &Tool) -> f64 {
     hertz_stiffness_n_per_m(material, tool, REFERENCE_CONTACT.force).log10()
 }
 
 /// Modulus E* of ball and surface in series: `1/E* = 1/E + 1/E_tip`.
-pub fn effective_modulus_pa(material: &Material, tool: &Tool) -> f64 {
+fn effective_modulus_pa(material: &Material, tool: &Tool) -> f64 {
     1.0 / (1.0 / material.youngs_modulus_pa + 1.0 / tool.tip_modulus_pa)
 }
 
@@ -242,13 +241,13 @@ pub fn patch_radius_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
 }
 
 /// Stiffness of the Hertz contact about its mean force: `k = 3/2 (4/3 E* √R)^⅔ F^⅓`.
-pub fn hertz_stiffness_n_per_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
+fn hertz_stiffness_n_per_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
     let load_factor = 4.0 / 3.0 * effective_modulus_pa(material, tool) * tool.tip_radius_m.sqrt();
     1.5 * load_factor.cbrt().powi(2) * force.0.cbrt()
 }
 
 /// Stiffness between relief and sensor: Hertz contact, asperities `F / (½ h_rms)` and the pen's body in series.
-pub fn contact_stiffness_n_per_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
+fn contact_stiffness_n_per_m(material: &Material, tool: &Tool, force: Newtons) -> f64 {
     let asperity_compliance = 0.5 * material.height_rms_m / force.0;
     let hertz_compliance = 1.0 / hertz_stiffness_n_per_m(material, tool, force);
     1.0 / (hertz_compliance + asperity_compliance + 1.0 / tool.body_stiffness_n_per_m)

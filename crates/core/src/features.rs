@@ -14,9 +14,7 @@ use crate::texture::TextureModel;
 use crate::words::listed;
 
 pub use crate::features::error::{FeatureError, FeatureWarning};
-pub use crate::features::physical::{
-    PHYSICAL_BAND, Physical, centroid, level_db, level_exponents, physical, physical_table, tap_centroid,
-};
+pub use crate::features::physical::{PHYSICAL_BAND, Physical, centroid, level_db, physical, physical_table};
 
 /// A texture and what it is called.
 #[derive(Clone, Copy, Debug)]

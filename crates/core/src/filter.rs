@@ -3,6 +3,7 @@
 mod resample;
 
 pub use crate::filter::resample::resample_down;
+pub use shagreen_synth::equalizer::Biquad;
 
 use shagreen_synth::resampler::bessel_i0;
 
@@ -14,15 +15,6 @@ pub const DECIMATION_ATTENUATION_DB: f64 = 80.0;
 
 /// Upper edge of [`decimate`]'s pass band as a share of the new Nyquist frequency.
 pub const DECIMATION_PASS_SHARE: f64 = 0.9;
-
-/// A second-order recursive filter `(b0 + b1 z⁻¹ + b2 z⁻²) / (1 + a1 z⁻¹ + a2 z⁻²)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Biquad {
-    /// Feed-forward coefficients b0, b1, b2.
-    pub b: [f64; 3],
-    /// Feedback coefficients a1, a2; a0 is 1.
-    pub a: [f64; 2],
-}
 
 /// The sections of a Butterworth high-pass of even `order` (2 or more), by the pre-warped bilinear transform.
 ///

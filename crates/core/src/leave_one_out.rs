@@ -21,7 +21,7 @@ use crate::leave_one_out::rest::{Made, Placed, Rests, is_inside, nearest};
 use crate::leave_one_out::signals::Rendered;
 
 /// Fewest textures that have a place: three, and one between them.
-pub const MIN_PLACED: usize = 4;
+const MIN_PLACED: usize = 4;
 
 /// What is measured.
 #[derive(Clone, Debug)]

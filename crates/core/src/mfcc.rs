@@ -25,7 +25,7 @@ mod plan;
 mod transform;
 
 pub use crate::mfcc::error::{MfccError, MfccPlanError};
-pub use crate::mfcc::filter_bank::{filter_bank, mel_edges};
+pub use crate::mfcc::filter_bank::filter_bank;
 pub use crate::mfcc::options::{
     Dct, FilterShape, FirstCoefficient, Framing, Lifter, Logarithm, MelScale, MfccOptions, Spectrum,
     TransformLength, Window, htk, paper, recommended,

@@ -13,7 +13,7 @@ pub use agreement::{Agreement, AgreementError, IntraclassCorrelation, agreement}
 pub use outliers::{OUTLIER_LIMIT, RaterFit, rater_fits};
 pub use pair_name::{PairNameError, poles};
 pub use relevance::{RELEVANCE_LIMIT, Relevance, RelevanceVote, VoteError, relevances};
-pub use table::{MAX_CELLS, MAX_PAIRS, RatingTable, RatingsError};
+pub use table::{RatingTable, RatingsError};
 
 use crate::statistics::{mean, standard_deviation, t_quantile_two_sided};
 

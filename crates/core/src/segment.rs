@@ -27,14 +27,14 @@ pub const MIN_FORCE: Newtons = Newtons(0.05);
 pub const SPEED_TOLERANCE: f64 = 0.25;
 
 /// How far speed may be from its middle however slow it is, in m/s.
-pub const SPEED_TOLERANCE_MPS: f64 = 0.010;
+const SPEED_TOLERANCE_MPS: f64 = 0.010;
 
 /// How far force may be from the middle of its range in a stretch, as a share of it: the level follows force half as much
 /// as speed.
 pub const FORCE_TOLERANCE: f64 = 0.15;
 
 /// How far force may be from its middle however light it is, in N.
-pub const FORCE_TOLERANCE_N: f64 = 0.05;
+const FORCE_TOLERANCE_N: f64 = 0.05;
 
 /// Speed and force are low-passed here, in Hz: no hand is faster, and sensors are noisy above.
 const TRACK_BAND_HZ: f64 = 20.0;

@@ -30,9 +30,9 @@ mod table;
 mod validation;
 
 pub use error::SelectionError;
-pub use forward::{Forward, Order, P_STOP, forward_selection};
+pub use forward::{Forward, Order};
 pub use model::{AxisModel, Term};
-pub use parallel::{Parallel, parallel_analysis};
+pub use parallel::Parallel;
 pub use table::FeatureMatrix;
 pub use validation::{STANDARD, Scheme, Validation, validate};
 

@@ -12,7 +12,7 @@ mod finding;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use crate::sorting::agreement::{FAR_BELOW, MIN_PAIRS, MIN_PARTICIPANTS, SorterFit};
+pub use crate::sorting::agreement::{FAR_BELOW, MIN_PAIRS, SorterFit};
 pub use crate::sorting::finding::Finding;
 
 use crate::dissimilarities::{Dissimilarities, DissimilaritiesError};

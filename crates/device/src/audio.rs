@@ -2,6 +2,7 @@
 
 mod choose;
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use cpal::traits::{DeviceTrait as _, HostTrait as _, StreamTrait as _};
@@ -13,7 +14,7 @@ use self::choose::choose;
 use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
-use crate::link::Reporter;
+use crate::link::{Reporter, Shared};
 use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, make_engine};
 
 /// The one id that needs no search: the search opens every card.
@@ -75,6 +76,7 @@ pub(crate) struct Opened {
     pub(crate) channels: u16,
     pub(crate) buffer_frames: Option<u32>,
     pub(crate) engine_latency_secs: f64,
+    pub(crate) shared: Arc<Shared>,
 }
 
 /// Names under which ALSA lists its plugins: they convert for another output, or are none. Who means one opens it by id.
@@ -143,7 +145,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     };
     let asked = options.buffer_frames.map_or(BufferSize::Default, BufferSize::Fixed);
     let config = StreamConfig { channels: range.channels(), sample_rate: rate_hz, buffer_size: asked };
-    let (handle, stream, engine_latency_secs) =
+    let (handle, stream, engine_latency_secs, shared) =
         match build(id, &device, config, range.sample_format(), options) {
             // The number of frames is only a wish.
             Err(error) if error.kind() == DeviceErrorKind::Unsupported && asked != BufferSize::Default => {
@@ -159,6 +161,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
         buffer_frames: stream.buffer_size().ok(), // Not every system says.
         output: AudioOutput { _stream: stream },
         engine_latency_secs,
+        shared,
     };
     Ok((handle, opened))
 }
@@ -196,7 +199,7 @@ fn configs_of(id: &str, device: &cpal::Device) -> Result<Vec<SupportedStreamConf
     Ok(configs.collect())
 }
 
-type Built = (Handle, cpal::Stream, f64);
+type Built = (Handle, cpal::Stream, f64, Arc<Shared>);
 
 fn build(
     id: &str,
@@ -224,7 +227,8 @@ fn build_as<T: SizedSample + FromSample<f32>>(
 ) -> Result<Built, DeviceError> {
     let Made { handle, engine, mut reporter } = make_engine(options, config.sample_rate)?;
     let engine_latency_secs = f64::from(engine.latency_secs());
-    let mut edge = Edge::new(engine, reporter.shared.clone(), f64::from(config.sample_rate));
+    let shared = Arc::clone(&reporter.shared);
+    let mut edge = Edge::new(engine, Arc::clone(&shared), f64::from(config.sample_rate));
     let channels = usize::from(config.channels);
     let id_of_errors = id.to_owned();
     let stream = device
@@ -238,7 +242,7 @@ fn build_as<T: SizedSample + FromSample<f32>>(
             Some(Duration::from_secs(1)),
         )
         .map_err(|error| explain(Way::Out, id, "opened", &error))?;
-    Ok((handle, stream, engine_latency_secs))
+    Ok((handle, stream, engine_latency_secs, shared))
 }
 
 /// What the system reports about an open stream. It may be on the callback's thread, but not in the callback: only an

@@ -1,16 +1,23 @@
 //! Inputs of the system's sound: the accelerometer that an actuator is measured with, or a loop back.
 
+mod sample_clock;
+
 use std::cmp::Reverse;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use cpal::traits::{DeviceTrait as _, StreamTrait as _};
-use cpal::{FromSample, Sample as _, SampleFormat, SizedSample, StreamConfig, SupportedStreamConfigRange};
+use cpal::{
+    ErrorKind, FromSample, Sample as _, SampleFormat, SizedSample, StreamConfig, SupportedStreamConfigRange,
+};
 use rtrb::{Consumer, Producer, RingBuffer};
+use triple_buffer::triple_buffer;
 
 use crate::audio::{Listed, Way, devices, explain, find};
 use crate::error::{DeviceError, DeviceErrorKind};
+
+use self::sample_clock::{SampleClock, SampleTimes};
 
 /// Samples that can wait to be read: more than two seconds at 192 kHz.
 const WAITING: usize = 1 << 19;
@@ -29,14 +36,33 @@ pub fn list_inputs() -> Vec<InputInfo> {
     devices(Way::In).into_iter().map(|Listed { id, name, .. }| InputInfo { id, name }).collect()
 }
 
-/// What the callback tells.
-#[derive(Debug)]
+/// What the callbacks tell.
+#[derive(Debug, Default)]
 struct Told {
-    opened: Instant,
-    /// When the first sample was taken: nanoseconds after `opened`, the earliest that any block says.
-    first_nanos: AtomicI64,
+    has_begun: AtomicBool,
     n_dropped: AtomicU64,
     is_lost: AtomicBool,
+}
+
+impl Told {
+    /// The system reports something about the open stream.
+    fn note_error(&self, kind: ErrorKind) {
+        match kind {
+            ErrorKind::DeviceNotAvailable
+            | ErrorKind::DeviceChanged
+            | ErrorKind::HostUnavailable
+            | ErrorKind::PermissionDenied
+            | ErrorKind::StreamInvalidated => self.is_lost.store(true, Ordering::Relaxed),
+            // It records all the same.
+            ErrorKind::RealtimeDenied => {}
+            // Before the first sample nothing can be missing: some devices report errors when they start.
+            _ => {
+                if self.has_begun.load(Ordering::Relaxed) {
+                    self.n_dropped.fetch_add(1, Ordering::Relaxed);
+                }
+            }
+        }
+    }
 }
 
 /// An open input: it records one channel until it is dropped.
@@ -45,6 +71,9 @@ pub struct Recorder {
     rate_hz: u32,
     samples: Consumer<f32>,
     told: Arc<Told>,
+    opened: Instant,
+    /// In seconds since `opened`.
+    times: triple_buffer::Output<Option<SampleTimes>>,
     _stream: cpal::Stream,
 }
 
@@ -84,14 +113,11 @@ impl Recorder {
             sample_rate: rate_hz,
             buffer_size: cpal::BufferSize::Default,
         };
-        let told = Arc::new(Told {
-            opened: Instant::now(),
-            first_nanos: AtomicI64::new(i64::MAX),
-            n_dropped: AtomicU64::new(0),
-            is_lost: AtomicBool::new(false),
-        });
+        let told = Arc::new(Told::default());
+        let opened = Instant::now();
         let (producer, samples) = RingBuffer::new(WAITING);
-        let intake = Intake { producer, told: Arc::clone(&told), channel_idx, n_taken: 0, config };
+        let (times_in, times) = triple_buffer(&None);
+        let intake = Intake::new(config, channel_idx, opened, producer, Arc::clone(&told), times_in);
         let stream = match range.sample_format() {
             SampleFormat::F64 => build::<f64>(id, &device, intake),
             SampleFormat::I32 => build::<i32>(id, &device, intake),
@@ -102,7 +128,7 @@ impl Recorder {
             _ => build::<f32>(id, &device, intake),
         }?;
         stream.play().map_err(|error| explain(Way::In, id, "started", &error))?;
-        Ok(Self { id: id.to_owned(), rate_hz, samples, told, _stream: stream })
+        Ok(Self { id: id.to_owned(), rate_hz, samples, told, opened, times, _stream: stream })
     }
 
     /// Rate of the samples, in Hz.
@@ -120,31 +146,51 @@ impl Recorder {
     }
 
     /// When the first sample was taken, as far as the device says; none before the first.
-    pub fn first_sample_at(&self) -> Option<Instant> {
-        let nanos = self.told.first_nanos.load(Ordering::Relaxed);
-        if nanos == i64::MAX {
-            return None;
-        }
-        let offset = Duration::from_nanos(nanos.unsigned_abs());
+    ///
+    /// This is where a line through the earliest times of each second of the recording begins, so that it stays where it is
+    /// however long it takes: within some hundredths of a millisecond where callbacks are late by one, but for what all of
+    /// them are late by.
+    pub fn first_sample_at(&mut self) -> Option<Instant> {
+        let first_secs = self.times.read().as_ref()?.first_secs;
         // The device may say that it took a sample before it was opened.
-        if nanos < 0 { self.told.opened.checked_sub(offset) } else { self.told.opened.checked_add(offset) }
+        let offset = Duration::try_from_secs_f64(first_secs.abs()).ok()?; // No time of any recording.
+        if first_secs < 0.0 { self.opened.checked_sub(offset) } else { self.opened.checked_add(offset) }
     }
 
-    /// Samples that nobody read in time, and the ring had no room for.
+    /// How many samples had been taken at a time, whole or not and negative before the first, by the same line; none before
+    /// the first. The device's clock counts, so that this holds for the end of a long recording, where
+    /// [`Recorder::rate_hz`] and the first sample alone are off by what that clock is.
+    pub fn sample_index_at(&mut self, time: Instant) -> Option<f64> {
+        let since = time.saturating_duration_since(self.opened).as_secs_f64();
+        let before = self.opened.saturating_duration_since(time).as_secs_f64();
+        Some(self.times.read().as_ref()?.index_at(since - before, f64::from(self.rate_hz)))
+    }
+
+    /// What is missing: samples that nobody read in time, and errors of the stream, each of which may have cost some.
     pub fn n_dropped(&self) -> u64 {
         self.told.n_dropped.load(Ordering::Relaxed)
     }
 
-    /// Whether the input is gone.
+    /// Whether the input is there and nothing is missing.
     ///
     /// # Errors
-    /// - [`DeviceErrorKind::Lost`] where it is, with what to do.
+    /// - [`DeviceErrorKind::Lost`] where it is gone, with what to do.
+    /// - [`DeviceErrorKind::Backend`] where something is missing.
     pub fn check(&self) -> Result<(), DeviceError> {
-        if !self.told.is_lost.load(Ordering::Relaxed) {
-            return Ok(());
+        if self.told.is_lost.load(Ordering::Relaxed) {
+            let message = format!("the input `{}` is lost; plug it in and measure again", self.id);
+            return Err(DeviceError::new(DeviceErrorKind::Lost, message));
         }
-        let message = format!("the input `{}` is lost; plug it in and measure again", self.id);
-        Err(DeviceError::new(DeviceErrorKind::Lost, message))
+        let n_dropped = self.n_dropped();
+        if n_dropped > 0 {
+            let message = format!(
+                "samples of the input `{}` were lost while it was measured ({n_dropped} losses); close other programs and \
+                 measure again",
+                self.id
+            );
+            return Err(DeviceError::new(DeviceErrorKind::Backend, message));
+        }
+        Ok(())
     }
 }
 
@@ -188,17 +234,32 @@ struct Intake {
     channel_idx: usize,
     n_taken: u64,
     config: StreamConfig,
+    opened: Instant,
+    clock: SampleClock,
+    times: triple_buffer::Input<Option<SampleTimes>>,
 }
 
 impl Intake {
+    fn new(
+        config: StreamConfig,
+        channel_idx: usize,
+        opened: Instant,
+        producer: Producer<f32>,
+        told: Arc<Told>,
+        times: triple_buffer::Input<Option<SampleTimes>>,
+    ) -> Self {
+        let clock = SampleClock::new(f64::from(config.sample_rate.max(1)));
+        Self { producer, told, channel_idx, n_taken: 0, config, opened, clock, times }
+    }
+
     /// Takes a block: never allocates, locks or waits.
     fn take<T: SizedSample>(&mut self, block: &[T], since_capture: Duration)
     where
         f32: FromSample<T>,
     {
-        let begun = nanos(self.told.opened.elapsed()) - nanos(since_capture);
-        let taken = Duration::from_secs_f64(self.n_taken as f64 / f64::from(self.config.sample_rate.max(1)));
-        self.told.first_nanos.fetch_min(begun - nanos(taken), Ordering::Relaxed);
+        self.clock.note(self.n_taken, self.opened.elapsed().as_secs_f64() - since_capture.as_secs_f64());
+        self.times.write(self.clock.times());
+        self.told.has_begun.store(true, Ordering::Relaxed);
         for frame in block.chunks_exact(usize::from(self.config.channels.max(1))) {
             let Some(sample) = frame.get(self.channel_idx) else { continue };
             if self.producer.push(f32::from_sample(*sample)).is_err() {
@@ -207,11 +268,6 @@ impl Intake {
             self.n_taken += 1;
         }
     }
-}
-
-/// Nanoseconds of a time that is no more than centuries.
-fn nanos(time: Duration) -> i64 {
-    i64::try_from(time.as_nanos()).unwrap_or(i64::MAX)
 }
 
 fn build<T: SizedSample>(
@@ -230,14 +286,7 @@ where
                 let times = info.timestamp();
                 intake.take(block, times.callback.duration_since(times.capture));
             },
-            move |error| {
-                if matches!(
-                    error.kind(),
-                    cpal::ErrorKind::DeviceNotAvailable | cpal::ErrorKind::StreamInvalidated
-                ) {
-                    told.is_lost.store(true, Ordering::Relaxed);
-                }
-            },
+            move |error| told.note_error(error.kind()),
             Some(Duration::from_secs(1)),
         )
         .map_err(|error| explain(Way::In, id, "opened", &error))
@@ -246,8 +295,8 @@ where
 #[cfg(test)]
 mod tests {
     use super::{
-        Arc, AtomicBool, AtomicI64, AtomicU64, DeviceErrorKind, Duration, Instant, Intake, Ordering,
-        Recorder, RingBuffer, SampleFormat, StreamConfig, SupportedStreamConfigRange, Told, choose,
+        Arc, DeviceErrorKind, Duration, ErrorKind, Instant, Intake, Ordering, Recorder, RingBuffer,
+        SampleFormat, StreamConfig, SupportedStreamConfigRange, Told, choose, triple_buffer,
     };
     use cpal::SupportedBufferSize;
 
@@ -286,22 +335,38 @@ mod tests {
 
     #[test]
     fn takes_its_channel_says_when_and_drops_what_nobody_reads() {
-        let told = Arc::new(Told {
-            opened: Instant::now(),
-            first_nanos: AtomicI64::new(i64::MAX),
-            n_dropped: AtomicU64::new(0),
-            is_lost: AtomicBool::new(false),
-        });
+        let told = Arc::new(Told::default());
         let (producer, mut samples) = RingBuffer::new(5);
         let config = StreamConfig { channels: 3, sample_rate: 1000, buffer_size: cpal::BufferSize::Default };
-        let mut intake = Intake { producer, told: Arc::clone(&told), channel_idx: 1, n_taken: 0, config };
+        let (times_in, mut times) = triple_buffer(&None);
+        let opened = Instant::now();
+        let mut intake = Intake::new(config, 1, opened, producer, Arc::clone(&told), times_in);
         // Two frames and the beginning of a third.
         intake.take(&[0_i16, 16_384, 0, 0, -16_384, 0, 7], Duration::from_millis(2));
-        let first = told.first_nanos.load(Ordering::Relaxed);
-        assert!(first < super::nanos(told.opened.elapsed()) - 2_000_000);
+        let first_secs = times.read().unwrap().first_secs;
+        assert!((-0.002..opened.elapsed().as_secs_f64() - 0.002).contains(&first_secs), "{first_secs}");
         intake.take(&[0.0_f32, 0.25, 0.0].repeat(4), Duration::ZERO);
         let read: Vec<f32> = std::iter::from_fn(|| samples.pop().ok()).collect();
         assert_eq!(read, [0.5, -0.5, 0.25, 0.25, 0.25]);
         assert_eq!(told.n_dropped.load(Ordering::Relaxed), 1);
+    }
+
+    #[test]
+    fn what_the_stream_reports_is_counted_once_there_is_something_to_miss() {
+        let told = Told::default();
+        let n_dropped = || told.n_dropped.load(Ordering::Relaxed);
+        told.note_error(ErrorKind::Xrun);
+        assert_eq!(n_dropped(), 0);
+        told.has_begun.store(true, Ordering::Relaxed);
+        told.note_error(ErrorKind::RealtimeDenied);
+        assert_eq!(n_dropped(), 0);
+        told.note_error(ErrorKind::Xrun);
+        told.note_error(ErrorKind::Other);
+        assert_eq!((n_dropped(), told.is_lost.load(Ordering::Relaxed)), (2, false));
+        for kind in [ErrorKind::DeviceNotAvailable, ErrorKind::DeviceChanged, ErrorKind::StreamInvalidated] {
+            let told = Told::default();
+            told.note_error(kind);
+            assert!(told.is_lost.load(Ordering::Relaxed), "{kind:?}");
+        }
     }
 }

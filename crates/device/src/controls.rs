@@ -20,6 +20,24 @@ pub enum Input {
     Track,
 }
 
+/// When a person's hand takes over from the chosen input by itself: from the block on that its report arrives in, whatever
+/// the thread of a window does meanwhile. It does with a stylus that touches, or that says that it is near
+/// ([`crate::live::LiveInput::hover`]). A landing sounds at once; the contact fades, as with every change of input.
+///
+/// The chosen input stands still while the person's hand is followed, and goes on from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Takeover {
+    /// How long after the stylus is neither near nor touching the chosen input goes on, in seconds.
+    pub lifted_secs: f32,
+    /// The same after the last report of a stylus that never said that it went, in seconds.
+    pub stale_secs: f32,
+}
+
+impl Takeover {
+    /// Between two taps of a mouse the hand stays; a pen may be held still for a while.
+    pub const USUAL: Self = Self { lifted_secs: 0.3, stale_secs: 2.0 };
+}
+
 /// How much of the signal goes out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
@@ -54,6 +72,8 @@ pub struct Controls {
     pub drive: Drive,
     /// What moves over them.
     pub input: Input,
+    /// Whether and when a person's hand does in its place.
+    pub takeover: Option<Takeover>,
 }
 
 impl Default for Controls {
@@ -64,6 +84,7 @@ impl Default for Controls {
             tap: Tap::SILENT,
             drive: Drive::default(),
             input: Input::default(),
+            takeover: None,
         }
     }
 }

@@ -10,6 +10,8 @@ use crate::link::Shared;
 
 /// Samples converted at a time; at least a frame of the most channels that a device has.
 const SCRATCH: usize = 1024;
+/// A device that says that it is later than this is not believed.
+const MAX_LATENCY: Duration = Duration::from_secs(10);
 /// Time constant of the load that is shown, in seconds.
 const LOAD_SECS: f64 = 0.5;
 
@@ -54,6 +56,9 @@ impl Edge {
             device_latency_secs: device_latency.as_secs_f32(),
         };
         self.engine.begin_block(edge);
+        let block = Duration::from_secs_f64((out.len() / channels) as f64 / self.rate_hz.max(1.0));
+        // Said ahead of what the engine tells: who knows that something was played finds its end here.
+        self.shared.note_heard_by(begun + device_latency.min(MAX_LATENCY) + block);
         let at_once = (SCRATCH / channels).max(1) * channels;
         for part in out.chunks_mut(at_once.min(SCRATCH)) {
             let Some(scratch) = self.scratch.get_mut(..part.len()) else { break };

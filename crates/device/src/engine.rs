@@ -35,7 +35,7 @@ use self::meter::{Meter, Ramp};
 use self::player::{Landing, Player};
 use self::signal_player::SignalPlayer;
 use self::slots::Slots;
-use crate::controls::Controls;
+use crate::controls::{Controls, Input};
 use crate::live::{LiveInput, TimedTouch};
 use crate::signal::Signal;
 use crate::status::{Latency, LinkState, Status};
@@ -76,7 +76,8 @@ enum Command {
     Load(TextureId, Box<OwnedTexture>),
     Unload(TextureId),
     Play(Box<Track>),
-    Signal(Box<Signal>),
+    /// With the number of wishes to end signals that are older.
+    Signal(Box<Signal>, u32),
 }
 
 /// What the callback is done with and does not free.
@@ -248,8 +249,8 @@ impl Engine {
                         self.return_or_leak(Returned::Track(replaced));
                     }
                 }
-                Ok(Command::Signal(signal)) => {
-                    if let Some(replaced) = self.signal.play(signal) {
+                Ok(Command::Signal(signal, n_stops)) => {
+                    if let Some(replaced) = self.signal.play(signal, n_stops) {
                         self.return_or_leak(Returned::Signal(replaced));
                     }
                 }
@@ -261,11 +262,11 @@ impl Engine {
     fn take_touches(&mut self) {
         let Self { touches, player, latency, edge, chain, stream, .. } = self;
         let after_secs = chain.latency_secs() + edge.map_or(0.0, |edge| edge.device_latency_secs);
-        for touches in touches {
+        for (stylus_idx, touches) in touches.iter_mut().enumerate() {
             for _ in 0..TOUCHES {
-                let Ok(TimedTouch { touch, time, landing_mps }) = touches.pop() else { break };
-                let age = edge.map_or(Duration::ZERO, |edge| edge.now.saturating_duration_since(time));
-                player.report(touch, landing_mps, age.as_secs_f64());
+                let Ok(timed) = touches.pop() else { break };
+                let age = edge.map_or(Duration::ZERO, |edge| edge.now.saturating_duration_since(timed.time));
+                player.report(stylus_idx, timed, age.as_secs_f64());
                 let out_secs = age.as_secs_f32() + after_secs;
                 latency.note(out_secs + stream.latency_secs(), out_secs);
             }
@@ -282,9 +283,12 @@ impl Engine {
             self.mix = orders.controls.mix;
             self.stream.set_mix(self.mix);
         }
+        self.player.set_takeover(orders.controls.takeover);
         self.player.set_input(orders.controls.input);
         self.tap = orders.controls.tap;
-        self.signal.follow(orders.n_stops);
+        for unheard in self.signal.follow(orders.n_stops).into_iter().flatten() {
+            self.return_or_leak(Returned::Signal(unheard));
+        }
         // Without a handle nobody can mute.
         let is_in_hand = !self.commands.is_abandoned();
         let drive = orders.controls.drive;
@@ -388,6 +392,7 @@ impl Engine {
             device_latency_secs: self.edge.map_or(0.0, |edge| edge.device_latency_secs),
             latency: self.latency,
             plays_signal: self.signal.is_playing(),
+            follows_live: self.player.input() == Input::Live,
             touch: self.player.touch(),
             level_mps2: self.meter.level(),
             peak: self.meter.peak(),

@@ -20,6 +20,8 @@ pub(crate) struct Shared {
     opened: Instant,
     /// Microseconds from `opened` to the last call of the callback, plus one; zero before the first.
     last_callback: AtomicU64,
+    /// Microseconds from `opened` to when the last block will have been heard, as far as the device says.
+    heard: AtomicU64,
     underruns: AtomicU64,
     backend_errors: AtomicU64,
     lost: AtomicBool,
@@ -30,6 +32,17 @@ impl Shared {
     pub(crate) fn note_callback(&self, now: Instant) {
         let micros = now.saturating_duration_since(self.opened).as_micros() as u64;
         self.last_callback.store(micros + 1, Ordering::Relaxed);
+    }
+
+    /// What the callback is about to hand over will have been heard by then.
+    pub(crate) fn note_heard_by(&self, time: Instant) {
+        let micros = time.saturating_duration_since(self.opened).as_micros() as u64;
+        self.heard.fetch_max(micros, Ordering::Relaxed);
+    }
+
+    /// When all that has been handed over will have been heard, as far as the device says.
+    pub(crate) fn heard_by(&self) -> Instant {
+        self.opened + Duration::from_micros(self.heard.load(Ordering::Relaxed))
     }
 
     pub(crate) fn note_underrun(&self) {
@@ -138,6 +151,7 @@ pub(crate) fn link() -> (Reporter, Monitor) {
     let shared = Arc::new(Shared {
         opened: Instant::now(),
         last_callback: AtomicU64::new(0),
+        heard: AtomicU64::new(0),
         underruns: AtomicU64::new(0),
         backend_errors: AtomicU64::new(0),
         lost: AtomicBool::new(false),

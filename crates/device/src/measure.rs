@@ -1,14 +1,15 @@
 //! Plays a signal on an output and listens to a sensor meanwhile: how an actuator is measured.
 
+use std::fmt::Display;
 use std::time::{Duration, Instant};
 
 use shagreen_synth::drive::{DriveConfig, Driven};
 
 use crate::audio_input::Recorder;
-use crate::engine::{ChannelMask, Handle};
+use crate::engine::{ChannelMask, FADE_SECS, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::output::{self, OpenOptions, Running};
-use crate::serial::{self, SerialOptions, SerialSensor};
+use crate::serial::{self, ReceiverInfo, SerialOptions, SerialSensor};
 use crate::signal::Signal;
 use crate::status::{LinkState, Status};
 
@@ -37,12 +38,7 @@ impl Sensor for Recorder {
     }
 
     fn check(&self) -> Result<(), DeviceError> {
-        Self::check(self)?;
-        if self.n_dropped() > 0 {
-            let message = "samples of the input were lost while it was measured; close other programs and measure again";
-            return Err(DeviceError::new(DeviceErrorKind::Backend, message));
-        }
-        Ok(())
+        Self::check(self)
     }
 }
 
@@ -74,7 +70,17 @@ pub struct Heard {
     pub mps2: Vec<f64>,
     /// Samples a second.
     pub rate_hz: f64,
-    /// How the output was doing at the end: whether it was limited, or dropped out.
+    /// How the output was doing, as [`Listened::status`].
+    pub status: Status,
+}
+
+/// What a sensor said of a signal.
+#[derive(Clone, Debug)]
+pub struct Listened {
+    /// Its samples, silence before and after the signal included.
+    pub samples: Vec<f32>,
+    /// How the output was doing at the end, but for what counts from the beginning of the measurement on: its underruns,
+    /// errors and limited samples, and the lowest gain that kept the coil cool.
     pub status: Status,
 }
 
@@ -89,12 +95,13 @@ impl Heard {
 ///
 /// # Errors
 /// Those of [`crate::output::open`], of the listener and of [`play_and_listen`]; [`DeviceErrorKind::Config`] where
-/// `drive_at` says why there is no drive.
-pub fn measure(
+/// `drive_at` says why there is no drive; [`DeviceErrorKind::Unsupported`], before anything is played, where the receiver
+/// that is to listen has no sensor.
+pub fn measure<E: Display>(
     id: &str,
     (drive, channels): (DriveConfig, ChannelMask),
     listener: &Listener,
-    drive_at: &dyn Fn(f64) -> Result<Vec<f32>, String>,
+    drive_at: &dyn Fn(f64) -> Result<Vec<f32>, E>,
     go_on: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Heard, DeviceError> {
     // Nothing is rendered here: the rate of textures and the noise say nothing.
@@ -108,12 +115,14 @@ pub fn measure(
     };
     let mut through = |handle: &mut Handle, running: &Running, sensor: &mut dyn Sensor| {
         let refuse = |message: String| DeviceError::new(DeviceErrorKind::Config, message);
-        let samples = drive_at(f64::from(running.rate_hz())).map_err(refuse)?;
-        let signal = Signal::new(samples, Driven::Drive).map_err(|error| refuse(error.to_string()))?;
-        let heard = play_and_listen(handle, signal, sensor, go_on)?;
-        Ok((heard, sensor.rate_hz(), handle.status()))
+        let rate_hz = f64::from(running.rate_hz());
+        let samples = drive_at(rate_hz).map_err(|error| refuse(error.to_string()))?;
+        let signal =
+            Signal::new(samples, rate_hz, Driven::Drive).map_err(|error| refuse(error.to_string()))?;
+        let listened = play_and_listen(handle, signal, sensor, go_on)?;
+        Ok((listened, sensor.rate_hz()))
     };
-    let ((heard, rate_hz, status), scale) = match listener {
+    let ((Listened { samples, status }, rate_hz), scale) = match listener {
         Listener::Input { id: input, channel_idx, sensitivity_mps2 } => {
             let (mut handle, running) = output::open(id, options)?;
             let mut recorder = Recorder::open(input, *channel_idx, running.rate_hz())?;
@@ -122,17 +131,31 @@ pub fn measure(
         Listener::Serial { port, baud } => {
             let serial = SerialOptions { baud: *baud, ..SerialOptions::default() };
             let mut connection = serial::open(port, options, serial)?;
+            check_sensor(port, &connection.receiver)?;
             let mut sensor = SerialSensor::new(connection.heard);
-            let heard = if id == connection.running.id() {
+            let listened = if id == connection.running.id() {
                 through(&mut connection.handle, &connection.running, &mut sensor)?
             } else {
                 let (mut handle, running) = output::open(id, options)?;
                 through(&mut handle, &running, &mut sensor)?
             };
-            (heard, 1.0)
+            (listened, 1.0)
         }
     };
-    Ok(Heard { mps2: heard.iter().map(|x| scale * f64::from(*x)).collect(), rate_hz, status })
+    Ok(Heard { mps2: samples.iter().map(|x| scale * f64::from(*x)).collect(), rate_hz, status })
+}
+
+/// Whether a receiver has something to listen with.
+fn check_sensor(port: &str, receiver: &ReceiverInfo) -> Result<(), DeviceError> {
+    if receiver.has_sensor {
+        return Ok(());
+    }
+    let message = format!(
+        "the receiver `{}` on `{port}` has no sensor; connect an accelerometer that its firmware knows, or listen with an \
+         input of the system's sound: `shagreen devices` lists them",
+        receiver.name
+    );
+    Err(DeviceError::new(DeviceErrorKind::Unsupported, message))
 }
 
 /// Silence that is recorded before the signal and after it, in seconds: what the room does by itself, and what rings.
@@ -141,10 +164,13 @@ pub const SILENCE_SECS: f64 = 1.0;
 const POLL: Duration = Duration::from_millis(10);
 /// How much longer than the signal playing may take.
 const PATIENCE: Duration = Duration::from_secs(10);
+/// How much longer than its fade a signal may take to end where a measurement is given up.
+const FADE_PATIENCE: Duration = Duration::from_millis(500);
 
 /// Plays a signal through an engine and returns what the sensor heard, silence before and after included.
 ///
-/// `go_on` is told the share that is done, 0..1, and says whether to go on; the signal fades where it does not.
+/// `go_on` is told the share that is done, 0..1, and says whether to go on. Where it does not, and with every error, the
+/// signal has faded by the time that this returns, so that the output may be closed.
 ///
 /// # Errors
 /// - [`DeviceErrorKind::Lost`] where the output or the sensor goes.
@@ -155,7 +181,75 @@ pub fn play_and_listen(
     signal: Signal,
     sensor: &mut dyn Sensor,
     go_on: &mut dyn FnMut(f64) -> bool,
-) -> Result<Vec<f32>, DeviceError> {
+) -> Result<Listened, DeviceError> {
+    play_and_listen_for(handle, signal, sensor, go_on, PATIENCE)
+}
+
+/// The same, with another patience for what does not begin or end.
+fn play_and_listen_for(
+    handle: &mut Handle,
+    signal: Signal,
+    sensor: &mut dyn Sensor,
+    go_on: &mut dyn FnMut(f64) -> bool,
+    patience: Duration,
+) -> Result<Listened, DeviceError> {
+    let listened = listen_around(handle, signal, sensor, go_on, patience);
+    if listened.is_err() {
+        let_fade(handle);
+    }
+    listened
+}
+
+/// Ends the signal and waits until its fade has left the device, as far as that can be.
+fn let_fade(handle: &mut Handle) {
+    handle.stop_signal();
+    let begun = Instant::now();
+    let is_playing = |status: Status| status.state == LinkState::Running && status.plays_signal;
+    while is_playing(handle.status()) {
+        if begun.elapsed() > Duration::from_secs_f64(2.0 * FADE_SECS) + FADE_PATIENCE {
+            return;
+        }
+        std::thread::sleep(POLL);
+    }
+    // What the device has taken is heard so much later.
+    let device_secs = handle.status().device_latency_secs;
+    let device = Duration::try_from_secs_f32(device_secs).unwrap_or_default();
+    std::thread::sleep(POLL + device.min(FADE_PATIENCE));
+}
+
+/// What an output did since a status, up to the last of those that it was told.
+struct Watch {
+    begin: Status,
+    lowest_heat_gain: f32,
+}
+
+impl Watch {
+    fn new(begin: Status) -> Self {
+        Self { begin, lowest_heat_gain: f32::INFINITY }
+    }
+
+    fn note(&mut self, status: Status) {
+        self.lowest_heat_gain = self.lowest_heat_gain.min(status.heat_gain);
+    }
+
+    fn until(&self, end: Status) -> Status {
+        Status {
+            underruns: end.underruns.saturating_sub(self.begin.underruns),
+            backend_errors: end.backend_errors.saturating_sub(self.begin.backend_errors),
+            limited_samples: end.limited_samples.saturating_sub(self.begin.limited_samples),
+            heat_gain: end.heat_gain.min(self.lowest_heat_gain),
+            ..end
+        }
+    }
+}
+
+fn listen_around(
+    handle: &mut Handle,
+    signal: Signal,
+    sensor: &mut dyn Sensor,
+    go_on: &mut dyn FnMut(f64) -> bool,
+    patience: Duration,
+) -> Result<Listened, DeviceError> {
     let signal_secs = signal.n_frames() as f64 / f64::from(handle.config().device_rate_hz);
     let mut heard = Vec::new();
     let mut listen = |handle: &mut Handle, secs_done: f64, heard: &mut Vec<f32>| {
@@ -171,14 +265,13 @@ pub fn play_and_listen(
             return Err(handle.loss().cloned().unwrap_or_else(lost));
         }
         if !go_on(secs_done / (signal_secs + 2.0 * SILENCE_SECS)) {
-            handle.stop_signal();
             return Err(DeviceError::new(DeviceErrorKind::Canceled, "the measurement was stopped"));
         }
         Ok(status)
     };
     let started = Instant::now();
     while listen(handle, 0.0, &mut heard)?.state != LinkState::Running || heard.is_empty() {
-        if started.elapsed() > PATIENCE {
+        if started.elapsed() > patience {
             let what =
                 if heard.is_empty() { "the sensor sends nothing" } else { "the output asks for no samples" };
             let message =
@@ -187,6 +280,7 @@ pub fn play_and_listen(
         }
     }
     wait(SILENCE_SECS, &mut |secs| listen(handle, secs, &mut heard).map(|_| ()))?;
+    let mut watch = Watch::new(handle.status());
     if handle.play_signal(signal).is_err() {
         let message = "the output takes no signal; try again";
         return Err(DeviceError::new(DeviceErrorKind::Unavailable, message));
@@ -195,12 +289,14 @@ pub fn play_and_listen(
     let mut has_begun = false;
     loop {
         let secs = begun.elapsed().as_secs_f64();
-        let plays = listen(handle, SILENCE_SECS + secs.min(signal_secs), &mut heard)?.plays_signal;
+        let status = listen(handle, SILENCE_SECS + secs.min(signal_secs), &mut heard)?;
+        watch.note(status);
+        let plays = status.plays_signal;
         if has_begun && !plays {
             break;
         }
         has_begun |= plays;
-        if begun.elapsed() > Duration::from_secs_f64(signal_secs) + PATIENCE {
+        if begun.elapsed() > Duration::from_secs_f64(signal_secs) + patience {
             let message = "the output did not play the signal to its end; open it again and measure anew";
             return Err(DeviceError::new(DeviceErrorKind::Unavailable, message));
         }
@@ -208,7 +304,7 @@ pub fn play_and_listen(
     wait(SILENCE_SECS, &mut |secs| {
         listen(handle, SILENCE_SECS + signal_secs + secs, &mut heard).map(|_| ())
     })?;
-    Ok(heard)
+    Ok(Listened { samples: heard, status: watch.until(handle.status()) })
 }
 
 /// Does something for so long, told how long it has been done.
@@ -221,67 +317,4 @@ fn wait(secs: f64, step: &mut dyn FnMut(f64) -> Result<(), DeviceError>) -> Resu
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{DeviceError, DeviceErrorKind, Sensor, play_and_listen};
-    use crate::engine::Handle;
-    use crate::output::tests::OPTIONS;
-    use crate::output::{Running, open_null_with_tap};
-    use crate::signal::Signal;
-    use shagreen_synth::drive::Driven;
-    use std::sync::mpsc::{Receiver, channel};
-
-    /// A sensor on the silent output itself.
-    struct Wire(Receiver<Vec<f32>>);
-
-    impl Sensor for Wire {
-        fn rate_hz(&self) -> f64 {
-            48_000.0
-        }
-
-        fn read(&mut self, out: &mut Vec<f32>) {
-            self.0.try_iter().for_each(|block| out.extend(block.iter().step_by(2)));
-        }
-
-        fn check(&self) -> Result<(), DeviceError> {
-            Ok(())
-        }
-    }
-
-    fn wired() -> (Handle, Running, Wire) {
-        let (sender, receiver) = channel();
-        // The other end has gone when a test ends first.
-        let (handle, running) =
-            open_null_with_tap(OPTIONS, move |block| drop(sender.send(block.to_vec()))).unwrap();
-        (handle, running, Wire(receiver))
-    }
-
-    fn signal() -> Signal {
-        Signal::new((1..=4800).map(|i| i as f32 * 1e-4).collect(), Driven::Drive).unwrap()
-    }
-
-    #[test]
-    fn what_is_played_is_heard_with_silence_around_it() {
-        let (mut handle, _running, mut wire) = wired();
-        let mut shares = Vec::new();
-        let heard = play_and_listen(&mut handle, signal(), &mut wire, &mut |share| {
-            shares.push(share);
-            true
-        })
-        .unwrap();
-        let begin = heard.iter().position(|x| *x != 0.0).unwrap();
-        assert!(begin > 40_000 && heard.len() > begin + 4800 + 40_000, "{begin} of {}", heard.len());
-        assert!(heard[begin..begin + 4800] == *signal().part(0, 4800));
-        assert!(heard[begin + 4800..].iter().all(|x| *x == 0.0));
-        assert!(shares.windows(2).all(|w| w[0] <= w[1]) && shares.iter().all(|s| (0.0..=1.0).contains(s)));
-    }
-
-    #[test]
-    fn it_can_be_stopped_and_a_dead_sensor_is_named() {
-        let (mut handle, _running, mut wire) = wired();
-        let error = play_and_listen(&mut handle, signal(), &mut wire, &mut |share| share < 0.1).unwrap_err();
-        assert_eq!(error.kind(), DeviceErrorKind::Canceled);
-        let (_silent, receiver) = channel();
-        let error = play_and_listen(&mut handle, signal(), &mut Wire(receiver), &mut |_| true).unwrap_err();
-        assert!(error.message().contains("the sensor sends nothing"), "{error}");
-    }
-}
+mod tests;

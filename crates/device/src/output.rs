@@ -4,13 +4,15 @@
 //! other ever takes its place, since actuator drive does not belong in someone's headphones.
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use shagreen_synth::drive::DriveConfig;
 
 use crate::audio::AudioOutput;
 use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
-use crate::link::{Reporter, link};
+use crate::link::{Reporter, Shared, link};
 use crate::null_output::NullOutput;
 use crate::serial::{SerialOptions, SerialOutput};
 use crate::status::Status;
@@ -30,6 +32,9 @@ pub const BUFFER_FRAMES: RangeInclusive<u32> = 16..=65_536;
 
 /// Frames in a block where nobody asks for another number: 5 ms at 48 kHz.
 pub const USUAL_BUFFER_FRAMES: u32 = 256;
+
+/// How often a drain looks whether the device is still there.
+const DRAIN_POLL: Duration = Duration::from_millis(20);
 
 /// What sort of output it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,6 +88,7 @@ pub struct Running {
     buffer_frames: Option<u32>,
     engine_latency_secs: f64,
     device_latency_secs: f64,
+    shared: Arc<Shared>,
     #[expect(dead_code, reason = "held to be dropped")]
     device: Device,
 }
@@ -104,11 +110,43 @@ impl Running {
         rate_hz: u32,
         window: u16,
         (engine_latency_secs, device_latency_secs): (f64, f64),
+        shared: Arc<Shared>,
         output: SerialOutput,
     ) -> Self {
         let buffer_frames = Some(u32::from(window));
         let device = Device::Serial(output);
-        Self { id, rate_hz, channels: 1, buffer_frames, engine_latency_secs, device_latency_secs, device }
+        Self {
+            id,
+            rate_hz,
+            channels: 1,
+            buffer_frames,
+            engine_latency_secs,
+            device_latency_secs,
+            shared,
+            device,
+        }
+    }
+
+    /// Waits until what the engine has rendered by now has been heard, so that closing the output cuts nothing off, or for
+    /// `patience`; says whether it has. A device that does not say how late it is is taken to be two blocks late.
+    ///
+    /// Wait first until [`Handle::status`] says that what is to be heard has been rendered.
+    pub fn drain(&self, patience: Duration) -> bool {
+        let begun = Instant::now();
+        let least = Duration::from_secs_f64(self.device_latency_secs);
+        let heard_by = self.shared.heard_by().max(begun + least);
+        loop {
+            let now = Instant::now();
+            if self.shared.is_lost() {
+                return false;
+            }
+            let left = heard_by.saturating_duration_since(now);
+            let left_of_patience = patience.saturating_sub(now.saturating_duration_since(begun));
+            if left.is_zero() || left_of_patience.is_zero() {
+                return left.is_zero();
+            }
+            std::thread::sleep(left.min(left_of_patience).min(DRAIN_POLL));
+        }
     }
 
     /// Id of the output.
@@ -189,6 +227,7 @@ pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceE
         buffer_frames,
         engine_latency_secs: opened.engine_latency_secs,
         device_latency_secs: 2.0 * f64::from(buffer_frames.unwrap_or(0)) / f64::from(opened.rate_hz),
+        shared: opened.shared,
         device: Device::Audio(opened.output),
     };
     Ok((handle, running))
@@ -204,6 +243,7 @@ fn open_pulse(id: &str, options: OpenOptions) -> Result<(Handle, Running), Devic
         buffer_frames: Some(opened.buffer_frames),
         engine_latency_secs: opened.engine_latency_secs,
         device_latency_secs: 2.0 * f64::from(opened.buffer_frames) / f64::from(opened.rate_hz),
+        shared: opened.shared,
         device: Device::Pulse(opened.output),
     };
     Ok((handle, running))
@@ -231,6 +271,7 @@ pub fn open_null_with_tap(
         buffer_frames: Some(frames),
         engine_latency_secs,
         device_latency_secs: f64::from(frames) / f64::from(rate_hz),
+        shared: made.reporter.shared,
         device: Device::Null(output),
     };
     Ok((made.handle, running))
@@ -272,7 +313,8 @@ pub(crate) fn make_engine(options: OpenOptions, rate_hz: u32) -> Result<Made, De
 #[cfg(test)]
 pub(crate) mod tests {
     use super::{
-        BUFFER_FRAMES, ChannelMask, DeviceErrorKind, DriveConfig, NULL_ID, OpenOptions, list_outputs, open,
+        BUFFER_FRAMES, ChannelMask, DeviceErrorKind, DriveConfig, Duration, Instant, NULL_ID, OpenOptions,
+        list_outputs, open,
     };
 
     /// What nothing in a test depends on.
@@ -318,6 +360,23 @@ pub(crate) mod tests {
                 open(NULL_ID, OpenOptions { buffer_frames: Some(frames), ..OPTIONS }).unwrap();
             assert_eq!(running.buffer_frames(), Some(frames));
         }
+    }
+
+    #[test]
+    fn what_was_rendered_has_been_heard_after_a_drain() {
+        let slow = OpenOptions { buffer_frames: Some(24_000), ..OPTIONS };
+        let (mut handle, running) = open(NULL_ID, slow).unwrap();
+        while handle.status().frames_played == 0 {
+            std::thread::yield_now();
+        }
+        // Half a second is on its way; the thread may have begun a moment ago.
+        let begun = Instant::now();
+        assert!(!running.drain(Duration::from_millis(100)));
+        assert!(begun.elapsed() >= Duration::from_millis(100));
+        let heard_by = running.shared.heard_by();
+        assert!(running.drain(Duration::from_secs(10)));
+        assert!(Instant::now() >= heard_by && begun.elapsed() >= Duration::from_millis(400));
+        assert!(begun.elapsed() < Duration::from_secs(5), "not until everything ends");
     }
 
     #[test]

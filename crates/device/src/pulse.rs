@@ -11,6 +11,7 @@ mod playback;
 use std::net::Shutdown;
 use std::os::unix::net::UnixStream;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
 use pulseaudio::protocol::{Command, ServerInfo, SinkInfo, SinkInfoList};
@@ -20,6 +21,7 @@ use self::playback::{Playback, StreamKind};
 use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
+use crate::link::Shared;
 use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
 use crate::urgency::run_before_others;
 
@@ -48,12 +50,15 @@ pub(crate) fn list() -> Vec<OutputInfo> {
 /// An open stream; it ends when it is dropped.
 #[derive(Debug)]
 pub(crate) struct PulseOutput {
+    /// Said before the line is hung up: what ends then is no loss.
+    is_closing: Arc<AtomicBool>,
     socket: UnixStream,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Drop for PulseOutput {
     fn drop(&mut self) {
+        self.is_closing.store(true, Ordering::Relaxed);
         self.socket.shutdown(Shutdown::Both).ok(); // The server may have gone first.
         if let Some(thread) = self.thread.take() {
             thread.join().ok(); // A callback that panicked has said so on its own thread.
@@ -68,6 +73,7 @@ pub(crate) struct Opened {
     pub(crate) channels: u16,
     pub(crate) buffer_frames: u32,
     pub(crate) engine_latency_secs: f64,
+    pub(crate) shared: Arc<Shared>,
 }
 
 /// Opens sink `id`.
@@ -103,7 +109,8 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     };
     let Made { handle, engine, reporter } = make_engine(options, rate_hz)?;
     let engine_latency_secs = f64::from(engine.latency_secs());
-    let edge = Edge::new(engine, Arc::clone(&reporter.shared), f64::from(rate_hz));
+    let shared = Arc::clone(&reporter.shared);
+    let edge = Edge::new(engine, Arc::clone(&shared), f64::from(rate_hz));
     let refused = |error: connection::Failure| {
         let message = format!(
             "the output `{id}` cannot be opened: {error}; choose another, or look at the sound server"
@@ -113,9 +120,11 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let socket = connection.socket().map_err(refused)?;
     let playback = Playback::start(connection, kind, edge, reporter, id).map_err(refused)?;
     let block_frames = playback.block_frames();
+    let is_closing = Arc::new(AtomicBool::new(false));
+    let closing = Arc::clone(&is_closing);
     let thread = std::thread::Builder::new().name("sound server".into()).spawn(move || {
         run_before_others();
-        playback.run();
+        playback.run(&closing);
     });
     let thread = thread.map_err(|error| {
         DeviceError::new(
@@ -123,7 +132,9 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
             format!("the system gives no thread for the output: {error}"),
         )
     })?;
-    let output = PulseOutput { socket, thread: Some(thread) };
+    let output = PulseOutput { is_closing, socket, thread: Some(thread) };
     let channels = u16::from(sink.sample_spec.channels);
-    Ok((handle, Opened { output, rate_hz, channels, buffer_frames: block_frames, engine_latency_secs }))
+    let opened =
+        Opened { output, rate_hz, channels, buffer_frames: block_frames, engine_latency_secs, shared };
+    Ok((handle, opened))
 }

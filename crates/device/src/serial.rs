@@ -20,6 +20,7 @@ pub use self::connection::{Heard, SensorBlock};
 pub use self::ports::{ID_PREFIX, SerialPortInfo, SerialPortKind, list_serial_ports};
 pub use self::sensor::SerialSensor;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use rtrb::Consumer;
@@ -93,12 +94,13 @@ pub fn open(id: &str, options: OpenOptions, serial: SerialOptions) -> Result<Con
     let plan = agreement::agree(&id, &receiver, options, serial)?;
     let rate_hz = u32::from(plan.configure.rate_hz);
     let Made { handle, engine, reporter } = make_engine(options, rate_hz)?;
+    let shared = Arc::clone(&reporter.shared);
     let window_secs = f64::from(plan.configure.window) / f64::from(rate_hz);
     let engine_latency_secs = f64::from(engine.latency_secs());
     let line_latency_secs = window_secs + agreement::line_secs(plan, serial.baud);
     let line_latency = Duration::from_secs_f64(line_latency_secs);
     let (output, heard) = SerialOutput::start(&id, line, plan, engine, reporter, line_latency)?;
     let latencies_secs = (engine_latency_secs, line_latency_secs);
-    let running = Running::of_serial(id, rate_hz, plan.configure.window, latencies_secs, output);
+    let running = Running::of_serial(id, rate_hz, plan.configure.window, latencies_secs, shared, output);
     Ok(Connection { handle, running, receiver, heard })
 }

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use shagreen_synth::drive::Driven;
 
-/// Longest signal, in frames: two minutes at 48 kHz.
-pub const MAX_SIGNAL_FRAMES: usize = 120 * 48_000;
+/// Longest signal, in seconds.
+pub const MAX_SIGNAL_SECS: f64 = 120.0;
 /// How long a tone takes to come and to go, in seconds.
 const TONE_FADE_SECS: f64 = 0.05;
 
@@ -17,14 +17,25 @@ pub struct Signal {
 }
 
 /// Why samples are not a signal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// There is none, or there are too many.
-    #[error("a signal has 1 to {MAX_SIGNAL_FRAMES} samples, not {n_samples}; play a shorter one")]
-    Length {
-        /// How many.
-        n_samples: usize,
+    /// There is none.
+    #[error("the signal has no samples; make it longer")]
+    Empty,
+    /// It takes too long.
+    #[error(
+        "the signal takes {secs:.1} s, and no more than {MAX_SIGNAL_SECS} s are played at once; play a shorter one"
+    )]
+    TooLong {
+        /// How long, in seconds.
+        secs: f64,
+    },
+    /// The rate is none.
+    #[error("the rate of the signal is {rate_hz} Hz; take that of the output that plays it")]
+    Rate {
+        /// What was given, in Hz.
+        rate_hz: f64,
     },
     /// A sample is not a number.
     #[error("sample {index} of the signal is not a finite number")]
@@ -35,14 +46,16 @@ pub enum SignalError {
 }
 
 impl Signal {
-    /// A signal of these samples: m/s², or shares of the device's full scale, which still are limited.
+    /// A signal of these samples at the rate in Hz of the output that plays it: m/s², or shares of the device's full
+    /// scale, which still are limited.
     ///
     /// # Errors
     /// [`SignalError`] says what is wrong with them.
-    pub fn new(samples: Vec<f32>, driven: Driven) -> Result<Self, SignalError> {
-        if samples.is_empty() || samples.len() > MAX_SIGNAL_FRAMES {
-            return Err(SignalError::Length { n_samples: samples.len() });
+    pub fn new(samples: Vec<f32>, rate_hz: f64, driven: Driven) -> Result<Self, SignalError> {
+        if samples.is_empty() {
+            return Err(SignalError::Empty);
         }
+        check_length(samples.len() as f64, rate_hz)?;
         if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
             return Err(SignalError::NotFinite { index });
         }
@@ -59,16 +72,14 @@ impl Signal {
         secs: f64,
         rate_hz: f64,
     ) -> Result<Self, SignalError> {
-        let n_samples = (secs * rate_hz).round() as usize;
-        if n_samples > MAX_SIGNAL_FRAMES {
-            return Err(SignalError::Length { n_samples });
-        }
+        let n_frames = (secs * rate_hz).round();
+        check_length(n_frames, rate_hz)?;
         let sample = |i: usize| {
             let t = i as f64 / rate_hz;
             let fade = (t.min(secs - t) / TONE_FADE_SECS).clamp(0.0, 1.0);
             (amplitude_mps2 * fade * (TAU * frequency_hz * t).sin()) as f32
         };
-        Self::new((0..n_samples).map(sample).collect(), Driven::Acceleration)
+        Self::new((0..n_frames as usize).map(sample).collect(), rate_hz, Driven::Acceleration)
     }
 
     /// How many samples.
@@ -87,21 +98,48 @@ impl Signal {
     }
 }
 
+/// Whether so many frames are no more than may be played.
+fn check_length(n_frames: f64, rate_hz: f64) -> Result<(), SignalError> {
+    if !(rate_hz.is_finite() && rate_hz > 0.0) {
+        return Err(SignalError::Rate { rate_hz });
+    }
+    let secs = n_frames / rate_hz;
+    if secs > MAX_SIGNAL_SECS { Err(SignalError::TooLong { secs }) } else { Ok(()) }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Driven, MAX_SIGNAL_FRAMES, Signal, SignalError};
+    use super::{Driven, MAX_SIGNAL_SECS, Signal, SignalError};
 
     #[test]
     fn what_is_no_signal_is_refused() {
-        let of = |samples| Signal::new(samples, Driven::Drive).unwrap_err();
-        assert_eq!(of(Vec::new()), SignalError::Length { n_samples: 0 });
+        let of = |samples| Signal::new(samples, 48_000.0, Driven::Drive).unwrap_err();
+        assert_eq!(of(Vec::new()), SignalError::Empty);
         assert_eq!(of(vec![0.0, f32::NAN]), SignalError::NotFinite { index: 1 });
-        let n_samples = MAX_SIGNAL_FRAMES + 1;
-        assert_eq!(of(vec![0.0; n_samples]), SignalError::Length { n_samples });
+        for rate_hz in [0.0, -1.0, f64::INFINITY] {
+            assert_eq!(Signal::new(vec![0.0], rate_hz, Driven::Drive), Err(SignalError::Rate { rate_hz }));
+        }
         for secs in [0.0, 1e9, f64::NAN] {
             assert!(Signal::tone(100.0, 1.0, secs, 48_000.0).is_err());
         }
         assert!(Signal::tone(f64::NAN, 1.0, 1.0, 48_000.0).is_err());
+    }
+
+    #[test]
+    fn a_signal_is_as_long_as_it_takes_whatever_the_rate() {
+        for rate_hz in [8000.0, 192_000.0] {
+            let n = (MAX_SIGNAL_SECS * rate_hz) as usize;
+            let of = |n| Signal::new(vec![0.0; n], rate_hz, Driven::Drive);
+            assert_eq!(of(n).unwrap().n_frames(), n);
+            let error = of(n + rate_hz as usize / 2).unwrap_err();
+            assert_eq!(error, SignalError::TooLong { secs: 120.5 });
+            assert!(
+                error.to_string().contains("120.5 s") && error.to_string().contains("shorter"),
+                "{error}"
+            );
+            let error = Signal::tone(100.0, 1.0, 121.0, rate_hz).unwrap_err();
+            assert_eq!(error, SignalError::TooLong { secs: 121.0 });
+        }
     }
 
     #[test]

@@ -86,6 +86,8 @@ pub struct Status {
     pub latency: Latency,
     /// Whether a signal is played in the place of the texture.
     pub plays_signal: bool,
+    /// Whether a person's hand is followed, because it was chosen or because it took over.
+    pub follows_live: bool,
     /// Where the tip is and what it does.
     pub touch: Touch,
     /// Level of the texture before gain and limiter, root mean square over about 50 ms, in m/s².

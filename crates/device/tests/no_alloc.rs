@@ -9,7 +9,7 @@ mod support;
 use std::time::Instant;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
-use shagreen_device::controls::{Drive, Input};
+use shagreen_device::controls::{Drive, Input, Takeover};
 use shagreen_device::engine::{self, ChannelMask, Engine, EngineConfig, Handle, SLOTS};
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::signal::Signal;
@@ -141,6 +141,11 @@ fn changes_of_input_and_nonsense_touches() {
             )
             .unwrap();
         }
+        if round % 6 == 0 {
+            let hovering = Touch { x_m: y, y_m: x, contact: Contact { speed_mps: x, force_n: y } };
+            live.hover(hovering, Instant::now()).unwrap();
+        }
+        handle.set_takeover((round % 4 != 0).then_some(Takeover { lifted_secs: x, stale_secs: y }));
         handle.set_input(inputs[round / 3 % inputs.len()]);
         handle
             .set_drive(Drive { muted: round % 10 == 9, gain: nonsense[round / 2 % nonsense.len()].min(2.0) });
@@ -150,7 +155,7 @@ fn changes_of_input_and_nonsense_touches() {
         if round % 13 == 0 {
             let driven = if round % 2 == 0 { Driven::Drive } else { Driven::Acceleration };
             handle
-                .play_signal(Signal::new(vec![x.clamp(-1e9, 1e9).max(-1e9); 1500], driven).unwrap())
+                .play_signal(Signal::new(vec![x.clamp(-1e9, 1e9).max(-1e9); 1500], 48_000.0, driven).unwrap())
                 .unwrap();
         }
         if round % 17 == 0 {

@@ -130,7 +130,7 @@ fn playing() -> Work {
         extent_m: 0.06,
     }));
     handle.set_tap(Tap { frequency_hz: 200.0, decay_per_sec: 80.0, amplitude_mps2: 5.0 });
-    handle.play_signal(Signal::new(vec![0.1; 4800], Driven::Drive).unwrap()).unwrap();
+    handle.play_signal(Signal::new(vec![0.1; 4800], 48_000.0, Driven::Drive).unwrap()).unwrap();
     let mut live = handle.take_live_input().unwrap();
     let mut out = [0.0_f32; 256];
     let mut n_blocks = 0_usize;

@@ -96,14 +96,22 @@ impl DriveChain {
         }
     }
 
-    /// Turns samples into drive, in place. Cost: two filters' worth a sample.
+    /// Turns samples into drive, in place; to drive that is played as it is, what the equalizer still rings with of the
+    /// acceleration before is added. Cost: two filters' worth a sample.
     pub fn process(&mut self, block: &mut [f32], driven: Driven) {
-        if driven == Driven::Acceleration {
-            if let Some(equalizer) = &mut self.equalizer {
-                equalizer.process(block);
+        match driven {
+            Driven::Acceleration => {
+                if let Some(equalizer) = &mut self.equalizer {
+                    equalizer.process(block);
+                }
+                for sample in block.iter_mut() {
+                    *sample *= self.per_unit;
+                }
             }
-            for sample in block.iter_mut() {
-                *sample *= self.per_unit;
+            Driven::Drive => {
+                if let Some(equalizer) = &mut self.equalizer {
+                    equalizer.ring_out(block, self.per_unit);
+                }
             }
         }
         for part in block.chunks_mut(HEAT_BLOCK) {

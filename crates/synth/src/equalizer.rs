@@ -16,7 +16,7 @@ pub struct Resonance {
 
 /// Damping of the high-pass that an equalized actuator becomes: that of Butterworth's, to four digits.
 #[expect(clippy::approx_constant, reason = "the reference takes four digits, and its numbers are met")]
-pub const INVERSE_DAMPING: f64 = 0.7071;
+const INVERSE_DAMPING: f64 = 0.7071;
 
 /// A filter of second order, `y[n] = b₀x[n] + b₁x[n-1] + b₂x[n-2] - a₁y[n-1] - a₂y[n-2]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,12 +83,29 @@ impl Equalizer {
             s1 = b[2] * x - a[1] * y;
             *sample = y as f32;
         }
-        self.state = [s0, s1].map(|s| if s.abs() < NOTHING { 0.0 } else { s });
+        self.remember([s0, s1]);
+    }
+
+    /// Adds `gain` times what it still rings with while nothing comes in.
+    pub fn ring_out(&mut self, block: &mut [f32], gain: f32) {
+        let Self { biquad: Biquad { a, .. }, state: [mut s0, mut s1] } = *self;
+        if [s0, s1] == [0.0; 2] {
+            return;
+        }
+        for sample in block {
+            *sample += gain * s0 as f32;
+            (s0, s1) = (s1 - a[0] * s0, -a[1] * s0);
+        }
+        self.remember([s0, s1]);
     }
 
     /// Forgets all that was.
     pub fn reset(&mut self) {
         self.state = [0.0; 2];
+    }
+
+    fn remember(&mut self, state: [f64; 2]) {
+        self.state = state.map(|s| if s.abs() < NOTHING { 0.0 } else { s });
     }
 }
 
@@ -188,6 +205,23 @@ mod tests {
             for (x, y) in out.iter().zip(&expected) {
                 assert!((f64::from(*x) - y).abs() < 1e-6, "{x} for {y}");
             }
+        }
+    }
+
+    #[test]
+    fn what_rings_out_is_what_silence_would_have_rung_with() {
+        let mut expected = Equalizer::new(Biquad::bounded_inverse(MARK_II, 20.0, 48_000.0));
+        expected.process(&mut vec![1.0; 480]);
+        let mut equalizer = expected.clone();
+        let mut silence = vec![0.0; 4800];
+        expected.process(&mut silence);
+        let mut out = vec![0.25; 4800];
+        out.chunks_mut(85).for_each(|part| equalizer.ring_out(part, 0.5));
+        // Rounding of `f32` at 1.
+        assert!(silence.iter().zip(&out).all(|(x, y)| (0.25 + 0.5 * x - y).abs() < 1e-6));
+        assert!(silence[0].abs() > 0.1);
+        for (x, y) in expected.state.iter().zip(&equalizer.state) {
+            assert!((x - y).abs() < 1e-12 * x.abs().max(1e-3), "{x} for {y}");
         }
     }
 

@@ -49,7 +49,7 @@ const DOUBLER: [[f64; 5]; 5] = [
     ],
 ];
 /// Delay of the doubler at low frequencies, in samples of the doubled rate; derived in `vectors/n_resample`.
-pub const DOUBLER_DELAY: f32 = 3.154;
+const DOUBLER_DELAY: f32 = 3.154;
 
 const TAPS: usize = 10;
 const PHASES: usize = 128;

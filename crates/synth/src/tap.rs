@@ -75,7 +75,8 @@ impl Taps {
     }
 
     /// Whether anything rings.
-    pub fn are_ringing(&self) -> bool {
+    #[cfg(test)]
+    fn are_ringing(&self) -> bool {
         self.ringing.iter().any(|r| r.left > 0.0)
     }
 

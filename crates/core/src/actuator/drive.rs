@@ -33,7 +33,7 @@ impl Drive {
     }
 
     /// The sample that makes a voltage; beyond ±1 it cannot be played.
-    pub fn sample_of(&self, volts: Volts) -> f64 {
+    fn sample_of(self, volts: Volts) -> f64 {
         volts.0 / self.full_scale.0
     }
 }
@@ -54,11 +54,12 @@ pub fn drive_config(
     Ok(DriveConfig {
         inverse: equalizes.then_some(inverse),
         full_scale: (drive.full_scale.0 * gain) as f32,
-        ..limited_drive(&actuator.limits, drive)
+        ..limited_drive(&actuator.limits_in_volts(), drive)
     })
 }
 
-/// Drive within these limits, for signals that are drive already; acceleration counts as volts.
+/// Drive within these limits, for signals that are drive already; acceleration counts as volts. A rated current is none of
+/// them: give [`Actuator::limits_in_volts`].
 pub fn limited_drive(limits: &Limits, drive: Drive) -> DriveConfig {
     let share = |volts: Volts| drive.sample_of(volts) as f32;
     DriveConfig {

@@ -8,7 +8,7 @@ use crate::units::Hertz;
 pub struct Headroom {
     /// Root mean square of the voltage for one of 1 m/s² of the acceleration, in V/(m/s²).
     pub volts_per_mps2: f64,
-    /// Highest root mean square of the acceleration in the long run, in m/s², where a rated voltage is known.
+    /// Highest root mean square of the acceleration in the long run, in m/s², where a rated voltage or current is known.
     pub rated_mps2: Option<f64>,
 }
 
@@ -19,7 +19,7 @@ impl Actuator {
     /// [`ActuatorError`] without a response or where the band is none.
     pub fn headroom(&self, low: Hertz, high: Hertz) -> Result<Headroom, ActuatorError> {
         let volts_per_mps2 = volts_per_mps2(&self.response()?, low, high)?;
-        let rated_mps2 = self.limits.rated_volts_rms.map(|rated| rated.0 / volts_per_mps2);
+        let rated_mps2 = self.limits_in_volts().rated_volts_rms.map(|rated| rated.0 / volts_per_mps2);
         Ok(Headroom { volts_per_mps2, rated_mps2 })
     }
 }

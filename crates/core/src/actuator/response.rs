@@ -9,9 +9,9 @@ use crate::actuator::{ActuatorError, check_positive};
 use crate::units::Hertz;
 
 /// Lowest quality factor that is taken for one: there the two poles of the suspension fall apart.
-pub const MIN_Q: f64 = 0.1;
+const MIN_Q: f64 = 0.1;
 /// Highest quality factor that is taken for one.
-pub const MAX_Q: f64 = 1000.0;
+const MAX_Q: f64 = 1000.0;
 
 /// Share of a ringing that may be left when the next begins, where a signal is worked on in a circle.
 const LEFT: f64 = 1e-9;
@@ -35,7 +35,7 @@ impl From<&Response> for shagreen_synth::equalizer::Resonance {
 }
 
 impl Response {
-    /// A response of this resonance `ω₀ / 2π`, quality factor Q ([`MIN_Q`] to [`MAX_Q`]) and gain K far above the
+    /// A response of this resonance `ω₀ / 2π`, quality factor Q (0.1 to 1000) and gain K far above the
     /// resonance, in (m/s²)/V.
     ///
     /// # Errors

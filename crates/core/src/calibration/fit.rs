@@ -7,9 +7,9 @@ use crate::calibration::CurvePoint;
 use crate::units::Hertz;
 
 /// The highest frequency that is fitted: what is reproduced ends about there, and modes of the case begin.
-pub const FIT_HIGH: Hertz = Hertz(500.0);
+const FIT_HIGH: Hertz = Hertz(500.0);
 /// Points nearer to the noise than this, in dB, are left out.
-pub const MIN_SNR_DB: f64 = 10.0;
+pub(super) const MIN_SNR_DB: f64 = 10.0;
 
 /// Fewest points, and the fewest octaves that they span.
 const LEAST_POINTS: usize = 8;
@@ -101,7 +101,7 @@ pub(super) fn is_clear(point: &CurvePoint) -> bool {
 ///
 /// # Errors
 /// [`FitError`]: a resonance that the points do not show is not made up.
-pub fn fit_response(curve: &[CurvePoint]) -> Result<Fit, FitError> {
+pub(super) fn fit_response(curve: &[CurvePoint]) -> Result<Fit, FitError> {
     let points: Vec<Point> =
         curve.iter().filter(|p| p.frequency.0 <= FIT_HIGH.0 && is_clear(p)).map(Point::new).collect();
     let n_points = points.len();

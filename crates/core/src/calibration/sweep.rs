@@ -63,12 +63,12 @@ impl Sweep {
         Ok([silence.clone(), self.samples(rate), silence].concat())
     }
 
-    /// The same for an output, or why there is none.
+    /// The same for an output of a rate in Hz.
     ///
     /// # Errors
-    /// What [`SweepError`] says.
-    pub fn drive_samples(&self, rate_hz: f64) -> Result<Vec<f32>, String> {
-        let signal = self.signal(Hertz(rate_hz)).map_err(|error| error.to_string())?;
+    /// As [`Sweep::signal`].
+    pub fn drive_samples(&self, rate_hz: f64) -> Result<Vec<f32>, SweepError> {
+        let signal = self.signal(Hertz(rate_hz))?;
         Ok(signal.iter().map(|sample| *sample as f32).collect())
     }
 

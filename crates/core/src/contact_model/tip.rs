@@ -17,7 +17,7 @@ const FRICTION_HURST: f64 = 0.6;
 ///
 /// `step_m` is the distance between points; beyond its ends the profile counts as absent. Cost is points times the
 /// reach of the ball at the profile's range.
-pub fn dilate(heights_m: &[f64], step_m: f64, tip_radius_m: f64) -> Vec<f64> {
+pub(super) fn dilate(heights_m: &[f64], step_m: f64, tip_radius_m: f64) -> Vec<f64> {
     let (low, high) = heights_m
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(*h), high.max(*h)));
@@ -44,7 +44,7 @@ pub fn dilate(heights_m: &[f64], step_m: f64, tip_radius_m: f64) -> Vec<f64> {
 /// angular wave number k, for a patch of radius a.
 ///
 /// The profile counts as a loop, so that its ends, for a patch's radius, mix.
-pub fn patch_low_pass(heights_m: &[f64], step_m: f64, patch_radius_m: f64) -> Vec<f64> {
+pub(super) fn patch_low_pass(heights_m: &[f64], step_m: f64, patch_radius_m: f64) -> Vec<f64> {
     let n = heights_m.len();
     if n == 0 {
         return Vec::new();

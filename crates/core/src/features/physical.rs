@@ -114,7 +114,7 @@ pub fn level_db(plane: &Plane, contacts: &[Contact]) -> Option<f64> {
 
 /// Exponents of speed and force of the power law that fits the levels best, by least squares over logarithms; `None` where
 /// the texture sounds at too few different speeds and forces to tell.
-pub fn level_exponents(plane: &Plane, contacts: &[Contact]) -> Option<(f64, f64)> {
+pub(super) fn level_exponents(plane: &Plane, contacts: &[Contact]) -> Option<(f64, f64)> {
     let point = |c: &Contact| {
         let level = plane.at(*c).level_mps2;
         (level > 0.0 && c.speed.0 > 0.0 && c.force.0 > 0.0)
@@ -154,7 +154,7 @@ pub fn centroid(plane: &Plane, contacts: &[Contact]) -> Option<Hertz> {
 ///
 /// The spectrum of `e^{-Bt} sin ωt` is `ω² / ((s - ω² + B²)² + 4 B² ω²)` over the square `s` of the angular frequency, which
 /// can be integrated: `(B² + ω²) / (π ω) (π/2 + atan((ω² - B²) / 2 B ω))`.
-pub fn tap_centroid(tap: &Tap) -> Option<Hertz> {
+pub(super) fn tap_centroid(tap: &Tap) -> Option<Hertz> {
     let (w, b) = (TAU * tap.frequency.0, tap.decay_per_sec);
     let is_ring = w > 0.0 && b > 0.0 && w.is_finite() && b.is_finite();
     is_ring.then(|| {

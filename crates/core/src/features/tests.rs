@@ -1,6 +1,7 @@
+use super::physical::{level_exponents, tap_centroid};
 use super::{
-    FeatureError, FeaturePlan, FeatureWarning, NamedTexture, Statistic, centroid, level_db, level_exponents,
-    per_frame, per_pattern, physical, physical_table, tap_centroid,
+    FeatureError, FeaturePlan, FeatureWarning, NamedTexture, Statistic, centroid, level_db, per_frame,
+    per_pattern, physical, physical_table,
 };
 use crate::mfcc::{MfccOptions, TransformLength, htk, paper, recommended};
 use crate::patterns::{PAPER_RATE, PatternPlan, paper_patterns, starter_patterns};

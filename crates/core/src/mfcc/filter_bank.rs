@@ -14,7 +14,7 @@ const SLANEY_STEPS: f64 = 27.0;
 const SLANEY_FACTOR: f64 = 6.4;
 
 /// The `n_filters + 2` edges of the filters: filter `j` rises from edge `j` to `j + 1` and falls to `j + 2`.
-pub fn mel_edges(options: &MfccOptions) -> Vec<Hertz> {
+pub(super) fn mel_edges(options: &MfccOptions) -> Vec<Hertz> {
     let mel = |f: Hertz| mel_from_hz(options.scale, f.0);
     let (low, high) = (mel(options.low), mel(options.high));
     let n_steps = options.n_filters + 1;

@@ -175,6 +175,6 @@ fn a_tone_is_loudest_where_it_is() {
         (0..20).map(term).sum()
     };
     let loudest = (0..20).max_by(|a, b| logarithm(*a).total_cmp(&logarithm(*b))).unwrap();
-    let edges = super::mel_edges(&options);
+    let edges = super::filter_bank::mel_edges(&options);
     assert!(edges[loudest].0 < 154.0 && edges[loudest + 2].0 > 154.0, "filter {loudest}");
 }

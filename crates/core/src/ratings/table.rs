@@ -15,10 +15,10 @@ pub struct RatingTable {
 }
 
 /// The most adjective pairs of a table: more are columns of something else.
-pub const MAX_PAIRS: usize = 1000;
+const MAX_PAIRS: usize = 1000;
 
 /// The most ratings that a table has room for: a thousand people, a hundred textures and a hundred pairs.
-pub const MAX_CELLS: usize = 10_000_000;
+const MAX_CELLS: usize = 10_000_000;
 
 /// Why ratings make no table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

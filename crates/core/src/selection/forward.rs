@@ -7,12 +7,12 @@
 //! Greedy selection needs, for every feature, its product with the residual and what is left of its length. Both are
 //! kept up to date by one product with the newest direction, so that a step is one pass over the features.
 
-use super::{FeatureMatrix, SelectionError, Standardized, error, most_features};
+use super::Standardized;
 use crate::least_squares::take_off;
 use crate::statistics::{centered, dot, f_upper_tail};
 
 /// Significance that a newcomer has to stay below.
-pub const P_STOP: f64 = 0.01;
+pub(super) const P_STOP: f64 = 0.01;
 
 /// Share of a feature's squared length that must be left beside the features before it: below, it follows from them.
 const LEAST_LEFT: f64 = 1e-10;
@@ -37,20 +37,7 @@ pub struct Forward {
     pub p_values: Vec<f64>,
 }
 
-/// Selects features for a target, 0..100, at most the textures less [`super::SPARE_TEXTURES`].
-///
-/// # Errors
-/// See [`SelectionError`].
-pub fn forward_selection(
-    features: &FeatureMatrix,
-    target: &[f64],
-    order: Order,
-) -> Result<Forward, SelectionError> {
-    error::check(features, target)?;
-    let train = Standardized::new(features, &super::all(features));
-    Ok(select(&train, target, order, most_features(train.n)))
-}
-
+/// Selects features for a target, 0..100, at most so many.
 pub(super) fn select(train: &Standardized, target: &[f64], order: Order, most: usize) -> Forward {
     let mut residual = centered(target);
     let total = dot(&residual, &residual);

@@ -8,7 +8,7 @@
 //! Random normal features look the same from every direction, so the threshold depends on the numbers of textures and
 //! features alone, not on the target; it is worked out once for each pair of numbers.
 
-use super::{FeatureMatrix, SelectionError, Standardized, error};
+use super::Standardized;
 use crate::rng::{Random, derive_seed};
 use crate::statistics::{centered, dot, quantile};
 
@@ -37,22 +37,6 @@ pub struct Parallel {
 }
 
 /// Analyzes a selection of features; `None` with fewer than three, which make no group.
-///
-/// # Errors
-/// See [`SelectionError`].
-///
-/// # Panics
-/// If a selected feature is not in the table.
-pub fn parallel_analysis(
-    features: &FeatureMatrix,
-    target: &[f64],
-    selected: &[usize],
-) -> Result<Option<Parallel>, SelectionError> {
-    error::check(features, target)?;
-    let train = Standardized::new(features, &super::all(features));
-    Ok(analyze(&train, target, selected, &mut Thresholds::new(super::PARALLEL_SEED)))
-}
-
 pub(super) fn analyze(
     train: &Standardized,
     target: &[f64],

@@ -1,10 +1,10 @@
 use super::folds::shuffled;
-use super::forward::select;
-use super::parallel::group_correlations;
+use super::forward::{P_STOP, select};
+use super::parallel::{Thresholds, analyze, group_correlations};
 use super::standardized::Standardized;
 use super::{
-    AxisModel, FeatureMatrix, Method, Order, P_STOP, STANDARD, Scheme, SelectionError, Term, Validation,
-    fit_axis, forward_selection, paper_chain, parallel_analysis, validate,
+    AxisModel, FeatureMatrix, Method, Order, PARALLEL_SEED, STANDARD, Scheme, SelectionError, Term,
+    Validation, all, fit_axis, most_features, paper_chain, validate,
 };
 use crate::least_squares::least_squares;
 use crate::rng::{Random, lcg_noise};
@@ -134,8 +134,10 @@ fn models_predict_what_they_were_fitted_to() {
     }
     let chain = paper_chain(&table, &target, Order::Greedy).unwrap();
     assert_eq!(chain.model, fit_axis(&table, &target, PAPER).unwrap());
-    assert_eq!(chain.forward, forward_selection(&table, &target, Order::Greedy).unwrap());
-    assert_eq!(chain.parallel, parallel_analysis(&table, &target, &chain.forward.features).unwrap());
+    let train = Standardized::new(&table, &all(&table));
+    assert_eq!(chain.forward, select(&train, &target, Order::Greedy, most_features(train.n)));
+    let thresholds = &mut Thresholds::new(PARALLEL_SEED);
+    assert_eq!(chain.parallel, analyze(&train, &target, &chain.forward.features, thresholds));
 }
 
 #[test]

@@ -20,7 +20,7 @@ pub struct SorterFit {
 pub const MIN_PAIRS: usize = 3;
 
 /// The fewest participants of whom one may be called outlying.
-pub const MIN_PARTICIPANTS: usize = 4;
+const MIN_PARTICIPANTS: usize = 4;
 
 /// Robust standard deviations below the middle one from which on a correlation is outlying: one in 700 of normal ones.
 pub const FAR_BELOW: f64 = 3.0;

@@ -7,7 +7,7 @@ use shagreen_synth::renderer::{Mix, TextureId};
 use shagreen_synth::tap::Tap;
 
 use super::{Command, EngineConfig, Orders, Returned, SLOTS};
-use crate::controls::{Controls, Drive, Input};
+use crate::controls::{Controls, Drive, Input, Takeover};
 use crate::error::DeviceError;
 use crate::link::Monitor;
 use crate::live::LiveInput;
@@ -233,6 +233,12 @@ impl Handle {
         self.publish();
     }
 
+    /// Says when a person's hand takes over from the input by itself; never where it is `None`.
+    pub fn set_takeover(&mut self, takeover: Option<Takeover>) {
+        self.orders.controls.takeover = takeover;
+        self.publish();
+    }
+
     /// Plays a stroke from its start, and makes it the input.
     ///
     /// # Errors
@@ -246,8 +252,8 @@ impl Handle {
         Ok(())
     }
 
-    /// Plays a signal in the place of the texture, once that has faded; one that is played ends. Muting silences it, the
-    /// limits of the actuator hold.
+    /// Plays a signal in the place of the texture, once that, or the signal that is played, has faded. Muting silences it,
+    /// the limits of the actuator hold.
     ///
     /// # Errors
     /// Gives the signal back while the output is busy: try again after its next block.
@@ -255,18 +261,18 @@ impl Handle {
         if self.commands.is_full() {
             return Err(signal);
         }
-        self.send(Command::Signal(Box::new(signal)));
+        self.send(Command::Signal(Box::new(signal), self.orders.n_stops));
         Ok(())
     }
 
-    /// Lets the signal fade that is played, if one is.
+    /// Lets the signal fade that is played, if one is; one that is sent later is played.
     pub fn stop_signal(&mut self) {
         self.orders.n_stops = self.orders.n_stops.wrapping_add(1);
         self.publish();
     }
 
-    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`], and the newest touch
-    /// of all counts: who holds two pens lifts one.
+    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`]: the newest that touches
+    /// or is near counts, until it says itself that it is no more.
     pub fn take_live_input(&mut self) -> Option<LiveInput> {
         self.live.pop()
     }

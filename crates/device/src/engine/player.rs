@@ -3,8 +3,9 @@
 use shagreen_synth::contact::{Contact, ContactSource};
 
 use super::FADE_SECS;
-use crate::controls::Input;
+use crate::controls::{Input, Takeover};
 use crate::kinematics::held_speed;
+use crate::live::TimedTouch;
 use crate::touch::{Touch, mix_contacts};
 use crate::track::Track;
 
@@ -29,7 +30,13 @@ pub(super) struct Landing {
 /// The input, its clock, and the fade from the input before.
 #[derive(Debug)]
 pub(super) struct Player {
-    input: Input,
+    /// What was asked for.
+    chosen: Input,
+    takeover: Option<Takeover>,
+    /// Whether the person's hand is followed in the place of what was chosen.
+    has_taken_over: bool,
+    /// Whether the chosen input has just got its place back.
+    is_back: bool,
     /// Seconds since the engine began; it goes on where the stream's clock starts again.
     clock_secs: f64,
     stream_secs: f64,
@@ -38,6 +45,11 @@ pub(super) struct Player {
     distance_m: f64,
     live: Touch,
     live_secs: f64,
+    /// Which stylus said so, and whether it touches or is near.
+    live_stylus_idx: usize,
+    live_is_near: bool,
+    /// When it was last near, on the engine's clock.
+    near_secs: f64,
     track: Option<Box<Track>>,
     touch: Touch,
     fade_from: Contact,
@@ -52,13 +64,19 @@ impl Player {
     /// Nothing on the pad.
     pub(super) fn new() -> Self {
         Self {
-            input: Input::Lifted,
+            chosen: Input::Lifted,
+            takeover: None,
+            has_taken_over: false,
+            is_back: false,
             clock_secs: 0.0,
             stream_secs: 0.0,
             input_start_secs: 0.0,
             distance_m: 0.0,
             live: Touch::default(),
             live_secs: 0.0,
+            live_stylus_idx: 0,
+            live_is_near: false,
+            near_secs: f64::NEG_INFINITY,
             track: None,
             touch: Touch::default(),
             fade_from: Contact::LIFTED,
@@ -71,34 +89,54 @@ impl Player {
 
     /// Fades to another input. The automatic hand goes on from where it is when only its numbers change.
     pub(super) fn set_input(&mut self, input: Input) {
-        if input == self.input {
+        if input == self.chosen {
             return;
         }
-        let goes_on = match (self.input, input) {
+        let goes_on = match (self.chosen, input) {
             (Input::Hand(old), Input::Hand(new)) => old.path == new.path,
             _ => false,
         };
-        self.input = input;
-        self.fade();
+        self.chosen = input;
+        self.fade_chosen();
         if !goes_on {
             self.start();
         }
     }
 
+    /// Says when the person's hand takes over by itself.
+    pub(super) fn set_takeover(&mut self, takeover: Option<Takeover>) {
+        self.takeover = takeover;
+        self.look_for_a_hand();
+    }
+
+    /// What is followed.
+    pub(super) fn input(&self) -> Input {
+        if self.has_taken_over { Input::Live } else { self.chosen }
+    }
+
     /// Takes a stroke, to be played from its start while the input is [`Input::Track`]; gives back the one before.
     pub(super) fn play(&mut self, track: Box<Track>) -> Option<Box<Track>> {
-        if self.input == Input::Track {
-            self.fade();
+        if self.chosen == Input::Track {
+            self.fade_chosen();
             self.start();
         }
         self.track.replace(track)
     }
 
-    /// Takes what the person did `age_secs` ago, and how fast the tip landed if it did.
-    pub(super) fn report(&mut self, touch: Touch, landing_mps: Option<f32>, age_secs: f64) {
+    /// Takes what the person did `age_secs` ago with one of the styluses. What one says that is not near is nothing against
+    /// one that is: the system moves a mouse along with a pen.
+    pub(super) fn report(&mut self, stylus_idx: usize, timed: TimedTouch, age_secs: f64) {
+        let TimedTouch { touch, landing_mps, is_near, .. } = timed;
+        if !is_near && self.live_is_near && stylus_idx != self.live_stylus_idx {
+            return;
+        }
         let was_touching = self.live.contact.force_n > 0.0;
         self.live = touch.sanitized();
         self.live_secs = self.clock_secs - age_secs;
+        if is_near || self.live_is_near {
+            self.near_secs = self.live_secs;
+        }
+        (self.live_stylus_idx, self.live_is_near) = (stylus_idx, is_near);
         if self.live.contact.force_n == 0.0 {
             self.live_landing = None;
         } else if !was_touching {
@@ -106,11 +144,12 @@ impl Player {
             let strength = if relative.is_nan() { 1.0 } else { relative.clamp(STRENGTHS.0, STRENGTHS.1) };
             self.live_landing = Some((self.clock_secs, strength));
         }
+        self.look_for_a_hand();
     }
 
     /// The landing that is to be played next, if there is one; `stream_secs` is the stream's clock at the next frame.
     pub(super) fn take_landing(&mut self, stream_secs: f64) -> Option<Landing> {
-        let landing = match self.input {
+        let landing = match self.input() {
             Input::Live => self.live_landing.take().and_then(|(reported_secs, strength)| {
                 let is_new = self.clock_secs - reported_secs <= PATIENCE_SECS;
                 is_new.then_some(Landing { stream_secs, strength })
@@ -138,6 +177,29 @@ impl Player {
         self.clock_secs - self.input_start_secs
     }
 
+    /// Follows the person's hand where it has taken over, and what was chosen where it has gone.
+    fn look_for_a_hand(&mut self) {
+        let has_taken_over = self.takeover.is_some_and(|takeover| {
+            let secs = if self.live_is_near { takeover.stale_secs } else { takeover.lifted_secs };
+            self.clock_secs - self.near_secs <= f64::from(secs)
+        });
+        if has_taken_over == self.has_taken_over {
+            return;
+        }
+        self.has_taken_over = has_taken_over;
+        if self.chosen != Input::Live {
+            self.is_back = !has_taken_over;
+            self.fade();
+        }
+    }
+
+    /// Fades to what was chosen, where that is followed.
+    fn fade_chosen(&mut self) {
+        if !self.has_taken_over {
+            self.fade();
+        }
+    }
+
     fn fade(&mut self) {
         self.fade_from = self.touch.contact;
         self.fade_start_secs = self.clock_secs;
@@ -150,7 +212,7 @@ impl Player {
 
     /// What the input says, `step_secs` after it was asked last.
     fn asked(&mut self, step_secs: f64) -> Touch {
-        match self.input {
+        match self.input() {
             Input::Lifted => self.touch.lifted(),
             Input::Live => {
                 let mut touch = self.live;
@@ -178,8 +240,15 @@ impl ContactSource for Player {
         let step_secs = (time_secs - self.stream_secs).max(0.0);
         self.stream_secs = time_secs;
         self.clock_secs += step_secs;
+        if self.has_taken_over && self.chosen != Input::Live {
+            self.input_start_secs += step_secs;
+        }
+        self.look_for_a_hand();
+        // A stroke that goes on in its middle has not landed.
+        let is_back = std::mem::take(&mut self.is_back);
         let mut touch = self.asked(step_secs).sanitized();
-        if self.input == Input::Track && self.touch.contact.force_n == 0.0 && touch.contact.force_n > 0.0 {
+        let lands = self.touch.contact.force_n == 0.0 && touch.contact.force_n > 0.0;
+        if self.input() == Input::Track && lands && !is_back {
             self.track_landing = Some(Landing { stream_secs: time_secs, strength: 1.0 });
         }
         let share = (self.clock_secs - self.fade_start_secs) / FADE_SECS;
@@ -192,157 +261,4 @@ impl ContactSource for Player {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Contact, ContactSource as _, FADE_SECS, Input, Player};
-    use crate::hand::{Hand, Path};
-    use crate::touch::Touch;
-    use crate::track::{PenSample, Track};
-
-    const TICK: f64 = 0.005;
-    const HAND: Hand = Hand { path: Path::Circle, speed_mps: 0.1, force_n: 1.0, extent_m: 0.06 };
-
-    /// Ticks a player on; each touch with the time of its tick.
-    fn run(player: &mut Player, n_ticks: usize) -> Vec<(f64, Touch)> {
-        let one = |_| {
-            let next = player.stream_secs + TICK;
-            player.contact_at(next);
-            (player.clock_secs, player.touch())
-        };
-        (0..n_ticks).map(one).collect()
-    }
-
-    fn distance(a: Touch, b: Touch) -> f32 {
-        (a.x_m - b.x_m).hypot(a.y_m - b.y_m)
-    }
-
-    #[test]
-    fn the_hand_starts_when_it_is_chosen() {
-        let mut player = Player::new();
-        run(&mut player, 13);
-        player.set_input(Input::Hand(HAND));
-        for (i, (_, touch)) in run(&mut player, 50).into_iter().enumerate() {
-            let expected = HAND.touch_at((i + 1) as f64 * TICK);
-            assert!(distance(touch, expected) < 1e-6);
-            if (i + 1) as f64 * TICK >= FADE_SECS {
-                assert!((touch.contact.speed_mps - 0.1).abs() < 1e-7 && touch.contact.force_n == 1.0);
-            }
-        }
-        assert!((player.input_secs() - 50.0 * TICK).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_hand_that_changes_its_numbers_goes_on_from_where_it_is() {
-        for path in [Path::Line, Path::Circle, Path::Scribble] {
-            let mut player = Player::new();
-            let mut last = Touch::default();
-            for (i, speed_mps) in [0.1, 0.3, 0.02, 0.25].into_iter().enumerate() {
-                player.set_input(Input::Hand(Hand { path, speed_mps, force_n: 0.5 + i as f32, ..HAND }));
-                for (_, touch) in run(&mut player, 37) {
-                    if player.clock_secs > 0.0 && i > 0 {
-                        // The way in a tick, and 3 %: the scribble's spread of 2 %, and `f32` positions of micrometers.
-                        assert!(
-                            distance(last, touch) <= 1.03 * speed_mps * TICK as f32,
-                            "{path:?} at {speed_mps}"
-                        );
-                    }
-                    last = touch;
-                }
-            }
-            assert!((player.input_secs() - 4.0 * 37.0 * TICK).abs() < 1e-9, "one stroke");
-        }
-    }
-
-    #[test]
-    fn every_change_of_input_is_a_ramp() {
-        let mut player = Player::new();
-        let samples = [0.0, 0.02, 0.04].map(|time_secs| PenSample {
-            time_secs,
-            force_n: 2.0,
-            touching: true,
-            x_m: time_secs,
-            ..PenSample::default()
-        });
-        player.play(Box::new(Track::new(&samples).unwrap()));
-        player.report(
-            Touch { contact: Contact { speed_mps: 0.4, force_n: 2.0 }, ..Touch::default() },
-            None,
-            0.0,
-        );
-        let mut last = 0.0;
-        for input in
-            [Input::Hand(HAND), Input::Lifted, Input::Live, Input::Hand(HAND), Input::Track, Input::Lifted]
-        {
-            player.set_input(input);
-            let touches = run(&mut player, 4);
-            for (_, touch) in touches {
-                // 2 N in four ticks.
-                assert!((touch.contact.force_n - last).abs() <= 0.5 + 1e-6, "{input:?}");
-                last = touch.contact.force_n;
-            }
-        }
-        assert_eq!(last, 0.0);
-    }
-
-    #[test]
-    fn a_live_hand_that_stops_reporting_falls_silent() {
-        let mut player = Player::new();
-        player.set_input(Input::Live);
-        run(&mut player, 10);
-        let live = Touch { x_m: 0.01, y_m: 0.02, contact: Contact { speed_mps: 0.2, force_n: 1.0 } };
-        // Five milliseconds on its way.
-        player.report(live, None, 0.005);
-        let touches = run(&mut player, 100);
-        assert_eq!(touches[2].1, live, "held at an age of 20 ms");
-        assert!(touches[3].1.contact.speed_mps < 0.2);
-        assert!(touches[99].1.contact.speed_mps < 1e-9);
-        assert_eq!((touches[99].1.x_m, touches[99].1.contact.force_n), (0.01, 1.0));
-        // Nonsense is a lifted tip.
-        player.report(
-            Touch { contact: Contact { speed_mps: f32::NAN, force_n: f32::INFINITY }, ..live },
-            None,
-            0.0,
-        );
-        assert_eq!(run(&mut player, 1)[0].1.contact, Contact::LIFTED);
-    }
-
-    #[test]
-    fn a_track_starts_at_its_beginning_and_ends_lifted() {
-        let samples: Vec<_> = (0..30)
-            .map(|i| PenSample {
-                time_secs: 7.0 + 0.01 * f64::from(i),
-                x_m: 1e-3 * f64::from(i),
-                force_n: 0.5,
-                touching: true,
-                ..PenSample::default()
-            })
-            .collect();
-        let track = Track::new(&samples).unwrap();
-        let mut player = Player::new();
-        player.set_input(Input::Track);
-        assert!(run(&mut player, 20).iter().all(|(_, touch)| touch.contact == Contact::LIFTED));
-        assert!(player.play(Box::new(track.clone())).is_none());
-        for (i, (_, touch)) in run(&mut player, 80).into_iter().enumerate() {
-            let secs = (i + 1) as f64 * TICK;
-            assert!(distance(touch, track.touch_at(secs)) < 1e-6);
-            // At its very end rounding decides whether it is lifted.
-            if secs >= FADE_SECS && (secs - track.duration_secs()).abs() > 1e-9 {
-                assert!((touch.contact.speed_mps - track.touch_at(secs).contact.speed_mps).abs() < 1e-6);
-            }
-        }
-        // A new track, or the choice of the input again, starts anew.
-        assert_eq!(player.play(Box::new(track.clone())), Some(Box::new(track)));
-        run(&mut player, 3);
-        assert!((player.input_secs() - 3.0 * TICK).abs() < 1e-12);
-    }
-
-    #[test]
-    fn the_stream_may_start_its_clock_again() {
-        let mut player = Player::new();
-        player.set_input(Input::Hand(HAND));
-        let before = run(&mut player, 20)[19].1;
-        player.restart_clock();
-        let after = run(&mut player, 1)[0].1;
-        assert!(distance(before, after) <= 0.1 * TICK as f32 * 1.01);
-        assert!((player.input_secs() - 21.0 * TICK).abs() < 1e-12);
-    }
-}
+mod tests;

@@ -5,15 +5,30 @@ use shagreen_synth::drive::Driven;
 use super::meter::Ramp;
 use crate::signal::Signal;
 
+/// A signal, and how many wishes to end signals were older than it.
+#[derive(Debug)]
+struct Wanted {
+    signal: Box<Signal>,
+    n_stops: u32,
+}
+
+impl Wanted {
+    /// Whether one of `n_stops` wishes came after it. A signal may arrive before what was wished ahead of it.
+    fn is_stopped(&self, n_stops: u32) -> bool {
+        n_stops.wrapping_sub(self.n_stops).cast_signed() > 0
+    }
+}
+
 /// What plays signals.
 #[derive(Debug)]
 pub(super) struct SignalPlayer {
-    playing: Option<Box<Signal>>,
+    playing: Option<Wanted>,
+    /// What is played from its beginning once `playing` has faded.
+    next: Option<Wanted>,
     next_frame: usize,
     played: Option<Box<Signal>>,
     texture: Ramp,
     signal: Ramp,
-    n_stops: u32,
 }
 
 impl SignalPlayer {
@@ -21,29 +36,38 @@ impl SignalPlayer {
     pub(super) fn new(fade_frames: u32) -> Self {
         Self {
             playing: None,
+            next: None,
             next_frame: 0,
             played: None,
             texture: Ramp::at(1.0, fade_frames),
             signal: Ramp::at(1.0, fade_frames),
-            n_stops: 0,
         }
     }
 
-    /// Takes a signal, to be played once the texture has faded; gives back the one that it ends.
-    pub(super) fn play(&mut self, signal: Box<Signal>) -> Option<Box<Signal>> {
-        self.next_frame = 0;
-        self.signal.jump(1.0);
-        self.playing.replace(signal)
+    /// Takes a signal that was sent after `n_stops` wishes to end signals, to be played once the texture, or the signal
+    /// before, has faded; gives back one that it takes the place of unheard.
+    pub(super) fn play(&mut self, signal: Box<Signal>, n_stops: u32) -> Option<Box<Signal>> {
+        let wanted = Wanted { signal, n_stops };
+        let unheard = if self.next_frame > 0 {
+            self.signal.aim(0.0);
+            self.next.replace(wanted)
+        } else {
+            self.signal.jump(1.0);
+            self.playing.replace(wanted)
+        };
+        unheard.map(|wanted| wanted.signal)
     }
 
-    /// Lets the signal fade where that was wished once more.
-    pub(super) fn follow(&mut self, n_stops: u32) {
-        if n_stops != self.n_stops {
-            self.n_stops = n_stops;
-            if self.playing.is_some() {
-                self.signal.aim(0.0);
-            }
+    /// Lets the signals fade that are older than the last of `n_stops` wishes; gives back those that nobody has heard.
+    pub(super) fn follow(&mut self, n_stops: u32) -> [Option<Box<Signal>>; 2] {
+        let is_stopped = |wanted: &mut Wanted| wanted.is_stopped(n_stops);
+        let waiting = self.next.take_if(is_stopped);
+        let begun = self.next_frame > 0;
+        let unheard = if begun { None } else { self.playing.take_if(is_stopped) };
+        if begun && self.playing.as_mut().is_some_and(is_stopped) {
+            self.signal.aim(0.0);
         }
+        [waiting, unheard].map(|wanted| wanted.map(|wanted| wanted.signal))
     }
 
     /// Whether there is a signal, or the texture has not begun to come back.
@@ -54,7 +78,7 @@ impl SignalPlayer {
     /// Puts the signal in the place of the texture's samples, and says what they are now.
     pub(super) fn replace(&mut self, mono: &mut [f32]) -> Driven {
         self.texture.aim(if self.playing.is_some() { 0.0 } else { 1.0 });
-        if let Some(signal) = self.playing.as_ref().filter(|_| self.texture.is_at(0.0)) {
+        if let Some(Wanted { signal, .. }) = self.playing.as_ref().filter(|_| self.texture.is_at(0.0)) {
             let part = signal.part(self.next_frame, mono.len());
             let (begun, rest) = mono.split_at_mut(part.len());
             for (sample, signal) in begun.iter_mut().zip(part) {
@@ -64,7 +88,10 @@ impl SignalPlayer {
             self.next_frame += begun.len();
             let driven = signal.driven();
             if self.next_frame >= signal.n_frames() || self.signal.is_at(0.0) {
-                self.played = self.playing.take();
+                self.played = self.playing.take().map(|wanted| wanted.signal);
+                self.playing = self.next.take();
+                self.next_frame = 0;
+                self.signal.jump(1.0);
             }
             return driven;
         }

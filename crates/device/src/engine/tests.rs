@@ -12,7 +12,7 @@ use shagreen_synth::tap::Tap;
 use super::{
     COMMANDS, ChannelMask, Engine, EngineConfig, Handle, LoadReason, MixError, RETURNED, SCOPE, SLOTS, new,
 };
-use crate::controls::{Controls, Drive, Input};
+use crate::controls::{Controls, Drive, Input, Takeover};
 use crate::hand::{Hand, Path};
 use crate::signal::Signal;
 use crate::texture::tests::{white, white_at};
@@ -441,6 +441,30 @@ fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
 }
 
 #[test]
+fn a_hand_that_takes_over_is_heard_from_the_first_sample_of_the_next_block() {
+    let (mut handle, mut engine) = new(CONFIG).unwrap();
+    handle.set_tap(WOOD);
+    handle.set_input(Input::Hand(HAND));
+    handle.set_takeover(Some(Takeover::USUAL));
+    let mut live = handle.take_live_input().unwrap();
+    assert_eq!(peak(&play(&mut engine, 9600, 480)), 0.0);
+    assert!(!handle.status().follows_live);
+    live.send(landed(0.5), Instant::now()).unwrap();
+    let out = play(&mut engine, 4800, 480);
+    let expected = 0.5 * (-80.0 / 48_000.0_f64).exp() * (std::f64::consts::TAU * 200.0 / 48_000.0).sin();
+    assert!((f64::from(out[1]) - expected).abs() < 1e-5, "{} for {expected}", out[1]);
+    assert!(handle.status().follows_live && handle.status().touch == landed(0.5));
+    // The hand goes on a while after it is let go, and a pen that is near takes it up before it lands.
+    live.send(Touch::default(), Instant::now()).unwrap();
+    play(&mut engine, 48_000, 480);
+    assert!(!handle.status().follows_live);
+    assert_eq!(handle.status().touch.contact.force_n, 0.9, "the hand's");
+    live.hover(landed(0.5), Instant::now()).unwrap();
+    play(&mut engine, 4800, 480);
+    assert!(handle.status().follows_live && handle.status().touch.contact.force_n == 0.0);
+}
+
+#[test]
 fn landings_of_a_stroke_do_not_depend_on_blocks() {
     let run = |block| {
         let (mut handle, mut engine) = stroking(CONFIG, 1.0);
@@ -463,7 +487,7 @@ fn a_signal_takes_the_place_of_the_texture_and_gives_it_back() {
     let (_undisturbed, mut undisturbed) = stroking(CONFIG, 1.0);
     play(&mut engine, 9600, 256);
     let samples: Vec<f32> = (0..4800).map(|i| 0.5 * (i as f32 * 0.05).sin()).collect();
-    handle.play_signal(Signal::new(samples.clone(), Driven::Drive).unwrap()).unwrap();
+    handle.play_signal(Signal::new(samples.clone(), 48_000.0, Driven::Drive).unwrap()).unwrap();
     handle.set_drive(Drive { muted: false, gain: 0.1 });
     let out = play(&mut engine, 48_000, 256);
     // The texture fades in 960 samples; a signal begins with a block.
@@ -479,7 +503,7 @@ fn a_signal_takes_the_place_of_the_texture_and_gives_it_back() {
 
 #[test]
 fn signals_are_stopped_muted_replaced_and_limited() {
-    let signal = |level| Signal::new(vec![level; 480_000], Driven::Drive).unwrap();
+    let signal = |level| Signal::new(vec![level; 480_000], 48_000.0, Driven::Drive).unwrap();
     let (mut handle, mut engine) = stroking(CONFIG, 1.0);
     handle.play_signal(signal(7.0)).unwrap();
     let out = play(&mut engine, 9600, 256);
@@ -501,4 +525,53 @@ fn signals_are_stopped_muted_replaced_and_limited() {
     play(&mut engine, 256, 256);
     handle.play_signal(signal(0.25)).unwrap();
     assert_eq!(play(&mut engine, 9600, 256)[9000], 0.25);
+}
+
+#[test]
+fn a_signal_after_a_stop_is_played_and_one_before_it_is_not() {
+    let signal = |level| Signal::new(vec![level; 9600], 48_000.0, Driven::Drive).unwrap();
+    // All within one block: what is stopped is nothing, then a signal nobody has heard, then one that plays.
+    for n_before in 0..3 {
+        let (mut handle, mut engine) = new(CONFIG).unwrap();
+        if n_before > 0 {
+            handle.play_signal(signal(0.5)).unwrap();
+        }
+        if n_before == 2 {
+            assert_eq!(play(&mut engine, 4800, 256)[4000], 0.5);
+        }
+        handle.stop_signal();
+        handle.play_signal(signal(0.25)).unwrap();
+        let out = play(&mut engine, 24_000, 256);
+        // The fade of the one before may meet its level, too.
+        let n_frames = out.iter().filter(|x| **x == 0.25).count();
+        assert!((9600..=9601).contains(&n_frames), "{n_frames} after {n_before}");
+        assert!(n_before == 2 || peak(&out) == 0.25);
+        assert_eq!(handle.collect(), if n_before == 0 { 1 } else { 2 });
+        handle.play_signal(signal(0.25)).unwrap();
+        handle.stop_signal();
+        assert_eq!(peak(&play(&mut engine, 9600, 256)), 0.0);
+        assert_eq!((handle.collect(), handle.status().plays_signal), (1, false));
+    }
+}
+
+#[test]
+fn a_signal_that_takes_over_another_begins_when_that_has_faded() {
+    let ramp = |from: f32| {
+        let samples = (0..9600).map(|i| from + 1e-5 * i as f32).collect();
+        Signal::new(samples, 48_000.0, Driven::Drive).unwrap()
+    };
+    let (mut handle, mut engine) = new(CONFIG).unwrap();
+    handle.play_signal(ramp(0.5)).unwrap();
+    play(&mut engine, 4864, 256);
+    // The one in the middle is never heard.
+    handle.play_signal(ramp(0.2)).unwrap();
+    handle.play_signal(ramp(0.0)).unwrap();
+    let out = play(&mut engine, 24_000, 256);
+    let begin = out.windows(2).position(|w| w == [0.0, 1e-5]).unwrap();
+    // 0.55 in the 960 frames of the fade.
+    let steps = out[..begin].windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f32::max);
+    assert!(steps < 7e-4, "{steps}");
+    assert!(out[begin..begin + 9600] == *ramp(0.0).part(0, 9600), "from its beginning");
+    assert!((960..=960 + 256).contains(&begin) && peak(&out[begin + 9600..]) == 0.0, "{begin}");
+    assert_eq!(handle.collect(), 3);
 }

@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 /// Stiffness taken for the contact of a pen with a pad, in N/m: a tip that gives by 0.4 mm under 4 N.
 pub const STIFFNESS_N_PER_M: f64 = 1e4;
 /// Fastest landing that is told, in m/s: hands are slower.
-pub const MAX_LANDING_MPS: f64 = 3.0;
+const MAX_LANDING_MPS: f64 = 3.0;
 
 /// Reports of a contact that are waited for.
 const N_RISING: u32 = 3;

@@ -123,7 +123,7 @@ pub struct PenThread {
     moments: Consumer<PenMoment>,
     notices: Receiver<PenNotice>,
     shared: Arc<Shared>,
-    thread: Option<JoinHandle<()>>,
+    thread: Option<JoinHandle<Option<LiveInput>>>,
 }
 
 impl PenThread {
@@ -144,7 +144,7 @@ impl PenThread {
         let reader = Reader::new(Box::new(bus), options, live, moments_in, notices_in, Arc::clone(&shared));
         let thread = std::thread::Builder::new().name("pen".into()).spawn(move || {
             run_before_others();
-            reader.run(&commands_out);
+            reader.run(&commands_out)
         });
         let thread = thread.map_err(|error| {
             let message =
@@ -164,9 +164,16 @@ impl PenThread {
         self.command(Command::Map(map));
     }
 
-    /// Takes `size_m` (width, height) for the area from now on; `None` is what the pen declares.
+    /// Takes `size_m` (width, height) for the area from now on; `None` is what the pen declares. A stroke in progress ends
+    /// where that is another than before, and goes on where it is not.
     pub fn set_size_m(&self, size_m: Option<[f64; 2]>) {
         self.command(Command::Size(size_m));
+    }
+
+    /// Ends the thread, the tip lifted, and gives back the way into the engine that it had last, for the next pen; this
+    /// takes a few hundredths of a second. There is none where it was given none.
+    pub fn finish(mut self) -> Option<LiveInput> {
+        self.end()
     }
 
     /// The oldest moment that has not been taken yet.
@@ -196,12 +203,17 @@ impl PenThread {
     }
 }
 
+impl PenThread {
+    fn end(&mut self) -> Option<LiveInput> {
+        drop(self.commands.take());
+        // A panic of a bus that is not ours has been printed by then.
+        self.thread.take()?.join().ok()?
+    }
+}
+
 impl Drop for PenThread {
     fn drop(&mut self) {
-        drop(self.commands.take());
-        if let Some(thread) = self.thread.take() {
-            thread.join().ok(); // A panic of a bus that is not ours has been printed by then.
-        }
+        self.end();
     }
 }
 

@@ -76,6 +76,12 @@ impl Connection {
         Ok(connection)
     }
 
+    /// A line on which all has been said that comes before a stream.
+    #[cfg(test)]
+    pub(super) fn of(socket: UnixStream) -> Self {
+        Self { socket, version: MAX_VERSION, next_seq: 0, out: Vec::new() }
+    }
+
     /// Another end of the same line, to hang up by.
     pub(super) fn socket(&self) -> Result<UnixStream, Failure> {
         Ok(self.socket.try_clone()?)

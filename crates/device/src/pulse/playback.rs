@@ -1,11 +1,13 @@
 //! A stream to one sink: samples when the server asks for them, silence for ever when it ends the stream.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
 use pulseaudio::protocol::stream::{BufferAttr, StreamFlags};
 use pulseaudio::protocol::{
     ChannelMap, ChannelVolume, Command, CorkStreamParams, CreatePlaybackStreamReply, LatencyParams,
-    MAX_MEMBLOCKQ_LENGTH, PlaybackLatency, PlaybackStreamParams, Prop, Props, SampleFormat, SampleSpec,
+    MAX_MEMBLOCKQ_LENGTH, PlaybackLatency, PlaybackStreamParams, Prop, Props, ProtocolError, SampleFormat,
+    SampleSpec,
 };
 
 use super::connection::{Connection, Failure, Message};
@@ -122,10 +124,12 @@ impl Playback {
         self.block_frames
     }
 
-    /// Plays until the stream or the line ends.
-    pub(super) fn run(mut self) {
+    /// Plays until the stream or the line ends; it is lost where nobody is closing it.
+    pub(super) fn run(mut self, is_closing: &AtomicBool) {
         let ended = self.play();
-        if let Err(reason) = ended {
+        if let Err(reason) = ended
+            && !is_closing.load(Ordering::Relaxed)
+        {
             let message = format!(
                 "the output `{}` is lost: {reason}; it stays silent until you open it again, or another that \
                  `shagreen devices` lists",
@@ -136,24 +140,34 @@ impl Playback {
     }
 
     fn play(&mut self) -> Result<(), String> {
-        let hung_up = |_: Failure| "the sound server has gone".to_owned();
-        self.fill().map_err(hung_up)?;
+        self.fill().map_err(|failure| hung_up(&failure, None))?;
         let uncork = CorkStreamParams { channel: self.channel, cork: false };
-        self.connection.say(&Command::CorkPlaybackStream(uncork)).map_err(hung_up)?;
+        let uncork = self.connection.say(&Command::CorkPlaybackStream(uncork));
+        let uncork = uncork.map_err(|failure| hung_up(&failure, None))?;
+        let mut refusal = None;
         loop {
-            let message = self.connection.next().map_err(hung_up)?;
+            let message = self.connection.next().map_err(|failure| hung_up(&failure, refusal.as_ref()))?;
             match message.command {
+                Command::Error(error) => {
+                    let error = ProtocolError::ServerError(error);
+                    if message.seq == uncork {
+                        return Err(format!("the sound server does not start it ({error})"));
+                    }
+                    // It may go on; if not, this is why.
+                    refusal = Some(error);
+                }
                 Command::Request(request) if request.channel == self.channel => {
                     // What it may hold in all is all that it can want.
                     let requested = self.requested_bytes.saturating_add(request.length as usize);
                     self.requested_bytes = requested.min(MAX_MEMBLOCKQ_LENGTH);
-                    self.fill().map_err(hung_up)?;
+                    self.fill().map_err(|failure| hung_up(&failure, refusal.as_ref()))?;
                 }
                 Command::Started(_) => self.has_started = true,
                 Command::Underflow(_) if self.has_started => self.reporter.shared.note_underrun(),
                 Command::PlaybackStreamKilled(_) => return Err("its sink is gone".to_owned()),
-                Command::PlaybackStreamMoved(_) => {
-                    return Err("the sound server has moved it to another sink".to_owned());
+                Command::PlaybackStreamMoved(params) => {
+                    let sink = params.device_name.to_string_lossy().into_owned();
+                    return Err(format!("the sound server has moved it to another sink, `{sink}`"));
                 }
                 Command::PlaybackStreamSuspended(params) if params.suspended => {
                     return Err("its sink is suspended".to_owned());
@@ -200,3 +214,12 @@ impl Playback {
             Duration::from_micros(reply.sink_usec) + Duration::from_secs_f64(waiting_secs.min(60.0));
     }
 }
+
+/// Why the line ended, with what the server refused before it did.
+fn hung_up(failure: &Failure, refusal: Option<&ProtocolError>) -> String {
+    let refusal = refusal.map(|refusal| format!("; before that: {refusal}")).unwrap_or_default();
+    format!("the sound server has gone ({failure}{refusal})")
+}
+
+#[cfg(test)]
+mod tests;

@@ -187,3 +187,24 @@ fn the_latency_is_that_of_the_look_ahead() {
     assert_eq!(block.iter().position(|x| *x != 0.0), Some(96));
     assert_eq!(block[96], 0.3);
 }
+
+#[test]
+fn what_the_equalizer_rings_with_ends_beneath_drive_and_does_not_come_back() {
+    let run = |driven| {
+        let mut chain = DriveChain::new(DriveConfig { look_ahead_secs: 0.0, ..MARK_II }, RATE_HZ);
+        let mut texture: Vec<f32> = (0..480_u16).map(|i| 0.1 - 0.1 * f32::from(i) / 480.0).collect();
+        chain.process(&mut texture, Driven::Acceleration);
+        let mut signal = vec![0.0; 48_000];
+        chain.process(&mut signal, driven);
+        let mut after = vec![0.0; 4800];
+        chain.process(&mut after, Driven::Acceleration);
+        (texture, signal, after)
+    };
+    let (texture, beneath_drive, after) = run(Driven::Drive);
+    let (_, beneath_texture, _) = run(Driven::Acceleration);
+    assert!(beneath_texture[0].abs() > 1e-3, "it rings: {}", beneath_texture[0]);
+    assert!((beneath_drive[0] - texture[479]).abs() < 0.02 * texture[479].abs(), "without a jump");
+    assert!(beneath_drive.iter().zip(&beneath_texture).all(|(x, y)| (x - y).abs() < 1e-6));
+    // A second is ninety time constants of 20 Hz.
+    assert!(after.iter().all(|x| x.abs() < 1e-12));
+}

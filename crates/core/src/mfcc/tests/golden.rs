@@ -2,9 +2,10 @@
 //! in the manner of HTK, `vectors/e_mfcc/htk_ref.py`.
 
 use super::{RATE, coefficients, distance, librosa, python_speech_features};
+use crate::mfcc::filter_bank::mel_edges;
 use crate::mfcc::{
     FilterShape, FirstCoefficient, Lifter, MelScale, MfccOptions, TransformLength, Window, filter_bank, htk,
-    mel_edges, paper, recommended,
+    paper, recommended,
 };
 use crate::units::Hertz;
 use ndarray::{Array2, Axis, Slice};

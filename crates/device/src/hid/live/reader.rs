@@ -15,7 +15,6 @@ use crate::hid::pen::PenDecoder;
 use crate::hid::tracker::{PenMoment, PenTracker};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
-use crate::touch::Touch;
 
 /// What the handle asks for; when it is gone, the thread ends.
 #[derive(Debug)]
@@ -69,8 +68,8 @@ impl Reader {
         }
     }
 
-    /// Reads until the handle is gone.
-    pub(super) fn run(mut self, commands: &Receiver<Command>) {
+    /// Reads until the handle is gone; gives the way into the engine back.
+    pub(super) fn run(mut self, commands: &Receiver<Command>) -> Option<LiveInput> {
         loop {
             loop {
                 match commands.try_recv() {
@@ -78,7 +77,7 @@ impl Reader {
                     Err(TryRecvError::Empty) => break,
                     Err(TryRecvError::Disconnected) => {
                         self.lift();
-                        return;
+                        return self.live;
                     }
                 }
             }
@@ -91,7 +90,7 @@ impl Reader {
                 match wait(commands, LOOK_AGAIN) {
                     Waited::Command(command) => self.obey(command),
                     Waited::Time => {}
-                    Waited::End => return,
+                    Waited::End => return self.live,
                 }
             }
         }
@@ -106,6 +105,7 @@ impl Reader {
                     open.tracker.set_pressure_map(map);
                 }
             }
+            Command::Size(size_m) if size_m == self.options.size_m => {}
             Command::Size(size_m) => {
                 self.options.size_m = size_m;
                 self.lift();
@@ -163,8 +163,7 @@ impl Reader {
                     return;
                 };
                 self.shared.n_reports.fetch_add(1, Ordering::Relaxed);
-                let landing_mps = moment.landing.map(|landing| landing.speed_mps);
-                self.send(moment.touch, now, landing_mps);
+                self.tell_engine(&moment, now);
                 if self.moments.push(moment).is_err() {
                     self.shared.n_dropped.fetch_add(1, Ordering::Relaxed);
                 }
@@ -182,14 +181,20 @@ impl Reader {
     fn lift(&mut self) {
         if let Some(open) = &mut self.open {
             let touch = open.tracker.lift();
-            self.send(touch, Instant::now(), None);
+            if let Some(live) = &mut self.live {
+                live.send(touch, Instant::now()).ok(); // Full only when the output has stopped: nobody feels it then.
+            }
         }
     }
 
-    fn send(&mut self, touch: Touch, time: Instant, landing_mps: Option<f32>) {
-        if let Some(live) = &mut self.live {
-            live.land(touch, time, landing_mps).ok(); // Full only when the output has stopped: nobody feels it then.
-        }
+    fn tell_engine(&mut self, moment: &PenMoment, time: Instant) {
+        let Some(live) = &mut self.live else { return };
+        let landing_mps = moment.landing.map(|landing| landing.speed_mps);
+        // Without a place nothing would be felt: then the hand is left to another.
+        let hovers = moment.touch.contact.force_n == 0.0 && moment.place_m.is_some();
+        let sent =
+            if hovers { live.hover(moment.touch, time) } else { live.land(moment.touch, time, landing_mps) };
+        sent.ok(); // Full only when the output has stopped: nobody feels it then.
     }
 
     /// Says why there is no pen, unless it was said.

@@ -11,6 +11,7 @@ use crate::hid::identity::{HidBus, HidPen, denied, with_ids};
 use crate::hid::tracker::TrackerOptions;
 use crate::hid::tracker::tests::{DOWN, HOVER, report};
 use crate::kinematics::SpeedFilter;
+use crate::output::tests::OPTIONS;
 use crate::output::{OpenOptions, open_null_with_tap};
 use crate::pressure::PressureMap;
 use crate::texture::tests::white;
@@ -265,6 +266,59 @@ fn without_a_size_nothing_is_felt_until_one_is_given() {
     wait_for(&thread, 120);
     let last = std::iter::from_fn(|| thread.next_moment()).last().unwrap();
     assert!(last.touch.contact.speed_mps > 0.02 && last.force_n > 1.9);
+}
+
+#[test]
+fn a_size_that_is_no_other_leaves_the_stroke_alone() {
+    let machine = Machine::new(&["a"]);
+    let mut thread = PenThread::start(machine.clone(), options("a"), None).unwrap();
+    assert!(matches!(notice(&thread), PenNotice::Connected { .. }));
+    let mut speeds = Vec::new();
+    for (i, size_m) in [None, None, Some([0.2, 0.15]), Some([0.2, 0.15]), None].into_iter().enumerate() {
+        thread.set_size_m(size_m);
+        std::thread::sleep(Duration::from_millis(50));
+        machine.stroke();
+        wait_for(&thread, 60 * (i as u64 + 1));
+        let moments: Vec<_> = std::iter::from_fn(|| thread.next_moment()).collect();
+        assert_eq!(moments.len(), 60);
+        speeds.push(moments[0].touch.contact.speed_mps);
+        let is_new = i == 2 || i == 4;
+        assert_eq!(thread.next_notice().is_some(), is_new, "{i}");
+    }
+    // Where the tracker began anew, there is no speed at the first report.
+    let begins: Vec<bool> = speeds.iter().map(|speed| *speed == 0.0).collect();
+    assert_eq!(begins, [true, false, true, false, true]);
+}
+
+#[test]
+fn the_way_into_the_engine_comes_back_for_the_next_pen() {
+    let output = OpenOptions { preferred_rate_hz: Some(48_000), ..OPTIONS };
+    let (mut handle, _running) = open_null_with_tap(output, |_| {}).unwrap();
+    handle.set_input(Input::Live);
+    let mut live = handle.take_live_input();
+    // Twice the same pen, then another; the last ends while it is waited for.
+    for (serial, plugged) in [("a", "a"), ("a", "a"), ("b", "b"), ("a", "b")] {
+        let machine = Machine::new(&[plugged]);
+        let thread = PenThread::start(machine.clone(), options(serial), live.take()).unwrap();
+        notice(&thread);
+        if serial == plugged {
+            machine.send(report(3000, 8000, 2039, DOWN));
+            wait_for(&thread, 1);
+            let begun = Instant::now();
+            while handle.status().touch.contact.force_n == 0.0 {
+                assert!(begun.elapsed() < Duration::from_secs(5), "{serial} is not felt");
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        }
+        live = thread.finish();
+        assert!(live.is_some());
+        let begun = Instant::now();
+        while handle.status().touch.contact.force_n > 0.0 {
+            assert!(begun.elapsed() < Duration::from_secs(5), "{serial} is not lifted");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+    assert!(PenThread::start(Machine::new(&[]), options("a"), None).unwrap().finish().is_none());
 }
 
 #[test]

@@ -17,8 +17,9 @@ use crate::controls::Input;
 use crate::engine::Handle;
 use crate::error::DeviceErrorKind;
 use crate::hand::{Hand, Path};
+use crate::measure::{Listener, measure};
 use crate::output::tests::OPTIONS;
-use crate::output::{Made, OpenOptions, make_engine};
+use crate::output::{Made, NULL_ID, OpenOptions, make_engine};
 use crate::serial::frame::MAX_WIRE;
 use crate::serial::line::Line;
 use crate::serial::message::{Control, Mode, RunState, write_sensor};
@@ -56,6 +57,10 @@ struct Board {
 
 impl Board {
     fn new(first_words: Vec<u8>, spoil: Spoil) -> Self {
+        Self::of(ABOUT, first_words, spoil)
+    }
+
+    fn of(about: About, first_words: Vec<u8>, spoil: Spoil) -> Self {
         let (mut master, slave) = TTYPort::pair().unwrap();
         let port = slave.name().unwrap();
         drop(slave);
@@ -64,7 +69,7 @@ impl Board {
         let (teller, played) = mpsc::channel();
         let (stopped, stalled) = (Arc::clone(&stop), Arc::clone(&is_stalled));
         let thread = std::thread::spawn(move || {
-            run_board(&mut master, first_words, spoil, &teller, &stopped, &stalled)
+            run_board(about, &mut master, first_words, spoil, &teller, (&stopped, &stalled))
         });
         Self { port, stop, is_stalled, played, thread: Some(thread) }
     }
@@ -92,14 +97,14 @@ impl Drop for Board {
 }
 
 fn run_board(
+    about: About,
     master: &mut TTYPort,
     first_words: Vec<u8>,
     mut spoil: Spoil,
     teller: &Teller<Played>,
-    stop: &AtomicBool,
-    is_stalled: &AtomicBool,
+    (stop, is_stalled): (&AtomicBool, &AtomicBool),
 ) -> usize {
-    let mut receiver = Receiver::<256>::new(ABOUT);
+    let mut receiver = Receiver::<256>::new(about);
     let mut words = first_words;
     let (mut most, mut n_sensor) = (0, 0_u16);
     let mut wire = [0; MAX_WIRE];
@@ -357,4 +362,18 @@ fn what_is_no_port_is_said() {
         crate::output::open("serial:/dev/no_such_port", OPTIONS).unwrap_err().kind(),
         DeviceErrorKind::NotFound
     );
+}
+
+#[test]
+fn a_receiver_without_a_sensor_is_refused_before_anything_is_played() {
+    let board = Board::of(About { has_sensor: false, ..ABOUT }, Vec::new(), Box::new(|_| {}));
+    let listener = Listener::Serial { port: board.port.clone(), baud: 1_000_000 };
+    let drive_at = |_: f64| -> Result<Vec<f32>, String> { panic!("nothing is to be played") };
+    let driven = (OPTIONS.drive, OPTIONS.channels);
+    for id in [NULL_ID.to_owned(), format!("serial:{}", board.port)] {
+        let error = measure(&id, driven, &listener, &drive_at, &mut |_| true).unwrap_err();
+        assert_eq!(error.kind(), DeviceErrorKind::Unsupported, "{error}");
+        assert!(error.message().contains("`test board`") && error.message().contains("no sensor"), "{error}");
+    }
+    assert!(board.played.try_iter().all(|(_, sample)| sample == 0));
 }

@@ -1,0 +1,281 @@
+use std::time::Instant;
+
+use super::{Contact, ContactSource as _, FADE_SECS, Input, Player, Takeover, TimedTouch};
+use crate::hand::{Hand, Path};
+use crate::touch::Touch;
+use crate::track::{PenSample, Track};
+
+const TICK: f64 = 0.005;
+const HAND: Hand = Hand { path: Path::Circle, speed_mps: 0.1, force_n: 1.0, extent_m: 0.06 };
+
+/// A stylus says something without delay.
+fn report(player: &mut Player, touch: Touch) {
+    player.report(0, TimedTouch::new(touch, Instant::now(), None), 0.0);
+}
+
+/// Ticks a player on; each touch with the time of its tick.
+fn run(player: &mut Player, n_ticks: usize) -> Vec<(f64, Touch)> {
+    let one = |_| {
+        let next = player.stream_secs + TICK;
+        player.contact_at(next);
+        (player.clock_secs, player.touch())
+    };
+    (0..n_ticks).map(one).collect()
+}
+
+fn distance(a: Touch, b: Touch) -> f32 {
+    (a.x_m - b.x_m).hypot(a.y_m - b.y_m)
+}
+
+#[test]
+fn the_hand_starts_when_it_is_chosen() {
+    let mut player = Player::new();
+    run(&mut player, 13);
+    player.set_input(Input::Hand(HAND));
+    for (i, (_, touch)) in run(&mut player, 50).into_iter().enumerate() {
+        let expected = HAND.touch_at((i + 1) as f64 * TICK);
+        assert!(distance(touch, expected) < 1e-6);
+        if (i + 1) as f64 * TICK >= FADE_SECS {
+            assert!((touch.contact.speed_mps - 0.1).abs() < 1e-7 && touch.contact.force_n == 1.0);
+        }
+    }
+    assert!((player.input_secs() - 50.0 * TICK).abs() < 1e-12);
+}
+
+#[test]
+fn a_hand_that_changes_its_numbers_goes_on_from_where_it_is() {
+    for path in [Path::Line, Path::Circle, Path::Scribble] {
+        let mut player = Player::new();
+        let mut last = Touch::default();
+        for (i, speed_mps) in [0.1, 0.3, 0.02, 0.25].into_iter().enumerate() {
+            player.set_input(Input::Hand(Hand { path, speed_mps, force_n: 0.5 + i as f32, ..HAND }));
+            for (_, touch) in run(&mut player, 37) {
+                if player.clock_secs > 0.0 && i > 0 {
+                    // The way in a tick, and 3 %: the scribble's spread of 2 %, and `f32` positions of micrometers.
+                    assert!(
+                        distance(last, touch) <= 1.03 * speed_mps * TICK as f32,
+                        "{path:?} at {speed_mps}"
+                    );
+                }
+                last = touch;
+            }
+        }
+        assert!((player.input_secs() - 4.0 * 37.0 * TICK).abs() < 1e-9, "one stroke");
+    }
+}
+
+#[test]
+fn every_change_of_input_is_a_ramp() {
+    let mut player = Player::new();
+    let samples = [0.0, 0.02, 0.04].map(|time_secs| PenSample {
+        time_secs,
+        force_n: 2.0,
+        touching: true,
+        x_m: time_secs,
+        ..PenSample::default()
+    });
+    player.play(Box::new(Track::new(&samples).unwrap()));
+    report(&mut player, Touch { contact: Contact { speed_mps: 0.4, force_n: 2.0 }, ..Touch::default() });
+    let mut last = 0.0;
+    for input in
+        [Input::Hand(HAND), Input::Lifted, Input::Live, Input::Hand(HAND), Input::Track, Input::Lifted]
+    {
+        player.set_input(input);
+        let touches = run(&mut player, 4);
+        for (_, touch) in touches {
+            // 2 N in four ticks.
+            assert!((touch.contact.force_n - last).abs() <= 0.5 + 1e-6, "{input:?}");
+            last = touch.contact.force_n;
+        }
+    }
+    assert_eq!(last, 0.0);
+}
+
+#[test]
+fn a_live_hand_that_stops_reporting_falls_silent() {
+    let mut player = Player::new();
+    player.set_input(Input::Live);
+    run(&mut player, 10);
+    let live = Touch { x_m: 0.01, y_m: 0.02, contact: Contact { speed_mps: 0.2, force_n: 1.0 } };
+    // Five milliseconds on its way.
+    player.report(0, TimedTouch::new(live, Instant::now(), None), 0.005);
+    let touches = run(&mut player, 100);
+    assert_eq!(touches[2].1, live, "held at an age of 20 ms");
+    assert!(touches[3].1.contact.speed_mps < 0.2);
+    assert!(touches[99].1.contact.speed_mps < 1e-9);
+    assert_eq!((touches[99].1.x_m, touches[99].1.contact.force_n), (0.01, 1.0));
+    // Nonsense is a lifted tip.
+    report(&mut player, Touch { contact: Contact { speed_mps: f32::NAN, force_n: f32::INFINITY }, ..live });
+    assert_eq!(run(&mut player, 1)[0].1.contact, Contact::LIFTED);
+}
+
+#[test]
+fn a_track_starts_at_its_beginning_and_ends_lifted() {
+    let samples: Vec<_> = (0..30)
+        .map(|i| PenSample {
+            time_secs: 7.0 + 0.01 * f64::from(i),
+            x_m: 1e-3 * f64::from(i),
+            force_n: 0.5,
+            touching: true,
+            ..PenSample::default()
+        })
+        .collect();
+    let track = Track::new(&samples).unwrap();
+    let mut player = Player::new();
+    player.set_input(Input::Track);
+    assert!(run(&mut player, 20).iter().all(|(_, touch)| touch.contact == Contact::LIFTED));
+    assert!(player.play(Box::new(track.clone())).is_none());
+    for (i, (_, touch)) in run(&mut player, 80).into_iter().enumerate() {
+        let secs = (i + 1) as f64 * TICK;
+        assert!(distance(touch, track.touch_at(secs)) < 1e-6);
+        // At its very end rounding decides whether it is lifted.
+        if secs >= FADE_SECS && (secs - track.duration_secs()).abs() > 1e-9 {
+            assert!((touch.contact.speed_mps - track.touch_at(secs).contact.speed_mps).abs() < 1e-6);
+        }
+    }
+    // A new track, or the choice of the input again, starts anew.
+    assert_eq!(player.play(Box::new(track.clone())), Some(Box::new(track)));
+    run(&mut player, 3);
+    assert!((player.input_secs() - 3.0 * TICK).abs() < 1e-12);
+}
+
+#[test]
+fn the_stream_may_start_its_clock_again() {
+    let mut player = Player::new();
+    player.set_input(Input::Hand(HAND));
+    let before = run(&mut player, 20)[19].1;
+    player.restart_clock();
+    let after = run(&mut player, 1)[0].1;
+    assert!(distance(before, after) <= 0.1 * TICK as f32 * 1.01);
+    assert!((player.input_secs() - 21.0 * TICK).abs() < 1e-12);
+}
+
+const TAKEOVER: Takeover = Takeover { lifted_secs: 0.1, stale_secs: 0.5 };
+const PEN: Touch = Touch { x_m: 0.01, y_m: 0.02, contact: Contact { speed_mps: 0.2, force_n: 2.0 } };
+
+/// A player whose hand is under way, and may be taken over.
+fn under_way(takeover: Option<Takeover>) -> Player {
+    let mut player = Player::new();
+    player.set_takeover(takeover);
+    player.set_input(Input::Hand(HAND));
+    run(&mut player, 20);
+    player
+}
+
+/// Ticks until another input is followed.
+fn ticks_until(player: &mut Player, input: Input) -> usize {
+    (0..1000).find(|_| player.input() == input || run(player, 1).is_empty()).unwrap()
+}
+
+#[test]
+fn a_touch_takes_over_at_once_with_its_landing_and_its_contact_fades() {
+    let mut player = under_way(Some(TAKEOVER));
+    report(&mut player, PEN);
+    assert_eq!(player.input(), Input::Live);
+    assert_eq!(player.take_landing(0.123).unwrap().stream_secs, 0.123);
+    let mut last = HAND.force_n;
+    for (_, touch) in run(&mut player, 4) {
+        assert!((touch.contact.force_n - last).abs() <= 0.25 + 1e-6 && touch.contact.force_n > last);
+        last = touch.contact.force_n;
+    }
+    assert_eq!(last, 2.0);
+    // Without leave it does not.
+    let mut player = under_way(None);
+    report(&mut player, PEN);
+    assert_eq!((player.input(), player.take_landing(0.0)), (Input::Hand(HAND), None));
+    // Leave that comes later, as on an output that was opened beneath a pen, is in time.
+    player.set_takeover(Some(TAKEOVER));
+    assert_eq!(player.input(), Input::Live);
+    player.set_takeover(None);
+    assert_eq!(player.input(), Input::Hand(HAND));
+}
+
+#[test]
+fn the_chosen_input_goes_on_from_where_it_was() {
+    let mut player = under_way(Some(TAKEOVER));
+    let (before, secs) = (player.touch(), player.input_secs());
+    report(&mut player, PEN);
+    run(&mut player, 30);
+    assert!((player.input_secs() - secs).abs() < 1e-9);
+    report(&mut player, PEN.lifted());
+    // 100 ms, and the tick after them.
+    assert!((20..=21).contains(&ticks_until(&mut player, Input::Hand(HAND))));
+    let mut last = 0.0;
+    for (_, touch) in run(&mut player, 3) {
+        assert!((touch.contact.force_n - last) <= 0.25 + 1e-6, "it fades");
+        last = touch.contact.force_n;
+    }
+    // Four ticks of the hand since: it moves 0.5 mm in each.
+    assert!(distance(before, player.touch()) < 4.1 * 0.5e-3);
+    assert!((player.input_secs() - secs - 4.0 * TICK).abs() < TICK + 1e-9);
+}
+
+#[test]
+fn a_stylus_that_says_nothing_more_is_given_up_after_a_while() {
+    let mut player = under_way(Some(TAKEOVER));
+    report(&mut player, PEN);
+    assert!((100..=101).contains(&ticks_until(&mut player, Input::Hand(HAND))));
+    // What waited for longer on its way takes over no more.
+    player.report(0, TimedTouch::new(PEN, Instant::now(), None), 0.6);
+    assert_eq!(player.input(), Input::Hand(HAND));
+    // No numbers are no time.
+    player.set_takeover(Some(Takeover { lifted_secs: f32::NAN, stale_secs: f32::NAN }));
+    report(&mut player, PEN);
+    assert_eq!(player.input(), Input::Hand(HAND));
+}
+
+#[test]
+fn what_is_near_takes_over_and_a_mouse_that_moves_along_does_not_matter() {
+    let mut player = under_way(Some(TAKEOVER));
+    let mouse =
+        |player: &mut Player, touch| player.report(1, TimedTouch::new(touch, Instant::now(), None), 0.0);
+    let hover = TimedTouch { is_near: true, ..TimedTouch::new(PEN.lifted(), Instant::now(), None) };
+    mouse(&mut player, PEN.lifted());
+    assert_eq!(player.input(), Input::Hand(HAND), "a mouse that is not pressed");
+    player.report(0, hover, 0.0);
+    assert_eq!(player.input(), Input::Live);
+    run(&mut player, 10);
+    assert_eq!(player.touch().contact, Contact::LIFTED);
+    report(&mut player, PEN);
+    mouse(&mut player, PEN.lifted());
+    run(&mut player, 4);
+    assert_eq!(player.touch().contact.force_n, 2.0, "the mouse lifts no pen");
+    report(&mut player, PEN.lifted());
+    mouse(&mut player, PEN.lifted());
+    assert!((20..=21).contains(&ticks_until(&mut player, Input::Hand(HAND))));
+}
+
+#[test]
+fn a_hand_that_has_taken_over_stays_when_the_chosen_input_changes() {
+    let mut player = under_way(Some(TAKEOVER));
+    report(&mut player, PEN);
+    run(&mut player, 10);
+    for input in [Input::Live, Input::Lifted, Input::Track, Input::Hand(HAND)] {
+        player.set_input(input);
+        let touches = run(&mut player, 3);
+        assert!(touches.iter().all(|(_, touch)| touch.contact.force_n == 2.0), "{input:?}");
+    }
+    // A stroke that goes on in its middle is no landing.
+    let sample = |i| PenSample {
+        time_secs: 0.01 * f64::from(i),
+        force_n: 2.0,
+        touching: true,
+        ..PenSample::default()
+    };
+    let samples: Vec<PenSample> = (0..100).map(sample).collect();
+    report(&mut player, PEN.lifted());
+    run(&mut player, 40);
+    player.play(Box::new(Track::new(&samples).unwrap()));
+    player.set_input(Input::Lifted);
+    run(&mut player, 10);
+    player.set_input(Input::Track);
+    run(&mut player, 10);
+    assert!(player.take_landing(0.0).is_some());
+    report(&mut player, PEN);
+    assert!(player.take_landing(0.0).is_some());
+    run(&mut player, 10);
+    report(&mut player, PEN.lifted());
+    ticks_until(&mut player, Input::Track);
+    run(&mut player, 10);
+    assert_eq!((player.take_landing(0.0), player.touch().contact.force_n), (None, 2.0));
+}

@@ -1,0 +1,83 @@
+//! Beside a server that says what the tests want.
+
+use std::net::Shutdown;
+use std::os::unix::net::UnixStream;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use pulseaudio::protocol::{Command, MAX_VERSION, PulseError, read_descriptor, write_command_message};
+
+use super::{Connection, Playback};
+use crate::edge::Edge;
+use crate::engine::Handle;
+use crate::output::tests::OPTIONS;
+use crate::output::{Made, make_engine};
+use crate::status::LinkState;
+
+/// A stream that has been opened, the server's end of its line, and what watches it.
+fn opened() -> (Playback, UnixStream, Handle) {
+    let (ours, theirs) = UnixStream::pair().unwrap();
+    let Made { handle, engine, reporter } = make_engine(OPTIONS, 48_000).unwrap();
+    let playback = Playback {
+        connection: Connection::of(ours),
+        edge: Edge::new(engine, Arc::clone(&reporter.shared), 48_000.0),
+        reporter,
+        id: "pulse:test".into(),
+        channel: 0,
+        n_channels: 1,
+        rate_hz: 48_000,
+        block_frames: 128,
+        block: Vec::new(),
+        requested_bytes: 4 * 256,
+        latency: Duration::ZERO,
+        latency_asked: None,
+        has_started: false,
+    };
+    (playback, theirs, handle)
+}
+
+/// What is said of a stream whose server says this and hangs up, if it is lost.
+fn loss_after(words: &[(u32, Command)], is_closing: bool) -> Option<String> {
+    let (playback, mut server, mut handle) = opened();
+    for (seq, command) in words {
+        write_command_message(&mut server, *seq, command, MAX_VERSION).unwrap();
+    }
+    server.shutdown(Shutdown::Write).unwrap();
+    playback.run(&AtomicBool::new(is_closing));
+    assert_eq!(handle.status().state == LinkState::Lost, !is_closing);
+    handle.loss().map(ToString::to_string)
+}
+
+#[test]
+fn what_the_server_says_is_told_and_closing_is_no_loss() {
+    // Latency is asked for by message 0, and playing by message 1.
+    let refused = |seq| (seq, Command::Error(PulseError::BadState));
+    for (words, reason) in [
+        (vec![], "the sound server has gone ("),
+        (vec![refused(1)], "the sound server does not start it (server error: BadState)"),
+        (vec![refused(0)], "; before that: server error: BadState)"),
+        (vec![refused(0), (u32::MAX, Command::PlaybackStreamKilled(0))], ": its sink is gone;"),
+    ] {
+        let told = loss_after(&words, false).unwrap();
+        assert!(told.contains(reason) && told.contains("`pulse:test` is lost"), "{told}");
+        assert_eq!(loss_after(&words, true), None);
+    }
+}
+
+#[test]
+fn a_line_that_is_hung_up_on_purpose_ends_without_a_loss() {
+    let (playback, mut server, mut handle) = opened();
+    let socket = playback.connection.socket().unwrap();
+    let is_closing = Arc::new(AtomicBool::new(false));
+    let closing = Arc::clone(&is_closing);
+    let thread = std::thread::spawn(move || playback.run(&closing));
+    // Latency, samples, and the wish to play: it runs.
+    for _ in 0..3 {
+        let descriptor = read_descriptor(&mut server).unwrap();
+        std::io::copy(&mut std::io::Read::take(&mut server, descriptor.length.into()), &mut std::io::sink())
+            .unwrap();
+    }
+    drop(crate::pulse::PulseOutput { is_closing, socket, thread: Some(thread) });
+    assert_eq!((handle.status().state, handle.loss()), (LinkState::Running, None));
+}
