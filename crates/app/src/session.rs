@@ -428,7 +428,6 @@ impl Session {
             self.pen.give(&mut self.player.pen_live);
         }
         self.pen.collect();
-        self.player.set_pen_near(self.pen.is_near(), self.hand);
         self.note_latency(n_touches);
         self.scope.update();
         let touching = self.touch().contact;

@@ -6,7 +6,7 @@ mod support;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::rig::Rig;
+use shagreen_app::rig::{Mounted, Rig};
 use shagreen_app::strings::devices as strings;
 use shagreen_core::actuator::Actuator;
 use shagreen_formats::actuator_toml::{built_in_actuators, write_actuator};
@@ -84,7 +84,7 @@ fn a_sheet_that_is_opened_again_knows_the_profile_that_was_read() {
     load.type_text("77");
     harness.key_press(Key::Enter);
     wait(&mut harness, "another load is taken", |h| {
-        rig(h).mounted.as_ref().and_then(|m| m.load()).is_some_and(|load| (load.g() - 77.0).abs() < 1.0)
+        rig(h).mounted.as_ref().and_then(Mounted::load).is_some_and(|load| (load.g() - 77.0).abs() < 1.0)
     });
     assert_eq!(rig(&harness).actuator().unwrap().name, "Mine");
 }

@@ -63,7 +63,11 @@ impl Pen {
             return;
         }
         self.id.clone_from(&rig.pen);
-        (self.thread, self.facts, self.message) = (None, None, None);
+        if let Some(returned) = self.thread.take().and_then(PenThread::finish) {
+            // The next pen has the same way in.
+            live.get_or_insert(returned);
+        }
+        (self.facts, self.message) = (None, None);
         self.moments.clear();
         let Some(id) = rig.pen.clone() else { return };
         let tracking = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: rig.pressure_map };
@@ -111,11 +115,6 @@ impl Pen {
                 _ => {}
             }
         }
-    }
-
-    /// Whether the pen is read and near: then it is the hand.
-    pub(super) fn is_near(&self) -> bool {
-        self.facts.is_some() && self.moments.back().is_some_and(|m| m.report.in_range || m.report.touching())
     }
 }
 

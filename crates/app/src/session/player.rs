@@ -8,7 +8,7 @@ use shagreen_core::plane::Prepared;
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
-use shagreen_device::controls::{Controls, Drive, Input};
+use shagreen_device::controls::{Controls, Drive, Input, Takeover};
 use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
 use shagreen_device::hand::Hand;
 use shagreen_device::live::LiveInput;
@@ -44,14 +44,6 @@ struct MadeSlots {
     next: Option<(u64, TextureId)>,
 }
 
-/// Whose hand is on the pad; nobody's leaves it to the automatic one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Held {
-    Nobody,
-    Mouse,
-    Pen,
-}
-
 /// An output and everything that is on its way to it.
 pub(super) struct Player {
     /// What the mix was last worked out for: the point, the blending, what is heard alone, and where on its path.
@@ -71,7 +63,6 @@ pub(super) struct Player {
     live: Option<LiveInput>,
     /// The way in for a pen, until it is given away.
     pub(super) pen_live: Option<LiveInput>,
-    held: Held,
     opening: Opening,
     listing: Option<Receiver<Vec<OutputInfo>>>,
     listing_inputs: Option<Receiver<Vec<InputInfo>>>,
@@ -100,7 +91,6 @@ impl Player {
             running: None,
             live: None,
             pen_live: None,
-            held: Held::Nobody,
             opening: Opening::default(),
             listing: None,
             listing_inputs: None,
@@ -234,6 +224,7 @@ impl Player {
                 self.live = handle.take_live_input();
                 self.pen_live = handle.take_live_input();
                 handle.set_drive(Drive { muted: self.muted, ..Drive::default() });
+                handle.set_takeover(Some(Takeover::USUAL));
                 self.output_id = Some(running.id().to_owned());
                 // The old output falls silent only now that the new one stands.
                 self.handle = Some(handle);
@@ -349,53 +340,21 @@ impl Player {
         self.handle.as_ref().map_or(0, is_loaded)
     }
 
+    /// What strokes while no person does: the engine itself sees when one does.
     pub(super) fn set_hand(&mut self, hand: Option<Hand>) {
-        if let Some(handle) = &mut self.handle
-            && self.held == Held::Nobody
-        {
+        if let Some(handle) = &mut self.handle {
             handle.set_input(hand.map_or(Input::Lifted, Input::Hand));
         }
     }
 
-    pub(super) fn mouse(&mut self, report: MouseReport, force_n: f64, hand: Option<Hand>) {
+    pub(super) fn mouse(&mut self, report: MouseReport, force_n: f64) {
         let now = Instant::now();
         let time_secs = now.duration_since(self.started).as_secs_f64();
-        if self.held == Held::Pen {
-            // The system moves the mouse along with the pen.
-            return;
-        }
         self.stylus.set_force_n(force_n);
         let touch = self.stylus.report(time_secs, report.x_m, report.y_m, report.pressed);
         if let Some(live) = &mut self.live {
             // Full only when the output has stopped: then the touch has nowhere to go.
             let _ = live.send(touch, now);
-        }
-        let held = if report.pressed { Held::Mouse } else { Held::Nobody };
-        if held != self.held {
-            self.held = held;
-            if report.pressed {
-                if let Some(handle) = &mut self.handle {
-                    handle.set_input(Input::Live);
-                }
-            } else {
-                self.set_hand(hand);
-            }
-        }
-    }
-
-    /// A pen that is near is the hand: it must be heard from the moment it touches.
-    pub(super) fn set_pen_near(&mut self, is_near: bool, hand: Option<Hand>) {
-        if is_near == (self.held == Held::Pen) {
-            return;
-        }
-        if !is_near {
-            self.held = Held::Nobody;
-            self.set_hand(hand);
-            return;
-        }
-        self.held = Held::Pen;
-        if let Some(handle) = &mut self.handle {
-            handle.set_input(Input::Live);
         }
     }
 
