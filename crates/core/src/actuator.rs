@@ -1,4 +1,4 @@
-//! Voice coils: what they make of a voltage, what they bear, and how they are driven.
+//! Voice coils: what they make of a voltage, what they bear, and the filter that makes up for them.
 //!
 //! A mass on a spring moves within a case that is fixed to the load, such as a pen. Driven by a voltage, the case
 //! accelerates as a second-order high-pass does ([`Response`]): loudest at its resonance, flat far above it, falling by
@@ -7,11 +7,13 @@
 mod data_sheet;
 mod drive;
 mod headroom;
+mod inverse;
 mod response;
 
 pub use crate::actuator::data_sheet::{DataSheet, Mechanics};
 pub use crate::actuator::drive::{Drive, drive_config, limited_drive};
 pub use crate::actuator::headroom::Headroom;
+pub use crate::actuator::inverse::inverse;
 pub use crate::actuator::response::Response;
 
 use crate::units::{Hertz, Kilograms, Volts};
@@ -130,6 +132,16 @@ pub enum ActuatorError {
         id: String,
         /// What is not known of it.
         missing: &'static str,
+    },
+    /// The sampling rate is too low for the resonance or the lowest frequency.
+    #[error("{what} of {hz} Hz is not below half of the rate of {rate_hz} Hz; use a higher rate")]
+    Rate {
+        /// What is too high.
+        what: &'static str,
+        /// Where it is.
+        hz: f64,
+        /// The rate.
+        rate_hz: f64,
     },
     /// The figures of a data sheet contradict each other.
     #[error("the data sheet contradicts itself: {reason}; check its figures")]

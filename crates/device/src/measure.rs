@@ -70,15 +70,6 @@ pub struct Heard {
     pub mps2: Vec<f64>,
     /// Samples a second.
     pub rate_hz: f64,
-    /// How the output was doing, as [`Listened::status`].
-    pub status: Status,
-}
-
-/// What a sensor said of a signal.
-#[derive(Clone, Debug)]
-pub struct Listened {
-    /// Its samples, silence before and after the signal included.
-    pub samples: Vec<f32>,
     /// How the output was doing at the end, but for what counts from the beginning of the measurement on: its underruns,
     /// errors and limited samples, and the lowest gain that kept the coil cool.
     pub status: Status,
@@ -93,10 +84,16 @@ impl Heard {
 
 /// Opens output `id` with these limits on these channels, plays on it the drive that `drive_at` makes for its rate in Hz, and returns what was heard.
 ///
+/// `go_on` is told the share that is done, 0..1, and says whether to go on. Where it does not, and with every error, the
+/// signal fades before the output is closed.
+///
 /// # Errors
-/// Those of [`crate::output::open`], of the listener and of [`play_and_listen`]; [`DeviceErrorKind::Config`] where
-/// `drive_at` says why there is no drive; [`DeviceErrorKind::Unsupported`], before anything is played, where the receiver
-/// that is to listen has no sensor.
+/// Those of [`crate::output::open`] and of the listener, and:
+/// - [`DeviceErrorKind::Config`] where `drive_at` says why there is no drive.
+/// - [`DeviceErrorKind::Unsupported`], before anything is played, where the receiver that is to listen has no sensor.
+/// - [`DeviceErrorKind::Lost`] where the output or the sensor goes.
+/// - [`DeviceErrorKind::Canceled`] where `go_on` says so.
+/// - [`DeviceErrorKind::Unavailable`] where the output asks for nothing, or the sensor says nothing.
 pub fn measure<E: Display>(
     id: &str,
     (drive, channels): (DriveConfig, ChannelMask),
@@ -158,6 +155,15 @@ fn check_sensor(port: &str, receiver: &ReceiverInfo) -> Result<(), DeviceError> 
     Err(DeviceError::new(DeviceErrorKind::Unsupported, message))
 }
 
+/// What a sensor said of a signal.
+#[derive(Clone, Debug)]
+struct Listened {
+    /// Its samples, silence before and after the signal included.
+    samples: Vec<f32>,
+    /// As [`Heard::status`].
+    status: Status,
+}
+
 /// Silence that is recorded before the signal and after it, in seconds: what the room does by itself, and what rings.
 pub const SILENCE_SECS: f64 = 1.0;
 /// How often both are looked at.
@@ -167,16 +173,9 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// How much longer than its fade a signal may take to end where a measurement is given up.
 const FADE_PATIENCE: Duration = Duration::from_millis(500);
 
-/// Plays a signal through an engine and returns what the sensor heard, silence before and after included.
-///
-/// `go_on` is told the share that is done, 0..1, and says whether to go on. Where it does not, and with every error, the
-/// signal has faded by the time that this returns, so that the output may be closed.
-///
-/// # Errors
-/// - [`DeviceErrorKind::Lost`] where the output or the sensor goes.
-/// - [`DeviceErrorKind::Canceled`] where `go_on` says so.
-/// - [`DeviceErrorKind::Unavailable`] where the output asks for nothing, or the sensor says nothing.
-pub fn play_and_listen(
+/// Plays a signal through an engine and returns what the sensor heard, silence before and after included. Whatever ends
+/// it, the signal has faded by the time that this returns.
+fn play_and_listen(
     handle: &mut Handle,
     signal: Signal,
     sensor: &mut dyn Sensor,

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{
     Actuator, ActuatorError, DataSheet, Drive, Limits, Measured, Mechanics, Physical, Response, USUAL_LOWEST,
-    drive_config, validate,
+    drive_config, inverse, validate,
 };
 use crate::filter::Biquad;
 use crate::rng::lcg_noise;
@@ -73,12 +73,7 @@ fn gain(filter: &Biquad, hz: f64, rate_hz: f64) -> Complex<f64> {
     (b0 + z * (b1 + z * b2)) / (1.0 + z * (a1 + z * a2))
 }
 
-/// What undoes a response in the callback.
-fn inverse(response: &Response, lowest_hz: f64, rate_hz: f64) -> Biquad {
-    Biquad::bounded_inverse(response.into(), lowest_hz, rate_hz)
-}
-
-/// A bound of its gain at any frequency, in V/(m/s²): `max(1, 1/2Q) / K · √(1 + (f₀/f_h)⁴)`.
+/// A bound of the gain of [`inverse`] at any frequency, in V/(m/s²): `max(1, 1/2Q) / K · √(1 + (f₀/f_h)⁴)`.
 fn inverse_gain_bound(response: &Response, lowest_hz: f64) -> f64 {
     let steep = (response.resonance().0 / lowest_hz).powi(4);
     let wide = (0.5 / response.q()).max(1.0);
@@ -148,7 +143,7 @@ fn the_inverse_is_that_of_the_reference_at_every_rate() {
     for (name, expected) in golden["inverse"].as_object().unwrap() {
         let (rate, lowest) = name.strip_prefix("fs").unwrap().split_once("_fh").unwrap();
         let (rate_hz, lowest_hz): (f64, f64) = (rate.parse().unwrap(), lowest.parse().unwrap());
-        let filter = inverse(&response(), lowest_hz, rate_hz);
+        let filter = inverse(&response(), Hertz(lowest_hz), Hertz(rate_hz)).unwrap();
         // At 48 kHz sums of 1e10 leave numbers near 1: five digits go.
         for (got, expected) in filter.b.iter().zip(numbers(&expected["b"])) {
             assert!((got - expected).abs() < 1e-12, "{name}: {got} for {expected}");
@@ -165,13 +160,23 @@ fn the_inverse_is_that_of_the_reference_at_every_rate() {
     }
 }
 
+#[test]
+fn an_inverse_that_cannot_be_is_refused() {
+    let response = response();
+    let error = |lowest, rate| inverse(&response, Hertz(lowest), Hertz(rate)).unwrap_err();
+    assert!(matches!(error(20.0, 130.0), ActuatorError::Rate { what: "the resonance", .. }));
+    assert!(matches!(error(600.0, 1000.0), ActuatorError::Rate { what: "the lowest frequency", .. }));
+    assert!(matches!(error(0.0, 1000.0), ActuatorError::Number { .. }));
+    assert!(matches!(error(20.0, f64::NAN), ActuatorError::Number { .. }));
+}
+
 proptest! {
     /// With its inverse at 48 kHz any actuator is flat within 1 dB from twice the lowest frequency to 500 Hz, and the
     /// inverse asks no more than its bound.
     #[test]
     fn an_equalized_actuator_is_flat(f0 in 30.0..300.0_f64, ln_q in -0.693..3.4_f64, ln_k in -3.0..5.0_f64) {
         let response = Response::new(Hertz(f0), ln_q.exp(), ln_k.exp()).unwrap();
-        let filter = inverse(&response, USUAL_LOWEST.0, 48_000.0);
+        let filter = inverse(&response, USUAL_LOWEST, Hertz(48_000.0)).unwrap();
         let bound = inverse_gain_bound(&response, USUAL_LOWEST.0);
         for step in 0..200 {
             let hz = 40.0 * 12.5_f64.powf(f64::from(step) / 199.0);
@@ -189,7 +194,7 @@ proptest! {
     #[test]
     fn an_inverse_is_stable_and_bounded(f0 in 5.0..450.0_f64, lowest in 5.0..450.0_f64, ln_q in -2.0..6.0_f64) {
         let response = Response::new(Hertz(f0), ln_q.exp(), 2.0).unwrap();
-        let filter = inverse(&response, lowest, 1000.0);
+        let filter = inverse(&response, Hertz(lowest), Hertz(1000.0)).unwrap();
         let [a1, a2] = filter.a;
         prop_assert!(a2.abs() < 1.0 && a1.abs() < 1.0 + a2, "{filter:?}");
         let bound = inverse_gain_bound(&response, lowest);
@@ -203,7 +208,7 @@ proptest! {
     #[test]
     fn the_bound_is_tight(f0 in 5.0..450.0_f64, q in 0.5..30.0_f64) {
         let response = Response::new(Hertz(f0), q, 1.0).unwrap();
-        let filter = inverse(&response, USUAL_LOWEST.0, 1000.0);
+        let filter = inverse(&response, USUAL_LOWEST, Hertz(1000.0)).unwrap();
         let most = gain(&filter, 0.0, 1000.0).norm().max(gain(&filter, 500.0, 1000.0).norm());
         prop_assert!(inverse_gain_bound(&response, USUAL_LOWEST.0) <= 1.4146 * most);
     }

@@ -35,8 +35,6 @@ pub(super) struct Player {
     takeover: Option<Takeover>,
     /// Whether the person's hand is followed in the place of what was chosen.
     has_taken_over: bool,
-    /// Whether the chosen input has just got its place back.
-    is_back: bool,
     /// Seconds since the engine began; it goes on where the stream's clock starts again.
     clock_secs: f64,
     stream_secs: f64,
@@ -57,6 +55,8 @@ pub(super) struct Player {
     /// A landing of the person that has not been played: when it was reported on the engine's clock, and how hard.
     live_landing: Option<(f64, f32)>,
     track_landing: Option<Landing>,
+    /// Whether the tip is down where the stroke has come to: going on from there is no landing.
+    track_is_down: bool,
     last_landing_secs: f64,
 }
 
@@ -67,7 +67,6 @@ impl Player {
             chosen: Input::Lifted,
             takeover: None,
             has_taken_over: false,
-            is_back: false,
             clock_secs: 0.0,
             stream_secs: 0.0,
             input_start_secs: 0.0,
@@ -83,6 +82,7 @@ impl Player {
             fade_start_secs: f64::NEG_INFINITY,
             live_landing: None,
             track_landing: None,
+            track_is_down: false,
             last_landing_secs: f64::NEG_INFINITY,
         }
     }
@@ -188,7 +188,6 @@ impl Player {
         }
         self.has_taken_over = has_taken_over;
         if self.chosen != Input::Live {
-            self.is_back = !has_taken_over;
             self.fade();
         }
     }
@@ -208,6 +207,7 @@ impl Player {
     fn start(&mut self) {
         self.input_start_secs = self.clock_secs;
         self.distance_m = 0.0;
+        self.track_is_down = self.touch.contact.force_n > 0.0;
     }
 
     /// What the input says, `step_secs` after it was asked last.
@@ -244,12 +244,13 @@ impl ContactSource for Player {
             self.input_start_secs += step_secs;
         }
         self.look_for_a_hand();
-        // A stroke that goes on in its middle has not landed.
-        let is_back = std::mem::take(&mut self.is_back);
         let mut touch = self.asked(step_secs).sanitized();
-        let lands = self.touch.contact.force_n == 0.0 && touch.contact.force_n > 0.0;
-        if self.input() == Input::Track && lands && !is_back {
-            self.track_landing = Some(Landing { stream_secs: time_secs, strength: 1.0 });
+        if self.input() == Input::Track {
+            let is_down = touch.contact.force_n > 0.0;
+            if is_down && !self.track_is_down {
+                self.track_landing = Some(Landing { stream_secs: time_secs, strength: 1.0 });
+            }
+            self.track_is_down = is_down;
         }
         let share = (self.clock_secs - self.fade_start_secs) / FADE_SECS;
         if share < 1.0 {

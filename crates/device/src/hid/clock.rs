@@ -3,7 +3,7 @@
 //! The device's clock has none of the jitter of the way to us, and speed is a difference of places over a difference of
 //! times. But some devices send a clock that stands still or runs at another rate than they declare: it is held against
 //! the times of arrival, and given up for good where it disagrees. Without a clock the times of arrival are laid on the
-//! even beat that pens report at ([`Beat`]).
+//! even beat that pens report at, as far as they have one.
 
 mod beat;
 

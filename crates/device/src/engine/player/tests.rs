@@ -271,6 +271,7 @@ fn a_hand_that_has_taken_over_stays_when_the_chosen_input_changes() {
     player.set_input(Input::Track);
     run(&mut player, 10);
     assert!(player.take_landing(0.0).is_some());
+    run(&mut player, 10);
     report(&mut player, PEN);
     assert!(player.take_landing(0.0).is_some());
     run(&mut player, 10);
