@@ -10,6 +10,8 @@ mod actuator_source;
 mod calibrate;
 mod calibrate_live;
 mod calibrate_recording;
+mod calibrate_result;
+mod calibrate_sweep;
 mod devices;
 mod devices_pens;
 mod evaluate;

@@ -3,21 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
-use serde_json::{Value, json};
-use shagreen_core::actuator::{Actuator, Drive};
-use shagreen_core::calibration::{Calibration, Fit, Sweep, calibrate, fitted_actuator};
-use shagreen_core::units::{Hertz, Kilograms, Volts};
+use shagreen_core::actuator::Drive;
+use shagreen_core::calibration::calibrate;
+use shagreen_core::units::Volts;
 use shagreen_device::measure::Listener;
 use shagreen_device::serial::USUAL_BAUD;
 use shagreen_formats::actuator_toml::{read_actuator, write_actuator};
 use shagreen_formats::calibration_report::calibration_figures;
-use shagreen_formats::library::id_from_name;
 use shagreen_formats::recording::Ask;
-use shagreen_formats::wav;
 
 use crate::cli::actuator_source::{grams, load_actuator, positive, volts};
 use crate::cli::calibrate_live::record_live;
-use crate::cli::calibrate_recording::{Recorded, recorded_file};
+use crate::cli::calibrate_recording::recorded_file;
+use crate::cli::calibrate_result::{print, profile};
+use crate::cli::calibrate_sweep::{SweepArgs, write_sweep};
 use crate::cli::figures_folder::{check_figures, figure_files, write_together};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import_recording::parse_answer;
@@ -68,47 +67,27 @@ pub(crate) struct Args {
     /// what a voltmeter shows. Without it a volt is taken: the profile is
     /// then right for this output at this volume, and its limits in volts mean nothing.
     #[arg(long, value_name = "V", value_parser = volts)]
-    full_scale_volts: Option<f64>,
+    pub(crate) full_scale_volts: Option<f64>,
     /// Mass of what the actuator was fixed to, in g, without the actuator.
     #[arg(long, value_name = "G", value_parser = grams)]
-    load_g: Option<f64>,
+    pub(crate) load_g: Option<f64>,
     /// The actuator that was measured, where there is a profile of it: maker, limits and masses are taken from there.
     #[arg(long, value_name = "ID_OR_FILE")]
     actuator: Option<String>,
     /// What to call it.
     #[arg(long, value_name = "NAME")]
-    name: Option<String>,
+    pub(crate) name: Option<String>,
     /// Profile to write.
     #[arg(long, value_name = "PROFILE.toml")]
-    out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Folder for figures, as SVG and CSV.
     #[arg(long, value_name = "FOLDER")]
     plots: Option<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
-    json: bool,
+    pub(crate) json: bool,
     #[command(flatten)]
     sweep: SweepArgs,
-}
-
-/// The sweep that is written, or was played.
-#[derive(clap::Args)]
-struct SweepArgs {
-    /// Frequency at which the sweep begins, in Hz.
-    #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.low.0)]
-    low: f64,
-    /// Frequency at which it ends, in Hz.
-    #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.high.0)]
-    high: f64,
-    /// How long it takes, in s.
-    #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.seconds)]
-    seconds: f64,
-    /// Its peak as a share of digital full scale.
-    #[arg(long, value_name = "SHARE", default_value_t = Sweep::USUAL.amplitude)]
-    amplitude: f64,
-    /// Silence before and behind it, in s.
-    #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.silence_secs)]
-    silence: f64,
 }
 
 /// Where the recording comes from.
@@ -147,15 +126,9 @@ impl Source<'_> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let sweep = Sweep {
-        low: Hertz(args.sweep.low),
-        high: Hertz(args.sweep.high),
-        seconds: args.sweep.seconds,
-        amplitude: args.sweep.amplitude,
-        silence_secs: args.sweep.silence,
-    };
+    let sweep = args.sweep.sweep();
     if let Some(out) = &args.make_sweep {
-        return make_sweep(args, &sweep, out);
+        return write_sweep(&sweep, args.rate, out, args.json);
     }
     let source = source(args)?;
     let inputs = [source.path(), args.actuator.as_deref().map(Path::new)];
@@ -221,102 +194,4 @@ fn source(args: &Args) -> anyhow::Result<Source<'_>> {
         )),
     };
     Ok(Source::Live(id, listener))
-}
-
-fn make_sweep(args: &Args, sweep: &Sweep, out: &Path) -> anyhow::Result<()> {
-    refuse_foreign(out, "the sweep", |bytes| bytes.starts_with(b"RIFF"))?;
-    let samples = sweep.signal(Hertz(f64::from(args.rate)))?;
-    let samples: Vec<f32> = samples.iter().map(|sample| *sample as f32).collect();
-    wav::write_samples(out, &samples, args.rate)?;
-    let seconds = samples.len() as f64 / f64::from(args.rate);
-    output::print(
-        args.json,
-        &json!({
-            "sweep": out.display().to_string(),
-            "rate_hz": args.rate,
-            "seconds": seconds,
-            "sweep_seconds": sweep.seconds,
-            "low_hz": sweep.low.0,
-            "high_hz": sweep.high.0,
-            "amplitude": sweep.amplitude,
-        }),
-        || {
-            format!(
-                "Wrote a sweep of {} s from {} to {} Hz, {seconds} s with the silence around it, to play at once and record\n{}",
-                sweep.seconds,
-                sweep.low.0,
-                sweep.high.0,
-                out.display()
-            )
-        },
-    );
-    Ok(())
-}
-
-/// The profile of what was measured, on top of one that was known.
-fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit, drive: Drive) -> Actuator {
-    let name = args
-        .name
-        .clone()
-        .or_else(|| base.as_ref().map(|b| b.name.clone()))
-        .unwrap_or("My actuator".to_owned());
-    let load = args.load_g.map(Kilograms::from_g);
-    let on = load.map_or("an unknown load".to_owned(), |load| format!("{} g", load.g()));
-    let assumed = if args.full_scale_volts.is_none() { ", which is assumed" } else { "" };
-    let mut source = format!(
-        "Response measured on {on} with a sweep ({file}), taking {} V for digital full scale{assumed}",
-        drive.full_scale.0
-    );
-    if let Some(base) = &base {
-        source = format!("{source}; everything else from the profile {}: {}", base.id, base.source);
-    }
-    Actuator { id: id_from_name(&name), name, source, ..fitted_actuator(base, fit, load, drive) }
-}
-
-fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit, figures: &[String]) {
-    let response = fit.response;
-    let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
-    let warnings: Vec<Value> = calibration.warnings.iter().map(|w| json!(w.to_string())).collect();
-    let curve = &calibration.curve;
-    let worst = calibration.worst_distortion();
-    output::print(
-        args.json,
-        &json!({
-            "f0_hz": hz,
-            "q": q,
-            "gain": gain,
-            "fit_error_db": fit.error_db,
-            "f0_error_hz": fit.resonance_error_hz,
-            "q_error": fit.q_error,
-            "gain_error": fit.gain_error_mps2_per_v,
-            "band_hz": [fit.band.0.0, fit.band.1.0],
-            "full_scale_volts": args.full_scale_volts,
-            "load_g": args.load_g,
-            "channel": recorded.channel,
-            "rate_hz": recorded.rate.0,
-            "begins_s": calibration.begins_secs,
-            "distortion_max": worst.as_ref().map(|w| json!({"share": w.share, "hz": w.frequency.0})),
-            "curve": {
-                "hz": curve.iter().map(|p| p.frequency.0).collect::<Vec<_>>(),
-                "gain": curve.iter().map(|p| p.gain_mps2_per_v).collect::<Vec<_>>(),
-                "noise": curve.iter().map(|p| p.noise_mps2_per_v).collect::<Vec<_>>(),
-            },
-            "warnings": warnings,
-            "figures": figures,
-            "out": args.out.as_ref().map(|out| out.display().to_string()),
-        }),
-        || {
-            let mut lines = vec![format!(
-                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, {gain:.4} ± {:.4} (m/s²)/V; the fit is off by {:.2} dB rms",
-                fit.resonance_error_hz, fit.q_error, fit.gain_error_mps2_per_v, fit.error_db
-            )];
-            if let Some(worst) = &worst {
-                let (percent, at) = (100.0 * worst.share, worst.frequency.0);
-                lines.push(format!("Harmonics up to {percent:.1} % (at {at:.0} Hz)"));
-            }
-            lines.extend(args.out.iter().map(|out| out.display().to_string()));
-            lines.extend_from_slice(figures);
-            lines.join("\n")
-        },
-    );
 }
