@@ -171,6 +171,30 @@ fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
     bench.fails(&calibrate("--recording good.wav --sensitivity 0"), 2, &["above 0"]);
 }
 
+/// The input is not there, which would be told as soon as something is opened.
+#[test]
+fn places_for_what_is_measured_are_looked_at_before_anything_is_opened() {
+    let bench = Bench::new();
+    let live = "calibrate --output null --input nosuch --sensitivity 10 --seconds 6";
+    bench.fails(live, 1, &["nosuch"]);
+    bench.write("notes.toml", "title = \"mine\"");
+    bench.write("file", "mine");
+    std::fs::create_dir_all(bench.path("taken/gain.svg")).unwrap();
+    for (places, words) in [
+        ("--out none/p.toml", &["none/p.toml", "folder is not there"][..]),
+        ("--out taken", &["taken", "it is a folder"]),
+        ("--out notes.toml", &["notes.toml", "something else"]),
+        ("--plots file", &["file", "into a folder"]),
+        ("--plots file/plots", &["file/plots", "cannot make the folder"]),
+        ("--plots taken", &["taken/gain.svg", "it is a folder"]),
+        ("--out plots/gain.csv --plots plots", &["plots/gain.csv", "the same file"]),
+    ] {
+        bench.fails(&format!("{live} {places}"), 1, words);
+    }
+    // What is there and could be written is left as it is.
+    bench.fails(&format!("{live} --out p.toml --plots new/plots"), 1, &["nosuch"]);
+}
+
 #[test]
 fn warnings_reach_the_reader() {
     let bench = Bench::new();

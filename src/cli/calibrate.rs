@@ -17,7 +17,7 @@ use crate::cli::calibrate_live::record_live;
 use crate::cli::calibrate_recording::recorded_file;
 use crate::cli::calibrate_result::{print, profile};
 use crate::cli::calibrate_sweep::{SweepArgs, write_sweep};
-use crate::cli::figures_folder::{check_figures, figure_files, write_together};
+use crate::cli::figures_folder::{check_figures, check_together, figure_files, write_together};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import_recording::parse_answer;
 use crate::cli::output;
@@ -139,6 +139,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(folder) = &args.plots {
         check_figures(folder, &FIGURES, &inputs)?;
     }
+    // Before anything sounds: a measurement that cannot be kept has to be made again.
+    let out: Vec<&Path> = args.out.iter().map(PathBuf::as_path).collect();
+    check_together(&out, args.plots.as_deref(), &FIGURES)?;
     let base = args.actuator.as_deref().map(|name| load_actuator(name, None)).transpose()?;
     if args.full_scale_volts.is_none() {
         output::note(
