@@ -1,6 +1,12 @@
 //! Profiles of actuators and their calibration, from outside: a simulated actuator plays the sweep that the program wrote.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
 
+#[cfg(target_os = "linux")]
+#[path = "support/guard.rs"]
+mod guard;
+#[cfg(target_os = "linux")]
+#[path = "support/sound.rs"]
+mod sound;
 mod support;
 
 use serde_json::Value;
@@ -193,6 +199,43 @@ fn places_for_what_is_measured_are_looked_at_before_anything_is_opened() {
     }
     // What is there and could be written is left as it is.
     bench.fails(&format!("{live} --out p.toml --plots new/plots"), 1, &["nosuch"]);
+}
+
+/// What the sink of a sound server gets while a sweep is played on it, with what is asked for beside: peaks of its channels.
+#[cfg(target_os = "linux")]
+fn peaks(server: &sound::SoundServer, more: &[&str]) -> [f64; 2] {
+    let words = ["calibrate", "--output", "pulse:ci", "--input", "alsa:pulse", "--sensitivity", "10"];
+    let sweep = ["--seconds", "1", "--silence", "0"];
+    let recorded = server.record(|server| {
+        // Its own input is no actuator, which is told; here only what was played counts.
+        let said =
+            server.command(env!("CARGO_BIN_EXE_shagreen")).args(words).args(sweep).args(more).output().unwrap();
+        assert_eq!(said.status.code(), Some(1), "{}", String::from_utf8_lossy(&said.stderr));
+    });
+    [0, 1].map(|channel| recorded.iter().fold(0.0, |peak: f64, frame| peak.max(frame[channel].abs())))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_sweep_sounds_on_the_channel_that_is_asked_for() {
+    if !guard::have(&["pulseaudio", "pactl", "parec"]) {
+        return;
+    }
+    let server = sound::SoundServer::new();
+    let is_sweep = |peak: f64| (0.4..0.6).contains(&peak);
+    let [left, right] = peaks(&server, &[]);
+    assert!(is_sweep(left) && is_sweep(right), "{left} {right}");
+    let [left, right] = peaks(&server, &["--output-channel", "2"]);
+    assert!(left == 0.0 && is_sweep(right), "{left} {right}");
+}
+
+#[test]
+fn a_receiver_has_one_channel() {
+    let bench = Bench::new();
+    let live = "calibrate --output serial:ttyNONE --serial-sensor serial:ttyNONE --output-channel";
+    bench.fails(&format!("{live} 2"), 1, &["--output-channel is 2", "serial:ttyNONE"]);
+    bench.fails(&format!("{live} 1"), 1, &["no serial port"]);
+    bench.fails(&format!("{live} 0"), 2, &["--output-channel"]);
 }
 
 #[test]

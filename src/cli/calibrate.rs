@@ -6,8 +6,9 @@ use anyhow::{Context as _, bail};
 use shagreen_core::actuator::Drive;
 use shagreen_core::calibration::calibrate;
 use shagreen_core::units::Volts;
+use shagreen_device::engine::ChannelMask;
 use shagreen_device::measure::Listener;
-use shagreen_device::serial::USUAL_BAUD;
+use shagreen_device::serial::{ID_PREFIX, USUAL_BAUD};
 use shagreen_formats::actuator_toml::{read_actuator, write_actuator};
 use shagreen_formats::calibration_report::calibration_figures;
 use shagreen_formats::recording::Ask;
@@ -21,6 +22,7 @@ use crate::cli::figures_folder::{check_figures, check_together, figure_files, wr
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import_recording::parse_answer;
 use crate::cli::output;
+use crate::cli::rig::channels;
 
 /// Names of the figures, without the endings.
 const FIGURES: [&str; 3] = ["gain", "residual", "distortion"];
@@ -45,6 +47,9 @@ pub(crate) struct Args {
     /// Output to play the sweep on, by its id; `shagreen devices` lists them.
     #[arg(long, value_name = "ID")]
     output: Option<String>,
+    /// The only channel of that output to drive, from 1; without it the first two.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
+    output_channel: Option<u16>,
     /// Input of the system's sound that an accelerometer is on, by its id.
     #[arg(long, value_name = "ID", requires_all = ["output", "sensitivity"])]
     input: Option<String>,
@@ -95,7 +100,7 @@ enum Source<'a> {
     /// A file that was recorded by whatever.
     File(&'a Path),
     /// A sweep that is played now.
-    Live(&'a str, Listener),
+    Live(&'a str, ChannelMask, Listener),
 }
 
 impl Source<'_> {
@@ -111,7 +116,7 @@ impl Source<'_> {
     fn name(&self) -> String {
         match self {
             Self::File(path) => output::file_name(path),
-            Self::Live(id, _) => format!("played on {id}"),
+            Self::Live(id, ..) => format!("played on {id}"),
         }
     }
 
@@ -153,7 +158,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Source::File(path) => {
             recorded_file(path, args.sensitivity, args.channel.map(usize::from), &args.answers)?
         }
-        Source::Live(id, listener) => record_live(id, listener, &sweep, base.as_ref(), drive)?,
+        Source::Live(id, channels, listener) => {
+            record_live((id, *channels), listener, &sweep, base.as_ref(), drive)?
+        }
     };
     let calibration = source.told(calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive))?;
     for warning in &calibration.warnings {
@@ -196,5 +203,10 @@ fn source(args: &Args) -> anyhow::Result<Source<'_>> {
             "say what listens: --input ID and its --sensitivity, or --serial-sensor PORT".to_owned()
         )),
     };
-    Ok(Source::Live(id, listener))
+    if let Some(channel) = args.output_channel.filter(|channel| *channel > 1 && id.starts_with(ID_PREFIX)) {
+        bail!(
+            "--output-channel is {channel} and a receiver on a serial port has one channel; leave it out: {id}"
+        );
+    }
+    Ok(Source::Live(id, channels(args.output_channel), listener))
 }

@@ -10,16 +10,17 @@ use shagreen_device::measure::{Listener, SILENCE_SECS, measure};
 use crate::cli::calibrate_recording::Recorded;
 use crate::cli::output::{self, Progress};
 
-/// Plays the sweep on output `id` and records what the sensor hears. The limits of an actuator that is known hold.
+/// Plays the sweep on these channels of output `id` and records what the sensor hears. The limits of an actuator that is
+/// known hold.
 pub(crate) fn record_live(
-    id: &str,
+    (id, channels): (&str, ChannelMask),
     listener: &Listener,
     sweep: &Sweep,
     actuator: Option<&Actuator>,
     drive: Drive,
 ) -> anyhow::Result<Recorded> {
     let limits = actuator.map_or(Limits::default(), |actuator| actuator.limits);
-    let driven = (limited_drive(&limits, drive), ChannelMask::FIRST_TWO);
+    let driven = (limited_drive(&limits, drive), channels);
     let secs = sweep.seconds + 2.0 * sweep.silence_secs + 2.0 * SILENCE_SECS;
     let progress = Progress::new("ms measured", output::in_ms(secs));
     let heard = measure(id, driven, listener, &|rate_hz| sweep.drive_samples(rate_hz), &mut |share| {

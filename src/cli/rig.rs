@@ -63,6 +63,11 @@ enum SerialMode {
     Control,
 }
 
+/// The channels that are driven: the first two, or the one of this number from 1.
+pub(crate) fn channels(only: Option<u16>) -> ChannelMask {
+    only.map_or(ChannelMask::FIRST_TWO, |channel| ChannelMask::only(usize::from(channel).saturating_sub(1)))
+}
+
 impl RigArgs {
     /// Opens the output for textures of a rate, with noise of a seed.
     pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<(Handle, Running)> {
@@ -72,9 +77,7 @@ impl RigArgs {
             buffer_frames: self.buffer,
             seed,
             drive: self.drive()?,
-            channels: self
-                .channel
-                .map_or(ChannelMask::FIRST_TWO, |channel| ChannelMask::only(usize::from(channel) - 1)),
+            channels: channels(self.channel),
         };
         let Some(port) = &self.serial else { return Ok(open(&self.output, options)?) };
         let mode = match self.serial_mode {
