@@ -229,6 +229,44 @@ fn the_sweep_sounds_on_the_channel_that_is_asked_for() {
     assert!(left == 0.0 && is_sweep(right), "{left} {right}");
 }
 
+/// Nothing that is said is passed over: what has no meaning beside the rest is wrong usage.
+#[test]
+fn what_would_be_ignored_is_refused() {
+    let bench = Bench::new();
+    record(&bench, "good.wav", &[|a| a]);
+    let cannot = &["cannot be used with"][..];
+    for (arguments, words) in [
+        ("--recording good.wav --input alsa:x --sensitivity 40", cannot),
+        ("--recording good.wav --serial-sensor serial:x", cannot),
+        ("--recording good.wav --baud 9600 --sensitivity 40", cannot),
+        ("--recording good.wav --rate 4000", cannot),
+        ("--recording good.wav --output-channel 2", cannot),
+        ("--recording good.wav --sensitivity 40 --name Pen", &["--out", "--plots"]),
+        ("--make-sweep s.wav --out p.toml", cannot),
+        ("--make-sweep s.wav --name Pen", cannot),
+        ("--make-sweep s.wav --plots plots", cannot),
+        ("--make-sweep s.wav --sensitivity 3", cannot),
+        ("--make-sweep s.wav --channel 2", cannot),
+        ("--make-sweep s.wav --set rate=4000", cannot),
+        ("--make-sweep s.wav --actuator mm1c", cannot),
+        ("--output null --input x --sensitivity 4 --set rate=4000", cannot),
+        ("--output null --input x --sensitivity 4 --rate 4000", cannot),
+        ("--output null --input x --sensitivity 4 --baud 9600", &["--serial-sensor"]),
+        ("--output null --serial-sensor serial:x --sensitivity 4", cannot),
+        ("--output null --serial-sensor serial:x --channel 2", cannot),
+    ] {
+        bench.fails(&format!("calibrate {arguments}"), 2, words);
+    }
+    bench.fails(
+        &format!("calibrate --recording good.wav --sensitivity 40 --channel 2 {SWEEP}"),
+        1,
+        &["no channel 2", "leave --channel out", "good.wav"],
+    );
+    bench.write("recorded.csv", "time_s,acceleration_g\n0,1\n0.001,2\n");
+    let table = format!("calibrate --recording recorded.csv --sensitivity 40 {SWEEP}");
+    bench.fails(&table, 2, &["--sensitivity is for WAV files", "--set"]);
+}
+
 #[test]
 fn a_receiver_has_one_channel() {
     let bench = Bench::new();

@@ -27,6 +27,23 @@ use crate::cli::rig::channels;
 /// Names of the figures, without the endings.
 const FIGURES: [&str; 3] = ["gain", "residual", "distortion"];
 
+/// What says nothing about a sweep that is written.
+const NOT_OF_A_SWEEP: [&str; 13] = [
+    "input",
+    "serial_sensor",
+    "baud",
+    "output_channel",
+    "sensitivity",
+    "channel",
+    "answers",
+    "full_scale_volts",
+    "load_g",
+    "actuator",
+    "name",
+    "out",
+    "plots",
+];
+
 /// Fits an actuator's response to a sweep.
 ///
 /// Either play it here: --output names what drives the actuator, --input or --serial-sensor what feels it. Or write the
@@ -34,18 +51,19 @@ const FIGURES: [&str; 3] = ["gain", "residual", "distortion"];
 /// second before to a second after, and give the recording.
 #[derive(clap::Args)]
 #[command(group(clap::ArgGroup::new("what").required(true).args(["make_sweep", "recording", "output"])))]
+#[command(group(clap::ArgGroup::new("named").multiple(true).args(["out", "plots"])))]
 pub(crate) struct Args {
     /// Write the sweep to play, and nothing else.
-    #[arg(long, value_name = "OUT.wav")]
+    #[arg(long, value_name = "OUT.wav", conflicts_with_all = NOT_OF_A_SWEEP)]
     make_sweep: Option<PathBuf>,
     /// Rate of the sweep to write, in Hz.
-    #[arg(long, value_name = "HZ", default_value_t = 48_000, value_parser = clap::value_parser!(u32).range(1..=768_000))]
+    #[arg(long, value_name = "HZ", default_value_t = 48_000, value_parser = clap::value_parser!(u32).range(1..=768_000), conflicts_with_all = ["recording", "output"])]
     rate: u32,
     /// The recorded sweep: WAV, or a table with a column of acceleration.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["input", "serial_sensor", "baud", "output_channel"])]
     recording: Option<PathBuf>,
     /// Output to play the sweep on, by its id; `shagreen devices` lists them.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", conflicts_with = "answers")]
     output: Option<String>,
     /// The only channel of that output to drive, from 1; without it the first two.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
@@ -54,10 +72,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "ID", requires_all = ["output", "sensitivity"])]
     input: Option<String>,
     /// Serial port of a receiver with an accelerometer: docs/serial-protocol.md.
-    #[arg(long, value_name = "PORT", requires = "output", conflicts_with = "input")]
+    #[arg(long, value_name = "PORT", requires = "output", conflicts_with_all = ["input", "sensitivity", "channel"])]
     serial_sensor: Option<String>,
     /// Baud rate of that port.
-    #[arg(long, value_name = "N", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = USUAL_BAUD, requires = "serial_sensor", value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// Acceleration of a sample of 1.0 of a WAV file or an input, in m/s².
     #[arg(long, value_name = "MPS2", value_parser = |text: &str| positive(text, "an acceleration in m/s²"))]
@@ -79,8 +97,8 @@ pub(crate) struct Args {
     /// The actuator that was measured, where there is a profile of it: maker, limits and masses are taken from there.
     #[arg(long, value_name = "ID_OR_FILE")]
     actuator: Option<String>,
-    /// What to call it.
-    #[arg(long, value_name = "NAME")]
+    /// What to call it, in the profile and in the figures.
+    #[arg(long, value_name = "NAME", requires = "named")]
     pub(crate) name: Option<String>,
     /// Profile to write.
     #[arg(long, value_name = "PROFILE.toml")]
