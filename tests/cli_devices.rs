@@ -50,7 +50,10 @@ fn what_descriptors_declare() {
     bench.write("nonsense.bin", [0xc0, 0xff]);
     bench.write("empty.bin", []);
     let files = "pen.bin pen.txt pen.rec keyboard.bin broken.bin nonsense.bin empty.bin missing.bin";
-    let found = bench.json(&format!("devices --descriptor {files}"));
+    let said = bench.run(&format!("devices --descriptor {files} --json"));
+    assert_eq!(said.code, 1);
+    assert!(said.stderr.contains("4 of 8 could not be read"), "{}", said.stderr);
+    let found: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
     let found = found["descriptors"].as_array().unwrap();
     let names: Vec<&str> = found.iter().map(|entry| entry["file"].as_str().unwrap()).collect();
     assert_eq!(names, files.split(' ').collect::<Vec<_>>());
@@ -79,7 +82,7 @@ fn what_descriptors_declare() {
         }
     }
     let said = bench.run(&format!("devices --descriptor {files}"));
-    assert_eq!((said.code, said.stdout.lines().count()), (0, 8));
+    assert_eq!((said.code, said.stdout.lines().count()), (1, 8));
     assert!(
         said.stdout.contains("pen.bin: pen, report 26, 209.66 x 157.25 mm, pressure to 4095, 4.016 N, tilt")
     );
@@ -158,6 +161,14 @@ fn what_cannot_be_decoded_says_why() {
     bench.fails("devices --decode pen.bin events.txt -o events.txt", 1, &["write over"]);
     bench.fails("devices --decode pen.bin events.txt --size-mm 12", 2, &["width and height"]);
     bench.fails("devices --descriptor pen.bin --decode pen.bin events.txt", 2, &[]);
+    bench.fails("devices --size-mm 216x135", 2, &["--decode"]);
+    bench.fails("devices --descriptor pen.bin --size-mm 216x135", 2, &["cannot be used with"]);
+    bench.fails("devices -o stroke.csv", 2, &["--decode"]);
+    bench.fails("devices --descriptor pen.bin -o stroke.csv", 2, &["cannot be used with"]);
+    // Both files are told.
+    let said = bench.run("devices --decode missing.bin missing.txt");
+    assert_eq!((said.code, said.stderr.lines().count()), (1, 2), "{}", said.stderr);
+    assert!(said.stderr.contains("missing.bin") && said.stderr.contains("missing.txt"), "{}", said.stderr);
 }
 
 #[test]

@@ -39,7 +39,8 @@ pub(crate) fn recorded_file(
     }
     let n_channels = wav_channels(&bytes);
     if let Some(sensitivity) = sensitivity_mps2 {
-        if n_channels.is_none() {
+        let is_named_wav = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav"));
+        if n_channels.is_none() && !is_named_wav {
             let table = "a table says its unit, or --set acceleration_unit=g";
             bail!(output::Usage(format!("--sensitivity is for WAV files and inputs; {table}")));
         }

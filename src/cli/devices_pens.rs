@@ -17,13 +17,16 @@ use crate::cli::hid_files::{DeclaredDevice, PenRecording, read_descriptors, read
 use crate::cli::output;
 
 /// Lists what the files declare. Every file is listed, a broken one with what is wrong with it.
-pub(crate) fn list_descriptors(files: &[PathBuf], size_m: Option<[f64; 2]>, as_json: bool) {
+///
+/// # Errors
+/// A file, or one of the descriptors in it, could not be read; all are listed nevertheless.
+pub(crate) fn list_descriptors(files: &[PathBuf], as_json: bool) -> anyhow::Result<()> {
     let mut entries: Vec<Value> = Vec::new();
     for file in files {
         match read_descriptors(file) {
             Ok(devices) => {
                 entries.extend(devices.iter().map(|device| match device {
-                    Ok(device) => declared_json(file, device, size_m),
+                    Ok(device) => declared_json(file, device),
                     Err(error) => broken_json(file, error),
                 }));
             }
@@ -33,6 +36,10 @@ pub(crate) fn list_descriptors(files: &[PathBuf], size_m: Option<[f64; 2]>, as_j
     output::print(as_json, &json!({"descriptors": entries}), || {
         entries.iter().map(in_words).collect::<Vec<_>>().join("\n")
     });
+    match entries.iter().filter(|entry| !entry["error"].is_null()).count() {
+        0 => Ok(()),
+        n => bail!("{n} of {} could not be read; what is wrong stands beside each", entries.len()),
+    }
 }
 
 fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
@@ -45,8 +52,8 @@ fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
     })
 }
 
-fn declared_json(file: &Path, device: &DeclaredDevice, size_m: Option<[f64; 2]>) -> Value {
-    let decoder = device.pen().map(|decoder| decoder.with_size_m(size_m));
+fn declared_json(file: &Path, device: &DeclaredDevice) -> Value {
+    let decoder = device.pen();
     let best = decoder.as_ref().map(PenDecoder::best);
     let reports = decoder.iter().flat_map(PenDecoder::formats).map(format_json).collect::<Vec<_>>();
     let warnings: Vec<String> = device.descriptor.warnings.iter().map(ToString::to_string).collect();
@@ -132,10 +139,16 @@ pub(crate) fn decode(
         refuse_foreign(out, "the stroke", |bytes| read_stroke_csv(bytes).is_ok())?;
     }
     let declared = match declared {
-        Some(file) => Some(first_pen(file).map_err(|error| error.context(output::in_file(file)))?),
+        Some(file) => Some(first_pen(file).map_err(|error| error.context(output::in_file(file)))),
         None => None,
     };
-    let bytes = output::read_file(reports)?;
+    let bytes = output::read_file(reports);
+    if let (Some(Err(first)), Err(_)) = (&declared, &bytes) {
+        // Both are told, so that both are mended at once.
+        output::warn(&output::one_line(first));
+    }
+    let bytes = bytes?;
+    let declared = declared.transpose()?;
     let recording = read_pen_recording(&bytes, declared.as_ref(), size_m)
         .map_err(|error| error.context(output::in_file(reports)))?;
     let size_m = recording.decoder.best().size_m();

@@ -84,7 +84,7 @@ fn usage_line(message: &str) -> String {
 const WRONG_USAGE: u8 = 2;
 
 /// The chain of causes, the path last: contexts that only name a file are moved to the end.
-fn one_line(error: &anyhow::Error) -> String {
+pub(crate) fn one_line(error: &anyhow::Error) -> String {
     let (files, causes): (Vec<_>, Vec<_>) =
         error.chain().map(ToString::to_string).partition(|cause| cause.starts_with(IN_FILE));
     let mut parts: Vec<String> = Vec::new();
