@@ -141,6 +141,45 @@ fn pressures_beyond_the_full_scale_are_refused() {
     bench.fails("render --at 30,70 --stroke stroke.svc --mm-per-count 0 -o out.wav", 1, &["mm", "positive"]);
 }
 
+/// Options that say nothing about the stroke at hand are not passed over.
+#[test]
+fn how_a_stroke_is_read_is_asked_of_what_can_tell() {
+    let bench = Bench::new();
+    bench.write("stroke.svc", strokes::synthetic());
+    bench.write("contacts.csv", "t_s,speed,force\n0,100,1\n1,100,1\n");
+    bench.write("newtons.csv", "t_s,x,y,force\n0,0,0,1\n0.01,1,0,1\n");
+    bench.write("shares.csv", "t_s,x,y,pressure\n0,0,0,0.5\n0.01,1,0,0.5\n");
+    // A pen that declares neither its size nor its force.
+    let descriptor = "05 0d 09 02 a1 01 85 01 09 20 a1 00 09 42 15 00 25 01 75 01 95 01 81 02 95 07 81 03 05 01 09 30 \
+        75 10 95 01 26 10 27 81 02 09 31 81 02 05 0d 09 30 26 ff 0f 81 02 c0 c0";
+    let mut hid = format!("R: {} {descriptor}\n", descriptor.split_whitespace().count());
+    for i in 0..50 {
+        hid += &format!("E: 0.{i:02} 8 01 01 {i:02x} 00 00 00 00 08\n");
+    }
+    bench.write("hid.txt", hid);
+    let render = |options: &str| format!("render --texture cork {options} -o out.wav");
+    for (options, words) in [
+        ("--stroke stroke.svc --size-mm 216x135", &["--size-mm", "a .svc file", "stroke.svc"][..]),
+        ("--stroke contacts.csv --force-max 3", &["--force-max", "speed and force"]),
+        ("--stroke contacts.csv --pressure-max 3", &["--pressure-max"]),
+        ("--stroke newtons.csv --pressure-curve 1", &["--pressure-curve", "force in N"]),
+        ("--stroke shares.csv --mm-per-count 1", &["--mm-per-count", "with pressure"]),
+        ("--stroke hid.txt --size-mm 200x100 --mm-per-count 1", &["--mm-per-count", "HID"]),
+        ("--stroke hid.txt --size-mm 200x100 --ms-per-tick 1", &["--ms-per-tick", "HID"]),
+        (&format!("{STEADY} --mm-per-count 1"), &["--mm-per-count", "--stroke"]),
+        (&format!("{STEADY} --force-min 0.1"), &["--force-min", "--stroke"]),
+    ] {
+        bench.fails(&render(options), 2, words);
+    }
+    for options in [
+        "--stroke stroke.svc --mm-per-count 0.01 --force-max 3",
+        "--stroke shares.csv --pressure-curve 1",
+        "--stroke hid.txt --size-mm 200x100 --force-max 3",
+    ] {
+        bench.json(&render(options));
+    }
+}
+
 #[test]
 fn damaged_libraries_name_the_texture_and_the_file() {
     let bench = Bench::new();

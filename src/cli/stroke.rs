@@ -36,20 +36,56 @@ pub(crate) struct StrokeArgs {
     /// or wrong ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm)]
     size_mm: Option<[f64; 2]>,
-    /// Force at the lowest pressure, in N.
-    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.activation_n)]
-    force_min: f64,
-    /// Force at full pressure, in N.
-    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.full_n)]
-    force_max: f64,
-    /// Bend of the curve from pressure to force: 0 is a straight line, more is steeper towards full pressure.
-    #[arg(long, value_name = "C", value_parser = bend, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.bend)]
-    pressure_curve: f64,
+    /// Force at the lowest pressure, in N, where the pen tells none; without it 0.03.
+    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true)]
+    force_min: Option<f64>,
+    /// Force at full pressure, in N, where the pen tells none; without it 4.
+    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true)]
+    force_max: Option<f64>,
+    /// Bend of the curve from pressure to force: 0 is a straight line, more is steeper towards full pressure; without it 2.
+    #[arg(long, value_name = "C", value_parser = bend, allow_negative_numbers = true)]
+    pressure_curve: Option<f64>,
 }
+
+/// Options that say something about a `.svc` file.
+const OF_SVC: [&str; 3] = ["--mm-per-count", "--ms-per-tick", "--pressure-max"];
+/// The one that says something about a pen that was recorded by HID.
+const OF_HID: &str = "--size-mm";
+/// Those that make forces of pressure.
+const OF_PRESSURE: [&str; 3] = ["--force-min", "--force-max", "--pressure-curve"];
 
 impl StrokeArgs {
     fn pressure_map(&self) -> PressureMap {
-        PressureMap { activation_n: self.force_min, full_n: self.force_max, bend: self.pressure_curve }
+        let usual = PressureMap::USUAL;
+        PressureMap {
+            activation_n: self.force_min.unwrap_or(usual.activation_n),
+            full_n: self.force_max.unwrap_or(usual.full_n),
+            bend: self.pressure_curve.unwrap_or(usual.bend),
+        }
+    }
+
+    /// Names of the options that were given.
+    pub(crate) fn given(&self) -> impl Iterator<Item = &'static str> {
+        let [mm_per_count, ms_per_tick, pressure_max] = OF_SVC;
+        let [force_min, force_max, pressure_curve] = OF_PRESSURE;
+        let options = [
+            (mm_per_count, self.mm_per_count.is_some()),
+            (ms_per_tick, self.ms_per_tick.is_some()),
+            (pressure_max, self.pressure_max.is_some()),
+            (OF_HID, self.size_mm.is_some()),
+            (force_min, self.force_min.is_some()),
+            (force_max, self.force_max.is_some()),
+            (pressure_curve, self.pressure_curve.is_some()),
+        ];
+        options.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name)
+    }
+
+    /// Refuses what would be ignored: of the options that were given, those which say nothing about `what`.
+    fn refuse_but(&self, known: &[&str], what: &str) -> anyhow::Result<()> {
+        match self.given().find(|option| !known.contains(option)) {
+            Some(option) => bail!(output::Usage(format!("{option} says nothing about {what}; leave it out"))),
+            None => Ok(()),
+        }
     }
 }
 
@@ -73,8 +109,8 @@ fn bend(text: &str) -> Result<f64, String> {
 
 /// Reads the stroke of a file; what was assumed is said.
 pub(crate) fn load(path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
-    if args.force_max <= args.force_min {
-        let (low, high) = (args.force_min, args.force_max);
+    let PressureMap { activation_n: low, full_n: high, .. } = args.pressure_map();
+    if high <= low {
         return Err(output::Usage(format!("--force-max {high} must be above --force-min {low}")).into());
     }
     let bytes = output::read_file(path)?;
@@ -86,13 +122,24 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
         return Ok(StrokeContacts::Track(track_of(&read_hid(bytes, args)?)?));
     }
     let (samples, press_unit) = if is_svc(bytes, path) {
+        args.refuse_but(&[OF_SVC, OF_PRESSURE].concat(), "a .svc file")?;
         (read_pen(bytes, args)?, PressUnit::FullScale)
     } else {
         let imported = read_stroke_csv(bytes)?;
         imported.warnings.iter().for_each(|warning| output::warn(warning));
         match imported.value {
-            Stroke::Contacts(contacts) => return StrokeContacts::given(contacts),
-            Stroke::Pen { samples, press_unit } => (samples, press_unit),
+            Stroke::Contacts(contacts) => {
+                args.refuse_but(&[], "a table of speed and force")?;
+                return StrokeContacts::given(contacts);
+            }
+            Stroke::Pen { samples, press_unit: PressUnit::Newtons } => {
+                args.refuse_but(&[], "a table with force in N")?;
+                (samples, PressUnit::Newtons)
+            }
+            Stroke::Pen { samples, press_unit } => {
+                args.refuse_but(&OF_PRESSURE, "a table with pressure")?;
+                (samples, press_unit)
+            }
         }
     };
     let map = args.pressure_map();
@@ -125,6 +172,10 @@ fn track_of(samples: &[TrackSample]) -> anyhow::Result<Track> {
 /// Reads the reports of a pen: its own force where it declares one, else by the map.
 fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>> {
     let recording = read_pen_recording(bytes, None, meters(args.size_mm))?;
+    if recording.decoder.best().pressure.is_some_and(|pressure| pressure.full_n.is_some()) {
+        args.refuse_but(&[OF_HID], "a pen that declares its force in N")?;
+    }
+    args.refuse_but(&[&[OF_HID], &OF_PRESSURE[..]].concat(), "a recorded HID pen")?;
     let Some(size_m) = recording.decoder.best().size_m() else {
         bail!("the pen declares no size, without which there is no speed; state it with --size-mm 216x135");
     };
@@ -243,12 +294,26 @@ fn given_at(contacts: &[TimedContact], time_secs: f64) -> Contact {
 
 #[cfg(test)]
 mod tests {
-    use super::{StrokeContacts, given_at};
+    use super::{PressureMap, StrokeArgs, StrokeContacts, given_at};
+    use clap::{Args as _, Command};
     use shagreen_formats::stroke::TimedContact;
 
     fn given() -> Vec<TimedContact> {
         let contact = |time_secs, speed_mps, force_n| TimedContact { time_secs, speed_mps, force_n };
         vec![contact(0.0, 0.1, 1.0), contact(1.0, 0.3, 0.5), contact(1.5, 0.0, 0.5)]
+    }
+
+    #[test]
+    fn the_help_says_the_usual_forces() {
+        let help = StrokeArgs::augment_args(Command::new("stroke")).render_long_help().to_string();
+        let usual = PressureMap::USUAL;
+        for words in [
+            format!("the pen tells none; without it {}\n", usual.activation_n),
+            format!("the pen tells none; without it {}\n", usual.full_n),
+            format!("towards full pressure; without it {}\n", usual.bend),
+        ] {
+            assert!(help.contains(&words), "{words} is not in {help}");
+        }
     }
 
     #[test]
