@@ -1,6 +1,6 @@
 //! What is driven: an output, the actuator on it, and how much of it that stands.
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use shagreen_core::actuator::{Drive, drive_config};
 use shagreen_core::units::Volts;
 use shagreen_device::engine::{ChannelMask, Handle};
@@ -8,12 +8,14 @@ use shagreen_device::output::{
     NULL_ID, OpenOptions, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open,
 };
 use shagreen_device::serial::message::Mode;
-use shagreen_device::serial::{self, SerialOptions, USUAL_BAUD};
+use shagreen_device::serial::{self, Connection, SerialOptions, USUAL_BAUD};
 use shagreen_device::synth::drive::DriveConfig;
 
 use crate::cli::actuator_source::{grams, load_actuator, volts};
 use crate::cli::motion::quantity;
 use crate::cli::output;
+use crate::cli::receiver::Receiver;
+use crate::cli::watch::Watch;
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "What is driven")]
@@ -56,6 +58,16 @@ pub(crate) struct RigArgs {
     full_scale: f64,
 }
 
+/// An open output.
+pub(crate) struct Rig {
+    /// By which it is told what to do.
+    pub(crate) handle: Handle,
+    /// Plays until it is dropped.
+    pub(crate) running: Running,
+    /// What is said of it meanwhile.
+    pub(crate) watch: Watch,
+}
+
 /// Who renders for a serial port.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum SerialMode {
@@ -70,7 +82,7 @@ pub(crate) fn channels(only: Option<u16>) -> ChannelMask {
 
 impl RigArgs {
     /// Opens the output for textures of a rate, with noise of a seed.
-    pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<(Handle, Running)> {
+    pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<Rig> {
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
@@ -79,17 +91,44 @@ impl RigArgs {
             drive: self.drive()?,
             channels: channels(self.channel),
         };
-        let Some(port) = &self.serial else { return Ok(open(&self.output, options)?) };
+        let rig = match &self.serial {
+            None => {
+                let (handle, running) = open(&self.output, options)?;
+                let watch = Watch::new(running.id(), None);
+                Rig { handle, running, watch }
+            }
+            Some(port) => self.open_serial(port, options)?,
+        };
+        let n_channels = rig.running.channels();
+        match self.channel.filter(|channel| *channel > n_channels) {
+            None => Ok(rig),
+            Some(channel) => bail!(
+                "there is no channel {channel}: {} has {n_channels}; choose another --channel, or leave it out",
+                rig.watch.what()
+            ),
+        }
+    }
+
+    fn open_serial(&self, port: &str, options: OpenOptions) -> anyhow::Result<Rig> {
         let mode = match self.serial_mode {
             SerialMode::Stream => Mode::Stream,
             SerialMode::Control => Mode::Control,
         };
         let serial = SerialOptions { baud: self.baud, mode, ..SerialOptions::default() };
-        let connection = serial::open(port, options, serial)?;
-        if !connection.receiver.name.is_empty() {
-            output::note(&format!("the receiver is `{}`", connection.receiver.name));
+        let Connection { handle, running, receiver, mut heard } = serial::open(port, options, serial)?;
+        if !receiver.name.is_empty() {
+            output::note(&format!("the receiver is `{}`", receiver.name));
         }
-        Ok((connection.handle, connection.running))
+        // Nothing waits: it is asked again.
+        let next = Box::new(move || heard.pop().ok());
+        let receiver = Receiver::new(receiver.name, running.id().to_owned(), next);
+        let watch = Watch::new(running.id(), Some(receiver));
+        Ok(Rig { handle, running, watch })
+    }
+
+    /// Whether an actuator is known, by whose limits the output is driven.
+    pub(crate) fn has_actuator(&self) -> bool {
+        self.actuator.is_some()
     }
 
     fn drive(&self) -> anyhow::Result<DriveConfig> {
