@@ -23,6 +23,7 @@ mod import;
 mod import_hatt;
 mod import_recording;
 mod latency;
+mod latency_onsets;
 mod library_list;
 mod library_make;
 mod library_places;
