@@ -303,6 +303,17 @@ fn the_built_in_actuators_are_listed_and_shown() {
         assert!((got.as_f64().unwrap() - expected).abs() < 3e-6, "{got} for {expected}");
     }
     assert!((shown["headroom"]["volts_per_mps2"].as_f64().unwrap() / 0.655 - 1.0).abs() < 0.01);
+    // The filter in numbers for a script, in words for a person; its gain by its coefficients never exceeds the bound.
+    let (inverse, lowest_hz) = (&shown["inverse"], shown["lowest_hz"].as_f64().unwrap());
+    assert_eq!((&inverse["lowest_hz"], &inverse["band_hz"]), (&lowest_hz.into(), &vec![lowest_hz, 200.0].into()));
+    let bound = inverse["volts_per_mps2_max"].as_f64().unwrap();
+    let number = |key: &str, i: usize| inverse[key][i].as_f64().unwrap();
+    let dc = (number("b", 0) + number("b", 1) + number("b", 2)) / (number("a", 0) + number("a", 1) + 1.0);
+    assert!(dc <= bound && bound < 1.2 * dc, "{dc} V for 1 m/s² at 0 Hz, bound {bound}");
+    let said = bench.run("actuator show haptuator-mark-ii --rate 2000").stdout;
+    let words = format!("flat from {lowest_hz} Hz, where it is 3 dB down, to 200 Hz; never more than {bound:.3} V");
+    assert!(said.contains(&words), "{said}");
+    assert!(!bench.run("actuator show mm1c").stdout.contains("Equalizer"));
     let pen = bench.json("actuator show haptuator-mark-ii --load-g 40");
     assert!(pen["f0_hz"].as_f64().unwrap() > 65.5 && pen["gain"].as_f64().unwrap() > 5.0, "{pen}");
     let unknown = bench.json("actuator show mm1c");
