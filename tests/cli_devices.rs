@@ -131,6 +131,37 @@ fn a_decoded_stroke_is_a_table_that_renders_the_same() {
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-4));
 }
 
+/// The object and the table have the same rows, from the same corner, since the same time.
+#[test]
+fn the_table_says_what_the_object_says() {
+    let bench = Bench::new();
+    // A clock that began long ago, two reports at one time, and a pen that leaves for a while.
+    let mut events = events().replace("E: 0.", "E: 1234.").replace("E: 1234.310000", "E: 1234.300000");
+    for i in 40..50 {
+        events = events.replace(&format!("E: 1234.{i}0000 12 1a 21"), &format!("E: 1234.{i}0000 12 1a 00"));
+    }
+    bench.write("pen.rec", format!("R: {} {PEN}\nI: 3 0001 0002\n{events}", bytes(PEN).len()));
+    let decoded = bench.json("devices --decode pen.rec -o stroke.csv");
+    let samples = decoded["samples"].as_array().unwrap();
+    assert_eq!(samples.len(), 89);
+    assert_eq!((&decoded["out_of_range"], &decoded["same_time"]), (&json!(10), &json!(1)));
+    assert_eq!((&decoded["start_s"], &samples[0]["t"]), (&json!(1234.0), &json!(0.0)));
+    let table = std::fs::read_to_string(bench.path("stroke.csv")).unwrap();
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("t_s,x_mm,y_mm,force_n,touching"));
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    assert_eq!(rows.len(), samples.len());
+    for (row, sample) in rows.iter().zip(samples) {
+        for (value, name) in row.iter().zip(["t", "x_mm", "y_mm", "force_n"]) {
+            // Written to a millionth.
+            assert!((value - sample[name].as_f64().unwrap()).abs() < 1e-6, "{name}: {value} in {sample}");
+        }
+        assert_eq!(row[4] == 1.0, sample["tip"] == true);
+    }
+    assert!((rows[0][1] - 50.0).abs() < 1e-9 && (rows[0][2] - 78.62).abs() < 1e-9, "{:?}", rows[0]);
+}
+
 #[test]
 fn a_pen_without_a_size_takes_one() {
     let bench = Bench::new();

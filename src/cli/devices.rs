@@ -21,12 +21,16 @@ pub(crate) struct Args {
     descriptor: Vec<PathBuf>,
     /// Decode the reports of a pen (a recording of hid-recorder or usbhid-dump) by a report descriptor, which may be
     /// left out where the recording holds it.
+    ///
+    /// --json prints and --out writes the same samples: those with the pen in range, of several at one time the last. t
+    /// is in seconds from the first sample, x_mm and y_mm in mm to the right of and below the upper left corner of the pen's area.
     #[arg(long, value_names = ["DESCRIPTOR", "REPORTS"], num_args = 1..=2)]
     decode: Vec<PathBuf>,
     /// Width and height of the pen's area in mm, such as 216x135, where the pen declares none or wrong ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm, requires = "decode", allow_hyphen_values = true)]
     size_mm: Option<[f64; 2]>,
-    /// Write the decoded stroke as a table (.csv).
+    /// Write the decoded stroke as a table (.csv) with the columns t_s, x_mm, y_mm, force_n in N (or pressure, 0 to 1,
+    /// where the pen declares no force) and touching, 0 or 1.
     #[arg(short, long, value_name = "OUT.csv", requires = "decode")]
     out: Option<PathBuf>,
     /// Print one JSON object.
