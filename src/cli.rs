@@ -22,6 +22,7 @@ mod hid_files;
 mod import;
 mod import_hatt;
 mod import_recording;
+mod landings;
 mod latency;
 mod latency_onsets;
 mod library_list;
@@ -70,7 +71,6 @@ enum Command {
     /// Brings models and recordings of other programs into a library.
     #[command(subcommand)]
     Import(ImportCommand),
-    /// Renders a texture as a stylus would feel it, as float WAV in m/s².
     Render(render::Args),
     /// One texture: its spectrum, or a path of textures through the space.
     #[command(subcommand)]
