@@ -185,7 +185,10 @@ fn what_cannot_be_decoded_says_why() {
     bench.write("notes.txt", "nothing");
     bench.fails("devices --decode events.txt", 1, &["no pen is declared", "events.txt"]);
     bench.fails("devices --decode keyboard.bin events.txt", 1, &["no pen is declared"]);
-    bench.fails("devices --decode pen.bin other.txt", 1, &["none of the 1 reports", "other.txt"]);
+    let unlike = ["none of the 1 reports", "12 bytes that begin with 1a", "3 bytes and begins with 01", "other.txt"];
+    bench.fails("devices --decode pen.bin other.txt", 1, &unlike);
+    bench.write("torn.txt", "E: 0.0 12 1a 20 88\nE: 0.1 nonsense\nR: 3 05 0d\n");
+    bench.fails("devices --decode pen.bin torn.txt", 1, &["no recording", "torn.txt"]);
     bench.fails("devices --decode pen.bin notes.txt", 1, &["no recording", "notes.txt"]);
     bench.fails("devices --decode pen.bin missing.txt", 1, &["missing.txt"]);
     bench.fails("devices --decode missing.bin events.txt", 1, &["missing.bin"]);
@@ -200,6 +203,22 @@ fn what_cannot_be_decoded_says_why() {
     let said = bench.run("devices --decode missing.bin missing.txt");
     assert_eq!((said.code, said.stderr.lines().count()), (1, 2), "{}", said.stderr);
     assert!(said.stderr.contains("missing.bin") && said.stderr.contains("missing.txt"), "{}", said.stderr);
+}
+
+/// As a shell writes that puts everything into UTF-16.
+#[test]
+fn recordings_in_utf_16_are_read() {
+    let bench = Bench::new();
+    let wide = |text: &str| -> Vec<u8> {
+        format!("\u{feff}{}", text.replace('\n', "\r\n")).encode_utf16().flat_map(u16::to_le_bytes).collect()
+    };
+    bench.write("pen.rec", recording());
+    bench.write("wide.rec", wide(&recording()));
+    bench.write("wide.hex", wide(PEN));
+    let narrow = bench.json("devices --decode pen.rec");
+    assert_eq!(bench.json("devices --decode wide.rec")["samples"], narrow["samples"]);
+    assert_eq!(bench.json("devices --decode wide.hex wide.rec")["samples"], narrow["samples"]);
+    bench.json("render --texture cork --stroke wide.rec -o a.wav");
 }
 
 #[test]
