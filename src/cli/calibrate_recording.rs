@@ -8,8 +8,8 @@ use shagreen_core::statistics::standard_deviation;
 use shagreen_core::units::Hertz;
 use shagreen_formats::recording::{AccelerationUnit, Ask, Channel, ColumnMap, read_recording};
 
-use crate::cli::import_recording::sidecar;
 use crate::cli::output::{self, file_name};
+use crate::cli::recording_answers::sidecar;
 
 /// What was recorded of a sweep.
 pub(crate) struct Recorded {

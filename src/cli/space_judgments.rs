@@ -18,7 +18,7 @@ use shagreen_formats::sorting_csv::read_sorting_csv;
 use crate::cli::library_source::LibraryArgs;
 use crate::cli::output;
 use crate::cli::space_place::parse_scale;
-use crate::cli::target::meant;
+use crate::cli::near_names::meant;
 
 #[derive(clap::Args)]
 pub(crate) struct JudgmentArgs {
