@@ -55,7 +55,7 @@ mod words;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, FromArgMatches as _};
 
 /// An authoring tool for haptic textures. Without a command it opens the window.
 #[derive(clap::Parser)]
@@ -136,10 +136,22 @@ enum TextureCommand {
     Path(Box<texture_path::Args>),
 }
 
+/// A command whose options take a number below zero for their value and not for another option, so that what is wrong with
+/// it is told.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    command
+        .mut_args(|arg| {
+            let takes_value = arg.get_action().takes_values() && !arg.is_positional();
+            if takes_value { arg.allow_negative_numbers(true) } else { arg }
+        })
+        .mut_subcommands(with_negative_numbers)
+}
+
 /// Does what the arguments of the program say.
 pub(crate) fn run() -> ExitCode {
     let started = Instant::now();
-    let cli = match Cli::try_parse() {
+    let matches = with_negative_numbers(Cli::command()).try_get_matches();
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return output::usage(&error),
     };
@@ -174,11 +186,11 @@ pub(crate) fn run() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::Cli;
+    use super::{Cli, with_negative_numbers};
     use clap::CommandFactory as _;
 
     #[test]
     fn the_arguments_do_not_contradict_each_other() {
-        Cli::command().debug_assert();
+        with_negative_numbers(Cli::command()).debug_assert();
     }
 }
