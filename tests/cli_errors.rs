@@ -30,6 +30,11 @@ fn wrong_usage_is_two() {
         ("render --nonsense", &["--nonsense"]),
         ("play --texture cork --buffer 4294967295", &["--buffer", "65536"]),
         ("play --texture cork --buffer 15", &["--buffer", "16"]),
+        ("play --texture cork --output null --baud 9600", &["cannot be used with", "--output"]),
+        ("play --texture cork --output null --serial-mode control", &["cannot be used with", "--output"]),
+        ("play --texture cork --full-scale 3 --load-g 40", &["cannot be used with", "--full-scale"]),
+        ("play --texture cork --full-scale 3 --full-scale-volts 4", &["cannot be used with", "--full-scale"]),
+        ("play --texture cork --full-scale 3 --no-equalizer", &["cannot be used with", "--full-scale"]),
         // A number below zero is a wrong value and not another option.
         ("calibrate --recording r.wav --sensitivity -5", &["--sensitivity", "above 0"]),
         ("calibrate --recording r.wav --load-g -5", &["--load-g", "from 0.01 to 100000"]),
@@ -59,7 +64,10 @@ fn what_cannot_be_done_is_one() {
         (format!("render --texture xyzzy {STEADY} -o o.wav"), &["xyzzy", "library list"]),
         (format!("render --texture cork {STEADY} -o none/o.wav"), &["none/o.wav", "its folder is not there"]),
         ("library list --library none/l.json".to_owned(), &["there is no such file", "none/l.json"]),
-        ("export --texture cork --format hatt -o none/o.xml".to_owned(), &["its folder is not there", "none/o.xml"]),
+        (
+            "export --texture cork --format hatt -o none/o.xml".to_owned(),
+            &["its folder is not there", "none/o.xml"],
+        ),
         (format!("render --texture cork {STEADY} -o o.json"), &["o.json", ".wav"]),
         (format!("render --texture cork {STEADY} --rate 500 -o o.wav"), &["1000 Hz", "500"]),
         ("render --texture cork --speed 1 --force 1 --seconds 9999 -o o.wav".to_owned(), &["3600"]),

@@ -48,7 +48,10 @@ fn no_more_is_limited_than_was_played_and_the_limit_is_named() {
     let steady = "play --texture brick --speed 200 --force 2 --seconds 0.5";
     let coil = "--actuator haptuator-mark-ii --full-scale-volts";
     for (limits, words) in [
-        ("--full-scale 0.0001".to_owned(), &["met the ceiling of the output's full scale", "--full-scale"][..]),
+        (
+            "--full-scale 0.0001".to_owned(),
+            &["met the ceiling of the output's full scale", "--full-scale"][..],
+        ),
         (format!("{coil} 0.001"), &["met the ceiling of what the actuator", "--speed"]),
     ] {
         let said = bench.run(&format!("{steady} {limits} --json"));

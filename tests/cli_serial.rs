@@ -110,7 +110,8 @@ fn a_texture_is_played_on_a_microcontroller() {
 
 #[test]
 fn what_a_receiver_warns_of_is_told_once_by_its_name() {
-    let board = Board::with(Manners { warning: Some("the coil\u{1b}[2J is warm"), name: "b\u{7}oard", ..GOOD });
+    let board =
+        Board::with(Manners { warning: Some("the coil\u{1b}[2J is warm"), name: "b\u{7}oard", ..GOOD });
     let said = Bench::new().run(&format!("play --texture brick --seconds 0.5 --serial {}", board.port));
     assert_eq!(said.code, 0, "{}", said.stderr);
     let told: Vec<&str> = said.stderr.lines().filter(|line| line.contains("is warm")).collect();
@@ -147,8 +148,13 @@ fn what_cannot_be_is_said() {
     let board = Board::new();
     let slow = format!("play --texture cork --serial {} --baud 9600", board.port);
     bench.fails(&slow, 1, &["9600 baud", "--baud"]);
-    let second = format!("play --texture cork --channel 2 --serial {}", board.port);
-    bench.fails(&second, 1, &["no channel 2", "the receiver `test board`", "has 1"]);
+    let play = "play --texture cork --channel 2 --serial";
+    let calibrate = "calibrate --output-channel 2 --serial-sensor";
+    for command in
+        [format!("{play} {}", board.port), format!("{calibrate} {0} --output serial:{0}", board.port)]
+    {
+        bench.fails(&command, 1, &["has one channel", &board.port]);
+    }
     let (_master, slave) = TTYPort::pair().unwrap();
     let port = slave.name().unwrap();
     drop(slave);

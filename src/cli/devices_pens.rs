@@ -165,7 +165,8 @@ pub(crate) fn decode(
         write_stroke(&rows, out)?;
     }
     let touching = rows.iter().filter(|(_, moment)| moment.report.touching());
-    let speed_max = touching.clone().map(|(_, moment)| moment.touch.contact.speed_mps).fold(0.0_f32, f32::max);
+    let speed_max =
+        touching.clone().map(|(_, moment)| moment.touch.contact.speed_mps).fold(0.0_f32, f32::max);
     let result = json!({
         "samples": rows.iter().map(|(secs, moment)| sample_json(*secs, moment)).collect::<Vec<_>>(),
         "start_s": start_secs,

@@ -8,11 +8,11 @@ use shagreen_core::fit::{self, FitOptions, Fitted, MODEL_RATES_HZ};
 use shagreen_core::recording::Recording;
 use shagreen_core::texture::{Interpolation, MAX_ORDER};
 use shagreen_core::units::Hertz;
+use shagreen_formats::atomic;
 use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report_csv, is_fit_report_svg};
 use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::{Ask, ColumnMap, Question, RecordingFileError, read_recording};
-use shagreen_formats::atomic;
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import::{Destination, Outcome, files_in};

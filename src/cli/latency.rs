@@ -251,9 +251,13 @@ mod tests {
         assert!(refuse_dropped(0, "x").is_ok());
         let error = refuse_dropped(480, "x").unwrap_err().to_string();
         assert!(error.contains("480 samples of the input `x` were lost"), "{error}");
-        for (n_heard, n, words) in
-            [(20, 20, None), (10, 20, None), (1, 1, None), (9, 20, Some("9 of 20 taps")), (0, 1, Some("nothing"))]
-        {
+        for (n_heard, n, words) in [
+            (20, 20, None),
+            (10, 20, None),
+            (1, 1, None),
+            (9, 20, Some("9 of 20 taps")),
+            (0, 1, Some("nothing")),
+        ] {
             match (refuse_few(n_heard, n, "taps", "x"), words) {
                 (Ok(()), None) => {}
                 (Err(error), Some(words)) => assert!(error.to_string().contains(words), "{error}"),

@@ -40,7 +40,10 @@ impl Limited {
         let mut warnings = Vec::new();
         if self.share > FEW {
             let (limit, advice) = if self.has_actuator {
-                ("of what the actuator and the output stand", "a lower --speed or --force, or a smoother texture")
+                (
+                    "of what the actuator and the output stand",
+                    "a lower --speed or --force, or a smoother texture",
+                )
             } else {
                 ("of the output's full scale", "a higher --full-scale, or a lower --speed or --force")
             };

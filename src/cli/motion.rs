@@ -65,7 +65,9 @@ pub(crate) fn motion(args: &MotionArgs, default: Option<(f64, f64, f64)>) -> any
         return Ok(Motion::Stroke { contacts: stroke::load(path, &args.reading)?, path: path.clone() });
     }
     if let Some(option) = args.reading.given().next() {
-        bail!(output::Usage(format!("{option} says how a stroke is read; give --stroke FILE, or leave it out")));
+        bail!(output::Usage(format!(
+            "{option} says how a stroke is read; give --stroke FILE, or leave it out"
+        )));
     }
     let (speed, force, seconds) = match (args.speed, args.force, args.seconds, default) {
         (Some(speed), Some(force), Some(seconds), _) => (speed, force, seconds),

@@ -17,14 +17,14 @@ pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION
 pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String) {
     let text = if as_json { result.to_string() } else { printable(&text()) };
     // Whoever closed the pipe has read enough.
-    let _ = writeln!(std::io::stdout(), "{text}");
+    let _ = writeln!(io::stdout(), "{text}");
 }
 
 /// A line on standard error.
 fn say(line: impl Display) {
     let line = printable(&line.to_string()).replace('\n', " ");
     // Whoever closed it does not want to know.
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{line}");
 }
 
 /// Text without what a terminal would obey: names come from files and from devices, which may say anything.
@@ -82,7 +82,7 @@ pub(crate) fn failure(error: &anyhow::Error) -> ExitCode {
 pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         // As with results.
-        let _ = write!(std::io::stdout(), "{error}");
+        let _ = write!(io::stdout(), "{error}");
         return ExitCode::SUCCESS;
     }
     say(usage_line(&error.to_string()));

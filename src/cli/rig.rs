@@ -29,11 +29,17 @@ pub(crate) struct RigArgs {
     #[arg(long, value_name = "PORT", conflicts_with = "output")]
     serial: Option<String>,
     /// Baud rate of the serial port, on both sides; USB has none and does not care.
-    #[arg(long, value_name = "N", requires = "serial", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", requires = "serial", conflicts_with = "output", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// Who renders: `stream` sends samples to the serial port, `control` speed, force and texture for firmware that renders
     /// by itself.
-    #[arg(long, value_name = "MODE", requires = "serial", default_value = "stream")]
+    #[arg(
+        long,
+        value_name = "MODE",
+        requires = "serial",
+        conflicts_with = "output",
+        default_value = "stream"
+    )]
     serial_mode: SerialMode,
     /// The only channel to drive, from 1; without it the first two.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
@@ -54,7 +60,7 @@ pub(crate) struct RigArgs {
     #[arg(long, requires = "actuator")]
     no_equalizer: bool,
     /// Acceleration at which the output is at full scale, in m/s², where no actuator is known.
-    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2))]
+    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2), conflicts_with_all = ["full_scale_volts", "load_g", "no_equalizer"])]
     full_scale: f64,
 }
 

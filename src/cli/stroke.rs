@@ -96,7 +96,7 @@ fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>>
     if recording.decoder.best().pressure.is_some_and(|pressure| pressure.full_n.is_some()) {
         args.refuse_but(&[OF_HID], "a pen that declares its force in N")?;
     }
-    args.refuse_but(&[&[OF_HID], &OF_PRESSURE[..]].concat(), "a recorded HID pen")?;
+    args.refuse_but(&[&[OF_HID][..], &OF_PRESSURE[..]].concat(), "a recorded HID pen")?;
     let Some(size_m) = recording.decoder.best().size_m() else {
         bail!("the pen declares no size, without which there is no speed; state it with --size-mm 216x135");
     };

@@ -9,8 +9,8 @@ use shagreen_core::plane::Plane;
 use shagreen_core::units::Contact;
 
 use crate::cli::motion::quantity;
-use crate::cli::output;
 use crate::cli::near_names::unknown_texture;
+use crate::cli::output;
 use crate::cli::target::SoundArgs;
 
 /// The one-sided power spectral density of a texture's model, in (m/s²)²/Hz, from 5 Hz to just below half its rate.
