@@ -9,6 +9,7 @@ mod actuator_show;
 mod actuator_source;
 mod blending;
 mod calibrate;
+mod calibrate_doubts;
 mod calibrate_live;
 mod calibrate_recording;
 mod calibrate_result;

@@ -170,8 +170,36 @@ fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
     bench.fails(
         "calibrate --make-sweep s.wav --rate 1500",
         1,
-        &["the end in Hz of the sweep is 1000, needs 675"],
+        &["--high: the end in Hz of the sweep is 1000, needs 675"],
     );
+    let limits = "--output null --input x --sensitivity 1";
+    bench.fails(&format!("calibrate {limits} --seconds 1000"), 2, &["--seconds", "needs 1 to 600"]);
+    bench.fails("calibrate --recording good.wav --amplitude 2", 2, &["--amplitude", "needs 0.000001 to 1"]);
+    let bytes = std::fs::read(bench.path("good.wav")).unwrap();
+    bench.write("torn.wav", &bytes[..30]);
+    fails(&format!("--recording torn.wav --sensitivity 40 {SWEEP}"), &["the WAV file", "torn.wav"]);
+    let (head, sound) = bytes.split_at(44);
+    // Two sweeps, and the first half of one, with sizes that say so little that they are not minded.
+    let open = |sound: &[u8]| {
+        let mut file = head.to_vec();
+        file[40..44].fill(0xff);
+        file.extend(sound);
+        file
+    };
+    bench.write("twice.wav", open(&[sound, sound].concat()));
+    fails(&format!("--recording twice.wav --sensitivity 40 {SWEEP}"), &["several sweeps", "twice.wav"]);
+    // One of them is found where there is quiet between them, and the other is told.
+    let quiet = vec![0; 2 * 20 * RATE_HZ as usize];
+    let quieter: Vec<u8> = sound
+        .chunks_exact(2)
+        .flat_map(|pair| ((f64::from(i16::from_le_bytes([pair[0], pair[1]])) * 0.8) as i16).to_le_bytes())
+        .collect();
+    bench.write("apart.wav", open(&[sound, &quiet, &quieter].concat()));
+    let said =
+        bench.run(&format!("calibrate --recording apart.wav --sensitivity 40 --full-scale-volts 2 {SWEEP}"));
+    assert!(said.code == 0 && said.stderr.contains("something else as loud as the sweep"), "{said:?}");
+    bench.write("half.wav", open(&sound[..sound.len() / 2]));
+    fails(&format!("--recording half.wav --sensitivity 40 {SWEEP}"), &["half.wav"]);
     bench.fails("calibrate --out p.toml", 2, &["--make-sweep"]);
     bench.fails("calibrate --make-sweep s.wav --recording good.wav", 2, &["cannot be used with"]);
     bench.fails(&calibrate("--recording good.wav --sensitivity 0"), 2, &["above 0"]);
@@ -207,10 +235,10 @@ fn peaks(server: &sound::SoundServer, more: &[&str]) -> [f64; 2] {
     let words = ["calibrate", "--output", "pulse:ci", "--input", "alsa:pulse", "--sensitivity", "10"];
     let sweep = ["--seconds", "1", "--silence", "0"];
     let recorded = server.record(|server| {
-        // Its own input is no actuator, which is told; here only what was played counts.
-        let said =
-            server.command(env!("CARGO_BIN_EXE_shagreen")).args(words).args(sweep).args(more).output().unwrap();
-        assert_eq!(said.status.code(), Some(1), "{}", String::from_utf8_lossy(&said.stderr));
+        // What is heard is not what counts here, but what was played.
+        let said = server.command(env!("CARGO_BIN_EXE_shagreen")).args(words).args(sweep).args(more).output();
+        let said = String::from_utf8_lossy(&said.unwrap().stderr).into_owned();
+        assert!(!said.contains("cannot calibrate"), "{said}");
     });
     [0, 1].map(|channel| recorded.iter().fold(0.0, |peak: f64, frame| peak.max(frame[channel].abs())))
 }
@@ -247,11 +275,12 @@ fn what_would_be_ignored_is_refused() {
         ("--make-sweep s.wav --plots plots", cannot),
         ("--make-sweep s.wav --sensitivity 3", cannot),
         ("--make-sweep s.wav --channel 2", cannot),
-        ("--make-sweep s.wav --set rate=4000", cannot),
+        ("--make-sweep s.wav --set rate_hz=4000", cannot),
         ("--make-sweep s.wav --actuator mm1c", cannot),
-        ("--output null --input x --sensitivity 4 --set rate=4000", cannot),
+        ("--output null --input x --sensitivity 4 --set rate_hz=4000", cannot),
         ("--output null --input x --sensitivity 4 --rate 4000", cannot),
-        ("--output null --input x --sensitivity 4 --baud 9600", &["--serial-sensor"]),
+        ("--output null --input x --sensitivity 4 --baud 9600", cannot),
+        ("--output null --baud 9600", &["--serial-sensor"]),
         ("--output null --serial-sensor serial:x --sensitivity 4", cannot),
         ("--output null --serial-sensor serial:x --channel 2", cannot),
     ] {
@@ -267,25 +296,26 @@ fn what_would_be_ignored_is_refused() {
     bench.fails(&table, 2, &["--sensitivity is for WAV files", "--set"]);
 }
 
+/// A full scale that the resonance alone exceeds costs little and is told; one that most of the sweep exceeds is no
+/// measurement.
 #[test]
-fn a_receiver_has_one_channel() {
+fn what_is_cut_off_is_told_and_refused_where_it_is_too_much() {
     let bench = Bench::new();
-    let live = "calibrate --output serial:ttyNONE --serial-sensor serial:ttyNONE --output-channel";
-    bench.fails(&format!("{live} 2"), 1, &["--output-channel is 2", "serial:ttyNONE"]);
-    bench.fails(&format!("{live} 1"), 1, &["no serial port"]);
-    bench.fails(&format!("{live} 0"), 2, &["--output-channel"]);
-}
-
-#[test]
-fn warnings_reach_the_reader() {
-    let bench = Bench::new();
-    record(&bench, "loud.wav", &[|a| (4.0 * a).clamp(-39.9, 39.9)]);
-    let said = bench
-        .run(&format!("calibrate --recording loud.wav --sensitivity 40 --full-scale-volts 2 {SWEEP} --json"));
+    record(&bench, "loud.wav", &[|a| a.clamp(-12.0, 12.0)]);
+    record(&bench, "cut.wav", &[|a| a.clamp(-2.0, 2.0)]);
+    let calibrate =
+        |name: &str| format!("calibrate --recording {name} --sensitivity 40 --full-scale-volts 2 {SWEEP}");
+    let said = bench.run(&format!("{} --json", calibrate("loud.wav")));
     assert_eq!(said.code, 0, "{}", said.stderr);
-    assert!(said.stderr.contains("warning: ") && said.stderr.contains("cut off at 39.8"), "{}", said.stderr);
+    assert!(said.stderr.contains("warning: ") && said.stderr.contains("cut off at 12"), "{}", said.stderr);
+    assert!(said.stderr.contains("with less gain"), "{}", said.stderr);
     let value: Value = serde_json::from_str(&said.stdout).unwrap();
     assert!(!value["warnings"].as_array().unwrap().is_empty());
+    bench.fails(
+        &format!("{} --out p.toml --plots plots", calibrate("cut.wav")),
+        1,
+        &["of the sweep are cut off at 2.0 m/s²", "record again", "cut.wav"],
+    );
 }
 
 #[test]
@@ -305,13 +335,17 @@ fn the_built_in_actuators_are_listed_and_shown() {
     assert!((shown["headroom"]["volts_per_mps2"].as_f64().unwrap() / 0.655 - 1.0).abs() < 0.01);
     // The filter in numbers for a script, in words for a person; its gain by its coefficients never exceeds the bound.
     let (inverse, lowest_hz) = (&shown["inverse"], shown["lowest_hz"].as_f64().unwrap());
-    assert_eq!((&inverse["lowest_hz"], &inverse["band_hz"]), (&lowest_hz.into(), &vec![lowest_hz, 200.0].into()));
+    assert_eq!(
+        (&inverse["lowest_hz"], &inverse["band_hz"]),
+        (&lowest_hz.into(), &vec![lowest_hz, 200.0].into())
+    );
     let bound = inverse["volts_per_mps2_max"].as_f64().unwrap();
     let number = |key: &str, i: usize| inverse[key][i].as_f64().unwrap();
     let dc = (number("b", 0) + number("b", 1) + number("b", 2)) / (number("a", 0) + number("a", 1) + 1.0);
     assert!(dc <= bound && bound < 1.2 * dc, "{dc} V for 1 m/s² at 0 Hz, bound {bound}");
     let said = bench.run("actuator show haptuator-mark-ii --rate 2000").stdout;
-    let words = format!("flat from {lowest_hz} Hz, where it is 3 dB down, to 200 Hz; never more than {bound:.3} V");
+    let words =
+        format!("flat from {lowest_hz} Hz, where it is 3 dB down, to 200 Hz; never more than {bound:.3} V");
     assert!(said.contains(&words), "{said}");
     assert!(!bench.run("actuator show mm1c").stdout.contains("Equalizer"));
     let pen = bench.json("actuator show haptuator-mark-ii --load-g 40");

@@ -8,20 +8,21 @@ use shagreen_core::calibration::calibrate;
 use shagreen_core::units::Volts;
 use shagreen_device::engine::ChannelMask;
 use shagreen_device::measure::Listener;
-use shagreen_device::serial::{ID_PREFIX, USUAL_BAUD};
+use shagreen_device::serial::USUAL_BAUD;
 use shagreen_formats::actuator_toml::{read_actuator, write_actuator};
 use shagreen_formats::calibration_report::calibration_figures;
 use shagreen_formats::recording::Ask;
 
 use crate::cli::actuator_source::{grams, load_actuator, positive, volts};
+use crate::cli::calibrate_doubts::{advised, other_sound, refuse_clipped};
 use crate::cli::calibrate_live::record_live;
 use crate::cli::calibrate_recording::recorded_file;
 use crate::cli::calibrate_result::{print, profile};
 use crate::cli::calibrate_sweep::{SweepArgs, write_sweep};
 use crate::cli::figures_folder::{check_figures, check_together, figure_files, write_together};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::import_recording::parse_answer;
 use crate::cli::output;
+use crate::cli::recording_answers::parse_answer;
 use crate::cli::rig::channels;
 
 /// Names of the figures, without the endings.
@@ -75,7 +76,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "PORT", requires = "output", conflicts_with_all = ["input", "sensitivity", "channel"])]
     serial_sensor: Option<String>,
     /// Baud rate of that port.
-    #[arg(long, value_name = "N", default_value_t = USUAL_BAUD, requires = "serial_sensor", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = USUAL_BAUD, requires = "serial_sensor", conflicts_with = "input", value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// Acceleration of a sample of 1.0 of a WAV file or an input, in m/s².
     #[arg(long, value_name = "MPS2", value_parser = |text: &str| positive(text, "an acceleration in m/s²"))]
@@ -149,7 +150,7 @@ impl Source<'_> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let sweep = args.sweep.sweep();
+    let sweep = args.sweep.sweep()?;
     if let Some(out) = &args.make_sweep {
         return write_sweep(&sweep, args.rate, out, args.json);
     }
@@ -180,10 +181,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             record_live((id, *channels), listener, &sweep, base.as_ref(), drive)?
         }
     };
-    let calibration = source.told(calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive))?;
-    for warning in &calibration.warnings {
-        output::warn(&warning.to_string());
-    }
+    let calibration = calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive);
+    let calibration = source.told(calibration.map_err(|error| advised(&error, &recorded, &sweep)))?;
+    source.told(refuse_clipped(&calibration))?;
+    let mut warnings: Vec<String> = calibration.warnings.iter().map(ToString::to_string).collect();
+    warnings.extend(other_sound(&recorded, calibration.begins_secs, &sweep));
+    warnings.iter().for_each(|warning| output::warn(warning));
     let fit = source.told(calibration.fit.clone())?;
     let actuator = profile(args, &source.name(), base, &fit, drive);
     let mut files = Vec::new();
@@ -200,7 +203,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     }
     write_together(&files, args.plots.as_deref())?;
-    print(args, &recorded, &calibration, &fit, &figures);
+    print(args, &recorded, &calibration, &fit, (&warnings, &figures));
     Ok(())
 }
 
@@ -221,10 +224,5 @@ fn source(args: &Args) -> anyhow::Result<Source<'_>> {
             "say what listens: --input ID and its --sensitivity, or --serial-sensor PORT".to_owned()
         )),
     };
-    if let Some(channel) = args.output_channel.filter(|channel| *channel > 1 && id.starts_with(ID_PREFIX)) {
-        bail!(
-            "--output-channel is {channel} and a receiver on a serial port has one channel; leave it out: {id}"
-        );
-    }
     Ok(Source::Live(id, channels(args.output_channel), listener))
 }

@@ -78,7 +78,8 @@ pub(crate) fn recorded_file(
 }
 
 fn no_channel(channel: usize, n: usize) -> anyhow::Error {
-    let there = if n == 1 { "is 1, so leave --channel out".to_owned() } else { format!("are {n}, choose one") };
+    let there =
+        if n == 1 { "is 1, so leave --channel out".to_owned() } else { format!("are {n}, choose one") };
     anyhow::anyhow!("there is no channel {channel} of acceleration; there {there}")
 }
 

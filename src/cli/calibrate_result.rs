@@ -1,6 +1,6 @@
 //! What came of a calibration: the profile, and what is said of it.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use shagreen_core::actuator::{Actuator, Drive};
 use shagreen_core::calibration::{Calibration, Fit, fitted_actuator};
 use shagreen_core::units::Kilograms;
@@ -31,10 +31,15 @@ pub(crate) fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit
 }
 
 /// Says what was measured.
-pub(crate) fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit, figures: &[String]) {
+pub(crate) fn print(
+    args: &Args,
+    recorded: &Recorded,
+    calibration: &Calibration,
+    fit: &Fit,
+    (warnings, figures): (&[String], &[String]),
+) {
     let response = fit.response;
     let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
-    let warnings: Vec<Value> = calibration.warnings.iter().map(|w| json!(w.to_string())).collect();
     let curve = &calibration.curve;
     let worst = calibration.worst_distortion();
     output::print(

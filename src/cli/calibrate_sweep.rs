@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use anyhow::anyhow;
 use serde_json::json;
-use shagreen_core::calibration::Sweep;
+use shagreen_core::calibration::{Sweep, SweepError};
 use shagreen_core::units::Hertz;
 use shagreen_formats::wav;
 
@@ -32,21 +33,39 @@ pub(crate) struct SweepArgs {
 
 impl SweepArgs {
     /// The sweep that is asked for.
-    pub(crate) fn sweep(&self) -> Sweep {
-        Sweep {
+    ///
+    /// # Errors
+    /// A number of it has no meaning, which is wrong usage.
+    pub(crate) fn sweep(&self) -> anyhow::Result<Sweep> {
+        let sweep = Sweep {
             low: Hertz(self.low),
             high: Hertz(self.high),
             seconds: self.seconds,
             amplitude: self.amplitude,
             silence_secs: self.silence,
-        }
+        };
+        sweep.check().map_err(|error| output::Usage(by_option(&error)))?;
+        Ok(sweep)
     }
+}
+
+/// What is wrong with a sweep, by the option that says it.
+pub(crate) fn by_option(error: &SweepError) -> String {
+    let option = match error {
+        SweepError::Number { what: "the beginning in Hz", .. } => "--low",
+        SweepError::Number { what: "the end in Hz", .. } => "--high",
+        SweepError::Number { what: "the length in s", .. } => "--seconds",
+        SweepError::Number { what: "the amplitude", .. } => "--amplitude",
+        SweepError::Number { what: "the silence in s", .. } => "--silence",
+        _ => return error.to_string(),
+    };
+    format!("{option}: {error}")
 }
 
 /// Writes the sweep, to be played by whatever.
 pub(crate) fn write_sweep(sweep: &Sweep, rate_hz: u32, out: &Path, as_json: bool) -> anyhow::Result<()> {
     refuse_foreign(out, "the sweep", |bytes| bytes.starts_with(b"RIFF"))?;
-    let samples = sweep.signal(Hertz(f64::from(rate_hz)))?;
+    let samples = sweep.signal(Hertz(f64::from(rate_hz))).map_err(|error| anyhow!(by_option(&error)))?;
     let samples: Vec<f32> = samples.iter().map(|sample| *sample as f32).collect();
     wav::write_samples(out, &samples, rate_hz)?;
     let seconds = samples.len() as f64 / f64::from(rate_hz);
@@ -72,4 +91,24 @@ pub(crate) fn write_sweep(sweep: &Sweep, rate_hz: u32, out: &Path, as_json: bool
         },
     );
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Hertz, Sweep, by_option};
+
+    #[test]
+    fn every_limit_names_its_option() {
+        let usual = Sweep::USUAL;
+        for (option, sweep) in [
+            ("--low", Sweep { low: Hertz(0.0), ..usual }),
+            ("--high", Sweep { high: Hertz(20.0), ..usual }),
+            ("--seconds", Sweep { seconds: 0.5, ..usual }),
+            ("--amplitude", Sweep { amplitude: 1.5, ..usual }),
+            ("--silence", Sweep { silence_secs: -1.0, ..usual }),
+        ] {
+            let error = by_option(&sweep.check().unwrap_err());
+            assert!(error.starts_with(option) && error.contains("needs"), "{error}");
+        }
+    }
 }
