@@ -7,9 +7,13 @@ mod actuator_acf;
 mod actuator_list;
 mod actuator_show;
 mod actuator_source;
+mod blending;
 mod calibrate;
+mod calibrate_doubts;
 mod calibrate_live;
 mod calibrate_recording;
+mod calibrate_result;
+mod calibrate_sweep;
 mod devices;
 mod devices_pens;
 mod evaluate;
@@ -20,14 +24,20 @@ mod hid_files;
 mod import;
 mod import_hatt;
 mod import_recording;
+mod landings;
 mod latency;
+mod latency_onsets;
 mod library_list;
 mod library_make;
 mod library_places;
 mod library_source;
+mod limited;
 mod motion;
+mod near_names;
 mod output;
 mod play;
+mod receiver;
+mod recording_answers;
 mod render;
 mod rig;
 mod space_build;
@@ -35,16 +45,18 @@ mod space_judgments;
 mod space_panel;
 mod space_place;
 mod stroke;
+mod stroke_args;
 mod target;
 mod texture_path;
 mod texture_psd;
+mod watch;
 mod window;
 mod words;
 
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, FromArgMatches as _};
 
 /// An authoring tool for haptic textures. Without a command it opens the window.
 #[derive(clap::Parser)]
@@ -64,7 +76,6 @@ enum Command {
     /// Brings models and recordings of other programs into a library.
     #[command(subcommand)]
     Import(ImportCommand),
-    /// Renders a texture as a stylus would feel it, as float WAV in m/s².
     Render(render::Args),
     /// One texture: its spectrum, or a path of textures through the space.
     #[command(subcommand)]
@@ -126,10 +137,22 @@ enum TextureCommand {
     Path(Box<texture_path::Args>),
 }
 
+/// A command whose options take a number below zero for their value and not for another option, so that what is wrong with
+/// it is told.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    command
+        .mut_args(|arg| {
+            let takes_value = arg.get_action().takes_values() && !arg.is_positional();
+            if takes_value { arg.allow_negative_numbers(true) } else { arg }
+        })
+        .mut_subcommands(with_negative_numbers)
+}
+
 /// Does what the arguments of the program say.
 pub(crate) fn run() -> ExitCode {
     let started = Instant::now();
-    let cli = match Cli::try_parse() {
+    let matches = with_negative_numbers(Cli::command()).try_get_matches();
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return output::usage(&error),
     };
@@ -164,11 +187,11 @@ pub(crate) fn run() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::Cli;
+    use super::{Cli, with_negative_numbers};
     use clap::CommandFactory as _;
 
     #[test]
     fn the_arguments_do_not_contradict_each_other() {
-        Cli::command().debug_assert();
+        with_negative_numbers(Cli::command()).debug_assert();
     }
 }

@@ -1,6 +1,12 @@
 //! Profiles of actuators and their calibration, from outside: a simulated actuator plays the sweep that the program wrote.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
 
+#[cfg(target_os = "linux")]
+#[path = "support/guard.rs"]
+mod guard;
+#[cfg(target_os = "linux")]
+#[path = "support/sound.rs"]
+mod sound;
 mod support;
 
 use serde_json::Value;
@@ -164,23 +170,152 @@ fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
     bench.fails(
         "calibrate --make-sweep s.wav --rate 1500",
         1,
-        &["the end in Hz of the sweep is 1000, needs 675"],
+        &["--high: the end in Hz of the sweep is 1000, needs 675"],
     );
+    let limits = "--output null --input x --sensitivity 1";
+    bench.fails(&format!("calibrate {limits} --seconds 1000"), 2, &["--seconds", "needs 1 to 600"]);
+    bench.fails("calibrate --recording good.wav --amplitude 2", 2, &["--amplitude", "needs 0.000001 to 1"]);
+    let bytes = std::fs::read(bench.path("good.wav")).unwrap();
+    bench.write("torn.wav", &bytes[..30]);
+    fails(&format!("--recording torn.wav --sensitivity 40 {SWEEP}"), &["the WAV file", "torn.wav"]);
+    let (head, sound) = bytes.split_at(44);
+    // Two sweeps, and the first half of one, with sizes that say so little that they are not minded.
+    let open = |sound: &[u8]| {
+        let mut file = head.to_vec();
+        file[40..44].fill(0xff);
+        file.extend(sound);
+        file
+    };
+    bench.write("twice.wav", open(&[sound, sound].concat()));
+    fails(&format!("--recording twice.wav --sensitivity 40 {SWEEP}"), &["several sweeps", "twice.wav"]);
+    // One of them is found where there is quiet between them, and the other is told.
+    let quiet = vec![0; 2 * 20 * RATE_HZ as usize];
+    let quieter: Vec<u8> = sound
+        .chunks_exact(2)
+        .flat_map(|pair| ((f64::from(i16::from_le_bytes([pair[0], pair[1]])) * 0.8) as i16).to_le_bytes())
+        .collect();
+    bench.write("apart.wav", open(&[sound, &quiet, &quieter].concat()));
+    let said =
+        bench.run(&format!("calibrate --recording apart.wav --sensitivity 40 --full-scale-volts 2 {SWEEP}"));
+    assert!(said.code == 0 && said.stderr.contains("something else as loud as the sweep"), "{said:?}");
+    bench.write("half.wav", open(&sound[..sound.len() / 2]));
+    fails(&format!("--recording half.wav --sensitivity 40 {SWEEP}"), &["half.wav"]);
     bench.fails("calibrate --out p.toml", 2, &["--make-sweep"]);
     bench.fails("calibrate --make-sweep s.wav --recording good.wav", 2, &["cannot be used with"]);
     bench.fails(&calibrate("--recording good.wav --sensitivity 0"), 2, &["above 0"]);
 }
 
+/// The input is not there, which would be told as soon as something is opened.
 #[test]
-fn warnings_reach_the_reader() {
+fn places_for_what_is_measured_are_looked_at_before_anything_is_opened() {
     let bench = Bench::new();
-    record(&bench, "loud.wav", &[|a| (4.0 * a).clamp(-39.9, 39.9)]);
-    let said = bench
-        .run(&format!("calibrate --recording loud.wav --sensitivity 40 --full-scale-volts 2 {SWEEP} --json"));
+    let live = "calibrate --output null --input nosuch --sensitivity 10 --seconds 6";
+    bench.fails(live, 1, &["nosuch"]);
+    bench.write("notes.toml", "title = \"mine\"");
+    bench.write("file", "mine");
+    std::fs::create_dir_all(bench.path("taken/gain.svg")).unwrap();
+    for (places, words) in [
+        ("--out none/p.toml", &["none/p.toml", "folder is not there"][..]),
+        ("--out taken", &["taken", "it is a folder"]),
+        ("--out notes.toml", &["notes.toml", "something else"]),
+        ("--plots file", &["file", "into a folder"]),
+        ("--plots file/plots", &["file/plots", "cannot make the folder"]),
+        ("--plots taken", &["taken/gain.svg", "it is a folder"]),
+        ("--out plots/gain.csv --plots plots", &["plots/gain.csv", "the same file"]),
+    ] {
+        bench.fails(&format!("{live} {places}"), 1, words);
+    }
+    // What is there and could be written is left as it is.
+    bench.fails(&format!("{live} --out p.toml --plots new/plots"), 1, &["nosuch"]);
+}
+
+/// What the sink of a sound server gets while a sweep is played on it, with what is asked for beside: peaks of its channels.
+#[cfg(target_os = "linux")]
+fn peaks(server: &sound::SoundServer, more: &[&str]) -> [f64; 2] {
+    let words = ["calibrate", "--output", "pulse:ci", "--input", "alsa:pulse", "--sensitivity", "10"];
+    let sweep = ["--seconds", "1", "--silence", "0"];
+    let recorded = server.record(|server| {
+        // What is heard is not what counts here, but what was played.
+        let said = server.command(env!("CARGO_BIN_EXE_shagreen")).args(words).args(sweep).args(more).output();
+        let said = String::from_utf8_lossy(&said.unwrap().stderr).into_owned();
+        assert!(!said.contains("cannot calibrate"), "{said}");
+    });
+    [0, 1].map(|channel| recorded.iter().fold(0.0, |peak: f64, frame| peak.max(frame[channel].abs())))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_sweep_sounds_on_the_channel_that_is_asked_for() {
+    if !guard::have(&["pulseaudio", "pactl", "parec"]) {
+        return;
+    }
+    let server = sound::SoundServer::new();
+    let is_sweep = |peak: f64| (0.4..0.6).contains(&peak);
+    let [left, right] = peaks(&server, &[]);
+    assert!(is_sweep(left) && is_sweep(right), "{left} {right}");
+    let [left, right] = peaks(&server, &["--output-channel", "2"]);
+    assert!(left == 0.0 && is_sweep(right), "{left} {right}");
+}
+
+/// Nothing that is said is passed over: what has no meaning beside the rest is wrong usage.
+#[test]
+fn what_would_be_ignored_is_refused() {
+    let bench = Bench::new();
+    record(&bench, "good.wav", &[|a| a]);
+    let cannot = &["cannot be used with"][..];
+    for (arguments, words) in [
+        ("--recording good.wav --input alsa:x --sensitivity 40", cannot),
+        ("--recording good.wav --serial-sensor serial:x", cannot),
+        ("--recording good.wav --baud 9600 --sensitivity 40", cannot),
+        ("--recording good.wav --rate 4000", cannot),
+        ("--recording good.wav --output-channel 2", cannot),
+        ("--recording good.wav --sensitivity 40 --name Pen", &["--out", "--plots"]),
+        ("--make-sweep s.wav --out p.toml", cannot),
+        ("--make-sweep s.wav --name Pen", cannot),
+        ("--make-sweep s.wav --plots plots", cannot),
+        ("--make-sweep s.wav --sensitivity 3", cannot),
+        ("--make-sweep s.wav --channel 2", cannot),
+        ("--make-sweep s.wav --set rate_hz=4000", cannot),
+        ("--make-sweep s.wav --actuator mm1c", cannot),
+        ("--output null --input x --sensitivity 4 --set rate_hz=4000", cannot),
+        ("--output null --input x --sensitivity 4 --rate 4000", cannot),
+        ("--output null --input x --sensitivity 4 --baud 9600", cannot),
+        ("--output null --baud 9600", &["--serial-sensor"]),
+        ("--output null --serial-sensor serial:x --sensitivity 4", cannot),
+        ("--output null --serial-sensor serial:x --channel 2", cannot),
+    ] {
+        bench.fails(&format!("calibrate {arguments}"), 2, words);
+    }
+    bench.fails(
+        &format!("calibrate --recording good.wav --sensitivity 40 --channel 2 {SWEEP}"),
+        1,
+        &["no channel 2", "leave --channel out", "good.wav"],
+    );
+    bench.write("recorded.csv", "time_s,acceleration_g\n0,1\n0.001,2\n");
+    let table = format!("calibrate --recording recorded.csv --sensitivity 40 {SWEEP}");
+    bench.fails(&table, 2, &["--sensitivity is for WAV files", "--set"]);
+}
+
+/// A full scale that the resonance alone exceeds costs little and is told; one that most of the sweep exceeds is no
+/// measurement.
+#[test]
+fn what_is_cut_off_is_told_and_refused_where_it_is_too_much() {
+    let bench = Bench::new();
+    record(&bench, "loud.wav", &[|a| a.clamp(-12.0, 12.0)]);
+    record(&bench, "cut.wav", &[|a| a.clamp(-2.0, 2.0)]);
+    let calibrate =
+        |name: &str| format!("calibrate --recording {name} --sensitivity 40 --full-scale-volts 2 {SWEEP}");
+    let said = bench.run(&format!("{} --json", calibrate("loud.wav")));
     assert_eq!(said.code, 0, "{}", said.stderr);
-    assert!(said.stderr.contains("warning: ") && said.stderr.contains("cut off at 39.8"), "{}", said.stderr);
+    assert!(said.stderr.contains("warning: ") && said.stderr.contains("cut off at 12"), "{}", said.stderr);
+    assert!(said.stderr.contains("with less gain"), "{}", said.stderr);
     let value: Value = serde_json::from_str(&said.stdout).unwrap();
     assert!(!value["warnings"].as_array().unwrap().is_empty());
+    bench.fails(
+        &format!("{} --out p.toml --plots plots", calibrate("cut.wav")),
+        1,
+        &["of the sweep are cut off at 2.0 m/s²", "record again", "cut.wav"],
+    );
 }
 
 #[test]
@@ -198,6 +333,21 @@ fn the_built_in_actuators_are_listed_and_shown() {
         assert!((got.as_f64().unwrap() - expected).abs() < 3e-6, "{got} for {expected}");
     }
     assert!((shown["headroom"]["volts_per_mps2"].as_f64().unwrap() / 0.655 - 1.0).abs() < 0.01);
+    // The filter in numbers for a script, in words for a person; its gain by its coefficients never exceeds the bound.
+    let (inverse, lowest_hz) = (&shown["inverse"], shown["lowest_hz"].as_f64().unwrap());
+    assert_eq!(
+        (&inverse["lowest_hz"], &inverse["band_hz"]),
+        (&lowest_hz.into(), &vec![lowest_hz, 200.0].into())
+    );
+    let bound = inverse["volts_per_mps2_max"].as_f64().unwrap();
+    let number = |key: &str, i: usize| inverse[key][i].as_f64().unwrap();
+    let dc = (number("b", 0) + number("b", 1) + number("b", 2)) / (number("a", 0) + number("a", 1) + 1.0);
+    assert!(dc <= bound && bound < 1.2 * dc, "{dc} V for 1 m/s² at 0 Hz, bound {bound}");
+    let said = bench.run("actuator show haptuator-mark-ii --rate 2000").stdout;
+    let words =
+        format!("flat from {lowest_hz} Hz, where it is 3 dB down, to 200 Hz; never more than {bound:.3} V");
+    assert!(said.contains(&words), "{said}");
+    assert!(!bench.run("actuator show mm1c").stdout.contains("Equalizer"));
     let pen = bench.json("actuator show haptuator-mark-ii --load-g 40");
     assert!(pen["f0_hz"].as_f64().unwrap() > 65.5 && pen["gain"].as_f64().unwrap() > 5.0, "{pen}");
     let unknown = bench.json("actuator show mm1c");

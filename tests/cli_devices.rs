@@ -50,7 +50,10 @@ fn what_descriptors_declare() {
     bench.write("nonsense.bin", [0xc0, 0xff]);
     bench.write("empty.bin", []);
     let files = "pen.bin pen.txt pen.rec keyboard.bin broken.bin nonsense.bin empty.bin missing.bin";
-    let found = bench.json(&format!("devices --descriptor {files}"));
+    let said = bench.run(&format!("devices --descriptor {files} --json"));
+    assert_eq!(said.code, 1);
+    assert!(said.stderr.contains("3 of 8 could not be read"), "{}", said.stderr);
+    let found: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
     let found = found["descriptors"].as_array().unwrap();
     let names: Vec<&str> = found.iter().map(|entry| entry["file"].as_str().unwrap()).collect();
     assert_eq!(names, files.split(' ').collect::<Vec<_>>());
@@ -79,7 +82,7 @@ fn what_descriptors_declare() {
         }
     }
     let said = bench.run(&format!("devices --descriptor {files}"));
-    assert_eq!((said.code, said.stdout.lines().count()), (0, 8));
+    assert_eq!((said.code, said.stdout.lines().count()), (1, 8));
     assert!(
         said.stdout.contains("pen.bin: pen, report 26, 209.66 x 157.25 mm, pressure to 4095, 4.016 N, tilt")
     );
@@ -128,6 +131,37 @@ fn a_decoded_stroke_is_a_table_that_renders_the_same() {
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-4));
 }
 
+/// The object and the table have the same rows, from the same corner, since the same time.
+#[test]
+fn the_table_says_what_the_object_says() {
+    let bench = Bench::new();
+    // A clock that began long ago, two reports at one time, and a pen that leaves for a while.
+    let mut events = events().replace("E: 0.", "E: 1234.").replace("E: 1234.310000", "E: 1234.300000");
+    for i in 40..50 {
+        events = events.replace(&format!("E: 1234.{i}0000 12 1a 21"), &format!("E: 1234.{i}0000 12 1a 00"));
+    }
+    bench.write("pen.rec", format!("R: {} {PEN}\nI: 3 0001 0002\n{events}", bytes(PEN).len()));
+    let decoded = bench.json("devices --decode pen.rec -o stroke.csv");
+    let samples = decoded["samples"].as_array().unwrap();
+    assert_eq!(samples.len(), 89);
+    assert_eq!((&decoded["out_of_range"], &decoded["same_time"]), (&json!(10), &json!(1)));
+    assert_eq!((&decoded["start_s"], &samples[0]["t"]), (&json!(1234.0), &json!(0.0)));
+    let table = std::fs::read_to_string(bench.path("stroke.csv")).unwrap();
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("t_s,x_mm,y_mm,force_n,touching"));
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    assert_eq!(rows.len(), samples.len());
+    for (row, sample) in rows.iter().zip(samples) {
+        for (value, name) in row.iter().zip(["t", "x_mm", "y_mm", "force_n"]) {
+            // Written to a millionth.
+            assert!((value - sample[name].as_f64().unwrap()).abs() < 1e-6, "{name}: {value} in {sample}");
+        }
+        assert_eq!(row[4] == 1.0, sample["tip"] == true);
+    }
+    assert!((rows[0][1] - 50.0).abs() < 1e-9 && (rows[0][2] - 78.62).abs() < 1e-9, "{:?}", rows[0]);
+}
+
 #[test]
 fn a_pen_without_a_size_takes_one() {
     let bench = Bench::new();
@@ -151,13 +185,41 @@ fn what_cannot_be_decoded_says_why() {
     bench.write("notes.txt", "nothing");
     bench.fails("devices --decode events.txt", 1, &["no pen is declared", "events.txt"]);
     bench.fails("devices --decode keyboard.bin events.txt", 1, &["no pen is declared"]);
-    bench.fails("devices --decode pen.bin other.txt", 1, &["none of the 1 reports", "other.txt"]);
+    let unlike =
+        ["none of the 1 reports", "12 bytes that begin with 1a", "3 bytes and begins with 01", "other.txt"];
+    bench.fails("devices --decode pen.bin other.txt", 1, &unlike);
+    bench.write("torn.txt", "E: 0.0 12 1a 20 88\nE: 0.1 nonsense\nR: 3 05 0d\n");
+    bench.fails("devices --decode pen.bin torn.txt", 1, &["no recording", "torn.txt"]);
     bench.fails("devices --decode pen.bin notes.txt", 1, &["no recording", "notes.txt"]);
     bench.fails("devices --decode pen.bin missing.txt", 1, &["missing.txt"]);
     bench.fails("devices --decode missing.bin events.txt", 1, &["missing.bin"]);
     bench.fails("devices --decode pen.bin events.txt -o events.txt", 1, &["write over"]);
     bench.fails("devices --decode pen.bin events.txt --size-mm 12", 2, &["width and height"]);
     bench.fails("devices --descriptor pen.bin --decode pen.bin events.txt", 2, &[]);
+    bench.fails("devices --size-mm 216x135", 2, &["--decode"]);
+    bench.fails("devices --descriptor pen.bin --size-mm 216x135", 2, &["cannot be used with"]);
+    bench.fails("devices -o stroke.csv", 2, &["--decode"]);
+    bench.fails("devices --descriptor pen.bin -o stroke.csv", 2, &["cannot be used with"]);
+    // Both files are told.
+    let said = bench.run("devices --decode missing.bin missing.txt");
+    assert_eq!((said.code, said.stderr.lines().count()), (1, 2), "{}", said.stderr);
+    assert!(said.stderr.contains("missing.bin") && said.stderr.contains("missing.txt"), "{}", said.stderr);
+}
+
+/// As a shell writes that puts everything into UTF-16.
+#[test]
+fn recordings_in_utf_16_are_read() {
+    let bench = Bench::new();
+    let wide = |text: &str| -> Vec<u8> {
+        format!("\u{feff}{}", text.replace('\n', "\r\n")).encode_utf16().flat_map(u16::to_le_bytes).collect()
+    };
+    bench.write("pen.rec", recording());
+    bench.write("wide.rec", wide(&recording()));
+    bench.write("wide.hex", wide(PEN));
+    let narrow = bench.json("devices --decode pen.rec");
+    assert_eq!(bench.json("devices --decode wide.rec")["samples"], narrow["samples"]);
+    assert_eq!(bench.json("devices --decode wide.hex wide.rec")["samples"], narrow["samples"]);
+    bench.json("render --texture cork --stroke wide.rec -o a.wav");
 }
 
 #[test]
@@ -186,8 +248,9 @@ fn a_recorded_pen_partner_draws_a_plausible_stroke() {
     let bench = Bench::new();
     let decoded = bench.json(&format!("devices --decode {}", file.display()));
     let samples = decoded["samples"].as_array().unwrap();
-    assert_eq!(samples.len(), 757);
-    let touching = samples.iter().filter(|sample| sample["tip"] == true && sample["in_range"] == true);
+    assert_eq!((samples.len(), &decoded["out_of_range"]), (746, &json!(11)));
+    assert!(samples.iter().all(|sample| sample["in_range"] == true));
+    let touching = samples.iter().filter(|sample| sample["tip"] == true);
     assert_eq!(touching.clone().count(), 38);
     for sample in touching {
         assert!(sample["pressure"].as_f64().unwrap() > 0.2);

@@ -30,6 +30,22 @@ fn wrong_usage_is_two() {
         ("render --nonsense", &["--nonsense"]),
         ("play --texture cork --buffer 4294967295", &["--buffer", "65536"]),
         ("play --texture cork --buffer 15", &["--buffer", "16"]),
+        ("play --texture cork --output null --baud 9600", &["cannot be used with", "--output"]),
+        ("play --texture cork --output null --serial-mode control", &["cannot be used with", "--output"]),
+        ("play --texture cork --full-scale 3 --load-g 40", &["cannot be used with", "--full-scale"]),
+        ("play --texture cork --full-scale 3 --full-scale-volts 4", &["cannot be used with", "--full-scale"]),
+        ("play --texture cork --full-scale 3 --no-equalizer", &["cannot be used with", "--full-scale"]),
+        // A number below zero is a wrong value and not another option.
+        ("calibrate --recording r.wav --sensitivity -5", &["--sensitivity", "above 0"]),
+        ("calibrate --recording r.wav --load-g -5", &["--load-g", "from 0.01 to 100000"]),
+        ("calibrate --make-sweep s.wav --low -5", &["--low", "needs 0.1 to"]),
+        ("calibrate --make-sweep s.wav --rate -5", &["--rate"]),
+        ("actuator show mm1c --load-g -0.5", &["--load-g", "a mass in g"]),
+        ("play --texture cork --full-scale -1", &["--full-scale", "from 0 up"]),
+        ("play --texture cork --channel -1", &["--channel", "-1"]),
+        ("play --texture cork --seed -1", &["--seed", "-1"]),
+        ("latency --input x --report-rate -5", &["--report-rate", "from 20"]),
+        ("devices --decode a.txt --size-mm -5x10", &["--size-mm", "width and height"]),
         ("texture psd --at 30,70 --speed 100", &["--force"]),
         ("texture psd --at 30,70 --speed 100 --force 1 --bins 1", &["--bins"]),
     ] {
@@ -46,7 +62,12 @@ fn what_cannot_be_done_is_one() {
             &["no texture \"crok\"", "did you mean cork"][..],
         ),
         (format!("render --texture xyzzy {STEADY} -o o.wav"), &["xyzzy", "library list"]),
-        (format!("render --texture cork {STEADY} -o none/o.wav"), &["none/o.wav", "folder"]),
+        (format!("render --texture cork {STEADY} -o none/o.wav"), &["none/o.wav", "its folder is not there"]),
+        ("library list --library none/l.json".to_owned(), &["there is no such file", "none/l.json"]),
+        (
+            "export --texture cork --format hatt -o none/o.xml".to_owned(),
+            &["its folder is not there", "none/o.xml"],
+        ),
         (format!("render --texture cork {STEADY} -o o.json"), &["o.json", ".wav"]),
         (format!("render --texture cork {STEADY} --rate 500 -o o.wav"), &["1000 Hz", "500"]),
         ("render --texture cork --speed 1 --force 1 --seconds 9999 -o o.wav".to_owned(), &["3600"]),
@@ -139,6 +160,45 @@ fn pressures_beyond_the_full_scale_are_refused() {
     let words = ["pressure in line 2 is 12000", "8191", "--pressure-max", "stroke.svc"];
     bench.fails("render --at 30,70 --stroke stroke.svc --pressure-max 8191 -o out.wav", 1, &words);
     bench.fails("render --at 30,70 --stroke stroke.svc --mm-per-count 0 -o out.wav", 1, &["mm", "positive"]);
+}
+
+/// Options that say nothing about the stroke at hand are not passed over.
+#[test]
+fn how_a_stroke_is_read_is_asked_of_what_can_tell() {
+    let bench = Bench::new();
+    bench.write("stroke.svc", strokes::synthetic());
+    bench.write("contacts.csv", "t_s,speed,force\n0,100,1\n1,100,1\n");
+    bench.write("newtons.csv", "t_s,x,y,force\n0,0,0,1\n0.01,1,0,1\n");
+    bench.write("shares.csv", "t_s,x,y,pressure\n0,0,0,0.5\n0.01,1,0,0.5\n");
+    // A pen that declares neither its size nor its force.
+    let descriptor = "05 0d 09 02 a1 01 85 01 09 20 a1 00 09 42 15 00 25 01 75 01 95 01 81 02 95 07 81 03 05 01 09 30 \
+        75 10 95 01 26 10 27 81 02 09 31 81 02 05 0d 09 30 26 ff 0f 81 02 c0 c0";
+    let mut hid = format!("R: {} {descriptor}\n", descriptor.split_whitespace().count());
+    for i in 0..50 {
+        hid += &format!("E: 0.{i:02} 8 01 01 {i:02x} 00 00 00 00 08\n");
+    }
+    bench.write("hid.txt", hid);
+    let render = |options: &str| format!("render --texture cork {options} -o out.wav");
+    for (options, words) in [
+        ("--stroke stroke.svc --size-mm 216x135", &["--size-mm", "a .svc file", "stroke.svc"][..]),
+        ("--stroke contacts.csv --force-max 3", &["--force-max", "speed and force"]),
+        ("--stroke contacts.csv --pressure-max 3", &["--pressure-max"]),
+        ("--stroke newtons.csv --pressure-curve 1", &["--pressure-curve", "force in N"]),
+        ("--stroke shares.csv --mm-per-count 1", &["--mm-per-count", "with pressure"]),
+        ("--stroke hid.txt --size-mm 200x100 --mm-per-count 1", &["--mm-per-count", "HID"]),
+        ("--stroke hid.txt --size-mm 200x100 --ms-per-tick 1", &["--ms-per-tick", "HID"]),
+        (&format!("{STEADY} --mm-per-count 1"), &["--mm-per-count", "--stroke"]),
+        (&format!("{STEADY} --force-min 0.1"), &["--force-min", "--stroke"]),
+    ] {
+        bench.fails(&render(options), 2, words);
+    }
+    for options in [
+        "--stroke stroke.svc --mm-per-count 0.01 --force-max 3",
+        "--stroke shares.csv --pressure-curve 1",
+        "--stroke hid.txt --size-mm 200x100 --force-max 3",
+    ] {
+        bench.json(&render(options));
+    }
 }
 
 #[test]

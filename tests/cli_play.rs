@@ -40,3 +40,35 @@ fn what_is_limited_is_counted() {
         Bench::new().json("play --texture brick --speed 200 --force 2 --seconds 0.4 --full-scale 0.1");
     assert!(played["limited"].as_u64().unwrap() > 1000, "{played}");
 }
+
+/// A known actuator has two limiters in a row; a sample that both turn down is one.
+#[test]
+fn no_more_is_limited_than_was_played_and_the_limit_is_named() {
+    let bench = Bench::new();
+    let steady = "play --texture brick --speed 200 --force 2 --seconds 0.5";
+    let coil = "--actuator haptuator-mark-ii --full-scale-volts";
+    for (limits, words) in [
+        (
+            "--full-scale 0.0001".to_owned(),
+            &["met the ceiling of the output's full scale", "--full-scale"][..],
+        ),
+        (format!("{coil} 0.001"), &["met the ceiling of what the actuator", "--speed"]),
+    ] {
+        let said = bench.run(&format!("{steady} {limits} --json"));
+        assert_eq!(said.code, 0, "{}", said.stderr);
+        let played: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
+        let share = played["limited_share"].as_f64().unwrap();
+        assert!(share > 0.5 && share <= 1.0, "{share}");
+        assert!(words.iter().all(|word| said.stderr.contains(word)), "{}", said.stderr);
+    }
+    // Nothing to say where nothing was turned down.
+    let said = bench.run("play --texture glass --speed 50 --force 0.2 --seconds 0.3");
+    assert!(said.stdout.contains("samples limited: none") && said.stderr.is_empty(), "{said:?}");
+}
+
+#[test]
+fn a_channel_that_is_not_there_is_refused() {
+    let bench = Bench::new();
+    bench.fails("play --texture cork --seconds 0.2 --channel 9", 1, &["no channel 9", "`null` has 2"]);
+    bench.json("play --texture cork --seconds 0.2 --channel 2");
+}

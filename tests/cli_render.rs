@@ -130,6 +130,50 @@ fn strokes_can_be_tables() {
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 }
 
+/// A library whose cork knows how it sounds when a tip lands on it.
+fn write_tapped_cork(bench: &Bench) {
+    let starter = include_str!("../assets/starter/starter.json");
+    let tap = "\"tap\": {\"frequency_hz\": 180, \"decay_per_s\": 90, \"amplitude_mps2\": 6}, ";
+    let cork = starter.find("\"id\": \"cork\"").unwrap();
+    let (before, after) = starter.split_at(cork);
+    let tapped = format!("{before}{tap}{after}").replacen("\"version\": \"1.0\"", "\"version\": \"1.1\"", 1);
+    bench.write("tapped.json", tapped);
+}
+
+/// As it is played live, a stroke taps where the tip lands, and a steady contact does not.
+#[test]
+fn landings_in_a_stroke_are_rendered() {
+    let bench = Bench::new();
+    write_tapped_cork(&bench);
+    // On the surface from 0.5 to 1.2 s, and from 1.6 s on.
+    let down = |i: u32| (500..1200).contains(&i) || i >= 1600;
+    let rows = (0..2000).map(|i| format!("{},{},{}\n", f64::from(i) / 1e3, 100, u8::from(down(i))));
+    bench.write("stroke.csv", format!("t_s,speed,force\n{}", rows.collect::<String>()));
+    let rendered = |arguments: &str| {
+        bench.json(&format!("render --texture cork {arguments} --seed 5 -o out.wav"));
+        bench.wav("out.wav").0
+    };
+    for rate_hz in [1000_u32, 8000] {
+        let stroke = format!("--stroke stroke.csv --rate {rate_hz}");
+        let (with, without) = (rendered(&format!("{stroke} --library tapped.json")), rendered(&stroke));
+        let taps: Vec<f64> = with.iter().zip(&without).map(|(a, b)| a - b).collect();
+        let rate = f64::from(rate_hz);
+        let peak = |from: f64, to: f64| {
+            let part = &taps[(from * rate) as usize..(to * rate) as usize];
+            part.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()))
+        };
+        for landing in [0.5, 1.6] {
+            // The first half wave of the equation, 1.4 ms behind its beginning, is 6 e^(-90 t) sin(2π 180 t) high: 5.3.
+            let first = peak(landing - 0.002, landing + 0.010);
+            assert!((4.5..6.0).contains(&first), "{first} m/s² at {landing} s");
+            assert!(peak(landing + 0.2, landing + 0.3) < 1e-5);
+        }
+        assert!(peak(0.0, 0.498) < 1e-5 && peak(1.0, 1.598) < 1e-5);
+    }
+    let steady = "--speed 100 --force 1 --seconds 1";
+    assert!(rendered(&format!("{steady} --library tapped.json")) == rendered(steady));
+}
+
 #[test]
 fn the_same_seed_gives_the_same_file() {
     let bench = Bench::new();

@@ -15,7 +15,19 @@ use shagreen_device::serial::message::RunState;
 use shagreen_device::serial::receiver::{About, Receiver};
 use support::Bench;
 
-const ABOUT: About = About { has_control: true, name: "test board", ..About::STREAM };
+const ABOUT: About = About { has_control: true, ..About::STREAM };
+
+/// How a receiver behaves.
+#[derive(Clone, Copy)]
+struct Manners {
+    name: &'static str,
+    /// Says this again and again while it plays.
+    warning: Option<&'static str>,
+    /// Says nothing any more once it has played so many samples.
+    last_words_at: usize,
+}
+
+const GOOD: Manners = Manners { name: "test board", warning: None, last_words_at: usize::MAX };
 
 /// A receiver whose clock waits for samples, so that a busy machine changes nothing; what it played when it is stopped.
 struct Board {
@@ -26,15 +38,23 @@ struct Board {
 
 impl Board {
     fn new() -> Self {
+        Self::with(GOOD)
+    }
+
+    fn with(manners: Manners) -> Self {
         let (mut master, slave) = TTYPort::pair().unwrap();
         let port = slave.name().unwrap();
         master.set_timeout(Duration::from_millis(1)).unwrap();
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = Arc::clone(&stop);
         let thread = std::thread::spawn(move || {
-            let mut receiver = Receiver::<256>::new(ABOUT);
+            let mut receiver = Receiver::<256>::new(About { name: manners.name, ..ABOUT });
             let (mut played, mut wire) = (Vec::new(), [0; MAX_WIRE]);
             while !stopped.load(Ordering::Relaxed) {
+                if played.len() >= manners.last_words_at {
+                    std::thread::sleep(Duration::from_millis(10));
+                    continue;
+                }
                 let mut bytes = [0; 4096];
                 // Nothing came, or nobody has the port open.
                 let n = master.read(&mut bytes).unwrap_or(0);
@@ -46,6 +66,9 @@ impl Board {
                         status.queued > 0 && (status.state == RunState::Playing || status.queued >= prefill);
                     if is_ready {
                         played.push(receiver.tick(0));
+                        if let Some(warning) = manners.warning.filter(|_| played.len() % 100 == 0) {
+                            receiver.fault(false, warning);
+                        }
                     }
                     let len = receiver.transmit(&mut wire);
                     let _ = master.write_all(&wire[..len]);
@@ -86,6 +109,37 @@ fn a_texture_is_played_on_a_microcontroller() {
 }
 
 #[test]
+fn what_a_receiver_warns_of_is_told_once_by_its_name() {
+    let board =
+        Board::with(Manners { warning: Some("the coil\u{1b}[2J is warm"), name: "b\u{7}oard", ..GOOD });
+    let said = Bench::new().run(&format!("play --texture brick --seconds 0.5 --serial {}", board.port));
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    let told: Vec<&str> = said.stderr.lines().filter(|line| line.contains("is warm")).collect();
+    let expected = format!(
+        r"warning: the receiver `b\u{{7}}oard` on `serial:{}` warns: the coil\u{{1b}}[2J is warm",
+        board.port
+    );
+    assert_eq!(told, [expected]);
+    assert!(said.stderr.contains(r"note: the receiver is `b\u{7}oard`"), "{}", said.stderr);
+    board.finish();
+}
+
+#[test]
+fn a_receiver_that_stops_answering_is_named_while_it_is_awaited_and_not_for_ever() {
+    let board = Board::with(Manners { last_words_at: 1000, ..GOOD });
+    let started = std::time::Instant::now();
+    let said = Bench::new().run(&format!("play --texture brick --seconds 60 --serial {}", board.port));
+    assert_eq!(said.code, 1, "{}", said.stderr);
+    let name = format!("the receiver `test board` on `serial:{}`", board.port);
+    let lines: Vec<&str> = said.stderr.lines().filter(|line| line.contains(&name)).collect();
+    assert_eq!(lines.len(), 2, "{}", said.stderr);
+    assert!(lines[0].starts_with("warning: ") && lines[0].contains("asks for no samples"), "{}", lines[0]);
+    assert!(lines[1].starts_with("error: ") && lines[1].contains("its cable"), "{}", lines[1]);
+    assert!(started.elapsed() < Duration::from_secs(20), "{:?}", started.elapsed());
+    board.finish();
+}
+
+#[test]
 fn what_cannot_be_is_said() {
     let bench = Bench::new();
     bench.fails("play --texture cork --serial ./no-port", 1, &["serial:./no-port", "shagreen devices"]);
@@ -94,6 +148,13 @@ fn what_cannot_be_is_said() {
     let board = Board::new();
     let slow = format!("play --texture cork --serial {} --baud 9600", board.port);
     bench.fails(&slow, 1, &["9600 baud", "--baud"]);
+    let play = "play --texture cork --channel 2 --serial";
+    let calibrate = "calibrate --output-channel 2 --serial-sensor";
+    for command in
+        [format!("{play} {}", board.port), format!("{calibrate} {0} --output serial:{0}", board.port)]
+    {
+        bench.fails(&command, 1, &["has one channel", &board.port]);
+    }
     let (_master, slave) = TTYPort::pair().unwrap();
     let port = slave.name().unwrap();
     drop(slave);

@@ -1,7 +1,7 @@
 //! `shagreen actuator show`: what is known of an actuator, and what follows from it.
 
 use serde_json::json;
-use shagreen_core::actuator::inverse;
+use shagreen_core::actuator::{inverse, inverse_gain_bound};
 use shagreen_core::units::{Hertz, Kilograms};
 
 use crate::cli::actuator_source::{actuator_json, grams, load_actuator};
@@ -9,6 +9,8 @@ use crate::cli::output;
 
 /// The band of a texture that headroom is told for, in Hz.
 const TEXTURE_HZ: [f64; 2] = [20.0, 400.0];
+/// Share of its rate up to which a filter does what it was made after.
+const FAITHFUL_SHARE: f64 = 0.1;
 
 /// Shows a profile: its response on a load, what it bears, its headroom and the filter that makes up for it.
 #[derive(clap::Args)]
@@ -31,10 +33,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let actuator = load_actuator(&args.actuator, args.load_g)?;
     let (limits, physical) = (actuator.limits, actuator.physical);
     let headroom = actuator.headroom(Hertz(TEXTURE_HZ[0]), Hertz(TEXTURE_HZ[1])).ok();
-    let filter = match actuator.response() {
-        Ok(response) => Some(inverse(&response, actuator.lowest, Hertz(f64::from(args.rate)))?),
-        Err(_) => None, // Told as such.
+    let rate_hz = f64::from(args.rate);
+    let (filter, gain_bound) = match actuator.response() {
+        Ok(response) => {
+            let filter = inverse(&response, actuator.lowest, Hertz(rate_hz))?;
+            (Some(filter), Some(inverse_gain_bound(&response, actuator.lowest)))
+        }
+        Err(_) => (None, None), // Told as such.
     };
+    let band_hz = [actuator.lowest.0, FAITHFUL_SHARE * rate_hz];
     let mut result = actuator_json(&actuator);
     result["limits"] = json!({
         "rated_v_rms": limits.rated_volts_rms.map(|v| v.0),
@@ -58,6 +65,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     });
     result["inverse"] = json!({
         "rate_hz": args.rate,
+        "lowest_hz": actuator.lowest.0,
+        "band_hz": filter.map(|_| band_hz),
+        "volts_per_mps2_max": gain_bound,
         "b": filter.map(|f| f.b),
         "a": filter.map(|f| f.a),
     });
@@ -83,6 +93,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             lines.push(format!(
                 "A flat texture of {low} to {high} Hz takes {:.3} V rms for 1 m/s² rms{rated}",
                 headroom.volts_per_mps2
+            ));
+        }
+        if let Some(gain_bound) = gain_bound {
+            let [low, high] = band_hz;
+            lines.push(format!(
+                "Equalizer at {rate_hz} Hz: with it flat from {low} Hz, where it is 3 dB down, to {high} Hz; never more than {gain_bound:.3} V for 1 m/s²"
             ));
         }
         lines.push(actuator.source.clone());

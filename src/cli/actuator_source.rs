@@ -1,5 +1,6 @@
 //! Actuators that a command line names: built-in profiles, or files.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
@@ -46,9 +47,14 @@ pub(crate) fn actuator_json(actuator: &Actuator) -> Value {
     })
 }
 
+/// Loads that can hang on an actuator, in g.
+const LOADS_G: RangeInclusive<f64> = 0.01..=100_000.0;
+
 /// A load in g on the command line.
 pub(crate) fn grams(text: &str) -> Result<f64, String> {
-    positive(text, "a mass in g")
+    let (least, most) = (LOADS_G.start(), LOADS_G.end());
+    let load_g = text.parse().ok().filter(|load_g| LOADS_G.contains(load_g)); // Anything else is said below.
+    load_g.ok_or_else(|| format!("needs a mass in g from {least} to {most}"))
 }
 
 /// A voltage in V on the command line.

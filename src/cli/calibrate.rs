@@ -3,28 +3,47 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
-use serde_json::{Value, json};
-use shagreen_core::actuator::{Actuator, Drive};
-use shagreen_core::calibration::{Calibration, Fit, Sweep, calibrate, fitted_actuator};
-use shagreen_core::units::{Hertz, Kilograms, Volts};
+use shagreen_core::actuator::Drive;
+use shagreen_core::calibration::calibrate;
+use shagreen_core::units::Volts;
+use shagreen_device::engine::ChannelMask;
 use shagreen_device::measure::Listener;
 use shagreen_device::serial::USUAL_BAUD;
 use shagreen_formats::actuator_toml::{read_actuator, write_actuator};
 use shagreen_formats::calibration_report::calibration_figures;
-use shagreen_formats::library::id_from_name;
 use shagreen_formats::recording::Ask;
-use shagreen_formats::wav;
 
 use crate::cli::actuator_source::{grams, load_actuator, positive, volts};
+use crate::cli::calibrate_doubts::{advised, other_sound, refuse_clipped};
 use crate::cli::calibrate_live::record_live;
-use crate::cli::calibrate_recording::{Recorded, recorded_file};
-use crate::cli::figures_folder::{check_figures, figure_files, write_together};
+use crate::cli::calibrate_recording::recorded_file;
+use crate::cli::calibrate_result::{print, profile};
+use crate::cli::calibrate_sweep::{SweepArgs, write_sweep};
+use crate::cli::figures_folder::{check_figures, check_together, figure_files, write_together};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::import_recording::parse_answer;
 use crate::cli::output;
+use crate::cli::recording_answers::parse_answer;
+use crate::cli::rig::channels;
 
 /// Names of the figures, without the endings.
 const FIGURES: [&str; 3] = ["gain", "residual", "distortion"];
+
+/// What says nothing about a sweep that is written.
+const NOT_OF_A_SWEEP: [&str; 13] = [
+    "input",
+    "serial_sensor",
+    "baud",
+    "output_channel",
+    "sensitivity",
+    "channel",
+    "answers",
+    "full_scale_volts",
+    "load_g",
+    "actuator",
+    "name",
+    "out",
+    "plots",
+];
 
 /// Fits an actuator's response to a sweep.
 ///
@@ -33,27 +52,31 @@ const FIGURES: [&str; 3] = ["gain", "residual", "distortion"];
 /// second before to a second after, and give the recording.
 #[derive(clap::Args)]
 #[command(group(clap::ArgGroup::new("what").required(true).args(["make_sweep", "recording", "output"])))]
+#[command(group(clap::ArgGroup::new("named").multiple(true).args(["out", "plots"])))]
 pub(crate) struct Args {
     /// Write the sweep to play, and nothing else.
-    #[arg(long, value_name = "OUT.wav")]
+    #[arg(long, value_name = "OUT.wav", conflicts_with_all = NOT_OF_A_SWEEP)]
     make_sweep: Option<PathBuf>,
     /// Rate of the sweep to write, in Hz.
-    #[arg(long, value_name = "HZ", default_value_t = 48_000, value_parser = clap::value_parser!(u32).range(1..=768_000))]
+    #[arg(long, value_name = "HZ", default_value_t = 48_000, value_parser = clap::value_parser!(u32).range(1..=768_000), conflicts_with_all = ["recording", "output"])]
     rate: u32,
     /// The recorded sweep: WAV, or a table with a column of acceleration.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["input", "serial_sensor", "baud", "output_channel"])]
     recording: Option<PathBuf>,
     /// Output to play the sweep on, by its id; `shagreen devices` lists them.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", conflicts_with = "answers")]
     output: Option<String>,
+    /// The only channel of that output to drive, from 1; without it the first two.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
+    output_channel: Option<u16>,
     /// Input of the system's sound that an accelerometer is on, by its id.
     #[arg(long, value_name = "ID", requires_all = ["output", "sensitivity"])]
     input: Option<String>,
     /// Serial port of a receiver with an accelerometer: docs/serial-protocol.md.
-    #[arg(long, value_name = "PORT", requires = "output", conflicts_with = "input")]
+    #[arg(long, value_name = "PORT", requires = "output", conflicts_with_all = ["input", "sensitivity", "channel"])]
     serial_sensor: Option<String>,
     /// Baud rate of that port.
-    #[arg(long, value_name = "N", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = USUAL_BAUD, requires = "serial_sensor", conflicts_with = "input", value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// Acceleration of a sample of 1.0 of a WAV file or an input, in m/s².
     #[arg(long, value_name = "MPS2", value_parser = |text: &str| positive(text, "an acceleration in m/s²"))]
@@ -68,47 +91,27 @@ pub(crate) struct Args {
     /// what a voltmeter shows. Without it a volt is taken: the profile is
     /// then right for this output at this volume, and its limits in volts mean nothing.
     #[arg(long, value_name = "V", value_parser = volts)]
-    full_scale_volts: Option<f64>,
+    pub(crate) full_scale_volts: Option<f64>,
     /// Mass of what the actuator was fixed to, in g, without the actuator.
     #[arg(long, value_name = "G", value_parser = grams)]
-    load_g: Option<f64>,
+    pub(crate) load_g: Option<f64>,
     /// The actuator that was measured, where there is a profile of it: maker, limits and masses are taken from there.
     #[arg(long, value_name = "ID_OR_FILE")]
     actuator: Option<String>,
-    /// What to call it.
-    #[arg(long, value_name = "NAME")]
-    name: Option<String>,
+    /// What to call it, in the profile and in the figures.
+    #[arg(long, value_name = "NAME", requires = "named")]
+    pub(crate) name: Option<String>,
     /// Profile to write.
     #[arg(long, value_name = "PROFILE.toml")]
-    out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Folder for figures, as SVG and CSV.
     #[arg(long, value_name = "FOLDER")]
     plots: Option<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
-    json: bool,
+    pub(crate) json: bool,
     #[command(flatten)]
     sweep: SweepArgs,
-}
-
-/// The sweep that is written, or was played.
-#[derive(clap::Args)]
-struct SweepArgs {
-    /// Frequency at which the sweep begins, in Hz.
-    #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.low.0)]
-    low: f64,
-    /// Frequency at which it ends, in Hz.
-    #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.high.0)]
-    high: f64,
-    /// How long it takes, in s.
-    #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.seconds)]
-    seconds: f64,
-    /// Its peak as a share of digital full scale.
-    #[arg(long, value_name = "SHARE", default_value_t = Sweep::USUAL.amplitude)]
-    amplitude: f64,
-    /// Silence before and behind it, in s.
-    #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.silence_secs)]
-    silence: f64,
 }
 
 /// Where the recording comes from.
@@ -116,7 +119,7 @@ enum Source<'a> {
     /// A file that was recorded by whatever.
     File(&'a Path),
     /// A sweep that is played now.
-    Live(&'a str, Listener),
+    Live(&'a str, ChannelMask, Listener),
 }
 
 impl Source<'_> {
@@ -132,7 +135,7 @@ impl Source<'_> {
     fn name(&self) -> String {
         match self {
             Self::File(path) => output::file_name(path),
-            Self::Live(id, _) => format!("played on {id}"),
+            Self::Live(id, ..) => format!("played on {id}"),
         }
     }
 
@@ -147,15 +150,9 @@ impl Source<'_> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let sweep = Sweep {
-        low: Hertz(args.sweep.low),
-        high: Hertz(args.sweep.high),
-        seconds: args.sweep.seconds,
-        amplitude: args.sweep.amplitude,
-        silence_secs: args.sweep.silence,
-    };
+    let sweep = args.sweep.sweep()?;
     if let Some(out) = &args.make_sweep {
-        return make_sweep(args, &sweep, out);
+        return write_sweep(&sweep, args.rate, out, args.json);
     }
     let source = source(args)?;
     let inputs = [source.path(), args.actuator.as_deref().map(Path::new)];
@@ -166,6 +163,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(folder) = &args.plots {
         check_figures(folder, &FIGURES, &inputs)?;
     }
+    // Before anything sounds: a measurement that cannot be kept has to be made again.
+    let out: Vec<&Path> = args.out.iter().map(PathBuf::as_path).collect();
+    check_together(&out, args.plots.as_deref(), &FIGURES)?;
     let base = args.actuator.as_deref().map(|name| load_actuator(name, None)).transpose()?;
     if args.full_scale_volts.is_none() {
         output::note(
@@ -177,12 +177,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Source::File(path) => {
             recorded_file(path, args.sensitivity, args.channel.map(usize::from), &args.answers)?
         }
-        Source::Live(id, listener) => record_live(id, listener, &sweep, base.as_ref(), drive)?,
+        Source::Live(id, channels, listener) => {
+            record_live((id, *channels), listener, &sweep, base.as_ref(), drive)?
+        }
     };
-    let calibration = source.told(calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive))?;
-    for warning in &calibration.warnings {
-        output::warn(&warning.to_string());
-    }
+    let calibration = calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive);
+    let calibration = source.told(calibration.map_err(|error| advised(&error, &recorded, &sweep)))?;
+    source.told(refuse_clipped(&calibration))?;
+    let mut warnings: Vec<String> = calibration.warnings.iter().map(ToString::to_string).collect();
+    warnings.extend(other_sound(&recorded, calibration.begins_secs, &sweep));
+    warnings.iter().for_each(|warning| output::warn(warning));
     let fit = source.told(calibration.fit.clone())?;
     let actuator = profile(args, &source.name(), base, &fit, drive);
     let mut files = Vec::new();
@@ -199,7 +203,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     }
     write_together(&files, args.plots.as_deref())?;
-    print(args, &recorded, &calibration, &fit, &figures);
+    print(args, &recorded, &calibration, &fit, (&warnings, &figures));
     Ok(())
 }
 
@@ -220,103 +224,5 @@ fn source(args: &Args) -> anyhow::Result<Source<'_>> {
             "say what listens: --input ID and its --sensitivity, or --serial-sensor PORT".to_owned()
         )),
     };
-    Ok(Source::Live(id, listener))
-}
-
-fn make_sweep(args: &Args, sweep: &Sweep, out: &Path) -> anyhow::Result<()> {
-    refuse_foreign(out, "the sweep", |bytes| bytes.starts_with(b"RIFF"))?;
-    let samples = sweep.signal(Hertz(f64::from(args.rate)))?;
-    let samples: Vec<f32> = samples.iter().map(|sample| *sample as f32).collect();
-    wav::write_samples(out, &samples, args.rate)?;
-    let seconds = samples.len() as f64 / f64::from(args.rate);
-    output::print(
-        args.json,
-        &json!({
-            "sweep": out.display().to_string(),
-            "rate_hz": args.rate,
-            "seconds": seconds,
-            "sweep_seconds": sweep.seconds,
-            "low_hz": sweep.low.0,
-            "high_hz": sweep.high.0,
-            "amplitude": sweep.amplitude,
-        }),
-        || {
-            format!(
-                "Wrote a sweep of {} s from {} to {} Hz, {seconds} s with the silence around it, to play at once and record\n{}",
-                sweep.seconds,
-                sweep.low.0,
-                sweep.high.0,
-                out.display()
-            )
-        },
-    );
-    Ok(())
-}
-
-/// The profile of what was measured, on top of one that was known.
-fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit, drive: Drive) -> Actuator {
-    let name = args
-        .name
-        .clone()
-        .or_else(|| base.as_ref().map(|b| b.name.clone()))
-        .unwrap_or("My actuator".to_owned());
-    let load = args.load_g.map(Kilograms::from_g);
-    let on = load.map_or("an unknown load".to_owned(), |load| format!("{} g", load.g()));
-    let assumed = if args.full_scale_volts.is_none() { ", which is assumed" } else { "" };
-    let mut source = format!(
-        "Response measured on {on} with a sweep ({file}), taking {} V for digital full scale{assumed}",
-        drive.full_scale.0
-    );
-    if let Some(base) = &base {
-        source = format!("{source}; everything else from the profile {}: {}", base.id, base.source);
-    }
-    Actuator { id: id_from_name(&name), name, source, ..fitted_actuator(base, fit, load, drive) }
-}
-
-fn print(args: &Args, recorded: &Recorded, calibration: &Calibration, fit: &Fit, figures: &[String]) {
-    let response = fit.response;
-    let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
-    let warnings: Vec<Value> = calibration.warnings.iter().map(|w| json!(w.to_string())).collect();
-    let curve = &calibration.curve;
-    let worst = calibration.worst_distortion();
-    output::print(
-        args.json,
-        &json!({
-            "f0_hz": hz,
-            "q": q,
-            "gain": gain,
-            "fit_error_db": fit.error_db,
-            "f0_error_hz": fit.resonance_error_hz,
-            "q_error": fit.q_error,
-            "gain_error": fit.gain_error_mps2_per_v,
-            "band_hz": [fit.band.0.0, fit.band.1.0],
-            "full_scale_volts": args.full_scale_volts,
-            "load_g": args.load_g,
-            "channel": recorded.channel,
-            "rate_hz": recorded.rate.0,
-            "begins_s": calibration.begins_secs,
-            "distortion_max": worst.as_ref().map(|w| json!({"share": w.share, "hz": w.frequency.0})),
-            "curve": {
-                "hz": curve.iter().map(|p| p.frequency.0).collect::<Vec<_>>(),
-                "gain": curve.iter().map(|p| p.gain_mps2_per_v).collect::<Vec<_>>(),
-                "noise": curve.iter().map(|p| p.noise_mps2_per_v).collect::<Vec<_>>(),
-            },
-            "warnings": warnings,
-            "figures": figures,
-            "out": args.out.as_ref().map(|out| out.display().to_string()),
-        }),
-        || {
-            let mut lines = vec![format!(
-                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, {gain:.4} ± {:.4} (m/s²)/V; the fit is off by {:.2} dB rms",
-                fit.resonance_error_hz, fit.q_error, fit.gain_error_mps2_per_v, fit.error_db
-            )];
-            if let Some(worst) = &worst {
-                let (percent, at) = (100.0 * worst.share, worst.frequency.0);
-                lines.push(format!("Harmonics up to {percent:.1} % (at {at:.0} Hz)"));
-            }
-            lines.extend(args.out.iter().map(|out| out.display().to_string()));
-            lines.extend_from_slice(figures);
-            lines.join("\n")
-        },
-    );
+    Ok(Source::Live(id, channels(args.output_channel), listener))
 }

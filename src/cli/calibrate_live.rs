@@ -8,21 +8,27 @@ use shagreen_device::engine::ChannelMask;
 use shagreen_device::measure::{Listener, SILENCE_SECS, measure};
 
 use crate::cli::calibrate_recording::Recorded;
+use crate::cli::calibrate_sweep::by_option;
 use crate::cli::output::{self, Progress};
 
-/// Plays the sweep on output `id` and records what the sensor hears. The limits of an actuator that is known hold.
+/// Plays the sweep on these channels of output `id` and records what the sensor hears. The limits of an actuator that is
+/// known hold.
 pub(crate) fn record_live(
-    id: &str,
+    (id, channels): (&str, ChannelMask),
     listener: &Listener,
     sweep: &Sweep,
     actuator: Option<&Actuator>,
     drive: Drive,
 ) -> anyhow::Result<Recorded> {
     let limits = actuator.map_or(Limits::default(), |actuator| actuator.limits);
-    let driven = (limited_drive(&limits, drive), ChannelMask::FIRST_TWO);
+    let driven = (limited_drive(&limits, drive), channels);
     let secs = sweep.seconds + 2.0 * sweep.silence_secs + 2.0 * SILENCE_SECS;
     let progress = Progress::new("ms measured", output::in_ms(secs));
-    let heard = measure(id, driven, listener, &|rate_hz| sweep.drive_samples(rate_hz), &mut |share| {
+    let drive_at = |rate_hz: f64| {
+        let signal = sweep.signal(Hertz(rate_hz)).map_err(|error| by_option(&error))?;
+        Ok(signal.iter().map(|sample| *sample as f32).collect())
+    };
+    let heard = measure(id, driven, listener, &drive_at, &mut |share| {
         progress.set_secs(share * secs);
         true
     });

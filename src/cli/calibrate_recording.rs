@@ -8,8 +8,8 @@ use shagreen_core::statistics::standard_deviation;
 use shagreen_core::units::Hertz;
 use shagreen_formats::recording::{AccelerationUnit, Ask, Channel, ColumnMap, read_recording};
 
-use crate::cli::import_recording::sidecar;
 use crate::cli::output::{self, file_name};
+use crate::cli::recording_answers::sidecar;
 
 /// What was recorded of a sweep.
 pub(crate) struct Recorded {
@@ -37,19 +37,30 @@ pub(crate) fn recorded_file(
     for (what, answer) in nothing.iter().chain(answers) {
         map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
     }
+    let n_channels = wav_channels(&bytes);
     if let Some(sensitivity) = sensitivity_mps2 {
+        let is_named_wav = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav"));
+        if n_channels.is_none() && !is_named_wav {
+            let table = "a table says its unit, or --set acceleration_unit=g";
+            bail!(output::Usage(format!("--sensitivity is for WAV files and inputs; {table}")));
+        }
         if map.full_scale.is_some_and(|full_scale| full_scale != sensitivity) {
             bail!(output::Usage("--sensitivity and --set full_scale say two things".to_owned()));
         }
         map.full_scale = Some(sensitivity);
         map.acceleration_unit = Some(AccelerationUnit::MetersPerSecondSquared);
     }
+    // Of more channels than a direction has, the one that is asked for is the only one that is read.
+    let mut picked = None;
     if map.channels.is_none() {
-        map.channels =
-            wav_channels(&bytes).map(|n| vec![Channel::Acceleration; n]).filter(|all| all.len() <= 3);
-        if let (Some(channel), Some(n)) = (channel, wav_channels(&bytes).filter(|n| *n > 3)) {
+        map.channels = n_channels.map(|n| vec![Channel::Acceleration; n]).filter(|all| all.len() <= 3);
+        if let (Some(channel), Some(n)) = (channel, n_channels.filter(|n| *n > 3)) {
+            if channel > n {
+                return Err(no_channel(channel, n)).with_context(of_file);
+            }
             let kind = |place| if place + 1 == channel { Channel::Acceleration } else { Channel::Unused };
             map.channels = Some((0..n).map(kind).collect());
+            picked = Some(channel);
         }
     }
     let read = read_recording(&file_name(path), &bytes, sidecar.as_deref(), &map);
@@ -62,7 +73,14 @@ pub(crate) fn recorded_file(
     for warning in &read.warnings {
         output::warn(warning);
     }
-    one_axis(read.raw, channel).with_context(of_file)
+    let recorded = one_axis(read.raw, if picked.is_some() { None } else { channel }).with_context(of_file)?;
+    Ok(Recorded { channel: picked.unwrap_or(recorded.channel), ..recorded })
+}
+
+fn no_channel(channel: usize, n: usize) -> anyhow::Error {
+    let there =
+        if n == 1 { "is 1, so leave --channel out".to_owned() } else { format!("are {n}, choose one") };
+    anyhow::anyhow!("there is no channel {channel} of acceleration; there {there}")
 }
 
 /// The channels that a WAV file states, as far as it is one.
@@ -74,12 +92,10 @@ fn wav_channels(bytes: &[u8]) -> Option<usize> {
 
 fn one_axis(raw: RawRecording, channel: Option<usize>) -> anyhow::Result<Recorded> {
     let mut axes = raw.acceleration_mps2;
-    // Of many channels the one that was asked for is all there is.
     let n_axes = axes.len();
     let place = match channel {
-        Some(_) if n_axes == 1 => 0,
         Some(channel) if channel <= n_axes => channel - 1,
-        Some(channel) => bail!("there is no channel {channel} of acceleration, there are {n_axes}"),
+        Some(channel) => return Err(no_channel(channel, n_axes)),
         None => {
             let moves = |place: &usize| {
                 let there: Vec<f64> = axes[*place].iter().copied().filter(|a| a.is_finite()).collect();

@@ -17,16 +17,20 @@ use crate::cli::output;
 pub(crate) struct Args {
     /// Tell what HID report descriptors declare: raw bytes, the same in hexadecimal, or recordings of hid-recorder or
     /// usbhid-dump.
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "decode")]
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["decode", "size_mm", "out"])]
     descriptor: Vec<PathBuf>,
     /// Decode the reports of a pen (a recording of hid-recorder or usbhid-dump) by a report descriptor, which may be
     /// left out where the recording holds it.
+    ///
+    /// --json prints and --out writes the same samples: those with the pen in range, of several at one time the last. t
+    /// is in seconds from the first sample, x_mm and y_mm in mm to the right of and below the upper left corner of the pen's area.
     #[arg(long, value_names = ["DESCRIPTOR", "REPORTS"], num_args = 1..=2)]
     decode: Vec<PathBuf>,
     /// Width and height of the pen's area in mm, such as 216x135, where the pen declares none or wrong ones.
-    #[arg(long, value_name = "WxH", value_parser = size_mm)]
+    #[arg(long, value_name = "WxH", value_parser = size_mm, requires = "decode", allow_hyphen_values = true)]
     size_mm: Option<[f64; 2]>,
-    /// Write the decoded stroke as a table (.csv).
+    /// Write the decoded stroke as a table (.csv) with the columns t_s, x_mm, y_mm, force_n in N (or pressure, 0 to 1,
+    /// where the pen declares no force) and touching, 0 or 1.
     #[arg(short, long, value_name = "OUT.csv", requires = "decode")]
     out: Option<PathBuf>,
     /// Print one JSON object.
@@ -35,13 +39,11 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let size_m = meters(args.size_mm);
     if !args.descriptor.is_empty() {
-        list_descriptors(&args.descriptor, size_m, args.json);
-        return Ok(());
+        return list_descriptors(&args.descriptor, args.json);
     }
     if !args.decode.is_empty() {
-        return decode(&args.decode, size_m, args.out.as_deref(), args.json);
+        return decode(&args.decode, meters(args.size_mm), args.out.as_deref(), args.json);
     }
     list(args.json);
     Ok(())

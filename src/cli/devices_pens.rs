@@ -17,13 +17,16 @@ use crate::cli::hid_files::{DeclaredDevice, PenRecording, read_descriptors, read
 use crate::cli::output;
 
 /// Lists what the files declare. Every file is listed, a broken one with what is wrong with it.
-pub(crate) fn list_descriptors(files: &[PathBuf], size_m: Option<[f64; 2]>, as_json: bool) {
+///
+/// # Errors
+/// A file, or one of the descriptors in it, could not be read; all are listed nevertheless.
+pub(crate) fn list_descriptors(files: &[PathBuf], as_json: bool) -> anyhow::Result<()> {
     let mut entries: Vec<Value> = Vec::new();
     for file in files {
         match read_descriptors(file) {
             Ok(devices) => {
                 entries.extend(devices.iter().map(|device| match device {
-                    Ok(device) => declared_json(file, device, size_m),
+                    Ok(device) => declared_json(file, device),
                     Err(error) => broken_json(file, error),
                 }));
             }
@@ -33,6 +36,10 @@ pub(crate) fn list_descriptors(files: &[PathBuf], size_m: Option<[f64; 2]>, as_j
     output::print(as_json, &json!({"descriptors": entries}), || {
         entries.iter().map(in_words).collect::<Vec<_>>().join("\n")
     });
+    match entries.iter().filter(|entry| !entry["error"].is_null()).count() {
+        0 => Ok(()),
+        n => bail!("{n} of {} could not be read; what is wrong stands beside each", entries.len()),
+    }
 }
 
 fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
@@ -45,8 +52,8 @@ fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
     })
 }
 
-fn declared_json(file: &Path, device: &DeclaredDevice, size_m: Option<[f64; 2]>) -> Value {
-    let decoder = device.pen().map(|decoder| decoder.with_size_m(size_m));
+fn declared_json(file: &Path, device: &DeclaredDevice) -> Value {
+    let decoder = device.pen();
     let best = decoder.as_ref().map(PenDecoder::best);
     let reports = decoder.iter().flat_map(PenDecoder::formats).map(format_json).collect::<Vec<_>>();
     let warnings: Vec<String> = device.descriptor.warnings.iter().map(ToString::to_string).collect();
@@ -132,10 +139,16 @@ pub(crate) fn decode(
         refuse_foreign(out, "the stroke", |bytes| read_stroke_csv(bytes).is_ok())?;
     }
     let declared = match declared {
-        Some(file) => Some(first_pen(file).map_err(|error| error.context(output::in_file(file)))?),
+        Some(file) => Some(first_pen(file).map_err(|error| error.context(output::in_file(file)))),
         None => None,
     };
-    let bytes = output::read_file(reports)?;
+    let bytes = output::read_file(reports);
+    if let (Some(Err(first)), Err(_)) = (&declared, &bytes) {
+        // Both are told, so that both are mended at once.
+        output::warn(&output::one_line(first));
+    }
+    let bytes = bytes?;
+    let declared = declared.transpose()?;
     let recording = read_pen_recording(&bytes, declared.as_ref(), size_m)
         .map_err(|error| error.context(output::in_file(reports)))?;
     let size_m = recording.decoder.best().size_m();
@@ -147,27 +160,30 @@ pub(crate) fn decode(
             "the size that the pen declares is doubtful; state the right one with --size-mm 216x135",
         );
     }
-    let moments = moments(&recording);
+    let Decoded { rows, start_secs, n_ignored, n_out_of_range, n_same_time } = decoded(&recording);
     if let Some(out) = out {
-        write_stroke(&moments, out)?;
+        write_stroke(&rows, out)?;
     }
-    let moving = moments.iter().filter(|(_, moment)| moment.report.touching());
-    let speed_max = moving.clone().map(|(_, moment)| moment.touch.contact.speed_mps).fold(0.0_f32, f32::max);
+    let touching = rows.iter().filter(|(_, moment)| moment.report.touching());
+    let speed_max =
+        touching.clone().map(|(_, moment)| moment.touch.contact.speed_mps).fold(0.0_f32, f32::max);
     let result = json!({
-        "samples": moments.iter().map(|(t, moment)| sample_json(*t, moment)).collect::<Vec<_>>(),
-        "ignored": recording.reports.len() - moments.len(),
+        "samples": rows.iter().map(|(secs, moment)| sample_json(*secs, moment)).collect::<Vec<_>>(),
+        "start_s": start_secs,
+        "ignored": n_ignored,
+        "out_of_range": n_out_of_range,
+        "same_time": n_same_time,
         "size_mm": size_m.map(|sides| sides.map(|side| short(1e3 * side))),
         "speed_max": size_m.map(|_| short(1e3 * f64::from(speed_max))),
         "out": out.map(|out| out.display().to_string()),
     });
     output::print(as_json, &result, || {
-        let n_touching = moving.count();
-        let seconds = moments.last().zip(moments.first()).map_or(0.0, |(last, first)| last.0 - first.0);
+        let seconds = rows.last().map_or(0.0, |(secs, _)| *secs);
         format!(
-            "{} samples of a pen in {seconds:.3} s, {n_touching} of them touching, at up to {:.0} mm/s; {} reports of something else",
-            moments.len(),
+            "{} samples of a pen in {seconds:.3} s, {} of them touching, at up to {:.0} mm/s; left out: {n_out_of_range} out of range, {n_same_time} at the time of the next, {n_ignored} reports of something else",
+            rows.len(),
+            touching.count(),
             1e3 * speed_max,
-            recording.reports.len() - moments.len()
         )
     });
     Ok(())
@@ -180,14 +196,42 @@ fn first_pen(file: &Path) -> anyhow::Result<DeclaredDevice> {
     Ok(devices.swap_remove(index))
 }
 
-/// What the pen did, with the times of the file.
-fn moments(recording: &PenRecording) -> Vec<(f64, PenMoment)> {
+/// What the pen did, as it is printed and written alike.
+struct Decoded {
+    /// Each moment in range, with the seconds since the first; of moments at one time the last.
+    rows: Vec<(f64, PenMoment)>,
+    /// Time of the first in the recording, in seconds; none without a row.
+    start_secs: Option<f64>,
+    /// Reports of something else.
+    n_ignored: usize,
+    /// Moments in which the pen was too far to have a place.
+    n_out_of_range: usize,
+    /// Moments at the time of the next one.
+    n_same_time: usize,
+}
+
+fn decoded(recording: &PenRecording) -> Decoded {
     let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: PressureMap::USUAL };
     let mut tracker = PenTracker::new(recording.decoder.clone(), options);
     let reports = recording.reports.iter();
-    reports
-        .filter_map(|report| Some((report.time_secs, tracker.report(report.time_secs, &report.bytes)?)))
-        .collect()
+    let moments: Vec<PenMoment> =
+        reports.filter_map(|report| tracker.report(report.time_secs, &report.bytes)).collect();
+    let (n_reports, n_moments) = (recording.reports.len(), moments.len());
+    let in_range: Vec<PenMoment> = moments.into_iter().filter(|moment| moment.report.in_range).collect();
+    let n_in_range = in_range.len();
+    let start_secs = in_range.first().map(|first| first.time_secs);
+    let has_time = |i: usize| in_range.get(i + 1).is_none_or(|next| next.time_secs > in_range[i].time_secs);
+    let rows: Vec<(f64, PenMoment)> = (0..n_in_range)
+        .filter(|i| has_time(*i))
+        .map(|i| (in_range[i].time_secs - start_secs.unwrap_or(0.0), in_range[i]))
+        .collect();
+    Decoded {
+        n_ignored: n_reports - n_moments,
+        n_out_of_range: n_moments - n_in_range,
+        n_same_time: n_in_range - rows.len(),
+        rows,
+        start_secs,
+    }
 }
 
 fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
@@ -213,20 +257,18 @@ fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
 }
 
 /// Writes the stroke as a table: in newtons where the pen declares them, else as a share of full pressure.
-fn write_stroke(moments: &[(f64, PenMoment)], out: &Path) -> anyhow::Result<()> {
-    let is_in_newtons = moments.iter().all(|(_, moment)| moment.report.force_n.is_some());
-    let samples: Vec<PenSample> = moments
-        .iter()
-        .filter_map(|(_, moment)| {
-            let sample = moment.sample()?;
-            let press = if is_in_newtons { sample.force_n } else { moment.report.pressure.unwrap_or(0.0) };
-            let (x_m, y_m, touching) = (sample.x_m, sample.y_m, sample.touching);
-            Some(PenSample { time_secs: sample.time_secs, x_m, y_m, press, touching })
-        })
-        .collect();
-    if samples.is_empty() {
+fn write_stroke(rows: &[(f64, PenMoment)], out: &Path) -> anyhow::Result<()> {
+    let is_in_newtons = rows.iter().all(|(_, moment)| moment.report.force_n.is_some());
+    let sample = |(time_secs, moment): &(f64, PenMoment)| {
+        let report = &moment.report;
+        let press = if is_in_newtons { report.force_n } else { report.pressure };
+        let (x_m, y_m, touching) = (report.x_m?, report.y_m?, report.touching());
+        Some(PenSample { time_secs: *time_secs, x_m, y_m, press: press.unwrap_or(0.0), touching })
+    };
+    let samples: Option<Vec<PenSample>> = rows.iter().map(sample).collect();
+    let Some(samples) = samples.filter(|samples| !samples.is_empty()) else {
         bail!("there is no stroke in mm to write; state the size of the pen's area with --size-mm");
-    }
+    };
     let unit = if is_in_newtons { PressUnit::Newtons } else { PressUnit::FullScale };
     Ok(atomic::write(out, stroke_csv(&samples, unit).as_bytes())?)
 }

@@ -10,8 +10,8 @@ use shagreen_formats::library::Provenance;
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::near_names::unknown_texture;
 use crate::cli::output;
-use crate::cli::target::unknown_texture;
 
 /// Writes a texture in the format of another program, and says what that format cannot hold.
 #[derive(clap::Args)]

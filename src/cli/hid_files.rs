@@ -4,8 +4,8 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use shagreen_device::hid::descriptor::{self, Descriptor};
-use shagreen_device::hid::pen::PenDecoder;
-use shagreen_formats::hid_text::{HidRecording, TimedReport, bytes_of_hex, is_hid_text, read_hid_text};
+use shagreen_device::hid::pen::{PenDecoder, PenFormat};
+use shagreen_formats::hid_text::{HidRecording, TimedReport, bytes_of_hex_file, is_hid_text, read_hid_text};
 
 use crate::cli::output;
 
@@ -49,7 +49,7 @@ pub(crate) fn read_descriptors(path: &Path) -> anyhow::Result<Vec<anyhow::Result
         }
         return Ok(found);
     }
-    let hex = std::str::from_utf8(&bytes).ok().and_then(bytes_of_hex); // What is no text is bytes.
+    let hex = bytes_of_hex_file(&bytes);
     Ok(vec![declared(None, None, hex.as_deref().unwrap_or(&bytes))])
 }
 
@@ -73,10 +73,12 @@ pub(crate) fn read_pen_recording(
     recording.warnings.iter().for_each(|warning| output::warn(warning));
     let (mut best, mut n_best) = (None, 0);
     let (mut n_reports, mut n_pens) = (0, 0);
+    let mut unlike = None;
     for device in recording.value {
         n_reports += device.reports.len();
         let Some(decoder) = decoder_of(&device, declared)? else { continue };
         n_pens += 1;
+        unlike = unlike.or_else(|| Some((report_of(decoder.best()), device.reports.first()?.bytes.clone())));
         let n_decoded =
             device.reports.iter().filter(|report| decoder.decode(&report.bytes).is_some()).count();
         if n_decoded > n_best {
@@ -89,9 +91,22 @@ pub(crate) fn read_pen_recording(
         );
     }
     let Some((decoder, reports)) = best else {
-        bail!("none of the {n_reports} reports is one of the pen; record again and move the pen");
+        let Some((report, first)) = unlike else {
+            bail!("the recording holds no report of the pen; record again and move the pen");
+        };
+        bail!(
+            "none of the {n_reports} reports is one of the pen: it declares {report}, and the first that came has {} bytes and begins with {:02x}; record again and move the pen, or give the descriptor of the pen that was moved",
+            first.len(),
+            first.first().copied().unwrap_or(0)
+        );
     };
     Ok(PenRecording { decoder: decoder.with_size_m(size_m), reports })
+}
+
+/// What a report of a pen is like, in words.
+fn report_of(format: &PenFormat) -> String {
+    let id = format.report_id.map_or("without id".to_owned(), |id| format!("that begin with {id:02x}"));
+    format!("reports of {} bytes {id}", format.n_bytes)
 }
 
 fn decoder_of(

@@ -8,15 +8,16 @@ use shagreen_core::fit::{self, FitOptions, Fitted, MODEL_RATES_HZ};
 use shagreen_core::recording::Recording;
 use shagreen_core::texture::{Interpolation, MAX_ORDER};
 use shagreen_core::units::Hertz;
+use shagreen_formats::atomic;
 use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report_csv, is_fit_report_svg};
 use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::{Ask, ColumnMap, Question, RecordingFileError, read_recording};
-use shagreen_formats::{atomic, wav};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import::{Destination, Outcome, files_in};
 use crate::cli::output::{self, Progress, file_name};
+use crate::cli::recording_answers::{parse_answer, sidecar};
 
 /// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as a table.
 ///
@@ -192,7 +193,8 @@ fn read(
     outcome: &mut Outcome<'_>,
     questions: &mut Vec<Value>,
 ) -> Result<Recording, String> {
-    let bytes = output::read_file(file).map_err(|error| format!("{error:#}"))?;
+    // The file is named beside it.
+    let bytes = output::read_file(file).map_err(|error| error.root_cause().to_string())?;
     let sidecar = sidecar(file)?;
     let mut ask = |list: &[Question]| {
         questions.extend(list.iter().map(|question| {
@@ -233,23 +235,6 @@ fn read(
         outcome.warn(file, &finding.to_string());
     }
     recording
-}
-
-/// The bytes of the file of units beside a WAV file; most have none.
-pub(crate) fn sidecar(file: &Path) -> Result<Option<Vec<u8>>, String> {
-    if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav")) {
-        return Ok(None);
-    }
-    for name in wav::sidecar_names(&file_name(file)) {
-        match std::fs::read(file.with_file_name(&name)) {
-            Ok(bytes) => return Ok(Some(bytes)),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
-            Err(error) => {
-                return Err(format!("the sidecar {name} cannot be read ({error}); check your rights"));
-            }
-        }
-    }
-    Ok(None)
 }
 
 fn figures(files: &[&Path], fitted: &Fitted) -> Value {
@@ -296,16 +281,6 @@ fn map(args: &Args) -> anyhow::Result<ColumnMap> {
         }
     }
     Ok(map)
-}
-
-/// An answer to a question, as KEY=VALUE.
-pub(crate) fn parse_answer(text: &str) -> Result<(Ask, String), String> {
-    let (key, value) = text.split_once('=').ok_or("write KEY=VALUE as in acceleration_unit=g")?;
-    let what = Ask::from_key(key.trim()).ok_or_else(|| {
-        let keys: Vec<&str> = Ask::ALL.iter().map(|ask| ask.key()).collect();
-        format!("there is no question \"{}\"; the keys are {}", key.trim(), keys.join(", "))
-    })?;
-    Ok((what, value.trim().to_owned()))
 }
 
 fn parse_rate(text: &str) -> Result<f64, String> {

@@ -19,8 +19,9 @@ use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::starter::starter_library;
 
+use crate::cli::latency_onsets::{STROKE_SECS, quantile, stroke_onset, tap_onset};
 use crate::cli::output::{self, Progress};
-use crate::cli::rig::RigArgs;
+use crate::cli::rig::{Rig, RigArgs};
 
 /// Measures how late a pen is felt: replays strokes of a pen through all that a real one's go through, records what comes
 /// out of an output, and compares the times.
@@ -52,13 +53,10 @@ pub(crate) struct Args {
 const TEXTURE: &str = "sandpaper-p100";
 /// Speed of the strokes in mm/s, and their pressure.
 const STROKE: (f64, f64) = (150.0, 0.6);
-/// How long a stroke takes, and the air after it, in seconds.
-const STROKE_SECS: f64 = 0.4;
+/// How long the tip is in the air after a stroke, in seconds.
 const AIR_SECS: f64 = 0.4;
-/// Level of the stroke's beginning that counts as felt, over that of the stroke.
-const FELT_SHARE: f64 = 0.5;
-/// Stretch over which the level of a stroke is taken, in seconds.
-const LEVEL_SECS: f64 = 0.004;
+/// Share of the taps, or of the strokes, that must be heard: figures of the few that were would not be theirs.
+const LEAST_HEARD: f64 = 0.5;
 
 fn report_rate(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -99,9 +97,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         || {
             let line = |what: &str, of: &Value| {
                 format!(
-                    "{what}: {:.1} ms (median of {}), 95 % within {:.1} ms; the output says {:.1} ms",
+                    "{what}: {:.1} ms (median of {}, {} missed), 95 % within {:.1} ms; the output says {:.1} ms",
                     number(of, "median_ms"),
                     of["n"],
+                    of["missed"],
                     number(of, "p95_ms"),
                     number(of, "told_ms")
                 )
@@ -128,7 +127,8 @@ fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
     let library = starter_library()?;
     let index = library.index_of(TEXTURE).context("the starter library lacks its sandpaper")?;
     let model = &library.textures[index].model;
-    let (mut handle, _running) = args.rig.open(model.rate().0 as f32, 1).context("cannot measure")?;
+    let Rig { mut handle, running: _running, mut watch } =
+        args.rig.open(model.rate().0 as f32, 1).context("cannot measure")?;
     let rate_hz = handle.config().device_rate_hz;
     let mut recorder = Recorder::open(&args.input, usize::from(args.input_channel) - 1, rate_hz as u32)
         .context("cannot measure")?;
@@ -155,10 +155,9 @@ fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
         std::thread::sleep(Duration::from_millis(10));
         recorder.read(&mut heard);
         recorder.check()?;
+        refuse_dropped(recorder.n_dropped(), &args.input)?;
         handle.collect();
-        if let Some(loss) = handle.loss() {
-            bail!("{loss}");
-        }
+        watch.look(&mut handle)?;
         progress.set_secs(begun.elapsed().as_secs_f64());
     }
     progress.finish();
@@ -167,24 +166,41 @@ fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
     let first = recorder.first_sample_at().context("the input has said nothing")?;
     let rate = f64::from(recorder.rate_hz());
     let mut latency_secs = Vec::new();
-    let landed: Vec<Instant> =
-        came.try_iter().filter(|(i, _)| landings.contains(i)).map(|(_, at)| at).collect();
-    for at in &landed {
+    for (_, at) in came.try_iter().filter(|(i, _)| landings.contains(i)) {
         let begin = (at.saturating_duration_since(first).as_secs_f64() * rate) as usize;
         let found =
             if with_taps { tap_onset(&heard, begin, rate) } else { stroke_onset(&heard, begin, rate) };
         latency_secs.extend(found.map(|samples| samples as f64 / rate));
     }
-    if latency_secs.is_empty() {
-        bail!(
-            "the input `{}` hears nothing of the output: connect them, turn the input up, or choose another input or channel",
-            args.input
-        );
-    }
+    let what = if with_taps { "taps" } else { "strokes" };
+    let n = usize::from(args.strokes);
+    refuse_few(latency_secs.len(), n, what, &args.input)?;
     latency_secs.sort_by(f64::total_cmp);
     let told = if with_taps { latency.tap_secs } else { latency.stroke_secs };
-    let n_missed = landed.len() - latency_secs.len();
+    let n_missed = n - latency_secs.len();
     Ok(Measured { latency_secs, n_missed, told_secs: f64::from(told) })
+}
+
+/// Refuses a recording that has gaps: all times behind them would be wrong.
+fn refuse_dropped(n_dropped: u64, input: &str) -> anyhow::Result<()> {
+    if n_dropped > 0 {
+        bail!(
+            "{n_dropped} samples of the input `{input}` were lost while it was measured, so that no time is right; close other programs and measure again"
+        );
+    }
+    Ok(())
+}
+
+/// Refuses to tell figures of the few that were heard.
+fn refuse_few(n_heard: usize, n: usize, what: &str, input: &str) -> anyhow::Result<()> {
+    let advice = "connect them, turn the input up, or choose another input or channel";
+    if n_heard == 0 {
+        bail!("the input `{input}` hears nothing of the output: {advice}");
+    }
+    if (n_heard as f64) < LEAST_HEARD * n as f64 {
+        bail!("the input `{input}` hears only {n_heard} of {n} {what}, too few to tell anything: {advice}");
+    }
+    Ok(())
 }
 
 /// Waits until both ends run, and records a moment of silence.
@@ -226,67 +242,27 @@ fn strokes(args: &Args, with_taps: bool) -> (Vec<ReplayedReport>, Vec<usize>) {
     (reports, landings)
 }
 
-/// Samples from a landing to the first that stands out of the silence before it.
-fn tap_onset(heard: &[f32], begin: usize, rate_hz: f64) -> Option<usize> {
-    let before = heard.get(begin.checked_sub((0.1 * rate_hz) as usize)?..begin)?;
-    let silence = before.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
-    let after = heard.get(begin..begin + (STROKE_SECS * rate_hz) as usize)?;
-    let peak = after.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
-    // A hundredth of the tap is reached a twentieth of a millisecond after it begins.
-    let threshold = (2.0 * silence).max(0.01 * peak);
-    (peak > 5.0 * silence + 1e-4).then(|| after.iter().position(|x| x.abs() > threshold))?
-}
-
-/// Samples from a landing to where the level has risen to half that of the stroke.
-fn stroke_onset(heard: &[f32], begin: usize, rate_hz: f64) -> Option<usize> {
-    let window = (LEVEL_SECS * rate_hz) as usize;
-    let rms = |from: usize, n: usize| {
-        let part = heard.get(from..from + n)?;
-        Some((part.iter().map(|x| f64::from(x * x)).sum::<f64>() / n as f64).sqrt())
-    };
-    let level = rms(begin + (0.15 * rate_hz) as usize, (0.2 * rate_hz) as usize)?;
-    let silence = rms(begin.checked_sub((0.1 * rate_hz) as usize)?, (0.08 * rate_hz) as usize)?;
-    if level < 5.0 * silence + 1e-5 {
-        return None;
-    }
-    let step = (window / 8).max(1);
-    let half = window / 2;
-    let is_felt = |at: usize| rms(begin + at - half, window).is_some_and(|l| l > FELT_SHARE * level);
-    (half..(0.3 * rate_hz) as usize).step_by(step).find(|at| is_felt(*at))
-}
-
-/// The value below which a share of sorted numbers lies.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let last = sorted.len().saturating_sub(1);
-    sorted.get((share * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{quantile, stroke_onset, tap_onset};
+    use super::{refuse_dropped, refuse_few};
 
     #[test]
-    fn onsets_are_found_where_they_are() {
-        let rate_hz = 48_000.0;
-        let at = |i: usize| if i < 10_720 { 1e-5 } else { 0.4 * ((i - 10_720) as f32 * 0.03).sin() };
-        let tap: Vec<f32> = (0..40_000).map(at).collect();
-        let found = tap_onset(&tap, 10_000, rate_hz).unwrap();
-        assert!((720..730).contains(&found), "{found}");
-        assert_eq!(tap_onset(&vec![1e-5; 40_000], 10_000, rate_hz), None);
-        let ramp = |i: u32| {
-            let share = ((f64::from(i) as f32 - 10_480.0) / 480.0).clamp(0.0, 1.0);
-            0.3 * share * if i.is_multiple_of(2) { 1.0 } else { -1.0 }
-        };
-        let stroke: Vec<f32> = (0..40_000).map(ramp).collect();
-        let found = stroke_onset(&stroke, 10_000, rate_hz).unwrap();
-        assert!((690..760).contains(&found), "{found}");
-        assert_eq!(stroke_onset(&vec![0.0; 40_000], 10_000, rate_hz), None);
-    }
-
-    #[test]
-    fn quantiles_of_a_few() {
-        let of = |share| quantile(&[1.0, 2.0, 3.0], share);
-        assert_eq!((of(0.0), of(0.5), of(1.0)), (1.0, 2.0, 3.0));
-        assert!(quantile(&[], 0.5).is_nan());
+    fn gaps_and_too_few_onsets_are_errors() {
+        assert!(refuse_dropped(0, "x").is_ok());
+        let error = refuse_dropped(480, "x").unwrap_err().to_string();
+        assert!(error.contains("480 samples of the input `x` were lost"), "{error}");
+        for (n_heard, n, words) in [
+            (20, 20, None),
+            (10, 20, None),
+            (1, 1, None),
+            (9, 20, Some("9 of 20 taps")),
+            (0, 1, Some("nothing")),
+        ] {
+            match (refuse_few(n_heard, n, "taps", "x"), words) {
+                (Ok(()), None) => {}
+                (Err(error), Some(words)) => assert!(error.to_string().contains(words), "{error}"),
+                other => panic!("{n_heard} of {n}: {other:?}"),
+            }
+        }
     }
 }

@@ -8,18 +8,19 @@ use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav::TraceV1;
 
 use crate::cli::output;
-use crate::cli::stroke::{self, StrokeArgs, StrokeContacts};
+use crate::cli::stroke::{self, StrokeContacts};
+use crate::cli::stroke_args::StrokeArgs;
 
 #[derive(clap::Args)]
 pub(crate) struct MotionArgs {
     /// Speed of the tip, in mm/s.
-    #[arg(long, value_name = "V", value_parser = quantity, allow_negative_numbers = true, conflicts_with = "stroke")]
+    #[arg(long, value_name = "V", value_parser = quantity, conflicts_with = "stroke")]
     speed: Option<f64>,
     /// Normal force of the tip, in N.
-    #[arg(long, value_name = "F", value_parser = quantity, allow_negative_numbers = true, conflicts_with = "stroke")]
+    #[arg(long, value_name = "F", value_parser = quantity, conflicts_with = "stroke")]
     force: Option<f64>,
     /// Length, in seconds.
-    #[arg(long, value_name = "S", value_parser = quantity, allow_negative_numbers = true, conflicts_with = "stroke")]
+    #[arg(long, value_name = "S", value_parser = quantity, conflicts_with = "stroke")]
     seconds: Option<f64>,
     /// Recorded stroke: pen samples (.svc), or a table with t, x, y, pressure or force; or with t, speed, force (.csv); or
     /// reports of a pen with its descriptor, as hid-recorder and usbhid-dump write them.
@@ -62,6 +63,11 @@ pub(crate) fn quantity(text: &str) -> Result<f64, String> {
 pub(crate) fn motion(args: &MotionArgs, default: Option<(f64, f64, f64)>) -> anyhow::Result<Motion> {
     if let Some(path) = &args.stroke {
         return Ok(Motion::Stroke { contacts: stroke::load(path, &args.reading)?, path: path.clone() });
+    }
+    if let Some(option) = args.reading.given().next() {
+        bail!(output::Usage(format!(
+            "{option} says how a stroke is read; give --stroke FILE, or leave it out"
+        )));
     }
     let (speed, force, seconds) = match (args.speed, args.force, args.seconds, default) {
         (Some(speed), Some(force), Some(seconds), _) => (speed, force, seconds),

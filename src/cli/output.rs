@@ -1,7 +1,7 @@
 //! What the command line prints and reads: one JSON object or some lines on standard output, all else on standard error.
 
 use std::fmt::Display;
-use std::io::Write as _;
+use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -15,15 +15,31 @@ pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION
 
 /// Prints the result: as JSON for a script, else as text for a person.
 pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String) {
-    let text = if as_json { result.to_string() } else { text() };
+    let text = if as_json { result.to_string() } else { printable(&text()) };
     // Whoever closed the pipe has read enough.
-    let _ = writeln!(std::io::stdout(), "{text}");
+    let _ = writeln!(io::stdout(), "{text}");
 }
 
 /// A line on standard error.
 fn say(line: impl Display) {
+    let line = printable(&line.to_string()).replace('\n', " ");
     // Whoever closed it does not want to know.
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Text without what a terminal would obey: names come from files and from devices, which may say anything.
+fn printable(text: &str) -> String {
+    // Marks that turn the order of letters around are no control characters, and hide as much.
+    let turns = |c: char| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let mut printable = String::with_capacity(text.len());
+    for c in text.chars() {
+        if turns(c) || c.is_control() && !matches!(c, '\n' | '\t') {
+            printable.extend(c.escape_default());
+        } else {
+            printable.push(c);
+        }
+    }
+    printable
 }
 
 /// Says what is not quite as asked.
@@ -66,7 +82,7 @@ pub(crate) fn failure(error: &anyhow::Error) -> ExitCode {
 pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         // As with results.
-        let _ = write!(std::io::stdout(), "{error}");
+        let _ = write!(io::stdout(), "{error}");
         return ExitCode::SUCCESS;
     }
     say(usage_line(&error.to_string()));
@@ -84,7 +100,7 @@ fn usage_line(message: &str) -> String {
 const WRONG_USAGE: u8 = 2;
 
 /// The chain of causes, the path last: contexts that only name a file are moved to the end.
-fn one_line(error: &anyhow::Error) -> String {
+pub(crate) fn one_line(error: &anyhow::Error) -> String {
     let (files, causes): (Vec<_>, Vec<_>) =
         error.chain().map(ToString::to_string).partition(|cause| cause.starts_with(IN_FILE));
     let mut parts: Vec<String> = Vec::new();
@@ -114,8 +130,14 @@ pub(crate) fn file_name(path: &Path) -> String {
 
 /// The bytes of a file.
 pub(crate) fn read_file(path: &Path) -> anyhow::Result<Vec<u8>> {
+    let reason = |error: &io::Error| match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder; give a file in it".to_owned(),
+        io::ErrorKind::PermissionDenied => "you may not read it; ask for the right, or copy it".to_owned(),
+        _ => format!("{error}; check its name and your rights"),
+    };
     std::fs::read(path)
-        .context("cannot read the file; check its name and your rights")
+        .map_err(|error| anyhow::anyhow!("cannot read the file: {}", reason(&error)))
         .with_context(|| in_file(path))
 }
 
@@ -156,7 +178,7 @@ pub(crate) fn in_ms(secs: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{in_file, one_line, usage_line};
+    use super::{in_file, one_line, printable, usage_line};
 
     use std::path::Path;
 
@@ -166,6 +188,12 @@ mod tests {
             .context("the stroke is damaged")
             .context(in_file(Path::new("a/b.svc")));
         assert_eq!(one_line(&error), "the stroke is damaged: line 3 is short: a/b.svc");
+    }
+
+    #[test]
+    fn a_terminal_obeys_no_name() {
+        assert_eq!(printable("Größe 3\t✓\nnext"), "Größe 3\t✓\nnext");
+        assert_eq!(printable("\u{1b}[31mred\u{7}\u{9b}\r\u{202e}"), r"\u{1b}[31mred\u{7}\u{9b}\r\u{202e}");
     }
 
     #[test]

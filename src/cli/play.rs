@@ -10,16 +10,18 @@ use shagreen_core::texture_path::{TexturePath, TraveledAhead};
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
-use shagreen_device::status::{LinkState, Status};
+use shagreen_device::status::Status;
 use shagreen_device::synth::renderer::{Mix, Parent};
 use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
 
+use crate::cli::limited::Limited;
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Progress};
-use crate::cli::rig::RigArgs;
+use crate::cli::rig::{Rig, RigArgs};
 use crate::cli::target::{Chosen, SoundArgs};
+use crate::cli::watch::Watch;
 
 /// Drives an actuator with a texture, in real time: a steady contact, or a recorded stroke.
 #[derive(clap::Args)]
@@ -52,18 +54,21 @@ const PATIENCE: Duration = Duration::from_secs(10);
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let motion = motion(&args.motion, Some(DEFAULT_MOTION))?;
     let (library, chosen) = args.sound.load()?;
-    let (mut handle, running) =
+    let Rig { mut handle, running, mut watch } =
         args.rig.open(chosen.rate(&library)?.0 as f32, args.seed).context("cannot play")?;
     chosen.note_limits(&library, &motion);
     load_textures(&mut handle, &library, &chosen)?;
     let seconds = motion.seconds();
     let mut follow = chosen.path.as_ref().map(|path| Follow::new(path, &motion));
     handle.set_tap(chosen.tap.map_or(Tap::SILENT, Tap::from));
+    let n_frames_before = handle.status().frames_played;
     start(&mut handle, motion)?;
-    let status = wait(&mut handle, seconds, &mut |handle, secs| match &mut follow {
+    let status = wait(&mut handle, &mut watch, seconds, &mut |handle, secs| match &mut follow {
         Some(follow) => follow.go(handle, secs),
         None => Ok(()),
     })?;
+    let limited = Limited::new(&status, n_frames_before, watch.heat_gain(), args.rig.has_actuator());
+    limited.warnings().iter().for_each(|warning| output::warn(warning));
     output::print(
         args.json,
         &json!({
@@ -76,7 +81,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "errors": status.backend_errors,
             "callback_load_max": status.load_max,
             "latency_ms": 1e3 * running.latency_secs(&status),
-            "limited": status.limited_samples,
+            "limited": limited.n_samples,
+            "limited_share": limited.share,
+            "heat_gain_min": limited.heat_gain,
             "heat_used": status.heat_used,
             "tripped": status.tripped,
             "parents": chosen.parents_json(&library),
@@ -86,14 +93,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "Played {seconds:.3} s of {} on {} at {} Hz: latency {:.1} ms, {} underruns, load at most {:.0} %, {} samples limited",
+                "Played {seconds:.3} s of {} on {} at {} Hz: latency {:.1} ms, {} underruns, load at most {:.0} %, samples limited: {}",
                 chosen.parents_text(&library),
                 running.id(),
                 running.rate_hz(),
                 1e3 * running.latency_secs(&status),
                 status.underruns,
                 100.0 * status.load_max,
-                status.limited_samples
+                limited.in_words()
             )
         },
     );
@@ -174,6 +181,7 @@ impl<'a> Follow<'a> {
 /// Waits until so much has been played, then lifts the tip and lets it fade; `at` is told how far the motion is.
 fn wait(
     handle: &mut Handle,
+    watch: &mut Watch,
     seconds: f64,
     at: &mut dyn FnMut(&mut Handle, f64) -> anyhow::Result<()>,
 ) -> anyhow::Result<Status> {
@@ -184,15 +192,8 @@ fn wait(
     loop {
         std::thread::sleep(if beginning.is_over() { POLL } else { FIRST_POLL });
         handle.collect();
-        let status = handle.status();
+        let status = watch.look(handle)?;
         beginning.note(status.frames_played);
-        if status.state == LinkState::Lost {
-            progress.finish();
-            return Err(match handle.loss() {
-                Some(loss) => anyhow::Error::new(loss.clone()).context("the output was lost"),
-                None => anyhow::anyhow!("the output was lost; look for it with `shagreen devices`"),
-            });
-        }
         // Before it has begun, the input's clock is that of the tip in the air.
         if beginning.is_over() {
             progress.set_secs(status.input_secs.min(seconds));
@@ -202,14 +203,13 @@ fn wait(
             }
         }
         if started.elapsed() > deadline {
-            progress.finish();
-            bail!("the output does not ask for samples; choose another with `shagreen devices`");
+            bail!("{} does not ask for samples; choose another with `shagreen devices`", watch.what());
         }
     }
     handle.set_input(Input::Lifted);
     std::thread::sleep(Duration::from_secs_f64(3.0 * FADE_SECS));
     progress.finish();
-    Ok(handle.status())
+    watch.look(handle)
 }
 
 /// Whether the output has surely begun with the input that it was given before this was made.
@@ -236,7 +236,7 @@ impl Beginning {
 
 #[cfg(test)]
 mod tests {
-    use super::{Beginning, EXTENT_M, Hand, Input, Path, Status, check, wait};
+    use super::{Beginning, EXTENT_M, Hand, Input, Path, Status, Watch, check, wait};
     use shagreen_device::engine::{self, ChannelMask, EngineConfig};
     use shagreen_device::synth::drive::DriveConfig;
     use std::time::Duration;
@@ -277,7 +277,7 @@ mod tests {
                 engine.process(&mut vec![0.0; 4800], 1);
             }
         });
-        let status = wait(&mut handle, 0.15, &mut |_, _| Ok(())).unwrap();
+        let status = wait(&mut handle, &mut Watch::new("x", None), 0.15, &mut |_, _| Ok(())).unwrap();
         // Two blocks of a tenth of a second at the least.
         assert!(status.frames_played >= 48_000 + 2 * 4800, "{status:?}");
         drop(handle);

@@ -12,11 +12,14 @@ use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav};
 
 use crate::cli::guard::{is_sidecar, refuse_foreign, refuse_inputs};
+use crate::cli::landings::add_landings;
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Progress};
 use crate::cli::target::{Chosen, SoundArgs};
 
 /// Renders a texture as a stylus would feel it: mono float WAV in m/s², with a sidecar that says what it is.
+///
+/// Landings in a stroke sound where the texture knows how, as they do when it is played.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -49,12 +52,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&beside, "the signal's sidecar", is_sidecar)?;
     wav::check_length((motion.seconds() * f64::from(rate_hz)).round() as u64)?;
     chosen.note_limits(&library, &motion);
-    let samples = samples(args, &library, &chosen, &motion, rate_hz)?;
+    let mut samples = samples(args, &library, &chosen, &motion, rate_hz)?;
     if samples.is_empty() {
         bail!("{} s at {rate_hz} Hz are no sample; make it longer", motion.seconds());
     }
     let sidecar = sidecar(args, &library, &chosen, &motion, rate_hz);
     let seconds = samples.len() as f64 / f64::from(rate_hz);
+    if let (Motion::Stroke { contacts, .. }, Some(tap)) = (motion, chosen.tap) {
+        let model_rate_hz = chosen.rate(&library)?.0;
+        add_landings(&mut samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
+    }
     // Summed here, since a copy of an hour in f64 would take gigabytes.
     let wide = samples.iter().map(|sample| f64::from(*sample));
     let peak = wide.clone().fold(0.0, |peak: f64, sample| peak.max(sample.abs()));

@@ -1,6 +1,6 @@
 //! What is driven: an output, the actuator on it, and how much of it that stands.
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use shagreen_core::actuator::{Drive, drive_config};
 use shagreen_core::units::Volts;
 use shagreen_device::engine::{ChannelMask, Handle};
@@ -8,12 +8,14 @@ use shagreen_device::output::{
     NULL_ID, OpenOptions, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open,
 };
 use shagreen_device::serial::message::Mode;
-use shagreen_device::serial::{self, SerialOptions, USUAL_BAUD};
+use shagreen_device::serial::{self, Connection, SerialOptions, USUAL_BAUD};
 use shagreen_device::synth::drive::DriveConfig;
 
 use crate::cli::actuator_source::{grams, load_actuator, volts};
 use crate::cli::motion::quantity;
 use crate::cli::output;
+use crate::cli::receiver::Receiver;
+use crate::cli::watch::Watch;
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "What is driven")]
@@ -27,11 +29,17 @@ pub(crate) struct RigArgs {
     #[arg(long, value_name = "PORT", conflicts_with = "output")]
     serial: Option<String>,
     /// Baud rate of the serial port, on both sides; USB has none and does not care.
-    #[arg(long, value_name = "N", requires = "serial", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", requires = "serial", conflicts_with = "output", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// Who renders: `stream` sends samples to the serial port, `control` speed, force and texture for firmware that renders
     /// by itself.
-    #[arg(long, value_name = "MODE", requires = "serial", default_value = "stream")]
+    #[arg(
+        long,
+        value_name = "MODE",
+        requires = "serial",
+        conflicts_with = "output",
+        default_value = "stream"
+    )]
     serial_mode: SerialMode,
     /// The only channel to drive, from 1; without it the first two.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
@@ -52,8 +60,18 @@ pub(crate) struct RigArgs {
     #[arg(long, requires = "actuator")]
     no_equalizer: bool,
     /// Acceleration at which the output is at full scale, in m/s², where no actuator is known.
-    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2))]
+    #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2), conflicts_with_all = ["full_scale_volts", "load_g", "no_equalizer"])]
     full_scale: f64,
+}
+
+/// An open output.
+pub(crate) struct Rig {
+    /// By which it is told what to do.
+    pub(crate) handle: Handle,
+    /// Plays until it is dropped.
+    pub(crate) running: Running,
+    /// What is said of it meanwhile.
+    pub(crate) watch: Watch,
 }
 
 /// Who renders for a serial port.
@@ -63,30 +81,60 @@ enum SerialMode {
     Control,
 }
 
+/// The channels that are driven: the first two, or the one of this number from 1.
+pub(crate) fn channels(only: Option<u16>) -> ChannelMask {
+    only.map_or(ChannelMask::FIRST_TWO, |channel| ChannelMask::only(usize::from(channel).saturating_sub(1)))
+}
+
 impl RigArgs {
     /// Opens the output for textures of a rate, with noise of a seed.
-    pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<(Handle, Running)> {
+    pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<Rig> {
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
             buffer_frames: self.buffer,
             seed,
             drive: self.drive()?,
-            channels: self
-                .channel
-                .map_or(ChannelMask::FIRST_TWO, |channel| ChannelMask::only(usize::from(channel) - 1)),
+            channels: channels(self.channel),
         };
-        let Some(port) = &self.serial else { return Ok(open(&self.output, options)?) };
+        let rig = match &self.serial {
+            None => {
+                let (handle, running) = open(&self.output, options)?;
+                let watch = Watch::new(running.id(), None);
+                Rig { handle, running, watch }
+            }
+            Some(port) => self.open_serial(port, options)?,
+        };
+        let n_channels = rig.running.channels();
+        match self.channel.filter(|channel| *channel > n_channels) {
+            None => Ok(rig),
+            Some(channel) => bail!(
+                "there is no channel {channel}: {} has {n_channels}; choose another --channel, or leave it out",
+                rig.watch.what()
+            ),
+        }
+    }
+
+    fn open_serial(&self, port: &str, options: OpenOptions) -> anyhow::Result<Rig> {
         let mode = match self.serial_mode {
             SerialMode::Stream => Mode::Stream,
             SerialMode::Control => Mode::Control,
         };
         let serial = SerialOptions { baud: self.baud, mode, ..SerialOptions::default() };
-        let connection = serial::open(port, options, serial)?;
-        if !connection.receiver.name.is_empty() {
-            output::note(&format!("the receiver is `{}`", connection.receiver.name));
+        let Connection { handle, running, receiver, mut heard } = serial::open(port, options, serial)?;
+        if !receiver.name.is_empty() {
+            output::note(&format!("the receiver is `{}`", receiver.name));
         }
-        Ok((connection.handle, connection.running))
+        // Nothing waits: it is asked again.
+        let next = Box::new(move || heard.pop().ok());
+        let receiver = Receiver::new(receiver.name, running.id().to_owned(), next);
+        let watch = Watch::new(running.id(), Some(receiver));
+        Ok(Rig { handle, running, watch })
+    }
+
+    /// Whether an actuator is known, by whose limits the output is driven.
+    pub(crate) fn has_actuator(&self) -> bool {
+        self.actuator.is_some()
     }
 
     fn drive(&self) -> anyhow::Result<DriveConfig> {

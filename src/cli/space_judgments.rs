@@ -16,9 +16,9 @@ use shagreen_formats::ratings_csv::{read_ratings, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
 use crate::cli::library_source::LibraryArgs;
+use crate::cli::near_names::meant;
 use crate::cli::output;
 use crate::cli::space_place::parse_scale;
-use crate::cli::target::meant;
 
 #[derive(clap::Args)]
 pub(crate) struct JudgmentArgs {

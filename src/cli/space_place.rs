@@ -13,8 +13,8 @@ use shagreen_formats::space_report::FORMAT;
 
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::near_names::unknown_texture;
 use crate::cli::output::{self, warn_of_restricted};
-use crate::cli::target::unknown_texture;
 
 /// Places textures where a table says.
 ///

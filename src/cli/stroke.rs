@@ -13,45 +13,9 @@ use shagreen_formats::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use shagreen_formats::stroke_csv::read_stroke_csv;
 use shagreen_formats::svc::{PenMapping, pen_samples, read_svc};
 
-use crate::cli::hid_files::{meters, read_pen_recording, size_mm};
-use crate::cli::motion::quantity;
+use crate::cli::hid_files::{meters, read_pen_recording};
 use crate::cli::output;
-
-#[derive(clap::Args)]
-#[command(next_help_heading = "How a stroke is read")]
-pub(crate) struct StrokeArgs {
-    /// Length of one unit of x and y of a .svc file, in mm. The file does not state it: 0.005 (5080 lines an inch) is
-    /// assumed for whole numbers, 1 for fractions.
-    #[arg(long, value_name = "MM", value_parser = quantity, allow_negative_numbers = true)]
-    mm_per_count: Option<f64>,
-    /// Length of one unit of time of a .svc file, in ms. The file does not state it: 1 is assumed for whole numbers,
-    /// 1000 for fractions.
-    #[arg(long, value_name = "MS", value_parser = quantity, allow_negative_numbers = true)]
-    ms_per_tick: Option<f64>,
-    /// The number that stands for full pressure in a .svc file. The file does not state it: 32767 (15 bits) is assumed
-    /// for whole numbers, 1 for fractions.
-    #[arg(long, value_name = "P", value_parser = quantity, allow_negative_numbers = true)]
-    pressure_max: Option<f64>,
-    /// Width and height of the area of a recorded HID pen in mm, such as 216x135, where it declares none
-    /// or wrong ones.
-    #[arg(long, value_name = "WxH", value_parser = size_mm)]
-    size_mm: Option<[f64; 2]>,
-    /// Force at the lowest pressure, in N.
-    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.activation_n)]
-    force_min: f64,
-    /// Force at full pressure, in N.
-    #[arg(long, value_name = "N", value_parser = quantity, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.full_n)]
-    force_max: f64,
-    /// Bend of the curve from pressure to force: 0 is a straight line, more is steeper towards full pressure.
-    #[arg(long, value_name = "C", value_parser = bend, allow_negative_numbers = true, default_value_t = PressureMap::USUAL.bend)]
-    pressure_curve: f64,
-}
-
-impl StrokeArgs {
-    fn pressure_map(&self) -> PressureMap {
-        PressureMap { activation_n: self.force_min, full_n: self.force_max, bend: self.pressure_curve }
-    }
-}
+use crate::cli::stroke_args::{OF_HID, OF_PRESSURE, OF_SVC, StrokeArgs};
 
 /// Speed and force over time, for at most [`MAX_TRACK_SECS`].
 pub(crate) enum StrokeContacts {
@@ -64,17 +28,10 @@ pub(crate) enum StrokeContacts {
 /// What to do about a stroke that makes no track.
 const CORRECT: &str = "the stroke cannot be replayed; correct it, or how it is read";
 
-fn bend(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.abs() <= 20.0 => Ok(value),
-        _ => Err("it must be a number from -20 to 20".to_owned()),
-    }
-}
-
 /// Reads the stroke of a file; what was assumed is said.
 pub(crate) fn load(path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
-    if args.force_max <= args.force_min {
-        let (low, high) = (args.force_min, args.force_max);
+    let PressureMap { activation_n: low, full_n: high, .. } = args.pressure_map();
+    if high <= low {
         return Err(output::Usage(format!("--force-max {high} must be above --force-min {low}")).into());
     }
     let bytes = output::read_file(path)?;
@@ -86,13 +43,24 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
         return Ok(StrokeContacts::Track(track_of(&read_hid(bytes, args)?)?));
     }
     let (samples, press_unit) = if is_svc(bytes, path) {
+        args.refuse_but(&[OF_SVC, OF_PRESSURE].concat(), "a .svc file")?;
         (read_pen(bytes, args)?, PressUnit::FullScale)
     } else {
         let imported = read_stroke_csv(bytes)?;
         imported.warnings.iter().for_each(|warning| output::warn(warning));
         match imported.value {
-            Stroke::Contacts(contacts) => return StrokeContacts::given(contacts),
-            Stroke::Pen { samples, press_unit } => (samples, press_unit),
+            Stroke::Contacts(contacts) => {
+                args.refuse_but(&[], "a table of speed and force")?;
+                return StrokeContacts::given(contacts);
+            }
+            Stroke::Pen { samples, press_unit: PressUnit::Newtons } => {
+                args.refuse_but(&[], "a table with force in N")?;
+                (samples, PressUnit::Newtons)
+            }
+            Stroke::Pen { samples, press_unit } => {
+                args.refuse_but(&OF_PRESSURE, "a table with pressure")?;
+                (samples, press_unit)
+            }
         }
     };
     let map = args.pressure_map();
@@ -125,6 +93,10 @@ fn track_of(samples: &[TrackSample]) -> anyhow::Result<Track> {
 /// Reads the reports of a pen: its own force where it declares one, else by the map.
 fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>> {
     let recording = read_pen_recording(bytes, None, meters(args.size_mm))?;
+    if recording.decoder.best().pressure.is_some_and(|pressure| pressure.full_n.is_some()) {
+        args.refuse_but(&[OF_HID], "a pen that declares its force in N")?;
+    }
+    args.refuse_but(&[&[OF_HID][..], &OF_PRESSURE[..]].concat(), "a recorded HID pen")?;
     let Some(size_m) = recording.decoder.best().size_m() else {
         bail!("the pen declares no size, without which there is no speed; state it with --size-mm 216x135");
     };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::authoring::{Authored, Authoring, Blending, Layers, Models, Outside, Voice, Weights};
+use shagreen_core::authoring::{Authored, Authoring, Layers, Models, Voice};
 use shagreen_core::blend::Mode;
 use shagreen_core::plane::Plane;
 use shagreen_core::rate::{at_rate, highest_rate};
@@ -16,10 +16,11 @@ use shagreen_core::texture_path::TexturePath;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, TextureEntry};
 
+use crate::cli::blending::BlendArgs;
 use crate::cli::library_source::{self, LibraryArgs};
 use crate::cli::motion::Motion;
+use crate::cli::near_names::unknown_texture;
 use crate::cli::output;
-use crate::cli::words::words;
 
 /// What sounds.
 #[derive(clap::Args)]
@@ -30,25 +31,6 @@ pub(crate) struct SoundArgs {
     library: LibraryArgs,
     #[command(flatten)]
     blending: BlendArgs,
-}
-
-/// How a point becomes a texture.
-#[derive(clap::Args)]
-pub(crate) struct BlendArgs {
-    /// How the textures around a point become one: field is a smooth field over all of them, parametric the mean of those
-    /// around; shared, power and paper mix their signals (one excitation; independent, at the mean of the levels; as
-    /// published).
-    #[arg(long, value_name = "MODE", value_parser = words(Mode::ALL, Mode::id), default_value = Mode::default().id())]
-    blend: Mode,
-    /// Take natural-neighbor weights instead of those of the triangle; with --blend parametric.
-    #[arg(long)]
-    natural: bool,
-    /// Outside the textures, go on as far as the field supports instead of taking the nearest point among them.
-    #[arg(long)]
-    extrapolate: bool,
-    /// Meet this texture exactly at its own place, where the field would smooth it; may be given several times.
-    #[arg(long, value_name = "ID")]
-    lock: Vec<String>,
 }
 
 #[derive(clap::Args)]
@@ -128,43 +110,6 @@ impl SoundArgs {
     /// What the arguments choose of a library.
     pub(crate) fn choose(&self, library: &Library) -> anyhow::Result<Chosen> {
         choose(library, &self.target, &self.blending)
-    }
-}
-
-impl BlendArgs {
-    /// What the arguments ask for.
-    pub(crate) fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
-        let index = |id: &String| {
-            let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
-            if library.textures[index].place.is_none() {
-                bail!("\"{id}\" has no place in the space, so there is nothing to lock; place it first");
-            }
-            Ok(index)
-        };
-        let blending = Blending {
-            mode: self.blend,
-            weights: if self.natural { Weights::Natural } else { Weights::default() },
-            outside: if self.extrapolate { Outside::Extrapolated } else { Outside::default() },
-            locked: self.lock.iter().map(index).collect::<anyhow::Result<_>>()?,
-        };
-        blending.check()?;
-        warn_of_hidden_locks(library, &blending.locked);
-        Ok(blending)
-    }
-}
-
-/// Of locked textures at one place only the first is met.
-fn warn_of_hidden_locks(library: &Library, locked: &[usize]) {
-    for (i, later) in locked.iter().enumerate() {
-        let at = library.textures[*later].at();
-        let first =
-            locked[..i].iter().find(|first| **first != *later && library.textures[**first].at() == at);
-        if let Some(first) = first {
-            let [first, later] = [first, later].map(|texture| library.textures[*texture].id.as_str());
-            output::warn(&format!(
-                "\"{first}\" and \"{later}\" lie at one place: only \"{first}\" is met there"
-            ));
-        }
     }
 }
 
@@ -337,66 +282,9 @@ impl Chosen {
     }
 }
 
-/// That there is no such texture, and which have a name like it.
-pub(crate) fn unknown_texture(library: &Library, id: &str) -> String {
-    format!("the library has no texture \"{id}\"; {}", meant(library, id))
-}
-
-/// Which textures may have been meant by what is the name of none.
-pub(crate) fn meant(library: &Library, id: &str) -> String {
-    let near = near_ids(library, id);
-    if near.is_empty() {
-        "`shagreen library list` shows what there is".to_owned()
-    } else {
-        format!("did you mean {}?", near.join(", "))
-    }
-}
-
-/// Up to three identifiers like `id`, the nearest first.
-fn near_ids<'a>(library: &'a Library, id: &str) -> Vec<&'a str> {
-    let wanted = id.to_lowercase();
-    let mut near: Vec<(usize, &str)> = library
-        .textures
-        .iter()
-        .filter_map(|texture| {
-            let distance = edits(&wanted, &texture.id.to_lowercase());
-            let is_part = wanted.len() > 2 && texture.id.contains(&wanted);
-            let is_near = distance <= 1 + wanted.chars().count() / 3;
-            (is_part || is_near).then_some((if is_part { 0 } else { distance }, texture.id.as_str()))
-        })
-        .collect();
-    near.sort_unstable();
-    near.into_iter().take(3).map(|(_, id)| id).collect()
-}
-
-/// Letters to insert, delete or replace to make one word of the other (Levenshtein).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, to) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(from != *to);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{edits, parse_point};
-
-    #[test]
-    fn edits_are_counted() {
-        for (a, b, n) in
-            [("", "", 0), ("cork", "cork", 0), ("crok", "cork", 2), ("", "abc", 3), ("kitten", "sitting", 3)]
-        {
-            assert_eq!((edits(a, b), edits(b, a)), (n, n), "{a} {b}");
-        }
-    }
+    use super::parse_point;
 
     #[test]
     fn points_say_what_is_wrong() {

@@ -9,11 +9,12 @@ use shagreen_core::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePa
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 
+use crate::cli::blending::BlendArgs;
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::motion::quantity;
 use crate::cli::output;
-use crate::cli::target::{BlendArgs, authoring, parse_point};
+use crate::cli::target::{authoring, parse_point};
 use crate::cli::words::words;
 
 /// Makes a texture that changes along a stroke, from stop to stop through the space, and writes it as a library of its own:

@@ -9,8 +9,9 @@ use shagreen_core::plane::Plane;
 use shagreen_core::units::Contact;
 
 use crate::cli::motion::quantity;
+use crate::cli::near_names::unknown_texture;
 use crate::cli::output;
-use crate::cli::target::{SoundArgs, unknown_texture};
+use crate::cli::target::SoundArgs;
 
 /// The one-sided power spectral density of a texture's model, in (m/s²)²/Hz, from 5 Hz to just below half its rate.
 #[derive(clap::Args)]
@@ -18,10 +19,10 @@ pub(crate) struct Args {
     #[command(flatten)]
     sound: SoundArgs,
     /// Speed of the tip, in mm/s.
-    #[arg(long, value_name = "V", value_parser = quantity, allow_negative_numbers = true)]
+    #[arg(long, value_name = "V", value_parser = quantity)]
     speed: f64,
     /// Normal force of the tip, in N.
-    #[arg(long, value_name = "F", value_parser = quantity, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", value_parser = quantity)]
     force: f64,
     /// Number of frequencies.
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(2..=65_536))]

@@ -140,6 +140,8 @@ pub enum CalibrationWarning {
     Clipped {
         /// Peaks that are cut off.
         n_peaks: usize,
+        /// Samples of these peaks as a share of those of the sweep, 0..1.
+        share: f64,
         /// Where they are cut off, in m/s².
         level_mps2: f64,
     },
@@ -174,9 +176,10 @@ pub enum CalibrationWarning {
 impl fmt::Display for CalibrationWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Clipped { n_peaks, level_mps2 } => write!(
+            Self::Clipped { n_peaks, share, level_mps2 } => write!(
                 f,
-                "{n_peaks} peaks of the recording are cut off at {level_mps2:.3} m/s²: the resonance is higher than it seems; record with less gain"
+                "{n_peaks} peaks of the recording ({:.2} % of the sweep) are cut off at {level_mps2:.3} m/s²: the actuator is stronger there, and its Q greater, than it seems; record with less gain, or play the sweep more quietly",
+                100.0 * share
             ),
             Self::NoSilence => write!(
                 f,
@@ -252,7 +255,7 @@ pub fn calibrate(
 ) -> Result<Calibration, CalibrationError> {
     let within = check(recording, rate, sweep)?;
     let mut warnings = Vec::new();
-    warnings.extend(clipped_peaks(recording));
+    warnings.extend(clipped_peaks(recording, within.seconds * rate.0));
     let (signal, rate) = prepare(recording, rate, sweep);
     let impulse = Impulse::new(&signal, rate, &within, drive);
     let begins_secs = locate(&impulse, &within, signal.len())?;

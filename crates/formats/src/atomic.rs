@@ -39,6 +39,21 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// # Errors
 /// [`WriteError`] for the first file that could not be written; then all files are as they were.
 pub fn write_all(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
+    replace(stage_all(files)?)
+}
+
+/// Whether [`write_all`] could write these files by now, as far as can be told without replacing one: for whoever has
+/// something to do before that cannot be done again.
+///
+/// # Errors
+/// [`WriteError`] for the first file that could not be written.
+pub fn check_all(paths: &[&Path]) -> Result<(), WriteError> {
+    let files: Vec<(&Path, &[u8])> = paths.iter().map(|path| (*path, &[][..])).collect();
+    stage_all(&files).map(drop)
+}
+
+/// All files under other names.
+fn stage_all<'a>(files: &[(&'a Path, &[u8])]) -> Result<Vec<Staged<'a>>, WriteError> {
     let mut staged: Vec<Staged<'_>> = Vec::with_capacity(files.len());
     for (path, bytes) in files {
         let file = stage(path, bytes).map_err(|source| WriteError { path: path.to_path_buf(), source })?;
@@ -49,7 +64,7 @@ pub fn write_all(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
         }
         staged.push(file);
     }
-    replace(staged)
+    Ok(staged)
 }
 
 /// A file that is on the disk under another name, in the folder where it belongs.
@@ -115,9 +130,12 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// The system's own words would name a file that nobody asked for.
+/// The system's own words would name a file that nobody asked for, and those for what is missing are not for people.
 fn unnamed(error: &io::Error) -> io::Error {
-    io::Error::from(error.kind())
+    match error.kind() {
+        kind @ io::ErrorKind::NotFound => io::Error::new(kind, "its folder is not there"),
+        kind => io::Error::from(kind),
+    }
 }
 
 /// Lets staged files take their places.
@@ -178,7 +196,7 @@ fn sync_folder(target: &Path) {
 
 #[cfg(test)]
 mod tests {
-    use super::{replace, stage, write, write_all};
+    use super::{check_all, replace, stage, write, write_all};
     use std::fs;
 
     fn names(folder: &std::path::Path) -> Vec<String> {
@@ -210,9 +228,20 @@ mod tests {
         for other in [&b, &taken] {
             let error = write_all(&[(&a, b"new"), (other, b"new")]).unwrap_err();
             assert_eq!(&error.path, other);
+            assert_eq!(check_all(&[&a, other]).unwrap_err().to_string(), error.to_string());
             assert_eq!(fs::read(&a).unwrap(), b"old");
             assert_eq!(names(folder.path()), ["a", "taken"]);
         }
+    }
+
+    #[test]
+    fn what_could_be_written_is_only_asked() {
+        let folder = tempfile::tempdir().unwrap();
+        let (a, b) = (folder.path().join("a"), folder.path().join("b"));
+        fs::write(&a, b"old").unwrap();
+        check_all(&[&a, &b]).unwrap();
+        assert!(check_all(&[&a, &a]).unwrap_err().to_string().contains("the same file"));
+        assert_eq!((fs::read(&a).unwrap(), names(folder.path())), (b"old".to_vec(), vec!["a".to_owned()]));
     }
 
     /// Three staged files of which the last cannot take its place, for a folder has come there meanwhile.

@@ -3,11 +3,13 @@
 //! `hid-recorder`: a line `R:` holds the number of bytes of a report descriptor and the bytes, `N:` a name, `I:` bus,
 //! vendor and product, and each `E:` a time in seconds, a number of bytes and a report; `D:` says which of several
 //! devices the lines that follow are of, and `#` begins a comment. `usbhid-dump`: a line `BUS:DEVICE:INTERFACE:STREAM
-//! TIME` (or `DESCRIPTOR`) is followed by lines of bytes. All bytes are hexadecimal.
+//! TIME` (or `DESCRIPTOR`) is followed by lines of bytes. All bytes are hexadecimal. Text is UTF-8, or UTF-16 with its mark,
+//! as some shells write what a program prints.
 
 mod dump;
 mod recorder;
 
+use crate::csv_text::{text, text_with_odd_letters};
 use crate::imported::Imported;
 
 /// A report and when it came.
@@ -67,8 +69,8 @@ const MAX_WARNINGS: usize = 20;
 
 /// Whether bytes look like one of these recordings: text with a line that only they have.
 pub fn is_hid_text(bytes: &[u8]) -> bool {
-    let Ok(text) = std::str::from_utf8(bytes) else { return false };
-    lines(text).any(|(_, line)| recorder::is_line(line) || dump::heading(line).is_some())
+    let Ok(text) = text(bytes) else { return false };
+    lines(&text).any(|(_, line)| recorder::is_line(line) || dump::heading(line).is_some())
 }
 
 /// Reads a recording: the devices of which there is a descriptor or a report, in the order of the file. Lines that are
@@ -77,7 +79,7 @@ pub fn is_hid_text(bytes: &[u8]) -> bool {
 /// # Errors
 /// See [`HidTextError`].
 pub fn read_hid_text(bytes: &[u8]) -> Result<Imported<Vec<HidRecording>>, HidTextError> {
-    let text = String::from_utf8_lossy(bytes);
+    let text = text_with_odd_letters(bytes);
     let is_dump = lines(&text).any(|(_, line)| dump::heading(line).is_some());
     if !is_dump && !lines(&text).any(|(_, line)| recorder::is_line(line)) {
         return Err(HidTextError::NotARecording);
@@ -100,6 +102,11 @@ pub fn read_hid_text(bytes: &[u8]) -> Result<Imported<Vec<HidRecording>>, HidTex
         n => warnings.push(format!("{n} more lines were left out")),
     }
     Ok(Imported { value: devices, warnings })
+}
+
+/// The bytes of a file that is text of nothing but bytes, as [`bytes_of_hex`] reads it; `None` if it is anything else.
+pub fn bytes_of_hex_file(bytes: &[u8]) -> Option<Vec<u8>> {
+    bytes_of_hex(&text(bytes).ok()?) // What is no text is something else.
 }
 
 /// Bytes as pairs of hexadecimal digits, with or without white space, commas and `0x` between; `None` if it is anything

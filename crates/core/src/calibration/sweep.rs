@@ -73,7 +73,10 @@ impl Sweep {
     }
 
     /// Whether its numbers have a meaning.
-    pub(super) fn check(&self) -> Result<(), SweepError> {
+    ///
+    /// # Errors
+    /// [`SweepError`] for the first that has none.
+    pub fn check(&self) -> Result<(), SweepError> {
         let numbers = [
             ("the beginning in Hz", self.low.0, 0.1, 10_000.0),
             ("the end in Hz", self.high.0, LEAST_RATIO * self.low.0, 24_000.0),

@@ -1,6 +1,8 @@
 use proptest::prelude::{any, prop, proptest};
 
-use super::{HidRecording, HidTextError, TimedReport, bytes_of_hex, is_hid_text, read_hid_text};
+use super::{
+    HidRecording, HidTextError, TimedReport, bytes_of_hex, bytes_of_hex_file, is_hid_text, read_hid_text,
+};
 
 const RECORDER: &str = "\
 # a comment
@@ -46,6 +48,21 @@ fn text_of_hid_recorder() {
     assert_eq!(device.reports, [report(0.0, &[2, 0x90, 0xe0]), report(1.123_456, &[2, 0x91, 0xe1])]);
     assert_eq!(one(&RECORDER.replace('\n', "\r\n")), device);
     assert_eq!(one(&format!("\u{feff}{RECORDER}")), device);
+}
+
+#[test]
+fn text_in_utf_16_with_its_mark() {
+    for order in [u16::to_le_bytes, u16::to_be_bytes] {
+        let wide = |text: &str| -> Vec<u8> {
+            format!("\u{feff}{}", text.replace('\n', "\r\n")).encode_utf16().flat_map(order).collect()
+        };
+        for text in [RECORDER, DUMP] {
+            assert!(is_hid_text(&wide(text)));
+            assert_eq!(read_hid_text(&wide(text)).unwrap().value, [one(text)]);
+        }
+        assert_eq!(bytes_of_hex_file(&wide("05 0d\n09 02\n")), Some(vec![5, 0x0d, 9, 2]));
+    }
+    assert_eq!(bytes_of_hex_file(&[0x05, 0x0d, 0x00, 0xff]), None);
 }
 
 #[test]

@@ -1,0 +1,85 @@
+//! What came of a calibration: the profile, and what is said of it.
+
+use serde_json::json;
+use shagreen_core::actuator::{Actuator, Drive};
+use shagreen_core::calibration::{Calibration, Fit, fitted_actuator};
+use shagreen_core::units::Kilograms;
+use shagreen_formats::library::id_from_name;
+
+use crate::cli::calibrate::Args;
+use crate::cli::calibrate_recording::Recorded;
+use crate::cli::output;
+
+/// The profile of what was measured, on top of one that was known.
+pub(crate) fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit, drive: Drive) -> Actuator {
+    let name = args
+        .name
+        .clone()
+        .or_else(|| base.as_ref().map(|b| b.name.clone()))
+        .unwrap_or("My actuator".to_owned());
+    let load = args.load_g.map(Kilograms::from_g);
+    let on = load.map_or("an unknown load".to_owned(), |load| format!("{} g", load.g()));
+    let assumed = if args.full_scale_volts.is_none() { ", which is assumed" } else { "" };
+    let mut source = format!(
+        "Response measured on {on} with a sweep ({file}), taking {} V for digital full scale{assumed}",
+        drive.full_scale.0
+    );
+    if let Some(base) = &base {
+        source = format!("{source}; everything else from the profile {}: {}", base.id, base.source);
+    }
+    Actuator { id: id_from_name(&name), name, source, ..fitted_actuator(base, fit, load, drive) }
+}
+
+/// Says what was measured.
+pub(crate) fn print(
+    args: &Args,
+    recorded: &Recorded,
+    calibration: &Calibration,
+    fit: &Fit,
+    (warnings, figures): (&[String], &[String]),
+) {
+    let response = fit.response;
+    let (hz, q, gain) = (response.resonance().0, response.q(), response.gain_mps2_per_v());
+    let curve = &calibration.curve;
+    let worst = calibration.worst_distortion();
+    output::print(
+        args.json,
+        &json!({
+            "f0_hz": hz,
+            "q": q,
+            "gain": gain,
+            "fit_error_db": fit.error_db,
+            "f0_error_hz": fit.resonance_error_hz,
+            "q_error": fit.q_error,
+            "gain_error": fit.gain_error_mps2_per_v,
+            "band_hz": [fit.band.0.0, fit.band.1.0],
+            "full_scale_volts": args.full_scale_volts,
+            "load_g": args.load_g,
+            "channel": recorded.channel,
+            "rate_hz": recorded.rate.0,
+            "begins_s": calibration.begins_secs,
+            "distortion_max": worst.as_ref().map(|w| json!({"share": w.share, "hz": w.frequency.0})),
+            "curve": {
+                "hz": curve.iter().map(|p| p.frequency.0).collect::<Vec<_>>(),
+                "gain": curve.iter().map(|p| p.gain_mps2_per_v).collect::<Vec<_>>(),
+                "noise": curve.iter().map(|p| p.noise_mps2_per_v).collect::<Vec<_>>(),
+            },
+            "warnings": warnings,
+            "figures": figures,
+            "out": args.out.as_ref().map(|out| out.display().to_string()),
+        }),
+        || {
+            let mut lines = vec![format!(
+                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, {gain:.4} ± {:.4} (m/s²)/V; the fit is off by {:.2} dB rms",
+                fit.resonance_error_hz, fit.q_error, fit.gain_error_mps2_per_v, fit.error_db
+            )];
+            if let Some(worst) = &worst {
+                let (percent, at) = (100.0 * worst.share, worst.frequency.0);
+                lines.push(format!("Harmonics up to {percent:.1} % (at {at:.0} Hz)"));
+            }
+            lines.extend(args.out.iter().map(|out| out.display().to_string()));
+            lines.extend_from_slice(figures);
+            lines.join("\n")
+        },
+    );
+}
