@@ -374,6 +374,7 @@ pub(crate) mod tests {
         assert!(!running.drain(Duration::from_millis(100)));
         assert!(begun.elapsed() >= Duration::from_millis(100));
         let heard_by = running.shared.heard_by();
+        assert!(heard_by > begun, "what was handed over is on its way");
         assert!(running.drain(Duration::from_secs(10)));
         assert!(Instant::now() >= heard_by && begun.elapsed() >= Duration::from_millis(400));
         assert!(begun.elapsed() < Duration::from_secs(5), "not until everything ends");
