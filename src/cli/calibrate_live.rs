@@ -20,11 +20,11 @@ pub(crate) fn record_live(
     actuator: Option<&Actuator>,
     drive: Drive,
 ) -> anyhow::Result<Recorded> {
-    let limits = actuator.map_or(Limits::default(), |actuator| actuator.limits);
+    let limits = actuator.map_or(Limits::default(), Actuator::limits_in_volts);
     let driven = (limited_drive(&limits, drive), channels);
     let secs = sweep.seconds + 2.0 * sweep.silence_secs + 2.0 * SILENCE_SECS;
     let progress = Progress::new("ms measured", output::in_ms(secs));
-    let drive_at = |rate_hz: f64| {
+    let drive_at = |rate_hz: f64| -> Result<Vec<f32>, String> {
         let signal = sweep.signal(Hertz(rate_hz)).map_err(|error| by_option(&error))?;
         Ok(signal.iter().map(|sample| *sample as f32).collect())
     };

@@ -2,9 +2,9 @@
 
 use serde_json::json;
 use shagreen_core::actuator::{Actuator, Drive};
-use shagreen_core::calibration::{Calibration, Fit, fitted_actuator};
+use shagreen_core::calibration::{Calibration, Fit};
 use shagreen_core::units::Kilograms;
-use shagreen_formats::library::id_from_name;
+use shagreen_formats::measured_profile::{HowMeasured, measured_profile};
 
 use crate::cli::calibrate::Args;
 use crate::cli::calibrate_recording::Recorded;
@@ -17,17 +17,14 @@ pub(crate) fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit
         .clone()
         .or_else(|| base.as_ref().map(|b| b.name.clone()))
         .unwrap_or("My actuator".to_owned());
-    let load = args.load_g.map(Kilograms::from_g);
-    let on = load.map_or("an unknown load".to_owned(), |load| format!("{} g", load.g()));
-    let assumed = if args.full_scale_volts.is_none() { ", which is assumed" } else { "" };
-    let mut source = format!(
-        "Response measured on {on} with a sweep ({file}), taking {} V for digital full scale{assumed}",
-        drive.full_scale.0
-    );
-    if let Some(base) = &base {
-        source = format!("{source}; everything else from the profile {}: {}", base.id, base.source);
-    }
-    Actuator { id: id_from_name(&name), name, source, ..fitted_actuator(base, fit, load, drive) }
+    let how = HowMeasured {
+        name,
+        heard: file.to_owned(),
+        load: args.load_g.map(Kilograms::from_g),
+        drive,
+        is_drive_assumed: args.full_scale_volts.is_none(),
+    };
+    measured_profile(base, fit, how)
 }
 
 /// Says what was measured.

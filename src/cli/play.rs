@@ -67,6 +67,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(follow) => follow.go(handle, secs),
         None => Ok(()),
     })?;
+    // What does not end in time is cut off: the device has stopped.
+    running.drain(PATIENCE);
     let limited = Limited::new(&status, n_frames_before, watch.heat_gain(), args.rig.has_actuator());
     limited.warnings().iter().for_each(|warning| output::warn(warning));
     output::print(

@@ -144,7 +144,9 @@ impl RigArgs {
         let actuator = load_actuator(name, self.load_g)?;
         let config = drive_config(&actuator, Drive::new(Volts(full_scale))?, !self.no_equalizer);
         let config = config.with_context(|| format!("the actuator `{name}` cannot be driven"))?;
-        if config.budget.is_none() {
+        if let Some(warning) = actuator.limits_warning() {
+            output::warn(&warning.to_string());
+        } else if config.budget.is_none() {
             output::warn(&format!(
                 "nobody has stated what the actuator `{name}` stands for long: it is not kept from getting too warm"
             ));

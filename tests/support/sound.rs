@@ -98,7 +98,7 @@ impl SoundServer {
         let recorder = Guard(recorder);
         let reader = std::thread::spawn(move || {
             let (mut bytes, mut begun) = (Vec::new(), None::<Instant>);
-            let mut part = [0; 1 << 16];
+            let mut part = vec![0; 1 << 16];
             while let Ok(n) = recorded.read(&mut part)
                 && n > 0
             {
@@ -117,7 +117,7 @@ impl SoundServer {
         let (bytes, begun) = reader.join().unwrap();
         let float = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
         let frames = bytes.chunks_exact(FRAME_BYTES).map(|b| [float(&b[..4]), float(&b[4..])]).collect();
-        Recording { frames, begun: begun.expect("something is recorded") }
+        Recording { frames, begun: begun.unwrap() }
     }
 }
 

@@ -13,7 +13,7 @@ mod response;
 pub use crate::actuator::data_sheet::{DataSheet, Mechanics};
 pub use crate::actuator::drive::{Drive, drive_config, limited_drive};
 pub use crate::actuator::headroom::Headroom;
-pub use crate::actuator::inverse::inverse;
+pub use crate::actuator::inverse::{inverse, inverse_gain_bound};
 pub use crate::actuator::response::Response;
 
 use crate::units::{Hertz, Kilograms, Volts};
@@ -189,20 +189,18 @@ impl Actuator {
         measured.ok_or_else(|| ActuatorError::NoResponse { id: self.id.clone() })
     }
 
-    /// What it bears, in volts: the rated current `I` through the resistance `R` of the coil is the voltage `I R`, and the
-    /// smaller counts where a voltage is rated too. The coil's impedance is nowhere below its resistance, so that `I R`
-    /// never drives more than `I`.
+    /// What it bears, in volts: the maker's rated voltage, and where none is rated the voltage `I R` of the rated current `I`
+    /// through the resistance `R` of the coil. Its impedance is nowhere below that, so that `I R` never drives more than `I`;
+    /// a rated voltage may, beside the resonance at which it was rated.
     pub fn limits_in_volts(&self) -> Limits {
-        let of_current = self.limits.rated_amps_rms.zip(self.physical.resistance_ohm).map(|(i, r)| i * r);
-        let rated = self.limits.rated_volts_rms.map(|volts| volts.0);
-        let smaller = rated.into_iter().chain(of_current).reduce(f64::min);
-        Limits { rated_volts_rms: smaller.map(Volts), ..self.limits }
+        let of_current = || Some(Volts(self.limits.rated_amps_rms? * self.physical.resistance_ohm?));
+        Limits { rated_volts_rms: self.limits.rated_volts_rms.or_else(of_current), ..self.limits }
     }
 
     /// What [`Actuator::limits_in_volts`] cannot say, for whoever drives it to be shown.
     pub fn limits_warning(&self) -> Option<LimitsWarning> {
         let rated_amps_rms = self.limits.rated_amps_rms?;
-        let is_known = self.physical.resistance_ohm.is_some();
+        let is_known = self.limits_in_volts().rated_volts_rms.is_some();
         (!is_known).then(|| LimitsWarning::CurrentWithoutResistance { id: self.id.clone(), rated_amps_rms })
     }
 

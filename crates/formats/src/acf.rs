@@ -95,7 +95,7 @@ pub fn acf(actuator: &Actuator, drive: Drive, author: &str) -> Result<AcfV1, Act
     let response = actuator.response()?;
     let share = |volts: Option<f64>| volts.map_or(1.0, |volts| (volts / drive.full_scale.0).min(1.0));
     let peak = actuator.limits.peak_volts.map(|peak| peak.0);
-    let rated = actuator.limits.rated_volts_rms.map(|rated| rated.0 * std::f64::consts::SQRT_2);
+    let rated = actuator.limits_in_volts().rated_volts_rms.map(|rated| rated.0 * std::f64::consts::SQRT_2);
     let resonance_hz = response.resonance().0;
     let low_hz = reaching(&response, LEAST_SHARE).0.max(actuator.lowest.0);
     let high_hz = HIGHEST_HZ.max(2.0 * resonance_hz).max(2.0 * low_hz);

@@ -63,8 +63,11 @@ impl DevicesSheet {
             }
             Err(error) => warning(ui, &error.to_string()),
         }
-        let limits = actuator.limits;
+        let limits = actuator.limits_in_volts();
         note(ui, &strings::limits(limits.rated_volts_rms.map(|v| v.0), limits.peak_volts.map(|v| v.0)));
+        if let Some(text) = actuator.limits_warning() {
+            warning(ui, &text.to_string());
+        }
         note(ui, &actuator.source);
     }
 

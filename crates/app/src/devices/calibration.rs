@@ -103,7 +103,7 @@ fn measured(
     let input = question.input.clone().context(strings::NO_INPUT)?;
     let sweep = Sweep { amplitude: question.amplitude, ..Sweep::USUAL };
     let drive = Drive::new(Volts(rig.full_scale_volts))?;
-    let limits = rig.actuator().map_or(Limits::default(), |actuator| actuator.limits);
+    let limits = rig.actuator().map_or(Limits::default(), Actuator::limits_in_volts);
     let driven = (limited_drive(&limits, drive), rig.channels());
     let sensitivity_mps2 = question.sensitivity_mps2;
     let listener = Listener::Input { id: input, channel_idx: 0, sensitivity_mps2 };

@@ -91,7 +91,7 @@ fn meters_ui(ui: &mut Ui, session: &Session) {
         let bar = bar.text(format!("{:.0} %", 100.0 * status.peak));
         ui.add(bar).accessible_name(strings::METER).on_hover_text(strings::METER_HELP);
     });
-    if session.rig().actuator().is_some_and(|a| a.limits.rated_volts_rms.is_some()) {
+    if session.rig().actuator().is_some_and(|a| a.limits_in_volts().rated_volts_rms.is_some()) {
         row(ui, strings::HEAT, |ui| {
             let color = if status.heat_gain < 0.99 { t.warning } else { t.accent };
             let bar = ProgressBar::new(status.heat_used).desired_width(210.0).fill(color);
