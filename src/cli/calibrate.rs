@@ -186,7 +186,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     source.told(refuse_clipped(&calibration))?;
     let mut warnings: Vec<String> = calibration.warnings.iter().map(ToString::to_string).collect();
     warnings.extend(other_sound(&recorded, calibration.begins_secs, &sweep));
-    warnings.iter().for_each(|warning| output::warn(warning));
+    for warning in &warnings {
+        output::warn(warning);
+    }
     let fit = source.told(calibration.fit.clone())?;
     let actuator = profile(args, &source.name(), base, &fit, drive);
     let mut files = Vec::new();

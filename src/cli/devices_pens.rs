@@ -138,10 +138,7 @@ pub(crate) fn decode(
         refuse_inputs(&[out], &[declared.map(PathBuf::as_path), Some(reports)])?;
         refuse_foreign(out, "the stroke", |bytes| read_stroke_csv(bytes).is_ok())?;
     }
-    let declared = match declared {
-        Some(file) => Some(first_pen(file).map_err(|error| error.context(output::in_file(file)))),
-        None => None,
-    };
+    let declared = declared.map(|file| first_pen(file).map_err(|error| error.context(output::in_file(file))));
     let bytes = output::read_file(reports);
     if let (Some(Err(first)), Err(_)) = (&declared, &bytes) {
         // Both are told, so that both are mended at once.
