@@ -173,10 +173,9 @@ fn how_a_stroke_is_read_is_asked_of_what_can_tell() {
     // A pen that declares neither its size nor its force.
     let descriptor = "05 0d 09 02 a1 01 85 01 09 20 a1 00 09 42 15 00 25 01 75 01 95 01 81 02 95 07 81 03 05 01 09 30 \
         75 10 95 01 26 10 27 81 02 09 31 81 02 05 0d 09 30 26 ff 0f 81 02 c0 c0";
-    let mut hid = format!("R: {} {descriptor}\n", descriptor.split_whitespace().count());
-    for i in 0..50 {
-        hid += &format!("E: 0.{i:02} 8 01 01 {i:02x} 00 00 00 00 08\n");
-    }
+    let events = (0..50).map(|i| format!("E: 0.{i:02} 8 01 01 {i:02x} 00 00 00 00 08\n"));
+    let n_bytes = descriptor.split_whitespace().count();
+    let hid = format!("R: {n_bytes} {descriptor}\n{}", events.collect::<String>());
     bench.write("hid.txt", hid);
     let render = |options: &str| format!("render --texture cork {options} -o out.wav");
     for (options, words) in [
