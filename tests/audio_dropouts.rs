@@ -55,6 +55,8 @@ const WINDOW: &str = "SHAGREEN_DROPOUT_WINDOW";
 /// Frames of the buffer: 5 ms.
 const BUFFER: u32 = 240;
 const CEILING: f32 = 0.9;
+/// How often the program is stopped in the control.
+const STALLS: usize = 10;
 /// How much later than it should be a processor runs where that is a stall.
 const LATE: Duration = Duration::from_millis(3);
 /// What the server holds ahead, and what the way there may be late: so long after a stall a gap may begin.
@@ -102,7 +104,6 @@ fn a_stall_of_ours_is_seen() {
     if !have(&["pulseaudio", "pactl", "parec"]) {
         return;
     }
-    const STALLS: usize = 10;
     let server = SoundServer::new();
     let witness = Witness::new(LATE);
     let recorded = server.record_of("ci", |server| {
@@ -285,7 +286,7 @@ fn gaps_are_found() {
     let mut recorded = vec![[0.1, 0.1]; 1000];
     recorded[100..340].fill([0.0; 2]);
     recorded[700] = [0.0; 2];
-    assert_eq!(gaps(&recorded), [100..340]);
+    assert_eq!(gaps(&recorded), vec![100..340]);
 }
 
 /// Does nothing in the test run itself.
