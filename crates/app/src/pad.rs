@@ -1,8 +1,8 @@
 //! The pad: a piece of the texture to stroke, with the mouse or by the automatic hand.
 
 use egui::{
-    Align2, ComboBox, CursorIcon, Event, FontId, Rect, Role, Sense, Slider, Stroke, Ui, WidgetInfo, pos2,
-    vec2,
+    Align2, ComboBox, CursorIcon, Event, FontId, Rect, Role, Sense, Slider, Stroke, TouchPhase, Ui,
+    WidgetInfo, pos2, vec2,
 };
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::touch::Touch;
@@ -27,11 +27,29 @@ const EXTENT_M: f32 = 0.08;
 pub struct PadState {
     /// What the automatic hand does.
     pub hand: Hand,
+    /// What the window system told last of the pressure of a pen or finger that is down, 0..1.
+    pressure: Option<f64>,
 }
 
 impl Default for PadState {
     fn default() -> Self {
-        Self { hand: Hand { path: Path::Line, speed_mps: 0.1, force_n: 0.8, extent_m: EXTENT_M } }
+        Self {
+            hand: Hand { path: Path::Line, speed_mps: 0.1, force_n: 0.8, extent_m: EXTENT_M },
+            pressure: None,
+        }
+    }
+}
+
+impl PadState {
+    /// A pressure holds until another is told or what presses is lifted: what is held still says nothing.
+    fn follow_pressure(&mut self, events: &[Event]) {
+        for event in events {
+            match event {
+                Event::Touch { phase: TouchPhase::End | TouchPhase::Cancel, .. } => self.pressure = None,
+                Event::Touch { force: Some(force), .. } => self.pressure = Some(f64::from(*force)),
+                _ => {}
+            }
+        }
     }
 }
 
@@ -83,6 +101,7 @@ pub fn pad_ui(
     ui.painter().rect_stroke(area, f32::from(RADIUS), Stroke::new(1.0, t.line), egui::StrokeKind::Inside);
     scale_bar(ui, area);
     tip(ui, area, panel.session.touch());
+    ui.input(|i| state.follow_pressure(&i.events));
     if response.hovered() {
         let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
         let force_n = state.hand.force_n * (scrolled * 0.0015).exp();
@@ -93,23 +112,13 @@ pub fn pad_ui(
     if let Some(pos) = dragged_to(ui, &response).or(held_at) {
         let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
         let (x_m, y_m) = (f64::from(from_middle.x), f64::from(-from_middle.y));
-        outcome.mouse = Some(MouseReport { x_m, y_m, pressed, pressure: pressure(ui) });
+        outcome.mouse = Some(MouseReport { x_m, y_m, pressed, pressure: state.pressure });
     }
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
     if panel.session.touch().contact.force_n <= 0.0 {
         response.on_hover_text(strings::PAD_HELP);
     }
     outcome
-}
-
-/// The pressure that came last in this frame.
-fn pressure(ui: &Ui) -> Option<f64> {
-    ui.input(|i| {
-        i.events.iter().rev().find_map(|event| match event {
-            Event::Touch { force, .. } => force.map(f64::from),
-            _ => None,
-        })
-    })
 }
 
 fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Command> {
@@ -193,4 +202,33 @@ fn tip(ui: &Ui, area: Rect, touch: Touch) {
     let at = Rect::from_min_size(area.left_top() + vec2(6.0, 6.0), galley.size() + vec2(10.0, 4.0));
     painter.rect_filled(at, 3.0, t.background.gamma_multiply(0.75));
     painter.galley(at.min + vec2(5.0, 2.0), galley, t.text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Event, PadState, TouchPhase};
+
+    #[test]
+    fn a_pressure_holds_until_the_pen_is_lifted() {
+        let touch = |phase, force| Event::Touch {
+            device_id: egui::TouchDeviceId(0),
+            id: egui::TouchId(0),
+            phase,
+            pos: egui::Pos2::ZERO,
+            force,
+        };
+        let mut pad = PadState::default();
+        let mut after = |events: &[Event]| {
+            pad.follow_pressure(events);
+            pad.pressure
+        };
+        assert_eq!(after(&[]), None);
+        assert_eq!(
+            after(&[touch(TouchPhase::Start, Some(0.25)), touch(TouchPhase::Move, Some(0.5))]),
+            Some(0.5)
+        );
+        assert_eq!(after(&[]), Some(0.5));
+        assert_eq!(after(&[touch(TouchPhase::Move, None)]), Some(0.5));
+        assert_eq!(after(&[touch(TouchPhase::End, Some(0.1))]), None);
+    }
 }

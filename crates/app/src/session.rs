@@ -407,9 +407,7 @@ impl Session {
         if rate_hz != self.rate_hz {
             self.rate_hz = rate_hz;
             self.spectra = Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() };
-            if let Some(id) = self.player.output_id.clone() {
-                self.open_output(OutputChoice::Id(id), ctx);
-            }
+            self.open_output_again(ctx);
         }
     }
 

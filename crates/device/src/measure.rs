@@ -127,10 +127,13 @@ pub fn measure<E: Display>(
         }
         Listener::Serial { port, baud } => {
             let serial = SerialOptions { baud: *baud, ..SerialOptions::default() };
-            let mut connection = serial::open(port, options, serial)?;
+            // The channels are those of the output; a receiver that only listens has its own.
+            let is_output = serial_id(id) == serial_id(port);
+            let listening = OpenOptions { channels: ChannelMask::FIRST_TWO, ..options };
+            let mut connection = serial::open(port, if is_output { options } else { listening }, serial)?;
             check_sensor(port, &connection.receiver)?;
             let mut sensor = SerialSensor::new(connection.heard);
-            let listened = if id == connection.running.id() {
+            let listened = if is_output {
                 through(&mut connection.handle, &connection.running, &mut sensor)?
             } else {
                 let (mut handle, running) = output::open(id, options)?;
@@ -140,6 +143,11 @@ pub fn measure<E: Display>(
         }
     };
     Ok(Heard { mps2: samples.iter().map(|x| scale * f64::from(*x)).collect(), rate_hz, status })
+}
+
+/// A port's name without what its id begins with.
+fn serial_id(id: &str) -> &str {
+    id.strip_prefix(serial::ID_PREFIX).unwrap_or(id)
 }
 
 /// Whether a receiver has something to listen with.

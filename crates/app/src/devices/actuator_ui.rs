@@ -1,6 +1,8 @@
 //! The actuator: which, what it carries, what drives it, and what it stands.
 
-use anyhow::Context as _;
+use std::sync::mpsc::{Receiver, TryRecvError};
+
+use anyhow::{Context as _, anyhow};
 use egui::{Button, Checkbox, ComboBox, DragValue, TextEdit, Ui};
 use egui_plot::{GridMark, Line, Plot, PlotPoints};
 use shagreen_core::actuator::Actuator;
@@ -104,17 +106,21 @@ impl DevicesSheet {
             };
             self.reading = Some(in_background(ui.ctx().clone(), read));
         }
-        match self.reading.as_ref().and_then(|reading| reading.try_recv().ok()) {
-            None => {}
-            Some(Ok(actuator)) => {
-                self.reading = None;
+        let read = match self.reading.as_ref().map(Receiver::try_recv) {
+            None | Some(Err(TryRecvError::Empty)) => return,
+            Some(Err(TryRecvError::Disconnected)) => Err(anyhow!(strings::READING_BROKEN)),
+            Some(Ok(read)) => read,
+        };
+        self.reading = None;
+        match read {
+            Ok(actuator) => {
                 if let Some(volts) = actuator.calibrated.map(|c| c.full_scale.0) {
                     // It was measured at this voltage: what it says holds there.
                     self.rig.full_scale_volts = volts;
                 }
                 self.take(Some(actuator), None);
             }
-            Some(Err(error)) => (self.reading, self.message) = (None, Some(format!("{error:#}"))),
+            Err(error) => self.message = Some(format!("{error:#}")),
         }
     }
 

@@ -32,14 +32,9 @@ impl Session {
 
     /// Opens an output in the background; the one that is open closes when the new one is there.
     pub fn open_output(&mut self, choice: OutputChoice, ctx: &egui::Context) {
-        match self.rig.drive() {
-            Ok(drive) => self.player.open(choice, &self.rig, drive, self.rate_hz as f32, ctx.clone()),
-            Err(error) => {
-                // What is open drives another actuator.
-                self.player.let_go();
-                self.say(error.to_string());
-            }
-        }
+        self.player.choice = Some(choice);
+        self.player.is_let_go = false;
+        self.open_output_again(ctx);
     }
 
     /// How the output is opened, what hangs on it, and which pen is held.
@@ -57,9 +52,10 @@ impl Session {
         }
     }
 
-    /// Closes the output; [`Session::take_output_back`] opens it again.
+    /// Closes the output for somebody else; [`Session::take_output_back`] opens it again.
     pub fn let_go_of_output(&mut self) {
-        self.player.let_go();
+        self.player.is_let_go = true;
+        self.player.silence();
     }
 
     /// Whether no output is open, nor being opened.
@@ -69,14 +65,21 @@ impl Session {
 
     /// Opens the output again that was let go of.
     pub fn take_output_back(&mut self, ctx: &egui::Context) {
-        if self.player.is_released() {
+        if std::mem::take(&mut self.player.is_let_go) {
             self.open_output_again(ctx);
         }
     }
 
-    fn open_output_again(&mut self, ctx: &egui::Context) {
-        if let Some(id) = self.player.output_id.clone() {
-            self.open_output(OutputChoice::Id(id), ctx);
+    /// Opens the output that was asked for last, as the rig and the rate of the textures are now, unless somebody else has it.
+    pub(super) fn open_output_again(&mut self, ctx: &egui::Context) {
+        let Some(choice) = self.player.choice.clone().filter(|_| !self.player.is_let_go) else { return };
+        match self.rig.drive() {
+            Ok(drive) => self.player.open(choice, &self.rig, drive, self.rate_hz as f32, ctx.clone()),
+            Err(error) => {
+                // What is open drives another actuator.
+                self.player.silence();
+                self.say(error.to_string());
+            }
         }
     }
 

@@ -64,6 +64,10 @@ pub(super) struct Player {
     /// The way in for a pen, until it is given away.
     pub(super) pen_live: Option<LiveInput>,
     opening: Opening,
+    /// The output that was asked for last.
+    pub(super) choice: Option<OutputChoice>,
+    /// Whether somebody else has it meanwhile.
+    pub(super) is_let_go: bool,
     listing: Option<Receiver<Vec<OutputInfo>>>,
     listing_inputs: Option<Receiver<Vec<InputInfo>>>,
     /// Slot of each texture of the library, and when it was last in a mix.
@@ -92,6 +96,8 @@ impl Player {
             live: None,
             pen_live: None,
             opening: Opening::default(),
+            choice: None,
+            is_let_go: false,
             listing: None,
             listing_inputs: None,
             slots: vec![None; n_textures],
@@ -122,7 +128,7 @@ impl Player {
     }
 
     /// Closes the output, also one that is only being opened; what it was is remembered.
-    pub(super) fn let_go(&mut self) {
+    pub(super) fn silence(&mut self) {
         self.close();
         self.opening.discard();
     }
@@ -158,16 +164,16 @@ impl Player {
 
     /// Opens an output, once what is being opened has come.
     fn begin(&mut self, request: Request) {
-        if self.opening.is_busy() {
-            self.opening.wait_with(request);
-            return;
-        }
         let is_same = matches!(&request.choice, OutputChoice::Id(id) if self.output_id.as_ref() == Some(id));
         if is_same || self.status.is_some_and(|s| s.state == LinkState::Lost) {
-            // Some devices can be held only once: let go before asking again.
+            // Some devices can be held only once, and what is open may drive another actuator.
             self.close();
         }
-        self.opening.begin(request);
+        if self.opening.is_busy() {
+            self.opening.wait_with(request);
+        } else {
+            self.opening.begin(request);
+        }
     }
 
     /// Takes in what came back; true when an output has just been opened.
@@ -216,6 +222,10 @@ impl Player {
         match opened {
             Err(error) => {
                 self.message = Some(error.to_string());
+                if self.handle.is_some() {
+                    // The one before stays.
+                    self.choice = self.output_id.clone().map(OutputChoice::Id);
+                }
                 false
             }
             Ok((mut handle, running)) => {
@@ -226,6 +236,8 @@ impl Player {
                 handle.set_drive(Drive { muted: self.muted, ..Drive::default() });
                 handle.set_takeover(Some(Takeover::USUAL));
                 self.output_id = Some(running.id().to_owned());
+                // From now on it is this one, whatever the system prefers later.
+                self.choice = self.output_id.clone().map(OutputChoice::Id);
                 // The old output falls silent only now that the new one stands.
                 self.handle = Some(handle);
                 self.running = Some(running);

@@ -3,13 +3,15 @@ use std::sync::Arc;
 use shagreen_core::blend::Mode;
 use shagreen_core::rate::at_rate;
 use shagreen_core::space::LabelSource;
-use shagreen_core::units::Hertz;
+use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use shagreen_formats::actuator_toml::built_in_actuators;
 use shagreen_formats::library::{Attribute, Attributes, Library};
 use shagreen_formats::starter::starter_library;
 
-use super::Session;
+use super::{OutputChoice, Session};
 use crate::libraries::BuiltIn;
 use crate::project::{Edit, Project};
+use crate::rig::{Mounted, Rig};
 
 /// The starter library, whose first six textures are rated, and the last of these is twice as fast and has no place.
 fn mixed_library() -> Library {
@@ -146,4 +148,66 @@ fn the_first_library_is_known_whatever_joined_it() {
     session.follow(&project, &ctx);
     session.follow(&project.edited(Edit::OpenLibrary(Some(BuiltIn::Simulated))), &ctx);
     assert_eq!((session.first_as(), session.textures().len()), (Some(BuiltIn::Starter), 26));
+}
+
+/// Lets a session go on until something is so.
+fn go_on(session: &mut Session, what: &str, is_so: impl Fn(&Session) -> bool) {
+    let begun = std::time::Instant::now();
+    while !is_so(session) {
+        assert!(begun.elapsed().as_secs() < 30, "{what}");
+        session.update(Contact { speed: MetersPerSecond(0.1), force: Newtons(1.0) });
+        std::thread::yield_now();
+    }
+}
+
+fn null() -> OutputChoice {
+    OutputChoice::Id("null".to_owned())
+}
+
+fn frames(session: &Session) -> Option<u32> {
+    session.stream().and_then(|(.., frames)| frames)
+}
+
+/// A change of the rig while an output is being opened opens that one again, and not none.
+#[test]
+fn a_rig_that_changes_during_the_opening_holds_for_what_was_asked_for() {
+    let ctx = egui::Context::default();
+    let mut session = Session::new(starter_library().unwrap()).unwrap();
+    session.open_output(null(), &ctx);
+    session.set_rig(Rig { buffer_frames: 512, ..Rig::default() }, &ctx);
+    go_on(&mut session, "it opens", |s| !s.is_opening() && s.status().is_some());
+    assert_eq!(frames(&session), Some(512));
+}
+
+/// What was let go of while it was being opened comes back, also where nobody waited for it to be closed.
+#[test]
+fn an_output_that_was_let_go_of_during_the_opening_comes_back() {
+    let ctx = egui::Context::default();
+    let mut session = Session::new(starter_library().unwrap()).unwrap();
+    session.open_output(null(), &ctx);
+    session.let_go_of_output();
+    session.set_rig(Rig { buffer_frames: 128, ..Rig::default() }, &ctx);
+    session.take_output_back(&ctx);
+    go_on(&mut session, "it opens", |s| !s.is_opening() && s.status().is_some());
+    assert_eq!(frames(&session), Some(128));
+    session.let_go_of_output();
+    session.set_rig(Rig::default(), &ctx);
+    go_on(&mut session, "it is closed", Session::is_output_released);
+    assert!(session.status().is_none() && !session.is_opening(), "a change of the rig takes nothing back");
+}
+
+/// An actuator that cannot be driven closes the output, also the first, and another opens it.
+#[test]
+fn an_actuator_that_can_be_driven_opens_what_another_closed() {
+    let ctx = egui::Context::default();
+    let mut session = Session::new(starter_library().unwrap()).unwrap();
+    let mounted = |name: &str| {
+        let profile = built_in_actuators().unwrap().into_iter().find(|a| a.name.contains(name)).unwrap();
+        Rig { mounted: Some(Mounted::new(profile, None).unwrap()), ..Rig::default() }
+    };
+    session.open_output(null(), &ctx);
+    session.set_rig(mounted("MM1C"), &ctx);
+    go_on(&mut session, "it is closed", Session::is_output_released);
+    session.set_rig(mounted("Mark II-D"), &ctx);
+    go_on(&mut session, "it opens", |s| !s.is_opening() && s.status().is_some());
 }

@@ -77,6 +77,8 @@ pub const PROFILE_PATH: &str = "Profile file";
 pub const PROFILE_HINT: &str = "profile.toml of shagreen calibrate";
 /// Opens the profile.
 pub const OPEN_PROFILE: &str = "Open";
+/// Reading ended without a word.
+pub const READING_BROKEN: &str = "reading the profile failed for no reason that is known; try again";
 /// Heading of the pen.
 pub const PEN: &str = "Pen";
 /// Only the mouse is used.

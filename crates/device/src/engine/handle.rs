@@ -271,8 +271,8 @@ impl Handle {
         self.publish();
     }
 
-    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`]: the newest that touches
-    /// or is near counts, until it says itself that it is no more.
+    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`]: the first that touches
+    /// or is near counts, until it says itself that it is no more, or says nothing for [`Takeover::stale_secs`].
     pub fn take_live_input(&mut self) -> Option<LiveInput> {
         self.live.pop()
     }

@@ -123,11 +123,13 @@ impl Player {
         self.track.replace(track)
     }
 
-    /// Takes what the person did `age_secs` ago with one of the styluses. What one says that is not near is nothing against
-    /// one that is: the system moves a mouse along with a pen.
+    /// Takes what the person did `age_secs` ago with one of the styluses. Whatever is near first is the hand until it says
+    /// that it is no more, or says nothing for long: the system moves and presses a mouse along with a pen.
     pub(super) fn report(&mut self, stylus_idx: usize, timed: TimedTouch, age_secs: f64) {
         let TimedTouch { touch, landing_mps, is_near, .. } = timed;
-        if !is_near && self.live_is_near && stylus_idx != self.live_stylus_idx {
+        let stale_secs = f64::from(self.takeover.unwrap_or(Takeover::USUAL).stale_secs);
+        let is_anothers_turn = self.live_is_near && self.clock_secs - self.live_secs <= stale_secs;
+        if is_anothers_turn && stylus_idx != self.live_stylus_idx {
             return;
         }
         let was_touching = self.live.contact.force_n > 0.0;
@@ -207,7 +209,8 @@ impl Player {
     fn start(&mut self) {
         self.input_start_secs = self.clock_secs;
         self.distance_m = 0.0;
-        self.track_is_down = self.touch.contact.force_n > 0.0;
+        // What a person's hand does in its place is none of the stroke's.
+        self.track_is_down = !self.has_taken_over && self.touch.contact.force_n > 0.0;
     }
 
     /// What the input says, `step_secs` after it was asked last.

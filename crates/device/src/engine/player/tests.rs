@@ -240,9 +240,44 @@ fn what_is_near_takes_over_and_a_mouse_that_moves_along_does_not_matter() {
     mouse(&mut player, PEN.lifted());
     run(&mut player, 4);
     assert_eq!(player.touch().contact.force_n, 2.0, "the mouse lifts no pen");
+    let pressed = Touch { contact: Contact { force_n: 0.7, ..PEN.contact }, ..PEN };
+    mouse(&mut player, pressed);
+    run(&mut player, 4);
+    assert_eq!(player.touch().contact.force_n, 2.0, "nor does it press in its place");
+    player.report(0, hover, 0.0);
+    mouse(&mut player, pressed);
+    run(&mut player, 10);
+    assert_eq!(player.touch().contact, Contact::LIFTED, "nor while it hovers");
+    report(&mut player, PEN);
     report(&mut player, PEN.lifted());
     mouse(&mut player, PEN.lifted());
     assert!((20..=21).contains(&ticks_until(&mut player, Input::Hand(HAND))));
+    // Its turn is over: now the mouse may press.
+    mouse(&mut player, pressed);
+    run(&mut player, 10);
+    assert_eq!(player.touch().contact.force_n, 0.7);
+}
+
+#[test]
+fn a_stroke_that_begins_under_a_persons_hand_lands_when_its_turn_comes() {
+    let mut player = under_way(Some(TAKEOVER));
+    report(&mut player, PEN);
+    run(&mut player, 10);
+    let sample = |i| PenSample {
+        time_secs: 0.01 * f64::from(i),
+        force_n: 2.0,
+        touching: true,
+        ..PenSample::default()
+    };
+    let samples: Vec<PenSample> = (0..100).map(sample).collect();
+    player.play(Box::new(Track::new(&samples).unwrap()));
+    player.set_input(Input::Track);
+    run(&mut player, 10);
+    while player.take_landing(0.0).is_some() {}
+    report(&mut player, PEN.lifted());
+    ticks_until(&mut player, Input::Track);
+    run(&mut player, 2);
+    assert!(player.take_landing(0.0).is_some());
 }
 
 #[test]
