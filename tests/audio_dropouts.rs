@@ -58,7 +58,9 @@ const CEILING: f32 = 0.9;
 /// How often the program is stopped in the control.
 const STALLS: usize = 20;
 /// How much later than it should be a processor runs where that is a stall.
-const LATE: Duration = Duration::from_millis(3);
+const LATE: Duration = Duration::from_micros(500);
+/// What stalls around a gap must take together to be what caused it: one buffer.
+const TAKEN_SECS: f64 = 0.005;
 /// What the server holds ahead, and what the way there may be late: so long after a stall a gap may begin.
 const AFTER_SECS: f64 = 0.06;
 /// How far ahead of its time a sink may render: so long before a stall its gap may be recorded.
@@ -212,13 +214,15 @@ impl Lost {
         let seen: Vec<_> = stalls
             .iter()
             .map(|stall| {
-                (
-                    since(recording.begun, stall.from) - BEFORE_SECS,
-                    since(recording.begun, stall.to) + AFTER_SECS,
-                )
+                let from = since(recording.begun, stall.from) - BEFORE_SECS;
+                let to = since(recording.begun, stall.to) + AFTER_SECS;
+                (from, to, stall.late.as_secs_f64())
             })
             .collect();
-        let is_seen = |gap: &(f64, f64)| seen.iter().any(|(from, to)| gap.0 <= *to && gap.1 >= *from);
+        let is_seen = |gap: &(f64, f64)| {
+            let around = seen.iter().filter(|(from, to, _)| gap.0 <= *to && gap.1 >= *from);
+            around.map(|(.., late_secs)| late_secs).sum::<f64>() >= TAKEN_SECS
+        };
         let n_probes = 10_000;
         let probe = |i: usize| at(first) + (at(last) - at(first)) * i as f64 / f64::from(n_probes);
         let n_seen = (0..n_probes as usize).filter(|i| is_seen(&(probe(*i), probe(*i) + GAP_SECS))).count();

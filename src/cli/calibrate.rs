@@ -14,7 +14,7 @@ use shagreen_formats::calibration_report::calibration_figures;
 use shagreen_formats::recording::Ask;
 
 use crate::cli::actuator_source::{grams, load_actuator, positive, volts};
-use crate::cli::calibrate_doubts::{advised, other_sound, refuse_clipped};
+use crate::cli::calibrate_doubts::{advised, other_sound};
 use crate::cli::calibrate_live::record_live;
 use crate::cli::calibrate_recording::recorded_file;
 use crate::cli::calibrate_result::{print, profile};
@@ -183,7 +183,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     let calibration = calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive);
     let calibration = source.told(calibration.map_err(|error| advised(&error, &recorded, &sweep)))?;
-    source.told(refuse_clipped(&calibration))?;
     let mut warnings: Vec<String> = calibration.warnings.iter().map(ToString::to_string).collect();
     warnings.extend(other_sound(&recorded, calibration.begins_secs, &sweep));
     for warning in &warnings {

@@ -1,35 +1,16 @@
 //! What lets one doubt that a recording is that of one whole sweep.
 
-use anyhow::{anyhow, bail};
-use shagreen_core::calibration::{Calibration, CalibrationError, CalibrationWarning, Sweep};
+use anyhow::anyhow;
+use shagreen_core::calibration::{CalibrationError, Sweep};
 
 use crate::cli::calibrate_recording::Recorded;
 
-/// Share of the sweep that may be cut off. Of simulated coils with a Q of 0.8 to 30 the resonance is then still right within 1 %
-/// and the gain within 3 %, while Q is too low, by a tenth at a Q of 6; with 5 % a damped one is off by 2 and 5 %.
-const MOST_CLIPPED: f64 = 0.02;
 /// How long an actuator rings at the ends of a sweep, in seconds.
 const RINGING_SECS: f64 = 0.5;
 /// Share of the sweep's highest acceleration that counts as loud.
 const AS_LOUD: f64 = 0.5;
 /// Lengths of the sweep in a recording that may hold more than one.
 const SEVERAL_SWEEPS: f64 = 1.8;
-
-/// Refuses a recording of which so much is cut off that what is left would pass for another actuator.
-pub(crate) fn refuse_clipped(calibration: &Calibration) -> anyhow::Result<()> {
-    for warning in &calibration.warnings {
-        if let CalibrationWarning::Clipped { share, level_mps2, .. } = warning
-            && *share > MOST_CLIPPED
-        {
-            bail!(
-                "the peaks of {:.1} % of the sweep are cut off at {level_mps2:.1} m/s², more than the {:.1} % up to which the actuator can be told; record again with less gain, or play the sweep more quietly",
-                100.0 * share,
-                100.0 * MOST_CLIPPED
-            );
-        }
-    }
-    Ok(())
-}
 
 /// What is to be said where something else than the sweep, such as another one, is in the recording.
 pub(crate) fn other_sound(recorded: &Recorded, begins_secs: f64, sweep: &Sweep) -> Option<String> {

@@ -24,10 +24,7 @@ pub(crate) fn record_live(
     let driven = (limited_drive(&limits, drive), channels);
     let secs = sweep.seconds + 2.0 * sweep.silence_secs + 2.0 * SILENCE_SECS;
     let progress = Progress::new("ms measured", output::in_ms(secs));
-    let drive_at = |rate_hz: f64| -> Result<Vec<f32>, String> {
-        let signal = sweep.signal(Hertz(rate_hz)).map_err(|error| by_option(&error))?;
-        Ok(signal.iter().map(|sample| *sample as f32).collect())
-    };
+    let drive_at = |rate_hz: f64| sweep.drive_samples(rate_hz).map_err(|error| by_option(&error));
     let heard = measure(id, driven, listener, &drive_at, &mut |share| {
         progress.set_secs(share * secs);
         true

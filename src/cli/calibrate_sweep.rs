@@ -65,8 +65,7 @@ pub(crate) fn by_option(error: &SweepError) -> String {
 /// Writes the sweep, to be played by whatever.
 pub(crate) fn write_sweep(sweep: &Sweep, rate_hz: u32, out: &Path, as_json: bool) -> anyhow::Result<()> {
     refuse_foreign(out, "the sweep", |bytes| bytes.starts_with(b"RIFF"))?;
-    let samples = sweep.signal(Hertz(f64::from(rate_hz))).map_err(|error| anyhow!(by_option(&error)))?;
-    let samples: Vec<f32> = samples.iter().map(|sample| *sample as f32).collect();
+    let samples = sweep.drive_samples(f64::from(rate_hz)).map_err(|error| anyhow!(by_option(&error)))?;
     wav::write_samples(out, &samples, rate_hz)?;
     let seconds = samples.len() as f64 / f64::from(rate_hz);
     output::print(

@@ -262,8 +262,11 @@ fn write_stroke(rows: &[(f64, PenMoment)], out: &Path) -> anyhow::Result<()> {
         let (x_m, y_m, touching) = (report.x_m?, report.y_m?, report.touching());
         Some(PenSample { time_secs: *time_secs, x_m, y_m, press: press.unwrap_or(0.0), touching })
     };
+    if rows.is_empty() {
+        bail!("there is no stroke to write: no report has the pen in range");
+    }
     let samples: Option<Vec<PenSample>> = rows.iter().map(sample).collect();
-    let Some(samples) = samples.filter(|samples| !samples.is_empty()) else {
+    let Some(samples) = samples else {
         bail!("there is no stroke in mm to write; state the size of the pen's area with --size-mm");
     };
     let unit = if is_in_newtons { PressUnit::Newtons } else { PressUnit::FullScale };

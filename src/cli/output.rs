@@ -16,8 +16,14 @@ pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION
 /// Prints the result: as JSON for a script, else as text for a person.
 pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String) {
     let text = if as_json { result.to_string() } else { printable(&text()) };
-    // Whoever closed the pipe has read enough.
-    let _ = writeln!(io::stdout(), "{text}");
+    let mut stdout = io::stdout().lock();
+    if let Err(error) = writeln!(stdout, "{text}").and_then(|()| stdout.flush())
+        && error.kind() != io::ErrorKind::BrokenPipe
+    {
+        // Whoever closed the pipe has read enough; a full disk has lost what was asked for.
+        say(format!("error: the answer cannot be written: {error}; make room, or write it elsewhere"));
+        std::process::exit(1);
+    }
 }
 
 /// A line on standard error.

@@ -21,6 +21,8 @@ const PRIORITY: u8 = 60;
 pub(crate) struct Stall {
     pub(crate) from: Instant,
     pub(crate) to: Instant,
+    /// How much of it the processor was away.
+    pub(crate) late: Duration,
 }
 
 /// Watches every processor until it is asked what it saw.
@@ -64,8 +66,9 @@ fn watch(cpu: usize, late: Duration, ends: &AtomicBool) -> Vec<Stall> {
     while !ends.load(Ordering::Relaxed) {
         std::thread::sleep(PERIOD);
         let to = Instant::now();
-        if to.duration_since(from) > PERIOD + late {
-            stalls.push(Stall { from, to });
+        let away = to.duration_since(from).saturating_sub(PERIOD);
+        if away > late {
+            stalls.push(Stall { from, to, late: away });
         }
         from = to;
     }

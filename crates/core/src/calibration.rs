@@ -21,7 +21,7 @@ use std::fmt;
 use crate::actuator::{Actuator, Calibrated, Drive, Limits, Measured, Physical, USUAL_LOWEST};
 use crate::calibration::clipping::clipped_peaks;
 use crate::calibration::curve::{distortion, gains, silence};
-use crate::calibration::fit::{MIN_SNR_DB, fit_response};
+use crate::calibration::fit::{MIN_SNR_DB, MOST_CLIPPED, fit_response};
 use crate::calibration::impulse::{Impulse, prepare};
 use crate::calibration::locate::locate;
 use crate::units::{Hertz, Kilograms};
@@ -255,7 +255,14 @@ pub fn calibrate(
 ) -> Result<Calibration, CalibrationError> {
     let within = check(recording, rate, sweep)?;
     let mut warnings = Vec::new();
-    warnings.extend(clipped_peaks(recording, within.seconds * rate.0));
+    let clipped = clipped_peaks(recording, within.seconds * rate.0);
+    let too_clipped = match clipped {
+        Some(CalibrationWarning::Clipped { share, level_mps2, .. }) if share > MOST_CLIPPED => {
+            Some(FitError::Clipped { share, level_mps2 })
+        }
+        _ => None,
+    };
+    warnings.extend(clipped);
     let (signal, rate) = prepare(recording, rate, sweep);
     let impulse = Impulse::new(&signal, rate, &within, drive);
     let begins_secs = locate(&impulse, &within, signal.len())?;
@@ -284,7 +291,7 @@ pub fn calibrate(
         warnings.push(CalibrationWarning::Buried { share: 1.0 - n_clear as f64 / curve.len() as f64 });
     }
     let distortion = distortion(&impulse, &within, begins_secs, &curve);
-    let fit = fit_response(&curve);
+    let fit = too_clipped.map_or_else(|| fit_response(&curve), Err);
     if let Ok(fit) = &fit
         && fit.error_db > POOR_FIT_DB
     {

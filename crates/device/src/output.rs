@@ -376,7 +376,7 @@ pub(crate) mod tests {
         let heard_by = running.shared.heard_by();
         assert!(heard_by > begun, "what was handed over is on its way");
         assert!(running.drain(Duration::from_secs(10)));
-        assert!(Instant::now() >= heard_by && begun.elapsed() >= Duration::from_millis(400));
+        assert!(Instant::now() >= heard_by);
         assert!(begun.elapsed() < Duration::from_secs(5), "not until everything ends");
     }
 

@@ -6,6 +6,9 @@ use crate::actuator::Response;
 use crate::calibration::CurvePoint;
 use crate::units::Hertz;
 
+/// Share of the sweep that may be cut off. Of simulated coils with a Q of 0.8 to 30 the resonance is then still right within 1 %
+/// and the gain within 3 %, while Q is too low, by a tenth at a Q of 6; with 5 % a damped one is off by 2 and 5 %.
+pub(super) const MOST_CLIPPED: f64 = 0.02;
 /// The highest frequency that is fitted: what is reproduced ends about there, and modes of the case begin.
 const FIT_HIGH: Hertz = Hertz(500.0);
 /// Points nearer to the noise than this, in dB, are left out.
@@ -65,6 +68,18 @@ pub enum FitError {
         n_points: usize,
         /// What they span.
         octaves: f64,
+    },
+    /// So much is cut off that what is left would pass for another actuator.
+    #[error(
+        "the peaks of {:.1} % of the sweep are cut off at {level_mps2:.1} m/s², more than the {:.1} % up to which the actuator can be told; record again with less gain, or play the sweep more quietly",
+        100.0 * share,
+        100.0 * MOST_CLIPPED
+    )]
+    Clipped {
+        /// Share of the sweep's samples that are cut off.
+        share: f64,
+        /// Where they are cut off, in m/s².
+        level_mps2: f64,
     },
     /// The gain has no resonance.
     #[error(

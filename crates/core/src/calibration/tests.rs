@@ -246,6 +246,10 @@ fn cut_peaks_are_named_and_rounded_ones_are_not() {
     let expected = n_cut / (QUICK.seconds * QUICK_RATE.0);
     let CalibrationWarning::Clipped { share, .. } = warnings[0] else { panic!("{warnings:?}") };
     assert!(share > 0.01 && (share / expected - 1.0).abs() < 0.05, "{share} for {expected}");
+    // What is left of one that is cut off at a tenth of that is no measurement.
+    let low: Vec<f64> = recording.iter().map(|a| a.clamp(-0.2, 0.2)).collect();
+    let fit = calibrate(&low, QUICK_RATE, &QUICK, Drive::ASSUMED).unwrap().fit;
+    assert!(matches!(fit, Err(FitError::Clipped { share, .. }) if share > 0.05), "{fit:?}");
     // As a converter of few bits sees it, from the loudest to a whisper.
     for step in [1e-4, 1e-3, 0.01, 0.05] {
         let coarse: Vec<f64> = recording.iter().map(|a| (a / step).round() * step).collect();
