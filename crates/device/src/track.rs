@@ -7,8 +7,10 @@ use crate::touch::{Touch, mix_contacts};
 
 /// Points of a track a second, in Hz.
 pub const TRACK_RATE_HZ: f64 = 1000.0;
-/// Reports further apart than this are two strokes, in seconds.
+/// Reports further apart than this are two strokes, in seconds, where they do not usually come as seldom.
 pub const LIFT_GAP_SECS: f64 = 0.050;
+/// Usual intervals after which they are: two reports in a row may be lost.
+const LIFT_GAP_INTERVALS: f64 = 3.5;
 /// Longest track, in seconds: what is longer is more likely a wrong unit.
 pub const MAX_TRACK_SECS: f64 = 3600.0;
 
@@ -77,7 +79,8 @@ pub struct TrackWarnings {
 ///
 /// Each pen-down stretch has its speed from the Kalman filter on the real times of the reports. Between two reports
 /// place, speed and force go in straight lines; towards a lift they stay, as they do for a live pen, until the lift.
-/// Where reports end without a lift, speed is held and decays and the tip is off [`LIFT_GAP_SECS`] later.
+/// Where reports end without a lift, speed is held and decays and the tip is off [`LIFT_GAP_SECS`] later, or after some of the
+/// intervals of a slower recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     touches: Box<[Touch]>,
@@ -93,7 +96,8 @@ impl Track {
     /// [`TrackError`] names the first sample that is not usable.
     pub fn new(samples: &[PenSample]) -> Result<Self, TrackError> {
         check(samples)?;
-        let (reports, warnings) = reports_of(samples);
+        let gap_secs = lift_gap_secs(samples);
+        let (reports, warnings) = reports_of(samples, gap_secs);
         let (Some(first), Some(last)) = (reports.first(), reports.last()) else {
             return Err(TrackError::Empty);
         };
@@ -111,7 +115,7 @@ impl Track {
                 next += 1;
             }
             // The first report is at the first point of the grid, so there is one before.
-            touch_between(&reports[next.saturating_sub(1)], reports.get(next), time_secs)
+            touch_between(&reports[next.saturating_sub(1)], reports.get(next), time_secs, gap_secs)
         });
         Ok(Self { touches: touches.collect(), duration_secs, warnings })
     }
@@ -168,8 +172,21 @@ struct Report {
     touching: bool,
 }
 
+/// After how long without a report the tip of a recorded stroke is off, in seconds: [`LIFT_GAP_SECS`], or so many usual
+/// intervals of a slower recording.
+fn lift_gap_secs(samples: &[PenSample]) -> f64 {
+    let mut intervals: Vec<f64> = samples
+        .windows(2)
+        .filter(|pair| pair[0].touching && pair[1].time_secs > pair[0].time_secs)
+        .map(|pair| pair[1].time_secs - pair[0].time_secs)
+        .collect();
+    intervals.sort_by(f64::total_cmp);
+    let usual_secs = intervals.get(intervals.len() / 2).copied().unwrap_or(0.0);
+    LIFT_GAP_SECS.max(LIFT_GAP_INTERVALS * usual_secs)
+}
+
 /// One report a time, with speeds.
-fn reports_of(samples: &[PenSample]) -> (Vec<Report>, TrackWarnings) {
+fn reports_of(samples: &[PenSample], gap_secs: f64) -> (Vec<Report>, TrackWarnings) {
     let mut reports: Vec<Report> = Vec::with_capacity(samples.len());
     let mut warnings = TrackWarnings::default();
     let mut estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
@@ -178,9 +195,9 @@ fn reports_of(samples: &[PenSample]) -> (Vec<Report>, TrackWarnings) {
             warnings.n_equal_timestamps += 1;
             continue;
         }
-        let is_new_stroke = reports.last().is_none_or(|previous| {
-            !previous.touching || sample.time_secs - previous.time_secs > LIFT_GAP_SECS
-        });
+        let is_new_stroke = reports
+            .last()
+            .is_none_or(|previous| !previous.touching || sample.time_secs - previous.time_secs > gap_secs);
         if is_new_stroke {
             estimator.lift();
         }
@@ -196,10 +213,10 @@ fn reports_of(samples: &[PenSample]) -> (Vec<Report>, TrackWarnings) {
     (reports, warnings)
 }
 
-/// The touch at a time from `from` on and before `to`.
-fn touch_between(from: &Report, to: Option<&Report>, time_secs: f64) -> Touch {
+/// The touch at a time from `from` on and before `to`; reports further apart than the gap are of two strokes.
+fn touch_between(from: &Report, to: Option<&Report>, time_secs: f64, gap_secs: f64) -> Touch {
     let age_secs = time_secs - from.time_secs;
-    let near = to.filter(|to| to.time_secs - from.time_secs <= LIFT_GAP_SECS);
+    let near = to.filter(|to| to.time_secs - from.time_secs <= gap_secs);
     let mut touch = from.touch;
     if let Some(to) = near {
         let share = (age_secs / (to.time_secs - from.time_secs)) as f32;
@@ -209,7 +226,7 @@ fn touch_between(from: &Report, to: Option<&Report>, time_secs: f64) -> Touch {
             touch.contact = mix_contacts(from.touch.contact, to.touch.contact, share);
             return touch;
         }
-    } else if age_secs >= LIFT_GAP_SECS {
+    } else if age_secs >= gap_secs {
         return touch.lifted();
     }
     touch.contact.speed_mps = held_speed(f64::from(touch.contact.speed_mps), age_secs) as f32;

@@ -75,6 +75,29 @@ fn a_long_gap_is_held_decays_and_lifts() {
     assert_eq!(track.touch_at(0.5).contact.speed_mps, 0.0);
 }
 
+/// A table of few rows is a stroke like any other, whatever its intervals.
+#[test]
+fn a_slow_recording_is_one_stroke_and_a_longer_gap_in_it_lifts() {
+    for interval_secs in [0.04, 0.06, 0.1, 1.0] {
+        let at = |i: u32| sample(interval_secs * f64::from(i), 0.08 * interval_secs * f64::from(i));
+        let mut samples: Vec<_> = (0..40).map(at).collect();
+        let after = (43..60).map(at);
+        samples.extend(after);
+        let track = Track::new(&samples).unwrap();
+        for step in 10..380 {
+            let touch = track.touch_at(0.1 * interval_secs * f64::from(step));
+            // The filter has found the speed after ten reports; before that it rises.
+            assert!(
+                step < 100 || (touch.contact.speed_mps - 0.08).abs() < 0.004,
+                "{touch:?} of {interval_secs}"
+            );
+            close(touch.contact.force_n, 0.5);
+        }
+        let gap = track.touch_at(42.9 * interval_secs);
+        assert_eq!(gap.contact, Contact::LIFTED, "{interval_secs}");
+    }
+}
+
 #[test]
 fn equal_times_keep_the_last() {
     let samples =
