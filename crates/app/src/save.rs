@@ -4,12 +4,13 @@
 mod figure_file;
 
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::{Button, Context, Key, Label, Modal, RichText, TextEdit, Ui};
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
 
+use crate::background::in_background;
 use crate::command::Command;
 use crate::strings::{build, import as strings};
 use crate::theme::{GAP, tokens};
@@ -152,7 +153,6 @@ impl SaveSheet {
 
     /// Writes in a thread of its own, and not over a file that is there unless `replaces`.
     fn save(&mut self, path: &str, library: &Library, replaces: bool, ctx: &Context) {
-        let (sender, receiver) = channel();
         let content = match &self.figure {
             None => Content::Library(Box::new(Library {
                 created_by: concat!("Shagreen ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -160,13 +160,8 @@ impl SaveSheet {
             })),
             Some(figure) => Content::Figure(figure.clone()),
         };
-        let (path, ctx) = (PathBuf::from(path), ctx.clone());
-        std::thread::spawn(move || {
-            // The program may have ended meanwhile: then nobody asks any more.
-            let _ = sender.send(write(&path, &content, replaces));
-            ctx.request_repaint();
-        });
-        self.state = State::Saving(receiver);
+        let path = PathBuf::from(path);
+        self.state = State::Saving(in_background(ctx.clone(), move || write(&path, &content, replaces)));
     }
 
     fn collect(&mut self) {

@@ -145,21 +145,10 @@ impl Recorder {
         out.truncate(begin + n_read);
     }
 
-    /// When the first sample was taken, as far as the device says; none before the first.
-    ///
-    /// This is where a line through the earliest times of each second of the recording begins, so that it stays where it is
-    /// however long it takes: within some hundredths of a millisecond where callbacks are late by one, but for what all of
-    /// them are late by.
-    pub fn first_sample_at(&mut self) -> Option<Instant> {
-        let first_secs = self.times.read().as_ref()?.first_secs;
-        // The device may say that it took a sample before it was opened.
-        let offset = Duration::try_from_secs_f64(first_secs.abs()).ok()?; // No time of any recording.
-        if first_secs < 0.0 { self.opened.checked_sub(offset) } else { self.opened.checked_add(offset) }
-    }
-
-    /// How many samples had been taken at a time, whole or not and negative before the first, by the same line; none before
-    /// the first. The device's clock counts, so that this holds for the end of a long recording, where
-    /// [`Recorder::rate_hz`] and the first sample alone are off by what that clock is.
+    /// How many samples had been taken at a time, whole or not and negative before the first; none before anything
+    /// was taken. This is a line through the earliest times of each second of the recording, in the device's clock, so that it
+    /// holds for the end of a long one too: within some hundredths of a millisecond where callbacks are late by one, but for
+    /// what all of them are late by.
     pub fn sample_index_at(&mut self, time: Instant) -> Option<f64> {
         let since = time.saturating_duration_since(self.opened).as_secs_f64();
         let before = self.opened.saturating_duration_since(time).as_secs_f64();

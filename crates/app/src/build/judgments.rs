@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::Context;
 use shagreen_core::panel::is_simulated;
@@ -15,6 +15,7 @@ use shagreen_formats::look_alikes::look_alikes;
 use shagreen_formats::ratings_csv::{read_ratings, read_ratings_csv, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
+use crate::background::in_background;
 use crate::build::panel_truth::{Simulated, simulate};
 use crate::import::source::Source;
 use crate::strings::build as strings;
@@ -129,14 +130,8 @@ impl Judgments {
 
     fn begin(&mut self, ctx: &Context, work: impl FnOnce() -> Outcome + Send + 'static) {
         self.n_tickets += 1;
-        let (sender, receiver) = channel();
-        let (ticket, ctx) = (self.n_tickets, ctx.clone());
-        std::thread::spawn(move || {
-            // The window may have closed meanwhile: then nobody asks any more.
-            let _ = sender.send((ticket, work()));
-            ctx.request_repaint();
-        });
-        self.reading.push(receiver);
+        let ticket = self.n_tickets;
+        self.reading.push(in_background(ctx.clone(), move || (ticket, work())));
     }
 
     /// Takes in what has been read.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError};
 
 use anyhow::Context as _;
 use shagreen_core::actuator::{Actuator, Drive, Limits, limited_drive};
@@ -12,6 +12,7 @@ use shagreen_device::audio_input::InputInfo;
 use shagreen_device::measure::{Listener, measure};
 use shagreen_formats::measured_profile::{HowMeasured, measured_profile};
 
+use crate::background::in_background;
 use crate::rig::Rig;
 use crate::strings::devices as strings;
 
@@ -52,18 +53,15 @@ pub(super) struct Job {
 impl Job {
     /// Begins to measure what hangs on output `id`; that must not be open meanwhile.
     pub(super) fn start(id: String, question: Question, rig: Rig, ctx: egui::Context) -> Self {
-        let (sender, outcome) = channel();
         let (done, goes_on) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(true)));
         let (told, still) = (Arc::clone(&done), Arc::clone(&goes_on));
-        std::thread::spawn(move || {
+        let outcome = in_background(ctx.clone(), move || {
             let mut go_on = |share: f64| {
                 told.store((1000.0 * share) as u32, Ordering::Relaxed);
                 ctx.request_repaint();
                 still.load(Ordering::Relaxed)
             };
-            // The window may have closed meanwhile: then nobody asks any more.
-            let _ = sender.send(measured(&id, &question, &rig, &mut go_on));
-            ctx.request_repaint();
+            measured(&id, &question, &rig, &mut go_on)
         });
         Self { outcome, done, goes_on }
     }

@@ -1,7 +1,7 @@
 //! What the modes that make a texture need is worked out by a worker: for a thousand textures that takes seconds.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::Instant;
 
 use shagreen_core::authoring::{Layers, Models};
@@ -10,6 +10,7 @@ use shagreen_core::space::Space;
 use shagreen_core::tap::Tap;
 use shagreen_core::texture::TextureModel;
 
+use crate::background::in_background;
 use crate::strings;
 
 /// What models are made of.
@@ -88,13 +89,7 @@ impl ModelsAhead {
             self.running = None;
         }
         if let Some(job) = self.waiting.take() {
-            let (sender, receiver) = channel();
-            let ctx = ctx.clone();
-            std::thread::spawn(move || {
-                // The program may have ended meanwhile: then nobody asks any more.
-                let _ = sender.send(job.run());
-                ctx.request_repaint();
-            });
+            let receiver = in_background(ctx.clone(), move || job.run());
             self.running = Some((self.generation, receiver));
         }
         done

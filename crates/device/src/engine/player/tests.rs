@@ -23,6 +23,18 @@ fn run(player: &mut Player, n_ticks: usize) -> Vec<(f64, Touch)> {
     (0..n_ticks).map(one).collect()
 }
 
+/// A second in one place, pressed from its first report on.
+fn pressed_stroke() -> Track {
+    let sample = |i| PenSample {
+        time_secs: 0.01 * f64::from(i),
+        force_n: 2.0,
+        touching: true,
+        ..PenSample::default()
+    };
+    let samples: Vec<PenSample> = (0..100).map(sample).collect();
+    Track::new(&samples).unwrap()
+}
+
 fn distance(a: Touch, b: Touch) -> f32 {
     (a.x_m - b.x_m).hypot(a.y_m - b.y_m)
 }
@@ -263,14 +275,7 @@ fn a_stroke_that_begins_under_a_persons_hand_lands_when_its_turn_comes() {
     let mut player = under_way(Some(TAKEOVER));
     report(&mut player, PEN);
     run(&mut player, 10);
-    let sample = |i| PenSample {
-        time_secs: 0.01 * f64::from(i),
-        force_n: 2.0,
-        touching: true,
-        ..PenSample::default()
-    };
-    let samples: Vec<PenSample> = (0..100).map(sample).collect();
-    player.play(Box::new(Track::new(&samples).unwrap()));
+    player.play(Box::new(pressed_stroke()));
     player.set_input(Input::Track);
     run(&mut player, 10);
     while player.take_landing(0.0).is_some() {}
@@ -291,16 +296,9 @@ fn a_hand_that_has_taken_over_stays_when_the_chosen_input_changes() {
         assert!(touches.iter().all(|(_, touch)| touch.contact.force_n == 2.0), "{input:?}");
     }
     // A stroke that goes on in its middle is no landing.
-    let sample = |i| PenSample {
-        time_secs: 0.01 * f64::from(i),
-        force_n: 2.0,
-        touching: true,
-        ..PenSample::default()
-    };
-    let samples: Vec<PenSample> = (0..100).map(sample).collect();
     report(&mut player, PEN.lifted());
     run(&mut player, 40);
-    player.play(Box::new(Track::new(&samples).unwrap()));
+    player.play(Box::new(pressed_stroke()));
     player.set_input(Input::Lifted);
     run(&mut player, 10);
     player.set_input(Input::Track);
