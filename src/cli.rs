@@ -36,6 +36,10 @@ mod motion;
 mod near_names;
 mod output;
 mod play;
+mod project_gallery;
+mod project_new;
+mod project_show;
+mod project_source;
 mod receiver;
 mod recording_answers;
 mod render;
@@ -73,6 +77,9 @@ enum Command {
     /// Libraries of textures.
     #[command(subcommand)]
     Library(LibraryCommand),
+    /// Projects: what somebody authored.
+    #[command(subcommand)]
+    Project(ProjectCommand),
     /// Brings models and recordings of other programs into a library.
     #[command(subcommand)]
     Import(ImportCommand),
@@ -110,6 +117,13 @@ enum LibraryCommand {
     List(library_list::Args),
     Make(library_make::Args),
     Places(library_places::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum ProjectCommand {
+    Gallery(project_gallery::Args),
+    New(project_new::Args),
+    Show(project_show::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -161,6 +175,9 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
         Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
         Some(Command::Library(LibraryCommand::Places(args))) => library_places::run(args),
+        Some(Command::Project(ProjectCommand::Gallery(args))) => project_gallery::run(args),
+        Some(Command::Project(ProjectCommand::New(args))) => project_new::run(args),
+        Some(Command::Project(ProjectCommand::Show(args))) => project_show::run(args),
         Some(Command::Export(args)) => export::run(args),
         Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
         Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),

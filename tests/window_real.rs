@@ -45,7 +45,12 @@ impl Display {
         let shots = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/screenshots");
         std::fs::create_dir_all(&shots).unwrap();
         let name = format!(":{}", number.trim());
-        Self { name, runtime: tempfile::tempdir().unwrap(), shots, _server: Guard(server) }
+        let runtime = tempfile::tempdir().unwrap();
+        // Somebody who has seen the tour, which would lie over what is looked at.
+        std::fs::create_dir_all(runtime.path().join("config/shagreen")).unwrap();
+        std::fs::write(runtime.path().join("config/shagreen/settings.json"), r#"{"has_seen_tour": true}"#)
+            .unwrap();
+        Self { name, runtime, shots, _server: Guard(server) }
     }
 
     fn command(&self, program: &str) -> Command {
@@ -53,6 +58,8 @@ impl Display {
         command
             .env("DISPLAY", &self.name)
             .env("XDG_RUNTIME_DIR", self.runtime.path())
+            .env("XDG_STATE_HOME", self.runtime.path().join("state"))
+            .env("XDG_CONFIG_HOME", self.runtime.path().join("config"))
             .env_remove("WAYLAND_DISPLAY");
         command
     }
@@ -158,6 +165,79 @@ fn the_program_opens_and_its_point_follows_a_real_pointer() {
     // Start the automatic hand with a click on its button.
     display.click((36, 495));
     display.wait_for("author-stroking", "the waveform moves", |shot| waveform_height(shot) > 30);
+}
+
+/// Where the first authored texture of a project file lies along the first axis.
+fn place_in(path: &Path) -> Option<f64> {
+    let value: serde_json::Value = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+    value["authored"][0]["rough_smooth"].as_f64()
+}
+
+/// Waits until something is there, and returns it with the time that it took.
+#[track_caller]
+fn wait_until<T>(what: &str, found: impl Fn() -> Option<T>) -> (T, Duration) {
+    let start = Instant::now();
+    loop {
+        if let Some(found) = found() {
+            return (found, start.elapsed());
+        }
+        assert!(start.elapsed() < Duration::from_mins(1), "waited in vain: {what}");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+/// Open, drag, save, drag again, be killed at once and come back: the second drag is not lost.
+#[test]
+fn a_killed_program_gives_back_what_was_not_saved() {
+    if !have(&["Xvfb", "xdotool", "import"]) {
+        return;
+    }
+    let display = Display::new();
+    let path = display.runtime.path().join("Woods.shagreen");
+    let program = env!("CARGO_BIN_EXE_shagreen");
+    let made = Command::new(program).args(["project", "new", "-o"]).arg(&path).output().unwrap();
+    assert!(made.status.success());
+    let open = || {
+        let mut command = display.command(program);
+        Guard(command.args(["--output", "null"]).arg(&path).stderr(Stdio::null()).spawn().unwrap())
+    };
+    let mut window = open();
+    let opened = display.wait_for("project-opened", "the window", |shot| point(shot).is_some());
+    let from = point(&opened).unwrap();
+    let near = |to: (u32, u32)| {
+        move |shot: &RgbImage| {
+            point(shot).is_some_and(|at| at.0.abs_diff(to.0) < 12 && at.1.abs_diff(to.1) < 12)
+        }
+    };
+    let saved_at = (from.0 - 120, from.1 - 40);
+    display.drag(from, saved_at);
+    display.wait_for("project-dragged", "the point follows", near(saved_at));
+    display.xdotool(&["key", "ctrl+s"]);
+    let (saved, _) = wait_until("it is saved", || place_in(&path).filter(|at| (at - 50.0).abs() > 5.0));
+
+    let last = (from.0 + 120, from.1 - 20);
+    display.drag(saved_at, last);
+    let recovery = display.runtime.path().join("state/shagreen/recovery");
+    let kept = || {
+        let entries = std::fs::read_dir(&recovery).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
+        let mut projects = entries.filter(|path| path.extension().is_some_and(|e| e == "shagreen"));
+        projects.find_map(|path| place_in(&path)).filter(|at| *at > saved + 5.0)
+    };
+    let (kept, took) = wait_until("it is kept aside", kept);
+    println!("what was not saved was on the disk {:.1} s after the drag", took.as_secs_f64());
+    assert!(took < Duration::from_secs(10));
+    window.0.kill().unwrap();
+    window.0.wait().unwrap();
+    assert_eq!(place_in(&path), Some(saved), "the file is as it was saved");
+
+    let _window = open();
+    // The sheet lies over the canvas; its first button has the keyboard.
+    std::thread::sleep(Duration::from_secs(4));
+    display.shot("project-recovery");
+    display.xdotool(&["key", "Return"]);
+    display.wait_for("project-recovered", "the point is where it was", near(last));
+    display.xdotool(&["key", "ctrl+s"]);
+    wait_until("it is saved", || place_in(&path).filter(|at| (at - kept).abs() < 1e-9));
 }
 
 #[test]

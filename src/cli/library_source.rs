@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use shagreen_core::space::LabelSource;
+use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Library, LibraryError, TextureEntry, read_library};
-use shagreen_formats::starter::{simulated_library, starter_library};
 
 use crate::cli::output;
 
@@ -30,16 +30,15 @@ impl LibraryArgs {
     }
 }
 
-/// The name of the second library that is built into the program.
-const SIMULATED: &str = "simulated";
-
 /// The library that the arguments name; what is odd about it is said.
 pub(crate) fn load(args: &LibraryArgs) -> anyhow::Result<Library> {
     let library = match &args.library {
-        None => starter_library()?,
-        Some(path) if path == Path::new(SIMULATED) && !path.exists() => simulated_library()?,
-        Some(path) if path.is_dir() => load_folder(path)?,
-        Some(path) => load_file(path)?.with_context(|| output::in_file(path))?,
+        None => BuiltIn::Starter.read()?,
+        Some(path) => match built_in(path) {
+            Some(built_in) => built_in.read()?,
+            None if path.is_dir() => load_folder(path)?,
+            None => load_file(path)?.with_context(|| output::in_file(path))?,
+        },
     };
     let sources: Vec<&str> = library.label_sources().into_iter().map(LabelSource::label).collect();
     if sources.len() > 1 {
@@ -50,6 +49,12 @@ pub(crate) fn load(args: &LibraryArgs) -> anyhow::Result<Library> {
         ));
     }
     Ok(library)
+}
+
+/// The library of the program that a name stands for, where no file has it: only the second needs one.
+pub(crate) fn built_in(path: &Path) -> Option<BuiltIn> {
+    let built_in = BuiltIn::from_id(path.to_str()?).filter(|built_in| *built_in == BuiltIn::Simulated);
+    built_in.filter(|_| !path.exists())
 }
 
 /// A library file; the inner error is for bytes that are none, and still lacks the path.

@@ -15,9 +15,8 @@ use shagreen_core::space_build::{
 use shagreen_core::words::counted;
 use shagreen_formats::figure::page_svg;
 use shagreen_formats::library::write_library;
-use shagreen_formats::space_report::{
-    FIGURES, FORMAT, placed_library, space_figures, space_report, space_subtitle,
-};
+use shagreen_formats::placed_space::PlacedSpace;
+use shagreen_formats::space_report::{FIGURES, FORMAT, space_figures, space_report, space_subtitle};
 
 use crate::cli::figures_folder::{check_figures, figure_files, write_together};
 use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
@@ -144,7 +143,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     report["warnings"] = warnings.into_iter().chain(built.findings.iter().cloned()).collect();
     let figures = space_figures(&built);
-    let mut placed = placed_library(&library, &built);
+    let mut placed = PlacedSpace::of(&built).place(&library);
     output::CREATED_BY.clone_into(&mut placed.created_by);
     warn_of_restricted(&placed);
     let mut text = serde_json::to_string_pretty(&report)?;

@@ -1,11 +1,11 @@
 //! Which texture: one of the library, or the one authored at a point of the space.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::authoring::{Authored, Authoring, Layers, Models, Voice};
+use shagreen_core::authoring::{Authored, Authoring, Blending, Layers, Models, Voice};
 use shagreen_core::blend::Mode;
 use shagreen_core::plane::Plane;
 use shagreen_core::rate::{at_rate, highest_rate};
@@ -15,12 +15,14 @@ use shagreen_core::texture::TextureModel;
 use shagreen_core::texture_path::TexturePath;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, TextureEntry};
+use shagreen_formats::project::Project;
 
 use crate::cli::blending::BlendArgs;
 use crate::cli::library_source::{self, LibraryArgs};
 use crate::cli::motion::Motion;
 use crate::cli::near_names::unknown_texture;
 use crate::cli::output;
+use crate::cli::project_source::{find_authored, load_project, textures_of};
 
 /// What sounds.
 #[derive(clap::Args)]
@@ -29,6 +31,9 @@ pub(crate) struct SoundArgs {
     target: TargetArgs,
     #[command(flatten)]
     library: LibraryArgs,
+    /// Project whose textures are taken instead of those of a library.
+    #[arg(long, value_name = "PROJECT", conflicts_with = "library")]
+    project: Option<PathBuf>,
     #[command(flatten)]
     blending: BlendArgs,
 }
@@ -42,6 +47,15 @@ struct TargetArgs {
     /// Texture of the library, by its id.
     #[arg(long, value_name = "ID")]
     texture: Option<String>,
+    /// Authored texture of the project, by its name or key, blended as it is there.
+    #[arg(long, value_name = "NAME", requires = "project", conflicts_with_all = ["blend", "natural", "extrapolate", "lock"])]
+    authored: Option<String>,
+}
+
+/// Textures to choose from.
+pub(crate) struct Textures {
+    pub(crate) library: Library,
+    project: Option<Project>,
 }
 
 /// What sounds.
@@ -92,31 +106,47 @@ pub(crate) fn parse_point(text: &str) -> Result<SpacePoint, String> {
 impl SoundArgs {
     /// The library that the arguments name, and what they choose of it.
     pub(crate) fn load(&self) -> anyhow::Result<(Library, Chosen)> {
-        let library = self.load_library()?;
-        let chosen = self.choose(&library)?;
-        Ok((library, chosen))
+        let textures = self.load_textures()?;
+        let chosen = self.choose(&textures)?;
+        Ok((textures.library, chosen))
     }
 
-    /// The library that the arguments name.
-    pub(crate) fn load_library(&self) -> anyhow::Result<Library> {
-        library_source::load(&self.library)
+    /// The textures that the arguments name.
+    pub(crate) fn load_textures(&self) -> anyhow::Result<Textures> {
+        let project = self.project.as_deref().map(load_project).transpose()?;
+        let library = match &project {
+            Some(project) => textures_of(project)?,
+            None => library_source::load(&self.library)?,
+        };
+        Ok(Textures { library, project })
     }
 
-    /// The library file or folder that was named.
+    /// The library file or folder, or the project, that was named.
     pub(crate) fn library_path(&self) -> Option<&Path> {
-        self.library.path()
+        self.project.as_deref().or(self.library.path())
     }
 
-    /// What the arguments choose of a library.
-    pub(crate) fn choose(&self, library: &Library) -> anyhow::Result<Chosen> {
-        choose(library, &self.target, &self.blending)
+    /// What the arguments choose of textures.
+    pub(crate) fn choose(&self, Textures { library, project }: &Textures) -> anyhow::Result<Chosen> {
+        let (point, blending) = match (&self.target.authored, project) {
+            (Some(name), Some(project)) => {
+                let authored = find_authored(project, name)?;
+                (Some(authored.at), authored.blend.blending(|id| library.index_of(id)))
+            }
+            _ => (self.target.at, self.blending.blending(library)?),
+        };
+        choose(library, self.target.texture.as_ref(), point, &blending)
     }
 }
 
-fn choose(library: &Library, target: &TargetArgs, blending: &BlendArgs) -> anyhow::Result<Chosen> {
-    let blending = blending.blending(library)?;
+fn choose(
+    library: &Library,
+    texture: Option<&String>,
+    point: Option<SpacePoint>,
+    blending: &Blending,
+) -> anyhow::Result<Chosen> {
     let mode = blending.mode;
-    if let Some(id) = &target.texture {
+    if let Some(id) = texture {
         let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
         return Ok(Chosen {
             parents: vec![(index, 1.0)],
@@ -131,9 +161,9 @@ fn choose(library: &Library, target: &TargetArgs, blending: &BlendArgs) -> anyho
             extrapolated: false,
         });
     }
-    let Some(point) = target.at else { bail!(output::Usage("say --at RS,HS or --texture ID".to_owned())) };
+    let Some(point) = point else { bail!(output::Usage("say --at RS,HS or --texture ID".to_owned())) };
     let authored = authoring(library, mode)?
-        .author(point, &blending)
+        .author(point, blending)
         .context("no texture of the library has a place; use --texture, or place the textures first")?;
     told(point, &authored);
     let voices: Vec<(Sounding, f64)> = authored

@@ -36,12 +36,14 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let mut library = args.sound.load_library()?;
+    let mut textures = args.sound.load_textures()?;
     if let Some(id) = &args.without {
-        let index = library.index_of(id).with_context(|| unknown_texture(&library, id))?;
+        let library = &mut textures.library;
+        let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
         library.textures.remove(index);
     }
-    let chosen = args.sound.choose(&library)?;
+    let chosen = args.sound.choose(&textures)?;
+    let library = textures.library;
     if let Some(path) = &chosen.path {
         let n_keys = path.keys().len();
         output::note(&format!(

@@ -1,19 +1,25 @@
 //! No subcommand: the window.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::bail;
+use directories::ProjectDirs;
 use serde_json::json;
+use shagreen_app::document::{Read, read_file};
+use shagreen_app::files::Keeping;
 use shagreen_app::session::OutputChoice;
-use shagreen_app::{Start, WindowTimes};
+use shagreen_app::window::new_project;
+use shagreen_app::{Begin, Start, WindowTimes};
+use shagreen_formats::project::{Project, ProjectLibrary};
 
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::library_source::{LibraryArgs, built_in, load};
 use crate::cli::output;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Library file, or a folder of them, to author from; without it the starter library.
+    /// Project to open, or a library (a file, or a folder of them) to begin one with; without it a new project on the
+    /// starter library.
     file: Option<PathBuf>,
     /// Output to open, by its id; `shagreen devices` lists them. Without it the system's default of the moment.
     #[arg(long, value_name = "ID")]
@@ -32,13 +38,55 @@ pub(crate) fn run(args: &Args, started: Instant) -> anyhow::Result<()> {
              the commands work without one: see shagreen --help"
         );
     }
-    let library = load(&LibraryArgs::at(args.file.clone()))?;
+    let (project, path) = project(args.file.as_deref())?;
     let output = args.output.clone().map_or(OutputChoice::SystemDefault, OutputChoice::Id);
-    let times = shagreen_app::run(Start { library, output, measured_frames: args.measure_frames, started })?;
+    // A measurement leaves nothing behind.
+    let keeping = if args.measure_frames.is_some() { Keeping::default() } else { keeping() };
+    let begin = Begin { project, path, output, keeping };
+    let times = shagreen_app::run(Start { begin, measured_frames: args.measure_frames, started })?;
     if args.measure_frames.is_some() {
         report(&times);
     }
     Ok(())
+}
+
+/// The project of a file, or a new one on the library of a file; what is odd about it is said.
+fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<PathBuf>)> {
+    let on = |library: ProjectLibrary| Project { library, ..new_project() };
+    let Some(path) = file else { return Ok((new_project(), None)) };
+    if let Some(built_in) = built_in(path) {
+        return Ok((on(ProjectLibrary::BuiltIn(built_in)), None));
+    }
+    if path.is_dir() {
+        let merged = load(&LibraryArgs::at(Some(path.to_owned())))?;
+        return Ok((on(ProjectLibrary::Inside(merged.into())), None));
+    }
+    match read_file(path)? {
+        Read::Project(imported) => {
+            warn_of(&imported.warnings, path);
+            Ok((imported.value, Some(path.to_owned())))
+        }
+        Read::Library(imported) => {
+            warn_of(&imported.warnings, path);
+            Ok((on(ProjectLibrary::File(imported.value.into())), None))
+        }
+    }
+}
+
+fn warn_of(warnings: &[String], path: &Path) {
+    for warning in warnings {
+        output::warn(&format!("{warning}: {}", path.display()));
+    }
+}
+
+/// Where the system keeps settings and unsaved work; nothing is kept where it has no such places.
+fn keeping() -> Keeping {
+    let Some(folders) = ProjectDirs::from("", "", "shagreen") else { return Keeping::default() };
+    let state = folders.state_dir().unwrap_or_else(|| folders.data_local_dir());
+    Keeping {
+        recovery: Some(state.join("recovery")),
+        settings: Some(folders.config_dir().join("settings.json")),
+    }
 }
 
 fn report(times: &WindowTimes) {

@@ -3,8 +3,8 @@
 use egui::{ComboBox, Ui};
 
 use crate::command::Command;
+use crate::edit::Edit;
 use crate::panel::Panel;
-use crate::project::Edit;
 use crate::strings;
 
 /// Width of a choice, in points.

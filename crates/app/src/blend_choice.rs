@@ -5,8 +5,8 @@ use shagreen_core::authoring::{Outside, Weights};
 use shagreen_core::blend::Mode;
 
 use crate::command::Command;
+use crate::edit::Edit;
 use crate::panel::Panel;
-use crate::project::Edit;
 use crate::strings;
 use crate::theme::tokens;
 
@@ -15,7 +15,7 @@ const ROW_HEIGHT: f32 = 24.0;
 
 /// Draws the choices and returns what the user asked for.
 pub fn blend_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
-    let chosen = mode_ui(ui, panel.project.blending.mode);
+    let chosen = mode_ui(ui, panel.project.texture().blend.mode);
     let size = vec2(ui.available_width(), ROW_HEIGHT);
     let row = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.set_min_height(ROW_HEIGHT);
@@ -73,7 +73,7 @@ fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
 
 /// What the mode can be asked to do.
 fn options_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Edit> {
-    let blending = &panel.project.blending;
+    let blending = &panel.project.texture().blend;
     match blending.mode {
         Mode::Field => {
             let mut is_beyond = blending.outside == Outside::Extrapolated;

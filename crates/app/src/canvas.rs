@@ -1,29 +1,36 @@
 //! The space: textures, triangles, outline, and the point that is dragged through it.
 
 mod foot;
+mod map;
 mod path_tool;
 mod site_labels;
+mod view;
 
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    Align2, Color32, CursorIcon, FontId, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Shape,
+    Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use shagreen_core::authoring::{Authored, Weights};
 use shagreen_core::blend::Mode;
 use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_formats::project::AuthoredTexture;
 
 use self::foot::foot_ui;
+pub use self::map::ShownMap;
+use self::map::{map_ui, scale_ui};
 pub use self::path_tool::PathTool;
 use self::path_tool::{added, path_bar, path_line, path_marker, path_points};
 use self::site_labels::{Around, site_labels};
-use crate::axes::Axes;
+use self::view::{follow_view, view_buttons};
+use crate::authored_panel::authored_menu;
+use crate::axes::{Axes, View};
 use crate::command::Command;
 use crate::drag::dragged_to;
+use crate::edit::Edit;
 use crate::library_panel::place_in_words;
 use crate::locks::{lock_mark, lock_menu};
 use crate::panel::Panel;
-use crate::project::Edit;
-use crate::strings;
+use crate::strings::{self, authored};
 use crate::theme::{Tokens, tokens};
 
 /// Radius of a texture's picture on the canvas, in points.
@@ -36,27 +43,54 @@ const MAX_PICTURES: usize = 60;
 const STEP: f64 = 1.0;
 const BIG_STEP: f64 = 5.0;
 
-/// The identity of the point's widget.
-pub fn point_id() -> egui::Id {
-    egui::Id::unique("authored point")
+/// The identity of the widget of an authored point, by its key: it stays while another is selected, so that a drag can go on.
+pub fn point_id(key: u32) -> egui::Id {
+    egui::Id::unique(("authored point", key))
 }
 
+/// The canvas's own state.
+#[derive(Default)]
+pub struct CanvasState {
+    /// What draws paths.
+    pub tool: PathTool,
+    /// What of the space is in view.
+    pub view: View,
+}
+
+/// How far beyond the view something is still drawn, in points.
+const AROUND_VIEW: f32 = 30.0;
+
 /// Draws the canvas and returns what the user asked of it.
-pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>, tool: &mut PathTool) -> Vec<Command> {
+pub fn canvas_ui(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    state: &mut CanvasState,
+    map: Option<&ShownMap>,
+) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
-    let axes = Axes { rect: Rect::from_min_max(outer.min + vec2(36.0, 40.0), outer.max - vec2(36.0, 48.0)) };
+    let rect = Rect::from_min_max(outer.min + vec2(36.0, 40.0), outer.max - vec2(36.0, 48.0));
+    state.view = follow_view(ui, Axes { rect, view: state.view }, &background);
+    let axes = Axes { rect, view: state.view };
+    let tool = &mut state.tool;
+    ui.painter().rect_filled(outer, f32::from(crate::theme::RADIUS), t.background);
+    if let Some(map) = map {
+        map_ui(ui, axes, map);
+    }
     let mut words = grid(ui, axes, outer, panel.session.poles(), t);
     let source = source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t);
     words.push(source);
+    let seen = ui.clip_rect();
+    // What lies beside the view keeps off the words around it.
+    ui.set_clip_rect(rect.expand(AROUND_VIEW).intersect(seen));
     triangles(ui, axes, panel, t);
     path_line(ui, axes, panel, t);
     let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
     if tool.is_on {
         commands.extend(tool.follow(ui, axes, panel, &background));
-    } else if let Some(pos) = dragged_to(ui, &background).or(clicked_at) {
+    } else if let Some(pos) = dragged_by_primary(ui, &background).or(clicked_at) {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
     commands.extend(sites_ui(ui, axes, panel, tool, &words, t));
@@ -66,13 +100,27 @@ pub fn canvas_ui(ui: &mut Ui, panel: &Panel<'_>, tool: &mut PathTool) -> Vec<Com
             if panel.session.textures().is_empty() { strings::NO_TEXTURES } else { strings::NO_PLACES };
         ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
     }
-    commands.extend(point_ui(ui, axes, panel, tool, t));
+    commands.extend(authored_points_ui(ui, axes, panel, tool, t));
     commands.extend(path_points(ui, axes, panel, tool, t));
     path_marker(ui, axes, panel, t);
+    ui.set_clip_rect(seen);
     let width = source.left() - outer.left() - 44.0;
-    commands.extend(path_bar(ui, outer, width, panel, tool, t));
+    commands.extend(path_bar(ui, outer, width, panel, tool, map, t));
     foot_ui(ui, axes, panel, t);
+    if let Some(map) = map {
+        scale_ui(ui, axes, map, t);
+    }
+    if let Some(view) = view_buttons(ui, axes, panel) {
+        state.view = view;
+    }
     commands
+}
+
+/// Where the main button has dragged the background to: the others move the view.
+fn dragged_by_primary(ui: &Ui, background: &Response) -> Option<Pos2> {
+    let is_primary =
+        background.dragged_by(PointerButton::Primary) || background.drag_stopped_by(PointerButton::Primary);
+    dragged_to(ui, background).filter(|_| is_primary)
 }
 
 fn move_to(point: SpacePoint) -> Command {
@@ -82,18 +130,21 @@ fn move_to(point: SpacePoint) -> Command {
 /// Draws lines and the words at the ends of the axes, and returns where these stand.
 fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &Tokens) -> Vec<Rect> {
     let painter = ui.painter();
-    painter.rect_filled(outer, f32::from(crate::theme::RADIUS), t.background);
     let faint = Stroke::new(1.0, t.line.gamma_multiply(0.5));
+    let r = axes.rect;
     for i in 0..=4 {
-        let share = i as f32 / 4.0;
-        let r = axes.rect;
-        painter.vline(r.left() + share * r.width(), r.y_range(), faint);
-        painter.hline(r.x_range(), r.top() + share * r.height(), faint);
+        let line = axes
+            .ui_from_space(SpacePoint { rough_smooth: 25.0 * f64::from(i), hard_soft: 25.0 * f64::from(i) });
+        if r.x_range().expand(1.0).contains(line.x) {
+            painter.vline(line.x, r.y_range(), faint);
+        }
+        if r.y_range().expand(1.0).contains(line.y) {
+            painter.hline(r.x_range(), line.y, faint);
+        }
     }
     let font = FontId::proportional(13.0);
     let label =
         |pos: Pos2, align: Align2, text: &str| painter.text(pos, align, text, font.clone(), t.text_weak);
-    let r = axes.rect;
     let mut words = vec![
         label(pos2(r.left(), outer.bottom() - 6.0), Align2::LEFT_BOTTOM, &across[0]),
         label(pos2(r.right(), outer.bottom() - 6.0), Align2::RIGHT_BOTTOM, &across[1]),
@@ -132,7 +183,7 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
     let at = |texture: usize| space.position(texture).map(|p| axes.ui_from_space(p));
     let painter = ui.painter();
     // Only where its corners are what is blended does the triangle matter.
-    let blending = panel.project.heard_blending();
+    let blending = panel.session.blending(&panel.project.texture().blend);
     let is_of_corners = blending.mode != Mode::Field && blending.weights == Weights::Barycentric;
     let authored = panel.session.authored().filter(|_| is_of_corners);
     let corners: Vec<usize> =
@@ -200,8 +251,8 @@ fn sites_ui(
         }
         commands.extend(lock_menu(&response, panel, *texture));
         let mut help = format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at));
-        if panel.project.can_lock() {
-            let is_locked = panel.project.is_locked(*texture);
+        if panel.project.texture().blend.can_lock() {
+            let is_locked = panel.is_locked(*texture);
             help = format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED });
         }
         response.on_hover_text(help);
@@ -211,7 +262,7 @@ fn sites_ui(
         .filter(|(texture, _)| with_pictures || rank(*texture).is_some() || pointed == Some(*texture))
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
         .collect();
-    let point = Rect::from_center_size(axes.ui_from_space(panel.project.point), POINT_SIZE);
+    let point = Rect::from_center_size(axes.ui_from_space(panel.project.texture().at), POINT_SIZE);
     site_labels(ui, panel, &named, radius, &Around { words, point }, pointed, t);
     commands
 }
@@ -238,22 +289,73 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
         None => Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)),
     };
     painter.circle_stroke(pos, radius, ring);
-    if panel.project.is_locked(texture) {
+    if panel.is_locked(texture) {
         let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
         painter.circle_filled(corner, 8.0, t.background);
         lock_mark(painter, corner, true, t.text);
     }
 }
 
-/// The authored point, its lines to the parents, and its keys.
+/// The authored points: first those that are not selected, which are selected by a click or a drag.
+fn authored_points_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    tool: &PathTool,
+    t: &Tokens,
+) -> Vec<Command> {
+    let mut commands = Vec::new();
+    for (index, texture) in panel.project.authored.iter().enumerate() {
+        if index != panel.project.selected {
+            commands.extend(other_point_ui(ui, axes, panel, texture, tool, t));
+        }
+    }
+    commands.extend(point_ui(ui, axes, panel, tool, t));
+    commands
+}
+
+/// While a path is drawn, points let the pointer through.
+fn point_sense(tool: &PathTool) -> Sense {
+    if tool.is_on { Sense::hover() } else { Sense::click_and_drag() }
+}
+
+/// An authored point that is not selected.
+fn other_point_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    texture: &AuthoredTexture,
+    tool: &PathTool,
+    t: &Tokens,
+) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let pos = axes.ui_from_space(texture.at);
+    let area = Rect::from_center_size(pos, vec2(20.0, 20.0));
+    let response = ui.interact(area, point_id(texture.key), point_sense(tool));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, authored::on_canvas(&texture.name)));
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+        commands.push(Command::Edit(Edit::Select(texture.key)));
+    }
+    commands.extend(authored_menu(&response, panel, texture));
+    let is_pointed = response.hovered() || response.has_focus();
+    let radius = if is_pointed { 8.0 } else { 6.5 };
+    ui.painter().circle_filled(pos, radius + 2.0, t.background);
+    ui.painter().circle_filled(pos, radius, t.authored[usize::from(texture.color)]);
+    ui.painter().circle_filled(pos, 2.5, t.background);
+    let name = format!("{} {}", texture.name, texture.at);
+    response.on_hover_text(name);
+    commands
+}
+
+/// The authored point that is selected, its lines to the parents, and its keys.
 fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tokens) -> Vec<Command> {
     let mut commands = Vec::new();
-    let point = panel.project.point;
+    let texture = panel.project.texture();
+    let point = texture.at;
     let pos = axes.ui_from_space(point);
-    let id = point_id();
-    // While a path is drawn, the point lets the pointer through.
-    let sense = if tool.is_on { Sense::hover() } else { Sense::click_and_drag() };
-    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, sense);
+    let id = point_id(texture.key);
+    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, point_sense(tool));
     response.widget_info(|| WidgetInfo {
         current_text_value: Some(strings::place_in_words(point, panel.session.poles())),
         ..WidgetInfo::labeled(Role::Slider, true, strings::POINT)
@@ -265,6 +367,7 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tok
     if let Some(pointer) = dragged_to(ui, &response) {
         commands.push(move_to(axes.space_from_ui(pointer)));
     }
+    commands.extend(authored_menu(&response, panel, texture));
     if let Some(to) = nudged(ui, id, point) {
         commands.push(move_to(to));
     }
@@ -275,11 +378,12 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tok
     let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
     ui.painter().circle_filled(pos, grown + 2.0, t.background);
     ui.painter().circle_filled(pos, grown, t.accent);
-    ui.painter().circle_filled(pos, 3.0, t.on_accent);
+    ui.painter().circle_filled(pos, 4.5, t.on_accent);
+    ui.painter().circle_filled(pos, 3.0, t.authored[usize::from(texture.color)]);
     if response.has_focus() {
         ui.painter().circle_stroke(pos, grown + 4.0, Stroke::new(1.5, t.accent));
     }
-    response.on_hover_text(format!("{} {}\n{}", panel.project.name, point, strings::POINT_HELP));
+    response.on_hover_text(format!("{} {}\n{}", panel.project.texture().name, point, strings::POINT_HELP));
     commands
 }
 
@@ -297,7 +401,7 @@ fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored,
 
 /// Outside the outline: what plays instead, or how far the field was trusted.
 fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
-    let wanted = panel.session.path_point().unwrap_or(panel.project.point);
+    let wanted = panel.session.path_point().unwrap_or(panel.project.texture().at);
     let pos = axes.ui_from_space(wanted);
     let on = axes.ui_from_space(authored.location.at);
     let painter = ui.painter();

@@ -6,10 +6,11 @@ use shagreen_core::space::SpacePoint;
 use crate::axes_choice::axis_choice_ui;
 use crate::blend_choice::blend_ui;
 use crate::command::Command;
+use crate::details::details_ui;
+use crate::edit::Edit;
 use crate::library_panel::picture_ui;
 use crate::locks::lock_button;
 use crate::panel::Panel;
-use crate::project::Edit;
 use crate::strings;
 use crate::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 
@@ -25,13 +26,18 @@ pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.add_space(GAP);
-    let mut name = panel.project.name.clone();
-    let field =
-        ui.add(TextEdit::singleline(&mut name).font(egui::TextStyle::Heading).desired_width(f32::INFINITY));
-    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::NAME));
-    if field.changed() {
-        commands.push(Command::Edit(Edit::Rename(name)));
-    }
+    let mut name = panel.project.texture().name.clone();
+    let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(row, egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        commands.extend(details_ui(ui, panel));
+        let field =
+            TextEdit::singleline(&mut name).font(egui::TextStyle::Heading).desired_width(f32::INFINITY);
+        let field = ui.add(field);
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::NAME));
+        if field.changed() {
+            commands.push(Command::Edit(Edit::Rename(name)));
+        }
+    });
     ui.add_space(GAP);
     commands.extend(sliders(ui, panel));
     ui.add_space(GROUP_GAP);
@@ -44,7 +50,7 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 /// The two axes, bound to the point both ways.
 fn sliders(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
-    let SpacePoint { mut rough_smooth, mut hard_soft } = panel.project.point;
+    let SpacePoint { mut rough_smooth, mut hard_soft } = panel.project.texture().at;
     let [across, up] = panel.session.poles();
     let mut is_changed = false;
     for (axis, value, ends) in [(0, &mut rough_smooth, across), (1, &mut hard_soft, up)] {
@@ -109,7 +115,7 @@ fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 /// What the cards do not say: how much a locked texture sounds, else what the parents without a card give.
 fn besides(panel: &Panel<'_>) -> Option<String> {
     let authored = panel.session.authored()?;
-    if let Some((texture, share)) = authored.lock.filter(|_| panel.project.solo.is_none()) {
+    if let Some((texture, share)) = authored.lock.filter(|_| panel.solo().is_none()) {
         return Some(strings::locked_share(&panel.session.textures()[texture].name, 100.0 * share));
     }
     let rest = authored.parents.get(panel.session.shown_parents().len()..).filter(|rest| !rest.is_empty())?;
@@ -150,7 +156,7 @@ fn card(
     );
     // The lock keeps its place whatever the number is.
     let button = Rect::from_center_size(egui::pos2(right - 66.0, number.center().y), vec2(22.0, 22.0));
-    let can_lock = panel.project.can_lock() && panel.project.solo.is_none();
+    let can_lock = panel.project.texture().blend.can_lock() && panel.solo().is_none();
     let command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
     let end = if can_lock { button.left() } else { number.left() - 6.0 };
     let mut name = ui.new_child(

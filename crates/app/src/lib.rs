@@ -13,14 +13,17 @@
 )]
 
 use std::cell::RefCell;
+use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::Instant;
 
 use anyhow::anyhow;
-use shagreen_formats::library::Library;
+use shagreen_formats::project::Project;
 
+use crate::files::Keeping;
 use crate::session::OutputChoice;
 
+mod authored_panel;
 pub mod axes;
 mod axes_choice;
 mod background;
@@ -28,41 +31,67 @@ pub mod blend_choice;
 pub mod build;
 pub mod canvas;
 pub mod command;
+pub mod compare;
+mod compare_ui;
+mod details;
 pub mod devices;
+pub mod document;
 mod drag;
-pub mod drawn_path;
+pub mod edit;
+mod file_menu;
+pub mod files;
+mod gallery_sheet;
+pub mod heat_map;
 pub mod history;
 pub mod import;
 pub mod inspector;
 mod kept_path;
 mod label_places;
+mod leaving;
 pub mod libraries;
 pub mod library_panel;
 mod locks;
+mod open_sheet;
 pub mod pad;
 pub mod panel;
+mod photo;
 pub mod pictures;
-pub mod project;
+mod recovered_ui;
+pub mod recovery;
 pub mod rig;
 pub mod save;
 pub mod scope;
 pub mod scope_buffer;
 pub mod session;
+mod settings_file;
 mod sheets;
+mod shortcuts_ui;
 pub mod status_bar;
 mod stopwatch;
 pub mod strings;
 pub mod theme;
+pub mod tour;
 pub mod window;
 pub mod workspace;
+
+/// What the window opens with.
+#[derive(Clone, Debug)]
+pub struct Begin {
+    /// What somebody makes.
+    pub project: Project,
+    /// The file that it was read from.
+    pub path: Option<PathBuf>,
+    /// The output to open.
+    pub output: OutputChoice,
+    /// Where the program keeps what outlives it.
+    pub keeping: Keeping,
+}
 
 /// How the window starts.
 #[derive(Clone, Debug)]
 pub struct Start {
-    /// The textures to author from.
-    pub library: Library,
-    /// The output to open.
-    pub output: OutputChoice,
+    /// What the window opens with.
+    pub begin: Begin,
     /// Measure this many frames with the hand stroking and the scope running, then close; `None` stays open.
     pub measured_frames: Option<usize>,
     /// When the program started: what the first frame is timed from.
@@ -98,7 +127,7 @@ pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
         strings::APP,
         options,
         Box::new(move |creation| {
-            let window = window::Window::new(&creation.egui_ctx, start.library, start.output)?;
+            let window = window::Window::new(&creation.egui_ctx, start.begin)?;
             Ok(Box::new(stopwatch::Stopwatch::new(window, start.started, start.measured_frames, measured)))
         }),
     )

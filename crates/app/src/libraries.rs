@@ -1,79 +1,51 @@
-//! The libraries that are built into the program: either can be open instead of the one that the window started with.
+//! Libraries that a project can be made of, in words.
 
-use anyhow::Context as _;
-use shagreen_formats::library::Library;
-use shagreen_formats::starter::{simulated_library, starter_library};
+use std::borrow::Cow;
+
+use shagreen_formats::built_in::BuiltIn;
+use shagreen_formats::project::ProjectLibrary;
 
 use crate::strings;
 
-/// A library of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BuiltIn {
-    /// Everyday materials, placed by physical labels.
-    Starter,
-    /// The same materials, placed as a simulated panel sorted and rated them.
-    Simulated,
-}
-
-impl BuiltIn {
-    /// All of them, in the order of the menu.
-    pub const ALL: [Self; 2] = [Self::Starter, Self::Simulated];
-
-    /// Its name in the menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Starter => strings::STARTER,
-            Self::Simulated => strings::SIMULATED,
-        }
-    }
-
-    /// What it is, and whom its places come from.
-    pub fn help(self) -> &'static str {
-        match self {
-            Self::Starter => strings::STARTER_HELP,
-            Self::Simulated => strings::SIMULATED_HELP,
-        }
-    }
-
-    /// What opening it is called in the history.
-    pub fn edit_label(self) -> &'static str {
-        match self {
-            Self::Starter => "Open starter library",
-            Self::Simulated => "Open simulated library",
-        }
-    }
-
-    /// The library itself; reading it takes some milliseconds.
-    ///
-    /// # Errors
-    /// The program is damaged.
-    pub fn read(self) -> anyhow::Result<Library> {
-        match self {
-            Self::Starter => starter_library().context(strings::DAMAGED_LIBRARY),
-            Self::Simulated => simulated_library().context(strings::DAMAGED_LIBRARY),
-        }
-    }
-
-    /// Which of them a library is, where it is one; `library` is as its file has it.
-    pub fn of(library: &Library) -> Option<Self> {
-        // What cannot be read is not this one.
-        Self::ALL.into_iter().find(|each| each.read().is_ok_and(|read| read == *library))
+/// The name of a library of the program.
+pub fn built_in_name(built_in: BuiltIn) -> &'static str {
+    match built_in {
+        BuiltIn::Starter => strings::STARTER,
+        BuiltIn::Simulated => strings::SIMULATED,
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::BuiltIn;
-    use shagreen_formats::library::Library;
+/// What a library of the program is, and whom its places come from.
+pub fn built_in_help(built_in: BuiltIn) -> &'static str {
+    match built_in {
+        BuiltIn::Starter => strings::STARTER_HELP,
+        BuiltIn::Simulated => strings::SIMULATED_HELP,
+    }
+}
 
-    #[test]
-    fn each_is_told_from_the_other_and_from_what_was_changed() {
-        for each in BuiltIn::ALL {
-            let mut library = each.read().unwrap();
-            assert_eq!(BuiltIn::of(&library), Some(each));
-            library.textures[3].name.push('!');
-            assert_eq!(BuiltIn::of(&library), None);
+/// The name of a library.
+pub fn name(library: &ProjectLibrary) -> Cow<'_, str> {
+    let named = |name: &'_ str, other: &dyn Fn() -> String| {
+        if name.trim().is_empty() { other() } else { name.to_owned() }
+    };
+    match library {
+        ProjectLibrary::BuiltIn(built_in) => built_in_name(*built_in).into(),
+        ProjectLibrary::Inside(library) => {
+            named(&library.name, &|| strings::UNNAMED_LIBRARY.to_owned()).into()
         }
-        assert_eq!(BuiltIn::of(&Library::default()), None);
+        ProjectLibrary::File(file) => {
+            let of_file =
+                || file.path.file_name().unwrap_or(file.path.as_os_str()).to_string_lossy().into_owned();
+            named(&file.library.name, &of_file).into()
+        }
+    }
+}
+
+/// What a library is and where.
+pub fn help(library: &ProjectLibrary) -> String {
+    match library {
+        ProjectLibrary::BuiltIn(built_in) => built_in_help(*built_in).to_owned(),
+        ProjectLibrary::Inside(_) => strings::INSIDE_HELP.to_owned(),
+        ProjectLibrary::File(file) => file.path.display().to_string(),
     }
 }

@@ -1,15 +1,18 @@
-//! The textures of the library: look, search, go there.
+//! The column at the left: what is authored, and the textures of the library to look at, search and go to.
 
 use egui::{Label, Response, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::Provenance;
+use shagreen_formats::project::ProjectLibrary;
 
+use crate::authored_panel::authored_ui;
 use crate::command::Command;
-use crate::libraries::BuiltIn;
+use crate::edit::Edit;
+use crate::libraries;
 use crate::locks::{lock_mark, lock_menu};
 use crate::panel::Panel;
-use crate::project::Edit;
 use crate::strings;
 use crate::theme::{GAP, tokens};
 
@@ -29,6 +32,8 @@ pub fn library_ui(
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     ui.add_space(GAP);
+    commands.extend(authored_ui(ui, panel));
+    ui.separator();
     ui.horizontal(|ui| {
         ui.heading(strings::LIBRARY);
         ui.label(egui::RichText::new(format!("{}", panel.session.textures().len())).color(t.text_weak));
@@ -73,7 +78,9 @@ pub fn library_ui(
                 commands.extend(lock_menu(&response, panel, index));
                 if response.clicked() {
                     let place = panel.session.space().position(index);
-                    commands.push(Command::Edit(place.map_or(Edit::Solo(index), Edit::MovePoint)));
+                    commands.push(Command::Edit(
+                        place.map_or_else(|| Edit::Solo(entry.id.clone()), Edit::MovePoint),
+                    ));
                 }
             }
         }
@@ -86,25 +93,22 @@ pub fn library_ui(
     commands
 }
 
-/// The menu of the libraries that can be open: those of the program, and the one that the window started with.
+/// The menu of the libraries that can be open: those of the program, the one that is open, and others that were.
 fn libraries_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
     let session = panel.session;
     let mut asked = None;
     let menu = ui.menu_button(strings::LIBRARIES, |ui| {
         ui.set_min_width(MENU_WIDTH);
-        let open = session.built_in();
-        // The one that the window started with is known by that.
-        let as_edit = |built_in: BuiltIn| (session.first_as() != Some(built_in)).then_some(built_in);
-        for built_in in BuiltIn::ALL {
-            let entry = ui.selectable_label(open == Some(built_in), built_in.name());
-            if entry.on_hover_text(built_in.help()).clicked() {
-                asked = Some(as_edit(built_in));
-            }
+        let of_program = BuiltIn::ALL.into_iter().map(ProjectLibrary::BuiltIn);
+        let mut offered: Vec<ProjectLibrary> =
+            of_program.chain(session.other_libraries().iter().cloned()).collect();
+        if !offered.contains(session.base()) {
+            offered.push(session.base().clone());
         }
-        if session.first_as().is_none() {
-            let name = strings::started_with(session.first_name());
-            if ui.selectable_label(open.is_none(), name).clicked() {
-                asked = Some(None);
+        for library in offered {
+            let entry = ui.selectable_label(library == *session.base(), libraries::name(&library));
+            if entry.on_hover_text(libraries::help(&library)).clicked() {
+                asked = Some(library);
             }
         }
     });
@@ -128,7 +132,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> Response {
         let picture = egui::Rect::from_min_size(area.min + vec2(3.0, 3.0), vec2(PICTURE, PICTURE));
         picture_ui(ui, panel, index, picture);
         let mut room = egui::Rect::from_min_max(picture.right_top() + vec2(8.0, 0.0), area.max);
-        if panel.project.is_locked(index) {
+        if panel.is_locked(index) {
             lock_mark(ui.painter(), area.right_center() - vec2(10.0, 0.0), true, t.text_weak);
             room.max.x -= 18.0;
         }
@@ -141,7 +145,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> Response {
         text.add(Label::new(egui::RichText::new(&entry.name).color(color)).truncate().selectable(false));
         let is_placed = panel.session.space().position(index).is_some();
         let below = match panel.session.parent_weight(index) {
-            Some(_) if panel.project.solo.is_some() => strings::HEARD_ALONE.to_owned(),
+            Some(_) if panel.solo().is_some() => strings::HEARD_ALONE.to_owned(),
             Some(weight) => strings::of_the_blend(100.0 * weight),
             None if entry.provenance == Provenance::Restricted && !is_placed => {
                 format!("{} · {}", strings::NOT_PLACED_YET, strings::import::RESTRICTED_SHORT)
@@ -161,7 +165,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> Response {
     if entry.provenance == Provenance::Restricted {
         help = format!("{help}\n{}", strings::import::RESTRICTED);
     }
-    if panel.project.is_locked(index) {
+    if panel.is_locked(index) {
         help = format!("{help}\n{}", strings::LOCKED);
     }
     response.on_hover_text(format!("{}\n{help}", entry.name))

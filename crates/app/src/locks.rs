@@ -1,10 +1,11 @@
 //! Textures that the field meets exactly: their mark, their button and their menu.
 
 use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use shagreen_formats::library::TextureEntry;
 
 use crate::command::Command;
+use crate::edit::Edit;
 use crate::panel::Panel;
-use crate::project::Edit;
 use crate::strings;
 use crate::theme::tokens;
 
@@ -32,7 +33,7 @@ pub(crate) fn lock_mark(painter: &Painter, center: Pos2, is_locked: bool, color:
 /// The button that locks or unlocks a texture, in `area`.
 pub(crate) fn lock_button(ui: &Ui, panel: &Panel<'_>, texture: usize, area: Rect) -> Option<Command> {
     let t = tokens(ui.ctx());
-    let is_locked = panel.project.is_locked(texture);
+    let is_locked = panel.is_locked(texture);
     let name = strings::lock(&panel.session.textures()[texture].name, !is_locked);
     let response = ui.interact(area, ui.scope_id().with(("lock", texture)), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_locked, &name));
@@ -48,12 +49,12 @@ pub(crate) fn lock_button(ui: &Ui, panel: &Panel<'_>, texture: usize, area: Rect
 
 /// The menu of a texture that can be locked.
 pub(crate) fn lock_menu(response: &Response, panel: &Panel<'_>, texture: usize) -> Option<Command> {
-    if !panel.project.can_lock() || panel.session.space().position(texture).is_none() {
+    if !panel.project.texture().blend.can_lock() || panel.session.space().position(texture).is_none() {
         return None;
     }
     let mut asked = None;
     response.context_menu(|ui| {
-        let is_locked = panel.project.is_locked(texture);
+        let is_locked = panel.is_locked(texture);
         let name = strings::lock(&panel.session.textures()[texture].name, !is_locked);
         if ui.button(name).on_hover_text(strings::LOCK_HELP).clicked() {
             asked = Some(edit(panel, texture));
@@ -63,6 +64,7 @@ pub(crate) fn lock_menu(response: &Response, panel: &Panel<'_>, texture: usize) 
 }
 
 fn edit(panel: &Panel<'_>, texture: usize) -> Command {
-    let name = panel.session.textures()[texture].name.clone();
-    Command::Edit(Edit::Lock { texture, name, is_locked: !panel.project.is_locked(texture) })
+    let TextureEntry { id, name, .. } = &panel.session.textures()[texture];
+    let is_locked = !panel.is_locked(texture);
+    Command::Edit(Edit::Lock { id: id.clone(), name: name.clone(), is_locked })
 }

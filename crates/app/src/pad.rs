@@ -75,12 +75,12 @@ pub struct PadOutcome {
     pub mouse: Option<MouseReport>,
 }
 
-/// Draws the pad with the picture of the blend, whose side in mm comes along, and the controls of the hand.
+/// Draws the pad with the picture of what is heard, whose width and height in mm come along, and the controls of the hand.
 pub fn pad_ui(
     ui: &mut Ui,
     panel: &Panel<'_>,
     state: &mut PadState,
-    picture: Option<(egui::TextureId, f64)>,
+    picture: Option<(egui::TextureId, [f64; 2])>,
 ) -> PadOutcome {
     let mut outcome = PadOutcome::default();
     outcome.commands.extend(hand_ui(ui, panel, state));
@@ -88,9 +88,9 @@ pub fn pad_ui(
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAD));
     match picture {
-        Some((texture, side_mm)) => {
+        Some((texture, [width_mm, height_mm])) => {
             let shape = egui::epaint::RectShape::filled(area, f32::from(RADIUS), egui::Color32::WHITE);
-            let tile = POINTS_PER_MM * side_mm as f32;
+            let tile = POINTS_PER_MM * vec2(width_mm as f32, height_mm as f32);
             let uv = Rect::from_min_size(pos2(0.0, 0.0), area.size() / tile);
             ui.painter().add(shape.with_texture(texture, uv));
         }

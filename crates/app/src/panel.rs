@@ -1,7 +1,9 @@
 //! What a panel may look at: read-only. Panels ask for changes by commands.
 
+use shagreen_formats::project::Project;
+
+use crate::compare::Compare;
 use crate::pictures::Pictures;
-use crate::project::Project;
 use crate::session::Session;
 
 /// The state that panels draw.
@@ -11,6 +13,20 @@ pub struct Panel<'a> {
     pub project: &'a Project,
     /// Textures, space, and what sounds.
     pub session: &'a Session,
+    /// What is compared.
+    pub compare: &'a Compare,
     /// Pictures of the textures.
     pub pictures: &'a Pictures,
+}
+
+impl Panel<'_> {
+    /// Whether the field meets a texture of the list exactly at its own place.
+    pub fn is_locked(&self, texture: usize) -> bool {
+        self.project.texture().blend.is_locked(&self.session.textures()[texture].id)
+    }
+
+    /// The texture that is heard alone, by its place in the list.
+    pub fn solo(&self) -> Option<usize> {
+        self.session.solo(self.project)
+    }
 }

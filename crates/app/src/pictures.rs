@@ -7,8 +7,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::{Picture, Rgb, decode};
-
-use crate::libraries::BuiltIn;
+use shagreen_formats::project::ProjectLibrary;
 
 /// Side of the blended picture in pixels.
 const BLEND_SIDE: usize = 192;
@@ -27,8 +26,8 @@ pub struct Pictures {
     incoming: Receiver<Decoded>,
     sender: Sender<Decoded>,
     /// The library whose pictures these are, and the textures that joined it.
-    library: Option<BuiltIn>,
-    added: Vec<Arc<TextureEntry>>,
+    library: ProjectLibrary,
+    joined: Vec<Arc<TextureEntry>>,
     /// Goes up when textures join or go: pictures of those that are gone are late.
     generation: u64,
     blended: Option<(Vec<(usize, u32)>, TextureHandle)>,
@@ -41,8 +40,14 @@ type Decoded = (u64, usize, Rgb);
 const USUAL_SIDE_MM: f64 = 20.0;
 
 impl Pictures {
-    /// Starts to decode the pictures in a thread of their own; `ctx` is asked to repaint as they come in.
-    pub fn new(ctx: &Context, sources: Vec<Option<Picture>>) -> Self {
+    /// Starts to decode the pictures of `textures` in a thread of their own; `ctx` is asked to repaint as they come in.
+    /// They are those of the library and those that joined it.
+    pub fn new(
+        ctx: &Context,
+        library: ProjectLibrary,
+        joined: &[Arc<TextureEntry>],
+        textures: &[TextureEntry],
+    ) -> Self {
         let (sender, incoming) = channel();
         let mut pictures = Self {
             thumbnails: Vec::new(),
@@ -51,12 +56,12 @@ impl Pictures {
             fingerprints: Vec::new(),
             incoming,
             sender,
-            library: None,
-            added: Vec::new(),
+            library,
+            joined: joined.to_vec(),
             generation: 0,
             blended: None,
         };
-        pictures.decode(ctx, sources);
+        pictures.decode(ctx, textures.iter().map(|entry| entry.picture.clone()).collect());
         pictures
     }
 
@@ -64,17 +69,18 @@ impl Pictures {
     pub fn follow(
         &mut self,
         ctx: &Context,
-        library: Option<BuiltIn>,
-        added: &[Arc<TextureEntry>],
+        library: &ProjectLibrary,
+        joined: &[Arc<TextureEntry>],
         textures: &[TextureEntry],
     ) {
         let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
-        let has_same_added = self.added.len() == added.len() && self.added.iter().zip(added).all(is_same);
-        if has_same_added && self.library == library {
+        let has_same_joined =
+            self.joined.len() == joined.len() && self.joined.iter().zip(joined).all(is_same);
+        if has_same_joined && self.library == *library {
             return;
         }
         self.generation += 1;
-        (self.library, self.added) = (library, added.to_vec());
+        (self.library, self.joined) = (library.clone(), joined.to_vec());
         let before = self.fingerprints.iter().zip(textures);
         let n_kept = before.take_while(|((known, _), t)| *known == fingerprint(t.picture.as_ref())).count();
         self.thumbnails.truncate(n_kept);

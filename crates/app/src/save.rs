@@ -1,5 +1,5 @@
-//! Saving the library or a figure: a path, a word before a file is replaced, and a warning about textures that may not be
-//! passed on.
+//! Saving the library, a figure or the project: a path, a word before a file is replaced, and a warning about textures
+//! that may not be passed on.
 
 mod figure_file;
 
@@ -9,21 +9,24 @@ use std::sync::mpsc::{Receiver, TryRecvError};
 use egui::{Button, Context, Key, Label, Modal, RichText, TextEdit, Ui};
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
+use shagreen_formats::project::{Project, ProjectError, ProjectLibrary, read_project};
 
 use crate::background::in_background;
-use crate::command::Command;
-use crate::strings::{build, import as strings};
+use crate::command::{Command, FileCommand};
+use crate::document::CREATED_BY;
+use crate::strings::{build, document, import as strings};
 use crate::theme::{GAP, tokens};
 
 pub use crate::save::figure_file::{FigureFile, FigureFormat};
 
 /// The sheet, as long as it is open.
 pub struct SaveSheet {
-    /// `None` saves the library.
-    figure: Option<FigureFile>,
+    subject: Subject,
     path: String,
     state: State,
     is_focused: bool,
+    /// Where a project may be written now.
+    granted: Option<PathBuf>,
 }
 
 #[derive(Default)]
@@ -41,32 +44,62 @@ enum State {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Outcome {
     Saved,
+    /// Nothing stands in the way of the project.
+    MayBeWritten,
     Exists,
     Failed(String),
+}
+
+/// What is saved.
+enum Subject {
+    Library,
+    Figure(FigureFile),
+    Project(Box<Project>),
 }
 
 /// What goes into the file.
 enum Content {
     Library(Box<Library>),
     Figure(FigureFile),
+    /// It is written by its document once it may be.
+    Project,
 }
 
 impl SaveSheet {
     /// A sheet that saves the library.
     pub fn library() -> Self {
-        Self { figure: None, path: String::new(), state: State::default(), is_focused: false }
+        Self::of(Subject::Library, String::new())
     }
 
     /// A sheet that saves a figure, in `folder` unless another path is chosen.
     pub fn figure(figure: FigureFile, folder: &Path) -> Self {
         let path = folder.join(figure.file_name()).display().to_string();
-        Self { figure: Some(figure), path, state: State::default(), is_focused: false }
+        Self::of(Subject::Figure(figure), path)
+    }
+
+    /// A sheet that asks where to save a project, `path` unless another is chosen.
+    pub fn project(project: &Project, path: &Path) -> Self {
+        Self::of(Subject::Project(Box::new(project.clone())), path.display().to_string())
+    }
+
+    fn of(subject: Subject, path: String) -> Self {
+        Self { subject, path, state: State::default(), is_focused: false, granted: None }
     }
 
     /// The folder that a figure was saved in.
     pub fn folder_of_figure(&self) -> Option<&Path> {
         let State::Saved(path) = &self.state else { return None };
-        self.figure.as_ref().and_then(|_| Path::new(path).parent())
+        matches!(self.subject, Subject::Figure(_)).then(|| Path::new(path).parent())?
+    }
+
+    /// Whether it is the project that is saved.
+    pub fn is_of_project(&self) -> bool {
+        matches!(self.subject, Subject::Project(_))
+    }
+
+    /// Says why the project could not be saved.
+    pub fn say(&mut self, reason: String) {
+        (self.state, self.is_focused) = (State::Failed(reason), false);
     }
 
     /// Whether the file is on its way: the sheet stays until its outcome has been shown.
@@ -84,6 +117,7 @@ impl SaveSheet {
             self.content_ui(ui, library)
         });
         let mut commands = shown.inner;
+        commands.extend(self.granted.take().map(|path| Command::File(FileCommand::SaveTo(path))));
         let is_left = ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape));
         if is_left && !self.is_saving() {
             commands.push(Command::CloseSheet);
@@ -94,9 +128,10 @@ impl SaveSheet {
     fn content_ui(&mut self, ui: &mut Ui, library: &Library) -> Vec<Command> {
         let t = tokens(ui.ctx());
         let mut commands = Vec::new();
-        let (title, field_name, hint) = match &self.figure {
-            None => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
-            Some(_) => (build::SAVE_TITLE, build::SAVE_PATH, build::SAVE_HINT),
+        let (title, field_name, hint) = match &self.subject {
+            Subject::Library => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
+            Subject::Figure(_) => (build::SAVE_TITLE, build::SAVE_PATH, build::SAVE_HINT),
+            Subject::Project(_) => (document::SAVE_TITLE, document::SAVE_PATH, document::SAVE_HINT),
         };
         ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
@@ -111,21 +146,29 @@ impl SaveSheet {
             self.state = State::Asking;
         }
         // A figure holds names and numbers of textures, but none of them.
-        let restricted: Vec<&str> = match &self.figure {
-            None => library.restricted().map(|entry| entry.name.as_str()).collect(),
-            Some(_) => Vec::new(),
+        let restricted: Vec<&str> = match &self.subject {
+            Subject::Library => library.restricted().map(|entry| entry.name.as_str()).collect(),
+            Subject::Project(project) => project.restricted().map(|entry| entry.name.as_str()).collect(),
+            Subject::Figure(_) => Vec::new(),
         };
         if let Some(warning) = Provenance::warning(&restricted) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
         }
         let (text, color) = match &self.state {
-            State::Asking => match &self.figure {
-                None => (strings::to_save(library.textures.len()), t.text_weak),
-                Some(figure) => (build::to_save(&figure.title(), figure.format.word()), t.text_weak),
+            State::Asking => match &self.subject {
+                Subject::Library => (strings::to_save(library.textures.len()), t.text_weak),
+                Subject::Figure(figure) => {
+                    (build::to_save(&figure.title(), figure.format.word()), t.text_weak)
+                }
+                Subject::Project(project) => {
+                    let is_inside = matches!(project.library, ProjectLibrary::Inside(_));
+                    (document::to_save(project.authored.len(), is_inside), t.text_weak)
+                }
             },
-            State::Exists(_) => match &self.figure {
-                None => (strings::EXISTS.to_owned(), t.warning),
-                Some(figure) => (build::exists(figure.format.word()), t.warning),
+            State::Exists(_) => match &self.subject {
+                Subject::Library => (strings::EXISTS.to_owned(), t.warning),
+                Subject::Figure(figure) => (build::exists(figure.format.word()), t.warning),
+                Subject::Project(_) => (document::EXISTS.to_owned(), t.warning),
             },
             State::Saving(_) => (strings::SAVING.to_owned(), t.text_weak),
             State::Saved(path) => (strings::saved(path), t.accent),
@@ -153,12 +196,12 @@ impl SaveSheet {
 
     /// Writes in a thread of its own, and not over a file that is there unless `replaces`.
     fn save(&mut self, path: &str, library: &Library, replaces: bool, ctx: &Context) {
-        let content = match &self.figure {
-            None => Content::Library(Box::new(Library {
-                created_by: concat!("Shagreen ", env!("CARGO_PKG_VERSION")).to_owned(),
-                ..library.clone()
-            })),
-            Some(figure) => Content::Figure(figure.clone()),
+        let content = match &self.subject {
+            Subject::Library => {
+                Content::Library(Box::new(Library { created_by: CREATED_BY.to_owned(), ..library.clone() }))
+            }
+            Subject::Figure(figure) => Content::Figure(figure.clone()),
+            Subject::Project(_) => Content::Project,
         };
         let path = PathBuf::from(path);
         self.state = State::Saving(in_background(ctx.clone(), move || write(&path, &content, replaces)));
@@ -171,6 +214,11 @@ impl SaveSheet {
             Err(TryRecvError::Empty) => return,
             Err(TryRecvError::Disconnected) => State::Failed(strings::SAVE_BROKEN.to_owned()),
             Ok(Outcome::Saved) => State::Saved(path),
+            Ok(Outcome::MayBeWritten) => {
+                // The document writes it, and closes the sheet when that is done.
+                self.granted = Some(PathBuf::from(path));
+                return;
+            }
             Ok(Outcome::Exists) => State::Exists(path),
             Ok(Outcome::Failed(reason)) => State::Failed(reason),
         };
@@ -180,10 +228,12 @@ impl SaveSheet {
 }
 
 impl Content {
-    fn bytes(&self) -> Vec<u8> {
+    /// `None` where somebody else writes it.
+    fn bytes(&self) -> Option<Vec<u8>> {
         match self {
-            Self::Library(library) => write_library(library),
-            Self::Figure(figure) => figure.bytes(),
+            Self::Library(library) => Some(write_library(library)),
+            Self::Figure(figure) => Some(figure.bytes()),
+            Self::Project => None,
         }
     }
 
@@ -198,6 +248,7 @@ impl Content {
                 _ => None,
             },
             Self::Figure(figure) => (!figure.is_like(bytes)).then(|| build::no_figure(figure.format.word())),
+            Self::Project => is_project(bytes).err().map(|reason| document::no_project(&reason)),
         }
     }
 }
@@ -211,9 +262,19 @@ fn write(path: &Path, content: &Content, replaces: bool) -> Outcome {
             None => {}
         }
     }
-    match atomic::write(path, &content.bytes()) {
+    let Some(bytes) = content.bytes() else { return Outcome::MayBeWritten };
+    match atomic::write(path, &bytes) {
         Ok(()) => Outcome::Saved,
         Err(error) => Outcome::Failed(error.to_string()),
+    }
+}
+
+/// Whether bytes are a project, of whatever version and with whatever mistakes in it.
+fn is_project(bytes: &[u8]) -> Result<(), String> {
+    let nothing = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    match read_project(bytes, Path::new(""), &nothing) {
+        Err(error @ (ProjectError::Format { .. } | ProjectError::Damaged { .. })) => Err(error.to_string()),
+        _ => Ok(()),
     }
 }
 
@@ -248,6 +309,10 @@ mod tests {
         assert_eq!(name(), "one");
         assert_eq!(write(&path, &library("two"), true), Outcome::Saved);
         assert_eq!(name(), "two");
+        assert!(
+            matches!(write(&path, &Content::Project, true), Outcome::Failed(_)),
+            "a library is no project"
+        );
         std::fs::write(&path, "something else").unwrap();
         for replaces in [false, true] {
             assert!(matches!(write(&path, &library("three"), replaces), Outcome::Failed(_)), "{replaces}");

@@ -19,6 +19,11 @@ const STEP_DB: f64 = 20.0;
 pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>) {
     let width = ui.available_width();
     let height = ui.available_height();
+    if panel.session.is_hidden() {
+        let words = RichText::new(strings::compare::HIDDEN).color(tokens(ui.ctx()).text_weak);
+        ui.centered_and_justified(|ui| ui.add(Label::new(words).selectable(false)));
+        return;
+    }
     ui.horizontal(|ui| {
         let left = egui::vec2(width * 0.42 - GAP, height);
         ui.allocate_ui_with_layout(left, egui::Layout::top_down(egui::Align::Min), |ui| waveform(ui, panel));

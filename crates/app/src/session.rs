@@ -13,14 +13,13 @@ mod pen;
 mod places;
 mod player;
 
-use std::cell::OnceCell;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
 use anyhow::Context as _;
-use shagreen_core::authoring::{Authored, Authoring};
+use shagreen_core::authoring::{Authored, Authoring, Blending};
 use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
@@ -28,10 +27,9 @@ use shagreen_core::texture_path::Along;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::hand::Hand;
 use shagreen_formats::library::{Library, Place, TextureEntry};
-use shagreen_formats::space_report::placed_library;
+use shagreen_formats::placed_space::PlacedSpace;
+use shagreen_formats::project::{AuthoredTexture, BlendChoice, Project, ProjectLibrary};
 
-use crate::libraries::BuiltIn;
-use crate::project::{Project, UsedSpace};
 use crate::rig::Rig;
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
@@ -43,7 +41,7 @@ use self::heard::Heard;
 use self::models_ahead::ModelsAhead;
 use self::path_walk::PathWalk;
 use self::pen::Pen;
-use self::places::{Opened, attribute_names, join, places, poles_of};
+use self::places::{Opened, attribute_names, places, poles_of};
 use self::player::Player;
 
 /// Range of frequencies over which spectra are drawn, in Hz.
@@ -71,17 +69,15 @@ pub struct Spectra {
 /// Everything that is not undone.
 pub struct Session {
     library: Library,
-    /// Which of the program's libraries is open; `None` is the one that the session began with.
-    built_in: Option<BuiltIn>,
-    /// The one that it began with, while another is open.
-    first: Option<(Library, Opened)>,
-    /// Which of the program's libraries it began with, once that was asked.
-    first_as: OnceCell<Option<BuiltIn>>,
-    /// What the library said of its places when it was opened. The textures after its own are the project's.
+    /// The library of the project that is open, and others than the program's that were open before.
+    base: ProjectLibrary,
+    others: Vec<ProjectLibrary>,
+    /// What the library said of its textures when it was opened. Those after its own are the project's.
     opened: Opened,
-    added: Vec<Arc<TextureEntry>>,
+    joined: Vec<Arc<TextureEntry>>,
+    renamed: BTreeMap<String, String>,
     /// The space that gave the textures their places, and the attributes that are the axes.
-    used: Option<UsedSpace>,
+    used: Option<Arc<PlacedSpace>>,
     axes: Option<[String; 2]>,
     /// Where each texture lies on the canvas.
     places: Vec<Option<Place>>,
@@ -95,8 +91,11 @@ pub struct Session {
     incoming: Receiver<Ahead>,
     sender: Sender<Ahead>,
     authoring: Authoring,
+    generation: u64,
     models: ModelsAhead,
     authored: Option<Authored>,
+    /// Whether what is heard may not be shown.
+    is_hidden: bool,
     heard: Heard,
     /// How many textures were made for points.
     n_made: u64,
@@ -128,7 +127,8 @@ impl Session {
     ///
     /// # Errors
     /// The positions cannot be triangulated, or a texture cannot be had at the highest rate of them.
-    pub fn new(library: Library) -> anyhow::Result<Self> {
+    pub fn new(base: ProjectLibrary) -> anyhow::Result<Self> {
+        let library = base.read().context(strings::DAMAGED_LIBRARY)?;
         let places = places(&library.textures, None);
         let rate = rate_of_space(&library.textures, &places);
         let rate_hz = rate.0;
@@ -141,6 +141,7 @@ impl Session {
         prepare_ahead(planes.iter().cloned().enumerate().collect(), sender.clone());
         let mut session = Self {
             authoring: Authoring::new(Space::new(&positions(&places))?),
+            generation: 0,
             models: ModelsAhead::default(),
             heard: Heard::default(),
             n_made: 0,
@@ -154,11 +155,11 @@ impl Session {
             rig: Rig::default(),
             pen: Pen::default(),
             latencies: VecDeque::new(),
-            built_in: None,
-            first: None,
-            first_as: OnceCell::new(),
+            others: Vec::new(),
+            base,
             opened: Opened::new(&library),
-            added: Vec::new(),
+            joined: Vec::new(),
+            renamed: BTreeMap::new(),
             used: None,
             axes: None,
             poles: poles_of(&library, None),
@@ -167,6 +168,7 @@ impl Session {
             planes,
             library,
             authored: None,
+            is_hidden: false,
             spectra: Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() },
             hand: None,
             scope: ScopeBuffer::new(48_000.0, rate_hz),
@@ -185,6 +187,16 @@ impl Session {
     /// The textures of the library, then those that joined it.
     pub fn textures(&self) -> &[TextureEntry] {
         &self.library.textures
+    }
+
+    /// A number that changes whenever what is authored at any point may have changed.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// The textures over speed and force.
+    pub(crate) fn planes(&self) -> &[Arc<Plane>] {
+        &self.planes
     }
 
     /// Where they lie.
@@ -232,18 +244,43 @@ impl Session {
     pub fn library_as_opened(&self) -> Library {
         let mut library = self.library.clone();
         self.opened.restore(&mut library);
-        join(&mut library, &self.added);
+        library.join(&self.joined);
         library
     }
 
-    /// The blend at the point.
+    /// Where the texture of this identifier is in the list.
+    pub fn index_of(&self, id: &str) -> Option<usize> {
+        self.library.index_of(id)
+    }
+
+    /// The texture that the project wants to be heard alone, by its place in the list.
+    pub fn solo(&self, project: &Project) -> Option<usize> {
+        self.index_of(project.solo.as_ref()?)
+    }
+
+    /// How textures become one, as far as the mode can do it.
+    pub fn blending(&self, choice: &BlendChoice) -> Blending {
+        choice.blending(|id| self.index_of(id))
+    }
+
+    /// The blend at the point; none where it may not be shown.
     pub fn authored(&self) -> Option<&Authored> {
-        self.authored.as_ref()
+        self.authored.as_ref().filter(|_| !self.is_hidden)
+    }
+
+    /// Hides what tells what is heard, or shows it again.
+    pub fn set_hidden(&mut self, is_hidden: bool) {
+        self.is_hidden = is_hidden;
+    }
+
+    /// Whether what is heard may not be shown.
+    pub fn is_hidden(&self) -> bool {
+        self.is_hidden
     }
 
     /// The parents that are shown one by one: library indices and weights, largest first.
     pub fn shown_parents(&self) -> &[(usize, f64)] {
-        let parents = self.authored.as_ref().map_or(&[][..], |authored| &authored.parents);
+        let parents = self.authored().map_or(&[][..], |authored| &authored.parents);
         &parents[..parents.len().min(N_SHOWN_PARENTS)]
     }
 
@@ -287,21 +324,24 @@ impl Session {
         self.space_rate_hz
     }
 
-    /// Follows the project: takes in its library and textures, finds the parents, and tells the output.
-    pub fn follow(&mut self, project: &Project, ctx: &egui::Context) {
-        if self.built_in != project.library {
+    /// Follows the project: takes in its library and textures, finds the parents of what is `heard` (the texture that is
+    /// selected, where nothing else is), and tells the output.
+    pub fn follow(&mut self, project: &Project, heard: Option<&AuthoredTexture>, ctx: &egui::Context) {
+        if self.base != project.library {
             let is_same = self.open_library(project);
             self.take(project, &is_same);
         }
         let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
-        let n_same = self.added.iter().zip(&project.added).take_while(|pair| is_same(*pair)).count();
-        let has_same_textures = n_same == self.added.len() && n_same == project.added.len();
-        if !has_same_textures || self.used != project.space || self.axes != project.axes {
+        let n_same = self.joined.iter().zip(&project.joined).take_while(|pair| is_same(*pair)).count();
+        let has_same_textures = n_same == self.joined.len() && n_same == project.joined.len();
+        let has_same_names = self.renamed == project.renamed;
+        if !has_same_textures || !has_same_names || self.used != project.space || self.axes != project.axes {
             self.take(project, &vec![true; self.opened.n_textures() + n_same]);
         }
         match self.models.collect(ctx) {
             Some(Ok(models)) => {
                 self.authoring = self.authoring.clone().with_models(models);
+                self.generation += 1;
                 self.player.wanted = None;
             }
             Some(Err(reason)) => {
@@ -310,12 +350,13 @@ impl Session {
             }
             None => {}
         }
-        self.path_point = self.follow_path(project.path.as_ref());
+        let texture = heard.unwrap_or(project.texture());
+        self.path_point = self.follow_path(texture.path.as_ref());
         // What is played along a path is no texture alone.
-        let solo = project.solo.filter(|_| self.path_point.is_none());
-        let at = self.path_point.unwrap_or(project.point);
+        let solo = self.solo(project).filter(|_| self.path_point.is_none() && heard.is_none());
+        let at = self.path_point.unwrap_or(texture.at);
         let key = self.follow_key(solo);
-        let wanted = (at, project.heard_blending(), solo, key);
+        let wanted = (at, self.blending(&texture.blend), solo, key);
         if self.player.wanted.as_ref() != Some(&wanted) {
             self.authored = match solo {
                 Some(texture) => Some(self.alone(texture, key, at, wanted.1.mode)),
@@ -331,10 +372,7 @@ impl Session {
     /// Takes over textures, places and axes of the project; those that `is_same` are as they were heard last, by index.
     fn take(&mut self, project: &Project, is_same: &[bool]) {
         self.opened.restore(&mut self.library);
-        join(&mut self.library, &project.added);
-        if let Some(UsedSpace(build)) = &project.space {
-            self.library = placed_library(&self.library, build);
-        }
+        self.library = project.textures_on(std::mem::take(&mut self.library));
         let axes = project.axes.as_ref();
         self.places = places(&self.library.textures, axes);
         let rate_before_hz = self.space_rate_hz;
@@ -383,8 +421,10 @@ impl Session {
             Err(error) => self.player.message = Some(error.to_string()),
         }
         self.poles = poles_of(&self.library, axes);
-        (self.added, self.used, self.axes) =
-            (project.added.clone(), project.space.clone(), project.axes.clone());
+        self.generation += 1;
+        (self.joined, self.used, self.axes) =
+            (project.joined.clone(), project.space.clone(), project.axes.clone());
+        self.renamed.clone_from(&project.renamed);
         self.player.wanted = None;
     }
 
@@ -437,7 +477,9 @@ impl Session {
         } else {
             contact
         };
-        self.spectra.blend = self.heard.psd(contact, &self.spectra.frequencies);
+        let nothing = || vec![0.0; self.spectra.frequencies.len()];
+        self.spectra.blend =
+            if self.is_hidden { nothing() } else { self.heard.psd(contact, &self.spectra.frequencies) };
         let parent =
             |(texture, _): &(usize, f64)| self.planes[*texture].at(contact).psd(&self.spectra.frequencies);
         self.spectra.parents = self.shown_parents().iter().map(parent).collect();

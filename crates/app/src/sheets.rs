@@ -1,13 +1,23 @@
 //! What lies over the window: the sheet that is open, and where dropped files go.
 
-use egui::{Align2, Context, FontId, Id, LayerId, Order, Stroke, StrokeKind};
+use std::path::Path;
 
-use crate::command::Command;
+use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Stroke, StrokeKind};
+use shagreen_formats::project::EXTENSION;
+
+use crate::command::{Command, FileCommand};
 use crate::devices::DevicesSheet;
+use crate::document::Document;
+use crate::gallery_sheet::GallerySheet;
 use crate::import::sheet::{ImportSheet, Surroundings};
 use crate::import::source::Source;
+use crate::leaving::{Leave, leaving_ui};
+use crate::open_sheet::OpenSheet;
+use crate::recovered_ui::recovered_ui;
+use crate::recovery::Leftover;
 use crate::save::SaveSheet;
 use crate::session::Session;
+use crate::shortcuts_ui::shortcuts_ui;
 use crate::strings;
 use crate::theme::{RADIUS, tokens};
 use crate::workspace::Workspace;
@@ -24,6 +34,16 @@ pub(crate) enum Sheet {
     Save(SaveSheet),
     /// The output, its actuator and the pen.
     Devices(Box<DevicesSheet>),
+    /// A project or a library is looked for.
+    Open(OpenSheet),
+    /// A project of the gallery is looked for.
+    Gallery(GallerySheet),
+    /// The keys are shown.
+    Shortcuts,
+    /// Something would be lost.
+    Leaving(Leave),
+    /// What a program left behind is offered.
+    Recovered(Vec<Leftover>),
 }
 
 impl Sheet {
@@ -43,7 +63,13 @@ impl Sheet {
 
     /// Draws the sheet over the window, and where files would go that hover over it; returns what the user asked for.
     /// Files dropped on the workspace Build are judgments, others are imported.
-    pub(crate) fn show(&mut self, ctx: &Context, session: &Session, workspace: Workspace) -> Vec<Command> {
+    pub(crate) fn show(
+        &mut self,
+        ctx: &Context,
+        session: &Session,
+        document: &Document,
+        workspace: Workspace,
+    ) -> Vec<Command> {
         let mut commands = match self {
             Self::Closed => Vec::new(),
             Self::Import(sheet) => {
@@ -53,6 +79,11 @@ impl Sheet {
             }
             Self::Save(sheet) => sheet.show(ctx, session.library()),
             Self::Devices(sheet) => sheet.show(ctx, session),
+            Self::Open(sheet) => sheet.show(ctx, document.is_opening()),
+            Self::Gallery(sheet) => sheet.show(ctx),
+            Self::Shortcuts => shortcuts_ui(ctx).into_iter().collect(),
+            Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name()),
+            Self::Recovered(leftovers) => recovered_ui(ctx, leftovers),
         };
         if matches!(self, Self::Save(sheet) if sheet.is_saving()) {
             // It stays until its outcome has been shown.
@@ -60,7 +91,16 @@ impl Sheet {
         }
         let are_judgments = workspace == Workspace::Build && !matches!(self, Self::Import(_));
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
-        if !dropped.is_empty() {
+        let is_project = |file: &DroppedFileHandle| {
+            let path = file.path();
+            (path.extension()? == EXTENSION).then(|| path.to_owned())
+        };
+        let photo = dropped.iter().find(|file| is_photo(file.path()));
+        if let Some(project) = dropped.iter().find_map(is_project) {
+            commands.push(Command::File(FileCommand::Open(project)));
+        } else if let Some(photo) = photo.filter(|_| !are_judgments) {
+            commands.push(Command::ReadPhoto(Source::Dropped(photo.clone())));
+        } else if !dropped.is_empty() {
             let sources = dropped.into_iter().map(Source::Dropped).collect();
             commands.push(if are_judgments {
                 Command::ReadJudgments(sources)
@@ -78,6 +118,12 @@ impl Sheet {
         }
         commands
     }
+}
+
+/// Whether a file is a photo by its name.
+fn is_photo(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    ending.is_some_and(|ending| ["jpg", "jpeg", "png"].contains(&ending.as_str()))
 }
 
 /// Says over the whole window what may be dropped.

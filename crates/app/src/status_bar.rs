@@ -38,11 +38,14 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             ui.separator();
             weak(ui, format!("load {:.1} %", 100.0 * status.load), strings::LOAD_HELP);
             ui.separator();
-            weak(ui, format!("{} dropouts", status.underruns), strings::DROPOUTS_HELP);
-            ui.separator();
-            // Rounded first, so that nothing reads "-0 dB".
-            let level = (20.0 * f64::from(status.level_mps2.max(1e-4)).log10()).round() + 0.0;
-            weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
+            weak(ui, strings::dropouts(status.underruns), strings::DROPOUTS_HELP);
+            // The level would tell what is heard blind.
+            if !session.is_hidden() {
+                ui.separator();
+                // Rounded first, so that nothing reads "-0 dB".
+                let level = (20.0 * f64::from(status.level_mps2.max(1e-4)).log10()).round() + 0.0;
+                weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
+            }
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if session.is_long_preparing() {

@@ -2,10 +2,19 @@
 
 use shagreen_core::space::SpacePoint;
 
+pub mod authored;
 pub mod build;
+pub mod commands;
+pub mod compare;
 pub mod devices;
+pub mod document;
+pub mod edits;
+pub mod gallery;
+pub mod help;
 pub mod import;
+pub mod map;
 pub mod path;
+pub mod view;
 
 /// The output takes no more at the moment.
 pub const OUTPUT_BUSY: &str = "The output is busy; try again";
@@ -59,6 +68,12 @@ pub const SIMULATED: &str = "Starter library, simulated panel";
 /// What the second library is.
 pub const SIMULATED_HELP: &str =
     "The same materials, placed by what SIMULATED raters sorted and rated. Nobody felt anything.";
+/// The name of a texture that is authored anew.
+pub const NEW_TEXTURE: &str = "New texture";
+/// A library without a name.
+pub const UNNAMED_LIBRARY: &str = "Library without a name";
+/// A library that is a part of the project.
+pub const INSIDE_HELP: &str = "It is a part of this project.";
 /// A library of the program cannot be read.
 pub const DAMAGED_LIBRARY: &str = "This library of the program is damaged; install Shagreen again";
 /// Accessible name of the search field.
@@ -269,6 +284,11 @@ pub const CIRCLE: &str = "circle";
 /// The path of the hand that covers the pad.
 pub const SCRIBBLE: &str = "scribble";
 
+/// How often the output ran out of samples.
+pub fn dropouts(n: u64) -> String {
+    if n == 1 { "1 dropout".to_owned() } else { format!("{n} dropouts") }
+}
+
 /// Accessible name of an axis by the words at its ends: [`ROUGH_SMOOTH`] and [`HARD_SOFT`] are two of them.
 pub fn axis([low, high]: &[String; 2]) -> String {
     let words = if high.is_empty() { low.clone() } else { format!("{low} to {high}") };
@@ -298,11 +318,6 @@ pub fn places_from(source: &str) -> String {
 /// Where a texture lies, and where that comes from.
 pub fn lies_at(point: SpacePoint, source: &str) -> String {
     format!("{point} ({source})")
-}
-
-/// The library that the window started with, in the menu.
-pub fn started_with(library: &str) -> String {
-    format!("{library} (opened at the start)")
 }
 
 /// Accessible name of a texture on the canvas: a click moves the point there.

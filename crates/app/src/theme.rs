@@ -3,6 +3,7 @@
 use egui::{
     Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2,
 };
+use shagreen_formats::project::N_COLORS;
 
 /// The colors of one theme.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +34,8 @@ pub struct Tokens {
     pub on_chosen: Color32,
     /// The three parents, told apart by readers of any color vision (after Okabe and Ito).
     pub parents: [Color32; 3],
+    /// What authored textures are told apart by, next to their names (after Okabe and Ito).
+    pub authored: [Color32; N_COLORS as usize],
     /// Something wants attention.
     pub warning: Color32,
     /// Something is wrong.
@@ -58,6 +61,16 @@ pub const DARK: Tokens = Tokens {
         Color32::from_rgb(0x62, 0xB8, 0xEC),
         Color32::from_rgb(0xDB, 0x8C, 0xB8),
     ],
+    authored: [
+        Color32::from_rgb(0xF0, 0xA8, 0x30),
+        Color32::from_rgb(0x62, 0xB8, 0xEC),
+        Color32::from_rgb(0x6C, 0xC4, 0x6A),
+        Color32::from_rgb(0xEF, 0xE2, 0x5A),
+        Color32::from_rgb(0x93, 0xA0, 0xFF),
+        Color32::from_rgb(0xEE, 0x7B, 0x52),
+        Color32::from_rgb(0xDB, 0x8C, 0xB8),
+        Color32::from_rgb(0xB4, 0xBC, 0xC0),
+    ],
     warning: Color32::from_rgb(0xF2, 0xC0, 0x4A),
     error: Color32::from_rgb(0xF0, 0x7A, 0x6A),
 };
@@ -80,6 +93,16 @@ pub const LIGHT: Tokens = Tokens {
         Color32::from_rgb(0x96, 0x57, 0x00),
         Color32::from_rgb(0x16, 0x6C, 0xAB),
         Color32::from_rgb(0xA3, 0x3C, 0x78),
+    ],
+    authored: [
+        Color32::from_rgb(0x96, 0x57, 0x00),
+        Color32::from_rgb(0x16, 0x6C, 0xAB),
+        Color32::from_rgb(0x1F, 0x70, 0x34),
+        Color32::from_rgb(0x6E, 0x61, 0x00),
+        Color32::from_rgb(0x3F, 0x45, 0xB4),
+        Color32::from_rgb(0xB0, 0x3E, 0x16),
+        Color32::from_rgb(0xA3, 0x3C, 0x78),
+        Color32::from_rgb(0x59, 0x63, 0x68),
     ],
     warning: Color32::from_rgb(0x8A, 0x5A, 0x00),
     error: Color32::from_rgb(0xB3, 0x2D, 0x20),
@@ -110,6 +133,23 @@ pub fn tokens(ctx: &egui::Context) -> &'static Tokens {
         Theme::Dark => &DARK,
         Theme::Light => &LIGHT,
     }
+}
+
+/// The color of a map at a share of its range, 0..1: from dark blue by gray to yellow, which readers of any color vision tell
+/// apart, and which gets lighter all the way (after cividis, J. Nuñez, C. Anderton and R. Renslow 2018).
+pub fn map_color(share: f32) -> Color32 {
+    const STOPS: [[f32; 3]; 5] = [
+        [0.0, 34.0, 78.0],
+        [62.0, 76.0, 107.0],
+        [124.0, 123.0, 120.0],
+        [187.0, 173.0, 108.0],
+        [254.0, 232.0, 56.0],
+    ];
+    let at = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f32;
+    let first = (at as usize).min(STOPS.len() - 2);
+    let part = at - first as f32;
+    let channel = |i: usize| (STOPS[first][i] + part * (STOPS[first + 1][i] - STOPS[first][i])).round() as u8;
+    Color32::from_rgb(channel(0), channel(1), channel(2))
 }
 
 /// Installs both themes.
@@ -174,7 +214,7 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
 
 #[cfg(test)]
 mod tests {
-    use super::{DARK, LIGHT, Tokens, style};
+    use super::{DARK, LIGHT, Tokens, map_color, style};
     use egui::{Color32, Style, Visuals};
 
     /// Relative luminance of WCAG 2.1.
@@ -199,6 +239,7 @@ mod tests {
             pairs.push((t.text, surface, 7.0));
             let colors = [t.text_weak, t.accent, t.warning, t.error].into_iter().chain(t.parents);
             pairs.extend(colors.map(|color| (color, surface, 4.5)));
+            pairs.extend(t.authored.map(|color| (color, surface, 3.0)));
         }
         pairs.push((t.on_accent, t.accent, 4.5));
         let visuals = &style.visuals;
@@ -232,6 +273,13 @@ mod tests {
         for (t, style) in both() {
             assert_eq!(unreadable(t, &style), Vec::<String>::new());
         }
+    }
+
+    /// A higher value is lighter, whatever is made of its hue.
+    #[test]
+    fn a_map_gets_lighter_all_the_way() {
+        let lights: Vec<f64> = (0..=20).map(|i| luminance(map_color(i as f32 / 20.0))).collect();
+        assert!(lights.windows(2).all(|pair| pair[1] > pair[0]), "{lights:?}");
     }
 
     /// The negative control: the accent on a lighter shade of itself, which tabs once had, is found in both themes.

@@ -1,33 +1,43 @@
 //! The window itself: lays out the panels, carries out commands, keeps the frame going.
 
+mod commands;
+mod files;
+mod title_bar;
+
+pub use self::files::new_project;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Margin, Panel as Side, RichText, Ui};
+use egui::{CentralPanel, Frame, Margin, Panel as Side, Ui};
+use shagreen_core::heat_map::Quantity;
 use shagreen_core::units::Contact;
-use shagreen_formats::actuator_toml::built_in_actuators;
-use shagreen_formats::library::Library;
+use shagreen_device::hand::Hand;
+use shagreen_formats::project::{AuthoredTexture, Project};
 
+use crate::Begin;
 use crate::build::page::BuildPage;
-use crate::canvas::{PathTool, canvas_ui, point_id};
+use crate::canvas::{CanvasState, ShownMap, canvas_ui, point_id};
 use crate::command::{Command, pressed};
-use crate::devices::DevicesSheet;
-use crate::history::{Gesture, History};
+use crate::compare::Compare;
+use crate::document::Document;
+use crate::edit::Edit;
+use crate::files::Files;
+use crate::heat_map::{Grid, HeatMap, Wanted};
+use crate::history::History;
 use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
-use crate::kept_path::kept_path;
 use crate::library_panel::library_ui;
 use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
+use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
-use crate::project::{Edit, Project};
-use crate::save::SaveSheet;
 use crate::scope::scope_ui;
-use crate::session::{OutputChoice, Session};
+use crate::session::Session;
 use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
-use crate::strings;
-use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, tokens};
+use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, map_color, tokens};
+use crate::tour::{Places, Tour};
 use crate::workspace::Workspace;
 
 /// Pictures that are blended into that of a field: more take longer and show nothing more.
@@ -38,15 +48,26 @@ pub struct Window {
     project: Project,
     history: History,
     session: Session,
+    files: Files,
     pictures: Pictures,
+    photo: PhotoReader,
+    own_picture: OwnPicture,
+    compare: Compare,
+    heat: HeatMap,
+    map: Option<Quantity>,
     pad: PadState,
-    path_tool: PathTool,
+    canvas: CanvasState,
     search: String,
     /// A texture that has just joined, to be scrolled to.
     reveal: Option<usize>,
     gesture: u64,
     was_holding: bool,
+    /// What had the keyboard in the last frame.
+    writing: Option<egui::Id>,
     sheet: Sheet,
+    tour: Tour,
+    /// Where the places of the tour were in the last frame.
+    tour_places: Places,
     workspace: Workspace,
     build: BuildPage,
     /// Where figures are saved unless another path is chosen.
@@ -54,30 +75,49 @@ pub struct Window {
 }
 
 impl Window {
-    /// The window on a library; the output is opened in the background.
+    /// The window on a project; the output is opened in the background.
     ///
     /// # Errors
     /// The library's positions make no space.
-    pub fn new(ctx: &egui::Context, library: Library, output: OutputChoice) -> anyhow::Result<Self> {
+    pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
         install(ctx);
-        let sources = library.textures.iter().map(|t| t.picture.clone()).collect();
-        let mut session = Session::new(library)?;
+        let Begin { project, path, output, keeping } = begin;
+        let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
         session.open_output(output, ctx);
-        let project = Project::default();
-        session.follow(&project, ctx);
+        session.follow(&project, None, ctx);
+        let pictures = Pictures::new(ctx, project.library.clone(), &project.joined, session.textures());
+        let leftovers = Files::leftovers(&keeping);
+        // Nobody is led around who would be led around again next time.
+        let can_remember = keeping.settings.is_some();
+        let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
+        let files = Files::new(&project, path, keeping);
+        let is_new_here = can_remember && !files.settings.has_seen_tour;
+        let tour = if is_new_here { Tour::begun() } else { Tour::default() };
+        if let Some(is_light) = files.settings.is_light {
+            ctx.set_theme(if is_light { egui::Theme::Light } else { egui::Theme::Dark });
+        }
         Ok(Self {
             project,
             history: History::default(),
             session,
-            pictures: Pictures::new(ctx, sources),
+            pictures,
+            photo: PhotoReader::new(),
+            own_picture: OwnPicture::default(),
+            files,
+            compare: Compare::by_chance(),
+            heat: HeatMap::default(),
+            map: None,
             pad: PadState::default(),
-            path_tool: PathTool::default(),
+            canvas: CanvasState::default(),
             search: String::new(),
             reveal: None,
             gesture: 0,
             was_holding: false,
-            sheet: Sheet::Closed,
+            writing: None,
+            sheet,
+            tour,
+            tour_places: [egui::Rect::NOTHING; 4],
             workspace: Workspace::default(),
             build: BuildPage::default(),
             // Where there is none, the path is one to be completed.
@@ -88,6 +128,11 @@ impl Window {
     /// What the user makes.
     pub fn project(&self) -> &Project {
         &self.project
+    }
+
+    /// The file of the project.
+    pub fn document(&self) -> &Document {
+        &self.files.document
     }
 
     /// What is open and what sounds.
@@ -119,18 +164,22 @@ impl Window {
         let t = tokens(&ctx);
         self.pictures.collect(&ctx);
         self.next_gesture(&ctx);
-        let hand = self.pad.hand;
-        self.session
-            .update(Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n)));
+        self.session.update(contact_of(self.pad.hand));
         self.build.collect();
-        let mut commands = if self.sheet.is_open() { Vec::new() } else { pressed(&ctx, point_id()) };
+        self.collect_files(&ctx);
+        self.collect_photo(&ctx);
+        let mut commands = if self.sheet.is_open() {
+            Vec::new()
+        } else {
+            pressed(&ctx, point_id(self.project.texture().key))
+        };
         if self.workspace == Workspace::Build && !self.session.hand_is_running() {
             // Where nothing shows the hand it can be stopped, but does not start unseen.
             commands.retain(|command| !matches!(command, Command::ToggleHand));
         }
         if self.workspace == Workspace::Build {
             commands.retain(|command| !matches!(command, Command::TogglePathTool));
-        } else if self.path_tool.is_on
+        } else if self.canvas.tool.is_on
             && !self.sheet.is_open()
             && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
         {
@@ -139,7 +188,12 @@ impl Window {
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
         Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
-        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+        let panel = Panel {
+            project: &self.project,
+            session: &self.session,
+            compare: &self.compare,
+            pictures: &self.pictures,
+        };
         Side::bottom("status")
             .exact_size(32.0)
             .frame(bar(2))
@@ -147,8 +201,12 @@ impl Window {
         match self.workspace {
             Workspace::Author => self.author_ui(ui, &ctx, &mut commands),
             Workspace::Build => {
-                let panel =
-                    Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+                let panel = Panel {
+                    project: &self.project,
+                    session: &self.session,
+                    compare: &self.compare,
+                    pictures: &self.pictures,
+                };
                 commands.extend(self.build.show(ui, &panel));
             }
         }
@@ -157,88 +215,84 @@ impl Window {
             // What lies below a sheet goes on as it was.
             commands.clear();
         }
-        commands.extend(self.sheet.show(&ctx, &self.session, self.workspace));
+        commands.extend(self.sheet.show(&ctx, &self.session, &self.files.document, self.workspace));
+        if self.workspace == Workspace::Author
+            && !self.sheet.is_open()
+            && self.tour.show(&ctx, self.tour_places)
+        {
+            self.files.settings.has_seen_tour = true;
+        }
         for command in commands {
             self.carry_out(command, &ctx);
         }
-        self.session.follow(&self.project, &ctx);
+        self.follow_project(&ctx);
         let (project, textures) = (&self.project, self.session.textures());
-        self.pictures.follow(&ctx, project.library, &project.added, textures);
+        self.pictures.follow(&ctx, &project.library, &project.joined, textures);
         self.keep_going(&ctx);
-    }
-
-    fn title_ui(&self, ui: &mut Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        ui.horizontal_centered(|ui| {
-            let t = tokens(ui.ctx());
-            ui.add(
-                egui::Label::new(RichText::new(strings::APP).heading().strong().color(t.accent))
-                    .selectable(false),
-            );
-            ui.add_space(10.0);
-            for workspace in Workspace::ALL {
-                let command = Command::Show(workspace);
-                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
-                let tab = ui.selectable_label(self.workspace == workspace, workspace.name());
-                if tab.on_hover_text(format!("{} ({keys})", workspace.help())).clicked() {
-                    commands.push(command);
-                }
-            }
-            ui.add_space(10.0);
-            for (command, name, label) in [
-                (Command::Undo, strings::UNDO, self.history.undo_label()),
-                (Command::Redo, strings::REDO, self.history.redo_label()),
-            ] {
-                let what = label.map_or(name.to_owned(), |l| strings::verb(name, l));
-                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
-                let button = ui.add_enabled(label.is_some(), egui::Button::new(name));
-                if button.on_hover_text(format!("{what} ({keys})")).clicked() {
-                    commands.push(command);
-                }
-            }
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let to = if ui.visuals().dark_mode { strings::TO_LIGHT } else { strings::TO_DARK };
-                if ui.button(to).clicked() {
-                    commands.push(Command::ToggleTheme);
-                }
-                let keys =
-                    Command::OpenDevices.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
-                let help = format!("{} ({keys})", strings::devices::OPEN_HELP);
-                if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
-                    commands.push(Command::OpenDevices);
-                }
-                let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
-                if ui.selectable_label(self.session.is_muted(), mute).clicked() {
-                    commands.push(Command::ToggleMute);
-                }
-            });
-        });
-        commands
     }
 
     /// The workspace Author.
     fn author_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
+        let map = self.follow_map(ctx);
         self.stage_ui(ui, ctx, commands);
-        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
+        let panel = Panel {
+            project: &self.project,
+            session: &self.session,
+            compare: &self.compare,
+            pictures: &self.pictures,
+        };
         let (search, reveal) = (&mut self.search, &mut self.reveal);
         Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
             commands.extend(library_ui(ui, &panel, search, reveal));
         });
         Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
+            self.tour_places[2] = ui.max_rect();
             commands.extend(inspector_ui(ui, &panel));
         });
         let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
         CentralPanel::default().frame(frame).show(ui, |ui| {
-            commands.extend(canvas_ui(ui, &panel, &mut self.path_tool));
+            self.tour_places[0] = ui.max_rect();
+            commands.extend(canvas_ui(ui, &panel, &mut self.canvas, map.as_ref()));
         });
+    }
+
+    /// The map behind the canvas, as far as it is worked out.
+    fn follow_map(&mut self, ctx: &egui::Context) -> Option<ShownMap> {
+        let session = &self.session;
+        let hand = self.pad.hand;
+        let wanted = self.map.map(|quantity| Wanted {
+            quantity,
+            blending: session.blending(&self.project.texture().blend),
+            contact: contact_of(hand),
+            generation: session.generation(),
+        });
+        self.heat.follow(wanted, || (session.authoring().clone(), session.planes().to_vec()), ctx);
+        let quantity = self.map?;
+        let range = self.heat.grid().and_then(Grid::range);
+        Some(ShownMap {
+            quantity,
+            picture: self.heat.picture(ctx, map_color).map(egui::TextureHandle::id),
+            range,
+        })
     }
 
     /// The row at the foot: pad and scope.
     fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
         let parents = self.session.authored().map_or(&[][..], |authored| &authored.parents);
-        let picture = self.pictures.blend(ctx, &pictured(parents)).map(|(texture, mm)| (texture.id(), mm));
-        let panel = Panel { project: &self.project, session: &self.session, pictures: &self.pictures };
-        let pad = &mut self.pad;
+        let parents = pictured(parents);
+        let blended = if parents.is_empty() { None } else { self.pictures.blend(ctx, &parents) };
+        let blended = blended.map(|(texture, mm)| (texture.id(), [mm, mm]));
+        let heard = self.heard_texture().filter(|_| !self.compare.is_hidden());
+        let own = heard.and_then(|texture| texture.picture.clone());
+        let own = self.own_picture.follow(own.as_ref(), ctx).map(|(texture, mm)| (texture.id(), mm));
+        let picture = own.or(blended);
+        let panel = Panel {
+            project: &self.project,
+            session: &self.session,
+            compare: &self.compare,
+            pictures: &self.pictures,
+        };
+        let (pad, place) = (&mut self.pad, &mut self.tour_places[1]);
         let mut mouse = None;
         Side::bottom("stage").exact_size(STAGE_HEIGHT).resizable(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
@@ -246,6 +300,7 @@ impl Window {
                 let top_down = egui::Layout::top_down(egui::Align::Min);
                 let pad_width = (0.36 * width).max(PAD_WIDTH.min(0.5 * width));
                 ui.allocate_ui_with_layout(egui::vec2(pad_width, height), top_down, |ui| {
+                    *place = ui.max_rect();
                     let outcome = pad_ui(ui, &panel, pad, picture);
                     commands.extend(outcome.commands);
                     mouse = outcome.mouse;
@@ -261,83 +316,47 @@ impl Window {
         }
     }
 
-    /// Does what was asked for.
-    pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
-        match command {
-            Command::Edit(edit) => {
-                if matches!(edit, Edit::AddTextures(_)) {
-                    self.search.clear();
-                    self.reveal = Some(self.session.textures().len());
+    /// The authored texture that is heard because it is compared.
+    fn compared_texture(&self) -> Option<Arc<AuthoredTexture>> {
+        let compared = self.compare.heard_key()?;
+        self.project.authored.iter().find(|texture| texture.key == compared).map(Arc::clone)
+    }
+
+    /// The authored texture that is heard; none while one of the list is heard alone.
+    fn heard_texture(&self) -> Option<Arc<AuthoredTexture>> {
+        let selected = || Arc::clone(&self.project.authored[self.project.selected]);
+        self.compared_texture().or_else(|| self.project.solo.is_none().then(selected))
+    }
+
+    /// A photo that was read becomes the picture of the texture that it was dropped for.
+    fn collect_photo(&mut self, ctx: &egui::Context) {
+        match self.photo.collect() {
+            // It may have been taken away meanwhile.
+            Some((key, Ok(_))) if !self.project.authored.iter().any(|texture| texture.key == key) => {}
+            Some((key, Ok(picture))) => {
+                for edit in [Edit::Select(key), Edit::SetPicture(Some(Arc::new(picture)))] {
+                    self.carry_out(Command::Edit(edit), ctx);
                 }
-                self.history.apply(&mut self.project, edit, Gesture(self.gesture));
             }
-            Command::Undo => {
-                self.history.undo(&mut self.project);
-            }
-            Command::Redo => {
-                self.history.redo(&mut self.project);
-            }
-            Command::ToggleHand => {
-                let hand = (!self.session.hand_is_running()).then_some(self.pad.hand);
-                self.session.set_hand(hand);
-            }
-            Command::TogglePathTool => self.path_tool.toggle(),
-            Command::PlayPath(is_played) => self.session.play_path(is_played),
-            Command::KeepPath => match kept_path(&self.project, &self.session) {
-                Some(Ok(entry)) => {
-                    self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx);
-                }
-                Some(Err(error)) => self.session.say(error.to_string()),
-                None => {}
-            },
-            Command::ToggleMute => self.session.toggle_mute(),
-            Command::ToggleTheme => {
-                let dark = ctx.theme() == egui::Theme::Dark;
-                ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
-            }
-            Command::ListOutputs => self.session.list_outputs(ctx),
-            Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
-            Command::ResetLimiter => self.session.reset_limiter(),
-            Command::OpenDevices => match built_in_actuators() {
-                Ok(actuators) => {
-                    self.session.list_outputs(ctx);
-                    self.session.list_pens(ctx);
-                    self.session.list_inputs(ctx);
-                    let sheet = DevicesSheet::new(self.session.rig(), actuators);
-                    self.sheet = Sheet::Devices(Box::new(sheet));
-                }
-                Err(error) => self.session.say(error.to_string()),
-            },
-            Command::SetRig(rig) => self.session.set_rig(*rig, ctx),
-            Command::PlayTone { frequency_hz, amplitude_mps2 } => {
-                self.session.play_tone(frequency_hz, amplitude_mps2);
-            }
-            Command::StopTone => self.session.stop_tone(),
-            Command::LetGoOfOutput => self.session.let_go_of_output(),
-            Command::TakeOutputBack => self.session.take_output_back(ctx),
-            Command::ListPens => self.session.list_pens(ctx),
-            Command::OpenImport => self.sheet.import(Vec::new(), ctx),
-            Command::Import(sources) => self.sheet.import(sources, ctx),
-            Command::Show(workspace) => self.workspace = workspace,
-            Command::ReadJudgments(sources) => self.build.read(sources, ctx),
-            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
-            Command::SaveFigure(figure) => {
-                self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.figures_folder));
-            }
-            Command::CloseSheet => {
-                if let Sheet::Save(sheet) = &self.sheet
-                    && let Some(folder) = sheet.folder_of_figure()
-                {
-                    self.figures_folder = folder.to_owned();
-                }
-                self.sheet = Sheet::Closed;
-            }
+            Some((_, Err(reason))) => self.session.say(reason),
+            None => {}
         }
     }
 
-    /// A gesture lasts while a button or key is held, and for the frame in which it is let go.
+    /// What is heard follows the project, or what is compared.
+    fn follow_project(&mut self, ctx: &egui::Context) {
+        self.compare.follow(&self.project);
+        let heard = self.compared_texture();
+        self.session.set_hidden(self.compare.is_hidden());
+        self.session.follow(&self.project, heard.as_deref(), ctx);
+    }
+
+    /// A gesture lasts while a button or key is held or a text field has the keyboard, and for the frame after.
     fn next_gesture(&mut self, ctx: &egui::Context) {
-        let holding = ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty());
+        // A visit of a text field is one gesture, however many keys it takes.
+        let is_writing = ctx.memory(|memory| memory.focused()) == self.writing && ctx.text_edit_focused();
+        self.writing = ctx.memory(|memory| memory.focused());
+        let holding = is_writing || ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty());
         if !holding && !self.was_holding {
             self.gesture += 1;
         }
@@ -353,6 +372,11 @@ impl Window {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
     }
+}
+
+/// The speed and force of the automatic hand.
+fn contact_of(hand: Hand) -> Contact {
+    Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n))
 }
 
 /// What the picture of a blend is made of: of a field the textures that say the most, as shares of one.

@@ -138,37 +138,37 @@ fn dragging_the_point_changes_sliders_weights_and_sound() {
 #[test]
 fn sliders_move_the_point_and_undo_brings_it_back() {
     let mut harness = author();
-    let start = window(&harness).project().point;
+    let start = window(&harness).project().texture().at;
     let before = center(&harness, strings::POINT);
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(80.0);
     harness.run_steps(3);
-    assert!((window(&harness).project().point.rough_smooth - 80.0).abs() < 1e-9);
+    assert!((window(&harness).project().texture().at.rough_smooth - 80.0).abs() < 1e-9);
     assert!(center(&harness, strings::POINT).x > before.x + 50.0, "the point follows the slider");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(3);
-    assert_eq!(window(&harness).project().point, start);
+    assert_eq!(window(&harness).project().texture().at, start);
     assert!((slider(&harness, strings::ROUGH_SMOOTH) - start.rough_smooth).abs() < 0.1);
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);
-    assert!((window(&harness).project().point.rough_smooth - 80.0).abs() < 1e-9);
+    assert!((window(&harness).project().texture().at.rough_smooth - 80.0).abs() < 1e-9);
 }
 
 #[test]
 fn a_whole_drag_is_one_step_of_undo() {
     let mut harness = author();
-    let start = window(&harness).project().point;
+    let start = window(&harness).project().texture().at;
     let (from, to) = (center(&harness, strings::POINT), center(&harness, "Go to Felt"));
     drag(&mut harness, from, to);
-    assert_ne!(window(&harness).project().point, start);
+    assert_ne!(window(&harness).project().texture().at, start);
     click(&mut harness, strings::UNDO);
-    assert_eq!(window(&harness).project().point, start);
+    assert_eq!(window(&harness).project().texture().at, start);
 }
 
 /// A slow window gets the end of a drag, the release and the way to the next thing in one frame: the release counts.
 #[test]
 fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
     let mut harness = author();
-    let start = window(&harness).project().point;
+    let start = window(&harness).project().texture().at;
     let (from, to) = (center(&harness, strings::POINT), center(&harness, "Go to Felt"));
     harness.hover_at(from);
     harness.run_steps(2);
@@ -185,7 +185,7 @@ fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
     let away = from.lerp(to, 0.6);
     harness.input_mut().events.extend([Event::PointerMoved(to), release, Event::PointerMoved(away)]);
     harness.run_steps(3);
-    let point = window(&harness).project().point;
+    let point = window(&harness).project().texture().at;
     let nearest = window(&harness)
         .session()
         .space()
@@ -195,7 +195,7 @@ fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
         .fold(100.0, f64::min);
     assert!(nearest < 1.0, "let go at {point}, {nearest} from the nearest texture");
     click(&mut harness, strings::UNDO);
-    assert_eq!(window(&harness).project().point, start, "one step of undo");
+    assert_eq!(window(&harness).project().texture().at, start, "one step of undo");
 }
 
 /// Where textures are not smoothed, a click on one is that texture, wholly, and undo takes it back: the sliders that show the place do not round it.
@@ -204,7 +204,7 @@ fn a_click_on_a_texture_is_that_texture_and_can_be_undone() {
     for name in ["Cardboard", "Felt", "Glass", "Brick"] {
         let mut harness = author();
         choose_mode(&mut harness, Mode::Shared);
-        let start = window(&harness).project().point;
+        let start = window(&harness).project().texture().at;
         harness.get_by_label(&strings::go_to(name)).click();
         listen(&mut harness, 0.3);
         let authored = window(&harness).session().authored().unwrap().clone();
@@ -213,19 +213,19 @@ fn a_click_on_a_texture_is_that_texture_and_can_be_undone() {
         assert!(parent == name && (weight - 1.0).abs() < 1e-12, "{parent} {weight}");
         harness.get_by_label(strings::UNDO).click();
         listen(&mut harness, 0.3);
-        assert_eq!(window(&harness).project().point, start, "undo after a click on {name}");
+        assert_eq!(window(&harness).project().texture().at, start, "undo after a click on {name}");
     }
 }
 
 #[test]
 fn the_keyboard_moves_the_point_and_starts_the_hand() {
     let mut harness = author();
-    let start = window(&harness).project().point;
+    let start = window(&harness).project().texture().at;
     harness.key_press(Key::ArrowRight);
     harness.run_steps(2);
     harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowUp);
     harness.run_steps(2);
-    let moved = window(&harness).project().point;
+    let moved = window(&harness).project().texture().at;
     assert_eq!((moved.rough_smooth, moved.hard_soft), (start.rough_smooth + 1.0, start.hard_soft + 5.0));
     harness.key_press(Key::Space);
     harness.run_steps(2);
@@ -237,7 +237,7 @@ fn the_keyboard_moves_the_point_and_starts_the_hand() {
     harness.key_press(Key::ArrowRight);
     harness.run_steps(2);
     assert!(window(&harness).session().hand_is_running());
-    assert_eq!(window(&harness).project().point, moved);
+    assert_eq!(window(&harness).project().texture().at, moved);
 }
 
 #[test]
@@ -271,7 +271,7 @@ fn outside_the_measured_textures_the_window_says_so() {
     harness.run_steps(2);
     let authored = window(&harness).session().authored().unwrap().clone();
     assert!(authored.location.clamped);
-    assert_eq!(window(&harness).project().point.hard_soft, 100.0, "the wish is kept");
+    assert_eq!(window(&harness).project().texture().at.hard_soft, 100.0, "the wish is kept");
 }
 
 #[test]

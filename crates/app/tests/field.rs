@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use egui::Shape;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::project::Edit;
+use shagreen_app::edit::Edit;
 use shagreen_app::strings;
 use shagreen_core::authoring::{Authored, Outside, Weights};
 use shagreen_core::blend::Mode;
@@ -19,8 +19,8 @@ use shagreen_formats::library::{Library, Place};
 use shagreen_formats::starter::starter_library;
 
 use support::{
-    Author, author, author_on, choose_mode, click, painted, says, unnamed_controls, wait, wait_for_field,
-    window, words,
+    Author, author, author_on, choose_mode, click, is_locked, painted, says, unnamed_controls, wait,
+    wait_for_field, window, words,
 };
 
 fn authored(harness: &Author) -> Authored {
@@ -122,7 +122,7 @@ fn a_locked_texture_is_met_exactly() {
     click(&mut harness, &strings::lock("Sanded wood", true));
     harness.run_steps(2);
     let wood = window(&harness).session().textures().iter().position(|t| t.name == "Sanded wood").unwrap();
-    assert!(window(&harness).project().is_locked(wood));
+    assert!(is_locked(&harness, wood));
     assert_eq!(authored(&harness).lock, Some((wood, 1.0)));
     assert!(says(&harness, &strings::locked_share("Sanded wood", 100.0)));
     let level = |h: &Author| shown_level_mps2(h);
@@ -130,14 +130,14 @@ fn a_locked_texture_is_met_exactly() {
     let exact_mps2 = Plane::new(model).at(Contact::from_mm_per_s_and_n(100.0, 0.8)).level_mps2;
     assert!((level(&harness) / exact_mps2 - 1.0).abs() < 0.15, "{} for {exact_mps2}", level(&harness));
     click(&mut harness, strings::UNDO);
-    assert!(!window(&harness).project().is_locked(wood));
+    assert!(!is_locked(&harness, wood));
     // The menu of the texture on the canvas does the same.
     harness.get_by_label(&strings::go_to("Felt")).click_secondary();
     harness.run_steps(3);
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     click(&mut harness, &strings::lock("Felt", true));
     let felt = window(&harness).session().textures().iter().position(|t| t.name == "Felt").unwrap();
-    assert!(window(&harness).project().is_locked(felt));
+    assert!(is_locked(&harness, felt));
     // Near it, both sound.
     let at = window(&harness).session().space().position(felt).unwrap();
     move_to(&mut harness, at.rough_smooth, at.hard_soft - 4.0);
@@ -146,9 +146,9 @@ fn a_locked_texture_is_met_exactly() {
     wait(&mut harness, "both are loaded", |h| window(h).session().n_loaded() >= 2);
     // Other modes know no locks, and lose none.
     choose_mode(&mut harness, Mode::Power);
-    assert!(!window(&harness).project().is_locked(felt));
+    assert!(!is_locked(&harness, felt));
     choose_mode(&mut harness, Mode::Field);
-    assert!(window(&harness).project().is_locked(felt));
+    assert!(is_locked(&harness, felt));
 }
 
 /// Outside the outline: the nearest point of it, or as far as the field supports.
@@ -162,7 +162,7 @@ fn beyond_the_textures_only_where_that_is_asked_for() {
     assert!(clamped.location.clamped && !clamped.is_extrapolated);
     assert!(on_canvas(&harness).iter().any(|text| text == strings::CLAMPED));
     click(&mut harness, strings::BEYOND);
-    assert_eq!(window(&harness).project().blending.outside, Outside::Extrapolated);
+    assert_eq!(window(&harness).project().texture().blend.outside, Outside::Extrapolated);
     let beyond = authored(&harness);
     assert!(beyond.is_extrapolated);
     assert!(
@@ -192,7 +192,7 @@ fn natural_neighbors_are_a_choice_of_the_parametric_mode() {
     move_to(&mut harness, 48.0, 52.0);
     assert!(harness.query_by_label(strings::BEYOND).is_none() && authored(&harness).parents.len() == 3);
     click(&mut harness, strings::NATURAL);
-    assert_eq!(window(&harness).project().blending.weights, Weights::Natural);
+    assert_eq!(window(&harness).project().texture().blend.weights, Weights::Natural);
     let natural = authored(&harness);
     assert!(natural.parents.len() > 3 && natural.model.is_some(), "{:?}", natural.parents);
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());

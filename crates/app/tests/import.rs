@@ -17,7 +17,7 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
-use support::{Author, author, choose, click, drop_files, unnamed_controls, wait, window};
+use support::{Author, author, choose, click, drop_files, solo, unnamed_controls, wait, window};
 
 fn names(harness: &Author) -> Vec<String> {
     window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()
@@ -90,12 +90,12 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     assert!(harness.query_by_label("Go to Oak board").is_none(), "it has no place yet");
 
     click(&mut harness, &strings::texture("Oak board"));
-    assert_eq!(window(&harness).project().solo, Some(before.len()));
+    assert_eq!(solo(&harness), Some(before.len()));
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 0.02);
 
     click(&mut harness, strings::UNDO);
-    assert_eq!(window(&harness).project().solo, None);
+    assert_eq!(solo(&harness), None);
     click(&mut harness, strings::UNDO);
     assert_eq!(names(&harness), before, "one step takes it away");
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
@@ -121,7 +121,7 @@ fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
     assert_eq!(window(&harness).session().textures()[before - 1].model.rate().0, 2000.0);
     harness.get_all_by_label(&strings::texture("Felt")).last().expect("two of that name").click();
     harness.run_steps(2);
-    assert_eq!(window(&harness).project().solo, Some(before - 1));
+    assert_eq!(solo(&harness), Some(before - 1));
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds at its own rate", |h| window(h).session().scope().rms(0.3) > 1e-3);
     // Moved back into the space, the blend sounds again, at the rate of the space.
@@ -168,7 +168,7 @@ fn a_dropped_library_adds_its_textures_with_their_places() {
 #[test]
 fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
     let mut harness = author();
-    let point = window(&harness).project().point;
+    let point = window(&harness).project().texture().at;
     click(&mut harness, strings::IMPORT);
     harness.run_steps(2);
     let theme = harness.ctx.theme();
@@ -187,7 +187,7 @@ fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
         harness.run_steps(2);
     }
     let below = window(&harness);
-    assert_eq!((below.project().point, harness.ctx.theme()), (point, theme));
+    assert_eq!((below.project().texture().at, harness.ctx.theme()), (point, theme));
     assert!(below.import().is_some() && !below.session().is_muted() && !below.session().hand_is_running());
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     let folder = tempfile::tempdir().unwrap();
@@ -266,7 +266,7 @@ fn a_published_texture_joins_and_is_marked_as_restricted() {
     let label = format!("{} · {}", strings::NOT_PLACED_YET, import::RESTRICTED_SHORT);
     assert!(harness.query_by_label(&label).is_some(), "the list says so");
     click(&mut harness, &strings::texture(&texture.name));
-    assert_eq!(window(&harness).project().solo, Some(n));
+    assert_eq!(solo(&harness), Some(n));
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 1e-4);
 

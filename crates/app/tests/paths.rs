@@ -8,14 +8,14 @@ use std::time::Duration;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::drawn_path::DrawnPath;
 use shagreen_app::strings;
 use shagreen_app::strings::path;
+use shagreen_core::drawn_path::DrawnPath;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd};
 
 use support::{
-    Author, author, choose, click, painted, unnamed_controls, wait, wait_for_field, window, words,
+    Author, author, choose, click, painted, solo, unnamed_controls, wait, wait_for_field, window, words,
 };
 
 fn center(harness: &Author, name: &str) -> Pos2 {
@@ -23,7 +23,7 @@ fn center(harness: &Author, name: &str) -> Pos2 {
 }
 
 fn drawn(harness: &Author) -> DrawnPath {
-    window(harness).project().path.clone().expect("a path")
+    window(harness).project().texture().path.clone().expect("a path")
 }
 
 /// Draws from brick to cotton, where it stays, in so many seconds.
@@ -67,12 +67,12 @@ fn place(harness: &Author, name: &str) -> SpacePoint {
 fn a_path_is_drawn_changed_and_undone() {
     let mut harness = author();
     wait_for_field(&mut harness);
-    let point = window(&harness).project().point;
+    let point = window(&harness).project().texture().at;
     harness.key_press(Key::P);
     harness.run_steps(2);
     draw(&mut harness, ["Rough sawn wood", "Cardboard", "Felt"]);
     let first = drawn(&harness);
-    assert_eq!(window(&harness).project().point, point, "the point stays");
+    assert_eq!(window(&harness).project().texture().at, point, "the point stays");
     // A stroke on the screen begins and ends within a few points of the axes.
     assert!(first.points.len() >= 3, "{:?}", first.points);
     assert!(first.points[0].distance(place(&harness, "Rough sawn wood")) < 2.0);
@@ -109,17 +109,17 @@ fn a_path_is_drawn_changed_and_undone() {
         }
     }
     click(&mut harness, strings::UNDO);
-    assert_eq!(window(&harness).project().path, None, "the whole drawing is one step");
+    assert_eq!(window(&harness).project().texture().path, None, "the whole drawing is one step");
     click(&mut harness, strings::REDO);
     click(&mut harness, path::CLEAR);
-    assert_eq!(window(&harness).project().path, None);
+    assert_eq!(window(&harness).project().texture().path, None);
 
     // Escape leaves: then the canvas moves the point again.
     harness.key_press(Key::Escape);
     harness.run_steps(2);
     click(&mut harness, &strings::go_to("Cork"));
-    assert_eq!(window(&harness).project().point, place(&harness, "Cork"));
-    assert_eq!(window(&harness).project().path, None);
+    assert_eq!(window(&harness).project().texture().at, place(&harness, "Cork"));
+    assert_eq!(window(&harness).project().texture().path, None);
 }
 
 /// The texture follows the path as the hand strokes, and the point is heard again when it stops.
@@ -167,7 +167,7 @@ fn the_texture_follows_the_path() {
     assert!(loudest > 3.0 * quiet, "{loudest} at the loudest, {quiet} m/s² at the end");
     click(&mut harness, path::STOP);
     assert_eq!(window(&harness).session().path_point(), None);
-    let point = window(&harness).project().point;
+    let point = window(&harness).project().texture().at;
     assert!(window(&harness).session().authored().unwrap().location.at.distance(point) < 1e-9);
 }
 
@@ -204,7 +204,7 @@ fn a_kept_path_is_heard_along_the_stroke() {
     // The list scrolls to what joined it.
     harness.run_steps(40);
     click(&mut harness, &strings::texture("New texture"));
-    assert_eq!(window(&harness).project().solo, Some(25));
+    assert_eq!(solo(&harness), Some(25));
     let keys = window(&harness).session().textures()[25].path.as_ref().unwrap().keys().to_vec();
     let heard = |h: &Author| window(h).session().authored().unwrap().model.clone().unwrap();
     assert_eq!(heard(&harness), keys[0].model);

@@ -1,4 +1,4 @@
-//! Means, correlations, and the tails of the F and t distributions.
+//! Means, correlations, and the tails of the F, t and binomial distributions.
 //!
 //! The distributions are regularized incomplete beta functions (Abramowitz and Stegun 26.5.28, 26.6.2, 26.7.1).
 
@@ -85,6 +85,18 @@ pub fn t_quantile_two_sided(probability: f64, dof: f64) -> f64 {
     f_quantile_above(probability, 1.0, dof).sqrt()
 }
 
+/// The probability that at least `n_right` of `n_trials` answers are right, where each is with probability `chance` (0..1,
+/// ends excluded): the upper tail of the binomial distribution (Abramowitz and Stegun 26.5.24). 1 where nothing was right.
+pub fn binomial_upper_tail(n_right: u64, n_trials: u64, chance: f64) -> f64 {
+    if n_right == 0 {
+        return 1.0;
+    }
+    if n_right > n_trials {
+        return 0.0;
+    }
+    beta_reg(n_right as f64, (n_trials - n_right + 1) as f64, chance)
+}
+
 /// The value below which a share `rank` (0 to 1) of the values lies, linear between neighbors; `None` of nothing.
 pub fn quantile(values: &[f64], rank: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
@@ -97,8 +109,27 @@ pub fn quantile(values: &[f64], rank: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::{
-        correlation, dot, f_quantile_above, f_upper_tail, is_constant, quantile, t_quantile_two_sided,
+        binomial_upper_tail, correlation, dot, f_quantile_above, f_upper_tail, is_constant, quantile,
+        t_quantile_two_sided,
     };
+
+    /// Against the sum of its terms, by their recurrence.
+    #[test]
+    fn the_binomial_tail_is_the_sum_of_its_terms() {
+        for (n, chance) in [(1_u64, 0.5_f64), (7, 0.5), (20, 0.25), (60, 0.9)] {
+            let mut term = (1.0 - chance).powf(n as f64);
+            let mut terms = vec![term];
+            for k in 1..=n {
+                term *= (n - k + 1) as f64 / k as f64 * chance / (1.0 - chance);
+                terms.push(term);
+            }
+            for k in 0..=n {
+                let sum: f64 = terms[k as usize..].iter().sum();
+                assert!((binomial_upper_tail(k, n, chance) - sum).abs() < 1e-12, "{k} of {n}");
+            }
+            assert_eq!(binomial_upper_tail(n + 1, n, chance), 0.0);
+        }
+    }
 
     #[test]
     fn tails_have_their_closed_forms() {

@@ -52,15 +52,15 @@
 //! refused.
 
 mod anchors;
-mod attributes;
+pub(crate) mod attributes;
 mod authored;
 mod error;
 mod id;
 mod path;
 mod provenance;
-mod read;
-mod v1;
-mod write;
+pub(crate) mod read;
+pub(crate) mod v1;
+pub(crate) mod write;
 
 use serde_json::{Map, Value};
 use shagreen_core::space::{LabelSource, SpacePoint};

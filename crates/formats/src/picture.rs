@@ -3,6 +3,7 @@
 use std::io::Cursor;
 
 use image::codecs::jpeg::JpegEncoder;
+use image::metadata::Orientation;
 use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageFormat, ImageReader};
 
 /// Quality of the JPEG pictures in a library, 1..100.
@@ -10,6 +11,11 @@ pub const JPEG_QUALITY: u8 = 85;
 
 /// Longest side of a picture that is read, in pixels.
 pub const MAX_SIDE: u32 = 4096;
+
+/// Longest side of a photo that is made a picture of, in pixels.
+pub const MAX_PHOTO_SIDE: u32 = 16_384;
+/// Longest side of the picture that is made of a photo, in pixels.
+pub const PHOTO_SIDE: u32 = 768;
 
 /// Memory that a picture may take to unpack, whatever its length: the largest in full color, and some.
 const MEMORY_BYTES: u64 = 56 << 20;
@@ -104,6 +110,9 @@ pub enum PictureError {
         /// Compressed bytes.
         n_bytes: usize,
     },
+    /// The bytes are neither JPEG nor PNG.
+    #[error("this is no photo that can be read; save it as JPEG or PNG")]
+    NoPhoto,
     /// The compressed bytes are damaged.
     #[error("the picture is damaged")]
     Codec(#[from] image::ImageError),
@@ -134,6 +143,33 @@ pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
     let rgb = DynamicImage::from_decoder(decoder(picture)?)?.into_rgb8();
     check_size(picture, rgb.dimensions())?;
     Ok(Rgb { width: picture.width, height: picture.height, pixels: rgb.into_raw() })
+}
+
+/// A picture of a photo, whatever its size: upright, and no larger than [`PHOTO_SIDE`]; `millimeters` is the length of surface
+/// that the width covers.
+///
+/// # Errors
+/// [`PictureError::NoPhoto`] for what is neither JPEG nor PNG, [`PictureError::Codec`] for damaged bytes and for photos of
+/// more than [`MAX_PHOTO_SIDE`] pixels a side.
+pub fn of_photo(bytes: &[u8], millimeters: f64) -> Result<Picture, PictureError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes));
+    let format = image::guess_format(bytes).ok();
+    reader.set_format(
+        format.filter(|f| matches!(f, ImageFormat::Jpeg | ImageFormat::Png)).ok_or(PictureError::NoPhoto)?,
+    );
+    let mut limits = image::Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(MAX_PHOTO_SIDE), Some(MAX_PHOTO_SIDE));
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder()?;
+    // A photo that does not say how it was held was held upright.
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let mut photo = DynamicImage::from_decoder(decoder)?;
+    photo.apply_orientation(orientation);
+    if photo.width().max(photo.height()) > PHOTO_SIDE {
+        photo = photo.thumbnail(PHOTO_SIDE, PHOTO_SIDE);
+    }
+    let rgb = photo.into_rgb8();
+    encode_jpeg(&Rgb { width: rgb.width(), height: rgb.height(), pixels: rgb.into_raw() }, millimeters)
 }
 
 /// Looks at the head of a picture, in microseconds: whether it is one, of the size that it should have. Damage further
@@ -188,11 +224,28 @@ fn check_size(picture: &Picture, found: (u32, u32)) -> Result<(), PictureError> 
 
 #[cfg(test)]
 mod tests {
-    use super::{PictureError, PictureFormat, Rgb, check, decode, encode_jpeg};
+    use super::{PHOTO_SIDE, PictureError, PictureFormat, Rgb, check, decode, encode_jpeg, of_photo};
 
     fn gradient() -> Rgb {
         let pixels = (0..32 * 24).flat_map(|i| [(i % 32) * 8, (i / 32) * 10, 128]).map(|v| v as u8).collect();
         Rgb { width: 32, height: 24, pixels }
+    }
+
+    #[test]
+    fn a_photo_becomes_a_picture_of_bounded_size() {
+        let photo =
+            image::RgbImage::from_fn(2000, 1000, |x, y| image::Rgb([(x / 8) as u8, (y / 4) as u8, 7]));
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        photo.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+        let picture = of_photo(bytes.get_ref(), 60.0).unwrap();
+        assert_eq!((picture.width, picture.height, picture.millimeters), (PHOTO_SIDE, PHOTO_SIDE / 2, 60.0));
+        let rgb = decode(&picture).unwrap();
+        assert!(rgb.pixels[0] < 12 && rgb.pixels[rgb.pixels.len() - 3] > 240, "it is the same way up");
+        let small = encode_jpeg(&gradient(), 20.0).unwrap();
+        assert_eq!(of_photo(&small.bytes, 20.0).unwrap().width, 32);
+        assert!(matches!(of_photo(b"GIF89a", 20.0), Err(PictureError::NoPhoto)));
+        assert!(matches!(of_photo(b"", 20.0), Err(PictureError::NoPhoto)));
+        assert!(matches!(of_photo(&bytes.get_ref()[..200], 20.0), Err(PictureError::Codec(_))));
     }
 
     #[test]

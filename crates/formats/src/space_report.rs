@@ -8,8 +8,6 @@ use shagreen_core::selection::PaperChain;
 use shagreen_core::space_build::{Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, verdict};
 
 use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
-use crate::library::{Attribute, Attributes, Library, Place, is_usual};
-use crate::place_origin::state_origin_of_places;
 
 /// What the field `format` of a report holds.
 pub const FORMAT: &str = "shagreen-space-report";
@@ -163,43 +161,6 @@ fn positions(build: &SpaceBuild) -> Vec<Value> {
         })
     };
     build.textures.iter().enumerate().map(position).collect()
-}
-
-/// The library with the places and attributes of the space, and its report. Textures that are not in the space lose their
-/// place: positions of two origins mean little beside each other. The origin of the library says what they come from.
-pub fn placed_library(library: &Library, build: &SpaceBuild) -> Library {
-    let mut placed = library.clone();
-    for texture in &mut placed.textures {
-        let index = build.textures.iter().position(|id| *id == texture.id);
-        texture.place = index.map(|i| Place { at: build.positions[i], source: build.source });
-        texture.attributes = index.map(|i| attributes(build, i)).filter(|a| !a.values.is_empty());
-    }
-    state_origin_of_places(&mut placed);
-    let mut report = space_report(build);
-    if let Value::Object(report) = &mut report {
-        // A library is passed on: who took part stays with those who asked them.
-        for field in ["raters", "sorters", "verdict", "warnings"] {
-            report.remove(field);
-        }
-    }
-    placed.space_report = Some(report);
-    let names = build.axes.each_ref().map(|axis| axis.pair.name());
-    placed.axes = (!is_usual(&names)).then_some(names);
-    placed
-}
-
-/// Mean ratings of a texture on every pair that counts, as they were given; on an axis in the axis's own direction.
-fn attributes(build: &SpaceBuild, texture: usize) -> Attributes {
-    let counted = build.adjectives.iter().filter(|adjective| adjective.is_relevant);
-    let values = counted.filter_map(|adjective| {
-        let mean = adjective.ratings[texture].mean?;
-        let turned = build.axes.iter().find(|axis| axis.is_turned(&adjective.pair));
-        Some(match turned {
-            Some(axis) => Attribute { name: axis.pair.name(), value: 100.0 - mean },
-            None => Attribute { name: adjective.pair.name(), value: mean },
-        })
-    });
-    Attributes { source: build.source, values: values.collect() }
 }
 
 /// The figures that papers print, each under a short name that serves for files.

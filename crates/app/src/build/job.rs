@@ -13,6 +13,7 @@ use shagreen_core::space::LabelSource;
 use shagreen_core::space_build::{SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict};
 use shagreen_core::texture::TextureModel;
 use shagreen_formats::figure::Figure;
+use shagreen_formats::placed_space::PlacedSpace;
 use shagreen_formats::space_report::space_figures;
 
 use crate::strings::build as strings;
@@ -32,6 +33,8 @@ pub(super) struct Order {
 pub struct Built {
     /// The space.
     pub build: Arc<SpaceBuild>,
+    /// What it gives textures.
+    pub placed: Arc<PlacedSpace>,
     /// Its figures, each under a short name that serves for files.
     pub figures: Vec<(&'static str, Arc<Figure>)>,
     /// How far it can be believed, in sentences.
@@ -158,6 +161,7 @@ fn carry_out(order: &Order, progress: &mut Progress) -> Result<Built, String> {
     Ok(Built {
         verdict: verdict(&build),
         figures: figures.map(|(name, figure)| (name, Arc::new(figure))).collect(),
+        placed: Arc::new(PlacedSpace::of(&build)),
         build: Arc::new(build),
     })
 }

@@ -6,6 +6,7 @@ use egui::{
 };
 use shagreen_core::mds::MdsOptions;
 use shagreen_core::space_build::{SpaceOptions, Step};
+use shagreen_formats::project::ProjectLibrary;
 
 use crate::build::figures_ui::figures_ui;
 use crate::build::input_ui::{Paths, inputs_ui};
@@ -15,7 +16,6 @@ use crate::build::options_ui::options_ui;
 use crate::build::verdict_ui::verdict_ui;
 use crate::command::Command;
 use crate::import::source::Source;
-use crate::libraries::BuiltIn;
 use crate::panel::Panel;
 use crate::session::Session;
 use crate::strings::build as strings;
@@ -34,7 +34,7 @@ pub struct BuildPage {
     paths: Paths,
     options: SpaceOptions,
     /// The library that is open.
-    library: Option<BuiltIn>,
+    library: Option<ProjectLibrary>,
     job: Option<(Job, Recipe)>,
     /// Why the last attempt came to nothing, and of what it was made.
     failure: Option<(String, Recipe)>,
@@ -48,7 +48,7 @@ pub struct BuildPage {
 struct Recipe {
     judgments: u64,
     options: SpaceOptions,
-    library: Option<BuiltIn>,
+    library: Option<ProjectLibrary>,
 }
 
 impl Default for BuildPage {
@@ -108,7 +108,7 @@ impl BuildPage {
     pub(crate) fn show(&mut self, ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         let mut commands = Vec::new();
         let t = tokens(ui.ctx());
-        self.library = panel.project.library;
+        self.library = Some(panel.project.library.clone());
         Side::left("build inputs").exact_size(BUILD_INPUTS_WIDTH).resizable(false).show(ui, |ui| {
             self.left_ui(ui, panel.session);
         });
@@ -127,7 +127,7 @@ impl BuildPage {
         Recipe {
             judgments: self.judgments.generation(),
             options: self.options.clone(),
-            library: self.library,
+            library: self.library.clone(),
         }
     }
 

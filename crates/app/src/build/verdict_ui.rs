@@ -7,8 +7,8 @@ use shagreen_core::space::LabelSource;
 
 use crate::build::page::Built;
 use crate::command::Command;
+use crate::edit::Edit;
 use crate::panel::Panel;
-use crate::project::{Edit, UsedSpace};
 use crate::strings::build as strings;
 use crate::theme::{GAP, tokens};
 use crate::workspace::Workspace;
@@ -60,8 +60,7 @@ pub(super) fn verdict_ui(
 
 fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &Built) -> Option<Command> {
     let t = tokens(ui.ctx());
-    let is_in_use =
-        panel.project.space.as_ref().is_some_and(|UsedSpace(used)| Arc::ptr_eq(used, &built.build));
+    let is_in_use = panel.project.space.as_ref().is_some_and(|used| Arc::ptr_eq(used, &built.placed));
     let size = vec2(ui.available_width(), 30.0);
     if is_in_use {
         let text = RichText::new(format!("{}: {}", strings::IN_USE, built.build.source.label()));
@@ -76,5 +75,5 @@ fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &Built) -> Option<Command> {
     let text = RichText::new(strings::USE_SPACE).color(t.on_accent);
     let is_wanted =
         ui.add_sized(size, Button::new(text).fill(t.accent)).on_hover_text(strings::USE_HELP).clicked();
-    is_wanted.then(|| Command::Edit(Edit::UseSpace(Arc::clone(&built.build))))
+    is_wanted.then(|| Command::Edit(Edit::UseSpace(Arc::clone(&built.placed))))
 }

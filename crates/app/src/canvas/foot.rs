@@ -32,7 +32,7 @@ pub(super) fn foot_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
 fn foot(panel: &Panel<'_>, t: &Tokens) -> Option<(String, Color32)> {
     let is_path = panel.session.path_point().is_some();
     if let Some(texture) =
-        panel.project.solo.filter(|_| !is_path).and_then(|solo| panel.session.textures().get(solo))
+        panel.solo().filter(|_| !is_path).and_then(|solo| panel.session.textures().get(solo))
     {
         return Some((strings::plays_alone(&texture.name), t.accent));
     }

@@ -8,13 +8,14 @@ use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd, MAX_KEYS};
 
 use crate::axes::Axes;
+use crate::canvas::map::{ShownMap, map_choice_ui};
 use crate::command::Command;
 use crate::drag::dragged_to;
-use crate::drawn_path::{DrawnPath, LEAST_STEP};
+use crate::edit::{Edit, PathChange};
 use crate::panel::Panel;
-use crate::project::{Edit, PathChange};
 use crate::strings::path as strings;
 use crate::theme::{RADIUS, Tokens};
+use shagreen_core::drawn_path::{DrawnPath, LEAST_STEP};
 
 /// Half the side of what can be grabbed of a point of the path, in points of the screen.
 const GRAB: f32 = 8.0;
@@ -35,6 +36,11 @@ impl PathTool {
     pub fn toggle(&mut self) {
         self.is_on = !self.is_on;
         self.line.clear();
+    }
+
+    /// Stops drawing.
+    pub(crate) fn leave(&mut self) {
+        *self = Self::default();
     }
 
     /// What the pointer does on the background: a drag draws a new path, a click adds a point.
@@ -69,7 +75,7 @@ fn change(what: PathChange, path: Option<DrawnPath>) -> Command {
 
 /// The path as it is, or the beginning of one.
 fn drawn(panel: &Panel<'_>) -> DrawnPath {
-    panel.project.path.clone().unwrap_or_default()
+    panel.project.texture().path.clone().unwrap_or_default()
 }
 
 /// A point more at the end.
@@ -85,7 +91,7 @@ pub(super) fn added(panel: &Panel<'_>, at: SpacePoint) -> Option<Command> {
 
 /// Draws the path with its direction, and where the stroke is on it.
 pub(super) fn path_line(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
-    let Some(path) = &panel.project.path else { return };
+    let Some(path) = &panel.project.texture().path else { return };
     let painter = ui.painter();
     let points: Vec<Pos2> = path.points.iter().map(|p| axes.ui_from_space(*p)).collect();
     painter.add(Shape::line(points.clone(), Stroke::new(6.0, t.background)));
@@ -118,7 +124,7 @@ pub(super) fn path_points(
     t: &Tokens,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
-    let Some(path) = &panel.project.path else { return commands };
+    let Some(path) = &panel.project.texture().path else { return commands };
     for (i, point) in path.points.iter().enumerate() {
         let pos = axes.ui_from_space(*point);
         if !tool.is_on {
@@ -160,13 +166,14 @@ pub(super) fn path_points(
     commands
 }
 
-/// The row of the path's controls at the top of the canvas, no wider than `width`.
+/// The row of controls at the top of the canvas, no wider than `width`: the map behind it, and the path.
 pub(super) fn path_bar(
     ui: &mut Ui,
     outer: Rect,
     width: f32,
     panel: &Panel<'_>,
     tool: &PathTool,
+    map: Option<&ShownMap>,
     t: &Tokens,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
@@ -177,11 +184,12 @@ pub(super) fn path_bar(
         ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
         ui.spacing_mut().button_padding = vec2(7.0, 2.0);
         ui.spacing_mut().interact_size.y = 22.0;
+        commands.extend(map_choice_ui(ui, map));
         let button = Button::new(strings::PATH).selected(tool.is_on);
         if ui.add(button).on_hover_text(strings::PATH_HELP).clicked() {
             commands.push(Command::TogglePathTool);
         }
-        if let Some(path) = &panel.project.path {
+        if let Some(path) = &panel.project.texture().path {
             commands.extend(settings_ui(ui, panel, path));
         }
     });
@@ -232,7 +240,8 @@ fn settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath) -> Vec<Command>
         }
     });
     shown.response.accessible_name(strings::AT_END).on_hover_text(strings::AT_END_HELP);
-    let can_keep = can_play && panel.project.blending.mode.makes_a_model() && !panel.session.is_preparing();
+    let can_keep =
+        can_play && panel.project.texture().blend.mode.makes_a_model() && !panel.session.is_preparing();
     let keep = ui.add_enabled(can_keep, Button::new(strings::KEEP));
     if keep.on_hover_text(strings::KEEP_HELP).on_disabled_hover_text(strings::CANNOT_KEEP).clicked() {
         commands.push(Command::KeepPath);

@@ -4,13 +4,13 @@ use egui::{Align, Button, Context, Key, Label, Layout, Modal, RichText, TextEdit
 use shagreen_formats::library::Library;
 
 use crate::command::Command;
+use crate::edit::Edit;
 use crate::import::batch::{Batch, Content, State};
 use crate::import::draft_ui::draft_ui;
 use crate::import::files_ui::files_ui;
 use crate::import::model_ui::model_ui;
 use crate::import::questions_ui::sentence;
 use crate::import::source::{Source, paths_in};
-use crate::project::Edit;
 use crate::strings::import as strings;
 use crate::theme::{GAP, GROUP_GAP, tokens};
 

@@ -14,7 +14,7 @@ use super::Session;
 use super::heard::Heard;
 use super::models_ahead::{Ingredients, Job};
 use super::path_walk::PathWalk;
-use crate::drawn_path::DrawnPath;
+use shagreen_core::drawn_path::DrawnPath;
 
 impl Session {
     /// Where the stroke is on the path, while one is played.

@@ -1,18 +1,16 @@
 //! Where textures lie: as their file has it, as a space puts them, or by two of their attributes.
 
-use std::sync::Arc;
-
 use shagreen_core::ratings::poles;
 use shagreen_core::space::SpacePoint;
-use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, USUAL_AXES, free_id};
+use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, USUAL_AXES};
 
 use crate::strings;
 
-/// What a library said of its places when it was opened, to go back to.
+/// What a library said of its textures when it was opened, to go back to.
 pub(super) struct Opened {
     /// The library without its textures.
     header: Library,
-    textures: Vec<(Option<Place>, Option<Attributes>)>,
+    textures: Vec<(String, Option<Place>, Option<Attributes>)>,
 }
 
 impl Opened {
@@ -29,7 +27,8 @@ impl Opened {
             textures: Vec::new(),
             unknown: library.unknown.clone(),
         };
-        let textures = library.textures.iter().map(|t| (t.place, t.attributes.clone())).collect();
+        let textures =
+            library.textures.iter().map(|t| (t.name.clone(), t.place, t.attributes.clone())).collect();
         Self { header, textures }
     }
 
@@ -37,24 +36,15 @@ impl Opened {
         self.textures.len()
     }
 
-    /// Takes away what joined the library, and gives the rest its places and attributes back.
+    /// Takes away what joined the library, and gives the rest its names, places and attributes back.
     pub(super) fn restore(&self, library: &mut Library) {
         let mut textures = std::mem::take(&mut library.textures);
         textures.truncate(self.textures.len());
-        for (texture, (place, attributes)) in textures.iter_mut().zip(&self.textures) {
+        for (texture, (name, place, attributes)) in textures.iter_mut().zip(&self.textures) {
+            texture.name.clone_from(name);
             (texture.place, texture.attributes) = (*place, attributes.clone());
         }
         *library = Library { textures, ..self.header.clone() };
-    }
-}
-
-/// Adds the textures that joined to those of a library. One whose identifier is taken gets another: it may have joined a
-/// library that has none of this name.
-pub(super) fn join(library: &mut Library, added: &[Arc<TextureEntry>]) {
-    for entry in added {
-        let mut entry = TextureEntry::clone(entry);
-        entry.id = free_id(&entry.id, |id| library.index_of(id).is_some());
-        library.textures.push(entry);
     }
 }
 
@@ -131,6 +121,7 @@ mod tests {
         let mut library = before.clone();
         library.textures[2].place = None;
         library.textures[3].attributes = Some(attributes(&[("a-b", 1.0)]));
+        library.textures[4].name.push('!');
         library.textures.push(before.textures[0].clone());
         opened.restore(&mut library);
         assert_eq!(library, before);

@@ -5,13 +5,24 @@ use shagreen_core::rate::at_rate;
 use shagreen_core::space::LabelSource;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_formats::actuator_toml::built_in_actuators;
+use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Attribute, Attributes, Library};
+use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_library;
 
 use super::{OutputChoice, Session};
-use crate::libraries::BuiltIn;
-use crate::project::{Edit, Project};
+use crate::edit::{Edit, edited};
 use crate::rig::{Mounted, Rig};
+use crate::window::new_project;
+
+fn starter() -> ProjectLibrary {
+    ProjectLibrary::BuiltIn(BuiltIn::Starter)
+}
+
+/// A project on a library that is a part of it.
+fn project_on(library: Library) -> Project {
+    Project { library: ProjectLibrary::Inside(library.into()), ..new_project() }
+}
 
 /// The starter library, whose first six textures are rated, and the last of these is twice as fast and has no place.
 fn mixed_library() -> Library {
@@ -32,17 +43,17 @@ fn mixed_library() -> Library {
 #[test]
 fn axes_take_places_and_rate_along_and_give_them_back() {
     let ctx = egui::Context::default();
-    let mut session = Session::new(mixed_library()).unwrap();
-    let placed = Project::default();
-    session.follow(&placed, &ctx);
+    let placed = project_on(mixed_library());
+    let mut session = Session::new(placed.library.clone()).unwrap();
+    session.follow(&placed, None, &ctx);
     let (library, space) = (session.library().clone(), session.space().clone());
     let planes = session.planes.clone();
     assert_eq!((session.space_rate_hz(), session.rate_hz), (1000.0, 1000.0));
     assert_eq!(session.label_source(), "physical labels");
 
     let axes = Some(["warm-cold", "flat-bumpy"].map(str::to_owned));
-    let turned = placed.edited(Edit::SetAxes(axes));
-    session.follow(&turned, &ctx);
+    let turned = edited(&placed, Edit::SetAxes(axes));
+    session.follow(&turned, None, &ctx);
     assert_eq!((session.space_rate_hz(), session.rate_hz), (2000.0, 2000.0));
     assert_eq!(session.label_source(), "human ratings");
     let sites: Vec<usize> = session.space().sites().iter().map(|(texture, _)| *texture).collect();
@@ -52,7 +63,7 @@ fn axes_take_places_and_rate_along_and_give_them_back() {
     assert!(Arc::ptr_eq(&session.planes[5], &planes[5]), "this one has the rate already");
     assert!(!Arc::ptr_eq(&session.planes[0], &planes[0]));
 
-    session.follow(&placed, &ctx);
+    session.follow(&placed, None, &ctx);
     assert_eq!((session.library(), session.space()), (&library, &space));
     assert_eq!((session.space_rate_hz(), session.rate_hz), (1000.0, 1000.0));
 }
@@ -64,13 +75,14 @@ fn a_texture_too_fast_for_the_space_stays_out() {
     let mut library = mixed_library();
     let mut fast = library.textures.remove(5);
     fast.place = library.textures[0].place;
-    let mut session = Session::new(library).unwrap();
-    let project = Project::default().edited(Edit::AddTextures(vec![Arc::new(fast)]));
-    session.follow(&project, &ctx);
+    let begun = project_on(library);
+    let mut session = Session::new(begun.library.clone()).unwrap();
+    let project = edited(&begun, Edit::AddTextures(vec![Arc::new(fast)]));
+    session.follow(&project, None, &ctx);
     assert_eq!(session.space().position(7), None);
     assert_eq!(session.space_rate_hz(), 1000.0);
     assert!(session.output_message().is_some_and(|message| message.contains("cannot be mixed")));
-    session.follow(&Project::default(), &ctx);
+    session.follow(&begun, None, &ctx);
     assert_eq!(session.textures().len(), 7);
 }
 
@@ -83,19 +95,18 @@ fn another_library_is_opened_and_the_first_comes_back() {
     first.textures.retain(|texture| texture.id != "glass");
     let joined = Arc::new(starter_library().unwrap().textures[0].clone());
     assert_eq!(joined.id, "glass");
-    let mut session = Session::new(first).unwrap();
-    assert_eq!((session.built_in(), session.first_name()), (None, "Mine"));
-    let mine = Project::default().edited(Edit::AddTextures(vec![Arc::clone(&joined)]));
-    session.follow(&mine, &ctx);
+    let begun = project_on(first);
+    let mut session = Session::new(begun.library.clone()).unwrap();
+    let mine = edited(&begun, Edit::AddTextures(vec![Arc::clone(&joined)]));
+    session.follow(&mine, None, &ctx);
     let (library, space) = (session.library().clone(), session.space().clone());
 
-    let simulated = mine.edited(Edit::OpenLibrary(Some(BuiltIn::Simulated)));
-    assert_eq!((simulated.point, &simulated.added), (mine.point, &mine.added));
-    session.follow(&simulated, &ctx);
-    assert_eq!(
-        (session.built_in(), session.label_source()),
-        (Some(BuiltIn::Simulated), "mixed: never compare them")
-    );
+    let simulated = edited(&mine, Edit::OpenLibrary(ProjectLibrary::BuiltIn(BuiltIn::Simulated)));
+    assert_eq!((simulated.texture().at, &simulated.joined), (mine.texture().at, &mine.joined));
+    session.follow(&simulated, None, &ctx);
+    assert_eq!(session.base(), &ProjectLibrary::BuiltIn(BuiltIn::Simulated));
+    assert_eq!(session.other_libraries(), std::slice::from_ref(&begun.library));
+    assert_eq!(session.label_source(), "mixed: never compare them");
     assert!(session.is_simulated());
     let read = BuiltIn::Simulated.read().unwrap();
     assert_eq!(session.textures()[..25], read.textures[..]);
@@ -105,16 +116,17 @@ fn another_library_is_opened_and_the_first_comes_back() {
     let planes = session.planes.clone();
 
     // The same materials in other places: nothing has to be prepared again.
-    let starter = simulated.edited(Edit::OpenLibrary(Some(BuiltIn::Starter)));
-    session.follow(&starter, &ctx);
+    let on_starter = edited(&simulated, Edit::OpenLibrary(starter()));
+    session.follow(&on_starter, None, &ctx);
     assert!(planes.iter().zip(&session.planes).all(|(a, b)| Arc::ptr_eq(a, b)));
     assert_eq!(session.label_source(), "physical labels");
     assert_eq!(session.library().space_report, None);
 
-    session.follow(&mine, &ctx);
+    session.follow(&mine, None, &ctx);
     assert_eq!((session.library(), session.space()), (&library, &space));
-    assert_eq!((session.built_in(), session.label_source()), (None, "physical labels"));
-    session.follow(&simulated, &ctx);
+    assert_eq!((session.base(), session.label_source()), (&begun.library, "physical labels"));
+    assert!(session.other_libraries().is_empty(), "those of the program are always offered");
+    session.follow(&simulated, None, &ctx);
     assert_eq!(session.textures()[..25], read.textures[..]);
 }
 
@@ -122,32 +134,37 @@ fn another_library_is_opened_and_the_first_comes_back() {
 #[test]
 fn a_library_is_opened_as_its_file_has_it() {
     let ctx = egui::Context::default();
-    let mut session = Session::new(BuiltIn::Simulated.read().unwrap()).unwrap();
-    assert_eq!(session.built_in(), Some(BuiltIn::Simulated));
+    let begun = Project { library: ProjectLibrary::BuiltIn(BuiltIn::Simulated), ..new_project() };
+    let mut session = Session::new(begun.library.clone()).unwrap();
     let axes = Some(["hard-soft", "rough-smooth"].map(str::to_owned));
-    let turned = Project::default().edited(Edit::SetMode(Mode::Shared));
-    let turned = turned.edited(Edit::SetAxes(axes)).edited(Edit::Solo(3));
-    session.follow(&turned, &ctx);
-    let opened = turned.edited(Edit::OpenLibrary(Some(BuiltIn::Starter)));
-    assert_eq!((&opened.axes, opened.solo), (&None, None));
-    session.follow(&opened, &ctx);
+    let id = session.textures()[3].id.clone();
+    let edits = [Edit::SetMode(Mode::Shared), Edit::SetAxes(axes), Edit::Solo(id)];
+    let turned = edits.into_iter().fold(begun, |project, edit| edited(&project, edit));
+    session.follow(&turned, None, &ctx);
+    let opened = edited(&turned, Edit::OpenLibrary(starter()));
+    assert_eq!((&opened.axes, &opened.solo), (&None, &None));
+    session.follow(&opened, None, &ctx);
     assert_eq!(session.library(), &starter_library().unwrap());
     assert_eq!(session.authored().unwrap().parents.len(), 3);
-    session.follow(&turned, &ctx);
+    session.follow(&turned, None, &ctx);
     assert_eq!(session.parent_rank(3), Some(0));
     assert_eq!(session.poles()[0], ["hard", "soft"]);
 }
 
-/// Which library a session began with does not depend on what joined it before another was opened.
+/// A name that a texture was given here holds in every view, and ends with undo.
 #[test]
-fn the_first_library_is_known_whatever_joined_it() {
+fn a_texture_is_renamed_and_named_as_before() {
     let ctx = egui::Context::default();
-    let mut session = Session::new(BuiltIn::Starter.read().unwrap()).unwrap();
-    let joined = Arc::new(mixed_library().textures.remove(2));
-    let project = Project::default().edited(Edit::AddTextures(vec![joined]));
-    session.follow(&project, &ctx);
-    session.follow(&project.edited(Edit::OpenLibrary(Some(BuiltIn::Simulated))), &ctx);
-    assert_eq!((session.first_as(), session.textures().len()), (Some(BuiltIn::Starter), 26));
+    let begun = new_project();
+    let mut session = Session::new(begun.library.clone()).unwrap();
+    session.follow(&begun, None, &ctx);
+    let (planes, id) = (session.planes.clone(), session.textures()[2].id.clone());
+    let named = edited(&begun, Edit::RenameTexture { id, name: "Mine".to_owned() });
+    session.follow(&named, None, &ctx);
+    assert_eq!(session.textures()[2].name, "Mine");
+    assert!(planes.iter().zip(&session.planes).all(|(a, b)| Arc::ptr_eq(a, b)), "it is the same texture");
+    session.follow(&begun, None, &ctx);
+    assert_eq!(session.library(), &starter_library().unwrap());
 }
 
 /// Lets a session go on until something is so.
@@ -172,7 +189,7 @@ fn frames(session: &Session) -> Option<u32> {
 #[test]
 fn a_rig_that_changes_during_the_opening_holds_for_what_was_asked_for() {
     let ctx = egui::Context::default();
-    let mut session = Session::new(starter_library().unwrap()).unwrap();
+    let mut session = Session::new(starter()).unwrap();
     session.open_output(null(), &ctx);
     session.set_rig(Rig { buffer_frames: 512, ..Rig::default() }, &ctx);
     go_on(&mut session, "it opens", |s| !s.is_opening() && s.status().is_some());
@@ -183,7 +200,7 @@ fn a_rig_that_changes_during_the_opening_holds_for_what_was_asked_for() {
 #[test]
 fn an_output_that_was_let_go_of_during_the_opening_comes_back() {
     let ctx = egui::Context::default();
-    let mut session = Session::new(starter_library().unwrap()).unwrap();
+    let mut session = Session::new(starter()).unwrap();
     session.open_output(null(), &ctx);
     session.let_go_of_output();
     session.set_rig(Rig { buffer_frames: 128, ..Rig::default() }, &ctx);
@@ -200,7 +217,7 @@ fn an_output_that_was_let_go_of_during_the_opening_comes_back() {
 #[test]
 fn an_actuator_that_can_be_driven_opens_what_another_closed() {
     let ctx = egui::Context::default();
-    let mut session = Session::new(starter_library().unwrap()).unwrap();
+    let mut session = Session::new(starter()).unwrap();
     let mounted = |name: &str| {
         let profile = built_in_actuators().unwrap().into_iter().find(|a| a.name.contains(name)).unwrap();
         Rig { mounted: Some(Mounted::new(profile, None).unwrap()), ..Rig::default() }

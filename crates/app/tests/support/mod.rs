@@ -10,30 +10,41 @@ use egui::accesskit::Role;
 use egui::{DroppedFile, Shape};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::Begin;
 use shagreen_app::blend_choice::mode_entry;
+use shagreen_app::files::Keeping;
 use shagreen_app::session::OutputChoice;
 use shagreen_app::strings;
-use shagreen_app::window::Window;
+use shagreen_app::window::{Window, new_project};
 use shagreen_core::blend::Mode;
 use shagreen_formats::library::Library;
-use shagreen_formats::starter::starter_library;
+use shagreen_formats::project::{Project, ProjectLibrary};
 
 /// The program under test; there is a window after the first frame.
 pub(crate) type Author = Harness<'static, Option<Window>>;
 
 /// The window on the starter library, playing to the silent output with a real clock.
 pub(crate) fn author() -> Author {
-    author_on(starter_library().expect("the starter library"), [1280.0, 720.0])
+    author_of(begin(new_project()), [1280.0, 720.0])
 }
 
 /// The window on a library, of this size in points, playing to the silent output with a real clock.
 pub(crate) fn author_on(library: Library, size: [f32; 2]) -> Author {
+    let library = ProjectLibrary::Inside(library.into());
+    author_of(begin(Project { library, ..new_project() }), size)
+}
+
+/// What a window opens with that keeps nothing and plays to the silent output.
+pub(crate) fn begin(project: Project) -> Begin {
+    Begin { project, path: None, output: OutputChoice::Id("null".to_owned()), keeping: Keeping::default() }
+}
+
+/// The window that opens with this, of this size in points.
+pub(crate) fn author_of(begin: Begin, size: [f32; 2]) -> Author {
     let mut harness = Harness::builder().with_size(size).build_ui_state(
         move |ui, window: &mut Option<Window>| {
-            let window = window.get_or_insert_with(|| {
-                let output = OutputChoice::Id("null".to_owned());
-                Window::new(ui.ctx(), library.clone(), output).expect("a window")
-            });
+            let window =
+                window.get_or_insert_with(|| Window::new(ui.ctx(), begin.clone()).expect("a window"));
             window.frame_ui(ui);
         },
         None,
@@ -44,6 +55,17 @@ pub(crate) fn author_on(library: Library, size: [f32; 2]) -> Author {
 
 pub(crate) fn window(harness: &Author) -> &Window {
     harness.state().as_ref().expect("a window after the first frame")
+}
+
+/// The texture that is heard alone, by its place in the list.
+pub(crate) fn solo(harness: &Author) -> Option<usize> {
+    window(harness).session().solo(window(harness).project())
+}
+
+/// Whether the texture at this place of the list is locked.
+pub(crate) fn is_locked(harness: &Author, texture: usize) -> bool {
+    let id = &window(harness).session().textures()[texture].id;
+    window(harness).project().texture().blend.is_locked(id)
 }
 
 /// Runs frames in real time until `done`, for at most half a minute.
@@ -117,7 +139,7 @@ pub(crate) fn choose(harness: &mut Author, name: &str, choice: &str) {
 /// Takes a mode in the menu of modes.
 pub(crate) fn choose_mode(harness: &mut Author, mode: Mode) {
     choose(harness, strings::BLEND_MODE, &mode_entry(mode));
-    assert_eq!(window(harness).project().blending.mode, mode);
+    assert_eq!(window(harness).project().texture().blend.mode, mode);
 }
 
 /// Waits until the field is there.

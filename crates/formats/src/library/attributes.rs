@@ -33,7 +33,7 @@ impl Attributes {
 }
 
 /// The attributes of a file, checked.
-pub(super) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Result<Attributes, LibraryError> {
+pub(crate) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Result<Attributes, LibraryError> {
     let source = LabelSource::from_id(&wire.label_source)
         .ok_or_else(|| LibraryError::LabelSource { id: id.to_owned(), found: wire.label_source })?;
     unknown.attributes = wire.unknown;
@@ -57,7 +57,7 @@ pub(super) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Resul
 }
 
 /// The attributes as a file has them.
-pub(super) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 {
+pub(crate) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 {
     let n_values = attributes.values.len();
     // What is not known of values belongs to them only as long as they are the same.
     let more = |i: usize| unknown.values.get(i).filter(|_| unknown.values.len() == n_values).cloned();
@@ -74,7 +74,7 @@ pub(super) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 
 }
 
 /// The names of the axes, as a file has them.
-pub(super) fn axes(wire: Option<Vec<String>>) -> Result<Option<[String; 2]>, LibraryError> {
+pub(crate) fn axes(wire: Option<Vec<String>>) -> Result<Option<[String; 2]>, LibraryError> {
     let Some(names) = wire else { return Ok(None) };
     let axes: [String; 2] = names.try_into().map_err(|_| LibraryError::Axes)?;
     let is_empty = axes.iter().any(|name| name.trim().is_empty());

@@ -1,4 +1,6 @@
-//! A texture that was authored in the space of a library, as an entry of its own.
+//! Textures that join a library, and what was authored in its space as an entry of its own.
+
+use std::sync::Arc;
 
 use shagreen_core::space::LabelSource;
 use shagreen_core::texture_path::TexturePath;
@@ -9,6 +11,16 @@ use crate::library::{Library, Provenance, TextureEntry, free_id, id_from_name};
 const UNKNOWN_TERMS: &str = "LicenseRef-unknown";
 
 impl Library {
+    /// Adds textures. One whose identifier is taken gets another: it may have been made for a library that has none of this
+    /// name.
+    pub fn join(&mut self, entries: &[Arc<TextureEntry>]) {
+        for entry in entries {
+            let mut entry = TextureEntry::clone(entry);
+            entry.id = free_id(&entry.id, |id| self.index_of(id).is_some());
+            self.textures.push(entry);
+        }
+    }
+
     /// The entry of a path through the space of the textures at these indices, with an identifier that is free in this
     /// library. It owes something to each of them: it has the terms of all, and may not be passed on where one may not.
     /// So many of its keys are extrapolated.

@@ -5,6 +5,7 @@ use shagreen_core::texture::TextureModelError;
 use shagreen_core::texture_path::TexturePathError;
 
 use crate::library::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
+use crate::own_json::HeaderFault;
 
 /// Why bytes are not a library.
 #[derive(Debug, thiserror::Error)]
@@ -162,4 +163,17 @@ pub enum LibraryError {
 
 fn in_texture(texture: Option<&String>) -> String {
     texture.map_or_else(String::new, |id| format!(" in texture \"{id}\""))
+}
+
+impl From<HeaderFault> for LibraryError {
+    fn from(fault: HeaderFault) -> Self {
+        match fault {
+            HeaderFault::TooDense(reason) | HeaderFault::Damaged(reason) => {
+                Self::Damaged { reason, texture: None }
+            }
+            HeaderFault::Format(found) => Self::Format { found },
+            HeaderFault::Version(found) => Self::Version { found },
+            HeaderFault::Major(found) => Self::Major { found },
+        }
+    }
 }

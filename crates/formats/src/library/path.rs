@@ -41,7 +41,7 @@ pub(super) fn read(
         unknown.keys.push(left);
         Ok(Key { stop: Stop { at, along: along.unit().0 * wire.along }, is_stop: wire.stop, model })
     };
-    let keys = wire.keys.into_iter().enumerate().map(key).collect::<Result<_, _>>()?;
+    let keys = wire.keys.into_iter().enumerate().map(key).collect::<Result<_, LibraryError>>()?;
     if unknown.keys.iter().all(|left| *left == UnknownOfKey::default()) {
         unknown.keys.clear();
     }

@@ -4,7 +4,6 @@ use std::collections::HashSet;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use serde::de::IgnoredAny;
 use serde_json::Value;
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::tap::Tap;
@@ -12,13 +11,14 @@ use shagreen_core::units::Hertz;
 
 use crate::imported::Imported;
 use crate::library::anchors::grain;
-use crate::library::v1::{Header, LibraryV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
+use crate::library::v1::{LibraryV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
 use crate::library::write::{RESTRICTED, UNITS};
 use crate::library::{
     FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, Unknown,
     UnknownOfLibrary, VERSION_MAJOR, VERSION_MINOR,
 };
 use crate::library::{attributes, path};
+use crate::own_json::{Header, HeaderFault, minor_version};
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 
 /// Reads a library.
@@ -29,23 +29,31 @@ use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 /// # Errors
 /// See [`LibraryError`]; every number is checked.
 pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
-    check_density(bytes)?;
+    let minor = minor_version(bytes, FORMAT, VERSION_MAJOR).map_err(|fault| match fault {
+        // The parser's own words say more than the head's: which texture it is.
+        HeaderFault::Damaged(reason) => damaged(reason, bytes),
+        fault => fault.into(),
+    })?;
+    let wire: LibraryV1 = serde_json::from_slice(bytes).map_err(|error| damaged(error.to_string(), bytes))?;
+    checked(wire, minor)
+}
+
+/// The library of a part of another file.
+///
+/// # Errors
+/// Those of [`read_library`].
+pub(crate) fn library_inside(wire: LibraryV1) -> Result<Imported<Library>, LibraryError> {
+    let minor = Header::of(&wire.format, &wire.version).minor_version(FORMAT, VERSION_MAJOR)?;
+    checked(wire, minor)
+}
+
+fn checked(wire: LibraryV1, minor: u32) -> Result<Imported<Library>, LibraryError> {
     let mut warnings = Vec::new();
-    let header = header(bytes)?;
-    if header.format != FORMAT {
-        return Err(LibraryError::Format { found: shown(&header.format) });
-    }
-    let (major, minor) =
-        version(&header.version).ok_or_else(|| LibraryError::Version { found: shown(&header.version) })?;
-    if major != VERSION_MAJOR {
-        return Err(LibraryError::Major { found: format!("{major}.{minor}") });
-    }
     if minor > VERSION_MINOR {
         warnings.push(format!(
-            "the library has version {major}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}: what is new in it is kept but has no effect"
+            "the library has version {VERSION_MAJOR}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}: what is new in it is kept but has no effect"
         ));
     }
-    let wire: LibraryV1 = serde_json::from_slice(bytes).map_err(|error| damaged(&error, bytes))?;
     check_units(&wire.units)?;
     let mut ids = HashSet::new();
     for (index, texture) in wire.textures.iter().enumerate() {
@@ -85,61 +93,15 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
     Ok(Imported { value: library, warnings })
 }
 
-/// Memory that values may take while they are read, whatever the length of a file.
-const MEMORY_BYTES: usize = 48 << 20;
-/// Memory beyond that, by the length of the file.
-const MEMORY_FACTOR: usize = 10;
-/// What a value of the unknown fields takes while it is read, about: it is kept twice, in lists that grow. Frequencies to
-/// six decimals always pass.
-const VALUE_BYTES: usize = 80;
-
-/// Refuses files of more values than anybody needs bytes for: a list of zeros takes fifty times its text.
-fn check_density(bytes: &[u8]) -> Result<(), LibraryError> {
-    let n_values = bytes.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
-    if n_values.saturating_mul(VALUE_BYTES) <= MEMORY_FACTOR.saturating_mul(bytes.len()) + MEMORY_BYTES {
-        return Ok(());
-    }
-    let reason = format!("{n_values} values in {} bytes are more than a library needs", bytes.len());
-    Err(LibraryError::Damaged { reason, texture: None })
-}
-
-/// What kind of file it is. JSON that is no object is of another kind, whatever it holds.
-fn header(bytes: &[u8]) -> Result<Header, LibraryError> {
-    if bytes.trim_ascii_start().first() == Some(&b'{') {
-        return serde_json::from_slice(bytes).map_err(|error| damaged(&error, bytes));
-    }
-    match serde_json::from_slice::<IgnoredAny>(bytes) {
-        Ok(_) => Err(LibraryError::Format { found: shown(&Value::Null) }),
-        // A library begins with a brace: what does not is no JSON of ours that was cut off.
-        Err(_) => Err(LibraryError::Format { found: "missing".to_owned() }),
-    }
-}
-
-/// `major.minor` as numbers.
-fn version(value: &Value) -> Option<(u32, u32)> {
-    let (major, minor) = value.as_str()?.split_once('.')?;
-    // Not a number is not a version: the caller says so.
-    Some((major.parse().ok()?, minor.parse().ok()?))
-}
-
-/// A value for a message: short, whatever stood there.
-fn shown(value: &Value) -> String {
-    if value.is_null() {
-        return "missing".to_owned();
-    }
-    let text = value.to_string();
-    if text.chars().count() > 40 { text.chars().take(40).chain(['…']).collect() } else { text }
-}
-
 /// The error of the parser, with the texture in which it arose where the rest is sound enough to tell.
-fn damaged(error: &serde_json::Error, bytes: &[u8]) -> LibraryError {
+fn damaged(reason: String, bytes: &[u8]) -> LibraryError {
     let texture = serde_json::from_slice::<Value>(bytes).ok().and_then(|value| {
         // Not JSON at all: the parser's line and column must do.
         let textures = value.get("textures")?.as_array()?;
         let bad = textures.iter().find(|t| serde_json::from_value::<TextureV1>((*t).clone()).is_err())?;
         Some(bad.get("id")?.as_str()?.to_owned())
     });
-    LibraryError::Damaged { reason: error.to_string(), texture }
+    LibraryError::Damaged { reason, texture }
 }
 
 fn check_units(units: &UnitsV1) -> Result<(), LibraryError> {
@@ -152,7 +114,7 @@ fn check_units(units: &UnitsV1) -> Result<(), LibraryError> {
     Ok(())
 }
 
-fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
+pub(crate) fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
     let id = wire.id;
     let mut unknown = Unknown { texture: wire.unknown, ..Unknown::default() };
     let place = wire.space.map(|space| place(&id, space, &mut unknown)).transpose()?;
@@ -225,7 +187,7 @@ pub(super) fn tap(
     })
 }
 
-fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Place, LibraryError> {
+pub(crate) fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Place, LibraryError> {
     unknown.space = wire.unknown;
     let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
         .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
@@ -234,7 +196,7 @@ fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Place, Librar
     Ok(Place { at, source })
 }
 
-fn picture(id: &str, wire: PictureV1, unknown: &mut Unknown) -> Result<Picture, LibraryError> {
+pub(crate) fn picture(id: &str, wire: PictureV1, unknown: &mut Unknown) -> Result<Picture, LibraryError> {
     let failed = |reason: String| LibraryError::Picture { id: id.to_owned(), reason };
     let format = PictureFormat::from_media_type(&wire.media_type).ok_or_else(|| {
         failed(format!("its media type is {}, not image/jpeg or image/png", wire.media_type))

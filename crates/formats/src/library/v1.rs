@@ -3,17 +3,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// Enough of any file to tell whether it is ours.
-#[derive(Deserialize)]
-pub(super) struct Header {
-    #[serde(default)]
-    pub(super) format: Value,
-    #[serde(default)]
-    pub(super) version: Value,
-}
-
 #[derive(Serialize, Deserialize)]
-pub(super) struct LibraryV1 {
+pub(crate) struct LibraryV1 {
     pub(super) format: String,
     pub(super) version: String,
     pub(super) units: UnitsV1,
@@ -53,7 +44,7 @@ pub(super) struct UnitsV1 {
 }
 
 #[derive(Serialize, Deserialize)]
-pub(super) struct TextureV1 {
+pub(crate) struct TextureV1 {
     pub(super) id: String,
     pub(super) name: String,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -119,7 +110,7 @@ pub(super) struct KeyV1 {
 }
 
 #[derive(Serialize, Deserialize)]
-pub(super) struct SpaceV1 {
+pub(crate) struct SpaceV1 {
     pub(super) rough_smooth: f64,
     pub(super) hard_soft: f64,
     pub(super) label_source: String,
@@ -128,7 +119,7 @@ pub(super) struct SpaceV1 {
 }
 
 #[derive(Serialize, Deserialize)]
-pub(super) struct AttributesV1 {
+pub(crate) struct AttributesV1 {
     pub(super) label_source: String,
     pub(super) values: Vec<AttributeV1>,
     #[serde(flatten)]
@@ -179,7 +170,7 @@ pub(super) struct AnchorV1 {
 }
 
 #[derive(Serialize, Deserialize)]
-pub(super) struct PictureV1 {
+pub(crate) struct PictureV1 {
     pub(super) media_type: String,
     pub(super) width: u32,
     pub(super) height: u32,

@@ -9,8 +9,9 @@ use shagreen_core::texture::Interpolation;
 use crate::layout;
 use crate::library::anchors::{anchors, interpolation_word};
 use crate::library::v1::{LibraryV1, PhysicalV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
-use crate::library::{FORMAT, Library, Provenance, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
+use crate::library::{FORMAT, Library, Place, Provenance, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
 use crate::library::{attributes, path};
+use crate::picture::Picture;
 
 /// The word for [`Provenance::Restricted`].
 pub(super) const RESTRICTED: &str = "restricted";
@@ -36,7 +37,7 @@ const CLOSE_RAD: f64 = 1e-3;
 /// Significant digits of levels and labels in a file: far finer than anyone can measure.
 pub(crate) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
-pub(super) const CONVERSION_DIGITS: usize = 12;
+pub(crate) const CONVERSION_DIGITS: usize = 12;
 
 /// The minor version that brought names of axes.
 const WITH_AXES: u32 = 3;
@@ -46,9 +47,14 @@ const WITH_ATTRIBUTES: u32 = 2;
 /// Writes a library, with numbers as long as they mean something: line spectral frequencies to six decimals, levels to
 /// six digits. Reading it back and writing it again gives the same bytes.
 pub fn write_library(library: &Library) -> Vec<u8> {
+    layout::to_bytes(&wire(library), OPEN_DEPTH)
+}
+
+/// A library as a file, or a part of another file, has it.
+pub(crate) fn wire(library: &Library) -> LibraryV1 {
     let units = UNITS.map(|(_, unit)| unit.to_owned());
     let [speed, force, acceleration, rate, lsf, length] = units;
-    let wire = LibraryV1 {
+    LibraryV1 {
         format: FORMAT.to_owned(),
         version: format!("{VERSION_MAJOR}.{}", minor_version(library)),
         units: UnitsV1 {
@@ -70,11 +76,11 @@ pub fn write_library(library: &Library) -> Vec<u8> {
         space_report: library.space_report.clone(),
         unknown: library.unknown.library.clone(),
         textures: library.textures.iter().map(texture).collect(),
-    };
-    layout::to_bytes(&wire, OPEN_DEPTH)
+    }
 }
 
-fn texture(entry: &TextureEntry) -> TextureV1 {
+/// A texture as a file has it.
+pub(crate) fn texture(entry: &TextureEntry) -> TextureV1 {
     let unknown = &entry.unknown;
     TextureV1 {
         id: entry.id.clone(),
@@ -83,12 +89,7 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
         licence: entry.license.clone(),
         origin: entry.origin.clone(),
         description: entry.description.clone(),
-        space: entry.place.map(|place| SpaceV1 {
-            rough_smooth: decimals(place.at.rough_smooth),
-            hard_soft: decimals(place.at.hard_soft),
-            label_source: place.source.id().to_owned(),
-            unknown: unknown.space.clone(),
-        }),
+        space: entry.place.map(|at| SpaceV1 { unknown: unknown.space.clone(), ..place(at) }),
         attributes: entry.attributes.as_ref().map(|a| attributes::write(a, unknown)),
         physical: entry.physical.map(|labels| PhysicalV1 {
             roughness_log10_mps2: digits(labels.roughness_log10_mps2, DIGITS),
@@ -103,14 +104,32 @@ fn texture(entry: &TextureEntry) -> TextureV1 {
         tap: entry.model.tap().map(|measured| TapV1 { unknown: unknown.tap.clone(), ..tap(measured) }),
         anchors: anchors(&entry.model, &unknown.anchors),
         path: entry.path.as_ref().map(|way| path::write(way, unknown)),
-        picture: entry.picture.as_ref().map(|picture| PictureV1 {
-            media_type: picture.format.media_type().to_owned(),
-            width: picture.width,
-            height: picture.height,
-            millimeters: digits(picture.millimeters, CONVERSION_DIGITS),
-            base64: STANDARD.encode(&picture.bytes),
-            unknown: unknown.picture.clone(),
-        }),
+        picture: entry
+            .picture
+            .as_ref()
+            .map(|shown| PictureV1 { unknown: unknown.picture.clone(), ..picture(shown) }),
+    }
+}
+
+/// A place as a file has it.
+pub(crate) fn place(place: Place) -> SpaceV1 {
+    SpaceV1 {
+        rough_smooth: decimals(place.at.rough_smooth),
+        hard_soft: decimals(place.at.hard_soft),
+        label_source: place.source.id().to_owned(),
+        unknown: Map::new(),
+    }
+}
+
+/// A picture as a file has it.
+pub(crate) fn picture(picture: &Picture) -> PictureV1 {
+    PictureV1 {
+        media_type: picture.format.media_type().to_owned(),
+        width: picture.width,
+        height: picture.height,
+        millimeters: digits(picture.millimeters, CONVERSION_DIGITS),
+        base64: STANDARD.encode(&picture.bytes),
+        unknown: Map::new(),
     }
 }
 

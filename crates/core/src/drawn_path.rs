@@ -1,7 +1,7 @@
 //! A way through the space that was drawn: what the texture follows along a stroke.
 
-use shagreen_core::space::SpacePoint;
-use shagreen_core::texture_path::{Along, AtEnd, Route, Stop};
+use crate::space::SpacePoint;
+use crate::texture_path::{Along, AtEnd, Route, Stop};
 
 /// Most points that a drawn line is kept with; more can be added one by one, up to what a route takes.
 const MOST_DRAWN: usize = 24;
@@ -106,8 +106,8 @@ fn beside(point: SpacePoint, from: SpacePoint, to: SpacePoint) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{DrawnPath, MOST_DRAWN, beside};
-    use shagreen_core::space::SpacePoint;
-    use shagreen_core::texture_path::{Along, AtEnd};
+    use crate::space::SpacePoint;
+    use crate::texture_path::{Along, AtEnd};
 
     fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
         SpacePoint { rough_smooth, hard_soft }

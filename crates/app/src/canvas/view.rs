@@ -1,0 +1,76 @@
+//! Coming nearer, going around and seeing everything.
+
+use egui::{Button, PointerButton, Rect, Response, Ui, vec2};
+
+use crate::axes::{Axes, View};
+use crate::panel::Panel;
+use crate::strings::view as strings;
+
+/// How much nearer one press of a button comes.
+const STEP: f64 = 1.5;
+/// How much nearer a point of the wheel comes, in powers of e.
+const BY_WHEEL: f64 = 0.004;
+
+/// The view after what wheel, fingers and the other buttons of the mouse did over the canvas.
+pub(super) fn follow_view(ui: &Ui, axes: Axes, background: &Response) -> View {
+    let mut view = axes.view;
+    let pointer = ui.input(|i| i.pointer.hover_pos()).filter(|pos| axes.rect.contains(*pos));
+    if let Some(pointer) = pointer.filter(|_| background.contains_pointer()) {
+        let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta.y, i.zoom_delta()));
+        let factor = (BY_WHEEL * f64::from(wheel)).exp() * f64::from(pinch);
+        view = view.zoomed(factor, axes.space_from_ui(pointer));
+    }
+    let moves = [PointerButton::Middle, PointerButton::Secondary];
+    if moves.into_iter().any(|button| background.dragged_by(button)) {
+        let (along, up) = axes.space_step_from_ui(background.drag_delta());
+        view = view.moved(-along, -up);
+    }
+    view
+}
+
+/// The buttons of the view, at the lower left of the canvas; returns the view that was asked for.
+pub(super) fn view_buttons(ui: &mut Ui, axes: Axes, panel: &Panel<'_>) -> Option<View> {
+    let corner = axes.rect.left_bottom() + vec2(4.0, -26.0);
+    let mut row =
+        ui.new_child(egui::UiBuilder::new().max_rect(Rect::from_min_size(corner, vec2(150.0, 22.0))));
+    let mut asked = None;
+    row.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.spacing_mut().button_padding = vec2(6.0, 1.0);
+        ui.spacing_mut().interact_size.y = 20.0;
+        let middle = axes.space_from_ui(axes.rect.center());
+        let is_whole = axes.view == View::default();
+        for (sign, name, view, can) in [
+            ("+", strings::NEARER, axes.view.zoomed(STEP, middle), true),
+            ("−", strings::FARTHER, axes.view.zoomed(1.0 / STEP, middle), !is_whole),
+        ] {
+            let button = ui.add_enabled(can, Button::new(sign)).accessible_name(name);
+            if button.on_hover_text(format!("{name}\n{}", strings::HELP)).clicked() {
+                asked = Some(view);
+            }
+        }
+        let sites = panel.session.space().sites().iter().map(|(_, at)| *at);
+        let fit = View::around(sites);
+        // What is fitted already shows everything next.
+        let (name, view) =
+            if axes.view == fit && !is_whole { (strings::ALL, View::default()) } else { (strings::FIT, fit) };
+        if ui.button(name).on_hover_text(strings::HELP).clicked() {
+            asked = Some(view);
+        }
+    });
+    asked
+}
+
+#[cfg(test)]
+mod tests {
+    use super::STEP;
+    use crate::axes::View;
+    use shagreen_core::space::SpacePoint;
+
+    #[test]
+    fn a_step_nearer_and_one_farther_is_none() {
+        let middle = SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 };
+        let there = View::default().zoomed(STEP, middle).zoomed(1.0 / STEP, middle);
+        assert!((there.zoom() - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,297 @@
+//! Two authored textures are heard in turn under the same stroke, with or without knowing which is which.
+//!
+//! A and B are two textures; X is one of the two, drawn anew for every answer. Of a number of answers, how likely so many
+//! are right by chance is told. In a blind comparison A and B are exchanged or not by chance, until they are revealed.
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use shagreen_core::rng::Random;
+use shagreen_core::statistics::binomial_upper_tail;
+use shagreen_formats::project::Project;
+
+/// One of what is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The first texture.
+    A,
+    /// The second texture.
+    B,
+    /// One of the two.
+    X,
+}
+
+impl Side {
+    /// All of them, in the order of their buttons.
+    pub const ALL: [Self; 3] = [Self::A, Self::B, Self::X];
+
+    /// Its letter.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::X => "X",
+        }
+    }
+}
+
+/// What can be asked of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CompareCommand {
+    /// Hear this side; the side that is heard already ends the comparison.
+    Hear(Side),
+    /// The authored texture of this key is A or B from now on.
+    Assign(Side, u32),
+    /// Hide which of the two is which, or reveal it.
+    SetBlind(bool),
+    /// X is taken for A, or else for B.
+    Answer(Side),
+}
+
+/// A comparison: what is on which side, what is heard, and what was answered.
+#[derive(Clone, Debug)]
+pub struct Compare {
+    /// Keys of the two textures.
+    keys: [u32; 2],
+    heard: Option<Side>,
+    is_blind: bool,
+    /// Whether A sounds as B and the other way round.
+    is_swapped: bool,
+    x_is_a: bool,
+    n_answers: u64,
+    n_right: u64,
+    random: Random,
+}
+
+impl Compare {
+    /// A comparison whose chance has this seed.
+    pub fn new(seed: u64) -> Self {
+        let mut random = Random::new(seed);
+        let x_is_a = random.uniform() < 0.5;
+        Self {
+            keys: [0, 0],
+            heard: None,
+            is_blind: false,
+            is_swapped: false,
+            x_is_a,
+            n_answers: 0,
+            n_right: 0,
+            random,
+        }
+    }
+
+    /// A comparison that nobody can foresee.
+    pub fn by_chance() -> Self {
+        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        Self::new(now.as_nanos() as u64)
+    }
+
+    /// Sees to it that both sides are there: textures that are gone make room for the first ones that are not compared.
+    pub fn follow(&mut self, project: &Project) {
+        let is_there = |key: u32| project.authored.iter().any(|texture| texture.key == key);
+        if self.keys.iter().all(|key| is_there(*key)) && self.keys[0] != self.keys[1] {
+            return;
+        }
+        for side in 0..2 {
+            if !is_there(self.keys[side]) || (side == 1 && self.keys[0] == self.keys[1]) {
+                let other = self.keys[1 - side];
+                let free = project.authored.iter().map(|texture| texture.key).find(|key| *key != other);
+                self.keys[side] = free.unwrap_or(0);
+            }
+        }
+        self.end();
+        self.forget_answers();
+    }
+
+    /// Whether there are two textures to compare.
+    pub fn is_possible(&self) -> bool {
+        self.keys[0] != self.keys[1] && self.keys.iter().all(|key| *key != 0)
+    }
+
+    /// The side that is heard.
+    pub fn heard(&self) -> Option<Side> {
+        self.heard
+    }
+
+    /// The key of what is heard instead of the texture that is selected.
+    pub fn heard_key(&self) -> Option<u32> {
+        let is_first = match self.heard? {
+            Side::A => !self.is_swapped,
+            Side::B => self.is_swapped,
+            Side::X => self.x_is_a != self.is_swapped,
+        };
+        Some(self.keys[usize::from(!is_first)])
+    }
+
+    /// The side that an authored texture is on, where that may be known.
+    pub fn side_of(&self, key: u32) -> Option<Side> {
+        if self.is_blind || !self.is_possible() {
+            return None;
+        }
+        [Side::A, Side::B].into_iter().zip(self.keys).find(|(_, on)| *on == key).map(|(side, _)| side)
+    }
+
+    /// Whether nothing may be shown that tells what is heard.
+    pub fn is_hidden(&self) -> bool {
+        self.heard == Some(Side::X) || (self.heard.is_some() && self.is_blind)
+    }
+
+    /// Whether it is hidden which of the two is which.
+    pub fn is_blind(&self) -> bool {
+        self.is_blind
+    }
+
+    /// How many answers were given, and how many of them were right.
+    pub fn answers(&self) -> (u64, u64) {
+        (self.n_answers, self.n_right)
+    }
+
+    /// How likely at least so many answers are right by chance, 0..1.
+    pub fn chance(&self) -> f64 {
+        binomial_upper_tail(self.n_right, self.n_answers, 0.5)
+    }
+
+    /// The selected texture is heard again.
+    pub fn end(&mut self) {
+        self.heard = None;
+    }
+
+    /// Does what was asked for.
+    pub fn carry_out(&mut self, command: CompareCommand) {
+        match command {
+            CompareCommand::Hear(side) => {
+                self.heard = (self.heard != Some(side) && self.is_possible()).then_some(side);
+            }
+            CompareCommand::Assign(side, key) => self.assign(side, key),
+            CompareCommand::SetBlind(is_blind) => {
+                self.is_blind = is_blind;
+                self.is_swapped = is_blind && self.random.uniform() < 0.5;
+            }
+            CompareCommand::Answer(side) => {
+                self.n_answers += 1;
+                self.n_right += u64::from((side == Side::A) == self.x_is_a);
+                self.x_is_a = self.random.uniform() < 0.5;
+            }
+        }
+    }
+
+    fn assign(&mut self, side: Side, key: u32) {
+        let index = usize::from(side == Side::B);
+        if self.keys[index] == key {
+            return;
+        }
+        if self.keys[1 - index] == key {
+            // They change sides.
+            self.keys.swap(0, 1);
+        } else {
+            self.keys[index] = key;
+        }
+        self.end();
+        self.forget_answers();
+    }
+
+    fn forget_answers(&mut self) {
+        (self.n_answers, self.n_right) = (0, 0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Compare, CompareCommand, Side};
+    use crate::edit::{Edit, edited};
+    use crate::window::new_project;
+    use shagreen_formats::project::{AuthoredTexture, Project};
+
+    /// A project of three authored textures, of keys 1, 2 and 3.
+    fn three() -> Project {
+        let add =
+            |project: Project, name: &str| edited(&project, Edit::Author(AuthoredTexture::new(0, name)));
+        add(add(new_project(), "Second"), "Third")
+    }
+
+    fn compare(seed: u64) -> Compare {
+        let mut compare = Compare::new(seed);
+        compare.follow(&three());
+        assert!(compare.is_possible());
+        compare
+    }
+
+    #[test]
+    fn sides_are_heard_and_left() {
+        let mut compare = compare(1);
+        assert_eq!(
+            (compare.heard_key(), compare.side_of(1), compare.side_of(2)),
+            (None, Some(Side::A), Some(Side::B))
+        );
+        compare.carry_out(CompareCommand::Hear(Side::B));
+        assert_eq!((compare.heard_key(), compare.is_hidden()), (Some(2), false));
+        compare.carry_out(CompareCommand::Hear(Side::B));
+        assert_eq!(compare.heard_key(), None);
+        compare.carry_out(CompareCommand::Assign(Side::A, 3));
+        assert_eq!((compare.side_of(3), compare.side_of(1)), (Some(Side::A), None));
+        compare.carry_out(CompareCommand::Assign(Side::A, 2));
+        assert_eq!(
+            (compare.side_of(2), compare.side_of(3)),
+            (Some(Side::A), Some(Side::B)),
+            "they change sides"
+        );
+    }
+
+    #[test]
+    fn x_is_one_of_both_and_answers_are_counted() {
+        let mut compare = compare(7);
+        compare.carry_out(CompareCommand::Hear(Side::X));
+        assert!(compare.is_hidden());
+        let mut n_first = 0;
+        for i in 0..200_u64 {
+            let is_first = compare.heard_key() == Some(1);
+            n_first += u64::from(is_first);
+            // Every tenth answer is wrong.
+            let right = if is_first { Side::A } else { Side::B };
+            let wrong = if is_first { Side::B } else { Side::A };
+            compare.carry_out(CompareCommand::Answer(if i % 10 == 0 { wrong } else { right }));
+        }
+        assert!((70..=130).contains(&n_first), "{n_first} of 200");
+        assert_eq!(compare.answers(), (200, 180));
+        assert!(compare.chance() < 1e-20);
+        compare.carry_out(CompareCommand::Assign(Side::B, 3));
+        assert_eq!((compare.answers(), compare.chance()), ((0, 0), 1.0), "others are compared now");
+    }
+
+    /// What X sounds like is what is answered, also where A and B have been exchanged.
+    #[test]
+    fn blind_sides_are_exchanged_by_chance_and_hold_together() {
+        let mut n_swapped = 0;
+        for seed in 0..40 {
+            let mut compare = compare(seed);
+            compare.carry_out(CompareCommand::SetBlind(true));
+            let mut key_of = |side| {
+                compare.carry_out(CompareCommand::Hear(side));
+                assert!(compare.is_hidden());
+                compare.heard_key().unwrap()
+            };
+            let [a, b, x] = Side::ALL.map(&mut key_of);
+            assert!(a != b && (x == a || x == b));
+            n_swapped += u32::from(a == 2);
+            assert_eq!(compare.side_of(1), None, "nothing tells");
+            compare.carry_out(CompareCommand::Answer(if x == a { Side::A } else { Side::B }));
+            assert_eq!(compare.answers(), (1, 1), "seed {seed}");
+        }
+        assert!((8..=32).contains(&n_swapped), "{n_swapped} of 40");
+    }
+
+    #[test]
+    fn what_is_gone_is_not_compared() {
+        let mut compare = compare(1);
+        compare.carry_out(CompareCommand::Hear(Side::A));
+        let two = edited(&three(), Edit::Remove(1));
+        compare.follow(&two);
+        assert_eq!(
+            (compare.heard(), compare.side_of(3), compare.side_of(2)),
+            (None, Some(Side::A), Some(Side::B))
+        );
+        compare.follow(&edited(&two, Edit::Remove(2)));
+        assert!(!compare.is_possible());
+        compare.carry_out(CompareCommand::Hear(Side::A));
+        assert_eq!(compare.heard_key(), None);
+    }
+}

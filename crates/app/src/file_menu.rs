@@ -1,0 +1,109 @@
+//! The menu of files, and the name of the project in the title.
+
+use egui::{Button, Label, RichText, Ui};
+use shagreen_formats::project::{Project, ProjectLibrary};
+use shagreen_formats::settings::Settings;
+
+use crate::command::{Command, FileCommand};
+use crate::document::Document;
+use crate::edit::Edit;
+use crate::strings::{document as strings, gallery};
+use crate::theme::tokens;
+
+/// Projects of before that the menu shows.
+const MOST_RECENT: usize = 6;
+/// Width of the menu, in points.
+const WIDTH: f32 = 240.0;
+
+/// What the menu shows.
+#[derive(Clone, Copy)]
+pub(crate) struct MenuState<'a> {
+    /// What the user makes.
+    pub(crate) project: &'a Project,
+    /// Its file.
+    pub(crate) document: &'a Document,
+    /// Projects that were open.
+    pub(crate) settings: &'a Settings,
+}
+
+/// What came of the menu.
+pub(crate) struct MenuOutcome {
+    /// What the user asked of it.
+    pub(crate) commands: Vec<Command>,
+    /// Where its button is.
+    pub(crate) area: egui::Rect,
+}
+
+/// Draws the menu and the name of the project.
+pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    let menu = ui.menu_button(strings::FILE, |ui| {
+        ui.set_min_width(WIDTH);
+        commands
+            .extend(entry(ui, strings::NEW, &Command::File(FileCommand::New)).on_hover(strings::NEW_HELP));
+        commands.extend(
+            entry(ui, gallery::GALLERY, &Command::File(FileCommand::OpenGallery)).on_hover(gallery::HELP),
+        );
+        commands.extend(entry(ui, strings::OPEN, &Command::File(FileCommand::AskWhatToOpen)).asked);
+        ui.separator();
+        commands.extend(entry(ui, strings::SAVE, &Command::File(FileCommand::Save)).asked);
+        commands.extend(entry(ui, strings::SAVE_AS, &Command::File(FileCommand::SaveAs)).asked);
+        let is_inside = matches!(files.project.library, ProjectLibrary::Inside(_));
+        let keep = ui.add_enabled(!is_inside, Button::new(strings::KEEP_INSIDE));
+        if keep.on_hover_text(strings::KEEP_INSIDE_HELP).clicked() {
+            commands.push(Command::File(FileCommand::KeepLibraryInside));
+        }
+        ui.separator();
+        let open = files.document.path();
+        let recent =
+            files.settings.recent.iter().filter(|path| Some(path.as_path()) != open).take(MOST_RECENT);
+        for (index, path) in recent.enumerate() {
+            if index == 0 {
+                ui.add(
+                    Label::new(RichText::new(strings::RECENT).small().color(t.text_weak)).selectable(false),
+                );
+            }
+            let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                commands.push(Command::File(FileCommand::Open(path.clone())));
+            }
+        }
+        ui.separator();
+        commands.extend(entry(ui, strings::QUIT, &Command::File(FileCommand::Quit)).asked);
+    });
+    let area = menu.response.rect;
+    let dot = if files.document.is_changed() { " •" } else { "" };
+    let name = RichText::new(format!("{}{dot}", files.document.name())).strong();
+    let path = files.document.path().map_or(strings::UNTITLED.to_owned(), |path| path.display().to_string());
+    let help = strings::kept_at(&path, files.document.is_changed());
+    ui.add(Label::new(name).truncate().selectable(false)).on_hover_text(help);
+    MenuOutcome { commands, area }
+}
+
+struct Entry {
+    response: egui::Response,
+    asked: Option<Command>,
+}
+
+impl Entry {
+    fn on_hover(self, help: &str) -> Option<Command> {
+        self.response.on_hover_text(help);
+        self.asked
+    }
+}
+
+/// An entry of the menu with its keys.
+fn entry(ui: &mut Ui, name: &str, command: &Command) -> Entry {
+    let keys = command.shortcut().map_or(String::new(), |keys| ui.ctx().format_shortcut(&keys));
+    let response = ui.add(Button::new(name).shortcut_text(keys)).accessible_name(name);
+    let asked = response.clicked().then(|| command.clone());
+    Entry { response, asked }
+}
+
+/// The edit that makes the library of the project a part of it; `None` where it cannot be read.
+pub(crate) fn kept_inside(project: &Project) -> Option<Edit> {
+    // What cannot be read was said when it was opened.
+    let library = project.library.read().ok()?;
+    Some(Edit::KeepLibraryInside(ProjectLibrary::Inside(library.into())))
+}

@@ -1,0 +1,110 @@
+//! The gallery: projects that come with the program, each with a picture of its points.
+
+use egui::{
+    Align2, Context, FontId, Key, Label, Modal, Modifiers, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2,
+};
+use shagreen_formats::gallery::GALLERY;
+use shagreen_formats::project::Project;
+
+use crate::axes::{Axes, View};
+use crate::command::{Command, FileCommand};
+use crate::strings::gallery as strings;
+use crate::theme::{GAP, RADIUS, Tokens, tokens};
+
+/// Cards in a row.
+const COLUMNS: usize = 3;
+/// Size of a card, in points.
+const CARD: egui::Vec2 = vec2(236.0, 104.0);
+/// Side of the picture of the points, in points.
+const PICTURE: f32 = 84.0;
+
+/// The sheet, as long as it is open.
+pub(crate) struct GallerySheet {
+    projects: Vec<(&'static str, Project)>,
+}
+
+impl GallerySheet {
+    /// The sheet with all projects that can be read.
+    pub(crate) fn new() -> Self {
+        // What cannot be read is left out: a test sees to it that all can.
+        let projects = GALLERY.iter().filter_map(|each| Some((each.title, each.read().ok()?)));
+        Self { projects: projects.collect() }
+    }
+
+    /// The project at this place.
+    pub(crate) fn take(mut self, index: usize) -> Option<Project> {
+        (index < self.projects.len()).then(|| self.projects.swap_remove(index).1)
+    }
+
+    /// Draws the sheet over the window and returns what the user asked of it.
+    pub(crate) fn show(&self, ctx: &Context) -> Vec<Command> {
+        let t = tokens(ctx);
+        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
+        let mut commands = Vec::new();
+        Modal::new(egui::Id::unique("gallery")).frame(frame).show(ctx, |ui| {
+            ui.set_width(COLUMNS as f32 * (CARD.x + GAP));
+            ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
+            ui.add(Label::new(RichText::new(strings::HELP).color(t.text_weak)).selectable(false));
+            ui.add_space(GAP);
+            for (row, projects) in self.projects.chunks(COLUMNS).enumerate() {
+                ui.horizontal(|ui| {
+                    for (column, (title, project)) in projects.iter().enumerate() {
+                        if card_ui(ui, title, project, t) {
+                            commands
+                                .push(Command::File(FileCommand::BeginFromGallery(COLUMNS * row + column)));
+                        }
+                    }
+                });
+            }
+            ui.add_space(GAP);
+            if ui.button(strings::CLOSE).clicked() {
+                commands.push(Command::CloseSheet);
+            }
+        });
+        if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+            commands.push(Command::CloseSheet);
+        }
+        commands
+    }
+}
+
+/// A project: its points, its name and what it is; returns whether it was chosen.
+fn card_ui(ui: &mut Ui, title: &str, project: &Project, t: &Tokens) -> bool {
+    let (area, response) = ui.allocate_exact_size(CARD, Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::open(title)));
+    let fill = if response.hovered() || response.has_focus() { t.control_hovered } else { t.raised };
+    ui.painter().rect_filled(area, f32::from(RADIUS), fill);
+    let picture = Rect::from_min_size(area.min + vec2(10.0, 10.0), vec2(PICTURE, PICTURE));
+    ui.painter().rect_filled(picture, f32::from(RADIUS), t.background);
+    let axes = Axes { rect: picture.shrink(7.0), view: View::default() };
+    for texture in &project.authored {
+        let color = t.authored[usize::from(texture.color)];
+        if let Some(path) = &texture.path {
+            let points: Vec<egui::Pos2> =
+                path.points.iter().map(|point| axes.ui_from_space(*point)).collect();
+            ui.painter().line(points, egui::Stroke::new(1.5, color.gamma_multiply(0.7)));
+        }
+        ui.painter().circle_filled(axes.ui_from_space(texture.at), 4.0, color);
+    }
+    let left = picture.right() + 10.0;
+    let right = area.right() - 8.0;
+    let title_font = FontId::proportional(14.5);
+    let name =
+        ui.painter().text(egui::pos2(left, picture.top()), Align2::LEFT_TOP, title, title_font, t.text);
+    let mut room =
+        Rect::from_min_max(egui::pos2(left, name.bottom() + 2.0), egui::pos2(right, picture.bottom()));
+    room.max.y += 4.0;
+    let mut job = egui::text::LayoutJob::simple(
+        project.notes.clone(),
+        FontId::proportional(11.5),
+        t.text_weak,
+        room.width(),
+    );
+    job.wrap.max_rows = (room.height() / 14.5) as usize;
+    let galley = ui.painter().layout_job(job);
+    ui.painter().galley(room.min, galley, t.text_weak);
+    let names: Vec<&str> = project.authored.iter().map(|texture| texture.name.as_str()).collect();
+    let is_chosen = response.clicked();
+    response.on_hover_text(format!("{}\n{}", project.notes, names.join(", ")));
+    is_chosen
+}

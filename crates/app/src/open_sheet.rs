@@ -1,0 +1,185 @@
+//! The sheet that opens a project or a library: a path, or a walk through folders.
+//!
+//! The system's own dialog would need a desktop portal on Linux and cannot be driven where there is none, so this is ours.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::Receiver;
+
+use egui::{Button, Context, Key, Label, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use shagreen_formats::project::EXTENSION;
+
+use crate::background::in_background;
+use crate::command::{Command, FileCommand};
+use crate::strings::document as strings;
+use crate::theme::{GAP, tokens};
+
+/// Height of the list, in points.
+const LIST_HEIGHT: f32 = 260.0;
+
+/// The sheet, as long as it is open.
+pub(crate) struct OpenSheet {
+    folder: PathBuf,
+    path: String,
+    entries: Option<Vec<Entry>>,
+    listing: Option<Receiver<Vec<Entry>>>,
+    is_focused: bool,
+    failure: Option<String>,
+}
+
+/// Something in a folder that can be opened or walked into.
+struct Entry {
+    name: String,
+    path: PathBuf,
+    is_folder: bool,
+}
+
+impl OpenSheet {
+    /// A sheet that begins in `folder`.
+    pub(crate) fn new(folder: &Path, ctx: &Context) -> Self {
+        let mut sheet = Self {
+            folder: PathBuf::new(),
+            path: String::new(),
+            entries: None,
+            listing: None,
+            is_focused: false,
+            failure: None,
+        };
+        sheet.walk(folder, ctx);
+        sheet
+    }
+
+    /// Says why the file could not be opened.
+    pub(crate) fn say(&mut self, reason: String) {
+        self.failure = Some(reason);
+    }
+
+    fn walk(&mut self, folder: &Path, ctx: &Context) {
+        folder.clone_into(&mut self.folder);
+        self.entries = None;
+        let folder = folder.to_owned();
+        self.listing = Some(in_background(ctx.clone(), move || entries_of(&folder)));
+    }
+
+    /// Draws the sheet over the window; `is_opening` while a file is being read. Returns what the user asked of it.
+    pub(crate) fn show(&mut self, ctx: &Context, is_opening: bool) -> Vec<Command> {
+        if let Some(entries) = self.listing.as_ref().and_then(|listing| listing.try_recv().ok()) {
+            (self.entries, self.listing) = (Some(entries), None);
+        }
+        let t = tokens(ctx);
+        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
+        let shown = Modal::new(egui::Id::unique("open sheet")).frame(frame).show(ctx, |ui| {
+            ui.set_width(560.0);
+            self.content_ui(ui, is_opening)
+        });
+        let mut commands = shown.inner;
+        if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+            commands.push(Command::CloseSheet);
+        }
+        commands
+    }
+
+    fn content_ui(&mut self, ui: &mut Ui, is_opening: bool) -> Vec<Command> {
+        let t = tokens(ui.ctx());
+        let mut commands = Vec::new();
+        ui.add(Label::new(RichText::new(strings::OPEN_TITLE).heading().strong()).selectable(false));
+        ui.add_space(GAP);
+        let field =
+            TextEdit::singleline(&mut self.path).hint_text(strings::OPEN_HINT).desired_width(f32::INFINITY);
+        let field = ui.add(field).accessible_name(strings::OPEN_PATH);
+        if !std::mem::replace(&mut self.is_focused, true) {
+            field.request_focus();
+        }
+        let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+        ui.add_space(GAP);
+        let wanted = self.folder_ui(ui).or_else(|| is_entered.then(|| self.folder.join(self.path.trim())));
+        let message = if is_opening { Some(strings::OPENING) } else { self.failure.as_deref() };
+        let color = if is_opening { t.text_weak } else { t.error };
+        ui.add(Label::new(RichText::new(message.unwrap_or_default()).color(color)).wrap());
+        let mut open = wanted;
+        ui.horizontal(|ui| {
+            let is_named = !self.path.trim().is_empty();
+            if ui.add_enabled(is_named && !is_opening, Button::new(strings::OPEN_NOW)).clicked() {
+                open = Some(self.folder.join(self.path.trim()));
+            }
+            if ui.button(strings::CANCEL).clicked() {
+                commands.push(Command::CloseSheet);
+            }
+        });
+        if let Some(path) = open.filter(|_| !is_opening) {
+            self.failure = None;
+            if path.is_dir() {
+                self.path.clear();
+                self.is_focused = false;
+                self.walk(&path, ui.ctx());
+            } else if !path.as_os_str().is_empty() {
+                commands.push(Command::File(FileCommand::Open(path)));
+            }
+        }
+        commands
+    }
+
+    /// The folder and what is in it; returns what was clicked.
+    fn folder_ui(&self, ui: &mut Ui) -> Option<PathBuf> {
+        let t = tokens(ui.ctx());
+        let mut clicked = None;
+        ui.horizontal(|ui| {
+            let above = self.folder.parent();
+            if ui.add_enabled(above.is_some(), Button::new(strings::UP)).clicked() {
+                clicked = above.map(Path::to_owned);
+            }
+            let folder = RichText::new(self.folder.display().to_string()).color(t.text_weak);
+            ui.add(Label::new(folder).truncate().selectable(false));
+        });
+        let list = ScrollArea::vertical()
+            .max_height(LIST_HEIGHT)
+            .min_scrolled_height(LIST_HEIGHT)
+            .auto_shrink(false);
+        list.show(ui, |ui| match &self.entries {
+            None => drop(ui.label(strings::LISTING)),
+            Some(entries) if entries.is_empty() => {
+                ui.label(RichText::new(strings::NOTHING_HERE).color(t.text_weak));
+            }
+            Some(entries) => {
+                for entry in entries {
+                    let name = if entry.is_folder { format!("{}/", entry.name) } else { entry.name.clone() };
+                    if ui.selectable_label(false, name).clicked() {
+                        clicked = Some(entry.path.clone());
+                    }
+                }
+            }
+        });
+        clicked
+    }
+}
+
+/// Folders, then projects and what may be libraries, each by name; hidden ones are left out.
+fn entries_of(folder: &Path) -> Vec<Entry> {
+    // A folder that cannot be read shows nothing: a path can still be written.
+    let Ok(found) = std::fs::read_dir(folder) else { return Vec::new() };
+    let entry = |entry: std::fs::DirEntry| {
+        let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+        let is_folder = path.is_dir();
+        let is_ours = path.extension().is_some_and(|extension| extension == EXTENSION || extension == "json");
+        (!name.starts_with('.') && (is_folder || is_ours)).then_some(Entry { name, path, is_folder })
+    };
+    let mut entries: Vec<Entry> = found.filter_map(|each| entry(each.ok()?)).collect();
+    entries.sort_by_key(|entry| (!entry.is_folder, entry.name.to_lowercase()));
+    entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::entries_of;
+
+    #[test]
+    fn a_folder_shows_what_can_be_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["b.shagreen", "A.json", "notes.txt", ".hidden.json"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        std::fs::create_dir(folder.path().join("z")).unwrap();
+        let names: Vec<String> = entries_of(folder.path()).into_iter().map(|entry| entry.name).collect();
+        assert_eq!(names, ["z", "A.json", "b.shagreen"]);
+        assert!(entries_of(&folder.path().join("none")).is_empty());
+    }
+}

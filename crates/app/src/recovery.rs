@@ -1,0 +1,245 @@
+//! What keeps work through a crash: every few seconds the project is written beside the user's files, and a program that
+//! starts finds what another one left.
+//!
+//! Each window has a slot: a project file under a name of its own, and a lock that the system lets go of when the program
+//! ends, however it ends. A slot whose lock is free belongs to nobody any more; what it holds is offered. A window that is
+//! closed in peace takes its slot away.
+
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use egui::Context;
+use shagreen_formats::atomic;
+use shagreen_formats::project::{EXTENSION, Project, write_project};
+
+use crate::background::in_background;
+use crate::document::CREATED_BY;
+
+/// How often the project is written, where it has changed.
+pub const INTERVAL: Duration = Duration::from_secs(4);
+/// Ending of the files that are locked.
+const LOCK: &str = "lock";
+/// Ending of the files that say where a project belongs.
+const ORIGIN: &str = "origin";
+
+/// The slot of one window.
+pub struct Recovery {
+    slot: PathBuf,
+    /// Held as long as the program lives.
+    _lock: File,
+    written: Option<u64>,
+    last: Instant,
+    writing: Option<(Receiver<Result<(), String>>, u64)>,
+    failure: Option<String>,
+}
+
+/// A project that a program left behind.
+#[derive(Debug)]
+pub struct Leftover {
+    slot: PathBuf,
+    /// Held so that no other window offers it too.
+    _lock: File,
+    /// Where the project belongs, where it had a file.
+    pub origin: Option<PathBuf>,
+    /// When it was written.
+    pub written: SystemTime,
+}
+
+impl Recovery {
+    /// A slot in `folder`, which is made where it is not there.
+    ///
+    /// # Errors
+    /// The folder cannot be made or written to, or its file system cannot lock.
+    pub fn new(folder: &Path) -> io::Result<Self> {
+        fs::create_dir_all(folder)?;
+        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        let slot = folder.join(format!("{}-{}", now.as_nanos(), std::process::id()));
+        let lock = File::create_new(slot.with_extension(LOCK))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::Error(error)) => return Err(error),
+            Err(TryLockError::WouldBlock) => return Err(io::ErrorKind::WouldBlock.into()),
+        }
+        Ok(Self { slot, _lock: lock, written: None, last: Instant::now(), writing: None, failure: None })
+    }
+
+    /// Writes the project in the background where it is due: its `revision` was not written, and the last time is long
+    /// enough ago. What `is_changed` says is whether anything would be lost.
+    pub(crate) fn follow(
+        &mut self,
+        project: &Project,
+        revision: u64,
+        origin: Option<&Path>,
+        is_changed: bool,
+        ctx: &Context,
+    ) {
+        if let Some((receiver, revision)) = &self.writing {
+            match receiver.try_recv() {
+                Err(TryRecvError::Empty) => return,
+                Ok(Ok(())) => self.written = Some(*revision),
+                Ok(Err(reason)) => self.failure = Some(reason),
+                Err(TryRecvError::Disconnected) => {}
+            }
+            self.writing = None;
+        }
+        if !is_changed {
+            if self.written.take().is_some() {
+                // It is in its own file now.
+                forget(&self.slot);
+            }
+            return;
+        }
+        if self.written == Some(revision) || self.last.elapsed() < INTERVAL {
+            return;
+        }
+        self.last = Instant::now();
+        let (project, slot, origin) = (project.clone(), self.slot.clone(), origin.map(Path::to_owned));
+        let work = move || write(&project, &slot, origin.as_deref()).map_err(|error| error.to_string());
+        self.writing = Some((in_background(ctx.clone(), work), revision));
+    }
+
+    /// Another project is kept from now on: what the slot holds says nothing about it.
+    pub(crate) fn restart(&mut self) {
+        if let Some((receiver, _)) = self.writing.take() {
+            // What is still being written must not come after what follows.
+            let _ = receiver.recv();
+        }
+        forget(&self.slot);
+        self.written = None;
+    }
+
+    /// Whether the slot holds a state of the project.
+    pub(crate) fn has_written(&self) -> bool {
+        self.written.is_some()
+    }
+
+    /// Why the last attempt failed, once.
+    pub(crate) fn take_failure(&mut self) -> Option<String> {
+        self.failure.take()
+    }
+}
+
+impl Drop for Recovery {
+    fn drop(&mut self) {
+        if let Some((receiver, _)) = self.writing.take() {
+            // What is still being written must not come after.
+            let _ = receiver.recv();
+        }
+        forget(&self.slot);
+        // A lock that stays behind is free, and taken away by the next window.
+        let _ = fs::remove_file(self.slot.with_extension(LOCK));
+    }
+}
+
+impl Leftover {
+    /// The project file.
+    pub fn path(&self) -> PathBuf {
+        self.slot.with_extension(EXTENSION)
+    }
+
+    /// Takes it away for good.
+    pub fn discard(self) {
+        forget(&self.slot);
+        let _ = fs::remove_file(self.slot.with_extension(LOCK));
+    }
+}
+
+/// What other programs left in `folder`, newest first; those that are still running keep theirs.
+pub fn leftovers(folder: &Path) -> Vec<Leftover> {
+    // A folder that is not there holds nothing.
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut found: Vec<Leftover> = paths.filter_map(|path| leftover(&path)).collect();
+    found.sort_by_key(|leftover| std::cmp::Reverse(leftover.written));
+    found
+}
+
+fn leftover(lock_path: &Path) -> Option<Leftover> {
+    if lock_path.extension()? != LOCK {
+        return None;
+    }
+    let lock = File::options().write(true).open(lock_path).ok()?;
+    lock.try_lock().ok()?;
+    let slot = lock_path.with_extension("");
+    let Ok(metadata) = fs::metadata(slot.with_extension(EXTENSION)) else {
+        // Nothing had changed when its program ended.
+        let _ = fs::remove_file(lock_path);
+        return None;
+    };
+    let origin = fs::read_to_string(slot.with_extension(ORIGIN)).ok().filter(|path| !path.is_empty());
+    let written = metadata.modified().unwrap_or(UNIX_EPOCH);
+    Some(Leftover { slot, _lock: lock, origin: origin.map(PathBuf::from), written })
+}
+
+fn write(project: &Project, slot: &Path, origin: Option<&Path>) -> Result<(), atomic::WriteError> {
+    // Nothing lies beside a slot: libraries are written with their whole path.
+    let bytes = write_project(project, Path::new(""), CREATED_BY);
+    let origin = origin.map(|path| path.to_string_lossy().into_owned()).unwrap_or_default();
+    atomic::write_all(&[
+        (&slot.with_extension(EXTENSION), &bytes),
+        (&slot.with_extension(ORIGIN), origin.as_bytes()),
+    ])
+}
+
+/// Takes the files of a slot away, where they are there.
+fn forget(slot: &Path) {
+    for extension in [EXTENSION, ORIGIN] {
+        let _ = fs::remove_file(slot.with_extension(extension));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Recovery, leftovers, write};
+    use shagreen_formats::built_in::BuiltIn;
+    use shagreen_formats::project::{Project, ProjectLibrary, read_project};
+    use std::path::Path;
+
+    fn project() -> Project {
+        Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "Oak copy")
+    }
+
+    #[test]
+    fn what_a_living_window_holds_is_its_own_and_what_a_dead_one_left_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path().join("recovery");
+        assert!(leftovers(&at).is_empty());
+        let slot = Recovery::new(&at).unwrap();
+        write(&project(), &slot.slot, Some(Path::new("/home/me/Woods.shagreen"))).unwrap();
+        assert!(leftovers(&at).is_empty(), "its window lives");
+        // As if it had been killed: the lock goes, the files stay.
+        let path = slot.slot.clone();
+        let copies = ["shagreen", "origin", "lock"].map(|extension| {
+            let file = path.with_extension(extension);
+            (std::fs::read(&file).unwrap(), file)
+        });
+        drop(slot);
+        assert_eq!(std::fs::read_dir(&at).unwrap().count(), 0, "closed in peace, nothing stays");
+        for (bytes, file) in copies {
+            std::fs::write(file, bytes).unwrap();
+        }
+        let found = leftovers(&at);
+        assert_eq!(found.len(), 1);
+        assert!(leftovers(&at).is_empty(), "it is offered once");
+        assert_eq!(found[0].origin.as_deref(), Some(Path::new("/home/me/Woods.shagreen")));
+        let bytes = std::fs::read(found[0].path()).unwrap();
+        let read = read_project(&bytes, Path::new("/"), &|_| Err(std::io::ErrorKind::NotFound.into()));
+        assert_eq!(read.unwrap().value, project());
+        for left in found {
+            left.discard();
+        }
+        assert_eq!(std::fs::read_dir(&at).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_lock_without_a_project_is_swept_away() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("1-2.lock"), "").unwrap();
+        std::fs::write(folder.path().join("other.txt"), "").unwrap();
+        assert!(leftovers(folder.path()).is_empty());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}

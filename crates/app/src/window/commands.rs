@@ -1,0 +1,102 @@
+//! Commands that are carried out after a frame.
+
+use std::sync::Arc;
+
+use shagreen_formats::actuator_toml::built_in_actuators;
+
+use super::Window;
+use crate::command::Command;
+use crate::devices::DevicesSheet;
+use crate::edit::Edit;
+use crate::history::Gesture;
+use crate::kept_path::kept_path;
+use crate::save::SaveSheet;
+use crate::session::OutputChoice;
+use crate::sheets::Sheet;
+use crate::tour::Tour;
+use crate::workspace::Workspace;
+
+impl Window {
+    /// Does what was asked for.
+    pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
+        match command {
+            Command::File(command) => self.carry_out_file(command, ctx),
+            Command::Edit(edit) => {
+                // What is changed is what is heard.
+                self.compare.end();
+                if matches!(edit, Edit::AddTextures(_)) {
+                    self.search.clear();
+                    self.reveal = Some(self.session.textures().len());
+                }
+                self.history.apply(&mut self.project, edit, Gesture(self.gesture));
+            }
+            Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
+            Command::BeginTour => (self.workspace, self.tour) = (Workspace::Author, Tour::begun()),
+            Command::ReadPhoto(source) => self.photo.read(source, self.project.texture().key, ctx),
+            Command::ShowMap(quantity) => self.map = quantity,
+            Command::Compare(command) => self.compare.carry_out(command),
+            Command::Undo => {
+                self.history.undo(&mut self.project);
+            }
+            Command::Redo => {
+                self.history.redo(&mut self.project);
+            }
+            Command::ToggleHand => {
+                let hand = (!self.session.hand_is_running()).then_some(self.pad.hand);
+                self.session.set_hand(hand);
+            }
+            Command::TogglePathTool => self.canvas.tool.toggle(),
+            Command::PlayPath(is_played) => self.session.play_path(is_played),
+            Command::KeepPath => match kept_path(&self.project, &self.session) {
+                Some(Ok(entry)) => {
+                    self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx);
+                }
+                Some(Err(error)) => self.session.say(error.to_string()),
+                None => {}
+            },
+            Command::ToggleMute => self.session.toggle_mute(),
+            Command::ToggleTheme => {
+                let dark = ctx.theme() == egui::Theme::Dark;
+                self.files.settings.is_light = Some(dark);
+                ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
+            }
+            Command::ListOutputs => self.session.list_outputs(ctx),
+            Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
+            Command::ResetLimiter => self.session.reset_limiter(),
+            Command::OpenDevices => match built_in_actuators() {
+                Ok(actuators) => {
+                    self.session.list_outputs(ctx);
+                    self.session.list_pens(ctx);
+                    self.session.list_inputs(ctx);
+                    let sheet = DevicesSheet::new(self.session.rig(), actuators);
+                    self.sheet = Sheet::Devices(Box::new(sheet));
+                }
+                Err(error) => self.session.say(error.to_string()),
+            },
+            Command::SetRig(rig) => self.session.set_rig(*rig, ctx),
+            Command::PlayTone { frequency_hz, amplitude_mps2 } => {
+                self.session.play_tone(frequency_hz, amplitude_mps2);
+            }
+            Command::StopTone => self.session.stop_tone(),
+            Command::LetGoOfOutput => self.session.let_go_of_output(),
+            Command::TakeOutputBack => self.session.take_output_back(ctx),
+            Command::ListPens => self.session.list_pens(ctx),
+            Command::OpenImport => self.sheet.import(Vec::new(), ctx),
+            Command::Import(sources) => self.sheet.import(sources, ctx),
+            Command::Show(workspace) => self.workspace = workspace,
+            Command::ReadJudgments(sources) => self.build.read(sources, ctx),
+            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
+            Command::SaveFigure(figure) => {
+                self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.figures_folder));
+            }
+            Command::CloseSheet => {
+                if let Sheet::Save(sheet) = &self.sheet
+                    && let Some(folder) = sheet.folder_of_figure()
+                {
+                    self.figures_folder = folder.to_owned();
+                }
+                self.sheet = Sheet::Closed;
+            }
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! Commands about files: what is open comes and goes, and nothing is lost unasked.
+
+use std::path::{Path, PathBuf};
+
+use egui::{Context, ViewportCommand};
+use shagreen_formats::built_in::BuiltIn;
+use shagreen_formats::imported::Imported;
+use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
+
+use super::Window;
+use crate::command::{Command, FileCommand};
+use crate::document::{Came, Read, read_file};
+use crate::edit::Edit;
+use crate::file_menu::kept_inside;
+use crate::gallery_sheet::GallerySheet;
+use crate::history::History;
+use crate::leaving::Leave;
+use crate::open_sheet::OpenSheet;
+use crate::save::SaveSheet;
+use crate::sheets::Sheet;
+use crate::strings;
+
+/// A project as a new one begins.
+pub fn new_project() -> Project {
+    Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), strings::NEW_TEXTURE)
+}
+
+impl Window {
+    /// Once a frame, before anything is drawn: what threads have read and written, and whether the system wants to close
+    /// the window.
+    pub(super) fn collect_files(&mut self, ctx: &Context) {
+        if let Some(came) = self.files.document.collect() {
+            self.take_file(came, ctx);
+        }
+        if let Some(message) = self.files.follow(&self.project, self.history.revision(), ctx) {
+            self.session.say(message);
+        }
+        let wants_to_close = ctx.input(|i| i.viewport().close_requested());
+        if wants_to_close && !self.files.is_closing && self.files.document.is_changed() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.sheet = Sheet::Leaving(Leave::Quit);
+        }
+    }
+
+    /// Does what was asked for about files.
+    pub(super) fn carry_out_file(&mut self, command: FileCommand, ctx: &Context) {
+        match command {
+            FileCommand::New => self.leave(Leave::New, ctx),
+            FileCommand::Quit => self.leave(Leave::Quit, ctx),
+            FileCommand::AskWhatToOpen => self.sheet = Sheet::Open(OpenSheet::new(&self.usual_folder(), ctx)),
+            FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new()),
+            FileCommand::BeginFromGallery(index) => self.leave(Leave::Gallery(index), ctx),
+            FileCommand::Open(path) => self.files.document.open(path, ctx),
+            FileCommand::Save => match self.files.document.path().map(Path::to_owned) {
+                Some(path) => self.files.document.save(&self.project, path, ctx),
+                None => self.ask_where_to_save(),
+            },
+            FileCommand::SaveAs => self.ask_where_to_save(),
+            FileCommand::SaveTo(path) => self.files.document.save(&self.project, path, ctx),
+            FileCommand::KeepLibraryInside => {
+                if let Some(edit) = kept_inside(&self.project) {
+                    self.carry_out(Command::Edit(edit), ctx);
+                }
+            }
+            FileCommand::SaveAndLeave(leave) => {
+                self.files.after_saving = Some(leave);
+                self.sheet = Sheet::Closed;
+                self.carry_out_file(FileCommand::Save, ctx);
+            }
+            FileCommand::LeaveUnsaved(leave) => {
+                self.sheet = Sheet::Closed;
+                self.go(leave, ctx);
+            }
+            FileCommand::Recover(index) => self.recover(index),
+            FileCommand::Discard(index) => {
+                if let Sheet::Recovered(leftovers) = &mut self.sheet {
+                    leftovers.remove(index).discard();
+                    if leftovers.is_empty() {
+                        self.sheet = Sheet::Closed;
+                    }
+                }
+            }
+        }
+    }
+
+    fn take_file(&mut self, came: Came, ctx: &Context) {
+        match came {
+            Came::Saved(path) => {
+                self.files.settings.note_project(&path);
+                if matches!(&self.sheet, Sheet::Save(sheet) if sheet.is_of_project()) {
+                    self.sheet = Sheet::Closed;
+                }
+                // It may have been changed while it was written; then the question comes again.
+                if let Some(leave) = self.files.after_saving.take() {
+                    self.files.document.follow(&self.project, self.history.revision());
+                    self.leave(leave, ctx);
+                }
+            }
+            Came::NotSaved(reason) => {
+                self.files.after_saving = None;
+                match &mut self.sheet {
+                    Sheet::Save(sheet) if sheet.is_of_project() => sheet.say(reason),
+                    _ => self.session.say(strings::document::not_saved(&reason)),
+                }
+            }
+            Came::Opened(Read::Project(imported), path) => {
+                self.files.waiting = Some((imported, path));
+                self.leave(Leave::Open, ctx);
+            }
+            Came::Opened(Read::Library(imported), _) => {
+                self.sheet = Sheet::Closed;
+                let Imported { value, warnings } = *imported;
+                self.say_warnings(&warnings);
+                let library = ProjectLibrary::File(value.into());
+                self.carry_out(Command::Edit(Edit::OpenLibrary(library)), ctx);
+            }
+            Came::NotOpened(reason) => match &mut self.sheet {
+                Sheet::Open(sheet) => sheet.say(reason),
+                _ => self.session.say(reason),
+            },
+        }
+    }
+
+    /// Leaves the project that is open, where nothing is lost by it; asks first otherwise.
+    fn leave(&mut self, leave: Leave, ctx: &Context) {
+        if self.files.document.is_changed() {
+            self.sheet = Sheet::Leaving(leave);
+        } else {
+            self.go(leave, ctx);
+        }
+    }
+
+    fn go(&mut self, leave: Leave, ctx: &Context) {
+        match leave {
+            Leave::New => self.begin(new_project(), None),
+            Leave::Open => {
+                if let Some((imported, path)) = self.files.waiting.take() {
+                    self.begin(imported.value, Some(path));
+                    self.say_warnings(&imported.warnings);
+                }
+            }
+            Leave::Gallery(index) => {
+                if let Some(project) = GallerySheet::new().take(index) {
+                    self.begin(project, None);
+                }
+            }
+            Leave::Quit => {
+                self.files.is_closing = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+        }
+    }
+
+    /// Another project takes the place of the one that is open.
+    fn begin(&mut self, project: Project, path: Option<PathBuf>) {
+        self.files.begin(&project, path);
+        self.show_project(project);
+    }
+
+    fn show_project(&mut self, project: Project) {
+        self.project = project;
+        self.history = History::default();
+        self.session.play_path(false);
+        self.canvas.tool.leave();
+        self.search.clear();
+        self.sheet = Sheet::Closed;
+    }
+
+    /// Opens what was left behind. Only one at a time: the others stay where they are, and are offered by the next window.
+    fn recover(&mut self, index: usize) {
+        let Sheet::Recovered(leftovers) = &mut self.sheet else { return };
+        match read_file(&leftovers[index].path()) {
+            Ok(Read::Project(imported)) => {
+                let leftover = leftovers.remove(index);
+                self.files.begin_recovered(leftover);
+                self.show_project(imported.value);
+                self.say_warnings(&imported.warnings);
+            }
+            Ok(Read::Library(_)) => {}
+            // It stays where it is.
+            Err(error) => self.session.say(format!("{error:#}")),
+        }
+    }
+
+    fn say_warnings(&mut self, warnings: &[String]) {
+        if !warnings.is_empty() {
+            self.session.say(warnings.join("; "));
+        }
+    }
+
+    fn ask_where_to_save(&mut self) {
+        let path = self.files.document.path().map_or_else(
+            || self.usual_folder().join(strings::document::UNTITLED).with_extension(EXTENSION),
+            Path::to_owned,
+        );
+        self.sheet = Sheet::Save(SaveSheet::project(&self.project, &path));
+    }
+
+    /// The folder where files are looked for first: that of the project, else of the last one, else where the program is.
+    fn usual_folder(&self) -> PathBuf {
+        let of_recent = self.files.settings.recent.first().map(PathBuf::as_path);
+        let folder = self.files.document.path().or(of_recent).and_then(Path::parent).filter(|f| f.is_dir());
+        folder.map_or_else(|| std::env::current_dir().unwrap_or_default(), Path::to_owned)
+    }
+}

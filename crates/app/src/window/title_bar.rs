@@ -1,0 +1,87 @@
+//! The bar at the top: files, workspaces, undo, and what is always at hand.
+
+use egui::{RichText, Ui};
+
+use super::Window;
+use crate::command::Command;
+use crate::file_menu::{MenuState, file_menu};
+use crate::strings;
+use crate::theme::tokens;
+use crate::workspace::Workspace;
+
+impl Window {
+    /// Draws the bar and returns what the user asked of it.
+    pub(super) fn title_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.horizontal_centered(|ui| {
+            let t = tokens(ui.ctx());
+            ui.add(
+                egui::Label::new(RichText::new(strings::APP).heading().strong().color(t.accent))
+                    .selectable(false),
+            );
+            ui.add_space(6.0);
+            let files = MenuState {
+                project: &self.project,
+                document: &self.files.document,
+                settings: &self.files.settings,
+            };
+            let menu = file_menu(ui, files);
+            self.tour_places[3] = menu.area;
+            commands.extend(menu.commands);
+            ui.add_space(10.0);
+            for workspace in Workspace::ALL {
+                let command = Command::Show(workspace);
+                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let tab = ui.selectable_label(self.workspace == workspace, workspace.name());
+                if tab.on_hover_text(format!("{} ({keys})", workspace.help())).clicked() {
+                    commands.push(command);
+                }
+            }
+            ui.add_space(10.0);
+            for (command, name, label) in [
+                (Command::Undo, strings::UNDO, self.history.undo_label()),
+                (Command::Redo, strings::REDO, self.history.redo_label()),
+            ] {
+                let what = label.map_or(name.to_owned(), |l| strings::verb(name, l));
+                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let button = ui.add_enabled(label.is_some(), egui::Button::new(name));
+                if button.on_hover_text(format!("{what} ({keys})")).clicked() {
+                    commands.push(command);
+                }
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let to = if ui.visuals().dark_mode { strings::TO_LIGHT } else { strings::TO_DARK };
+                commands.extend(help_menu(ui));
+                if ui.button(to).clicked() {
+                    commands.push(Command::ToggleTheme);
+                }
+                let keys =
+                    Command::OpenDevices.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let help = format!("{} ({keys})", strings::devices::OPEN_HELP);
+                if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
+                    commands.push(Command::OpenDevices);
+                }
+                let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
+                if ui.selectable_label(self.session.is_muted(), mute).clicked() {
+                    commands.push(Command::ToggleMute);
+                }
+            });
+        });
+        commands
+    }
+}
+
+/// The menu of help.
+fn help_menu(ui: &mut Ui) -> Option<Command> {
+    let mut asked = None;
+    ui.menu_button(strings::help::HELP, |ui| {
+        for (name, command) in
+            [(strings::help::TOUR, Command::BeginTour), (strings::help::SHORTCUTS, Command::OpenShortcuts)]
+        {
+            if ui.button(name).clicked() {
+                asked = Some(command);
+            }
+        }
+    });
+    asked
+}

@@ -1,0 +1,254 @@
+//! Many authored textures: made, told apart, compared, kept and brought back; the map behind them, and the view.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::strings;
+use shagreen_app::strings::{authored as words, compare, map, view};
+use shagreen_core::blend::Mode;
+use shagreen_core::heat_map::Quantity;
+
+use support::{Author, author, choose, choose_mode, click, says, unnamed_controls, wait, window};
+
+fn slide(harness: &mut Author, name: &str, value: f64) {
+    harness.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
+    harness.run_steps(3);
+}
+
+fn names(harness: &Author) -> Vec<String> {
+    window(harness).project().authored.iter().map(|texture| texture.name.clone()).collect()
+}
+
+fn key(harness: &mut Author, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    harness.run_steps(3);
+}
+
+/// Opens the menu of what has this name, and takes an entry of it.
+fn take_of_menu(harness: &mut Author, name: &str, entry: &str) {
+    harness.get_by_label(name).click_secondary();
+    harness.run_steps(3);
+    click(harness, entry);
+    harness.run_steps(2);
+}
+
+/// What is heard at the moment: its parents and their weights.
+fn heard(harness: &Author) -> Vec<(usize, f64)> {
+    window(harness).session().authored().expect("it is shown").parents.clone()
+}
+
+/// Two textures far apart, in a mode in which each is blended of three: the second is selected.
+fn two() -> Author {
+    let mut harness = author();
+    choose_mode(&mut harness, Mode::Shared);
+    slide(&mut harness, strings::ROUGH_SMOOTH, 20.0);
+    click(&mut harness, words::ADD);
+    slide(&mut harness, strings::ROUGH_SMOOTH, 80.0);
+    assert_eq!(window(&harness).project().authored.len(), 2);
+    harness
+}
+
+#[test]
+fn textures_are_made_selected_and_taken_away() {
+    let mut harness = two();
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    let colors: Vec<u8> = window(&harness).project().authored.iter().map(|texture| texture.color).collect();
+    assert_ne!(colors[0], colors[1], "they are told apart");
+    assert_eq!(window(&harness).project().texture().blend.mode, Mode::Shared, "blended as the one before");
+    // On the canvas and in the list.
+    let second = heard(&harness);
+    let first = window(&harness).project().authored[0].clone();
+    harness.get_by_label(&words::on_canvas(&first.name)).click();
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project().selected, 0);
+    assert_ne!(heard(&harness), second, "the one that is selected is heard");
+    assert_eq!(slider(&harness, strings::ROUGH_SMOOTH), 20.0);
+
+    let names = names(&harness);
+    assert_eq!(names, ["New texture", "New texture 2"]);
+    click(&mut harness, &words::select(&names[1]));
+    assert_eq!(window(&harness).project().selected, 1);
+    assert_eq!(heard(&harness), second);
+
+    // There and back is no step.
+    key(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(slider(&harness, strings::ROUGH_SMOOTH), 50.0);
+    key(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(window(&harness).project().authored.len(), 1);
+}
+
+fn slider(harness: &Author, name: &str) -> f64 {
+    harness.get_by_role_and_label(Role::Slider, name).accesskit_node().numeric_value().unwrap()
+}
+
+/// A texture that is not selected is dragged at once: it is selected by that, and the drag goes on.
+#[test]
+fn another_texture_is_dragged_without_being_selected_first() {
+    let mut harness = two();
+    let first = window(&harness).project().authored[0].clone();
+    let from = harness.get_by_label(&words::on_canvas(&first.name)).rect().center();
+    let to = from + vec2(60.0, -40.0);
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    for i in 1..=6 {
+        harness.hover_at(from.lerp(to, i as f32 / 6.0));
+        harness.run_steps(1);
+    }
+    harness.drop_at(to);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project().selected, 0);
+    let moved = window(&harness).project().texture().at;
+    assert!(
+        moved.rough_smooth > first.at.rough_smooth + 2.0 && moved.hard_soft > first.at.hard_soft + 2.0,
+        "{moved}"
+    );
+    let place = harness.get_by_label(strings::POINT).rect().center();
+    assert!((place - to).length() < 1.5, "{place} for {to}");
+}
+
+#[test]
+fn a_texture_has_a_color_tags_and_notes_and_each_is_one_step() {
+    let mut harness = author();
+    click(&mut harness, words::DETAILS);
+    harness.run_steps(2);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    click(&mut harness, &words::color(4));
+    assert_eq!(window(&harness).project().texture().color, 4);
+    harness.get_by_role_and_label(Role::TextInput, words::TAGS).focus();
+    harness.run_steps(2);
+    for letters in ["wo", "od,", " dry"] {
+        harness.get_by_role_and_label(Role::TextInput, words::TAGS).type_text(letters);
+        harness.run_steps(2);
+    }
+    assert_eq!(window(&harness).project().texture().tags, ["wood", "dry"]);
+    harness.get_by_role_and_label(Role::MultilineTextInput, words::NOTES).focus();
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::MultilineTextInput, words::NOTES).type_text("for the handle");
+    harness.run_steps(2);
+    assert_eq!(window(&harness).project().texture().notes, "for the handle");
+    harness.get_by_label(strings::CANVAS).focus();
+    harness.run_steps(3);
+    for (step, left) in [("Change notes of", 2), ("Change tags of", 1), ("Color ", 0)] {
+        let before = window(&harness).project().texture().clone();
+        harness.get_by_label(strings::UNDO).hover();
+        key(&mut harness, Modifiers::COMMAND, Key::Z);
+        assert_ne!(window(&harness).project().texture(), &before, "{step} {left}");
+    }
+    assert_eq!(window(&harness).project().texture(), shagreen_app::window::new_project().texture());
+}
+
+#[test]
+fn a_copy_and_a_snapshot_keep_what_was() {
+    let mut harness = author();
+    slide(&mut harness, strings::ROUGH_SMOOTH, 30.0);
+    click(&mut harness, words::KEEP);
+    slide(&mut harness, strings::ROUGH_SMOOTH, 70.0);
+    let name = window(&harness).project().texture().name.clone();
+    click(&mut harness, &words::snapshot(1, &name));
+    assert_eq!(window(&harness).project().texture().at.rough_smooth, 30.0);
+    key(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(window(&harness).project().texture().at.rough_smooth, 70.0);
+
+    take_of_menu(&mut harness, strings::POINT, words::DUPLICATE);
+    assert_eq!(names(&harness), [name.clone(), words::copy_of(&name)]);
+    let copy = window(&harness).project().texture();
+    assert!((copy.at.rough_smooth - 74.0).abs() < 1e-9, "a little beside");
+    take_of_menu(&mut harness, strings::POINT, words::DELETE);
+    assert_eq!(names(&harness), std::slice::from_ref(&name));
+    take_of_menu(&mut harness, &words::snapshot(1, &name), &words::delete_snapshot(1));
+    assert!(window(&harness).project().snapshots.is_empty());
+}
+
+/// A and B are heard by keys and buttons under the same stroke; what is heard blind is nowhere shown.
+#[test]
+fn two_textures_are_compared() {
+    let mut harness = two();
+    harness.get_by_label(strings::CANVAS).focus();
+    click(&mut harness, strings::HAND_START);
+    wait(&mut harness, "the hand strokes", |h| window(h).session().touch().contact.force_n > 0.0);
+    let second = heard(&harness);
+    click(&mut harness, &compare::hear("A"));
+    let first = heard(&harness);
+    assert_ne!(first, second);
+    assert_eq!(window(&harness).project().selected, 1, "nothing is selected by listening");
+    assert!(window(&harness).session().hand_is_running(), "the stroke goes on");
+    click(&mut harness, &compare::hear("B"));
+    assert_eq!(heard(&harness), second);
+    click(&mut harness, &compare::hear("B"));
+    assert_eq!(heard(&harness), second, "the selected one again");
+    click(&mut harness, &compare::hear("X"));
+    assert!(window(&harness).session().authored().is_none() && says(&harness, compare::HIDDEN));
+    assert!(window(&harness).session().spectra().parents.is_empty());
+    assert!(!says(&harness, "dB re 1 m/s²"), "nor its level");
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    click(&mut harness, &compare::x_is("A"));
+    assert!(says(&harness, " of 1 right, p = "));
+    click(&mut harness, compare::BLIND);
+    click(&mut harness, &compare::hear("A"));
+    assert!(window(&harness).session().authored().is_none(), "nobody sees which it is");
+    click(&mut harness, compare::BLIND);
+    assert!(heard(&harness) == first, "revealed");
+    // What is changed is what is heard.
+    slide(&mut harness, strings::ROUGH_SMOOTH, 81.0);
+    assert_ne!(heard(&harness), first);
+    let first_name = words::on_canvas(&window(&harness).project().authored[0].name.clone());
+    take_of_menu(&mut harness, &first_name, &compare::compare_as("B"));
+    click(&mut harness, &compare::hear("B"));
+    assert_eq!(heard(&harness), first, "they have changed sides");
+}
+
+#[test]
+fn maps_are_worked_out_and_shown_with_their_scale() {
+    let mut harness = author();
+    choose_mode(&mut harness, Mode::Shared);
+    for quantity in Quantity::ALL {
+        choose(&mut harness, map::MAP, map::name(Some(quantity)));
+        let scale = map::scale(map::name(Some(quantity)), "", "").split(',').next().unwrap().to_owned();
+        wait(&mut harness, "the map is there", |h| {
+            says(h, &format!("{scale}, from ")) && !says(h, map::WAITING)
+        });
+    }
+    choose(&mut harness, map::MAP, map::name(None));
+    assert!(!says(&harness, "Thin places, from"));
+}
+
+#[test]
+fn the_view_comes_nearer_moves_and_shows_everything_again() {
+    let mut harness = author();
+    let cork = |h: &Author| h.get_by_label("Go to Cork").rect().center();
+    let before = cork(&harness);
+    // The wheel keeps what is under the pointer where it is.
+    harness.hover_at(before);
+    harness.run_steps(2);
+    for _ in 0..4 {
+        harness.event(Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta: vec2(0.0, 60.0),
+            modifiers: Modifiers::NONE,
+            phase: TouchPhase::Move,
+            source: MouseWheelSource::Unknown,
+        });
+        harness.run_steps(3);
+    }
+    harness.run_steps(20);
+    let felt = harness.get_by_label("Go to Felt").rect().center();
+    assert!((cork(&harness) - before).length() < 2.0, "{} for {before}", cork(&harness));
+    click(&mut harness, view::FIT);
+    harness.run_steps(3);
+    assert_ne!(harness.get_by_label("Go to Felt").rect().center(), felt);
+    for _ in 0..12 {
+        if harness.get_by_label(view::FARTHER).accesskit_node().is_disabled() {
+            break;
+        }
+        click(&mut harness, view::FARTHER);
+    }
+    assert!((cork(&harness) - before).length() < 1.0);
+    assert!(harness.get_by_label(view::FARTHER).accesskit_node().is_disabled(), "the whole space is in view");
+    click(&mut harness, view::NEARER);
+    assert!((cork(&harness) - before).length() > 1.0);
+}

@@ -1,0 +1,384 @@
+//! The project and its file: saved, opened, left, recovered after a crash; nothing is lost unasked.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+mod support;
+
+use std::path::{Path, PathBuf};
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::Begin;
+use shagreen_app::document::{Read, read_file};
+use shagreen_app::files::Keeping;
+use shagreen_app::recovery::INTERVAL;
+use shagreen_app::strings;
+use shagreen_app::strings::{document, gallery, help};
+use shagreen_app::tour::Step;
+use shagreen_app::window::new_project;
+use shagreen_formats::gallery::GALLERY;
+use shagreen_formats::project::{Project, ProjectLibrary};
+use shagreen_formats::starter::starter_bytes;
+
+use support::{Author, author, author_of, begin, click, drop_files, says, unnamed_controls, wait, window};
+
+const SIZE: [f32; 2] = [1280.0, 720.0];
+
+/// Types into the field of this name instead of what it says.
+fn write_into(harness: &mut Author, name: &str, text: &str) {
+    // A sheet that was just closed lets go of the keyboard some frames later.
+    harness.run_steps(4);
+    harness.get_by_role_and_label(Role::TextInput, name).focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run_steps(1);
+    harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
+    harness.run_steps(2);
+}
+
+/// Gives the authored texture a name, and goes on to something else.
+fn rename(harness: &mut Author, name: &str) {
+    write_into(harness, strings::NAME, name);
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert_eq!(window(harness).project().texture().name, name);
+}
+
+fn keys(harness: &mut Author, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    harness.run_steps(3);
+}
+
+/// Takes an entry of the menu of files.
+fn menu(harness: &mut Author, entry: &str) {
+    click(harness, document::FILE);
+    harness.run_steps(2);
+    assert_eq!(unnamed_controls(harness), Vec::<String>::new());
+    click(harness, entry);
+    harness.run_steps(2);
+}
+
+/// Saves under this path by the sheet.
+fn save_as(harness: &mut Author, path: &Path) {
+    keys(harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    write_into(harness, document::SAVE_PATH, &path.display().to_string());
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+}
+
+fn wait_until_saved(harness: &mut Author) {
+    wait(harness, "it is saved", |h| !window(h).document().is_changed());
+    harness.run_steps(2);
+}
+
+fn project_in(path: &Path) -> Project {
+    match read_file(path).unwrap() {
+        Read::Project(imported) => imported.value,
+        Read::Library(_) => panic!("a project"),
+    }
+}
+
+fn open(harness: &mut Author, path: &Path) {
+    keys(harness, Modifiers::COMMAND, Key::O);
+    write_into(harness, document::OPEN_PATH, &path.display().to_string());
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    wait(harness, "it is read", |h| !window(h).document().is_opening());
+    harness.run_steps(2);
+}
+
+#[test]
+fn a_project_is_saved_left_and_opened_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("Woods.shagreen");
+    let mut harness = author();
+    assert!(!window(&harness).document().is_changed() && says(&harness, document::UNTITLED));
+    rename(&mut harness, "Oak copy");
+    assert!(window(&harness).document().is_changed());
+    assert_eq!(harness.query_all_by_label_contains("Untitled •").count(), 1, "the title tells");
+    save_as(&mut harness, &path);
+    wait_until_saved(&mut harness);
+    assert_eq!(&project_in(&path), window(&harness).project());
+    assert!(says(&harness, "Woods") && !says(&harness, "Woods •"));
+    assert!(harness.query_by_label(document::SAVE_TITLE).is_none(), "the sheet is gone");
+
+    // Saving again asks nothing.
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(63.0);
+    harness.run_steps(3);
+    assert!(says(&harness, "Woods •"));
+    keys(&mut harness, Modifiers::COMMAND, Key::S);
+    wait_until_saved(&mut harness);
+    let saved = project_in(&path);
+    assert_eq!(saved.texture().at.rough_smooth, 63.0);
+
+    menu(&mut harness, document::NEW);
+    assert_eq!(window(&harness).project(), &new_project());
+    assert!(window(&harness).document().path().is_none());
+    assert!(
+        harness.get_by_label(strings::UNDO).accesskit_node().is_disabled(),
+        "another project's history is gone"
+    );
+    open(&mut harness, &path);
+    assert_eq!(window(&harness).project(), &saved);
+    assert_eq!(window(&harness).document().path(), Some(&*path));
+    assert!(!window(&harness).document().is_changed());
+}
+
+#[test]
+fn nothing_is_left_unasked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.shagreen");
+    let mut harness = author();
+    rename(&mut harness, "Oak copy");
+    let project = window(&harness).project().clone();
+    for entry in [document::NEW, document::QUIT] {
+        menu(&mut harness, entry);
+        assert!(says(&harness, document::LEAVE_TITLE), "{entry}");
+        assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+        click(&mut harness, document::CANCEL);
+        harness.run_steps(2);
+        assert_eq!(window(&harness).project(), &project);
+    }
+    // Saving first asks for a name where there is none, and goes on after that.
+    menu(&mut harness, document::NEW);
+    click(&mut harness, document::SAVE_FIRST);
+    harness.run_steps(2);
+    write_into(&mut harness, document::SAVE_PATH, &path.display().to_string());
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "a new project", |h| window(h).project() == &new_project());
+    assert_eq!(project_in(&path), project);
+
+    rename(&mut harness, "Lost");
+    open(&mut harness, &path);
+    assert!(says(&harness, document::LEAVE_TITLE), "what was read waits");
+    click(&mut harness, document::DO_NOT_SAVE);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project(), &project);
+    // Undone to what is saved, nothing would be lost.
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(1.0);
+    harness.run_steps(3);
+    assert!(window(&harness).document().is_changed());
+    keys(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert!(!window(&harness).document().is_changed());
+}
+
+#[test]
+fn what_cannot_be_opened_or_saved_is_said_and_nothing_changes() {
+    let folder = tempfile::tempdir().unwrap();
+    let damaged = folder.path().join("damaged.shagreen");
+    std::fs::write(&damaged, b"{\"format\": \"shagreen-project\", \"version\": \"1.0\"").unwrap();
+    let mut harness = author();
+    let project = window(&harness).project().clone();
+    open(&mut harness, &damaged);
+    assert!(says(&harness, "the project is damaged") && says(&harness, "damaged.shagreen"));
+    click(&mut harness, document::CANCEL);
+    open(&mut harness, &folder.path().join("none.shagreen"));
+    assert!(says(&harness, document::CANNOT_READ));
+    click(&mut harness, document::CANCEL);
+    assert_eq!(window(&harness).project(), &project);
+
+    rename(&mut harness, "Oak copy");
+    // A file that is something else stays.
+    let notes = folder.path().join("notes.shagreen");
+    std::fs::write(&notes, "my notes").unwrap();
+    save_as(&mut harness, &notes);
+    wait(&mut harness, "it is refused", |h| says(h, "that is no project, and stays"));
+    assert_eq!(std::fs::read(&notes).unwrap(), b"my notes");
+    write_into(&mut harness, document::SAVE_PATH, &folder.path().join("no/x.shagreen").display().to_string());
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "it cannot be written", |h| says(h, "cannot write the file"));
+    assert!(window(&harness).document().is_changed());
+}
+
+#[test]
+fn a_library_is_opened_by_the_same_sheet_and_by_a_walk_through_folders() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("woods")).unwrap();
+    let path = folder.path().join("woods/mine.json");
+    std::fs::write(&path, starter_bytes()).unwrap();
+    let mut harness = author();
+    open(&mut harness, folder.path());
+    wait(&mut harness, "the folder is read", |h| says(h, "woods/"));
+    click(&mut harness, "woods/");
+    wait(&mut harness, "the folder is read", |h| says(h, "mine.json"));
+    click(&mut harness, "mine.json");
+    wait(&mut harness, "it is open", |h| matches!(window(h).project().library, ProjectLibrary::File(_)));
+    harness.run_steps(2);
+    assert_eq!(window(&harness).session().textures().len(), 25);
+    let file = window(&harness).project().library.clone();
+    keys(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(window(&harness).project(), &new_project(), "it can be undone");
+    keys(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(window(&harness).project().library, file);
+
+    // Beside the project it is known by its name, inside it goes along.
+    let beside = folder.path().join("woods/project.shagreen");
+    save_as(&mut harness, &beside);
+    wait_until_saved(&mut harness);
+    let text = std::fs::read_to_string(&beside).unwrap();
+    assert!(text.contains("\"file\":\"mine.json\"") || text.contains("\"file\": \"mine.json\""), "{text}");
+    menu(&mut harness, document::KEEP_INSIDE);
+    assert!(matches!(window(&harness).project().library, ProjectLibrary::Inside(_)));
+    keys(&mut harness, Modifiers::COMMAND, Key::S);
+    wait_until_saved(&mut harness);
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(project_in(&beside).library, window(&harness).project().library);
+}
+
+#[test]
+fn a_project_that_is_dropped_is_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.shagreen");
+    let mut harness = author();
+    rename(&mut harness, "Oak copy");
+    save_as(&mut harness, &path);
+    wait_until_saved(&mut harness);
+    let project = window(&harness).project().clone();
+    menu(&mut harness, document::NEW);
+    drop_files(&mut harness, &[(&path.display().to_string(), b"")]);
+    wait(&mut harness, "it is open", |h| window(h).project() == &project);
+}
+
+fn keeping(folder: &Path) -> Keeping {
+    Keeping { recovery: Some(folder.join("recovery")), settings: Some(folder.join("settings.json")) }
+}
+
+fn files_in(folder: &Path) -> Vec<PathBuf> {
+    std::fs::read_dir(folder).map_or(Vec::new(), |all| all.map(|entry| entry.unwrap().path()).collect())
+}
+
+/// What a kill at any moment would leave behind is what was done up to [`INTERVAL`] before, and comes back.
+#[test]
+fn work_survives_a_crash() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let kept = || Begin { keeping: keeping(folder.path()), ..begin(new_project()) };
+    let mut harness = author_of(kept(), SIZE);
+    assert!(!says(&harness, document::RECOVERED_TITLE));
+    rename(&mut harness, "Oak copy");
+    let project = window(&harness).project().clone();
+    let has_it =
+        || files_in(&at("recovery")).iter().any(|path| path.extension().is_some_and(|e| e == "shagreen"));
+    let begun = std::time::Instant::now();
+    wait(&mut harness, "it is written", |_| has_it());
+    assert!(begun.elapsed() < 2 * INTERVAL, "{:?}", begun.elapsed());
+    // The files as a kill would leave them; the lock of a program that is gone is free.
+    harness.run_steps(2);
+    std::fs::create_dir(at("crashed")).unwrap();
+    for path in files_in(&at("recovery")) {
+        std::fs::copy(&path, at("crashed").join(path.file_name().unwrap())).unwrap();
+    }
+    drop(harness);
+    assert!(files_in(&at("recovery")).is_empty(), "closed in peace, it leaves nothing");
+    std::fs::remove_dir(at("recovery")).unwrap();
+    std::fs::rename(at("crashed"), at("recovery")).unwrap();
+
+    let mut harness = author_of(kept(), SIZE);
+    assert!(says(&harness, document::RECOVERED_TITLE));
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    click(&mut harness, &document::about(document::RECOVER, document::UNTITLED));
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project(), &project);
+    assert!(window(&harness).document().is_changed(), "no file has it yet");
+    save_as(&mut harness, &at("saved.shagreen"));
+    wait_until_saved(&mut harness);
+    harness.run_steps(3);
+    let left: Vec<PathBuf> = files_in(&at("recovery"))
+        .into_iter()
+        .filter(|path| path.extension().is_none_or(|e| e != "lock"))
+        .collect();
+    assert_eq!(left, Vec::<PathBuf>::new(), "what is saved needs no rescue");
+    drop(harness);
+
+    // The program remembers the project.
+    let mut harness = author_of(kept(), SIZE);
+    click(&mut harness, document::FILE);
+    harness.run_steps(2);
+    click(&mut harness, "saved");
+    wait(&mut harness, "it is open", |h| window(h).project() == &project);
+}
+
+#[test]
+fn what_was_left_can_be_discarded() {
+    let folder = tempfile::tempdir().unwrap();
+    let recovery = folder.path().join("recovery");
+    std::fs::create_dir(&recovery).unwrap();
+    let bytes = shagreen_formats::project::write_project(&new_project(), Path::new(""), "test");
+    std::fs::write(recovery.join("1-1.shagreen"), bytes).unwrap();
+    std::fs::write(recovery.join("1-1.origin"), "/home/me/Woods.shagreen").unwrap();
+    std::fs::write(recovery.join("1-1.lock"), "").unwrap();
+    let mut harness = author_of(Begin { keeping: keeping(folder.path()), ..begin(new_project()) }, SIZE);
+    click(&mut harness, &document::about(document::DISCARD, "Woods"));
+    harness.run_steps(2);
+    assert!(!says(&harness, document::RECOVERED_TITLE));
+    assert!(!recovery.join("1-1.shagreen").exists() && !recovery.join("1-1.lock").exists());
+}
+
+/// A newcomer is led through four places once, and can go through them again.
+#[test]
+fn the_first_steps_are_shown_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let kept = || Begin { keeping: keeping(folder.path()), ..begin(new_project()) };
+    let mut harness = author_of(kept(), SIZE);
+    for (number, step) in Step::ALL.into_iter().enumerate() {
+        let [heading, _] = help::step(step);
+        assert!(says(&harness, heading) && says(&harness, &help::progress(number + 1, 4)), "{heading}");
+        assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+        // It does not stand in the way.
+        let value = 10.0 + 20.0 * number as f64;
+        harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(value);
+        harness.run_steps(3);
+        assert_eq!(window(&harness).project().texture().at.rough_smooth, value);
+        click(&mut harness, if number == 3 { help::DONE } else { help::NEXT });
+        harness.run_steps(2);
+    }
+    let settings = folder.path().join("settings.json");
+    wait(&mut harness, "it is remembered", |_| settings.exists());
+    harness.run_steps(5);
+    drop(harness);
+    let mut harness = author_of(kept(), SIZE);
+    assert!(!says(&harness, help::step(Step::Drag)[0]));
+    click(&mut harness, help::HELP);
+    harness.run_steps(2);
+    click(&mut harness, help::TOUR);
+    harness.run_steps(2);
+    assert!(says(&harness, help::step(Step::Drag)[0]));
+    click(&mut harness, help::SKIP);
+    harness.run_steps(2);
+    assert!(!says(&harness, help::SKIP));
+}
+
+#[test]
+fn the_keys_are_shown_and_each_is_named() {
+    let mut harness = author();
+    harness.key_press(Key::F1);
+    harness.run_steps(3);
+    for command in shagreen_app::command::WITH_KEYS {
+        let label = command.label().expect("every command with a key says what it does");
+        assert!(says(&harness, label), "{label}");
+    }
+    click(&mut harness, help::CLOSE);
+    harness.run_steps(2);
+    assert!(!says(&harness, help::MORE_KEYS[0].1));
+}
+
+#[test]
+fn a_project_of_the_gallery_is_opened_and_heard() {
+    let mut harness = author();
+    menu(&mut harness, gallery::GALLERY);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    for each in GALLERY {
+        assert!(harness.query_by_label(&gallery::open(each.title)).is_some(), "{}", each.title);
+    }
+    click(&mut harness, &gallery::open("Couch fabrics"));
+    harness.run_steps(3);
+    let project = window(&harness).project().clone();
+    assert_eq!((project.authored.len(), project.texture().name.as_str()), (5, "Bouclé"));
+    assert!(!window(&harness).document().is_changed());
+    assert!(window(&harness).session().authored().is_some());
+    rename(&mut harness, "Mine");
+    menu(&mut harness, gallery::GALLERY);
+    click(&mut harness, &gallery::open("Garden"));
+    harness.run_steps(2);
+    assert!(says(&harness, document::LEAVE_TITLE), "what was changed is not lost");
+}

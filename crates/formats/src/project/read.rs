@@ -1,0 +1,272 @@
+//! From bytes to a project.
+
+use std::collections::HashMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sha2::{Digest as _, Sha256};
+use shagreen_core::authoring::{Outside, Weights};
+use shagreen_core::blend::Mode;
+use shagreen_core::drawn_path::DrawnPath;
+use shagreen_core::space::SpacePoint;
+use shagreen_core::texture_path::{Along, AtEnd};
+
+use crate::built_in::BuiltIn;
+use crate::imported::Imported;
+use crate::library::read::{library_inside, picture, place, texture};
+use crate::library::v1::PictureV1;
+use crate::library::{Attributes, LibraryError, TextureEntry, Unknown, attributes, read_library};
+use crate::own_json::{HeaderFault, minor_version};
+use crate::picture::Picture;
+use crate::placed_space::{PlacedSpace, PlacedTexture};
+use crate::project::v1::{
+    AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, ProjectLibraryV1, ProjectV1, UnitsV1,
+};
+use crate::project::write::{OUTSIDES, UNITS, WEIGHTS};
+use crate::project::{
+    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, N_COLORS, Project, ProjectError, ProjectLibrary,
+    VERSION_MAJOR, VERSION_MINOR,
+};
+
+/// Reads a project that lies in `folder`; `read` gives the bytes of another file, where its library is one.
+///
+/// # Errors
+/// See [`ProjectError`]; every number is checked.
+pub fn read_project(
+    bytes: &[u8],
+    folder: &Path,
+    read: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
+) -> Result<Imported<Project>, ProjectError> {
+    let minor = minor_version(bytes, FORMAT, VERSION_MAJOR)?;
+    let mut warnings = Vec::new();
+    if minor > VERSION_MINOR {
+        warnings.push(format!(
+            "the project has version {VERSION_MAJOR}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}: what is new in it is kept but has no effect"
+        ));
+    }
+    let damaged = |error: serde_json::Error| ProjectError::Damaged { reason: error.to_string() };
+    let wire: ProjectV1 = serde_json::from_slice(bytes).map_err(damaged)?;
+    check_units(&wire.units)?;
+    let library = library(wire.library, folder, read, &mut warnings)?;
+    let inside = |source: LibraryError| ProjectError::Library { path: None, source };
+    let joined: Vec<Arc<TextureEntry>> = wire
+        .joined
+        .into_iter()
+        .map(|wire| texture(wire).map(Arc::new))
+        .collect::<Result<_, _>>()
+        .map_err(inside)?;
+    let space = wire.space.map(placed_space).transpose().map_err(inside)?.map(Arc::new);
+    let mut authored: Vec<Arc<AuthoredTexture>> = wire
+        .authored
+        .into_iter()
+        .map(|wire| authored_texture(wire).map(Arc::new))
+        .collect::<Result<_, _>>()?;
+    let snapshots = wire.snapshots.into_iter().map(|wire| authored_texture(wire).map(Arc::new));
+    let snapshots = snapshots.collect::<Result<_, _>>()?;
+    check_keys(&authored)?;
+    if authored.is_empty() {
+        warnings.push(
+            "the project has no authored texture: a new one stands at the middle of the space".to_owned(),
+        );
+        authored.push(Arc::new(AuthoredTexture::new(1, "New texture")));
+    }
+    let selected = wire.selected.min(authored.len() - 1);
+    Ok(Imported {
+        value: Project {
+            notes: wire.notes,
+            library,
+            joined,
+            renamed: wire.renamed,
+            starred: wire.starred,
+            space,
+            axes: wire.axes,
+            authored,
+            selected,
+            solo: wire.solo,
+            snapshots,
+            unknown: wire.unknown,
+        },
+        warnings,
+    })
+}
+
+/// SHA-256 of bytes, in hexadecimal digits.
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+impl From<HeaderFault> for ProjectError {
+    fn from(fault: HeaderFault) -> Self {
+        match fault {
+            HeaderFault::TooDense(reason) | HeaderFault::Damaged(reason) => Self::Damaged { reason },
+            HeaderFault::Format(found) => Self::Format { found },
+            HeaderFault::Version(found) => Self::Version { found },
+            HeaderFault::Major(found) => Self::Major { found },
+        }
+    }
+}
+
+fn check_units(units: &UnitsV1) -> Result<(), ProjectError> {
+    for (found, (quantity, expected)) in [&units.length, &units.time].into_iter().zip(UNITS) {
+        if found != expected {
+            return Err(ProjectError::Unit { quantity, found: found.clone(), expected });
+        }
+    }
+    Ok(())
+}
+
+fn library(
+    wire: ProjectLibraryV1,
+    folder: &Path,
+    read: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
+    warnings: &mut Vec<String>,
+) -> Result<ProjectLibrary, ProjectError> {
+    match wire {
+        ProjectLibraryV1 { built_in: Some(id), .. } => {
+            BuiltIn::from_id(&id).map(ProjectLibrary::BuiltIn).ok_or(ProjectError::BuiltIn { found: id })
+        }
+        ProjectLibraryV1 { inside: Some(wire), .. } => {
+            let imported =
+                library_inside(*wire).map_err(|source| ProjectError::Library { path: None, source })?;
+            warnings.extend(imported.warnings);
+            Ok(ProjectLibrary::Inside(Arc::new(imported.value)))
+        }
+        ProjectLibraryV1 { file: Some(file), sha256: told, .. } => {
+            let path = folder.join(PathBuf::from(file));
+            let file = library_file(path, read, warnings)?;
+            if told.is_some_and(|told| told != file.sha256) {
+                warnings.push(format!(
+                    "the library of the project was changed since the project was saved: {}",
+                    file.path.display()
+                ));
+            }
+            Ok(ProjectLibrary::File(Arc::new(file)))
+        }
+        ProjectLibraryV1 { .. } => Err(ProjectError::NoLibrary),
+    }
+}
+
+/// A library that is a file of its own.
+fn library_file(
+    path: PathBuf,
+    read: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
+    warnings: &mut Vec<String>,
+) -> Result<LibraryFile, ProjectError> {
+    let bytes = match read(&path) {
+        Ok(bytes) => bytes,
+        Err(source) => return Err(ProjectError::LibraryFile { path, source }),
+    };
+    match read_library(&bytes) {
+        Ok(imported) => {
+            warnings.extend(imported.warnings);
+            Ok(LibraryFile { sha256: sha256_hex(&bytes), path, library: imported.value })
+        }
+        Err(source) => Err(ProjectError::Library { path: Some(path), source }),
+    }
+}
+
+fn placed_space(wire: PlacedSpaceV1) -> Result<PlacedSpace, LibraryError> {
+    let mut textures = Vec::with_capacity(wire.textures.len());
+    for texture in wire.textures {
+        // What is not known of places that were worked out here is not kept.
+        let mut unknown = Unknown::default();
+        let place = place(&texture.id, texture.space, &mut unknown)?;
+        let of_wire = |wire| attributes::read(&texture.id, wire, &mut unknown);
+        let attributes: Option<Attributes> = texture.attributes.map(of_wire).transpose()?;
+        textures.push(PlacedTexture { id: texture.id, place, attributes });
+    }
+    Ok(PlacedSpace { textures, axes: attributes::axes(wire.axes)?, report: wire.report })
+}
+
+fn check_keys(authored: &[Arc<AuthoredTexture>]) -> Result<(), ProjectError> {
+    let mut names: HashMap<u32, &str> = HashMap::new();
+    for texture in authored {
+        if let Some(first) = names.insert(texture.key, &texture.name) {
+            return Err(ProjectError::Key {
+                first: first.to_owned(),
+                second: texture.name.clone(),
+                key: texture.key,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, ProjectError> {
+    let name = wire.name;
+    let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
+        .map_err(|source| ProjectError::Place { name: name.clone(), source })?;
+    if wire.color >= N_COLORS {
+        return Err(ProjectError::Number {
+            name,
+            field: "color",
+            value: f64::from(wire.color),
+            needs: "it must be 0 to 7",
+        });
+    }
+    Ok(AuthoredTexture {
+        key: wire.key,
+        color: wire.color,
+        notes: wire.notes,
+        tags: wire.tags,
+        at,
+        blend: blend(&name, wire.blend)?,
+        path: wire.path.map(|wire| drawn_path(&name, wire)).transpose()?,
+        picture: wire.picture.map(|wire| own_picture(&name, wire)).transpose()?,
+        unknown: wire.unknown,
+        name,
+    })
+}
+
+fn blend(name: &str, wire: BlendV1) -> Result<BlendChoice, ProjectError> {
+    let word =
+        |field, found: String, expected| ProjectError::Word { name: name.to_owned(), field, found, expected };
+    let mode = Mode::from_id(&wire.mode)
+        .ok_or_else(|| word("blend mode", wire.mode, "field, parametric, shared, power or paper"))?;
+    let weights: Weights = of_word(WEIGHTS, &wire.weights)
+        .ok_or_else(|| word("blend weights", wire.weights, "barycentric or natural"))?;
+    let outside: Outside = of_word(OUTSIDES, &wire.outside)
+        .ok_or_else(|| word("blend outside", wire.outside, "clamped or extrapolated"))?;
+    Ok(BlendChoice { mode, weights, outside, locked: wire.locked })
+}
+
+fn of_word<T: Copy>(words: [(T, &str); 2], found: &str) -> Option<T> {
+    words.into_iter().find(|(_, word)| *word == found).map(|(value, _)| value)
+}
+
+fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<DrawnPath, ProjectError> {
+    let word = |field, found: &str, expected| ProjectError::Word {
+        name: name.to_owned(),
+        field,
+        found: found.to_owned(),
+        expected,
+    };
+    let along =
+        Along::from_id(&wire.along).ok_or_else(|| word("path along", &wire.along, "distance or time"))?;
+    let at_end = AtEnd::from_id(&wire.at_end)
+        .ok_or_else(|| word("path at_end", &wire.at_end, "hold, turn or repeat"))?;
+    for (field, value) in [("length_mm", wire.length_mm), ("length_s", wire.length_s)] {
+        // Compared so that what is no number is refused too.
+        if !(value > 0.0 && value.is_finite()) {
+            let name = name.to_owned();
+            return Err(ProjectError::Number { name, field, value, needs: "it must be above zero" });
+        }
+    }
+    let point = |[rs, hs]: [f64; 2]| {
+        SpacePoint::new(rs, hs).map_err(|source| ProjectError::Place { name: name.to_owned(), source })
+    };
+    Ok(DrawnPath {
+        points: wire.points.into_iter().map(point).collect::<Result<_, _>>()?,
+        along,
+        length_m: wire.length_mm / 1e3,
+        length_secs: wire.length_s,
+        at_end,
+    })
+}
+
+fn own_picture(name: &str, wire: PictureV1) -> Result<Arc<Picture>, ProjectError> {
+    picture(name, wire, &mut Unknown::default())
+        .map(Arc::new)
+        .map_err(|source| ProjectError::Library { path: None, source })
+}

@@ -1,0 +1,210 @@
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+use shagreen_core::authoring::{Outside, Weights};
+use shagreen_core::blend::Mode;
+use shagreen_core::drawn_path::DrawnPath;
+use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::texture_path::{Along, AtEnd};
+
+use super::{
+    AuthoredTexture, BlendChoice, LibraryFile, Project, ProjectError, ProjectLibrary, read_project,
+    sha256_hex, write_project,
+};
+use crate::built_in::BuiltIn;
+use crate::library::{Attribute, Attributes, Place, read_library, write_library};
+use crate::placed_space::{PlacedSpace, PlacedTexture};
+use crate::starter::{starter_bytes, starter_library};
+
+const BY: &str = "shagreen test";
+
+fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
+    SpacePoint { rough_smooth, hard_soft }
+}
+
+fn nothing(_: &Path) -> io::Result<Vec<u8>> {
+    Err(io::ErrorKind::NotFound.into())
+}
+
+/// A project that uses everything.
+fn full() -> Project {
+    let library = starter_library().unwrap();
+    let path = DrawnPath {
+        points: vec![at(1.0 / 3.0, 2.0), at(50.0, 60.25)],
+        along: Along::Time,
+        length_m: 0.123,
+        length_secs: 2.5,
+        at_end: AtEnd::Repeat,
+    };
+    let blend = BlendChoice {
+        mode: Mode::Parametric,
+        weights: Weights::Natural,
+        outside: Outside::Extrapolated,
+        locked: BTreeSet::from(["cork".to_owned()]),
+    };
+    let oak = AuthoredTexture {
+        color: 5,
+        notes: "line one\nline two".to_owned(),
+        tags: vec!["wood".to_owned()],
+        at: at(100.0 / 7.0, 33.3),
+        blend,
+        path: Some(path),
+        picture: library.textures[3].picture.clone().map(Arc::new),
+        ..AuthoredTexture::new(7, "Oak \"copy\"")
+    };
+    let values = vec![Attribute { name: "warm-cold".to_owned(), value: 12.5 }];
+    let placed = |id: &str| PlacedTexture {
+        id: id.to_owned(),
+        place: Place { at: at(10.5, 20.25), source: LabelSource::SimulatedRaters },
+        attributes: Some(Attributes { source: LabelSource::SimulatedRaters, values: values.clone() }),
+    };
+    let space = PlacedSpace {
+        textures: vec![placed("cork"), placed("felt")],
+        axes: Some(["warm-cold".to_owned(), "flat-bumpy".to_owned()]),
+        report: json!({"stress": [0.1, 0.05]}),
+    };
+    let mut project = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Simulated), "New texture");
+    project.authored.push(Arc::new(oak.clone()));
+    project.snapshots.push(Arc::new(oak));
+    project.joined.push(Arc::new(library.textures[2].clone()));
+    project.renamed.insert("cork".to_owned(), "Cork, sanded".to_owned());
+    project.starred.insert("felt".to_owned());
+    project.notes = "für später".to_owned();
+    (project.selected, project.solo) = (1, Some("cork".to_owned()));
+    (project.space, project.axes) = (Some(Arc::new(space)), Some(["a-b".to_owned(), "c-d".to_owned()]));
+    project
+}
+
+fn back(project: &Project) -> Project {
+    let bytes = write_project(project, Path::new("/work"), BY);
+    let read = read_project(&bytes, Path::new("/work"), &nothing).unwrap();
+    assert_eq!(read.warnings, Vec::<String>::new());
+    assert_eq!(write_project(&read.value, Path::new("/work"), BY), bytes);
+    read.value
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    for project in [Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "New texture"), full()] {
+        assert_eq!(back(&project), project);
+    }
+    let mut inside = full();
+    inside.library = ProjectLibrary::Inside(Arc::new(starter_library().unwrap()));
+    assert_eq!(back(&inside), inside);
+}
+
+/// A project and the library in its folder may be moved together; what changed meanwhile is told.
+#[test]
+fn a_library_beside_the_project_is_found_where_both_went() {
+    let bytes = write_library(&starter_library().unwrap());
+    let file = LibraryFile {
+        path: PathBuf::from("/home/me/work/libraries/woods.json"),
+        sha256: sha256_hex(&bytes),
+        library: read_library(&bytes).unwrap().value,
+    };
+    let project = Project::new(ProjectLibrary::File(Arc::new(file)), "New texture");
+    let written = write_project(&project, Path::new("/home/me/work"), BY);
+    let other = Path::new("/elsewhere");
+    let read_there = |path: &Path| {
+        if path == Path::new("/elsewhere/libraries/woods.json") { Ok(bytes.clone()) } else { nothing(path) }
+    };
+    let moved = read_project(&written, other, &read_there).unwrap();
+    assert!(moved.warnings.is_empty());
+    let ProjectLibrary::File(found) = &moved.value.library else { panic!("a file") };
+    assert_eq!(found.library, starter_library().unwrap());
+    // Written where it is not below, it says where it is.
+    let far = write_project(&project, Path::new("/home/you"), BY);
+    let wire: Value = serde_json::from_slice(&far).unwrap();
+    assert_eq!(wire["library"]["file"], "/home/me/work/libraries/woods.json");
+    // Another library under the same name is told.
+    let mut changed = starter_library().unwrap();
+    changed.textures.truncate(3);
+    let changed = write_library(&changed);
+    let read = read_project(&written, other, &|_| Ok(changed.clone())).unwrap();
+    assert!(read.warnings[0].contains("was changed since"), "{:?}", read.warnings);
+    let missing = read_project(&written, other, &nothing).unwrap_err().to_string();
+    assert!(missing.contains("put it back") && missing.contains("woods.json"), "{missing}");
+    let none = read_project(&written, other, &|_| Ok(b"{}".to_vec())).unwrap_err().to_string();
+    assert!(none.contains("not a texture library") && none.contains("woods.json"), "{none}");
+}
+
+fn changed(change: impl FnOnce(&mut Value)) -> Result<(Project, Vec<String>), ProjectError> {
+    let mut wire: Value = serde_json::from_slice(&write_project(&full(), Path::new("/"), BY)).unwrap();
+    change(&mut wire);
+    let read = read_project(&serde_json::to_vec(&wire).unwrap(), Path::new("/"), &nothing)?;
+    Ok((read.value, read.warnings))
+}
+
+#[test]
+fn each_fault_is_named() {
+    let faults: [(&str, fn(&mut Value)); 17] = [
+        ("not a project", |wire| wire["format"] = json!("shagreen-library")),
+        ("version 2.0", |wire| wire["version"] = json!("2.0")),
+        ("version \"one\"", |wire| wire["version"] = json!("one")),
+        ("length in inch", |wire| wire["units"]["length"] = json!("inch")),
+        ("missing field `authored`", |wire| drop(wire.as_object_mut().unwrap().remove("authored"))),
+        ("library \"other\"", |wire| wire["library"] = json!({"built_in": "other"})),
+        ("one of \"built_in\"", |wire| wire["library"] = json!({})),
+        ("cannot be read", |wire| wire["library"] = json!({"file": "none.json"})),
+        ("no valid place", |wire| wire["authored"][1]["rough_smooth"] = json!(101)),
+        ("no valid place", |wire| wire["authored"][1]["path"]["points"][0] = json!([0, -1])),
+        ("blend mode \"x\"", |wire| wire["authored"][1]["blend"]["mode"] = json!("x")),
+        ("weights \"x\"", |wire| wire["authored"][1]["blend"]["weights"] = json!("x")),
+        ("outside \"x\"", |wire| wire["authored"][1]["blend"]["outside"] = json!("x")),
+        ("color 8", |wire| wire["authored"][0]["color"] = json!(8)),
+        ("same key 7", |wire| wire["authored"][0]["key"] = json!(7)),
+        ("length_mm 0", |wire| wire["authored"][1]["path"]["length_mm"] = json!(0)),
+        ("picture", |wire| wire["snapshots"][0]["picture"]["media_type"] = json!("image/gif")),
+    ];
+    for (words, change) in faults {
+        let error = changed(change).unwrap_err().to_string();
+        assert!(error.contains(words), "{words}: {error}");
+    }
+    for cut in [0, 1, 20, 400] {
+        let bytes = write_project(&full(), Path::new("/"), BY);
+        assert!(read_project(&bytes[..cut], Path::new("/"), &nothing).is_err());
+    }
+    let of_library = read_project(starter_bytes(), Path::new("/"), &nothing).unwrap_err();
+    assert!(of_library.to_string().contains("not a project"), "{of_library}");
+}
+
+#[test]
+fn what_a_newer_program_wrote_is_kept() {
+    let (project, warnings) = changed(|wire| {
+        wire["version"] = json!("1.9");
+        wire["moods"] = json!(["calm"]);
+        wire["authored"][1]["mood"] = json!("calm");
+    })
+    .unwrap();
+    assert!(warnings[0].contains("newer than 1.0"), "{warnings:?}");
+    let wire: Value = serde_json::from_slice(&write_project(&project, Path::new("/"), BY)).unwrap();
+    assert_eq!((&wire["moods"][0], &wire["authored"][1]["mood"]), (&json!("calm"), &json!("calm")));
+}
+
+#[test]
+fn a_project_without_anything_has_something_to_begin_with() {
+    let (project, warnings) = changed(|wire| wire["authored"] = json!([])).unwrap();
+    assert_eq!((project.authored.len(), project.selected), (1, 0));
+    assert!(warnings[0].contains("no authored texture"), "{warnings:?}");
+    let (project, _) = changed(|wire| wire["selected"] = json!(99)).unwrap();
+    assert_eq!(project.selected, 1);
+}
+
+#[test]
+fn what_is_heard_is_what_the_mode_can_do() {
+    let choice = full().authored[1].blend.clone();
+    let index_of = |id: &str| (id == "cork").then_some(4);
+    for mode in Mode::ALL {
+        let blending = BlendChoice { mode, ..choice.clone() }.blending(index_of);
+        assert_eq!((blending.check(), blending.mode), (Ok(()), mode));
+        assert_eq!(blending.weights == Weights::Natural, mode == Mode::Parametric);
+        assert_eq!(blending.locked == [4], mode == Mode::Field);
+    }
+    let field = BlendChoice { mode: Mode::Field, ..choice };
+    assert!(field.is_locked("cork") && !field.is_locked("felt"));
+    assert!(!BlendChoice { mode: Mode::Paper, ..field.clone() }.is_locked("cork"));
+    assert!(field.blending(|_| None).locked.is_empty());
+}

@@ -1,0 +1,116 @@
+//! The wire format of a project, version 1.0.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::library::v1::{AttributesV1, LibraryV1, PictureV1, SpaceV1, TextureV1};
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct ProjectV1 {
+    pub(super) format: String,
+    pub(super) version: String,
+    pub(super) units: UnitsV1,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) created_by: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) notes: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) axes: Option<[String; 2]>,
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(super) renamed: BTreeMap<String, String>,
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub(super) starred: BTreeSet<String>,
+    #[serde(default)]
+    pub(super) selected: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) solo: Option<String>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+    pub(super) authored: Vec<AuthoredV1>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) snapshots: Vec<AuthoredV1>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) space: Option<PlacedSpaceV1>,
+    // The long parts last, so that what somebody made stands before what it is made of.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) joined: Vec<TextureV1>,
+    pub(super) library: ProjectLibraryV1,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct UnitsV1 {
+    pub(super) length: String,
+    pub(super) time: String,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+/// One of the three.
+#[derive(Default, Serialize, Deserialize)]
+pub(super) struct ProjectLibraryV1 {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) built_in: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) file: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) sha256: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) inside: Option<Box<LibraryV1>>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct AuthoredV1 {
+    pub(super) key: u32,
+    pub(super) name: String,
+    #[serde(default)]
+    pub(super) color: u8,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) notes: String,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) tags: Vec<String>,
+    pub(super) rough_smooth: f64,
+    pub(super) hard_soft: f64,
+    pub(super) blend: BlendV1,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) path: Option<DrawnPathV1>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) picture: Option<PictureV1>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct BlendV1 {
+    pub(super) mode: String,
+    pub(super) weights: String,
+    pub(super) outside: String,
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub(super) locked: BTreeSet<String>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct DrawnPathV1 {
+    pub(super) along: String,
+    pub(super) at_end: String,
+    pub(super) length_mm: f64,
+    pub(super) length_s: f64,
+    pub(super) points: Vec<[f64; 2]>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct PlacedSpaceV1 {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) axes: Option<Vec<String>>,
+    pub(super) textures: Vec<PlacedTextureV1>,
+    pub(super) report: Value,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct PlacedTextureV1 {
+    pub(super) id: String,
+    pub(super) space: SpaceV1,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) attributes: Option<AttributesV1>,
+}
