@@ -107,6 +107,13 @@ impl Display {
         self.xdotool(&["mousemove", "1278", "470"]);
     }
 
+    /// Presses keys in the window: without a window manager nobody gives it the keyboard.
+    fn key(&self, keys: &str) {
+        self.xdotool(&["search", "--name", "^Shagreen$", "windowfocus"]);
+        std::thread::sleep(PAUSE);
+        self.xdotool(&["key", keys]);
+    }
+
     fn click(&self, at: (u32, u32)) {
         self.xdotool(&["mousemove", &at.0.to_string(), &at.1.to_string()]);
         std::thread::sleep(PAUSE);
@@ -212,7 +219,7 @@ fn a_killed_program_gives_back_what_was_not_saved() {
     let saved_at = (from.0 - 120, from.1 - 40);
     display.drag(from, saved_at);
     display.wait_for("project-dragged", "the point follows", near(saved_at));
-    display.xdotool(&["key", "ctrl+s"]);
+    display.key("ctrl+s");
     let (saved, _) = wait_until("it is saved", || place_in(&path).filter(|at| (at - 50.0).abs() > 5.0));
 
     let last = (from.0 + 120, from.1 - 20);
@@ -234,9 +241,9 @@ fn a_killed_program_gives_back_what_was_not_saved() {
     // The sheet lies over the canvas; its first button has the keyboard.
     std::thread::sleep(Duration::from_secs(4));
     display.shot("project-recovery");
-    display.xdotool(&["key", "Return"]);
+    display.key("Return");
     display.wait_for("project-recovered", "the point is where it was", near(last));
-    display.xdotool(&["key", "ctrl+s"]);
+    display.key("ctrl+s");
     wait_until("it is saved", || place_in(&path).filter(|at| (at - kept).abs() < 1e-9));
 }
 

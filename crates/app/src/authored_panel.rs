@@ -36,8 +36,8 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             }
         });
     });
-    ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().id_salt("authored").max_height(LIST_HEIGHT).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
         for (index, texture) in panel.project.authored.iter().enumerate() {
             commands.extend(row(ui, panel, texture, index == panel.project.selected));
         }

@@ -52,10 +52,10 @@ impl View {
     }
 
     /// The nearest view that shows all of these points with some room; the whole space where there are none.
-    pub fn around(points: impl Iterator<Item = SpacePoint> + Clone) -> Self {
+    pub fn around(points: &[SpacePoint]) -> Self {
         let range = |of: fn(&SpacePoint) -> f64| {
-            let low = points.clone().map(|p| of(&p)).fold(f64::INFINITY, f64::min);
-            let high = points.clone().map(|p| of(&p)).fold(f64::NEG_INFINITY, f64::max);
+            let low = points.iter().map(of).fold(f64::INFINITY, f64::min);
+            let high = points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
             (low, high)
         };
         let (across, up) = (range(|p| p.rough_smooth), range(|p| p.hard_soft));
@@ -167,10 +167,10 @@ mod tests {
     #[test]
     fn a_view_fits_points() {
         let points = [at(40.0, 10.0), at(60.0, 20.0)];
-        let view = View::around(points.into_iter());
+        let view = View::around(&points);
         assert!((view.zoom() - 100.0 / 24.0).abs() < 1e-9);
         assert!(points.iter().all(|p| axes(view).rect.contains(axes(view).ui_from_space(*p))));
-        assert_eq!(View::around(std::iter::empty()), View::default());
-        assert!((View::around(std::iter::once(at(0.0, 100.0))).zoom() - MAX_ZOOM).abs() < 1e-9);
+        assert_eq!(View::around(&[]), View::default());
+        assert!((View::around(&[at(0.0, 100.0)]).zoom() - MAX_ZOOM).abs() < 1e-9);
     }
 }

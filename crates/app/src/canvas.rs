@@ -4,6 +4,7 @@ mod foot;
 mod map;
 mod path_tool;
 mod site_labels;
+mod tool_bar;
 mod view;
 
 use egui::{
@@ -19,9 +20,10 @@ use self::foot::foot_ui;
 pub use self::map::ShownMap;
 use self::map::{map_ui, scale_ui};
 pub use self::path_tool::PathTool;
-use self::path_tool::{added, path_bar, path_line, path_marker, path_points};
+use self::path_tool::{added, path_line, path_marker, path_points};
 use self::site_labels::{Around, site_labels};
-use self::view::{follow_view, view_buttons};
+use self::tool_bar::tool_bar;
+use self::view::follow_view;
 use crate::authored_panel::authored_menu;
 use crate::axes::{Axes, View};
 use crate::command::Command;
@@ -105,13 +107,12 @@ pub fn canvas_ui(
     path_marker(ui, axes, panel, t);
     ui.set_clip_rect(seen);
     let width = source.left() - outer.left() - 44.0;
-    commands.extend(path_bar(ui, outer, width, panel, tool, map, t));
+    let bar = tool_bar(ui, axes, outer, width, panel, tool, map, t);
+    commands.extend(bar.commands);
+    state.view = bar.view.unwrap_or(state.view);
     foot_ui(ui, axes, panel, t);
     if let Some(map) = map {
         scale_ui(ui, axes, map, t);
-    }
-    if let Some(view) = view_buttons(ui, axes, panel) {
-        state.view = view;
     }
     commands
 }

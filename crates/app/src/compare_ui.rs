@@ -14,12 +14,13 @@ pub(crate) fn compare_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let compare = panel.compare;
     let mut asked = Vec::new();
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().button_padding.x = 6.0;
         let help = if compare.is_possible() { words::HELP } else { words::NEEDS_TWO };
         ui.add(Label::new(words::HEADING).selectable(false)).on_hover_text(help);
         for side in Side::ALL {
             let button =
-                Button::selectable(compare.heard() == Some(side), side.letter()).min_size(vec2(24.0, 0.0));
+                Button::selectable(compare.heard() == Some(side), side.letter()).min_size(vec2(22.0, 0.0));
             let response = ui.add_enabled(compare.is_possible(), button);
             let response = response.accessible_name(words::hear(side.letter()));
             let on = panel.project.authored.iter().find(|texture| compare.side_of(texture.key) == Some(side));

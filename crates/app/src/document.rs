@@ -26,8 +26,15 @@ pub struct Document {
     is_changed: bool,
     /// The state of the project that `is_changed` was worked out for.
     revision: Option<u64>,
-    saving: Option<(Receiver<Result<(), String>>, Box<Project>, PathBuf)>,
+    saving: Option<Saving>,
     opening: Option<(Receiver<Result<Read, String>>, PathBuf)>,
+}
+
+/// A file that is being written: with what, and where.
+struct Saving {
+    outcome: Receiver<Result<(), String>>,
+    project: Project,
+    path: PathBuf,
 }
 
 /// What a file held.
@@ -110,7 +117,8 @@ impl Document {
             atomic::write(&to, &write_project(&content, &folder, CREATED_BY))
                 .map_err(|error| error.to_string())
         };
-        self.saving = Some((in_background(ctx.clone(), work), Box::new(project.clone()), path));
+        let outcome = in_background(ctx.clone(), work);
+        self.saving = Some(Saving { outcome, project: project.clone(), path });
     }
 
     /// Reads what is at `path` in a thread of its own.
@@ -122,25 +130,27 @@ impl Document {
 
     /// Takes in what the threads have done.
     pub(crate) fn collect(&mut self) -> Option<Came> {
-        if let Some((receiver, ..)) = &self.saving {
-            let outcome = match receiver.try_recv() {
-                Err(TryRecvError::Empty) => None,
-                Err(TryRecvError::Disconnected) => Some(Err(strings::BROKE_OFF.to_owned())),
-                Ok(outcome) => Some(outcome),
-            };
-            if let (Some(outcome), Some((_, project, path))) =
-                (&outcome, self.saving.take_if(|_| outcome.is_some()))
-            {
-                return Some(match outcome {
-                    Ok(()) => {
-                        (self.on_disk, self.revision) = (Some(*project), None);
-                        self.path = Some(path.clone());
-                        Came::Saved(path)
-                    }
-                    Err(reason) => Came::NotSaved(reason.clone()),
-                });
+        self.collect_saved().or_else(|| self.collect_opened())
+    }
+
+    fn collect_saved(&mut self) -> Option<Came> {
+        let outcome = match self.saving.as_ref()?.outcome.try_recv() {
+            Err(TryRecvError::Empty) => return None,
+            Err(TryRecvError::Disconnected) => Err(strings::BROKE_OFF.to_owned()),
+            Ok(outcome) => outcome,
+        };
+        let Saving { project, path, .. } = self.saving.take()?;
+        Some(match outcome {
+            Ok(()) => {
+                (self.on_disk, self.revision) = (Some(project), None);
+                self.path = Some(path.clone());
+                Came::Saved(path)
             }
-        }
+            Err(reason) => Came::NotSaved(reason),
+        })
+    }
+
+    fn collect_opened(&mut self) -> Option<Came> {
         let (receiver, _) = self.opening.as_ref()?;
         let outcome = match receiver.try_recv() {
             Err(TryRecvError::Empty) => return None,

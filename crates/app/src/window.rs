@@ -354,8 +354,8 @@ impl Window {
     /// A gesture lasts while a button or key is held or a text field has the keyboard, and for the frame after.
     fn next_gesture(&mut self, ctx: &egui::Context) {
         // A visit of a text field is one gesture, however many keys it takes.
-        let is_writing = ctx.memory(|memory| memory.focused()) == self.writing && ctx.text_edit_focused();
-        self.writing = ctx.memory(|memory| memory.focused());
+        let is_writing = ctx.memory(egui::Memory::focused) == self.writing && ctx.text_edit_focused();
+        self.writing = ctx.memory(egui::Memory::focused);
         let holding = is_writing || ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty());
         if !holding && !self.was_holding {
             self.gesture += 1;

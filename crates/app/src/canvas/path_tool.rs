@@ -2,20 +2,19 @@
 
 use egui::{
     Align2, Button, ComboBox, CursorIcon, DragValue, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape,
-    Stroke, Ui, WidgetInfo, pos2, vec2,
+    Stroke, Ui, WidgetInfo, vec2,
 };
+use shagreen_core::drawn_path::{DrawnPath, LEAST_STEP};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd, MAX_KEYS};
 
 use crate::axes::Axes;
-use crate::canvas::map::{ShownMap, map_choice_ui};
 use crate::command::Command;
 use crate::drag::dragged_to;
 use crate::edit::{Edit, PathChange};
 use crate::panel::Panel;
 use crate::strings::path as strings;
-use crate::theme::{RADIUS, Tokens};
-use shagreen_core::drawn_path::{DrawnPath, LEAST_STEP};
+use crate::theme::Tokens;
 
 /// Half the side of what can be grabbed of a point of the path, in points of the screen.
 const GRAB: f32 = 8.0;
@@ -166,39 +165,8 @@ pub(super) fn path_points(
     commands
 }
 
-/// The row of controls at the top of the canvas, no wider than `width`: the map behind it, and the path.
-pub(super) fn path_bar(
-    ui: &mut Ui,
-    outer: Rect,
-    width: f32,
-    panel: &Panel<'_>,
-    tool: &PathTool,
-    map: Option<&ShownMap>,
-    t: &Tokens,
-) -> Vec<Command> {
-    let mut commands = Vec::new();
-    let area = Rect::from_min_size(pos2(outer.left() + 32.0, outer.top() + 3.0), vec2(width, 24.0));
-    let mut row = ui.new_child(egui::UiBuilder::new().max_rect(area));
-    let shape = row.painter().add(Shape::Noop);
-    row.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
-        ui.spacing_mut().button_padding = vec2(7.0, 2.0);
-        ui.spacing_mut().interact_size.y = 22.0;
-        commands.extend(map_choice_ui(ui, map));
-        let button = Button::new(strings::PATH).selected(tool.is_on);
-        if ui.add(button).on_hover_text(strings::PATH_HELP).clicked() {
-            commands.push(Command::TogglePathTool);
-        }
-        if let Some(path) = &panel.project.texture().path {
-            commands.extend(settings_ui(ui, panel, path));
-        }
-    });
-    let back = row.min_rect();
-    row.painter().set(shape, Shape::rect_filled(back, f32::from(RADIUS), t.background.gamma_multiply(0.85)));
-    commands
-}
-
-fn settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath) -> Vec<Command> {
+/// What can be set of a path, and what can be done with it.
+pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath) -> Vec<Command> {
     let mut commands = Vec::new();
     let is_playing = panel.session.is_path_playing();
     let can_play = path.route().is_some();

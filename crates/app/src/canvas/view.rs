@@ -1,6 +1,7 @@
 //! Coming nearer, going around and seeing everything.
 
-use egui::{Button, PointerButton, Rect, Response, Ui, vec2};
+use egui::{Button, PointerButton, Response, Ui};
+use shagreen_core::space::SpacePoint;
 
 use crate::axes::{Axes, View};
 use crate::panel::Panel;
@@ -28,36 +29,28 @@ pub(super) fn follow_view(ui: &Ui, axes: Axes, background: &Response) -> View {
     view
 }
 
-/// The buttons of the view, at the lower left of the canvas; returns the view that was asked for.
+/// The buttons of the view; returns the view that was asked for.
 pub(super) fn view_buttons(ui: &mut Ui, axes: Axes, panel: &Panel<'_>) -> Option<View> {
-    let corner = axes.rect.left_bottom() + vec2(4.0, -26.0);
-    let mut row =
-        ui.new_child(egui::UiBuilder::new().max_rect(Rect::from_min_size(corner, vec2(150.0, 22.0))));
     let mut asked = None;
-    row.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        ui.spacing_mut().button_padding = vec2(6.0, 1.0);
-        ui.spacing_mut().interact_size.y = 20.0;
-        let middle = axes.space_from_ui(axes.rect.center());
-        let is_whole = axes.view == View::default();
-        for (sign, name, view, can) in [
-            ("+", strings::NEARER, axes.view.zoomed(STEP, middle), true),
-            ("−", strings::FARTHER, axes.view.zoomed(1.0 / STEP, middle), !is_whole),
-        ] {
-            let button = ui.add_enabled(can, Button::new(sign)).accessible_name(name);
-            if button.on_hover_text(format!("{name}\n{}", strings::HELP)).clicked() {
-                asked = Some(view);
-            }
-        }
-        let sites = panel.session.space().sites().iter().map(|(_, at)| *at);
-        let fit = View::around(sites);
-        // What is fitted already shows everything next.
-        let (name, view) =
-            if axes.view == fit && !is_whole { (strings::ALL, View::default()) } else { (strings::FIT, fit) };
-        if ui.button(name).on_hover_text(strings::HELP).clicked() {
+    let middle = axes.space_from_ui(axes.rect.center());
+    let is_whole = axes.view == View::default();
+    for (sign, name, view, can) in [
+        ("−", strings::FARTHER, axes.view.zoomed(1.0 / STEP, middle), !is_whole),
+        ("+", strings::NEARER, axes.view.zoomed(STEP, middle), true),
+    ] {
+        let button = ui.add_enabled(can, Button::new(sign)).accessible_name(name);
+        if button.on_hover_text(format!("{name}\n{}", strings::HELP)).clicked() {
             asked = Some(view);
         }
-    });
+    }
+    let sites: Vec<SpacePoint> = panel.session.space().sites().iter().map(|(_, at)| *at).collect();
+    let fit = View::around(&sites);
+    // What is fitted already shows everything next.
+    let (name, view) =
+        if axes.view == fit && !is_whole { (strings::ALL, View::default()) } else { (strings::FIT, fit) };
+    if ui.button(name).on_hover_text(strings::HELP).clicked() {
+        asked = Some(view);
+    }
     asked
 }
 

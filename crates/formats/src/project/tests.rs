@@ -138,9 +138,12 @@ fn changed(change: impl FnOnce(&mut Value)) -> Result<(Project, Vec<String>), Pr
     Ok((read.value, read.warnings))
 }
 
+/// Words of an error, and what brings it about.
+type Fault = (&'static str, fn(&mut Value));
+
 #[test]
 fn each_fault_is_named() {
-    let faults: [(&str, fn(&mut Value)); 17] = [
+    let faults: [Fault; 17] = [
         ("not a project", |wire| wire["format"] = json!("shagreen-library")),
         ("version 2.0", |wire| wire["version"] = json!("2.0")),
         ("version \"one\"", |wire| wire["version"] = json!("one")),

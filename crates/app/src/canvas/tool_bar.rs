@@ -1,0 +1,56 @@
+//! The row of controls at the top of the canvas.
+
+use egui::{Button, Rect, Shape, Ui, pos2, vec2};
+
+use crate::axes::{Axes, View};
+use crate::canvas::map::{ShownMap, map_choice_ui};
+use crate::canvas::path_tool::{PathTool, path_settings_ui};
+use crate::canvas::view::view_buttons;
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::strings::path as strings;
+use crate::theme::{RADIUS, Tokens};
+
+/// What came of the row of controls.
+pub(super) struct BarOutcome {
+    /// What the user asked for.
+    pub(super) commands: Vec<Command>,
+    /// The view that was asked for.
+    pub(super) view: Option<View>,
+}
+
+/// The row of controls at the top of the canvas, no wider than `width`: the map behind it, the view, and the path.
+#[expect(clippy::too_many_arguments, reason = "what a row of controls looks at")]
+pub(super) fn tool_bar(
+    ui: &mut Ui,
+    axes: Axes,
+    outer: Rect,
+    width: f32,
+    panel: &Panel<'_>,
+    tool: &PathTool,
+    map: Option<&ShownMap>,
+    t: &Tokens,
+) -> BarOutcome {
+    let mut commands = Vec::new();
+    let mut view = None;
+    let area = Rect::from_min_size(pos2(outer.left() + 32.0, outer.top() + 3.0), vec2(width, 24.0));
+    let mut row = ui.new_child(egui::UiBuilder::new().max_rect(area));
+    let shape = row.painter().add(Shape::Noop);
+    row.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+        ui.spacing_mut().button_padding = vec2(7.0, 2.0);
+        ui.spacing_mut().interact_size.y = 22.0;
+        commands.extend(map_choice_ui(ui, map));
+        view = view_buttons(ui, axes, panel);
+        let button = Button::new(strings::PATH).selected(tool.is_on);
+        if ui.add(button).on_hover_text(strings::PATH_HELP).clicked() {
+            commands.push(Command::TogglePathTool);
+        }
+        if let Some(path) = &panel.project.texture().path {
+            commands.extend(path_settings_ui(ui, panel, path));
+        }
+    });
+    let back = row.min_rect();
+    row.painter().set(shape, Shape::rect_filled(back, f32::from(RADIUS), t.background.gamma_multiply(0.85)));
+    BarOutcome { commands, view }
+}
