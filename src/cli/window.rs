@@ -64,7 +64,8 @@ fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<PathBuf>)> {
     match read_file(path)? {
         Read::Project(imported) => {
             warn_of(&imported.warnings, path);
-            Ok((imported.value, Some(path.to_owned())))
+            // Remembered so that it is found from every folder.
+            Ok((imported.value, Some(std::path::absolute(path)?)))
         }
         Read::Library(imported) => {
             warn_of(&imported.warnings, path);

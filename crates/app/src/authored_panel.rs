@@ -16,6 +16,8 @@ use crate::theme::{RADIUS, tokens};
 const ROW: f32 = 22.0;
 /// Height of the list at most, in points.
 const LIST_HEIGHT: f32 = 5.0 * ROW;
+/// Share of the column that it takes at most.
+const LIST_SHARE: f32 = 0.21;
 /// How far beside the first a copy lies, in points of the axes.
 const BESIDE: f64 = 4.0;
 
@@ -36,7 +38,8 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             }
         });
     });
-    ScrollArea::vertical().id_salt("authored").max_height(LIST_HEIGHT).show(ui, |ui| {
+    let height = LIST_HEIGHT.min(LIST_SHARE * ui.available_height());
+    ScrollArea::vertical().id_salt("authored").max_height(height).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         for (index, texture) in panel.project.authored.iter().enumerate() {
             commands.extend(row(ui, panel, texture, index == panel.project.selected));

@@ -18,7 +18,7 @@ use shagreen_formats::project::AuthoredTexture;
 
 use self::foot::foot_ui;
 pub use self::map::ShownMap;
-use self::map::{map_ui, scale_ui};
+use self::map::map_ui;
 pub use self::path_tool::PathTool;
 use self::path_tool::{added, path_line, path_marker, path_points};
 use self::site_labels::{Around, site_labels};
@@ -111,9 +111,6 @@ pub fn canvas_ui(
     commands.extend(bar.commands);
     state.view = bar.view.unwrap_or(state.view);
     foot_ui(ui, axes, panel, t);
-    if let Some(map) = map {
-        scale_ui(ui, axes, map, t);
-    }
     commands
 }
 

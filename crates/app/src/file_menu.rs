@@ -58,8 +58,9 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         let open = files.document.path();
         let recent =
             files.settings.recent.iter().filter(|path| Some(path.as_path()) != open).take(MOST_RECENT);
-        for (index, path) in recent.enumerate() {
-            if index == 0 {
+        let mut has_recent = false;
+        for path in recent {
+            if !std::mem::replace(&mut has_recent, true) {
                 ui.add(
                     Label::new(RichText::new(strings::RECENT).small().color(t.text_weak)).selectable(false),
                 );
@@ -69,7 +70,9 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
                 commands.push(Command::File(FileCommand::Open(path.clone())));
             }
         }
-        ui.separator();
+        if has_recent {
+            ui.separator();
+        }
         commands.extend(entry(ui, strings::QUIT, &Command::File(FileCommand::Quit)).asked);
     });
     let area = menu.response.rect;

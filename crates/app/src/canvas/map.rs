@@ -1,8 +1,6 @@
 //! The map behind the canvas: its choice, its picture and its scale.
 
-use egui::{
-    Align2, Color32, ComboBox, FontId, Mesh, Rect, Role, Sense, TextureId, Ui, WidgetInfo, pos2, vec2,
-};
+use egui::{Color32, ComboBox, FontId, Mesh, Rect, Role, Sense, TextureId, Ui, WidgetInfo, pos2, vec2};
 use shagreen_core::heat_map::Quantity;
 
 use crate::axes::Axes;
@@ -13,7 +11,7 @@ use crate::theme::{Tokens, map_color};
 /// How much of the map shows.
 const OPACITY: f32 = 0.62;
 /// Size of the scale, in points.
-const SCALE: egui::Vec2 = vec2(120.0, 8.0);
+const SCALE: egui::Vec2 = vec2(80.0, 8.0);
 /// Steps of color in the scale.
 const STEPS: usize = 32;
 
@@ -54,29 +52,29 @@ pub(super) fn map_ui(ui: &Ui, axes: Axes, map: &ShownMap) {
     ui.painter_at(axes.rect).add(mesh);
 }
 
-/// Draws what the colors of the map mean.
-pub(super) fn scale_ui(ui: &Ui, axes: Axes, map: &ShownMap, t: &Tokens) {
-    let corner = axes.rect.right_bottom() - vec2(6.0, 6.0);
-    let bar = Rect::from_min_size(corner - SCALE, SCALE);
-    let font = FontId::proportional(11.5);
+/// What the colors of the map mean: its lowest value, the colors, its highest value.
+pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
     let (low, high) = match map.range {
         Some((low, high)) => (strings::value(map.quantity, low), strings::value(map.quantity, high)),
         None => (strings::WAITING.to_owned(), String::new()),
     };
+    let font = FontId::proportional(11.5);
+    let [low_text, high_text] =
+        [&low, &high].map(|text| ui.painter().layout_no_wrap(text.clone(), font.clone(), t.text_weak));
+    let width = low_text.size().x + SCALE.x + high_text.size().x + 10.0;
+    let (area, response) = ui.allocate_exact_size(vec2(width, ui.spacing().interact_size.y), Sense::hover());
     let title = strings::name(Some(map.quantity));
-    let text = ui.painter().layout_no_wrap(title.to_owned(), font.clone(), t.text);
-    let back = Rect::from_min_max(bar.min - vec2(6.0, 2.0 * text.size().y + 6.0), bar.max + vec2(4.0, 4.0));
-    let response = ui.interact(back, ui.scope_id().with("scale of the map"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, strings::scale(title, &low, &high)));
-    ui.painter().rect_filled(back, f32::from(crate::theme::RADIUS), t.background.gamma_multiply(0.85));
-    let top = bar.top() - 2.0;
-    ui.painter().galley(pos2(bar.left(), back.top() + 2.0), text, t.text);
-    ui.painter().text(pos2(bar.left(), top), Align2::LEFT_BOTTOM, low, font.clone(), t.text_weak);
-    ui.painter().text(pos2(bar.right(), top), Align2::RIGHT_BOTTOM, high, font, t.text_weak);
-    let step = bar.width() / STEPS as f32;
+    let line = area.center().y;
+    let left = area.left() + low_text.size().x + 5.0;
+    ui.painter().galley(pos2(area.left(), line - 0.5 * low_text.size().y), low_text, t.text_weak);
+    let step = SCALE.x / STEPS as f32;
     for i in 0..STEPS {
-        let part = Rect::from_min_size(bar.min + vec2(i as f32 * step, 0.0), vec2(step + 0.5, bar.height()));
+        let corner = pos2(left + i as f32 * step, line - 0.5 * SCALE.y);
+        let part = Rect::from_min_size(corner, vec2(step + 0.5, SCALE.y));
         ui.painter().rect_filled(part, 0.0, map_color((i as f32 + 0.5) / STEPS as f32));
     }
+    let corner = pos2(left + SCALE.x + 5.0, line - 0.5 * high_text.size().y);
+    ui.painter().galley(corner, high_text, t.text_weak);
     response.on_hover_text(strings::help(Some(map.quantity)));
 }

@@ -3,7 +3,7 @@
 use egui::{Button, Rect, Shape, Ui, pos2, vec2};
 
 use crate::axes::{Axes, View};
-use crate::canvas::map::{ShownMap, map_choice_ui};
+use crate::canvas::map::{ShownMap, map_choice_ui, scale_ui};
 use crate::canvas::path_tool::{PathTool, path_settings_ui};
 use crate::canvas::view::view_buttons;
 use crate::command::Command;
@@ -41,6 +41,9 @@ pub(super) fn tool_bar(
         ui.spacing_mut().button_padding = vec2(7.0, 2.0);
         ui.spacing_mut().interact_size.y = 22.0;
         commands.extend(map_choice_ui(ui, map));
+        if let Some(map) = map {
+            scale_ui(ui, map, t);
+        }
         view = view_buttons(ui, axes, panel);
         let button = Button::new(strings::PATH).selected(tool.is_on);
         if ui.add(button).on_hover_text(strings::PATH_HELP).clicked() {
