@@ -3,7 +3,7 @@
 //! # Conventions
 //!
 //! - Panels read a [`panel::Panel`] and return [`command::Command`]s; they change nothing but their own view state.
-//! - The project changes only by an [`project::Edit`], so that undo restores it exactly.
+//! - The project changes only by an [`edit::Edit`], so that undo restores it exactly.
 //! - A place says its space: `pos_in_space` or a [`shagreen_core::space::SpacePoint`] against `Pos2` of the screen.
 //! - Every control has an accessible name; every word stands in [`strings`]; every color in [`theme`].
 #![forbid(unsafe_code)]
