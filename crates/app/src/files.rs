@@ -106,6 +106,11 @@ impl Files {
         self.restart_recovery();
     }
 
+    /// The project is not left after all: what waited for that is forgotten.
+    pub(crate) fn stay(&mut self) {
+        (self.after_saving, self.waiting) = (None, None);
+    }
+
     /// What the slot holds belongs to a project that was left.
     fn restart_recovery(&mut self) {
         if let Some(recovery) = &mut self.recovery {

@@ -36,6 +36,8 @@ enum State {
     /// There is a file at this path.
     Exists(String),
     Saving(Receiver<Outcome>),
+    /// The document writes the project, and closes the sheet when that is done.
+    Granted,
     Saved(String),
     Failed(String),
 }
@@ -104,7 +106,7 @@ impl SaveSheet {
 
     /// Whether the file is on its way: the sheet stays until its outcome has been shown.
     pub fn is_saving(&self) -> bool {
-        matches!(self.state, State::Saving(_))
+        matches!(self.state, State::Saving(_) | State::Granted)
     }
 
     /// Draws the sheet over the window and returns what the user asked of it.
@@ -170,7 +172,7 @@ impl SaveSheet {
                 Subject::Figure(figure) => (build::exists(figure.format.word()), t.warning),
                 Subject::Project(_) => (document::EXISTS.to_owned(), t.warning),
             },
-            State::Saving(_) => (strings::SAVING.to_owned(), t.text_weak),
+            State::Saving(_) | State::Granted => (strings::SAVING.to_owned(), t.text_weak),
             State::Saved(path) => (strings::saved(path), t.accent),
             State::Failed(reason) => (reason.clone(), t.error),
         };
@@ -215,9 +217,8 @@ impl SaveSheet {
             Err(TryRecvError::Disconnected) => State::Failed(strings::SAVE_BROKEN.to_owned()),
             Ok(Outcome::Saved) => State::Saved(path),
             Ok(Outcome::MayBeWritten) => {
-                // The document writes it, and closes the sheet when that is done.
                 self.granted = Some(PathBuf::from(path));
-                return;
+                State::Granted
             }
             Ok(Outcome::Exists) => State::Exists(path),
             Ok(Outcome::Failed(reason)) => State::Failed(reason),

@@ -139,6 +139,19 @@ fn nothing_is_left_unasked() {
         harness.run_steps(2);
         assert_eq!(window(&harness).project(), &project);
     }
+    // Who does not save after all does not leave, later neither.
+    let kept = folder.path().join("kept.shagreen");
+    menu(&mut harness, document::NEW);
+    click(&mut harness, document::SAVE_FIRST);
+    harness.run_steps(2);
+    click(&mut harness, document::CANCEL);
+    save_as(&mut harness, &kept);
+    wait_until_saved(&mut harness);
+    harness.run_steps(5);
+    assert_eq!((window(&harness).project(), window(&harness).document().path()), (&project, Some(&*kept)));
+    menu(&mut harness, document::NEW);
+    rename(&mut harness, "Oak copy");
+    let project = window(&harness).project().clone();
     // Saving first asks for a name where there is none, and goes on after that.
     menu(&mut harness, document::NEW);
     click(&mut harness, document::SAVE_FIRST);

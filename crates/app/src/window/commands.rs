@@ -96,6 +96,7 @@ impl Window {
                     self.figures_folder = folder.to_owned();
                 }
                 self.sheet = Sheet::Closed;
+                self.files.stay();
             }
         }
     }
