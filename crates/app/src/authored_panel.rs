@@ -2,6 +2,7 @@
 
 use egui::{Button, Label, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 use shagreen_core::space::SpacePoint;
+use shagreen_formats::library::free_name;
 use shagreen_formats::project::{AuthoredTexture, N_COLORS};
 
 use crate::command::Command;
@@ -58,7 +59,7 @@ fn fresh(panel: &Panel<'_>) -> AuthoredTexture {
     AuthoredTexture {
         color: next_color(panel),
         blend: selected.blend.clone(),
-        ..AuthoredTexture::new(0, &free_name(panel, strings::NEW_TEXTURE))
+        ..AuthoredTexture::new(0, &own_name(panel, strings::NEW_TEXTURE))
     }
 }
 
@@ -68,16 +69,13 @@ pub(crate) fn copy_of(panel: &Panel<'_>, texture: &AuthoredTexture) -> AuthoredT
     let step = |x: f64| if x + BESIDE <= 100.0 { x + BESIDE } else { x - BESIDE };
     let at =
         SpacePoint { rough_smooth: step(texture.at.rough_smooth), hard_soft: step(texture.at.hard_soft) };
-    let name = free_name(panel, &words::copy_of(&texture.name));
+    let name = own_name(panel, &words::copy_of(&texture.name));
     AuthoredTexture { name, color: next_color(panel), at, ..texture.clone() }
 }
 
-/// `name` where no authored texture has it, else with a number behind it.
-fn free_name(panel: &Panel<'_>, name: &str) -> String {
-    let is_taken = |name: &str| panel.project.authored.iter().any(|texture| texture.name == name);
-    let numbered = (2_u64..).map(|n| format!("{name} {n}"));
-    // The numbers do not run out before the memory does.
-    std::iter::once(name.to_owned()).chain(numbered).find(|name| !is_taken(name)).unwrap_or_default()
+/// `name`, with a number behind it where an authored texture has it.
+fn own_name(panel: &Panel<'_>, name: &str) -> String {
+    free_name(name, |name| panel.project.authored.iter().any(|texture| texture.name == name))
 }
 
 /// The color that the fewest authored textures have.

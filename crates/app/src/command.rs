@@ -7,6 +7,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use crate::import::source::Source;
 use crate::leaving::Leave;
 use shagreen_core::heat_map::Quantity;
+use shagreen_formats::gallery::GalleryProject;
 
 use crate::compare::{CompareCommand, Side};
 use crate::edit::Edit;
@@ -96,8 +97,8 @@ pub enum FileCommand {
     New,
     /// Open the gallery.
     OpenGallery,
-    /// Begin with a project of the gallery, by its place.
-    BeginFromGallery(usize),
+    /// Begin with a project of the gallery.
+    BeginFromGallery(GalleryProject),
     /// Open the sheet that opens files.
     AskWhatToOpen,
     /// Open a project or a library.

@@ -9,7 +9,7 @@ mod pen_ui;
 
 use std::sync::mpsc::Receiver;
 
-use egui::{Align, Button, Context, Key, Label, Layout, Modal, RichText, ScrollArea, Ui, vec2};
+use egui::{Align, Button, Context, Label, Layout, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::actuator::Actuator;
 use shagreen_core::units::Kilograms;
 
@@ -17,6 +17,7 @@ use self::calibration_ui::Measurement;
 use crate::command::Command;
 use crate::rig::{Mounted, Rig};
 use crate::session::Session;
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::devices as strings;
 use crate::theme::{GAP, GROUP_GAP, tokens};
 
@@ -58,11 +59,9 @@ impl DevicesSheet {
 
     /// Draws the sheet over the window and returns what the user asked of it.
     pub fn show(&mut self, ctx: &Context, session: &Session) -> Vec<Command> {
-        let t = tokens(ctx);
-        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
         let size = (ctx.content_rect().size() - vec2(2.0 * AROUND, 2.0 * AROUND)).min(MAX_SIZE);
         let inner = size - vec2(28.0, 28.0);
-        let shown = Modal::new(egui::Id::unique("devices sheet")).frame(frame).show(ctx, |ui| {
+        let shown = sheet(ctx, "devices sheet", |ui| {
             ui.set_min_size(inner);
             ui.set_max_size(inner);
             self.content_ui(ui, session)
@@ -77,10 +76,7 @@ impl DevicesSheet {
         if self.measurement.has_ended() {
             commands.push(Command::TakeOutputBack);
         }
-        if !shown.any_popup_open
-            && !self.measurement.is_running()
-            && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape))
-        {
+        if !shown.any_popup_open && !self.measurement.is_running() && is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands

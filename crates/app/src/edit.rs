@@ -131,7 +131,7 @@ impl Edit {
         match self {
             Self::MovePoint(_) => strings::moved(name).into(),
             Self::SetMode(_) => strings::CHANGE_BLEND.into(),
-            Self::Lock { name, is_locked, .. } => strings::lock(name, *is_locked).into(),
+            Self::Lock { name, is_locked, .. } => crate::strings::lock(name, *is_locked).into(),
             Self::SetOutside(Outside::Clamped) => strings::STAY_WITHIN.into(),
             Self::SetOutside(Outside::Extrapolated) => strings::GO_BEYOND.into(),
             Self::SetWeights(Weights::Barycentric) => strings::USE_TRIANGLES.into(),

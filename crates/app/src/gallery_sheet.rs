@@ -1,13 +1,12 @@
 //! The gallery: projects that come with the program, each with a picture of its points.
 
-use egui::{
-    Align2, Context, FontId, Key, Label, Modal, Modifiers, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2,
-};
-use shagreen_formats::gallery::GALLERY;
+use egui::{Align2, Context, FontId, Label, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use shagreen_formats::gallery::{GALLERY, GalleryProject};
 use shagreen_formats::project::Project;
 
 use crate::axes::{Axes, View};
 use crate::command::{Command, FileCommand};
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::gallery as strings;
 use crate::theme::{GAP, RADIUS, Tokens, tokens};
 
@@ -20,38 +19,31 @@ const PICTURE: f32 = 84.0;
 
 /// The sheet, as long as it is open.
 pub(crate) struct GallerySheet {
-    projects: Vec<(&'static str, Project)>,
+    projects: Vec<(GalleryProject, Project)>,
 }
 
 impl GallerySheet {
     /// The sheet with all projects that can be read.
     pub(crate) fn new() -> Self {
         // What cannot be read is left out: a test sees to it that all can.
-        let projects = GALLERY.iter().filter_map(|each| Some((each.title, each.read().ok()?)));
+        let projects = GALLERY.iter().filter_map(|each| Some((*each, each.read().ok()?)));
         Self { projects: projects.collect() }
-    }
-
-    /// The project at this place.
-    pub(crate) fn take(mut self, index: usize) -> Option<Project> {
-        (index < self.projects.len()).then(|| self.projects.swap_remove(index).1)
     }
 
     /// Draws the sheet over the window and returns what the user asked of it.
     pub(crate) fn show(&self, ctx: &Context) -> Vec<Command> {
         let t = tokens(ctx);
-        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
         let mut commands = Vec::new();
-        Modal::new(egui::Id::unique("gallery")).frame(frame).show(ctx, |ui| {
+        sheet(ctx, "gallery", |ui| {
             ui.set_width(COLUMNS as f32 * (CARD.x + GAP));
             ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
             ui.add(Label::new(RichText::new(strings::HELP).color(t.text_weak)).selectable(false));
             ui.add_space(GAP);
-            for (row, projects) in self.projects.chunks(COLUMNS).enumerate() {
+            for row in self.projects.chunks(COLUMNS) {
                 ui.horizontal(|ui| {
-                    for (column, (title, project)) in projects.iter().enumerate() {
-                        if card_ui(ui, title, project, t) {
-                            commands
-                                .push(Command::File(FileCommand::BeginFromGallery(COLUMNS * row + column)));
+                    for (each, project) in row {
+                        if card_ui(ui, each.title, project, t) {
+                            commands.push(Command::File(FileCommand::BeginFromGallery(*each)));
                         }
                     }
                 });
@@ -61,7 +53,7 @@ impl GallerySheet {
                 commands.push(Command::CloseSheet);
             }
         });
-        if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+        if is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands

@@ -1,8 +1,10 @@
 //! Before work would be lost, a question.
 
-use egui::{Button, Context, Key, Label, Modal, Modifiers, RichText};
+use egui::{Button, Context, Label, RichText};
+use shagreen_formats::gallery::GalleryProject;
 
 use crate::command::{Command, FileCommand};
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::document as strings;
 use crate::theme::{GAP, tokens};
 
@@ -14,7 +16,7 @@ pub enum Leave {
     /// A project that was read takes its place.
     Open,
     /// One of the gallery does.
-    Gallery(usize),
+    Gallery(GalleryProject),
     /// The program ends.
     Quit,
 }
@@ -22,9 +24,8 @@ pub enum Leave {
 /// Draws the question over the window and returns what the user wants.
 pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str) -> Vec<Command> {
     let t = tokens(ctx);
-    let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
     let mut commands = Vec::new();
-    Modal::new(egui::Id::unique("leaving")).frame(frame).show(ctx, |ui| {
+    sheet(ctx, "leaving", |ui| {
         ui.set_width(420.0);
         ui.add(Label::new(RichText::new(strings::LEAVE_TITLE).heading().strong()).selectable(false));
         ui.add_space(GAP);
@@ -47,7 +48,7 @@ pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str) -> Vec<Comm
             }
         });
     });
-    if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+    if is_left(ctx) {
         commands.push(Command::CloseSheet);
     }
     commands

@@ -64,6 +64,7 @@ pub mod scope;
 pub mod scope_buffer;
 pub mod session;
 mod settings_file;
+mod sheet_frame;
 mod sheets;
 mod shortcuts_ui;
 pub mod status_bar;

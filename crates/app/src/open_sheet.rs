@@ -5,11 +5,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::Receiver;
 
-use egui::{Button, Context, Key, Label, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Button, Context, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 use shagreen_formats::project::EXTENSION;
 
 use crate::background::in_background;
 use crate::command::{Command, FileCommand};
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::document as strings;
 use crate::theme::{GAP, tokens};
 
@@ -65,14 +66,12 @@ impl OpenSheet {
         if let Some(entries) = self.listing.as_ref().and_then(|listing| listing.try_recv().ok()) {
             (self.entries, self.listing) = (Some(entries), None);
         }
-        let t = tokens(ctx);
-        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
-        let shown = Modal::new(egui::Id::unique("open sheet")).frame(frame).show(ctx, |ui| {
+        let shown = sheet(ctx, "open sheet", |ui| {
             ui.set_width(560.0);
             self.content_ui(ui, is_opening)
         });
         let mut commands = shown.inner;
-        if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+        if is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands

@@ -2,19 +2,19 @@
 
 use std::time::SystemTime;
 
-use egui::{Context, Key, Label, Modal, Modifiers, RichText};
+use egui::{Context, Label, RichText};
 
 use crate::command::{Command, FileCommand};
 use crate::recovery::Leftover;
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::document as strings;
 use crate::theme::{GAP, tokens};
 
 /// Draws the sheet over the window and returns what the user asked of it.
 pub(crate) fn recovered_ui(ctx: &Context, leftovers: &[Leftover]) -> Vec<Command> {
     let t = tokens(ctx);
-    let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
     let mut commands = Vec::new();
-    Modal::new(egui::Id::unique("recovered")).frame(frame).show(ctx, |ui| {
+    sheet(ctx, "recovered", |ui| {
         ui.set_width(520.0);
         ui.add(Label::new(RichText::new(strings::RECOVERED_TITLE).heading().strong()).selectable(false));
         ui.add_space(GAP);
@@ -52,7 +52,7 @@ pub(crate) fn recovered_ui(ctx: &Context, leftovers: &[Leftover]) -> Vec<Command
             commands.push(Command::CloseSheet);
         }
     });
-    if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+    if is_left(ctx) {
         commands.push(Command::CloseSheet);
     }
     commands

@@ -6,7 +6,7 @@ mod figure_file;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-use egui::{Button, Context, Key, Label, Modal, RichText, TextEdit, Ui};
+use egui::{Button, Context, Key, Label, RichText, TextEdit, Ui};
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
 use shagreen_formats::project::{Project, ProjectError, ProjectLibrary, read_project};
@@ -14,6 +14,7 @@ use shagreen_formats::project::{Project, ProjectError, ProjectLibrary, read_proj
 use crate::background::in_background;
 use crate::command::{Command, FileCommand};
 use crate::document::CREATED_BY;
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::{build, document, import as strings};
 use crate::theme::{GAP, tokens};
 
@@ -112,15 +113,13 @@ impl SaveSheet {
     /// Draws the sheet over the window and returns what the user asked of it.
     pub fn show(&mut self, ctx: &Context, library: &Library) -> Vec<Command> {
         self.collect();
-        let t = tokens(ctx);
-        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
-        let shown = Modal::new(egui::Id::unique("save sheet")).frame(frame).show(ctx, |ui| {
+        let shown = sheet(ctx, "save sheet", |ui| {
             ui.set_width(520.0);
             self.content_ui(ui, library)
         });
         let mut commands = shown.inner;
         commands.extend(self.granted.take().map(|path| Command::File(FileCommand::SaveTo(path))));
-        let is_left = ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape));
+        let is_left = is_left(ctx);
         if is_left && !self.is_saving() {
             commands.push(Command::CloseSheet);
         }

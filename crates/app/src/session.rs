@@ -335,7 +335,13 @@ impl Session {
         let n_same = self.joined.iter().zip(&project.joined).take_while(|pair| is_same(*pair)).count();
         let has_same_textures = n_same == self.joined.len() && n_same == project.joined.len();
         let has_same_names = self.renamed == project.renamed;
-        if !has_same_textures || !has_same_names || self.used != project.space || self.axes != project.axes {
+        // A space never changes, and is long: two that are equal are the same one.
+        let spaces = (self.used.as_ref(), project.space.as_ref());
+        let has_same_space = match spaces {
+            (Some(before), Some(now)) => Arc::ptr_eq(before, now),
+            (before, now) => before.is_none() && now.is_none(),
+        };
+        if !has_same_textures || !has_same_names || !has_same_space || self.axes != project.axes {
             self.take(project, &vec![true; self.opened.n_textures() + n_same]);
         }
         match self.models.collect(ctx) {

@@ -1,17 +1,17 @@
 //! The sheet of shortcuts.
 
-use egui::{Context, Grid, Key, Label, Modal, Modifiers, RichText};
+use egui::{Context, Grid, Label, RichText};
 
 use crate::command::{Command, WITH_KEYS};
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::help as strings;
 use crate::theme::{GAP, tokens};
 
 /// Draws the sheet over the window and returns what the user asked of it.
 pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
     let t = tokens(ctx);
-    let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
     let mut asked = None;
-    Modal::new(egui::Id::unique("shortcuts")).frame(frame).show(ctx, |ui| {
+    sheet(ctx, "shortcuts", |ui| {
         ui.set_width(430.0);
         ui.add(Label::new(RichText::new(strings::SHORTCUTS).heading().strong()).selectable(false));
         ui.add_space(GAP);
@@ -31,7 +31,7 @@ pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
             asked = Some(Command::CloseSheet);
         }
     });
-    if ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+    if is_left(ctx) {
         asked = Some(Command::CloseSheet);
     }
     asked

@@ -12,7 +12,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings;
 use shagreen_core::blend::Mode;
 
-use support::{Author, author, choose_mode, click, unnamed_controls, wait, window};
+use support::{Author, author, choose_mode, click, drag, unnamed_controls, wait, window};
 
 /// Lets the texture sound for a while.
 fn listen(harness: &mut Author, seconds: f64) {
@@ -33,19 +33,6 @@ fn slider(harness: &Author, name: &str) -> f64 {
 
 fn center(harness: &Author, name: &str) -> Pos2 {
     harness.get_by_label(name).rect().center()
-}
-
-fn drag(harness: &mut Author, from: Pos2, to: Pos2) {
-    harness.hover_at(from);
-    harness.run_steps(2);
-    harness.drag_at(from);
-    harness.run_steps(2);
-    for i in 1..=5 {
-        harness.hover_at(from.lerp(to, i as f32 / 5.0));
-        harness.run_steps(1);
-    }
-    harness.drop_at(to);
-    harness.run_steps(2);
 }
 
 fn parents(harness: &Author) -> Vec<(String, f64)> {

@@ -11,7 +11,7 @@ use shagreen_app::strings::{authored as words, compare, map, view};
 use shagreen_core::blend::Mode;
 use shagreen_core::heat_map::Quantity;
 
-use support::{Author, author, choose, choose_mode, click, says, unnamed_controls, wait, window};
+use support::{Author, author, choose, choose_mode, click, drag, says, unnamed_controls, wait, window};
 
 fn slide(harness: &mut Author, name: &str, value: f64) {
     harness.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
@@ -91,15 +91,7 @@ fn another_texture_is_dragged_without_being_selected_first() {
     let first = window(&harness).project().authored[0].clone();
     let from = harness.get_by_label(&words::on_canvas(&first.name)).rect().center();
     let to = from + vec2(60.0, -40.0);
-    harness.hover_at(from);
-    harness.run_steps(2);
-    harness.drag_at(from);
-    harness.run_steps(2);
-    for i in 1..=6 {
-        harness.hover_at(from.lerp(to, i as f32 / 6.0));
-        harness.run_steps(1);
-    }
-    harness.drop_at(to);
+    drag(&mut harness, from, to);
     harness.run_steps(3);
     assert_eq!(window(&harness).project().selected, 0);
     let moved = window(&harness).project().texture().at;

@@ -318,7 +318,7 @@ fn what_was_left_can_be_discarded() {
     std::fs::create_dir(&recovery).unwrap();
     let bytes = shagreen_formats::project::write_project(&new_project(), Path::new(""), "test");
     std::fs::write(recovery.join("1-1.shagreen"), bytes).unwrap();
-    std::fs::write(recovery.join("1-1.origin"), "/home/me/Woods.shagreen").unwrap();
+    std::fs::write(recovery.join("1-1.origin"), "/work-of-mine/Woods.shagreen").unwrap();
     std::fs::write(recovery.join("1-1.lock"), "").unwrap();
     let mut harness = author_of(Begin { keeping: keeping(folder.path()), ..begin(new_project()) }, SIZE);
     click(&mut harness, &document::about(document::DISCARD, "Woods"));

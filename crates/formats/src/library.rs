@@ -72,7 +72,7 @@ use crate::picture::Picture;
 pub(crate) use crate::library::attributes::is_usual;
 pub use crate::library::attributes::{Attribute, Attributes};
 pub use crate::library::error::LibraryError;
-pub use crate::library::id::{free_id, id_from_name, name_from_file};
+pub use crate::library::id::{free_id, free_name, id_from_name, name_from_file};
 pub use crate::library::provenance::Provenance;
 pub use crate::library::read::read_library;
 pub use crate::library::write::write_library;

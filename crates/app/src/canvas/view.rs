@@ -19,7 +19,9 @@ pub(super) fn follow_view(ui: &Ui, axes: Axes, background: &Response) -> View {
     if let Some(pointer) = pointer.filter(|_| background.contains_pointer()) {
         let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta.y, i.zoom_delta()));
         let factor = (BY_WHEEL * f64::from(wheel)).exp() * f64::from(pinch);
-        view = view.zoomed(factor, axes.space_from_ui(pointer));
+        if factor != 1.0 {
+            view = view.zoomed(factor, axes.space_from_ui(pointer));
+        }
     }
     let moves = [PointerButton::Middle, PointerButton::Secondary];
     if moves.into_iter().any(|button| background.dragged_by(button)) {

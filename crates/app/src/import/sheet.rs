@@ -1,6 +1,6 @@
 //! The import sheet: files on the left, the chosen one on the right, accept or cancel at the foot.
 
-use egui::{Align, Button, Context, Key, Label, Layout, Modal, RichText, TextEdit, Ui, UiBuilder, vec2};
+use egui::{Align, Button, Context, Key, Label, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
 use shagreen_formats::library::Library;
 
 use crate::command::Command;
@@ -11,6 +11,7 @@ use crate::import::files_ui::files_ui;
 use crate::import::model_ui::model_ui;
 use crate::import::questions_ui::sentence;
 use crate::import::source::{Source, paths_in};
+use crate::sheet_frame::{is_left, sheet};
 use crate::strings::import as strings;
 use crate::theme::{GAP, GROUP_GAP, tokens};
 
@@ -61,16 +62,14 @@ impl ImportSheet {
         let is_there = |id: &u64| self.batch.files().iter().any(|file| file.id == *id);
         self.selected = self.selected.filter(is_there).or(self.batch.files().first().map(|file| file.id));
         let size = ctx.content_rect().size() - vec2(2.0 * AROUND, 2.0 * AROUND);
-        let t = tokens(ctx);
-        let frame = egui::Frame::popup(&ctx.global_style()).fill(t.panel).inner_margin(14.0);
         let inner = size - vec2(28.0, 28.0);
-        let shown = Modal::new(egui::Id::unique("import sheet")).frame(frame).show(ctx, |ui| {
+        let shown = sheet(ctx, "import sheet", |ui| {
             ui.set_min_size(inner);
             ui.set_max_size(inner);
             self.content_ui(ui, around)
         });
         let mut commands = shown.inner;
-        if !shown.any_popup_open && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, Key::Escape)) {
+        if !shown.any_popup_open && is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands

@@ -46,11 +46,6 @@ pub fn moved(name: &str) -> String {
     format!("Move {name}")
 }
 
-/// A texture is met exactly, or smoothed again.
-pub fn lock(name: &str, is_locked: bool) -> String {
-    super::lock(name, is_locked)
-}
-
 /// An authored texture gets another name.
 pub fn renamed(name: &str) -> String {
     format!("Rename {name}")

@@ -49,7 +49,7 @@ impl Window {
             FileCommand::Quit => self.leave(Leave::Quit, ctx),
             FileCommand::AskWhatToOpen => self.sheet = Sheet::Open(OpenSheet::new(&self.usual_folder(), ctx)),
             FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new()),
-            FileCommand::BeginFromGallery(index) => self.leave(Leave::Gallery(index), ctx),
+            FileCommand::BeginFromGallery(chosen) => self.leave(Leave::Gallery(chosen), ctx),
             FileCommand::Open(path) => self.files.document.open(path, ctx),
             FileCommand::Save => match self.files.document.path().map(Path::to_owned) {
                 Some(path) => self.files.document.save(&self.project, path, ctx),
@@ -139,11 +139,10 @@ impl Window {
                     self.say_warnings(&imported.warnings);
                 }
             }
-            Leave::Gallery(index) => {
-                if let Some(project) = GallerySheet::new().take(index) {
-                    self.begin(project, None);
-                }
-            }
+            Leave::Gallery(chosen) => match chosen.read() {
+                Ok(project) => self.begin(project, None),
+                Err(error) => self.session.say(error.to_string()),
+            },
             Leave::Quit => {
                 self.files.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);

@@ -128,6 +128,20 @@ pub(crate) fn click(harness: &mut Author, name: &str) {
     harness.run_steps(2);
 }
 
+/// Presses at one place, moves and lets go at another.
+pub(crate) fn drag(harness: &mut Author, from: egui::Pos2, to: egui::Pos2) {
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    for i in 1..=5 {
+        harness.hover_at(from.lerp(to, i as f32 / 5.0));
+        harness.run_steps(1);
+    }
+    harness.drop_at(to);
+    harness.run_steps(2);
+}
+
 /// Opens a choice and takes one of it.
 pub(crate) fn choose(harness: &mut Author, name: &str, choice: &str) {
     harness.get_by_role_and_label(Role::ComboBox, name).click();

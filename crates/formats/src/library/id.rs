@@ -20,14 +20,23 @@ pub fn id_from_name(name: &str) -> String {
 
 /// `id` where it is free, else `id-2`, `id-3` and so on.
 pub fn free_id(id: &str, is_taken: impl Fn(&str) -> bool) -> String {
-    let numbered = (2_u64..).map(|n| format!("{id}-{n}"));
+    first_free(id, '-', is_taken)
+}
+
+/// `name` where nothing has it, else `name 2`, `name 3` and so on.
+pub fn free_name(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    first_free(name, ' ', is_taken)
+}
+
+fn first_free(word: &str, separator: char, is_taken: impl Fn(&str) -> bool) -> String {
+    let numbered = (2_u64..).map(|n| format!("{word}{separator}{n}"));
     // The numbers do not run out before the memory does.
-    std::iter::once(id.to_owned()).chain(numbered).find(|id| !is_taken(id)).unwrap_or_default()
+    std::iter::once(word.to_owned()).chain(numbered).find(|word| !is_taken(word)).unwrap_or_default()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{free_id, id_from_name, name_from_file};
+    use super::{free_id, free_name, id_from_name, name_from_file};
 
     #[test]
     fn names_become_identifiers() {
@@ -57,5 +66,6 @@ mod tests {
         let taken = ["glass", "glass-2"];
         assert_eq!(free_id("moon", |id| taken.contains(&id)), "moon");
         assert_eq!(free_id("glass", |id| taken.contains(&id)), "glass-3");
+        assert_eq!(free_name("glass", |name| taken.contains(&name)), "glass 2");
     }
 }

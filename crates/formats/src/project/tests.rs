@@ -101,12 +101,12 @@ fn what_is_written_is_read_back() {
 fn a_library_beside_the_project_is_found_where_both_went() {
     let bytes = write_library(&starter_library().unwrap());
     let file = LibraryFile {
-        path: PathBuf::from("/home/me/work/libraries/woods.json"),
+        path: PathBuf::from("/work-of-mine/libraries/woods.json"),
         sha256: sha256_hex(&bytes),
         library: read_library(&bytes).unwrap().value,
     };
     let project = Project::new(ProjectLibrary::File(Arc::new(file)), "New texture");
-    let written = write_project(&project, Path::new("/home/me/work"), BY);
+    let written = write_project(&project, Path::new("/work-of-mine"), BY);
     let other = Path::new("/elsewhere");
     let read_there = |path: &Path| {
         if path == Path::new("/elsewhere/libraries/woods.json") { Ok(bytes.clone()) } else { nothing(path) }
@@ -116,9 +116,9 @@ fn a_library_beside_the_project_is_found_where_both_went() {
     let ProjectLibrary::File(found) = &moved.value.library else { panic!("a file") };
     assert_eq!(found.library, starter_library().unwrap());
     // Written where it is not below, it says where it is.
-    let far = write_project(&project, Path::new("/home/you"), BY);
+    let far = write_project(&project, Path::new("/work-of-yours"), BY);
     let wire: Value = serde_json::from_slice(&far).unwrap();
-    assert_eq!(wire["library"]["file"], "/home/me/work/libraries/woods.json");
+    assert_eq!(wire["library"]["file"], "/work-of-mine/libraries/woods.json");
     // Another library under the same name is told.
     let mut changed = starter_library().unwrap();
     changed.textures.truncate(3);
