@@ -6,12 +6,14 @@ use shagreen_core::ar::comparison_frequencies;
 use shagreen_core::blend::mixture_psd;
 use shagreen_core::fidelity::mixture_level_mps2;
 use shagreen_core::plane::Plane;
-use shagreen_core::units::Contact;
+use shagreen_core::units::{Contact, Hertz};
+use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::cli::motion::quantity;
 use crate::cli::near_names::unknown_texture;
 use crate::cli::output;
 use crate::cli::target::SoundArgs;
+use crate::cli::words::words;
 
 /// The one-sided power spectral density of a texture's model, in (m/s²)²/Hz, from 5 Hz to just below half its rate.
 #[derive(clap::Args)]
@@ -27,6 +29,11 @@ pub(crate) struct Args {
     /// Number of frequencies.
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(2..=65_536))]
     bins: u32,
+    /// What the level is told in multiples of: the least that is felt by a hand that holds a tool, or by skin on a large
+    /// contactor. Reference values, good to about 3 dB.
+    #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id),
+        default_value = ThresholdKind::default().id())]
+    threshold: ThresholdKind,
     /// Leave this texture out of the library first: what is authored at its place without it?
     #[arg(long, value_name = "ID")]
     without: Option<String>,
@@ -57,6 +64,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let frequencies = comparison_frequencies(rate, args.bins as usize);
     let psd = mixture_psd(&parents, chosen.mixing, contact, &frequencies);
     let rms = mixture_level_mps2(&parents, chosen.mixing, contact);
+    let pairs: Vec<(Hertz, f64)> = frequencies.iter().copied().zip(psd.iter().copied()).collect();
+    let multiple = args.threshold.read()?.multiple(&pairs);
     let hz: Vec<f64> = frequencies.iter().map(|frequency| frequency.0).collect();
     output::print(
         args.json,
@@ -64,6 +73,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "hz": hz,
             "psd": psd,
             "rms": rms,
+            "times_threshold": multiple,
+            "threshold": args.threshold.id(),
             "rate_hz": rate.0,
             "parents": chosen.parents_json(&library),
             "at": chosen.at_json(),
@@ -76,7 +87,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let lines = hz.iter().zip(&psd).map(|(hz, psd)| format!("{hz:.2}\t{psd:.6e}\n"));
             let parents = chosen.parents_text(&library);
             format!(
-                "# {parents}: rms {rms:.4} m/s²\n# Hz\t(m/s²)²/Hz\n{}",
+                "# {parents}: rms {rms:.4} m/s², {multiple:.1} times the threshold ({})\n# Hz\t(m/s²)²/Hz\n{}",
+                args.threshold.id(),
                 lines.collect::<String>().trim_end()
             )
         },

@@ -73,6 +73,12 @@ pub(crate) fn copy_of(panel: &Panel<'_>, texture: &AuthoredTexture) -> AuthoredT
     AuthoredTexture { name, color: next_color(panel), at, ..texture.clone() }
 }
 
+/// A texture that is as a snapshot has it.
+fn of_snapshot(panel: &Panel<'_>, snapshot: &AuthoredTexture, number: usize) -> AuthoredTexture {
+    let name = own_name(panel, &words::state_of(&snapshot.name, number));
+    AuthoredTexture { name, color: next_color(panel), ..snapshot.clone() }
+}
+
 /// `name`, with a number behind it where an authored texture has it.
 fn own_name(panel: &Panel<'_>, name: &str) -> String {
     free_name(name, |name| panel.project.authored.iter().any(|texture| texture.name == name))
@@ -172,6 +178,9 @@ fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
                 commands.push(Command::Edit(Edit::RestoreSnapshot(index)));
             }
             response.context_menu(|ui| {
+                if ui.button(words::AS_OWN).on_hover_text(words::AS_OWN_HELP).clicked() {
+                    commands.push(Command::Edit(Edit::Author(of_snapshot(panel, snapshot, index + 1))));
+                }
                 if ui.button(words::delete_snapshot(index + 1)).clicked() {
                     commands.push(Command::Edit(Edit::RemoveSnapshot(index)));
                 }

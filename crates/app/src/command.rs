@@ -35,6 +35,8 @@ pub enum Command {
     KeepPath,
     /// Start or stop the automatic hand.
     ToggleHand,
+    /// Hold what the scope shows, or show what is played again.
+    ToggleFreeze,
     /// Silence the output, or sound again.
     ToggleMute,
     /// Change between the dark and the light theme.
@@ -124,7 +126,7 @@ pub enum FileCommand {
 }
 
 /// The commands that have a key.
-pub const WITH_KEYS: [Command; 18] = [
+pub const WITH_KEYS: [Command; 19] = [
     Command::File(FileCommand::New),
     Command::File(FileCommand::AskWhatToOpen),
     Command::File(FileCommand::Save),
@@ -139,6 +141,7 @@ pub const WITH_KEYS: [Command; 18] = [
     Command::Compare(CompareCommand::Hear(Side::B)),
     Command::Compare(CompareCommand::Hear(Side::X)),
     Command::ToggleHand,
+    Command::ToggleFreeze,
     Command::ToggleMute,
     Command::ToggleTheme,
     Command::OpenDevices,
@@ -163,6 +166,7 @@ impl Command {
             Self::Compare(CompareCommand::Hear(Side::B)) => (Modifiers::NONE, Key::Num2),
             Self::Compare(CompareCommand::Hear(Side::X)) => (Modifiers::NONE, Key::Num3),
             Self::ToggleHand => (Modifiers::NONE, Key::Space),
+            Self::ToggleFreeze => (Modifiers::NONE, Key::F),
             Self::ToggleMute => (Modifiers::NONE, Key::M),
             Self::ToggleTheme => (Modifiers::COMMAND, Key::T),
             Self::OpenDevices => (Modifiers::COMMAND, Key::D),
@@ -189,6 +193,7 @@ impl Command {
             Self::Compare(CompareCommand::Hear(Side::B)) => strings::HEAR_B,
             Self::Compare(CompareCommand::Hear(Side::X)) => strings::HEAR_X,
             Self::ToggleHand => strings::STROKE,
+            Self::ToggleFreeze => strings::FREEZE,
             Self::ToggleMute => strings::MUTE,
             Self::ToggleTheme => strings::THEME,
             Self::OpenDevices => strings::DEVICES,

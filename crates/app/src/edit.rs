@@ -86,8 +86,8 @@ pub enum Edit {
         /// Whether it is.
         is_starred: bool,
     },
-    /// One texture of the list is heard alone, until the point moves, by its identifier.
-    Solo(String),
+    /// One texture of the list is heard alone, until the point moves, by its identifier; or the blend again.
+    Solo(Option<String>),
     /// A space that was built gives the textures their places and attributes.
     UseSpace(Arc<PlacedSpace>),
     /// Two attributes become the axes, across and up; `None` takes the places.
@@ -158,7 +158,8 @@ impl Edit {
             }
             Self::RenameTexture { name, .. } => strings::renamed_to(name).into(),
             Self::Star { name, is_starred, .. } => strings::starred(name, *is_starred).into(),
-            Self::Solo(_) => strings::HEAR_ALONE.into(),
+            Self::Solo(Some(_)) => strings::HEAR_ALONE.into(),
+            Self::Solo(None) => strings::HEAR_BLEND.into(),
             Self::UseSpace(_) => strings::USE_SPACE.into(),
             Self::SetAxes(_) => strings::CHOOSE_AXES.into(),
         }
@@ -245,7 +246,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
                 project.starred.remove(&id);
             }
         }
-        Edit::Solo(id) => project.solo = Some(id),
+        Edit::Solo(id) => project.solo = id,
         Edit::UseSpace(space) => (project.space, project.axes) = (Some(space), None),
         Edit::SetAxes(axes) => project.axes = axes,
     }

@@ -11,6 +11,7 @@ use crate::edit::Edit;
 use crate::library_panel::picture_ui;
 use crate::locks::lock_button;
 use crate::panel::Panel;
+use crate::solo::solo_button;
 use crate::strings;
 use crate::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 
@@ -123,7 +124,7 @@ fn besides(panel: &Panel<'_>) -> Option<String> {
     Some(strings::more_parents(rest.len(), 100.0 * sum))
 }
 
-/// A neighbor; in the field it can be locked.
+/// A neighbor; it can be heard alone, and in the field be locked.
 fn card(
     ui: &mut Ui,
     panel: &Panel<'_>,
@@ -157,8 +158,10 @@ fn card(
     // The lock keeps its place whatever the number is.
     let button = Rect::from_center_size(egui::pos2(right - 66.0, number.center().y), vec2(22.0, 22.0));
     let can_lock = panel.project.texture().blend.can_lock() && panel.solo().is_none();
-    let command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
-    let end = if can_lock { button.left() } else { number.left() - 6.0 };
+    let mut command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
+    let solo = button.translate(vec2(-24.0, 0.0));
+    command = command.or(solo_button(ui, panel, texture, solo));
+    let end = solo.left() - 4.0;
     let mut name = ui.new_child(
         egui::UiBuilder::new()
             .max_rect(Rect::from_min_max(egui::pos2(left, area.top() + 8.0), egui::pos2(end, area.bottom()))),

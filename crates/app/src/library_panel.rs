@@ -79,7 +79,7 @@ pub fn library_ui(
                 if response.clicked() {
                     let place = panel.session.space().position(index);
                     commands.push(Command::Edit(
-                        place.map_or_else(|| Edit::Solo(entry.id.clone()), Edit::MovePoint),
+                        place.map_or_else(|| Edit::Solo(Some(entry.id.clone())), Edit::MovePoint),
                     ));
                 }
             }

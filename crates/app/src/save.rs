@@ -229,9 +229,9 @@ impl SaveSheet {
 
 impl Content {
     /// `None` where somebody else writes it.
-    fn bytes(&self) -> Option<Vec<u8>> {
+    fn bytes(&self) -> Option<Result<Vec<u8>, String>> {
         match self {
-            Self::Library(library) => Some(write_library(library)),
+            Self::Library(library) => Some(Ok(write_library(library))),
             Self::Figure(figure) => Some(figure.bytes()),
             Self::Project => None,
         }
@@ -263,9 +263,9 @@ fn write(path: &Path, content: &Content, replaces: bool) -> Outcome {
         }
     }
     let Some(bytes) = content.bytes() else { return Outcome::MayBeWritten };
-    match atomic::write(path, &bytes) {
+    match bytes.and_then(|bytes| atomic::write(path, &bytes).map_err(|error| error.to_string())) {
         Ok(()) => Outcome::Saved,
-        Err(error) => Outcome::Failed(error.to_string()),
+        Err(reason) => Outcome::Failed(reason),
     }
 }
 

@@ -1,113 +1,228 @@
-//! What is played: the waveform, and its spectrum beside the spectra of the parents and of the blend.
+//! The scope: two views side by side of what is played, held on request, measured by the pointer, saved as figures.
 
-use egui::{Label, Rangef, RichText, Ui};
-use egui_plot::{AxisHints, Legend, Line, Plot, PlotPoints};
+mod trace_ui;
+pub mod view;
 
+use std::sync::Arc;
+
+use egui::{Align, ComboBox, Label, Layout, RichText, Ui, vec2};
+use shagreen_formats::figure::Figure;
+use shagreen_formats::library::id_from_name;
+use shagreen_formats::thresholds::ThresholdKind;
+
+use self::trace_ui::{Span, trace_ui};
+use self::view::{Seen, View, level_now};
+use crate::command::Command;
 use crate::panel::Panel;
-use crate::session::BAND_HZ;
-use crate::strings;
+use crate::save::{FigureFile, FigureFormat};
+use crate::scope_buffer::ScopeBuffer;
+use crate::session::Spectra;
+use crate::strings::{self, scope as words};
 use crate::theme::{GAP, tokens};
 
-/// Lowest density that is drawn, in dB re 1 (m/s²)²/Hz.
-const FLOOR_DB: f64 = -70.0;
-/// Highest density that is drawn.
-const TOP_DB: f64 = 5.0;
-/// From one line of the grid to the next, in dB: far enough that every number can be read.
-const STEP_DB: f64 = 20.0;
+/// Share of the width that the left view has.
+const LEFT_SHARE: f32 = 0.45;
+/// Width of the choice of views, in points.
+const CHOICE_WIDTH: f32 = 112.0;
 
-/// Draws both plots side by side.
-pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>) {
-    let width = ui.available_width();
-    let height = ui.available_height();
-    if panel.session.is_hidden() {
-        let words = RichText::new(strings::compare::HIDDEN).color(tokens(ui.ctx()).text_weak);
-        ui.centered_and_justified(|ui| ui.add(Label::new(words).selectable(false)));
-        return;
+/// The panel's own state: what is shown, against which threshold, and what is held.
+pub struct ScopeState {
+    views: [View; 2],
+    spans: [Option<Span>; 2],
+    kind: ThresholdKind,
+    frozen: Option<Box<Frozen>>,
+}
+
+/// What is held.
+struct Frozen {
+    buffer: ScopeBuffer,
+    spectra: Spectra,
+    parents: Vec<String>,
+    texture: String,
+}
+
+impl Default for ScopeState {
+    fn default() -> Self {
+        Self {
+            views: [View::Waveform, View::Spectrum],
+            spans: [None, None],
+            kind: ThresholdKind::default(),
+            frozen: None,
+        }
     }
-    ui.horizontal(|ui| {
-        let left = egui::vec2(width * 0.42 - GAP, height);
-        ui.allocate_ui_with_layout(left, egui::Layout::top_down(egui::Align::Min), |ui| waveform(ui, panel));
-        let right = egui::vec2(width * 0.58, height);
-        ui.allocate_ui_with_layout(right, egui::Layout::top_down(egui::Align::Min), |ui| spectrum(ui, panel));
-    });
 }
 
-/// A heading and the unit of what stands below it.
-pub(crate) fn title(ui: &mut Ui, text: &str, unit: &str) {
-    let t = tokens(ui.ctx());
-    ui.horizontal(|ui| {
-        ui.add(Label::new(RichText::new(text).strong()).selectable(false));
-        ui.add(Label::new(RichText::new(unit).small().color(t.text_weak)).selectable(false));
-    });
+impl ScopeState {
+    /// Whether what is shown is held.
+    pub fn is_frozen(&self) -> bool {
+        self.frozen.is_some()
+    }
+
+    /// Holds what is shown of `panel`, or shows what is played again.
+    pub fn toggle_freeze(&mut self, panel: &Panel<'_>) {
+        self.frozen = match self.frozen {
+            Some(_) => None,
+            None => Some(Box::new(Frozen {
+                buffer: panel.session.scope().clone(),
+                spectra: panel.session.spectra().clone(),
+                parents: parents_of(panel),
+                texture: texture_of(panel),
+            })),
+        };
+    }
 }
 
-fn waveform(ui: &mut Ui, panel: &Panel<'_>) {
-    let t = tokens(ui.ctx());
-    title(ui, strings::WAVEFORM, strings::WAVEFORM_UNIT);
-    let scope = panel.session.scope();
-    let (rate_hz, samples) = scope.newest(0.25);
-    let n = samples.len() as f64;
-    let points: PlotPoints<'_> =
-        samples.iter().enumerate().map(|(i, y)| [(i as f64 - n) / rate_hz * 1e3, *y]).collect();
-    let range = scope.range();
-    fixed(Plot::new("waveform"), t.line)
-        .x_axis_formatter(|mark, _| format!("{:.0} ms", mark.value))
-        .y_axis_formatter(|mark, _| format!("{}", mark.value + 0.0))
-        .y_grid_spacer(egui_plot::uniform_grid_spacer(move |_| [range, 0.5 * range, 0.5 * range]))
-        .show(ui, |plot| {
-            plot.set_plot_bounds_x(-250.0..=0.0);
-            plot.set_plot_bounds_y(-range..=range);
-            plot.line(Line::new(strings::WAVEFORM, points).color(t.accent).width(1.2));
-        });
+/// Names of the parents that are shown.
+fn parents_of(panel: &Panel<'_>) -> Vec<String> {
+    let name = |(texture, _): &(usize, f64)| panel.session.textures()[*texture].name.clone();
+    panel.session.shown_parents().iter().map(name).collect()
 }
 
-fn spectrum(ui: &mut Ui, panel: &Panel<'_>) {
-    let t = tokens(ui.ctx());
-    title(ui, strings::SPECTRUM, strings::SPECTRUM_UNIT);
-    let spectra = panel.session.spectra();
-    // Parents carry their colors everywhere in the window, so the legend names only what is not theirs.
-    let line = |name: &str, points: PlotPoints<'static>| Line::new(name.to_owned(), points);
-    let to_points = |pairs: &mut dyn Iterator<Item = (f64, f64)>| -> PlotPoints<'static> {
-        let in_band = pairs.filter(|(f, _)| (BAND_HZ.0..=BAND_HZ.1).contains(f));
-        in_band.map(|(f, p)| [f.log10(), (10.0 * p.max(1e-12).log10()).max(FLOOR_DB - 10.0)]).collect()
+/// The name of what is heard.
+fn texture_of(panel: &Panel<'_>) -> String {
+    let compared = panel.compare.heard_key();
+    let heard = panel.project.authored.iter().find(|texture| Some(texture.key) == compared);
+    match panel.solo().filter(|_| heard.is_none()) {
+        Some(alone) => panel.session.textures()[alone].name.clone(),
+        None => heard.map_or(&panel.project.texture().name, |texture| &texture.name).clone(),
+    }
+}
+
+/// Draws both views side by side and returns what the user asked of them.
+pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut ScopeState) -> Vec<Command> {
+    let mut commands = Vec::new();
+    if panel.session.is_hidden() {
+        let text = RichText::new(strings::compare::HIDDEN).color(tokens(ui.ctx()).text_weak);
+        ui.centered_and_justified(|ui| ui.add(Label::new(text).selectable(false)));
+        return commands;
+    }
+    let threshold = match state.kind.read() {
+        Ok(threshold) => threshold,
+        Err(error) => {
+            ui.colored_label(tokens(ui.ctx()).error, error.to_string());
+            return commands;
+        }
     };
-    let modeled =
-        |density: &[f64]| to_points(&mut spectra.frequencies.iter().zip(density).map(|(f, p)| (f.0, *p)));
-    let live = to_points(&mut panel.session.scope().density().iter().map(|(f, p)| (f.0, *p)));
-    let marks = |_: egui_plot::GridInput| {
-        [10.0_f64, 20.0, 50.0, 100.0, 200.0, 400.0]
-            .map(|f| egui_plot::GridMark { value: f.log10(), step_size: 0.3 })
-            .to_vec()
+    let (parents, texture) = (parents_of(panel), texture_of(panel));
+    // Put back below: what is held is looked at while the rest of the state changes.
+    let frozen = state.frozen.take();
+    let live = Seen {
+        buffer: panel.session.scope(),
+        spectra: panel.session.spectra(),
+        parents: &parents,
+        texture: &texture,
+        threshold: &threshold,
     };
-    // In a small window the numbers stand as close as they can be read.
-    let across = AxisHints::new_x().label_spacing(Rangef::new(34.0, 44.0));
-    let across = across.formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)));
-    fixed(Plot::new("spectrum"), t.line)
-        .legend(Legend::default().position(egui_plot::Corner::LeftTop).background_alpha(0.6))
-        .x_grid_spacer(marks)
-        .custom_x_axes(vec![across])
-        .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [2.0 * STEP_DB, STEP_DB, STEP_DB]))
-        .show(ui, |plot| {
-            plot.set_plot_bounds_x((0.93 * BAND_HZ.0).log10()..=(1.12 * BAND_HZ.1).log10());
-            plot.set_plot_bounds_y(FLOOR_DB..=TOP_DB);
-            plot.line(line(strings::LIVE_LINE, live).color(t.text_weak.gamma_multiply(0.6)).width(1.0));
-            for (density, color) in spectra.parents.iter().zip(t.parents) {
-                plot.line(line("", modeled(density)).color(color).width(1.2));
+    let seen = frozen.as_ref().map_or(live, |held| Seen {
+        buffer: &held.buffer,
+        spectra: &held.spectra,
+        parents: &held.parents,
+        texture: &held.texture,
+        threshold: &threshold,
+    });
+    let (width, height) = (ui.available_width() - GAP, ui.available_height());
+    ui.horizontal_top(|ui| {
+        for (side, share) in [(0, LEFT_SHARE), (1, 1.0 - LEFT_SHARE)] {
+            let top_down = Layout::top_down(Align::Min);
+            ui.allocate_ui_with_layout(vec2(share * width, height), top_down, |ui| {
+                commands.extend(view_ui(ui, state, side, &seen, frozen.is_some()));
+            });
+        }
+    });
+    state.frozen = frozen;
+    commands
+}
+
+/// One view under the row of its controls.
+fn view_ui(
+    ui: &mut Ui,
+    state: &mut ScopeState,
+    side: usize,
+    seen: &Seen<'_>,
+    is_frozen: bool,
+) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let figure = state.views[side].figure(seen);
+    ui.horizontal(|ui| {
+        choice_ui(ui, state, side);
+        let view = state.views[side];
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            commands.extend(save_ui(ui, view, side, seen, &figure));
+            if side == 1 {
+                commands.extend(freeze_ui(ui, is_frozen));
             }
-            plot.line(line(strings::BLEND_LINE, modeled(&spectra.blend)).color(t.accent).width(2.5));
+            if matches!(view, View::Spectrum | View::Level) {
+                threshold_ui(ui, state);
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                said_ui(ui, view, state.spans[side], seen);
+            });
         });
+    });
+    trace_ui(ui, state.views[side], side, &figure, &mut state.spans[side]);
+    commands
 }
 
-/// A plot that is looked at, not moved.
-pub(crate) fn fixed(plot: Plot<'_>, grid: egui::Color32) -> Plot<'_> {
-    plot.grid_color(grid)
-        .show_crosshair(false)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .allow_axis_zoom_drag(false)
-        .show_background(true)
-        .set_margin_fraction(egui::vec2(0.0, 0.05))
+/// The choice of what is shown.
+fn choice_ui(ui: &mut Ui, state: &mut ScopeState, side: usize) {
+    let before = state.views[side];
+    let choice = ComboBox::from_id_salt(("view of the scope", side))
+        .width(CHOICE_WIDTH)
+        .selected_text(RichText::new(words::view(before)).strong());
+    let shown = choice.show_ui(ui, |ui| {
+        for view in View::ALL {
+            ui.selectable_value(&mut state.views[side], view, words::view(view))
+                .on_hover_text(words::view_help(view));
+        }
+    });
+    shown.response.accessible_name(words::VIEWS[side]).on_hover_text(words::VIEW_HELP);
+    if state.views[side] != before {
+        state.spans[side] = None;
+    }
+}
+
+/// What was measured, else the newest level or the unit.
+fn said_ui(ui: &mut Ui, view: View, span: Option<Span>, seen: &Seen<'_>) {
+    let t = tokens(ui.ctx());
+    let now = if view == View::Level { level_now(seen) } else { None };
+    let (text, color) = match (span, now) {
+        (Some(span), _) => (view.measured(seen, span.from, span.to), t.text),
+        (None, Some((level_db, multiple))) => (words::level_now(level_db, multiple), t.text),
+        (None, None) => (words::unit(view).to_owned(), t.text_weak),
+    };
+    ui.add(Label::new(RichText::new(text).small().color(color)).truncate().selectable(false))
+        .on_hover_text(words::view_help(view));
+}
+
+/// The menu of thresholds.
+fn threshold_ui(ui: &mut Ui, state: &mut ScopeState) {
+    let menu = ui.menu_button(words::THRESHOLD, |ui| {
+        for kind in ThresholdKind::ALL {
+            ui.selectable_value(&mut state.kind, kind, words::threshold(kind))
+                .on_hover_text(words::threshold_help(kind));
+        }
+    });
+    menu.response.on_hover_text(words::THRESHOLD_HELP);
+}
+
+fn freeze_ui(ui: &mut Ui, is_frozen: bool) -> Option<Command> {
+    let button = egui::Button::new(words::FREEZE).selected(is_frozen);
+    ui.add(button).on_hover_text(words::FREEZE_HELP).clicked().then_some(Command::ToggleFreeze)
+}
+
+/// The menu of files.
+fn save_ui(ui: &mut Ui, view: View, side: usize, seen: &Seen<'_>, figure: &Figure) -> Option<Command> {
+    let mut asked = None;
+    let menu = ui.menu_button(words::SAVE, |ui| {
+        for format in FigureFormat::ALL {
+            if ui.button(format.word()).clicked() {
+                asked = Some(format);
+            }
+        }
+    });
+    menu.response.accessible_name(words::SAVES[side]).on_hover_text(words::SAVE_HELP);
+    asked.map(|format| {
+        let stem = format!("{}-{}", view.stem(), id_from_name(seen.texture));
+        Command::SaveFigure(FigureFile { stem, figure: Arc::new(figure.clone()), format })
+    })
 }

@@ -1,9 +1,11 @@
-//! The last seconds of what was played, thinned out for drawing.
+//! The last seconds of what was played, thinned out for drawing, and what each moment of them was like.
 
 use std::collections::VecDeque;
 
-use shagreen_core::spectrum::welch;
+use shagreen_core::spectrum::{rms, welch};
+use shagreen_core::threshold::Threshold;
 use shagreen_core::units::Hertz;
+use shagreen_device::synth::contact::Contact;
 
 /// How much is kept, in seconds.
 const KEPT_SECS: f64 = 2.0;
@@ -13,6 +15,25 @@ const DRAWN_SHARE: f64 = 2.0;
 const WINDOW: usize = 512;
 /// Share of a new spectrum in the one that is shown.
 const SMOOTHING: f64 = 0.25;
+/// How far back moments are kept, in seconds.
+pub const MOMENTS_SECS: f64 = 5.0;
+/// From one moment to the next, in seconds.
+const HOP_SECS: f64 = 0.032;
+/// Of a moment's window, in seconds.
+const MOMENT_SECS: f64 = 4.0 * HOP_SECS;
+
+/// What a moment was like.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// Root mean square of the acceleration in m/s².
+    pub level_mps2: f64,
+    /// Density in (m/s²)²/Hz, [`ScopeBuffer::moment_step_hz`] apart from zero on.
+    pub density: Vec<f32>,
+    /// How fast the tip was, in m/s; 0 where it did not touch.
+    pub speed_mps: f64,
+    /// How hard it pressed, in N.
+    pub force_n: f64,
+}
 
 /// Samples in m/s² on their way to the screen.
 #[derive(Clone, Debug)]
@@ -23,6 +44,21 @@ pub struct ScopeBuffer {
     samples: VecDeque<f64>,
     density: Vec<(Hertz, f64)>,
     range: f64,
+    moments: VecDeque<Moment>,
+    /// Samples since the last moment.
+    n_since: usize,
+}
+
+impl Moment {
+    /// How many times stronger it was than what can just be felt, by the [`ScopeBuffer::weights`] of the threshold.
+    pub fn multiple(&self, weights: &[f64]) -> f64 {
+        self.density
+            .iter()
+            .zip(weights)
+            .map(|(density, weight)| f64::from(*density) * weight)
+            .sum::<f64>()
+            .sqrt()
+    }
 }
 
 impl ScopeBuffer {
@@ -37,21 +73,46 @@ impl ScopeBuffer {
             samples: VecDeque::new(),
             density: Vec::new(),
             range: 1.0,
+            moments: VecDeque::new(),
+            n_since: 0,
         }
     }
 
-    /// Takes in device samples.
-    pub fn push(&mut self, samples: &[f32]) {
+    /// Takes in device samples that were played while the tip was like this.
+    pub fn push(&mut self, samples: &[f32], contact: Contact) {
+        let hop = self.hop();
         for sample in samples {
             if self.skipped == 0 {
                 // What is no number has silenced the output already; here it would blind the spectrum for good.
                 self.samples.push_back(if sample.is_finite() { f64::from(*sample) } else { 0.0 });
+                self.n_since += 1;
+                if self.n_since == hop {
+                    self.keep_moment(contact);
+                }
             }
             self.skipped = (self.skipped + 1) % self.every;
         }
         let kept = (KEPT_SECS * self.rate_hz) as usize;
         let excess = self.samples.len().saturating_sub(kept);
         self.samples.drain(..excess);
+    }
+
+    fn keep_moment(&mut self, contact: Contact) {
+        self.n_since = 0;
+        let window = self.moment_window();
+        let Some(first) = self.samples.len().checked_sub(window) else { return };
+        let newest: Vec<f64> = self.samples.range(first..).copied().collect();
+        let density = welch(&newest, Hertz(self.rate_hz), window);
+        if self.moments.len() == self.n_moments() {
+            self.moments.pop_front();
+        }
+        let touches = contact.force_n > 0.0;
+        self.moments.push_back(Moment {
+            level_mps2: rms(&newest[window - self.hop()..]),
+            density: density.iter().map(|(_, density)| *density as f32).collect(),
+            speed_mps: if touches { f64::from(contact.speed_mps) } else { 0.0 },
+            force_n: f64::from(contact.force_n.max(0.0)),
+        });
     }
 
     /// Works out what is shown of the samples so far: once a frame.
@@ -87,7 +148,42 @@ impl ScopeBuffer {
 
     /// Root mean square of the newest `secs` seconds, in m/s².
     pub fn rms(&self, secs: f64) -> f64 {
-        shagreen_core::spectrum::rms(&self.newest(secs).1)
+        rms(&self.newest(secs).1)
+    }
+
+    /// The moments of the last [`MOMENTS_SECS`], oldest first.
+    pub fn moments(&self) -> impl ExactSizeIterator<Item = &Moment> {
+        self.moments.iter()
+    }
+
+    /// How many moments there are once there are all.
+    pub fn n_moments(&self) -> usize {
+        (MOMENTS_SECS / self.hop_secs()).round() as usize
+    }
+
+    /// From one moment to the next, in s.
+    pub fn hop_secs(&self) -> f64 {
+        self.hop() as f64 / self.rate_hz
+    }
+
+    /// From one frequency of a moment's density to the next, in Hz.
+    pub fn moment_step_hz(&self) -> f64 {
+        self.rate_hz / self.moment_window() as f64
+    }
+
+    /// What each frequency of a moment's density counts for where it is seen against a threshold.
+    pub fn weights(&self, threshold: &Threshold) -> Vec<f64> {
+        let step = Hertz(self.moment_step_hz());
+        (0..=self.moment_window() / 2).map(|i| threshold.weight(Hertz(i as f64 * step.0), step)).collect()
+    }
+
+    fn hop(&self) -> usize {
+        ((HOP_SECS * self.rate_hz) as usize).max(1)
+    }
+
+    fn moment_window(&self) -> usize {
+        // Even, so that it ends in a bin at half the rate.
+        2 * (0.5 * MOMENT_SECS * self.rate_hz) as usize
     }
 }
 
@@ -105,7 +201,10 @@ fn nice_ceiling(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ScopeBuffer, nice_ceiling};
+    use super::{MOMENTS_SECS, ScopeBuffer, nice_ceiling};
+    use shagreen_device::synth::contact::Contact;
+
+    const STILL: Contact = Contact { speed_mps: 0.0, force_n: 0.0 };
 
     #[test]
     fn keeps_the_newest_and_finds_a_tone() {
@@ -113,7 +212,7 @@ mod tests {
         let tone: Vec<f32> =
             (0..48_000 * 4).map(|i| (std::f32::consts::TAU * 100.0 * i as f32 / 48_000.0).sin()).collect();
         for block in tone.chunks(700) {
-            scope.push(block);
+            scope.push(block, STILL);
         }
         scope.update();
         assert_eq!(scope.newest(9.0).1.len(), 4000);
@@ -127,16 +226,42 @@ mod tests {
     fn a_sample_that_is_no_number_does_not_blind_it() {
         let mut scope = ScopeBuffer::new(48_000.0, 1000.0);
         for sample in [f32::NAN, 1.0, f32::INFINITY] {
-            scope.push(&vec![sample; 48_000]);
+            scope.push(&vec![sample; 48_000], STILL);
             scope.update();
         }
         assert!(scope.density().iter().all(|(_, p)| p.is_finite()) && scope.range().is_finite());
+        assert!(scope.moments().all(|moment| moment.level_mps2.is_finite()));
     }
 
     #[test]
     fn a_model_of_a_higher_rate_is_drawn_at_a_higher_rate() {
         assert_eq!(ScopeBuffer::new(48_000.0, 4000.0).newest(1.0).0, 8000.0);
         assert_eq!(ScopeBuffer::new(44_100.0, 1000.0).newest(1.0).0, 44_100.0 / 22.0);
+    }
+
+    /// However the samples come, and at whatever rate, moments are as far apart, and the newest five seconds are kept.
+    #[test]
+    fn moments_are_kept_as_they_were() {
+        for (device_rate, model_rate, block) in
+            [(48_000.0, 1000.0, 4096), (44_100.0, 1000.0, 333), (96_000.0, 2000.0, 64)]
+        {
+            let mut scope = ScopeBuffer::new(device_rate, model_rate);
+            let n = (8.0 * device_rate) as usize;
+            let samples: Vec<f32> = (0..n).map(|i| if i < n / 2 { 0.0 } else { 0.5 }).collect();
+            for (i, block) in samples.chunks(block).enumerate() {
+                let touch =
+                    if (i * block.len()) < n / 2 { STILL } else { Contact { speed_mps: 0.2, force_n: 1.0 } };
+                scope.push(block, touch);
+            }
+            assert_eq!(scope.moments().len(), scope.n_moments());
+            assert!((scope.n_moments() as f64 * scope.hop_secs() - MOMENTS_SECS).abs() < scope.hop_secs());
+            let n_loud = scope.moments().filter(|moment| moment.level_mps2 > 0.25).count();
+            let n_touched = scope.moments().filter(|moment| moment.force_n > 0.0).count();
+            let expected = 4.0 / scope.hop_secs();
+            assert!((n_loud as f64 - expected).abs() <= 3.0, "{n_loud} for {expected}");
+            assert!((n_touched as f64 - expected).abs() <= 5.0, "{n_touched} for {expected}");
+            assert!((scope.moment_step_hz() - 7.8).abs() < 0.2);
+        }
     }
 
     #[test]

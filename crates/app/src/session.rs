@@ -58,6 +58,8 @@ const PATIENCE_SECS: f64 = 0.3;
 /// The spectra at the contact of the moment.
 #[derive(Clone, Debug, Default)]
 pub struct Spectra {
+    /// The contact.
+    pub contact: Contact,
     /// Where they are evaluated, evenly spaced on a logarithmic axis.
     pub frequencies: Vec<Hertz>,
     /// Density of each parent that is shown, in the order of the weights.
@@ -483,6 +485,7 @@ impl Session {
         } else {
             contact
         };
+        self.spectra.contact = contact;
         let nothing = || vec![0.0; self.spectra.frequencies.len()];
         self.spectra.blend =
             if self.is_hidden { nothing() } else { self.heard.psd(contact, &self.spectra.frequencies) };

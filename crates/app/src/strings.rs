@@ -14,6 +14,7 @@ pub mod help;
 pub mod import;
 pub mod map;
 pub mod path;
+pub mod scope;
 pub mod view;
 
 /// The output takes no more at the moment.
@@ -114,14 +115,10 @@ pub const HAND_SPEED: &str = "Speed of the hand";
 pub const HAND_FORCE: &str = "Force of the hand";
 /// Accessible name of the choice of paths.
 pub const HAND_PATH: &str = "Path of the hand";
-/// Heading of the waveform.
-pub const WAVEFORM: &str = "Acceleration";
-/// Heading of the spectrum.
-pub const SPECTRUM: &str = "Spectrum";
-/// The blend's line in the spectrum.
-pub const BLEND_LINE: &str = "blend (model)";
-/// The measured line in the spectrum.
-pub const LIVE_LINE: &str = "live";
+/// On the button that lets a neighbor be heard alone.
+pub const SOLO: &str = "S";
+/// What that does.
+pub const SOLO_HELP: &str = "Solo: hear this texture by itself, as it was measured; press again to hear the blend. The point stays where it is.";
 /// Accessible name of the choice of outputs.
 pub const OUTPUT: &str = "Output";
 /// What the choice of outputs does.
@@ -254,10 +251,6 @@ pub const NOBODY_FELT: &str = ", nobody felt them";
 pub const SOME_SIMULATED: &str = "; some are simulated";
 /// Nothing says where positions come from.
 pub const NO_SOURCE: &str = "not stated";
-/// Unit of the waveform.
-pub const WAVEFORM_UNIT: &str = "m/s², last 0.25 s";
-/// Unit of the spectrum.
-pub const SPECTRUM_UNIT: &str = "dB re 1 (m/s²)²/Hz";
 /// The scale bar of the pad.
 pub const TEN_MM: &str = "10 mm";
 /// A texture without a place in the space, in the list.
@@ -371,4 +364,9 @@ pub fn locked_share(texture: &str, percent: f64) -> String {
 /// Where extrapolation stopped.
 pub fn extrapolated_to(at: SpacePoint) -> String {
     format!("Extrapolated as far as the textures support a guess: it stops at {at}.")
+}
+
+/// Accessible name of the button that lets a texture be heard alone.
+pub fn solo(name: &str) -> String {
+    format!("Hear {name} alone")
 }

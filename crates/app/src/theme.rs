@@ -3,6 +3,7 @@
 use egui::{
     Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2,
 };
+use shagreen_formats::figure::{self, Tone};
 use shagreen_formats::project::N_COLORS;
 
 /// The colors of one theme.
@@ -135,21 +136,22 @@ pub fn tokens(ctx: &egui::Context) -> &'static Tokens {
     }
 }
 
-/// The color of a map at a share of its range, 0..1: from dark blue by gray to yellow, which readers of any color vision tell
-/// apart, and which gets lighter all the way (after cividis, J. Nuñez, C. Anderton and R. Renslow 2018).
+/// The color of a part of a figure, told apart by readers of any color vision.
+pub fn tone_color(t: &Tokens, tone: Tone) -> Color32 {
+    match tone {
+        Tone::Main => t.accent,
+        Tone::Second => t.parents[0],
+        Tone::Third => t.parents[1],
+        Tone::Fourth => t.parents[2],
+        Tone::Limit => t.text,
+        Tone::Faint => t.text_weak.gamma_multiply(0.55),
+    }
+}
+
+/// The color of a map at a share of its range, 0..1.
 pub fn map_color(share: f32) -> Color32 {
-    const STOPS: [[f32; 3]; 5] = [
-        [0.0, 34.0, 78.0],
-        [62.0, 76.0, 107.0],
-        [124.0, 123.0, 120.0],
-        [187.0, 173.0, 108.0],
-        [254.0, 232.0, 56.0],
-    ];
-    let at = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f32;
-    let first = (at as usize).min(STOPS.len() - 2);
-    let part = at - first as f32;
-    let channel = |i: usize| (STOPS[first][i] + part * (STOPS[first + 1][i] - STOPS[first][i])).round() as u8;
-    Color32::from_rgb(channel(0), channel(1), channel(2))
+    let [red, green, blue] = figure::map_color(share);
+    Color32::from_rgb(red, green, blue)
 }
 
 /// Installs both themes.

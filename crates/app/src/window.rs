@@ -32,7 +32,7 @@ use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
 use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
-use crate::scope::scope_ui;
+use crate::scope::{ScopeState, scope_ui};
 use crate::session::Session;
 use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
@@ -56,6 +56,7 @@ pub struct Window {
     heat: HeatMap,
     map: Option<Quantity>,
     pad: PadState,
+    scope: ScopeState,
     canvas: CanvasState,
     search: String,
     /// A texture that has just joined, to be scrolled to.
@@ -109,6 +110,7 @@ impl Window {
             heat: HeatMap::default(),
             map: None,
             pad: PadState::default(),
+            scope: ScopeState::default(),
             canvas: CanvasState::default(),
             search: String::new(),
             reveal: None,
@@ -292,7 +294,7 @@ impl Window {
             compare: &self.compare,
             pictures: &self.pictures,
         };
-        let (pad, place) = (&mut self.pad, &mut self.tour_places[1]);
+        let (pad, scope, place) = (&mut self.pad, &mut self.scope, &mut self.tour_places[1]);
         let mut mouse = None;
         Side::bottom("stage").exact_size(STAGE_HEIGHT).resizable(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
@@ -305,7 +307,9 @@ impl Window {
                     commands.extend(outcome.commands);
                     mouse = outcome.mouse;
                 });
-                ui.allocate_ui_with_layout(ui.available_size(), top_down, |ui| scope_ui(ui, &panel));
+                ui.allocate_ui_with_layout(ui.available_size(), top_down, |ui| {
+                    commands.extend(scope_ui(ui, &panel, scope));
+                });
             });
         });
         if let Some(report) = mouse {

@@ -194,6 +194,43 @@ fn two_textures_are_compared() {
     assert_eq!(heard(&harness), first, "they have changed sides");
 }
 
+/// A neighbor is heard by itself from its card, and the blend again by the same button, or by undo.
+#[test]
+fn a_neighbor_is_heard_alone() {
+    let mut harness = author();
+    let (parent, name) = {
+        let (parent, _) = window(&harness).session().shown_parents()[0];
+        (parent, strings::solo(&window(&harness).session().textures()[parent].name))
+    };
+    let at = window(&harness).project().texture().at;
+    click(&mut harness, &name);
+    assert_eq!(support::solo(&harness), Some(parent));
+    assert_eq!(window(&harness).session().shown_parents(), [(parent, 1.0)]);
+    click(&mut harness, &name);
+    assert_eq!((support::solo(&harness), window(&harness).project().texture().at), (None, at));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(2);
+    assert_eq!(support::solo(&harness), Some(parent), "undone");
+}
+
+/// A state that was kept becomes a texture, and what became of it is compared with it.
+#[test]
+fn a_snapshot_becomes_a_texture_of_its_own() {
+    let mut harness = author();
+    let name = window(&harness).project().texture().name.clone();
+    let at = window(&harness).project().texture().at;
+    click(&mut harness, words::KEEP);
+    slide(&mut harness, strings::ROUGH_SMOOTH, 81.0);
+    take_of_menu(&mut harness, &words::snapshot(1, &name), words::AS_OWN);
+    assert_eq!(names(&harness), [name.clone(), words::state_of(&name, 1)]);
+    assert_eq!(window(&harness).project().texture().at, at);
+    let kept = heard(&harness);
+    click(&mut harness, &compare::hear("A"));
+    assert_ne!(heard(&harness), kept, "what became of it");
+    click(&mut harness, &compare::hear("B"));
+    assert_eq!(heard(&harness), kept);
+}
+
 #[test]
 fn maps_are_worked_out_and_shown_with_their_scale() {
     let mut harness = author();

@@ -78,6 +78,7 @@ pub mod statistics;
 pub mod tap;
 pub mod texture;
 pub mod texture_path;
+pub mod threshold;
 pub mod triangulation;
 pub mod units;
 pub mod words;

@@ -2,25 +2,26 @@
 
 use shagreen_core::calibration::{Calibration, CurvePoint};
 
-use crate::figure::{Chart, Figure, Mark, Point, Series, Tone};
+use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Tone};
 
 /// The figures of a calibration with their names: gain over frequency, what is left of it beside the fit, distortion.
 /// `source` says what was measured.
 pub fn calibration_figures(calibration: &Calibration, source: &str) -> Vec<(&'static str, Figure)> {
-    let decades = |hz: f64| hz.log10();
     let db = |ratio: f64| 20.0 * ratio.log10();
     let chart = |title: &str, y_label: &str, series: Vec<Series>| {
         Figure::Chart(Chart {
             title: title.to_owned(),
-            x_label: "log10 of the frequency in Hz (1 is 10 Hz, 2 is 100 Hz, 3 is 1000 Hz)".to_owned(),
+            x_label: "frequency in Hz".to_owned(),
             y_label: y_label.to_owned(),
             is_isotropic: false,
+            x_scale: Scale::Logarithmic,
+            shown: None,
             series,
             source: source.to_owned(),
         })
     };
     let over = |name: &str, tone: Tone, mark: Mark, value: &dyn Fn(&CurvePoint) -> Option<f64>| {
-        let point = |p: &CurvePoint| value(p).map(|y| Point::new(decades(p.frequency.0), y));
+        let point = |p: &CurvePoint| value(p).map(|y| Point::new(p.frequency.0, y));
         let points = calibration.curve.iter().filter_map(point).filter(|p| p.y.is_finite()).collect();
         Series { name: name.to_owned(), mark, tone, points }
     };
@@ -35,7 +36,7 @@ pub fn calibration_figures(calibration: &Calibration, source: &str) -> Vec<(&'st
     let left =
         over("measured over fit", Tone::Main, Mark::Line, &|p| fitted(p).map(|f| db(p.gain_mps2_per_v / f)));
     let harmonics = calibration.distortion.iter();
-    let harmonics = harmonics.map(|p| Point::new(decades(p.frequency.0), 100.0 * p.share)).collect();
+    let harmonics = harmonics.map(|p| Point::new(p.frequency.0, 100.0 * p.share)).collect();
     let harmonics = Series {
         name: "second to fifth harmonic".to_owned(),
         mark: Mark::Line,

@@ -6,7 +6,7 @@ use shagreen_core::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, Signal
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 
-use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
+use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
 use crate::library::Library;
 
 /// What the field `format` of a report holds.
@@ -201,6 +201,8 @@ fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
         x_label: format!("{across}, 0 to 100"),
         y_label: format!("{up}, 0 to 100"),
         is_isotropic: true,
+        x_scale: Scale::Linear,
+        shown: None,
         series: all,
         source: String::new(),
     })

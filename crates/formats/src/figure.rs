@@ -1,10 +1,14 @@
 //! Figures as data: what is drawn in the window and what is saved as SVG or CSV is one and the same.
 
+mod color_map;
 mod labels;
+mod png;
 mod svg;
 
 use crate::named_table::write_table;
 
+pub use crate::figure::color_map::map_color;
+pub use crate::figure::png::{PngError, figure_png};
 pub use crate::figure::svg::{figure_svg, page_svg};
 
 /// A figure of a report.
@@ -14,6 +18,8 @@ pub enum Figure {
     Chart(Chart),
     /// Numbers by row and column.
     Table(Table),
+    /// A value over two axes, as colors.
+    Map(Map),
 }
 
 /// Points and lines over two axes.
@@ -27,10 +33,24 @@ pub struct Chart {
     pub y_label: String,
     /// Whether a unit is as long on both axes.
     pub is_isotropic: bool,
+    /// How the horizontal axis is laid out; points have their own coordinates on either.
+    pub x_scale: Scale,
+    /// What the axes show, horizontal then vertical, where that is not left to the points.
+    pub shown: Option<[(f64, f64); 2]>,
     /// What is drawn, the last on top.
     pub series: Vec<Series>,
     /// Who or what it comes from, shown with it and saved with every number; may be empty.
     pub source: String,
+}
+
+/// How coordinates are laid out on an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// The same distance for the same difference.
+    #[default]
+    Linear,
+    /// The same distance for the same ratio; all coordinates are above zero.
+    Logarithmic,
 }
 
 /// Points that belong together.
@@ -66,6 +86,10 @@ pub enum Tone {
     Second,
     /// A third thing.
     Third,
+    /// A fourth thing.
+    Fourth,
+    /// A limit that the others are seen against.
+    Limit,
     /// What only helps reading.
     Faint,
 }
@@ -96,6 +120,46 @@ pub struct Table {
     pub source: String,
 }
 
+/// A value over two axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// What it shows, in a line.
+    pub title: String,
+    /// Name and unit of the horizontal axis.
+    pub x_label: String,
+    /// Name and unit of the vertical axis.
+    pub y_label: String,
+    /// Name and unit of the value.
+    pub value_label: String,
+    /// Where the first column begins and the last ends.
+    pub x: (f64, f64),
+    /// Where the first row begins and the last ends.
+    pub y: (f64, f64),
+    /// The values that have the first and the last color.
+    pub range: (f64, f64),
+    /// The values, row by row from the lowest, all rows as long.
+    pub rows: Vec<Vec<f64>>,
+    /// As [`Chart::source`].
+    pub source: String,
+}
+
+impl Map {
+    /// The value as a share of the range, 0..1.
+    pub fn share(&self, value: f64) -> f64 {
+        ((value - self.range.0) / (self.range.1 - self.range.0)).clamp(0.0, 1.0)
+    }
+
+    /// The middle of each cell, row by row, and its value.
+    pub fn cells(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        let middle =
+            |(low, high): (f64, f64), i: usize, n: usize| low + (i as f64 + 0.5) * (high - low) / n as f64;
+        self.rows.iter().enumerate().flat_map(move |(i, row)| {
+            let y = middle(self.y, i, self.rows.len());
+            row.iter().enumerate().map(move |(j, value)| (middle(self.x, j, row.len()), y, *value))
+        })
+    }
+}
+
 impl Point {
     /// A point without a label.
     pub fn new(x: f64, y: f64) -> Self {
@@ -114,6 +178,7 @@ impl Figure {
         let (title, source) = match self {
             Self::Chart(chart) => (&chart.title, &chart.source),
             Self::Table(table) => (&table.title, &table.source),
+            Self::Map(map) => (&map.title, &map.source),
         };
         if source.is_empty() { title.clone() } else { format!("{title} ({source})") }
     }
@@ -123,6 +188,7 @@ impl Figure {
         match self {
             Self::Chart(chart) => source.clone_into(&mut chart.source),
             Self::Table(table) => source.clone_into(&mut table.source),
+            Self::Map(map) => source.clone_into(&mut map.source),
         }
     }
 }
@@ -135,10 +201,13 @@ impl Table {
 }
 
 impl Chart {
-    /// Lowest and highest coordinate of all points, horizontal then vertical, with some room around; 0 to 1 where there
-    /// are none.
+    /// What the axes show: [`Chart::shown`], else the lowest and highest coordinate of all points, horizontal then vertical,
+    /// with some room around; 0 to 1 where there are none.
     pub fn bounds(&self) -> [(f64, f64); 2] {
-        let of = |coordinate: fn(&Point) -> f64| {
+        if let Some(shown) = self.shown {
+            return shown;
+        }
+        let of = |coordinate: &dyn Fn(&Point) -> f64| {
             let points = self.series.iter().flat_map(|series| &series.points).map(coordinate);
             let (low, high) =
                 points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
@@ -148,14 +217,24 @@ impl Chart {
             let room = if high > low { 0.06 * (high - low) } else { 0.5 };
             (low - room, high + room)
         };
-        [of(|p| p.x), of(|p| p.y)]
+        let across = match self.x_scale {
+            Scale::Linear => of(&|p| p.x),
+            Scale::Logarithmic => {
+                let (low, high) = of(&|p| p.x.log10());
+                (10.0_f64.powf(low), 10.0_f64.powf(high))
+            }
+        };
+        [across, of(&|p| p.y)]
     }
 }
 
 /// The first line of a chart's table.
 const CHART_COLUMNS: [&str; 5] = ["series", "label", "x", "y", "source"];
 
-/// The numbers of a figure as CSV: of a chart one point a line, of a table its own rows.
+/// The first line of a map's table.
+const MAP_COLUMNS: [&str; 4] = ["x", "y", "value", "source"];
+
+/// The numbers of a figure as CSV: of a chart one point a line, of a table its own rows, of a map one cell a line.
 pub fn figure_csv(figure: &Figure) -> Vec<u8> {
     match figure {
         Figure::Chart(chart) => {
@@ -176,19 +255,30 @@ pub fn figure_csv(figure: &Figure) -> Vec<u8> {
             });
             write_table(std::iter::once(first.collect()).chain(rows))
         }
+        Figure::Map(map) => {
+            let row = |(x, y, value): (f64, f64, f64)| {
+                vec![format!("{x}"), format!("{y}"), format!("{value}"), map.source.clone()]
+            };
+            let first = MAP_COLUMNS.map(str::to_owned).to_vec();
+            write_table(std::iter::once(first).chain(map.cells().map(row)))
+        }
     }
 }
 
 /// Whether bytes are a table that [`figure_csv`] wrote.
 pub fn is_figure_csv(bytes: &[u8]) -> bool {
     let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
-    first == CHART_COLUMNS.join(",").as_bytes() || first.starts_with(b"row,") && first.ends_with(b",source")
+    let is_one = |columns: &[&str]| first == columns.join(",").as_bytes();
+    is_one(&CHART_COLUMNS)
+        || is_one(&MAP_COLUMNS)
+        || first.starts_with(b"row,") && first.ends_with(b",source")
 }
 
 #[cfg(test)]
 mod tests {
     use super::{
-        Chart, Figure, Mark, Point, Series, Table, Tone, figure_csv, figure_svg, is_figure_csv, page_svg,
+        Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone, figure_csv, figure_svg, is_figure_csv,
+        page_svg,
     };
 
     fn chart() -> Chart {
@@ -203,6 +293,8 @@ mod tests {
             x_label: "x".to_owned(),
             y_label: "y".to_owned(),
             is_isotropic: false,
+            x_scale: Scale::Linear,
+            shown: None,
             source: "simulated raters".to_owned(),
             series: vec![
                 series("edges", Mark::Segments, Tone::Faint),
@@ -255,5 +347,52 @@ mod tests {
         assert_eq!(one.bounds(), [(1.5, 2.5); 2]);
         assert!(figure_svg(&Figure::Chart(one)).ends_with("</svg>\n"));
         assert!(figure_svg(&Figure::Table(Table { rows: Vec::new(), ..table() })).ends_with("</svg>\n"));
+    }
+
+    #[test]
+    fn a_logarithmic_axis_gives_decades_the_same_room() {
+        let dots = Series {
+            name: String::new(),
+            mark: Mark::Dots,
+            tone: Tone::Main,
+            points: [10.0, 100.0, 1000.0].map(|x| Point::new(x, 1.0)).to_vec(),
+        };
+        let chart = Chart {
+            x_scale: Scale::Logarithmic,
+            shown: Some([(5.0, 2000.0), (0.0, 2.0)]),
+            series: vec![dots],
+            ..chart()
+        };
+        assert_eq!(chart.bounds()[0], (5.0, 2000.0));
+        let svg = figure_svg(&Figure::Chart(chart));
+        let circles = svg.split("<circle cx=\"").skip(1);
+        let at: Vec<f64> = circles.map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
+        assert_eq!(at.len(), 3, "{svg}");
+        assert!((at[1] - at[0] - (at[2] - at[1])).abs() <= 1.0, "{at:?}");
+    }
+
+    #[test]
+    fn a_map_is_drawn_and_saved_cell_by_cell() {
+        let map = Map {
+            title: "Spectrogram".to_owned(),
+            x_label: "time in s".to_owned(),
+            y_label: "frequency in Hz".to_owned(),
+            value_label: "density in dB".to_owned(),
+            x: (-2.0, 0.0),
+            y: (0.0, 100.0),
+            range: (-60.0, 0.0),
+            rows: vec![vec![-60.0, -60.0, 0.0, -30.0], vec![-90.0, 10.0, -30.0, -30.0]],
+            source: String::new(),
+        };
+        assert_eq!((map.share(-90.0), map.share(-30.0), map.share(10.0)), (0.0, 0.5, 1.0));
+        let figure = Figure::Map(map);
+        let csv = String::from_utf8(figure_csv(&figure)).unwrap();
+        assert!(is_figure_csv(csv.as_bytes()));
+        assert_eq!(csv.lines().nth(1), Some("-1.75,25,-60,"));
+        assert_eq!(csv.lines().last(), Some("-0.25,75,-30,"));
+        let svg = figure_svg(&figure);
+        assert!(svg.contains("Spectrogram") && svg.contains("density"), "{svg}");
+        // Beyond the page and the scale of colors: five runs of one color, and the first color of the range twice.
+        assert!(svg.contains("#00224E") && svg.contains("#FEE838"), "{svg}");
     }
 }

@@ -57,4 +57,5 @@ pub mod starter;
 pub mod stroke;
 pub mod stroke_csv;
 pub mod svc;
+pub mod thresholds;
 pub mod wav;

@@ -7,7 +7,7 @@ use shagreen_core::ratings::Agreement;
 use shagreen_core::selection::PaperChain;
 use shagreen_core::space_build::{Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, verdict};
 
-use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
+use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
 
 /// What the field `format` of a report holds.
 pub const FORMAT: &str = "shagreen-space-report";
@@ -215,6 +215,8 @@ fn chart(title: String, [x_label, y_label]: [&str; 2], is_isotropic: bool, serie
         x_label: x_label.to_owned(),
         y_label: y_label.to_owned(),
         is_isotropic,
+        x_scale: Scale::Linear,
+        shown: None,
         series,
         source: String::new(),
     })

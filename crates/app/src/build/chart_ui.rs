@@ -8,8 +8,8 @@ use egui_plot::{AxisHints, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Poi
 use shagreen_formats::figure::{Chart, Mark, Point, Series, Tone};
 
 use crate::label_places::{Placed, Wish, label_places, remembered_places};
-use crate::scope::fixed;
-use crate::theme::{GAP, Tokens, tokens};
+use crate::plot::fixed;
+use crate::theme::{GAP, Tokens, tokens, tone_color};
 
 /// Radius of a dot in points.
 const DOT: f32 = 3.5;
@@ -38,7 +38,7 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
         plot.set_plot_bounds_x(x.0..=x.1);
         plot.set_plot_bounds_y(y.0..=y.1);
         for series in &chart.series {
-            let color = color_of(series.tone, t);
+            let color = tone_color(t, series.tone);
             let points: Vec<[f64; 2]> = series.points.iter().map(|p| [p.x, p.y]).collect();
             match series.mark {
                 Mark::Dots => {
@@ -78,16 +78,6 @@ fn radius(series: &Series) -> f32 {
     if series.tone == Tone::Faint { 0.65 * DOT } else { DOT }
 }
 
-/// The color of a part, told apart by readers of any color vision.
-fn color_of(tone: Tone, t: &Tokens) -> Color32 {
-    match tone {
-        Tone::Main => t.accent,
-        Tone::Second => t.parents[0],
-        Tone::Third => t.parents[1],
-        Tone::Faint => t.text_weak.gamma_multiply(0.55),
-    }
-}
-
 /// What the marks are, in a row above the plot where they cover nothing. Lines whose ends are named need no more.
 fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
     let is_named = |series: &&Series| {
@@ -96,7 +86,7 @@ fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
     };
     ui.horizontal_wrapped(|ui| {
         for series in chart.series.iter().filter(|series| !is_named(series)) {
-            let color = color_of(series.tone, t);
+            let color = tone_color(t, series.tone);
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 5.0;
                 let (area, _) = ui.allocate_exact_size(vec2(16.0, 14.0), Sense::hover());
@@ -145,7 +135,7 @@ fn names_ui(ui: &Ui, chart: &Chart, area: Rect, transform: &PlotTransform, t: &T
         let is_end = series.mark != Mark::Dots;
         let (size, color) = match (is_end, series.tone) {
             (true, Tone::Faint) => (11.0, t.text_weak),
-            (true, tone) => (13.0, color_of(tone, t)),
+            (true, tone) => (13.0, tone_color(t, tone)),
             (false, _) => (11.0, t.text),
         };
         let galley = painter.layout_no_wrap(label.to_owned(), FontId::proportional(size), color);

@@ -4,6 +4,7 @@ use egui::{Align, Grid, Label, Layout, RichText, ScrollArea, Ui};
 use shagreen_formats::figure::{Figure, Table};
 
 use crate::build::chart_ui::chart_ui;
+use crate::map_plot::map_plot;
 use crate::theme::{GROUP_GAP, tokens};
 
 /// Draws any figure into the space that there is; `name` tells it from the others.
@@ -12,6 +13,9 @@ pub(super) fn figure_ui(ui: &mut Ui, name: &str, figure: &Figure) {
     match figure {
         Figure::Chart(chart) => chart_ui(ui, name, &figure.title(), chart),
         Figure::Table(table) => table_ui(ui, name, table),
+        Figure::Map(map) => {
+            map_plot(ui, name, map);
+        }
     }
 }
 

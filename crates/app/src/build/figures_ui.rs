@@ -35,7 +35,11 @@ pub(super) fn figures_ui(ui: &mut Ui, built: &Built, shown: &mut usize) -> Optio
     let builder = UiBuilder::new().max_rect(foot).layout(Layout::right_to_left(Align::Center));
     let mut foot = ui.new_child(builder);
     let mut asked = None;
-    for (word, format) in [(strings::SAVE_CSV, FigureFormat::Csv), (strings::SAVE_SVG, FigureFormat::Svg)] {
+    for (word, format) in [
+        (strings::SAVE_CSV, FigureFormat::Csv),
+        (strings::SAVE_PNG, FigureFormat::Png),
+        (strings::SAVE_SVG, FigureFormat::Svg),
+    ] {
         if foot.button(word).clicked() {
             let source = built.build.source;
             let stem = if source == LabelSource::HumanRatings {

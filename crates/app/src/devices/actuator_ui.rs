@@ -12,8 +12,8 @@ use shagreen_formats::actuator_toml::read_actuator;
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::background::in_background;
+use crate::plot::fixed;
 use crate::rig::Mounted;
-use crate::scope::fixed;
 use crate::strings::devices as strings;
 use crate::theme::tokens;
 

@@ -5,7 +5,7 @@ use egui_plot::{HLine, Line, Plot, PlotPoints};
 use shagreen_device::status::{STROKE_BUDGET_SECS, TAP_BUDGET_SECS};
 
 use super::{note, warning};
-use crate::scope::{fixed, title};
+use crate::plot::{fixed, title};
 use crate::session::Session;
 use crate::strings::devices as strings;
 use crate::theme::tokens;

@@ -5,7 +5,7 @@ use egui_plot::{Line, Plot, PlotPoints, Points};
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
-use crate::scope::fixed;
+use crate::plot::fixed;
 use crate::session::Session;
 use crate::strings::devices as strings;
 use crate::theme::tokens;

@@ -12,7 +12,7 @@ use crate::import::recording_state::RecordingState;
 use crate::import::sheet::Surroundings;
 use crate::import::spectrum_plot::spectrum_plot;
 use crate::import::trace_plot::trace_plot;
-use crate::scope::title;
+use crate::plot::title;
 use crate::strings::import as strings;
 use crate::theme::{GAP, GROUP_GAP, tokens};
 

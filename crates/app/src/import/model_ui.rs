@@ -11,7 +11,7 @@ use crate::import::fit_ui::{figure_rows_ui, list_ui};
 use crate::import::plane_plot::{Dot, plane_plot};
 use crate::import::sheet::Surroundings;
 use crate::import::spectrum_plot::spectrum_plot;
-use crate::scope::title;
+use crate::plot::title;
 use crate::strings::import as strings;
 use crate::theme::{GAP, GROUP_GAP, tokens};
 

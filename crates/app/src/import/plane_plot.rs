@@ -3,7 +3,7 @@
 use egui::{Color32, Ui};
 use egui_plot::{HoverPosition, Line, Plot, PlotPoint, PlotPoints, Points};
 
-use crate::scope::fixed;
+use crate::plot::fixed;
 use crate::strings::import as strings;
 use crate::theme::{Tokens, tokens};
 

@@ -4,7 +4,7 @@ use egui::Ui;
 use egui_plot::{Corner, GridMark, Legend, Line, Plot, PlotPoints};
 use shagreen_core::units::Hertz;
 
-use crate::scope::fixed;
+use crate::plot::fixed;
 use crate::strings::import as strings;
 use crate::theme::tokens;
 

@@ -5,7 +5,7 @@ use egui_plot::{FilledArea, GridMark, Line, Plot, PlotPoints, PlotUi, Span};
 
 use crate::import::plane_plot::short;
 use crate::import::trace::Trace;
-use crate::scope::{fixed, title};
+use crate::plot::{fixed, title};
 use crate::strings::import as strings;
 use crate::theme::{Tokens, tokens};
 

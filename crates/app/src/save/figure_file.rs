@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use shagreen_formats::figure::{Figure, figure_csv, figure_svg};
+use shagreen_formats::figure::{Figure, figure_csv, figure_png, figure_svg};
+
+/// What a PNG begins with.
+const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
 /// A figure on its way into a file.
 #[derive(Clone, Debug)]
@@ -18,17 +21,23 @@ pub struct FigureFile {
 /// What is written of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureFormat {
-    /// The picture.
+    /// The picture, of lines.
     Svg,
+    /// The picture, of pixels.
+    Png,
     /// The numbers.
     Csv,
 }
 
 impl FigureFormat {
+    /// All of them, in the order of menus.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Csv];
+
     /// The word for people.
     pub fn word(self) -> &'static str {
         match self {
             Self::Svg => "SVG",
+            Self::Png => "PNG",
             Self::Csv => "CSV",
         }
     }
@@ -37,6 +46,7 @@ impl FigureFormat {
     fn ending(self) -> &'static str {
         match self {
             Self::Svg => "svg",
+            Self::Png => "png",
             Self::Csv => "csv",
         }
     }
@@ -54,10 +64,11 @@ impl FigureFile {
     }
 
     /// What goes into the file.
-    pub(super) fn bytes(&self) -> Vec<u8> {
+    pub(super) fn bytes(&self) -> Result<Vec<u8>, String> {
         match self.format {
-            FigureFormat::Svg => figure_svg(&self.figure).into_bytes(),
-            FigureFormat::Csv => figure_csv(&self.figure),
+            FigureFormat::Svg => Ok(figure_svg(&self.figure).into_bytes()),
+            FigureFormat::Png => figure_png(&self.figure).map_err(|error| error.to_string()),
+            FigureFormat::Csv => Ok(figure_csv(&self.figure)),
         }
     }
 
@@ -69,9 +80,10 @@ impl FigureFile {
                 let head = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]).into_owned();
                 head.trim_start().starts_with('<') && head.contains("<svg")
             }
+            FigureFormat::Png => bytes.starts_with(PNG_SIGNATURE),
             FigureFormat::Csv => {
                 let first_line = |bytes: &[u8]| bytes.split(|b| *b == b'\n').next().map(<[u8]>::to_vec);
-                first_line(bytes) == first_line(&self.bytes())
+                first_line(bytes) == first_line(&figure_csv(&self.figure))
             }
         }
     }
@@ -95,11 +107,14 @@ mod tests {
         };
         let file =
             |name: &str, format| FigureFile { stem: "figure".to_owned(), figure: table(name).into(), format };
-        let (svg, csv) = (file("one", FigureFormat::Svg), file("one", FigureFormat::Csv));
-        assert_eq!((svg.file_name(), csv.file_name()), ("figure.svg".to_owned(), "figure.csv".to_owned()));
-        assert!(svg.is_like(&svg.bytes()) && csv.is_like(&csv.bytes()));
-        assert!(!svg.is_like(&csv.bytes()) && !csv.is_like(&svg.bytes()));
-        assert!(!csv.is_like(&file("two", FigureFormat::Csv).bytes()), "other columns");
+        let files = FigureFormat::ALL.map(|format| file("one", format));
+        let bytes = files.each_ref().map(|file| file.bytes().unwrap());
+        assert_eq!(files.each_ref().map(FigureFile::file_name), ["figure.svg", "figure.png", "figure.csv"]);
+        for (i, file) in files.iter().enumerate() {
+            assert_eq!(bytes.each_ref().map(|bytes| file.is_like(bytes)), std::array::from_fn(|j| i == j));
+        }
+        let [svg, _, csv] = files;
+        assert!(!csv.is_like(&file("two", FigureFormat::Csv).bytes().unwrap()), "other columns");
         assert!(svg.is_like(b"<?xml version=\"1.0\"?>\n<!-- a --><svg/>") && !svg.is_like(b"my <svg> notes"));
         assert!(!svg.is_like(b"") && !csv.is_like(b""));
     }

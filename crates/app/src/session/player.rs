@@ -200,7 +200,7 @@ impl Player {
             let mut samples = [0.0; 4096];
             loop {
                 let n = handle.read_scope(&mut samples);
-                scope.push(&samples[..n]);
+                scope.push(&samples[..n], status.touch.contact);
                 if n < samples.len() {
                     break;
                 }

@@ -138,7 +138,7 @@ fn a_library_is_opened_as_its_file_has_it() {
     let mut session = Session::new(begun.library.clone()).unwrap();
     let axes = Some(["hard-soft", "rough-smooth"].map(str::to_owned));
     let id = session.textures()[3].id.clone();
-    let edits = [Edit::SetMode(Mode::Shared), Edit::SetAxes(axes), Edit::Solo(id)];
+    let edits = [Edit::SetMode(Mode::Shared), Edit::SetAxes(axes), Edit::Solo(Some(id))];
     let turned = edits.into_iter().fold(begun, |project, edit| edited(&project, edit));
     session.follow(&turned, None, &ctx);
     let opened = edited(&turned, Edit::OpenLibrary(starter()));

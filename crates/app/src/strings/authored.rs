@@ -43,11 +43,18 @@ pub const PICTURE_WIDTH_HELP: &str = "How many millimeters of the surface the pi
 /// Takes the picture away.
 pub const TAKE_PICTURE_AWAY: &str = "Take away";
 /// What snapshots are.
-pub const SNAPSHOTS_HELP: &str = "States to come back to: place, blend, path and picture";
+pub const SNAPSHOTS_HELP: &str =
+    "States to come back to: place, blend, path and picture. Right-click for more.";
 /// Keeps a state.
 pub const KEEP: &str = "Snapshot";
 /// What that does.
 pub const KEEP_HELP: &str = "Keeps the selected texture as it is now, to come back to";
+
+/// Makes a texture of a snapshot.
+pub const AS_OWN: &str = "As a texture of its own";
+/// What that does.
+pub const AS_OWN_HELP: &str =
+    "Adds a texture in this state, to go on from, or to compare it (A, B, X) with what became of it";
 
 /// Accessible name of an authored texture on the canvas that is not selected.
 pub fn on_canvas(name: &str) -> String {
@@ -77,4 +84,9 @@ pub fn snapshot(number: usize, name: &str) -> String {
 /// Accessible name of what takes a snapshot away.
 pub fn delete_snapshot(number: usize) -> String {
     format!("Delete snapshot {number}")
+}
+
+/// The name of a texture that is made of a snapshot.
+pub fn state_of(name: &str, number: usize) -> String {
+    format!("{name} ({number})")
 }

@@ -137,6 +137,8 @@ pub const GO_TO_AUTHOR: &str = "Feel it in Author";
 pub const FIGURES: &str = "Figures";
 /// Saves the picture of a figure.
 pub const SAVE_SVG: &str = "Save SVG…";
+/// Saves the picture of a figure as pixels.
+pub const SAVE_PNG: &str = "Save PNG…";
 /// Saves the numbers of a figure.
 pub const SAVE_CSV: &str = "Save CSV…";
 /// Heading of the sheet that saves a figure.

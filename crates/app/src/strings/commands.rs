@@ -28,6 +28,8 @@ pub const HEAR_B: &str = "Hear B, or the selected texture again";
 pub const HEAR_X: &str = "Hear X, which is A or B";
 /// The automatic hand.
 pub const STROKE: &str = "Let the hand stroke, or stop it";
+/// The scope.
+pub const FREEZE: &str = "Freeze the scope, or let it run";
 /// Silence.
 pub const MUTE: &str = "Mute, or sound again";
 /// The theme.

@@ -18,6 +18,8 @@ pub const KEEP_INSIDE: &str = "Keep library in the project";
 pub const ADD_TEXTURES: &str = "Add textures";
 /// One texture is heard alone.
 pub const HEAR_ALONE: &str = "Hear one texture";
+/// The blend is heard again.
+pub const HEAR_BLEND: &str = "Hear the blend";
 /// A space is used.
 pub const USE_SPACE: &str = "Use space";
 /// Other axes.

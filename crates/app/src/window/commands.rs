@@ -10,6 +10,7 @@ use crate::devices::DevicesSheet;
 use crate::edit::Edit;
 use crate::history::Gesture;
 use crate::kept_path::kept_path;
+use crate::panel::Panel;
 use crate::save::SaveSheet;
 use crate::session::OutputChoice;
 use crate::sheets::Sheet;
@@ -73,6 +74,15 @@ impl Window {
                 }
                 Err(error) => self.session.say(error.to_string()),
             },
+            Command::ToggleFreeze => {
+                let panel = Panel {
+                    project: &self.project,
+                    session: &self.session,
+                    compare: &self.compare,
+                    pictures: &self.pictures,
+                };
+                self.scope.toggle_freeze(&panel);
+            }
             Command::SetRig(rig) => self.session.set_rig(*rig, ctx),
             Command::PlayTone { frequency_hz, amplitude_mps2 } => {
                 self.session.play_tone(frequency_hz, amplitude_mps2);

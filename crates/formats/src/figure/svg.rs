@@ -1,15 +1,21 @@
 //! Figures as pictures: SVG, one or a page of them.
 
-use plotters::chart::{ChartBuilder, SeriesLabelPosition};
+use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
 use plotters::coord::Shift;
+use plotters::coord::combinators::IntoLogRange as _;
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::DrawingAreaErrorKind;
-use plotters::element::{Circle, EmptyElement, PathElement, Text};
-use plotters::prelude::{DrawingArea, IntoDrawingArea as _, IntoFont as _, RGBColor, SVGBackend, TextStyle};
+use plotters::element::{Circle, EmptyElement, PathElement, Rectangle, Text};
+use plotters::prelude::{
+    Cartesian2d, DrawingArea, IntoDrawingArea as _, IntoFont as _, RGBColor, SVGBackend, TextStyle,
+};
 use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use crate::figure::color_map::map_color;
 use crate::figure::labels::offsets;
-use crate::figure::{Chart, Figure, Mark, Point, Series, Table, Tone};
+use crate::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone};
 
 /// Size of a figure by itself, in pixels.
 const SIZE: (u32, u32) = (760, 620);
@@ -21,6 +27,8 @@ const COLUMNS: usize = 2;
 const HEAD: u32 = 100;
 /// Height of a row of a table, in pixels.
 const ROW: i32 = 24;
+/// Colors of a map: more cannot be told apart, and cells of one color beside each other are one rectangle.
+const N_COLORS: u32 = 64;
 
 const INK: RGBColor = RGBColor(0x22, 0x2B, 0x2F);
 const FAINT: RGBColor = RGBColor(0xDD, 0xE2, 0xE4);
@@ -67,6 +75,7 @@ fn panel(page: &Page<'_>, figure: &Figure) -> Drawn {
     match figure {
         Figure::Chart(chart) => draw_chart(page, chart, &figure.title()),
         Figure::Table(table) => draw_table(page, table, &figure.title()),
+        Figure::Map(map) => draw_map(page, map, &figure.title()),
     }
 }
 
@@ -79,6 +88,8 @@ fn color(tone: Tone) -> RGBColor {
         Tone::Main => RGBColor(0x0B, 0x7A, 0x63),
         Tone::Second => RGBColor(0xC0, 0x4A, 0x1B),
         Tone::Third => RGBColor(0x16, 0x6C, 0xAB),
+        Tone::Fourth => RGBColor(0xA3, 0x3C, 0x78),
+        Tone::Limit => INK,
         Tone::Faint => RGBColor(0xB4, 0xBE, 0xC2),
     }
 }
@@ -96,12 +107,23 @@ fn draw_chart(page: &Page<'_>, chart: &Chart, title: &str) -> Drawn {
         };
         (x, y) = (widened(x, unit * inner.0), widened(y, unit * inner.1));
     }
-    let mut context = ChartBuilder::on(page)
-        .margin(16)
-        .caption(title, text(16.0, INK))
-        .x_label_area_size(42)
-        .y_label_area_size(52)
-        .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
+    let mut builder = ChartBuilder::on(page);
+    builder.margin(16).caption(title, text(16.0, INK)).x_label_area_size(42).y_label_area_size(52);
+    match chart.x_scale {
+        Scale::Linear => draw_series(page, builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?, chart),
+        Scale::Logarithmic => {
+            draw_series(page, builder.build_cartesian_2d((x.0..x.1).log_scale(), y.0..y.1)?, chart)
+        }
+    }
+}
+
+/// Draws what a chart shows on its axes.
+fn draw_series<'a, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
+    page: &Page<'_>,
+    mut context: ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, RangedCoordf64>>,
+    chart: &Chart,
+) -> Drawn {
+    let (width, height) = page.dim_in_pixel();
     context
         .configure_mesh()
         .light_line_style(plotters::style::WHITE)
@@ -118,7 +140,7 @@ fn draw_chart(page: &Page<'_>, chart: &Chart, title: &str) -> Drawn {
         let points: Vec<(f64, f64)> = series.points.iter().map(|p| (p.x, p.y)).collect();
         match series.mark {
             Mark::Line => {
-                let line = PathElement::new(points.clone(), tone.stroke_width(2));
+                let line = PathElement::new(points, tone.stroke_width(2));
                 context
                     .draw_series([line])?
                     .label(&series.name)
@@ -169,6 +191,62 @@ fn draw_chart(page: &Page<'_>, chart: &Chart, title: &str) -> Drawn {
             .draw()?;
     }
     Ok(())
+}
+
+/// Draws a map: rectangles of the colors of its cells, and what the colors stand for at the right.
+fn draw_map(page: &Page<'_>, map: &Map, title: &str) -> Drawn {
+    let (page, key) = page.split_horizontally(page.dim_in_pixel().0.saturating_sub(96));
+    let mut context = ChartBuilder::on(&page)
+        .margin(16)
+        .caption(title, text(16.0, INK))
+        .x_label_area_size(42)
+        .y_label_area_size(52)
+        .build_cartesian_2d(map.x.0..map.x.1, map.y.0..map.y.1)?;
+    context
+        .configure_mesh()
+        .disable_mesh()
+        .axis_style(WEAK)
+        .label_style(text(12.0, INK))
+        .x_desc(&map.x_label)
+        .y_desc(&map.y_label)
+        .x_labels(6)
+        .y_labels(6)
+        .draw()?;
+    let at = |(low, high): (f64, f64), i: usize, n: usize| low + (high - low) * i as f64 / n as f64;
+    for (i, row) in map.rows.iter().enumerate() {
+        let (bottom, top) = (at(map.y, i, map.rows.len()), at(map.y, i + 1, map.rows.len()));
+        let shades: Vec<u32> = row.iter().map(|value| shade(map.share(*value))).collect();
+        let mut begin = 0;
+        for run in shades.chunk_by(|a, b| a == b) {
+            let end = begin + run.len();
+            let corners = [(at(map.x, begin, row.len()), top), (at(map.x, end, row.len()), bottom)];
+            context.draw_series([Rectangle::new(corners, shade_color(run[0]).filled())])?;
+            begin = end;
+        }
+    }
+    let (top, height) = (60, key.dim_in_pixel().1.cast_signed() - 160);
+    for step in 0..N_COLORS {
+        let edge = |step: u32| top + height - (height * step.cast_signed()) / N_COLORS.cast_signed();
+        let corners = [(8, edge(step + 1)), (26, edge(step))];
+        key.draw(&Rectangle::new(corners, shade_color(step).filled()))?;
+    }
+    for (value, y) in [(map.range.1, top), (map.range.0, top + height - 12)] {
+        key.draw_text(&format!("{value}"), &text(12.0, INK), (32, y))?;
+    }
+    for (line, part) in (0..).zip(map.value_label.split(" in ")) {
+        key.draw_text(part, &text(12.0, WEAK), (8, top + height + 8 + 16 * line))?;
+    }
+    Ok(())
+}
+
+/// Which of the colors stands for a share of the range.
+fn shade(share: f64) -> u32 {
+    (share * f64::from(N_COLORS - 1)).round() as u32
+}
+
+fn shade_color(shade: u32) -> RGBColor {
+    let [red, green, blue] = map_color(shade as f32 / (N_COLORS - 1) as f32);
+    RGBColor(red, green, blue)
 }
 
 /// The corner of a picture of this size with the fewest points in it.

@@ -96,6 +96,38 @@ fn what_is_written_is_read_back() {
     assert_eq!(back(&inside), inside);
 }
 
+/// Files that the program did not write open with everything that is in them, and nothing of them is lost when they are
+/// written again.
+#[test]
+fn every_version_opens() {
+    let bytes = include_bytes!("../../../../vectors/project/1.0.shagreen");
+    let read = read_project(bytes, Path::new("/work"), &nothing).unwrap();
+    assert_eq!(read.warnings, Vec::<String>::new());
+    let project = read.value;
+    let [first, second] = &project.authored[..] else { panic!("two textures") };
+    assert_eq!((first.key, first.name.as_str(), first.at), (3, "First", at(12.5, 87.25)));
+    assert_eq!((first.blend.mode, first.blend.outside), (Mode::Shared, Outside::Clamped));
+    assert_eq!((second.at, second.color, second.notes.as_str()), (at(100.0 / 3.0, 0.0), 6, "noted"));
+    assert_eq!((second.blend.mode, second.blend.outside), (Mode::Field, Outside::Extrapolated));
+    assert!(second.blend.is_locked("cork"));
+    let path = second.path.as_ref().unwrap();
+    assert_eq!(
+        (path.along, path.at_end, path.length_m, path.points.len()),
+        (Along::Distance, AtEnd::Hold, 0.08, 3)
+    );
+    assert_eq!((project.selected, project.solo.as_deref()), (1, Some("cork")));
+    let [snapshot] = &project.snapshots[..] else { panic!("one snapshot") };
+    assert_eq!((snapshot.blend.mode, snapshot.blend.weights), (Mode::Power, Weights::Natural));
+    let space = project.space.as_ref().unwrap();
+    assert_eq!((space.textures[0].id.as_str(), space.textures[0].place.at), ("cork", at(40.0, 60.0)));
+    assert_eq!(space.textures[0].place.source, LabelSource::SimulatedRaters);
+    assert_eq!(project.starred.len(), 2);
+    assert_eq!(project.library, ProjectLibrary::BuiltIn(BuiltIn::Starter));
+    assert_eq!(back(&project), project);
+    let written: Value = serde_json::from_slice(&write_project(&project, Path::new("/work"), BY)).unwrap();
+    assert_eq!(written["of_a_later_version"], json!({ "kept": [1, 2, 3] }));
+}
+
 /// A project and the library in its folder may be moved together; what changed meanwhile is told.
 #[test]
 fn a_library_beside_the_project_is_found_where_both_went() {

@@ -1,0 +1,47 @@
+//! A value over two axes, drawn as colors.
+
+use std::ops::RangeInclusive;
+
+use egui::{ColorImage, Id, TextureHandle, TextureOptions, Ui, vec2};
+use egui_plot::{GridMark, Plot, PlotImage, PlotPoint, PlotResponse};
+use shagreen_formats::figure::Map;
+
+use crate::plot::fixed;
+use crate::theme::{map_color, tokens};
+
+/// Draws a map into the space that there is; `name` tells it from the others.
+pub(crate) fn map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
+    let t = tokens(ui.ctx());
+    let picture = picture(ui, Id::unique(("colors of a map", name)), map);
+    let middle = PlotPoint::new(0.5 * (map.x.0 + map.x.1), 0.5 * (map.y.0 + map.y.1));
+    let size = vec2((map.x.1 - map.x.0) as f32, (map.y.1 - map.y.0) as f32);
+    let (x, y) = (map.x, map.y);
+    // At its beginning the other axis has its lowest number.
+    let across = move |mark: GridMark, _: &RangeInclusive<f64>| {
+        if mark.value <= x.0 { String::new() } else { format!("{}", mark.value + 0.0) }
+    };
+    let plot =
+        fixed(Plot::new(name.to_owned()), t.line).x_axis_formatter(across).height(ui.available_height());
+    plot.show(ui, move |plot| {
+        plot.set_plot_bounds_x(x.0..=x.1);
+        plot.set_plot_bounds_y(y.0..=y.1);
+        plot.image(PlotImage::new("", &picture, middle, size).allow_hover(false));
+    })
+}
+
+/// The colors, kept on the way to the screen until others take their place.
+fn picture(ui: &Ui, id: Id, map: &Map) -> TextureHandle {
+    let width = map.rows.first().map_or(0, Vec::len);
+    // The first row of a picture is its highest.
+    let pixels = map.rows.iter().rev().flatten().map(|value| map_color(map.share(*value) as f32)).collect();
+    let image = ColorImage::new([width, map.rows.len()], pixels);
+    let kept = ui.data(|data| data.get_temp::<TextureHandle>(id));
+    if let Some(mut handle) = kept {
+        handle.set(image, TextureOptions::LINEAR);
+        handle
+    } else {
+        let handle = ui.ctx().load_texture("colors of a map", image, TextureOptions::LINEAR);
+        ui.data_mut(|data| data.insert_temp(id, handle.clone()));
+        handle
+    }
+}

@@ -1,0 +1,350 @@
+//! What the scope can show, each as a figure: what is drawn in the window and what is saved is one and the same.
+
+use shagreen_core::spectrum::rms;
+use shagreen_core::threshold::Threshold;
+use shagreen_core::units::Hertz;
+use shagreen_formats::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Tone};
+
+use crate::scope_buffer::{MOMENTS_SECS, Moment, ScopeBuffer};
+use crate::session::{BAND_HZ, Spectra};
+use crate::strings::scope as strings;
+
+/// Length of the waveform, in s.
+const WAVEFORM_SECS: f64 = 0.25;
+/// Lowest and highest density that is drawn, in dB re 1 (m/s²)²/Hz.
+pub(super) const DENSITY_DB: (f64, f64) = (-70.0, 5.0);
+/// Colors of the spectrogram, in the same unit.
+const COLORS_DB: (f64, f64) = (-60.0, 0.0);
+/// Levels that are drawn, in dB.
+pub(super) const LEVEL_DB: (f64, f64) = (-66.0, 60.0);
+/// Highest speed in mm/s and force in cN that is shown at least.
+const LEAST_CONTACT: f64 = 100.0;
+/// What stands for silence, in dB.
+const SILENCE_DB: f64 = -90.0;
+
+/// A view of the scope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// What was played, over time.
+    Waveform,
+    /// The spectra of the parents, the blend and what was played.
+    Spectrum,
+    /// The spectrum of what was played, over time.
+    Spectrogram,
+    /// The level of what was played, and how far it is above the threshold.
+    Level,
+    /// Speed and force of the tip.
+    Contact,
+}
+
+/// What the scope shows of a moment, live or held.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// What was played.
+    pub buffer: &'a ScopeBuffer,
+    /// What the models say.
+    pub spectra: &'a Spectra,
+    /// Names of the parents that are shown.
+    pub parents: &'a [String],
+    /// Name of what is heard.
+    pub texture: &'a str,
+    /// What can just be felt.
+    pub threshold: &'a Threshold,
+}
+
+impl View {
+    /// All of them, in the order of the menu.
+    pub const ALL: [Self; 5] =
+        [Self::Waveform, Self::Spectrum, Self::Spectrogram, Self::Level, Self::Contact];
+
+    /// The first part of the names of its files.
+    pub fn stem(self) -> &'static str {
+        match self {
+            Self::Waveform => "acceleration",
+            Self::Spectrum => "spectrum",
+            Self::Spectrogram => "spectrogram",
+            Self::Level => "level",
+            Self::Contact => "speed-and-force",
+        }
+    }
+
+    /// What it shows, as a figure.
+    pub fn figure(self, seen: &Seen<'_>) -> Figure {
+        let contact = seen.spectra.contact;
+        let title = strings::title(self, seen.texture, contact.speed.mm_per_s(), contact.force.0);
+        let chart = |x_label: &str, x_scale: Scale, shown: [(f64, f64); 2], series: Vec<Series>| {
+            Figure::Chart(Chart {
+                title: title.clone(),
+                x_label: x_label.to_owned(),
+                y_label: strings::unit(self).to_owned(),
+                is_isotropic: false,
+                x_scale,
+                shown: Some(shown),
+                series,
+                source: String::new(),
+            })
+        };
+        let history = (-MOMENTS_SECS, 0.0);
+        match self {
+            Self::Waveform => {
+                let range = seen.buffer.range();
+                let shown = [(-1e3 * WAVEFORM_SECS, 0.0), (-range, range)];
+                chart(strings::SHORT_TIME_AXIS, Scale::Linear, shown, vec![waveform(seen.buffer)])
+            }
+            Self::Spectrum => {
+                let shown = [(0.93 * BAND_HZ.0, 1.12 * BAND_HZ.1), DENSITY_DB];
+                chart(strings::FREQUENCY_AXIS, Scale::Logarithmic, shown, spectra(seen))
+            }
+            Self::Spectrogram => Figure::Map(spectrogram(seen.buffer, title)),
+            Self::Level => chart(
+                strings::TIME_AXIS,
+                Scale::Linear,
+                [history, LEVEL_DB],
+                levels(seen.buffer, seen.threshold),
+            ),
+            Self::Contact => {
+                let series = contacts(seen.buffer);
+                let values = series.iter().flat_map(|series| &series.points).map(|point| point.y);
+                let highest = values.fold(LEAST_CONTACT, f64::max);
+                // Names of the lines stand above them.
+                let shown = [history, (-0.05 * highest, 1.6 * highest)];
+                chart(strings::TIME_AXIS, Scale::Linear, shown, series)
+            }
+        }
+    }
+
+    /// What was measured between two places of the horizontal axis.
+    pub fn measured(self, seen: &Seen<'_>, from: f64, to: f64) -> String {
+        match self {
+            Self::Waveform => strings::between_times(1e-3 * from, 1e-3 * to),
+            Self::Spectrum => {
+                let (low, high) = (from.min(to), from.max(to));
+                strings::between_frequencies(low, high, band_level_db(seen.spectra, low, high))
+            }
+            Self::Spectrogram | Self::Level | Self::Contact => strings::between_times(from, to),
+        }
+    }
+}
+
+/// A level in dB re 1 m/s².
+pub(super) fn level_db(mps2: f64) -> f64 {
+    if mps2 > 0.0 { (20.0 * mps2.log10()).max(SILENCE_DB) } else { SILENCE_DB }
+}
+
+fn line(name: &str, tone: Tone, points: impl Iterator<Item = (f64, f64)>) -> Series {
+    let points = points.map(|(x, y)| Point::new(x, y)).collect();
+    Series { name: name.to_owned(), mark: Mark::Line, tone, points }
+}
+
+fn waveform(buffer: &ScopeBuffer) -> Series {
+    let (rate_hz, samples) = buffer.newest(WAVEFORM_SECS);
+    let n = samples.len() as f64;
+    let points = samples.iter().enumerate().map(|(i, y)| ((i as f64 - n) / rate_hz * 1e3, *y));
+    line(strings::PLAYED, Tone::Main, points)
+}
+
+fn spectra(seen: &Seen<'_>) -> Vec<Series> {
+    let to_db = |density: f64| (10.0 * density.max(1e-12).log10()).max(DENSITY_DB.0 - 10.0);
+    let frequencies = &seen.spectra.frequencies;
+    let modeled = |name: &str, tone: Tone, density: &[f64]| {
+        line(name, tone, frequencies.iter().zip(density).map(|(f, d)| (f.0, to_db(*d))))
+    };
+    let is_drawn = |hz: f64| (BAND_HZ.0..=BAND_HZ.1).contains(&hz);
+    let live = seen.buffer.density().iter().filter(|(f, _)| is_drawn(f.0)).map(|(f, d)| (f.0, to_db(*d)));
+    let mut series = vec![line(strings::LIVE_LINE, Tone::Faint, live)];
+    let tones = [Tone::Second, Tone::Third, Tone::Fourth];
+    for ((density, tone), name) in seen.spectra.parents.iter().zip(tones).zip(seen.parents) {
+        series.push(modeled(name, tone, density));
+    }
+    let felt = frequencies.iter().map(|f| (f.0, to_db(seen.threshold.density(*f))));
+    series.push(line(strings::THRESHOLD_LINE, Tone::Limit, felt));
+    series.push(modeled(strings::BLEND_LINE, Tone::Main, &seen.spectra.blend));
+    series
+}
+
+fn spectrogram(buffer: &ScopeBuffer, title: String) -> Map {
+    let step_hz = buffer.moment_step_hz();
+    let n_rows = (BAND_HZ.1 / step_hz).floor() as usize;
+    let n_columns = buffer.n_moments();
+    let n_empty = n_columns - buffer.moments().len();
+    let rows = (0..n_rows).map(|row| {
+        let played = buffer.moments().map(|moment| {
+            let density = moment.density.get(row).copied().unwrap_or(0.0);
+            (10.0 * f64::from(density).max(1e-12).log10()).max(SILENCE_DB)
+        });
+        std::iter::repeat_n(SILENCE_DB, n_empty).chain(played).collect()
+    });
+    Map {
+        title,
+        x_label: strings::TIME_AXIS.to_owned(),
+        y_label: strings::FREQUENCY_AXIS.to_owned(),
+        value_label: strings::DENSITY.to_owned(),
+        x: (-MOMENTS_SECS, 0.0),
+        y: (0.0, n_rows as f64 * step_hz),
+        range: COLORS_DB,
+        rows: rows.collect(),
+        source: String::new(),
+    }
+}
+
+/// What was so of each moment, over the time until now, in s.
+fn over_moments(buffer: &ScopeBuffer, value: impl Fn(&Moment) -> f64) -> impl Iterator<Item = (f64, f64)> {
+    let moments = buffer.moments();
+    let (n, hop_secs) = (moments.len(), buffer.hop_secs());
+    moments.enumerate().map(move |(i, moment)| ((i as f64 + 1.0 - n as f64) * hop_secs, value(moment)))
+}
+
+fn levels(buffer: &ScopeBuffer, threshold: &Threshold) -> Vec<Series> {
+    let level = over_moments(buffer, |moment| level_db(moment.level_mps2));
+    let weights = buffer.weights(threshold);
+    let above = over_moments(buffer, |moment| level_db(moment.multiple(&weights)));
+    let at_threshold = [(-MOMENTS_SECS, 0.0), (0.0, 0.0)].into_iter();
+    vec![
+        line(strings::THRESHOLD_LINE, Tone::Limit, at_threshold),
+        line(strings::ABOVE_LINE, Tone::Second, above),
+        line(strings::LEVEL_LINE, Tone::Main, level),
+    ]
+}
+
+fn contacts(buffer: &ScopeBuffer) -> Vec<Series> {
+    vec![
+        line(strings::SPEED_LINE, Tone::Main, over_moments(buffer, |moment| 1e3 * moment.speed_mps)),
+        line(strings::FORCE_LINE, Tone::Second, over_moments(buffer, |moment| 1e2 * moment.force_n)),
+    ]
+}
+
+/// The level of the blend between two frequencies, in dB re 1 m/s², by the trapezoid rule.
+fn band_level_db(spectra: &Spectra, low_hz: f64, high_hz: f64) -> f64 {
+    let pairs: Vec<(Hertz, f64)> =
+        spectra.frequencies.iter().copied().zip(spectra.blend.iter().copied()).collect();
+    let is_inside = |f: Hertz| (low_hz..=high_hz).contains(&f.0);
+    let power: f64 = pairs
+        .windows(2)
+        .filter(|pair| is_inside(pair[0].0) && is_inside(pair[1].0))
+        .map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0.0 - pair[0].0.0))
+        .sum();
+    level_db(power.sqrt())
+}
+
+/// The newest level in dB re 1 m/s², and how many times stronger than the threshold that is, over half a second.
+pub(super) fn level_now(seen: &Seen<'_>) -> Option<(f64, f64)> {
+    let newest = seen.buffer.newest(0.5).1;
+    let multiple = seen.threshold.multiple(seen.buffer.density());
+    (!newest.is_empty()).then(|| (level_db(rms(&newest)), multiple))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::{Seen, View};
+    use crate::scope_buffer::{MOMENTS_SECS, ScopeBuffer};
+    use crate::session::Spectra;
+    use crate::strings::scope as strings;
+    use shagreen_core::units::{Contact, Hertz};
+    use shagreen_device::synth::contact::Contact as Touched;
+    use shagreen_formats::figure::{Chart, Figure};
+    use shagreen_formats::thresholds::ThresholdKind;
+
+    /// A tone of 100 Hz and 1 m/s² for two seconds, stroked at 120 mm/s and 0.7 N.
+    fn played() -> ScopeBuffer {
+        let mut buffer = ScopeBuffer::new(48_000.0, 1000.0);
+        let touched = Touched { speed_mps: 0.12, force_n: 0.7 };
+        let tone: Vec<f32> = (0..96_000).map(|i| (TAU * 100.0 * f64::from(i) / 48e3).sin() as f32).collect();
+        for block in tone.chunks(800) {
+            buffer.push(block, touched);
+        }
+        buffer.update();
+        buffer
+    }
+
+    fn spectra() -> Spectra {
+        let frequencies: Vec<Hertz> = (0..491).map(|i| Hertz(10.0 + f64::from(i))).collect();
+        Spectra {
+            contact: Contact::from_mm_per_s_and_n(120.0, 0.7),
+            blend: vec![1e-2; frequencies.len()],
+            parents: vec![vec![1e-3; frequencies.len()]],
+            frequencies,
+        }
+    }
+
+    fn with_seen<R>(then: impl FnOnce(&Seen<'_>) -> R) -> R {
+        let threshold = ThresholdKind::Pacinian.read().unwrap();
+        let parents = ["Oak".to_owned()];
+        let (buffer, spectra) = (played(), spectra());
+        let seen = Seen {
+            buffer: &buffer,
+            spectra: &spectra,
+            parents: &parents,
+            texture: "Mine",
+            threshold: &threshold,
+        };
+        then(&seen)
+    }
+
+    fn chart(view: View, seen: &Seen<'_>) -> Chart {
+        let Figure::Chart(chart) = view.figure(seen) else { panic!("a chart") };
+        chart
+    }
+
+    #[test]
+    fn the_spectrum_names_its_parents_and_the_threshold() {
+        with_seen(|seen| {
+            let chart = chart(View::Spectrum, seen);
+            let names: Vec<&str> = chart.series.iter().map(|series| series.name.as_str()).collect();
+            assert_eq!(names, ["live", "Oak", "threshold", "blend (model)"]);
+            assert_eq!(chart.title, "Spectrum of Mine (120 mm/s, 0.70 N)");
+            // A tone of a third of an octave at 100 Hz with the peak of the threshold.
+            let at_100 = chart.series[2].points.iter().find(|point| point.x == 100.0).unwrap();
+            let expected = 10.0 * (0.5 * 0.249_f64.powi(2) / 23.16).log10();
+            assert!((at_100.y - expected).abs() < 0.05, "{} for {expected}", at_100.y);
+        });
+    }
+
+    /// A flat density of 0.01 over 100 Hz is 1 (m/s²)².
+    #[test]
+    fn what_is_measured_is_right() {
+        with_seen(|seen| {
+            assert_eq!(View::Spectrum.measured(seen, 300.0, 200.0), "200 to 300 Hz: 0.0 dB re 1 m/s²");
+            assert_eq!(View::Waveform.measured(seen, -20.0, -10.0), "10.0 ms = 100.0 Hz");
+            assert_eq!(View::Level.measured(seen, -2.0, -0.5), "1.50 s");
+        });
+    }
+
+    /// 1 m/s² peak at 100 Hz is 4 times the threshold of 0.249 m/s², and 3 dB below 1 m/s².
+    #[test]
+    fn the_level_is_that_of_the_tone() {
+        with_seen(|seen| {
+            let chart = chart(View::Level, seen);
+            let newest = |i: usize| chart.series[i].points.last().unwrap().y;
+            // A moment has no whole number of periods.
+            assert!((newest(2) + 3.01).abs() < 0.4, "{}", newest(2));
+            assert!((newest(1) - 20.0 * (1.0 / 0.249_f64).log10()).abs() < 0.3, "{}", newest(1));
+            let (level_db, multiple) = super::level_now(seen).unwrap();
+            assert!((level_db + 3.01).abs() < 0.1 && (multiple - 4.0).abs() < 0.2, "{multiple}");
+            assert_eq!(strings::level_now(level_db, multiple), "-3 dB · 4.0 × threshold");
+        });
+    }
+
+    #[test]
+    fn the_spectrogram_has_the_tone_where_it_was_played() {
+        with_seen(|seen| {
+            let Figure::Map(map) = View::Spectrogram.figure(seen) else { panic!("a map") };
+            assert_eq!((map.x, map.rows[0].len()), ((-MOMENTS_SECS, 0.0), seen.buffer.n_moments()));
+            let newest = map.cells().filter(|(x, ..)| *x > -0.1).max_by(|a, b| a.2.total_cmp(&b.2)).unwrap();
+            assert!((newest.1 - 100.0).abs() < 8.0, "{newest:?}");
+            let before = map.cells().filter(|(x, ..)| *x < -2.5).all(|(.., value)| value <= -60.0);
+            assert!(before, "nothing was played before");
+        });
+    }
+
+    #[test]
+    fn speed_and_force_are_those_of_the_touch() {
+        with_seen(|seen| {
+            let chart = chart(View::Contact, seen);
+            let newest = |i: usize| chart.series[i].points.last().unwrap();
+            assert!((newest(0).y - 120.0).abs() < 1e-3 && (newest(1).y - 70.0).abs() < 1e-3);
+            assert_eq!(newest(0).x, 0.0);
+        });
+    }
+}

@@ -1,0 +1,127 @@
+//! The thresholds of touch that are built into the program: tables, good to about 3 dB.
+//!
+//! They are reference curves after published measurements, not measurements of a person. What the skin feels depends on the
+//! contact; a hand that holds a tool feels less displacement than a probe of a millimeter has to make.
+
+use shagreen_core::threshold::{Threshold, ThresholdError};
+use shagreen_core::units::Hertz;
+
+/// How much more sensitive a hand around a tool is than the table of the skin, in dB.
+const HELD_TOOL_DB: f64 = 15.0;
+/// What the program brings, as text.
+const PACINIAN: &str = include_str!("../../../assets/thresholds/pacinian.csv");
+const COMPOSITE: &str = include_str!("../../../assets/thresholds/composite.csv");
+
+/// A threshold of the program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ThresholdKind {
+    /// The Pacinian channel, in a hand that holds a tool.
+    #[default]
+    HeldTool,
+    /// The Pacinian channel, under a large contactor on bare skin.
+    Pacinian,
+    /// The most sensitive channel of each frequency, under the same contactor.
+    Composite,
+}
+
+/// Why a table of the program is none: the program is damaged.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ThresholdTableError {
+    /// A line is not two numbers.
+    #[error("line {line} of a table of thresholds is not two numbers; install the program again")]
+    Line {
+        /// The line, from one.
+        line: usize,
+    },
+    /// The numbers are no threshold.
+    #[error(transparent)]
+    Threshold(#[from] ThresholdError),
+}
+
+impl ThresholdKind {
+    /// All of them, in the order of menus.
+    pub const ALL: [Self; 3] = [Self::HeldTool, Self::Pacinian, Self::Composite];
+
+    /// The word that stands for it on the command line.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::HeldTool => "held-tool",
+            Self::Pacinian => "pacinian",
+            Self::Composite => "composite",
+        }
+    }
+
+    /// The one that has this [`ThresholdKind::id`].
+    pub fn from_id(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|each| each.id() == id)
+    }
+
+    /// The threshold itself.
+    ///
+    /// # Errors
+    /// The program is damaged.
+    pub fn read(self) -> Result<Threshold, ThresholdTableError> {
+        Ok(match self {
+            Self::HeldTool => read(PACINIAN)?.lowered(HELD_TOOL_DB),
+            Self::Pacinian => read(PACINIAN)?,
+            Self::Composite => read(COMPOSITE)?,
+        })
+    }
+}
+
+fn read(table: &str) -> Result<Threshold, ThresholdTableError> {
+    let point = |(i, line): (usize, &str)| {
+        let numbers = line.split_once(',').and_then(|(hz, db)| Some((hz.parse().ok()?, db.parse().ok()?)));
+        numbers.map(|(hz, db)| (Hertz(hz), db)).ok_or(ThresholdTableError::Line { line: i + 1 })
+    };
+    let points: Result<Vec<_>, _> = table.lines().enumerate().skip(1).map(point).collect();
+    Ok(Threshold::new(&points?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ThresholdKind, ThresholdTableError, read};
+    use serde_json::Value;
+    use shagreen_core::threshold::displacement_db_um;
+    use shagreen_core::units::Hertz;
+
+    /// Displacements and accelerations of an independent script, at thirteen frequencies in and beyond the tables.
+    #[test]
+    fn the_tables_are_those_of_the_reference() {
+        let vectors = include_str!("../../../vectors/h_thresh/quality_vectors.json");
+        let vectors: Value = serde_json::from_str(vectors).unwrap();
+        let numbers = |name: &str| -> Vec<f64> {
+            let list = vectors["T"][name].as_array().unwrap();
+            list.iter().map(|value| value.as_f64().unwrap()).collect()
+        };
+        let [pacinian, composite, held] =
+            [ThresholdKind::Pacinian, ThresholdKind::Composite, ThresholdKind::HeldTool]
+                .map(|kind| kind.read().unwrap());
+        let (p, a, c) = (numbers("P_dB_um"), numbers("P_acc_mps2_peak"), numbers("composite_dB_um"));
+        for (i, hz) in numbers("f").into_iter().map(Hertz).enumerate() {
+            assert!((pacinian.displacement_db_um(hz) - p[i]).abs() < 1e-9);
+            assert!((pacinian.peak_mps2(hz) / a[i] - 1.0).abs() < 1e-12);
+            assert!((composite.displacement_db_um(hz) - c[i]).abs() < 1e-9);
+            assert!((held.displacement_db_um(hz) - (p[i] - 15.0)).abs() < 1e-9);
+        }
+        let sine = &vectors["sine250"];
+        let x = displacement_db_um(Hertz(250.0), 1.0);
+        assert!((x - sine["dB_um"].as_f64().unwrap()).abs() < 1e-9);
+        let above = x - pacinian.displacement_db_um(Hertz(250.0));
+        assert!((above - sine["SL_dB"].as_f64().unwrap()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn each_is_found_by_its_word() {
+        for kind in ThresholdKind::ALL {
+            assert_eq!(ThresholdKind::from_id(kind.id()), Some(kind));
+        }
+        assert_eq!(ThresholdKind::from_id("other"), None);
+    }
+
+    #[test]
+    fn a_damaged_table_says_where() {
+        assert_eq!(read("hz,db\n40,12\n63;4\n"), Err(ThresholdTableError::Line { line: 3 }));
+    }
+}
