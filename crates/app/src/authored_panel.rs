@@ -15,6 +15,8 @@ use crate::theme::{RADIUS, tokens};
 
 /// Height of a row, in points.
 const ROW: f32 = 22.0;
+/// Height of the snapshots, in points.
+const CHIP: f32 = 18.0;
 /// Height of the list at most, in points.
 const LIST_HEIGHT: f32 = 5.0 * ROW;
 /// Share of the column that it takes at most.
@@ -161,10 +163,10 @@ pub(crate) fn authored_menu(
 fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
+    let height = std::mem::replace(&mut ui.spacing_mut().interact_size.y, CHIP);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
         ui.spacing_mut().button_padding = vec2(5.0, 1.0);
-        ui.spacing_mut().interact_size.y = 18.0;
         let keep = Button::new(RichText::new(words::KEEP).small());
         if ui.add(keep).on_hover_text(words::KEEP_HELP).clicked() {
             commands.push(Command::Edit(Edit::KeepSnapshot));
@@ -189,5 +191,6 @@ fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             response.on_hover_text(format!("{name}\n{place}\n{}", words::SNAPSHOTS_HELP));
         }
     });
+    ui.spacing_mut().interact_size.y = height;
     commands
 }

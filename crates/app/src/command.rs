@@ -47,6 +47,10 @@ pub enum Command {
     OpenOutput(String),
     /// Open the sheet of devices.
     OpenDevices,
+    /// Show what is known of the texture of the list with this identifier.
+    OpenTexture(String),
+    /// The same, with the keyboard in its name.
+    RenameTexture(String),
     /// Take over another rig.
     SetRig(Box<Rig>),
     /// Play a tone in the place of the texture: frequency in Hz, amplitude in m/s².

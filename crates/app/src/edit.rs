@@ -154,7 +154,10 @@ impl Edit {
             Self::KeepLibraryInside(_) => strings::KEEP_INSIDE.into(),
             Self::AddTextures(_) => strings::ADD_TEXTURES.into(),
             Self::RemoveTexture(joined) => {
-                strings::removed(project.joined.get(*joined).map_or("", |entry| &entry.name)).into()
+                let name = |entry: &Arc<TextureEntry>| {
+                    strings::removed(project.renamed.get(&entry.id).unwrap_or(&entry.name))
+                };
+                project.joined.get(*joined).map_or_else(|| strings::removed(""), name).into()
             }
             Self::RenameTexture { name, .. } => strings::renamed_to(name).into(),
             Self::Star { name, is_starred, .. } => strings::starred(name, *is_starred).into(),

@@ -14,7 +14,7 @@ mod questions_ui;
 pub mod recording_state;
 pub mod sheet;
 pub mod source;
-mod spectrum_plot;
+pub(crate) mod spectrum_plot;
 mod trace;
 mod trace_plot;
 pub mod worker;

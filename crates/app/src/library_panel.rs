@@ -1,103 +1,166 @@
-//! The column at the left: what is authored, and the textures of the library to look at, search and go to.
+//! The column at the left: what is authored, and the textures of the library to look at, find and go to.
 
-use egui::{Label, Response, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use egui::containers::menu::MenuButton;
+use egui::{Button, Label, RichText, Role, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_formats::built_in::BuiltIn;
-use shagreen_formats::library::Provenance;
 use shagreen_formats::project::ProjectLibrary;
 
 use crate::authored_panel::authored_ui;
 use crate::command::Command;
 use crate::edit::Edit;
+use crate::filter_menu::filter_menu;
 use crate::libraries;
-use crate::locks::{lock_mark, lock_menu};
+use crate::library_filter::{Candidate, Filter, listed};
 use crate::panel::Panel;
-use crate::strings;
+use crate::strings::{self, textures as words};
+use crate::texture_row::texture_row;
 use crate::theme::{GAP, tokens};
 
-/// Side of a picture in the list, in points.
-const PICTURE: f32 = 34.0;
 /// Width of the menu of libraries, in points.
 const MENU_WIDTH: f32 = 220.0;
+/// Width of the button of the filters, in points.
+const FILTER_WIDTH: f32 = 66.0;
+/// Distance between the parts of the column, in points: what they leave is room for textures.
+const TIGHT: f32 = 3.0;
+/// Height of a row of small buttons, and of a line of small text, in points.
+const SMALL_BUTTON: f32 = 20.0;
+const SMALL_LINE: f32 = 15.0;
 
-/// Draws the list and returns what the user asked of it. `search` is the panel's own state; the texture to `reveal` is
-/// scrolled to, once.
-pub fn library_ui(
-    ui: &mut Ui,
-    panel: &Panel<'_>,
-    search: &mut String,
-    reveal: &mut Option<usize>,
-) -> Vec<Command> {
-    let t = tokens(ui.ctx());
+/// What the list remembers by itself.
+#[derive(Default)]
+pub struct LibraryState {
+    /// What is searched for.
+    pub(crate) search: String,
+    /// What is shown.
+    pub(crate) filter: Filter,
+    /// A texture that has just joined, to be scrolled to.
+    pub(crate) reveal: Option<usize>,
+}
+
+impl LibraryState {
+    /// Clears search and filter.
+    pub(crate) fn show_all(&mut self) {
+        self.search.clear();
+        self.filter = Filter::default();
+    }
+}
+
+/// Draws the column and returns what the user asked of it; the texture to reveal is scrolled to, once.
+pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut LibraryState) -> Vec<Command> {
     let mut commands = Vec::new();
+    ui.spacing_mut().item_spacing.y = TIGHT;
     ui.add_space(GAP);
     commands.extend(authored_ui(ui, panel));
     ui.separator();
-    ui.horizontal(|ui| {
-        ui.heading(strings::LIBRARY);
-        ui.label(egui::RichText::new(format!("{}", panel.session.textures().len())).color(t.text_weak));
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            commands.extend(libraries_ui(ui, panel));
-        });
-    });
-    let source = egui::RichText::new(strings::places_from(panel.session.label_source()));
-    let color = if panel.session.is_simulated() { t.warning } else { t.text_weak };
-    let source = source.small().color(color);
-    let about = format!("{}\n{}", panel.session.library().name, strings::SOURCE_HELP);
-    ui.add(Label::new(source).wrap().selectable(false)).on_hover_text(about);
-    ui.horizontal(|ui| {
-        let width = 0.5 * (ui.available_width() - GAP);
-        for (command, name, help) in [
-            (Command::OpenImport, strings::IMPORT, strings::IMPORT_HELP),
-            (Command::OpenSave, strings::SAVE_LIBRARY, strings::SAVE_LIBRARY_HELP),
-        ] {
-            let button = egui::Button::new(name).min_size(vec2(width, 0.0));
-            if ui.add(button).on_hover_text(help).clicked() {
-                commands.push(command);
-            }
-        }
-    });
-    let field =
-        ui.add(TextEdit::singleline(search).hint_text(strings::SEARCH_HINT).desired_width(f32::INFINITY));
-    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::SEARCH));
-    ui.add_space(2.0);
-    let wanted: Vec<String> = search.to_lowercase().split_whitespace().map(str::to_owned).collect();
-    // Every word must be found, each in the name or in a tag.
-    let matches = |name: &str, tags: &[String]| {
-        let is_in = |text: &str, word: &String| text.to_lowercase().contains(word);
-        wanted.iter().all(|word| is_in(name, word) || tags.iter().any(|tag| is_in(tag, word)))
-    };
+    commands.extend(files_ui(ui, panel));
+    search_ui(ui, panel, state);
+    let found = found(panel, state);
+    count_ui(ui, panel, found.len());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let mut found = false;
-        for (index, entry) in panel.session.textures().iter().enumerate() {
-            if matches(&entry.name, &entry.tags) {
-                found = true;
-                let is_new = reveal.take_if(|wanted| *wanted == index).is_some();
-                let response = row(ui, panel, index, is_new);
-                commands.extend(lock_menu(&response, panel, index));
-                if response.clicked() {
-                    let place = panel.session.space().position(index);
-                    commands.push(Command::Edit(
-                        place.map_or_else(|| Edit::Solo(Some(entry.id.clone())), Edit::MovePoint),
-                    ));
-                }
-            }
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for texture in &found {
+            let is_new = state.reveal.take_if(|wanted| *wanted == *texture).is_some();
+            commands.extend(texture_row(ui, panel, *texture, is_new));
         }
-        if panel.session.textures().is_empty() {
-            ui.label(egui::RichText::new(strings::NO_TEXTURES).color(t.text_weak));
-        } else if !found {
-            ui.label(egui::RichText::new(strings::NO_MATCH).color(t.text_weak));
+        if found.is_empty() {
+            nothing_ui(ui, panel, state);
         }
     });
     commands
 }
 
+/// Where textures come from and go to: libraries, import, saving.
+fn files_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let height = std::mem::replace(&mut ui.spacing_mut().interact_size.y, SMALL_BUTTON);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = TIGHT;
+        ui.spacing_mut().button_padding = vec2(4.0, 2.0);
+        let width = (ui.available_width() - 2.0 * TIGHT) / 3.0;
+        let small = |name| Button::new(RichText::new(name).small()).min_size(vec2(width, 0.0));
+        commands.extend(libraries_ui(ui, panel, small(strings::LIBRARIES)));
+        for (command, name, help) in [
+            (Command::OpenImport, strings::IMPORT, strings::IMPORT_HELP),
+            (Command::OpenSave, strings::SAVE_LIBRARY, strings::SAVE_LIBRARY_HELP),
+        ] {
+            if ui.add(small(name)).on_hover_text(help).clicked() {
+                commands.push(command);
+            }
+        }
+    });
+    ui.spacing_mut().interact_size.y = height;
+    commands
+}
+
+/// The field to search by, and the menu of filters.
+fn search_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut LibraryState) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = TIGHT;
+        ui.spacing_mut().button_padding.x = 4.0;
+        let size = vec2(ui.available_width() - FILTER_WIDTH - TIGHT, ui.spacing().interact_size.y);
+        let field = TextEdit::singleline(&mut state.search).hint_text(strings::SEARCH_HINT);
+        let field = ui.add_sized(size, field);
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::SEARCH));
+        filter_menu(ui, panel, &mut state.filter, FILTER_WIDTH);
+    });
+}
+
+/// The textures that are listed, by their places in the library.
+fn found(panel: &Panel<'_>, state: &LibraryState) -> Vec<usize> {
+    let textures = panel.session.textures();
+    let candidates = textures.iter().enumerate().map(|(index, entry)| Candidate {
+        name: &entry.name,
+        tags: &entry.tags,
+        at: panel.session.space().position(index),
+        is_starred: panel.is_starred(index),
+        is_joined: panel.joined_index(index).is_some(),
+    });
+    let candidates: Vec<Candidate<'_>> = candidates.collect();
+    listed(&candidates, &state.search, &state.filter, panel.project.texture().at)
+}
+
+/// How many textures are listed, and whom their places come from.
+fn count_ui(ui: &mut Ui, panel: &Panel<'_>, n_listed: usize) {
+    let t = tokens(ui.ctx());
+    let height = std::mem::replace(&mut ui.spacing_mut().interact_size.y, SMALL_LINE);
+    ui.horizontal_wrapped(|ui| {
+        let small =
+            |text: String, color| Label::new(RichText::new(text).small().color(color)).selectable(false);
+        ui.add(small(words::count(n_listed, panel.session.textures().len()), t.text_weak));
+        let color = if panel.session.is_simulated() { t.warning } else { t.text_weak };
+        let source = small(strings::places_from(panel.session.label_source()), color);
+        let about = format!("{}\n{}", panel.session.library().name, strings::SOURCE_HELP);
+        ui.add(source).on_hover_text(about);
+    });
+    ui.spacing_mut().interact_size.y = height;
+}
+
+/// Why nothing is listed, and the way back.
+fn nothing_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut LibraryState) {
+    let is_searched = !state.search.trim().is_empty();
+    let reason = match (state.filter.n_on() > 0, is_searched) {
+        _ if panel.session.textures().is_empty() => strings::NO_TEXTURES,
+        (true, true) => words::NONE_FOUND,
+        (true, false) => words::NONE_PASSES,
+        (false, _) => strings::NO_MATCH,
+    };
+    ui.add_space(GAP);
+    ui.label(RichText::new(reason).color(tokens(ui.ctx()).text_weak));
+    if !panel.session.textures().is_empty() {
+        ui.add_space(GAP);
+        if ui.button(words::SHOW_ALL).clicked() {
+            state.show_all();
+        }
+    }
+}
+
 /// The menu of the libraries that can be open: those of the program, the one that is open, and others that were.
-fn libraries_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
+fn libraries_ui(ui: &mut Ui, panel: &Panel<'_>, button: Button<'_>) -> Option<Command> {
     let session = panel.session;
     let mut asked = None;
-    let menu = ui.menu_button(strings::LIBRARIES, |ui| {
+    let (response, _) = MenuButton::from_button(button).ui(ui, |ui| {
         ui.set_min_width(MENU_WIDTH);
         let of_program = BuiltIn::ALL.into_iter().map(ProjectLibrary::BuiltIn);
         let mut offered: Vec<ProjectLibrary> =
@@ -112,63 +175,8 @@ fn libraries_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
             }
         }
     });
-    menu.response.on_hover_text(strings::LIBRARIES_HELP);
+    response.on_hover_text(strings::LIBRARIES_HELP);
     asked.map(|library| Command::Edit(Edit::OpenLibrary(library)))
-}
-
-/// One texture, scrolled to where it is new.
-fn row(ui: &mut Ui, panel: &Panel<'_>, index: usize, is_new: bool) -> Response {
-    let t = tokens(ui.ctx());
-    let entry = &panel.session.textures()[index];
-    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), PICTURE + 6.0), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::texture(&entry.name)));
-    if response.gained_focus() || is_new {
-        response.scroll_to_me(None);
-    }
-    if ui.is_rect_visible(area) {
-        if response.hovered() || response.has_focus() {
-            ui.painter().rect_filled(area, f32::from(crate::theme::RADIUS), t.raised);
-        }
-        let picture = egui::Rect::from_min_size(area.min + vec2(3.0, 3.0), vec2(PICTURE, PICTURE));
-        picture_ui(ui, panel, index, picture);
-        let mut room = egui::Rect::from_min_max(picture.right_top() + vec2(8.0, 0.0), area.max);
-        if panel.is_locked(index) {
-            lock_mark(ui.painter(), area.right_center() - vec2(10.0, 0.0), true, t.text_weak);
-            room.max.x -= 18.0;
-        }
-        let mut text = ui.new_child(
-            egui::UiBuilder::new().max_rect(room).layout(egui::Layout::top_down(egui::Align::Min)),
-        );
-        text.spacing_mut().item_spacing.y = 1.0;
-        let rank = panel.session.parent_rank(index);
-        let color = rank.map_or(t.text, |r| t.parents[r.min(2)]);
-        text.add(Label::new(egui::RichText::new(&entry.name).color(color)).truncate().selectable(false));
-        let is_placed = panel.session.space().position(index).is_some();
-        let below = match panel.session.parent_weight(index) {
-            Some(_) if panel.solo().is_some() => strings::HEARD_ALONE.to_owned(),
-            Some(weight) => strings::of_the_blend(100.0 * weight),
-            None if entry.provenance == Provenance::Restricted && !is_placed => {
-                format!("{} · {}", strings::NOT_PLACED_YET, strings::import::RESTRICTED_SHORT)
-            }
-            None if !is_placed => strings::NOT_PLACED_YET.to_owned(),
-            None if entry.provenance == Provenance::Restricted => {
-                strings::import::RESTRICTED_SHORT.to_owned()
-            }
-            None => entry.tags.join(", "),
-        };
-        text.add(
-            Label::new(egui::RichText::new(below).small().color(t.text_weak)).truncate().selectable(false),
-        );
-    }
-    let place = panel.session.space().position(index);
-    let mut help = place.map_or(strings::NOT_PLACED_HELP.to_owned(), |at| place_in_words(panel, index, at));
-    if entry.provenance == Provenance::Restricted {
-        help = format!("{help}\n{}", strings::import::RESTRICTED);
-    }
-    if panel.is_locked(index) {
-        help = format!("{help}\n{}", strings::LOCKED);
-    }
-    response.on_hover_text(format!("{}\n{help}", entry.name))
 }
 
 /// Where a texture lies, in numbers, and whom that comes from.

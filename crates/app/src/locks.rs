@@ -49,18 +49,24 @@ pub(crate) fn lock_button(ui: &Ui, panel: &Panel<'_>, texture: usize, area: Rect
 
 /// The menu of a texture that can be locked.
 pub(crate) fn lock_menu(response: &Response, panel: &Panel<'_>, texture: usize) -> Option<Command> {
-    if !panel.project.texture().blend.can_lock() || panel.session.space().position(texture).is_none() {
+    if !can_lock(panel, texture) {
         return None;
     }
     let mut asked = None;
-    response.context_menu(|ui| {
-        let is_locked = panel.is_locked(texture);
-        let name = strings::lock(&panel.session.textures()[texture].name, !is_locked);
-        if ui.button(name).on_hover_text(strings::LOCK_HELP).clicked() {
-            asked = Some(edit(panel, texture));
-        }
-    });
+    response.context_menu(|ui| asked = lock_entry(ui, panel, texture));
     asked
+}
+
+/// Whether the field could meet a texture exactly: it has a place there, and the mode has a field.
+pub(crate) fn can_lock(panel: &Panel<'_>, texture: usize) -> bool {
+    panel.project.texture().blend.can_lock() && panel.session.space().position(texture).is_some()
+}
+
+/// The entry of a menu that locks or unlocks a texture.
+pub(crate) fn lock_entry(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Option<Command> {
+    let name = strings::lock(&panel.session.textures()[texture].name, !panel.is_locked(texture));
+    let entry = ui.button(name).on_hover_text(strings::LOCK_HELP);
+    entry.clicked().then(|| edit(panel, texture))
 }
 
 fn edit(panel: &Panel<'_>, texture: usize) -> Command {

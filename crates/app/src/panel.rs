@@ -25,6 +25,17 @@ impl Panel<'_> {
         self.project.texture().blend.is_locked(&self.session.textures()[texture].id)
     }
 
+    /// Whether a texture of the list has a star.
+    pub fn is_starred(&self, texture: usize) -> bool {
+        self.project.starred.contains(&self.session.textures()[texture].id)
+    }
+
+    /// The place of a texture among those that joined the project; `None` where it is a part of the library.
+    pub fn joined_index(&self, texture: usize) -> Option<usize> {
+        let n_of_library = self.session.textures().len().saturating_sub(self.project.joined.len());
+        texture.checked_sub(n_of_library)
+    }
+
     /// The texture that is heard alone, by its place in the list.
     pub fn solo(&self) -> Option<usize> {
         self.session.solo(self.project)

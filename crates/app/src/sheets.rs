@@ -13,12 +13,13 @@ use crate::import::sheet::{ImportSheet, Surroundings};
 use crate::import::source::Source;
 use crate::leaving::{Leave, leaving_ui};
 use crate::open_sheet::OpenSheet;
+use crate::panel::Panel;
 use crate::recovered_ui::recovered_ui;
 use crate::recovery::Leftover;
 use crate::save::SaveSheet;
-use crate::session::Session;
 use crate::shortcuts_ui::shortcuts_ui;
 use crate::strings;
+use crate::texture_sheet::TextureSheet;
 use crate::theme::{RADIUS, tokens};
 use crate::workspace::Workspace;
 
@@ -38,6 +39,8 @@ pub(crate) enum Sheet {
     Open(OpenSheet),
     /// A project of the gallery is looked for.
     Gallery(GallerySheet),
+    /// What is known of a texture is shown.
+    Texture(Box<TextureSheet>),
     /// The keys are shown.
     Shortcuts,
     /// Something would be lost.
@@ -66,10 +69,11 @@ impl Sheet {
     pub(crate) fn show(
         &mut self,
         ctx: &Context,
-        session: &Session,
+        panel: &Panel<'_>,
         document: &Document,
         workspace: Workspace,
     ) -> Vec<Command> {
+        let session = panel.session;
         let mut commands = match self {
             Self::Closed => Vec::new(),
             Self::Import(sheet) => {
@@ -81,6 +85,7 @@ impl Sheet {
             Self::Devices(sheet) => sheet.show(ctx, session),
             Self::Open(sheet) => sheet.show(ctx, document.is_opening()),
             Self::Gallery(sheet) => sheet.show(ctx),
+            Self::Texture(sheet) => sheet.show(ctx, panel),
             Self::Shortcuts => shortcuts_ui(ctx).into_iter().collect(),
             Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name()),
             Self::Recovered(leftovers) => recovered_ui(ctx, leftovers),

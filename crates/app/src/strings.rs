@@ -15,6 +15,7 @@ pub mod import;
 pub mod map;
 pub mod path;
 pub mod scope;
+pub mod textures;
 pub mod view;
 
 /// The output takes no more at the moment.
@@ -53,8 +54,6 @@ pub const AUTHOR_HELP: &str = "Find a texture in the space and feel it";
 pub const BUILD: &str = "Build";
 /// What the second workspace is for.
 pub const BUILD_HELP: &str = "Make a space of what people sorted and rated";
-/// Heading of the column of textures.
-pub const LIBRARY: &str = "Textures";
 /// Opens the menu of libraries.
 pub const LIBRARIES: &str = "Libraries";
 /// What the menu of libraries does.

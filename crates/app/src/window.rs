@@ -27,7 +27,7 @@ use crate::heat_map::{Grid, HeatMap, Wanted};
 use crate::history::History;
 use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
-use crate::library_panel::library_ui;
+use crate::library_panel::{LibraryState, library_ui};
 use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
 use crate::photo::{OwnPicture, PhotoReader};
@@ -58,9 +58,7 @@ pub struct Window {
     pad: PadState,
     scope: ScopeState,
     canvas: CanvasState,
-    search: String,
-    /// A texture that has just joined, to be scrolled to.
-    reveal: Option<usize>,
+    library: LibraryState,
     gesture: u64,
     was_holding: bool,
     /// What had the keyboard in the last frame.
@@ -112,8 +110,7 @@ impl Window {
             pad: PadState::default(),
             scope: ScopeState::default(),
             canvas: CanvasState::default(),
-            search: String::new(),
-            reveal: None,
+            library: LibraryState::default(),
             gesture: 0,
             was_holding: false,
             writing: None,
@@ -217,7 +214,13 @@ impl Window {
             // What lies below a sheet goes on as it was.
             commands.clear();
         }
-        commands.extend(self.sheet.show(&ctx, &self.session, &self.files.document, self.workspace));
+        let panel = Panel {
+            project: &self.project,
+            session: &self.session,
+            compare: &self.compare,
+            pictures: &self.pictures,
+        };
+        commands.extend(self.sheet.show(&ctx, &panel, &self.files.document, self.workspace));
         if self.workspace == Workspace::Author
             && !self.sheet.is_open()
             && self.tour.show(&ctx, self.tour_places)
@@ -243,9 +246,9 @@ impl Window {
             compare: &self.compare,
             pictures: &self.pictures,
         };
-        let (search, reveal) = (&mut self.search, &mut self.reveal);
+        let library = &mut self.library;
         Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
-            commands.extend(library_ui(ui, &panel, search, reveal));
+            commands.extend(library_ui(ui, &panel, library));
         });
         Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
             self.tour_places[2] = ui.max_rect();

@@ -1,6 +1,6 @@
-//! The spectrum of a segment beside the model's.
+//! Spectra in one plot: a segment's beside the model's, or a model's at several speeds.
 
-use egui::Ui;
+use egui::{Color32, Ui};
 use egui_plot::{Corner, GridMark, Legend, Line, Plot, PlotPoints};
 use shagreen_core::units::Hertz;
 
@@ -14,6 +14,18 @@ const RANGE_DB: f64 = 60.0;
 /// Marks of the axis of frequencies, in Hz.
 const MARKS_HZ: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
+/// A line of the plot.
+pub(crate) struct SpectrumLine<'a> {
+    /// What the legend calls it, where there are several.
+    pub(crate) name: &'a str,
+    /// Density in (m/s²)²/Hz at each frequency of the plot.
+    pub(crate) density: &'a [f64],
+    /// Its color.
+    pub(crate) color: Color32,
+    /// Its width, in points.
+    pub(crate) width: f32,
+}
+
 /// Draws the densities in (m/s²)²/Hz at `frequencies`; the measured one where there is one. `model_name` is what the
 /// legend calls the model.
 pub(super) fn spectrum_plot(
@@ -24,13 +36,34 @@ pub(super) fn spectrum_plot(
     height: f32,
 ) {
     let t = tokens(ui.ctx());
+    let measured = measured.map(|density| SpectrumLine {
+        name: strings::MEASURED_LINE,
+        density,
+        color: t.text_weak,
+        width: 1.2,
+    });
+    let model = SpectrumLine { name: model_name, density: model, color: t.accent, width: 2.2 };
+    let lines: Vec<SpectrumLine<'_>> = measured.into_iter().chain([model]).collect();
+    spectra_plot(ui, &strings::spectrum_of(model_name), frequencies, &lines, height);
+}
+
+/// Draws spectra over each other, the last on top; `name` is what a screen reader says. Nothing where the frequencies are
+/// no range.
+pub(crate) fn spectra_plot(
+    ui: &mut Ui,
+    name: &str,
+    frequencies: &[Hertz],
+    lines: &[SpectrumLine<'_>],
+    height: f32,
+) {
+    let t = tokens(ui.ctx());
     let to_db = |density: f64| 10.0 * density.max(1e-20).log10();
     let drawn = |density: &[f64]| -> Vec<[f64; 2]> {
         let pairs = frequencies.iter().zip(density).filter(|(f, p)| f.0 > 0.0 && p.is_finite());
         pairs.map(|(f, p)| [f.0.log10(), to_db(*p)]).collect()
     };
-    let (measured, model) = (measured.map(drawn), drawn(model));
-    let all = || model.iter().chain(measured.iter().flatten());
+    let points: Vec<Vec<[f64; 2]>> = lines.iter().map(|line| drawn(line.density)).collect();
+    let all = || points.iter().flatten();
     let top = all().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
     let top = if top.is_finite() { (top / 10.0).ceil() * 10.0 } else { 0.0 };
     let low = all().map(|p| p[0]).fold(f64::INFINITY, f64::min).max(MARKS_HZ[0].log10());
@@ -43,25 +76,21 @@ pub(super) fn spectrum_plot(
         .map(|f| GridMark { value: f.log10(), step_size: 0.3 })
         .filter(|mark| (low..=high).contains(&mark.value))
         .collect();
-    let mut plot = fixed(Plot::new("import spectrum"), t.line)
+    let mut plot = fixed(Plot::new(name.to_owned()), t.line)
         .height(height)
         .x_grid_spacer(move |_| marks.clone())
         .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [100.0, 20.0, 20.0]))
         .x_axis_formatter(|mark, _| format!("{:.0} Hz", 10.0_f64.powf(mark.value)))
         .y_axis_formatter(|mark, _| format!("{:.0}", mark.value + 0.0));
-    if measured.is_some() {
+    if lines.len() > 1 {
         plot = plot.legend(Legend::default().position(Corner::LeftBottom).background_alpha(0.6));
     }
     let plot = plot.show(ui, |plot| {
         plot.set_plot_bounds_x(low..=high + 0.02);
         plot.set_plot_bounds_y(top - RANGE_DB..=top + 3.0);
-        if let Some(measured) = measured {
-            plot.line(
-                Line::new(strings::MEASURED_LINE, PlotPoints::from(measured)).color(t.text_weak).width(1.2),
-            );
+        for (line, points) in lines.iter().zip(points) {
+            plot.line(Line::new(line.name, PlotPoints::from(points)).color(line.color).width(line.width));
         }
-        plot.line(Line::new(model_name, PlotPoints::from(model)).color(t.accent).width(2.2));
     });
-    let name = strings::spectrum_of(model_name);
-    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
+    plot.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
 }

@@ -14,6 +14,7 @@ use crate::panel::Panel;
 use crate::save::SaveSheet;
 use crate::session::OutputChoice;
 use crate::sheets::Sheet;
+use crate::texture_sheet::TextureSheet;
 use crate::tour::Tour;
 use crate::workspace::Workspace;
 
@@ -26,11 +27,13 @@ impl Window {
                 // What is changed is what is heard.
                 self.compare.end();
                 if matches!(edit, Edit::AddTextures(_)) {
-                    self.search.clear();
-                    self.reveal = Some(self.session.textures().len());
+                    self.library.show_all();
+                    self.library.reveal = Some(self.session.textures().len());
                 }
                 self.history.apply(&mut self.project, edit, Gesture(self.gesture));
             }
+            Command::OpenTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::new(id))),
+            Command::RenameTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::to_rename(id))),
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
             Command::BeginTour => (self.workspace, self.tour) = (Workspace::Author, Tour::begun()),
             Command::ReadPhoto(source) => self.photo.read(source, self.project.texture().key, ctx),

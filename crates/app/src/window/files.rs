@@ -161,7 +161,7 @@ impl Window {
         self.history = History::default();
         self.session.play_path(false);
         self.canvas.tool.leave();
-        self.search.clear();
+        self.library.show_all();
         self.sheet = Sheet::Closed;
     }
 
