@@ -30,9 +30,10 @@ use crate::command::Command;
 use crate::drag::dragged_to;
 use crate::edit::Edit;
 use crate::library_panel::place_in_words;
-use crate::locks::{lock_mark, lock_menu};
+use crate::locks::lock_mark;
 use crate::panel::Panel;
 use crate::strings::{self, authored};
+use crate::texture_menu::texture_menu;
 use crate::theme::{Tokens, tokens};
 
 /// Radius of a texture's picture on the canvas, in points.
@@ -95,7 +96,7 @@ pub fn canvas_ui(
     } else if let Some(pos) = dragged_by_primary(ui, &background).or(clicked_at) {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
-    commands.extend(sites_ui(ui, axes, panel, tool, &words, t));
+    commands.extend(sites_ui(ui, axes, panel, tool, &words, map.is_some(), t));
     if panel.session.space().sites().is_empty() {
         let font = FontId::proportional(15.0);
         let message =
@@ -222,6 +223,7 @@ fn sites_ui(
     panel: &Panel<'_>,
     tool: &PathTool,
     words: &[Rect],
+    on_map: bool,
     t: &Tokens,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
@@ -247,7 +249,7 @@ fn sites_ui(
         if response.hovered() || response.has_focus() {
             pointed = Some(*texture);
         }
-        commands.extend(lock_menu(&response, panel, *texture));
+        response.context_menu(|ui| commands.extend(texture_menu(ui, panel, *texture)));
         let mut help = format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at));
         if panel.project.texture().blend.can_lock() {
             let is_locked = panel.is_locked(*texture);
@@ -261,7 +263,7 @@ fn sites_ui(
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
         .collect();
     let point = Rect::from_center_size(axes.ui_from_space(panel.project.texture().at), POINT_SIZE);
-    site_labels(ui, panel, &named, radius, &Around { words, point }, pointed, t);
+    site_labels(ui, panel, &named, radius, &Around { words, point, on_map }, pointed, t);
     commands
 }
 

@@ -111,6 +111,8 @@ pub enum FileCommand {
     Open(PathBuf),
     /// Write the project to its file.
     Save,
+    /// New projects begin like this file, or as usual.
+    SetTemplate(Option<PathBuf>),
     /// Ask where to write the project.
     SaveAs,
     /// Write the project to this file from now on.

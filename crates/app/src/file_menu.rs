@@ -1,5 +1,7 @@
 //! The menu of files, and the name of the project in the title.
 
+use std::path::Path;
+
 use egui::{Button, Label, RichText, Ui};
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::settings::Settings;
@@ -49,13 +51,24 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         ui.separator();
         commands.extend(entry(ui, strings::SAVE, &Command::File(FileCommand::Save)).asked);
         commands.extend(entry(ui, strings::SAVE_AS, &Command::File(FileCommand::SaveAs)).asked);
+        let open = files.document.path();
+        let is_template = open.is_some() && files.settings.template.as_deref() == open;
+        let template = Button::selectable(is_template, strings::TEMPLATE);
+        let template = ui.add_enabled(open.is_some(), template);
+        if template
+            .on_hover_text(strings::TEMPLATE_HELP)
+            .on_disabled_hover_text(strings::TEMPLATE_NEEDS_FILE)
+            .clicked()
+        {
+            let path = open.filter(|_| !is_template).map(Path::to_owned);
+            commands.push(Command::File(FileCommand::SetTemplate(path)));
+        }
         let is_inside = matches!(files.project.library, ProjectLibrary::Inside(_));
         let keep = ui.add_enabled(!is_inside, Button::new(strings::KEEP_INSIDE));
         if keep.on_hover_text(strings::KEEP_INSIDE_HELP).clicked() {
             commands.push(Command::File(FileCommand::KeepLibraryInside));
         }
         ui.separator();
-        let open = files.document.path();
         let recent =
             files.settings.recent.iter().filter(|path| Some(path.as_path()) != open).take(MOST_RECENT);
         let mut has_recent = false;

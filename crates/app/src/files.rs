@@ -38,6 +38,8 @@ pub(crate) struct Files {
     pub(crate) waiting: Option<(Box<Imported<Project>>, PathBuf)>,
     /// Whether the program may end.
     pub(crate) is_closing: bool,
+    /// Whether what is being read is what a new project begins like.
+    pub(crate) is_beginning: bool,
 }
 
 impl Files {
@@ -64,6 +66,7 @@ impl Files {
             after_saving: None,
             waiting: None,
             is_closing: false,
+            is_beginning: false,
         }
     }
 

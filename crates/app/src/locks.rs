@@ -1,6 +1,6 @@
 //! Textures that the field meets exactly: their mark, their button and their menu.
 
-use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use shagreen_formats::library::TextureEntry;
 
 use crate::command::Command;
@@ -45,16 +45,6 @@ pub(crate) fn lock_button(ui: &Ui, panel: &Panel<'_>, texture: usize, area: Rect
     let is_clicked = response.clicked();
     response.on_hover_text(format!("{name}\n{}", strings::LOCK_HELP));
     is_clicked.then(|| edit(panel, texture))
-}
-
-/// The menu of a texture that can be locked.
-pub(crate) fn lock_menu(response: &Response, panel: &Panel<'_>, texture: usize) -> Option<Command> {
-    if !can_lock(panel, texture) {
-        return None;
-    }
-    let mut asked = None;
-    response.context_menu(|ui| asked = lock_entry(ui, panel, texture));
-    asked
 }
 
 /// Whether the field could meet a texture exactly: it has a place there, and the mode has a field.

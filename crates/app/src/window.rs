@@ -43,6 +43,9 @@ use crate::workspace::Workspace;
 /// Pictures that are blended into that of a field: more take longer and show nothing more.
 const MAX_PICTURED: usize = 6;
 
+/// How much larger everything may be drawn than usual.
+const SCALES: std::ops::RangeInclusive<f32> = 0.75..=2.5;
+
 /// The program with its window.
 pub struct Window {
     project: Project,
@@ -95,6 +98,9 @@ impl Window {
         let tour = if is_new_here { Tour::begun() } else { Tour::default() };
         if let Some(is_light) = files.settings.is_light {
             ctx.set_theme(if is_light { egui::Theme::Light } else { egui::Theme::Dark });
+        }
+        if let Some(scale) = files.settings.scale {
+            ctx.set_zoom_factor(scale.clamp(*SCALES.start(), *SCALES.end()));
         }
         Ok(Self {
             project,
@@ -233,6 +239,7 @@ impl Window {
         self.follow_project(&ctx);
         let (project, textures) = (&self.project, self.session.textures());
         self.pictures.follow(&ctx, &project.library, &project.joined, textures);
+        self.keep_scale(&ctx);
         self.keep_going(&ctx);
     }
 
@@ -368,6 +375,15 @@ impl Window {
             self.gesture += 1;
         }
         self.was_holding = holding;
+    }
+
+    /// How large everything is drawn, which the window system and the keyboard decide, is remembered.
+    fn keep_scale(&mut self, ctx: &egui::Context) {
+        let scale = ctx.zoom_factor();
+        if !SCALES.contains(&scale) {
+            ctx.set_zoom_factor(scale.clamp(*SCALES.start(), *SCALES.end()));
+        }
+        self.files.settings.scale = (scale != 1.0).then_some(scale);
     }
 
     /// Something moves while something sounds; otherwise a few frames a second show how the output is doing.

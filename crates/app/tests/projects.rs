@@ -395,3 +395,50 @@ fn a_project_of_the_gallery_is_opened_and_heard() {
     harness.run_steps(2);
     assert!(says(&harness, document::LEAVE_TITLE), "what was changed is not lost");
 }
+
+/// New projects begin as a copy of the chosen one's file, and as usual again once that is gone.
+#[test]
+fn new_projects_begin_like_a_chosen_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("Woods.shagreen");
+    let mut harness = author();
+    rename(&mut harness, "Oak copy");
+    save_as(&mut harness, &path);
+    wait_until_saved(&mut harness);
+    let saved = window(&harness).project().clone();
+    menu(&mut harness, document::TEMPLATE);
+    menu(&mut harness, document::NEW);
+    wait(&mut harness, "a copy of it", |h| window(h).document().path().is_none());
+    assert_eq!(window(&harness).project(), &saved);
+    assert!(!window(&harness).document().is_changed());
+    // A copy: the file is not written to.
+    rename(&mut harness, "Ash copy");
+    keys(&mut harness, Modifiers::COMMAND, Key::S);
+    harness.run_steps(3);
+    assert!(says(&harness, document::SAVE_TITLE), "it asks where");
+    click(&mut harness, document::CANCEL);
+    harness.run_steps(4);
+
+    std::fs::remove_file(&path).unwrap();
+    menu(&mut harness, document::NEW);
+    click(&mut harness, document::DO_NOT_SAVE);
+    wait(&mut harness, "it begins as usual", |h| *window(h).project() == new_project());
+}
+
+/// What was chosen to be larger is larger in the next window, within bounds.
+#[test]
+fn the_scale_is_remembered() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = folder.path().join("settings.json");
+    let keeping = Keeping { settings: Some(settings.clone()), ..Keeping::default() };
+    for (before, after) in [("1.5", 1.5), ("40.0", 2.5)] {
+        std::fs::write(&settings, format!(r#"{{"has_seen_tour": true, "scale": {before}}}"#)).unwrap();
+        let harness = author_of(Begin { keeping: keeping.clone(), ..begin(new_project()) }, [1920.0, 1080.0]);
+        assert_eq!(harness.ctx.zoom_factor(), after);
+    }
+    let mut harness = author_of(Begin { keeping, ..begin(new_project()) }, [1920.0, 1080.0]);
+    harness.ctx.set_zoom_factor(1.25);
+    wait(&mut harness, "it is written", |_| {
+        std::fs::read_to_string(&settings).is_ok_and(|text| text.contains("\"scale\": 1.25"))
+    });
+}

@@ -25,6 +25,12 @@ pub struct Settings {
     /// Whether the first steps were shown, or skipped.
     #[serde(default)]
     pub has_seen_tour: bool,
+    /// How much larger everything is drawn than usual; `None` is as usual.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f32>,
+    /// The project that new ones begin like.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub template: Option<PathBuf>,
     /// What another version remembers.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
@@ -60,6 +66,7 @@ mod tests {
     fn settings_come_back_and_what_is_no_settings_is_left() {
         let mut settings = Settings { is_light: Some(true), ..Settings::default() };
         settings.note_project(Path::new("/a.shagreen"));
+        (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
         settings.unknown.insert("later".to_owned(), 3.into());
         assert_eq!(read_settings(&write_settings(&settings)), settings);
         for nothing in [&b""[..], b"{{", b"[]", b"{\"recent\": 3}"] {

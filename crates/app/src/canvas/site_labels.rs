@@ -17,6 +17,8 @@ pub(super) struct Around<'a> {
     pub(super) words: &'a [Rect],
     /// The authored point, which moves: only the names of its parents make way for it.
     pub(super) point: Rect,
+    /// Whether colors lie behind them.
+    pub(super) on_map: bool,
 }
 
 /// Draws the names of the textures at `sites`, all with the same `radius`. Parents are always named, as is the one that is
@@ -76,9 +78,12 @@ pub(super) fn site_labels(
         if let Some(line) = leader {
             ui.painter().line_segment(line, Stroke::new(1.0, color.gamma_multiply(0.8)));
         }
-        if is_parent || is_pointed(dot) {
-            ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(0.9));
-        }
+        let back = match (is_parent || is_pointed(dot), around.on_map) {
+            (true, _) => 0.9,
+            (false, true) => 0.75,
+            (false, false) => 0.0,
+        };
+        ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(back));
         ui.painter().galley(area.min, Arc::clone(galley), *color);
     }
 }

@@ -15,7 +15,8 @@ pub const FILE: &str = "File";
 /// Begins a project.
 pub const NEW: &str = "New";
 /// What a new project is.
-pub const NEW_HELP: &str = "A project of one texture on the starter library";
+pub const NEW_HELP: &str =
+    "A project of one texture on the starter library, or a copy of the one you chose to begin with";
 /// Opens the sheet of files.
 pub const OPEN: &str = "Open…";
 /// Projects that were open.
@@ -28,6 +29,12 @@ pub const SAVE_AS: &str = "Save as…";
 pub const KEEP_INSIDE: &str = "Keep library in the project";
 /// What that is good for.
 pub const KEEP_INSIDE_HELP: &str = "The file of the project then holds all textures, and can be passed on alone. Otherwise it only names its library.";
+/// Makes the project what new ones begin like.
+pub const TEMPLATE: &str = "Begin new projects like this";
+/// What that does.
+pub const TEMPLATE_HELP: &str = "New projects then begin as a copy of this one's file. Choose it again to begin with the starter library.";
+/// It has no file.
+pub const TEMPLATE_NEEDS_FILE: &str = "Save the project first: new ones begin as a copy of its file.";
 /// Closes the program.
 pub const QUIT: &str = "Quit";
 /// The title of the sheet that opens a file.

@@ -17,9 +17,10 @@ pub const DONE: &str = "Done";
 /// Ends the tour before its end.
 pub const SKIP: &str = "Skip tour";
 /// Keys that are no commands, and what they do.
-pub const MORE_KEYS: [(&str, &str); 5] = [
+pub const MORE_KEYS: [(&str, &str); 6] = [
     ("Arrow keys", "Move the selected point (Shift: bigger steps)"),
     ("Tab", "Go to the next control"),
+    ("Ctrl with + - 0", "Everything larger, smaller, as usual"),
     ("Wheel over the space", "Zoom"),
     ("Right or middle button", "Move the view of the space"),
     ("Wheel over the pad", "Force of mouse and hand"),

@@ -50,11 +50,15 @@ impl Window {
             FileCommand::AskWhatToOpen => self.sheet = Sheet::Open(OpenSheet::new(&self.usual_folder(), ctx)),
             FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new()),
             FileCommand::BeginFromGallery(chosen) => self.leave(Leave::Gallery(chosen), ctx),
-            FileCommand::Open(path) => self.files.document.open(path, ctx),
+            FileCommand::Open(path) => {
+                self.files.is_beginning = false;
+                self.files.document.open(path, ctx);
+            }
             FileCommand::Save => match self.files.document.path().map(Path::to_owned) {
                 Some(path) => self.files.document.save(&self.project, path, ctx),
                 None => self.ask_where_to_save(),
             },
+            FileCommand::SetTemplate(path) => self.files.settings.template = path,
             FileCommand::SaveAs => self.ask_where_to_save(),
             FileCommand::SaveTo(path) => self.files.document.save(&self.project, path, ctx),
             FileCommand::KeepLibraryInside => {
@@ -103,6 +107,10 @@ impl Window {
                     _ => self.session.say(strings::document::not_saved(&reason)),
                 }
             }
+            Came::Opened(Read::Project(imported), _) if std::mem::take(&mut self.files.is_beginning) => {
+                self.begin(imported.value, None);
+                self.say_warnings(&imported.warnings);
+            }
             Came::Opened(Read::Project(imported), path) => {
                 self.files.waiting = Some((imported, path));
                 self.leave(Leave::Open, ctx);
@@ -114,10 +122,17 @@ impl Window {
                 let library = ProjectLibrary::File(value.into());
                 self.carry_out(Command::Edit(Edit::OpenLibrary(library)), ctx);
             }
-            Came::NotOpened(reason) => match &mut self.sheet {
-                Sheet::Open(sheet) => sheet.say(reason),
-                _ => self.session.say(reason),
-            },
+            Came::NotOpened(reason) => {
+                if std::mem::take(&mut self.files.is_beginning) {
+                    // What new projects begin like is gone: they begin as usual.
+                    self.files.settings.template = None;
+                    self.begin(new_project(), None);
+                }
+                match &mut self.sheet {
+                    Sheet::Open(sheet) => sheet.say(reason),
+                    _ => self.session.say(reason),
+                }
+            }
         }
     }
 
@@ -132,7 +147,13 @@ impl Window {
 
     fn go(&mut self, leave: Leave, ctx: &Context) {
         match leave {
-            Leave::New => self.begin(new_project(), None),
+            Leave::New => match self.files.settings.template.clone() {
+                Some(template) => {
+                    self.files.is_beginning = true;
+                    self.files.document.open(template, ctx);
+                }
+                None => self.begin(new_project(), None),
+            },
             Leave::Open => {
                 if let Some((imported, path)) = self.files.waiting.take() {
                     self.begin(imported.value, Some(path));
