@@ -56,6 +56,8 @@ pub mod pad;
 pub mod panel;
 mod photo;
 pub mod pictures;
+pub mod recorded_stroke;
+mod recorder;
 mod recovered_ui;
 pub mod recovery;
 pub mod rig;

@@ -14,6 +14,7 @@ pub mod help;
 pub mod import;
 pub mod map;
 pub mod path;
+pub mod stroke;
 pub mod view;
 
 /// The output takes no more at the moment.

@@ -2,6 +2,7 @@
 
 mod commands;
 mod files;
+mod strokes;
 mod title_bar;
 
 pub use self::files::new_project;
@@ -11,8 +12,6 @@ use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Margin, Panel as Side, Ui};
 use shagreen_core::heat_map::Quantity;
-use shagreen_core::units::Contact;
-use shagreen_device::hand::Hand;
 use shagreen_formats::project::{AuthoredTexture, Project};
 
 use crate::Begin;
@@ -32,6 +31,7 @@ use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
 use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
+use crate::recorded_stroke::StrokeReader;
 use crate::scope::scope_ui;
 use crate::session::Session;
 use crate::sheets::Sheet;
@@ -52,6 +52,7 @@ pub struct Window {
     pictures: Pictures,
     photo: PhotoReader,
     own_picture: OwnPicture,
+    strokes: StrokeReader,
     compare: Compare,
     heat: HeatMap,
     map: Option<Quantity>,
@@ -104,6 +105,7 @@ impl Window {
             pictures,
             photo: PhotoReader::new(),
             own_picture: OwnPicture::default(),
+            strokes: StrokeReader::default(),
             files,
             compare: Compare::by_chance(),
             heat: HeatMap::default(),
@@ -164,10 +166,11 @@ impl Window {
         let t = tokens(&ctx);
         self.pictures.collect(&ctx);
         self.next_gesture(&ctx);
-        self.session.update(contact_of(self.pad.hand));
+        self.session.update(self.pad.contact(&self.session));
         self.build.collect();
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
+        self.collect_strokes();
         let mut commands = if self.sheet.is_open() {
             Vec::new()
         } else {
@@ -259,11 +262,11 @@ impl Window {
     /// The map behind the canvas, as far as it is worked out.
     fn follow_map(&mut self, ctx: &egui::Context) -> Option<ShownMap> {
         let session = &self.session;
-        let hand = self.pad.hand;
+        let contact = self.pad.contact(session);
         let wanted = self.map.map(|quantity| Wanted {
             quantity,
             blending: session.blending(&self.project.texture().blend),
-            contact: contact_of(hand),
+            contact,
             generation: session.generation(),
         });
         self.heat.follow(wanted, || (session.authoring().clone(), session.planes().to_vec()), ctx);
@@ -312,7 +315,7 @@ impl Window {
             self.session.mouse(report, self.pad.hand.force_n);
         }
         if self.session.hand_is_running() {
-            self.session.set_hand(Some(self.pad.hand));
+            self.session.set_hand(Some(self.pad.input()));
         }
     }
 
@@ -372,11 +375,6 @@ impl Window {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
     }
-}
-
-/// The speed and force of the automatic hand.
-fn contact_of(hand: Hand) -> Contact {
-    Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n))
 }
 
 /// What the picture of a blend is made of: of a field the textures that say the most, as shares of one.

@@ -32,6 +32,7 @@ impl Window {
             }
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
             Command::BeginTour => (self.workspace, self.tour) = (Workspace::Author, Tour::begun()),
+            Command::Stroke(command) => self.carry_out_stroke(command, ctx),
             Command::ReadPhoto(source) => self.photo.read(source, self.project.texture().key, ctx),
             Command::ShowMap(quantity) => self.map = quantity,
             Command::Compare(command) => self.compare.carry_out(command),
@@ -42,7 +43,7 @@ impl Window {
                 self.history.redo(&mut self.project);
             }
             Command::ToggleHand => {
-                let hand = (!self.session.hand_is_running()).then_some(self.pad.hand);
+                let hand = (!self.session.hand_is_running()).then_some(self.pad.input());
                 self.session.set_hand(hand);
             }
             Command::TogglePathTool => self.canvas.tool.toggle(),
