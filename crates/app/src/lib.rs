@@ -61,6 +61,7 @@ mod recorder;
 mod recovered_ui;
 pub mod recovery;
 pub mod rig;
+mod rig_memory;
 pub mod save;
 pub mod scope;
 pub mod scope_buffer;

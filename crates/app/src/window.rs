@@ -2,10 +2,13 @@
 
 mod commands;
 mod files;
+mod rig;
 mod strokes;
 mod title_bar;
 
 pub use self::files::new_project;
+
+use self::rig::open_as_left;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -33,7 +36,7 @@ use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
 use crate::recorded_stroke::StrokeReader;
 use crate::scope::scope_ui;
-use crate::session::Session;
+use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, map_color, tokens};
@@ -73,6 +76,10 @@ pub struct Window {
     build: BuildPage,
     /// Where figures are saved unless another path is chosen.
     figures_folder: PathBuf,
+    /// The output that was chosen in this window, until it is open.
+    asked_output: Option<String>,
+    /// Whether the output that is open at first was named by whoever started the program.
+    is_output_given: bool,
 }
 
 impl Window {
@@ -85,14 +92,15 @@ impl Window {
         let Begin { project, path, output, keeping } = begin;
         let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
-        session.open_output(output, ctx);
-        session.follow(&project, None, ctx);
-        let pictures = Pictures::new(ctx, project.library.clone(), &project.joined, session.textures());
         let leftovers = Files::leftovers(&keeping);
         // Nobody is led around who would be led around again next time.
         let can_remember = keeping.settings.is_some();
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
         let files = Files::new(&project, path, keeping);
+        let is_output_given = output != OutputChoice::SystemDefault;
+        open_as_left(&mut session, output, &files.settings, ctx);
+        session.follow(&project, None, ctx);
+        let pictures = Pictures::new(ctx, project.library.clone(), &project.joined, session.textures());
         let is_new_here = can_remember && !files.settings.has_seen_tour;
         let tour = if is_new_here { Tour::begun() } else { Tour::default() };
         if let Some(is_light) = files.settings.is_light {
@@ -124,6 +132,8 @@ impl Window {
             build: BuildPage::default(),
             // Where there is none, the path is one to be completed.
             figures_folder: std::env::current_dir().unwrap_or_default(),
+            asked_output: None,
+            is_output_given,
         })
     }
 
@@ -171,6 +181,7 @@ impl Window {
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
         self.collect_strokes();
+        self.remember_output();
         let mut commands = if self.sheet.is_open() {
             Vec::new()
         } else {

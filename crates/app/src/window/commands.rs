@@ -62,7 +62,10 @@ impl Window {
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
             Command::ListOutputs => self.session.list_outputs(ctx),
-            Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
+            Command::OpenOutput(id) => {
+                self.asked_output = Some(id.clone());
+                self.session.open_output(OutputChoice::Id(id), ctx);
+            }
             Command::ResetLimiter => self.session.reset_limiter(),
             Command::OpenDevices => match built_in_actuators() {
                 Ok(actuators) => {
@@ -74,7 +77,10 @@ impl Window {
                 }
                 Err(error) => self.session.say(error.to_string()),
             },
-            Command::SetRig(rig) => self.session.set_rig(*rig, ctx),
+            Command::SetRig(rig) => {
+                self.remember_rig(&rig);
+                self.session.set_rig(*rig, ctx);
+            }
             Command::PlayTone { frequency_hz, amplitude_mps2 } => {
                 self.session.play_tone(frequency_hz, amplitude_mps2);
             }
