@@ -21,7 +21,8 @@ pub(crate) struct Args {
     /// Project to open, or a library (a file, or a folder of them) to begin one with; without it a new project on the
     /// starter library.
     file: Option<PathBuf>,
-    /// Output to open, by its id; `shagreen devices` lists them. Without it the system's default of the moment.
+    /// Output to open, by its id; `shagreen devices` lists them. Without it the one that was chosen last in the window, and
+    /// before any was, the system's default of the moment.
     #[arg(long, value_name = "ID")]
     output: Option<String>,
     /// Draw this many frames with the hand stroking, print how long they took, and close.

@@ -11,6 +11,7 @@ use shagreen_formats::gallery::GalleryProject;
 
 use crate::compare::{CompareCommand, Side};
 use crate::edit::Edit;
+use crate::recorded_stroke::StrokeCommand;
 use crate::rig::Rig;
 use crate::save::FigureFile;
 use crate::strings::commands as strings;
@@ -92,6 +93,8 @@ pub enum Command {
     OpenShortcuts,
     /// Begin the tour.
     BeginTour,
+    /// Something about recorded strokes.
+    Stroke(StrokeCommand),
     /// Something about files.
     File(FileCommand),
 }

@@ -1,4 +1,4 @@
-//! The sheet that opens a project or a library: a path, or a walk through folders.
+//! The sheet that opens a project or a library, or a stroke: a path, or a walk through folders.
 //!
 //! The system's own dialog would need a desktop portal on Linux and cannot be driven where there is none, so this is ours.
 
@@ -10,8 +10,10 @@ use shagreen_formats::project::EXTENSION;
 
 use crate::background::in_background;
 use crate::command::{Command, FileCommand};
+use crate::import::source::Source;
+use crate::recorded_stroke::StrokeCommand;
 use crate::sheet_frame::{is_left, sheet};
-use crate::strings::document as strings;
+use crate::strings::{document as strings, stroke};
 use crate::theme::{GAP, tokens};
 
 /// Height of the list, in points.
@@ -19,12 +21,22 @@ const LIST_HEIGHT: f32 = 260.0;
 
 /// The sheet, as long as it is open.
 pub(crate) struct OpenSheet {
+    wanted: Wanted,
     folder: PathBuf,
     path: String,
     entries: Option<Vec<Entry>>,
     listing: Option<Receiver<Vec<Entry>>>,
     is_focused: bool,
     failure: Option<String>,
+}
+
+/// What is looked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    /// Projects and libraries.
+    Projects,
+    /// Tables of strokes.
+    Strokes,
 }
 
 /// Something in a folder that can be opened or walked into.
@@ -35,9 +47,19 @@ struct Entry {
 }
 
 impl OpenSheet {
-    /// A sheet that begins in `folder`.
+    /// A sheet that looks for a project or a library, and begins in `folder`.
     pub(crate) fn new(folder: &Path, ctx: &Context) -> Self {
+        Self::of(Wanted::Projects, folder, ctx)
+    }
+
+    /// A sheet that looks for a stroke, and begins in `folder`.
+    pub(crate) fn of_strokes(folder: &Path, ctx: &Context) -> Self {
+        Self::of(Wanted::Strokes, folder, ctx)
+    }
+
+    fn of(wanted: Wanted, folder: &Path, ctx: &Context) -> Self {
         let mut sheet = Self {
+            wanted,
             folder: PathBuf::new(),
             path: String::new(),
             entries: None,
@@ -49,6 +71,11 @@ impl OpenSheet {
         sheet
     }
 
+    /// Whether a stroke is looked for.
+    pub(crate) fn is_for_strokes(&self) -> bool {
+        self.wanted == Wanted::Strokes
+    }
+
     /// Says why the file could not be opened.
     pub(crate) fn say(&mut self, reason: String) {
         self.failure = Some(reason);
@@ -57,8 +84,8 @@ impl OpenSheet {
     fn walk(&mut self, folder: &Path, ctx: &Context) {
         folder.clone_into(&mut self.folder);
         self.entries = None;
-        let folder = folder.to_owned();
-        self.listing = Some(in_background(ctx.clone(), move || entries_of(&folder)));
+        let (folder, wanted) = (folder.to_owned(), self.wanted);
+        self.listing = Some(in_background(ctx.clone(), move || entries_of(&folder, wanted)));
     }
 
     /// Draws the sheet over the window; `is_opening` while a file is being read. Returns what the user asked of it.
@@ -80,10 +107,13 @@ impl OpenSheet {
     fn content_ui(&mut self, ui: &mut Ui, is_opening: bool) -> Vec<Command> {
         let t = tokens(ui.ctx());
         let mut commands = Vec::new();
-        ui.add(Label::new(RichText::new(strings::OPEN_TITLE).heading().strong()).selectable(false));
+        let (title, hint) = match self.wanted {
+            Wanted::Projects => (strings::OPEN_TITLE, strings::OPEN_HINT),
+            Wanted::Strokes => (stroke::OPEN_TITLE, stroke::OPEN_HINT),
+        };
+        ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
-        let field =
-            TextEdit::singleline(&mut self.path).hint_text(strings::OPEN_HINT).desired_width(f32::INFINITY);
+        let field = TextEdit::singleline(&mut self.path).hint_text(hint).desired_width(f32::INFINITY);
         let field = ui.add(field).accessible_name(strings::OPEN_PATH);
         if !std::mem::replace(&mut self.is_focused, true) {
             field.request_focus();
@@ -111,7 +141,10 @@ impl OpenSheet {
                 self.is_focused = false;
                 self.walk(&path, ui.ctx());
             } else if !path.as_os_str().is_empty() {
-                commands.push(Command::File(FileCommand::Open(path)));
+                commands.push(match self.wanted {
+                    Wanted::Projects => Command::File(FileCommand::Open(path)),
+                    Wanted::Strokes => Command::Stroke(StrokeCommand::Read(Source::Path(path))),
+                });
             }
         }
         commands
@@ -151,14 +184,18 @@ impl OpenSheet {
     }
 }
 
-/// Folders, then projects and what may be libraries, each by name; hidden ones are left out.
-fn entries_of(folder: &Path) -> Vec<Entry> {
+/// Folders, then what may be wanted, each by name; hidden ones are left out.
+fn entries_of(folder: &Path, wanted: Wanted) -> Vec<Entry> {
+    let endings: &[&str] = match wanted {
+        Wanted::Projects => &[EXTENSION, "json"],
+        Wanted::Strokes => &["csv", "tsv", "txt"],
+    };
     // A folder that cannot be read shows nothing: a path can still be written.
     let Ok(found) = std::fs::read_dir(folder) else { return Vec::new() };
     let entry = |entry: std::fs::DirEntry| {
         let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
         let is_folder = path.is_dir();
-        let is_ours = path.extension().is_some_and(|extension| extension == EXTENSION || extension == "json");
+        let is_ours = path.extension().is_some_and(|extension| endings.iter().any(|e| extension == *e));
         (!name.starts_with('.') && (is_folder || is_ours)).then_some(Entry { name, path, is_folder })
     };
     let mut entries: Vec<Entry> = found.filter_map(|each| entry(each.ok()?)).collect();
@@ -168,7 +205,7 @@ fn entries_of(folder: &Path) -> Vec<Entry> {
 
 #[cfg(test)]
 mod tests {
-    use super::entries_of;
+    use super::{Wanted, entries_of};
 
     #[test]
     fn a_folder_shows_what_can_be_opened() {
@@ -177,8 +214,12 @@ mod tests {
             std::fs::write(folder.path().join(name), "").unwrap();
         }
         std::fs::create_dir(folder.path().join("z")).unwrap();
-        let names: Vec<String> = entries_of(folder.path()).into_iter().map(|entry| entry.name).collect();
-        assert_eq!(names, ["z", "A.json", "b.shagreen"]);
-        assert!(entries_of(&folder.path().join("none")).is_empty());
+        for (wanted, expected) in
+            [(Wanted::Projects, &["z", "A.json", "b.shagreen"][..]), (Wanted::Strokes, &["z", "notes.txt"])]
+        {
+            let found = entries_of(folder.path(), wanted);
+            assert_eq!(found.iter().map(|entry| entry.name.as_str()).collect::<Vec<_>>(), expected);
+            assert!(entries_of(&folder.path().join("none"), wanted).is_empty());
+        }
     }
 }

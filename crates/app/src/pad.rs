@@ -1,17 +1,26 @@
-//! The pad: a piece of the texture to stroke, with the mouse or by the automatic hand.
+//! The pad: a piece of the texture to stroke, with the mouse, by the automatic hand, or as was recorded.
+
+mod controls_ui;
+mod trail_ui;
 
 use egui::{
-    Align2, ComboBox, CursorIcon, Event, FontId, Rect, Role, Sense, Slider, Stroke, TouchPhase, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, CursorIcon, Event, FontId, Pos2, Rect, Role, Sense, Stroke, TouchPhase, Ui, WidgetInfo, pos2,
+    vec2,
 };
+use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
+use shagreen_device::controls::Input;
 use shagreen_device::hand::{Hand, Path};
+use shagreen_device::repeat::Repeat;
 use shagreen_device::touch::Touch;
 
 use crate::command::Command;
 use crate::drag::dragged_to;
+use crate::pad::controls_ui::controls_ui;
+use crate::pad::trail_ui::trail_ui;
 use crate::panel::Panel;
+use crate::session::Session;
 use crate::strings;
-use crate::theme::{GAP, RADIUS, tokens};
+use crate::theme::{RADIUS, tokens};
 
 /// Points of the screen for a millimeter of the pad.
 const POINTS_PER_MM: f32 = 3.0;
@@ -27,6 +36,12 @@ const EXTENT_M: f32 = 0.08;
 pub struct PadState {
     /// What the automatic hand does.
     pub hand: Hand,
+    /// Whether it repeats the recorded stroke instead.
+    pub repeats: bool,
+    /// How it repeats it.
+    pub repeat: Repeat,
+    /// How many strokes there were when this was looked at last.
+    n_strokes: u64,
     /// What the window system told last of the pressure of a pen or finger that is down, 0..1.
     pressure: Option<f64>,
 }
@@ -35,12 +50,39 @@ impl Default for PadState {
     fn default() -> Self {
         Self {
             hand: Hand { path: Path::Line, speed_mps: 0.1, force_n: 0.8, extent_m: EXTENT_M },
+            repeats: false,
+            repeat: Repeat::AS_RECORDED,
+            n_strokes: 0,
             pressure: None,
         }
     }
 }
 
 impl PadState {
+    /// What strokes where the automatic hand does.
+    pub fn input(&self) -> Input {
+        if self.repeats { Input::Repeat(self.repeat) } else { Input::Hand(self.hand) }
+    }
+
+    /// Usual speed and force of what strokes then.
+    pub fn contact(&self, session: &Session) -> Contact {
+        let Hand { speed_mps, force_n, .. } = self.hand;
+        let of_hand = || Contact::from_mm_per_s_and_n(1e3 * f64::from(speed_mps), f64::from(force_n));
+        let Some(stroke) = session.stroke().filter(|_| self.repeats) else { return of_hand() };
+        // Where it only taps, what a slow and light stroke would feel is shown.
+        let Contact { speed, force } = stroke.usual_contact(self.repeat);
+        let least = (1e-3 * f64::from(*SPEEDS_MM_PER_S.start()), f64::from(*FORCES_N.start()));
+        Contact { speed: MetersPerSecond(speed.0.max(least.0)), force: Newtons(force.0.max(least.1)) }
+    }
+
+    /// Chooses a stroke that has just been recorded or read, as it was.
+    fn follow_strokes(&mut self, session: &Session) {
+        if self.n_strokes != session.n_strokes() {
+            self.n_strokes = session.n_strokes();
+            (self.repeats, self.repeat) = (true, Repeat::AS_RECORDED);
+        }
+    }
+
     /// A pressure holds until another is told or what presses is lifted: what is held still says nothing.
     fn follow_pressure(&mut self, events: &[Event]) {
         for event in events {
@@ -83,7 +125,8 @@ pub fn pad_ui(
     picture: Option<(egui::TextureId, [f64; 2])>,
 ) -> PadOutcome {
     let mut outcome = PadOutcome::default();
-    outcome.commands.extend(hand_ui(ui, panel, state));
+    state.follow_strokes(panel.session);
+    outcome.commands.extend(controls_ui(ui, panel, state));
     let t = tokens(ui.ctx());
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAD));
@@ -99,6 +142,7 @@ pub fn pad_ui(
         }
     }
     ui.painter().rect_stroke(area, f32::from(RADIUS), Stroke::new(1.0, t.line), egui::StrokeKind::Inside);
+    trail_ui(ui, area, panel.session, state);
     scale_bar(ui, area);
     tip(ui, area, panel.session.touch());
     ui.input(|i| state.follow_pressure(&i.events));
@@ -121,49 +165,9 @@ pub fn pad_ui(
     outcome
 }
 
-fn hand_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) -> Option<Command> {
-    let mut command = None;
-    ui.horizontal(|ui| {
-        let running = panel.session.hand_is_running();
-        let text = if running { strings::HAND_STOP } else { strings::HAND_START };
-        let button = egui::Button::new(text).selected(running).min_size(vec2(58.0, 0.0));
-        if ui.add(button).on_hover_text(strings::HAND_HELP).clicked() {
-            command = Some(Command::ToggleHand);
-        }
-        let chosen =
-            ComboBox::from_id_salt("path of the hand").width(78.0).selected_text(path_name(state.hand.path));
-        let shown = chosen.show_ui(ui, |ui| {
-            for path in [Path::Line, Path::Circle, Path::Scribble] {
-                ui.selectable_value(&mut state.hand.path, path, path_name(path));
-            }
-        });
-        shown.response.accessible_name(strings::HAND_PATH);
-        ui.spacing_mut().slider_width = ((ui.available_width() - 158.0) / 2.0).clamp(24.0, 90.0);
-        let mut mm_per_s = state.hand.speed_mps * 1e3;
-        let whole = |value: f64, _| format!("{value:.0}");
-        let speed = Slider::new(&mut mm_per_s, SPEEDS_MM_PER_S)
-            .custom_formatter(whole)
-            .suffix(" mm/s")
-            .smart_aim(false);
-        ui.add(speed).accessible_name(strings::HAND_SPEED).on_hover_text(strings::HAND_SPEED);
-        state.hand.speed_mps = mm_per_s * 1e-3;
-        let hundredths = |value: f64, _| format!("{value:.2}");
-        let force = Slider::new(&mut state.hand.force_n, FORCES_N)
-            .custom_formatter(hundredths)
-            .suffix(" N")
-            .smart_aim(false);
-        ui.add(force).accessible_name(strings::HAND_FORCE).on_hover_text(strings::HAND_FORCE);
-    });
-    ui.add_space(GAP / 2.0);
-    command
-}
-
-fn path_name(path: Path) -> &'static str {
-    match path {
-        Path::Line => strings::LINE,
-        Path::Circle => strings::CIRCLE,
-        Path::Scribble => strings::SCRIBBLE,
-    }
+/// A place on the pad in points of the screen.
+fn in_ui(area: Rect, x_m: f32, y_m: f32) -> Pos2 {
+    area.center() + vec2(x_m, -y_m) * (POINTS_PER_MM * 1e3)
 }
 
 fn scale_bar(ui: &Ui, area: Rect) {
@@ -192,7 +196,7 @@ fn tip(ui: &Ui, area: Rect, touch: Touch) {
         return;
     }
     let t = tokens(ui.ctx());
-    let pos = area.center() + vec2(touch.x_m, -touch.y_m) * (POINTS_PER_MM * 1e3);
+    let pos = in_ui(area, touch.x_m, touch.y_m);
     let painter = ui.painter().with_clip_rect(area);
     painter.circle_filled(pos, 7.0, t.background.gamma_multiply(0.6));
     painter.circle_filled(pos, 2.0 + 3.0 * (touch.contact.force_n / 2.0).min(1.0), t.accent);

@@ -1,7 +1,8 @@
-//! Saving the library, a figure or the project: a path, a word before a file is replaced, and a warning about textures
+//! Saving the library, a figure, a stroke or the project: a path, a word before a file is replaced, and a warning about textures
 //! that may not be passed on.
 
 mod figure_file;
+mod stroke_file;
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
@@ -15,10 +16,11 @@ use crate::background::in_background;
 use crate::command::{Command, FileCommand};
 use crate::document::CREATED_BY;
 use crate::sheet_frame::{is_left, sheet};
-use crate::strings::{build, document, import as strings};
+use crate::strings::{build, document, import as strings, stroke};
 use crate::theme::{GAP, tokens};
 
 pub use crate::save::figure_file::{FigureFile, FigureFormat};
+pub use crate::save::stroke_file::StrokeFile;
 
 /// The sheet, as long as it is open.
 pub struct SaveSheet {
@@ -57,6 +59,7 @@ enum Outcome {
 enum Subject {
     Library,
     Figure(FigureFile),
+    Stroke(StrokeFile),
     Project(Box<Project>),
 }
 
@@ -64,6 +67,7 @@ enum Subject {
 enum Content {
     Library(Box<Library>),
     Figure(FigureFile),
+    Stroke(StrokeFile),
     /// It is written by its document once it may be.
     Project,
 }
@@ -78,6 +82,11 @@ impl SaveSheet {
     pub fn figure(figure: FigureFile, folder: &Path) -> Self {
         let path = folder.join(figure.file_name()).display().to_string();
         Self::of(Subject::Figure(figure), path)
+    }
+
+    /// A sheet that saves a stroke, at `path` unless another is chosen.
+    pub fn stroke(stroke: StrokeFile, path: &Path) -> Self {
+        Self::of(Subject::Stroke(stroke), path.display().to_string())
     }
 
     /// A sheet that asks where to save a project, `path` unless another is chosen.
@@ -132,6 +141,7 @@ impl SaveSheet {
         let (title, field_name, hint) = match &self.subject {
             Subject::Library => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
             Subject::Figure(_) => (build::SAVE_TITLE, build::SAVE_PATH, build::SAVE_HINT),
+            Subject::Stroke(_) => (stroke::SAVE_TITLE, stroke::SAVE_PATH, stroke::SAVE_HINT),
             Subject::Project(_) => (document::SAVE_TITLE, document::SAVE_PATH, document::SAVE_HINT),
         };
         ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
@@ -150,7 +160,7 @@ impl SaveSheet {
         let restricted: Vec<&str> = match &self.subject {
             Subject::Library => library.restricted().map(|entry| entry.name.as_str()).collect(),
             Subject::Project(project) => project.restricted().map(|entry| entry.name.as_str()).collect(),
-            Subject::Figure(_) => Vec::new(),
+            Subject::Figure(_) | Subject::Stroke(_) => Vec::new(),
         };
         if let Some(warning) = Provenance::warning(&restricted) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
@@ -161,6 +171,7 @@ impl SaveSheet {
                 Subject::Figure(figure) => {
                     (build::to_save(&figure.title(), figure.format.word()), t.text_weak)
                 }
+                Subject::Stroke(file) => (stroke::to_save(file.secs()), t.text_weak),
                 Subject::Project(project) => {
                     let is_inside = matches!(project.library, ProjectLibrary::Inside(_));
                     (document::to_save(project.authored.len(), is_inside), t.text_weak)
@@ -169,6 +180,7 @@ impl SaveSheet {
             State::Exists(_) => match &self.subject {
                 Subject::Library => (strings::EXISTS.to_owned(), t.warning),
                 Subject::Figure(figure) => (build::exists(figure.format.word()), t.warning),
+                Subject::Stroke(_) => (stroke::EXISTS.to_owned(), t.warning),
                 Subject::Project(_) => (document::EXISTS.to_owned(), t.warning),
             },
             State::Saving(_) | State::Granted => (strings::SAVING.to_owned(), t.text_weak),
@@ -202,6 +214,7 @@ impl SaveSheet {
                 Content::Library(Box::new(Library { created_by: CREATED_BY.to_owned(), ..library.clone() }))
             }
             Subject::Figure(figure) => Content::Figure(figure.clone()),
+            Subject::Stroke(file) => Content::Stroke(file.clone()),
             Subject::Project(_) => Content::Project,
         };
         let path = PathBuf::from(path);
@@ -233,6 +246,7 @@ impl Content {
         match self {
             Self::Library(library) => Some(Ok(write_library(library))),
             Self::Figure(figure) => Some(figure.bytes()),
+            Self::Stroke(file) => Some(Ok(file.bytes())),
             Self::Project => None,
         }
     }
@@ -248,6 +262,7 @@ impl Content {
                 _ => None,
             },
             Self::Figure(figure) => (!figure.is_like(bytes)).then(|| build::no_figure(figure.format.word())),
+            Self::Stroke(_) => (!StrokeFile::is_like(bytes)).then(|| stroke::NO_STROKE.to_owned()),
             Self::Project => is_project(bytes).err().map(|reason| document::no_project(&reason)),
         }
     }

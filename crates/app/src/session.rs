@@ -12,6 +12,7 @@ mod path_walk;
 mod pen;
 mod places;
 mod player;
+mod strokes;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -25,11 +26,13 @@ use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
 use shagreen_core::texture_path::Along;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
-use shagreen_device::hand::Hand;
+use shagreen_device::controls::Input;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::placed_space::PlacedSpace;
 use shagreen_formats::project::{AuthoredTexture, BlendChoice, Project, ProjectLibrary};
 
+use crate::recorded_stroke::RecordedStroke;
+use crate::recorder::Recorder;
 use crate::rig::Rig;
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
@@ -113,7 +116,13 @@ pub struct Session {
     pen: Pen,
     /// Strokes and taps of late: when they were measured, and how late both were, in seconds.
     latencies: VecDeque<(Instant, f32, f32)>,
-    hand: Option<Hand>,
+    /// What strokes by itself, if anything does.
+    hand: Option<Input>,
+    /// The stroke that the hand can repeat, and how many there were.
+    stroke: Option<Arc<RecordedStroke>>,
+    n_strokes: u64,
+    /// The recording under way, if one is.
+    recorder: Option<Recorder>,
     scope: ScopeBuffer,
     /// The rate of what lies in the space, in Hz.
     space_rate_hz: f64,
@@ -173,6 +182,9 @@ impl Session {
             is_hidden: false,
             spectra: Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() },
             hand: None,
+            stroke: None,
+            n_strokes: 0,
+            recorder: None,
             scope: ScopeBuffer::new(48_000.0, rate_hz),
             space_rate_hz: rate_hz,
             rate_hz,
@@ -470,10 +482,11 @@ impl Session {
         }
         let n_touches = self.status().map_or(0, |status| status.latency.n_touches);
         if self.player.collect(&mut self.scope) {
-            self.player.set_hand(self.hand);
+            self.player.set_hand(self.hand, self.stroke.as_ref());
             self.pen.give(&mut self.player.pen_live);
         }
         self.pen.collect();
+        self.follow_strokes();
         self.note_latency(n_touches);
         self.scope.update();
         let touching = self.touch().contact;
@@ -517,19 +530,6 @@ impl Session {
     /// Says at the foot what is wrong.
     pub fn say(&mut self, message: String) {
         self.player.message = Some(message);
-    }
-
-    /// Whether the automatic hand strokes.
-    pub fn hand_is_running(&self) -> bool {
-        self.hand.is_some()
-    }
-
-    /// Starts, changes or stops the automatic hand.
-    pub fn set_hand(&mut self, hand: Option<Hand>) {
-        if self.hand != hand {
-            self.hand = hand;
-            self.player.set_hand(hand);
-        }
     }
 }
 

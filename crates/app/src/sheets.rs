@@ -14,6 +14,7 @@ use crate::import::source::Source;
 use crate::leaving::{Leave, leaving_ui};
 use crate::open_sheet::OpenSheet;
 use crate::panel::Panel;
+use crate::recorded_stroke::{StrokeCommand, is_stroke_file};
 use crate::recovered_ui::recovered_ui;
 use crate::recovery::Leftover;
 use crate::save::SaveSheet;
@@ -65,7 +66,7 @@ impl Sheet {
     }
 
     /// Draws the sheet over the window, and where files would go that hover over it; returns what the user asked for.
-    /// Files dropped on the workspace Build are judgments, others are imported.
+    /// Files dropped on the workspace Build are judgments; elsewhere a stroke is repeated, and others are imported.
     pub(crate) fn show(
         &mut self,
         ctx: &Context,
@@ -94,12 +95,23 @@ impl Sheet {
             // It stays until its outcome has been shown.
             return commands;
         }
-        let are_judgments = workspace == Workspace::Build && !matches!(self, Self::Import(_));
+        let is_import = matches!(self, Self::Import(_));
+        let are_judgments = workspace == Workspace::Build && !is_import;
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         let is_project = |file: &DroppedFileHandle| {
             let path = file.path();
             (path.extension()? == EXTENSION).then(|| path.to_owned())
         };
+        let are_strokes = !are_judgments && !is_import;
+        let (strokes, dropped): (Vec<_>, Vec<_>) =
+            dropped.into_iter().partition(|file| are_strokes && is_stroke_file(file));
+        // The hand repeats but one.
+        commands.extend(
+            strokes
+                .into_iter()
+                .next()
+                .map(|file| Command::Stroke(StrokeCommand::Read(Source::Dropped(file)))),
+        );
         let photo = dropped.iter().find(|file| is_photo(file.path()));
         if let Some(project) = dropped.iter().find_map(is_project) {
             commands.push(Command::File(FileCommand::Open(project)));

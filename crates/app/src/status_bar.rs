@@ -53,7 +53,7 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
                 ui.add(label).on_hover_text(strings::PREPARING_HELP);
             }
             weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
-            if let Some(message) = session.output_message() {
+            for message in [session.output_message(), session.pen_message()].into_iter().flatten() {
                 let label = Label::new(RichText::new(message).color(t.error)).truncate();
                 ui.add(label).on_hover_text(message);
             }

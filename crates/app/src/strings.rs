@@ -14,7 +14,9 @@ pub mod help;
 pub mod import;
 pub mod map;
 pub mod path;
+pub mod rig;
 pub mod scope;
+pub mod stroke;
 pub mod textures;
 pub mod view;
 

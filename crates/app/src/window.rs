@@ -2,17 +2,19 @@
 
 mod commands;
 mod files;
+mod rig;
+mod strokes;
 mod title_bar;
 
 pub use self::files::new_project;
+
+use self::rig::open_as_left;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Margin, Panel as Side, Ui};
 use shagreen_core::heat_map::Quantity;
-use shagreen_core::units::Contact;
-use shagreen_device::hand::Hand;
 use shagreen_formats::project::{AuthoredTexture, Project};
 
 use crate::Begin;
@@ -32,8 +34,9 @@ use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
 use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
+use crate::recorded_stroke::StrokeReader;
 use crate::scope::{ScopeState, scope_ui};
-use crate::session::Session;
+use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
 use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, map_color, tokens};
@@ -55,6 +58,7 @@ pub struct Window {
     pictures: Pictures,
     photo: PhotoReader,
     own_picture: OwnPicture,
+    strokes: StrokeReader,
     compare: Compare,
     heat: HeatMap,
     map: Option<Quantity>,
@@ -74,6 +78,10 @@ pub struct Window {
     build: BuildPage,
     /// Where figures are saved unless another path is chosen.
     figures_folder: PathBuf,
+    /// The output that was chosen in this window, until it is open.
+    asked_output: Option<String>,
+    /// Whether the output that is open at first was named by whoever started the program.
+    is_output_given: bool,
 }
 
 impl Window {
@@ -86,14 +94,15 @@ impl Window {
         let Begin { project, path, output, keeping } = begin;
         let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
-        session.open_output(output, ctx);
-        session.follow(&project, None, ctx);
-        let pictures = Pictures::new(ctx, project.library.clone(), &project.joined, session.textures());
         let leftovers = Files::leftovers(&keeping);
         // Nobody is led around who would be led around again next time.
         let can_remember = keeping.settings.is_some();
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
         let files = Files::new(&project, path, keeping);
+        let is_output_given = output != OutputChoice::SystemDefault;
+        open_as_left(&mut session, output, &files.settings, ctx);
+        session.follow(&project, None, ctx);
+        let pictures = Pictures::new(ctx, project.library.clone(), &project.joined, session.textures());
         let is_new_here = can_remember && !files.settings.has_seen_tour;
         let tour = if is_new_here { Tour::begun() } else { Tour::default() };
         if let Some(is_light) = files.settings.is_light {
@@ -109,6 +118,7 @@ impl Window {
             pictures,
             photo: PhotoReader::new(),
             own_picture: OwnPicture::default(),
+            strokes: StrokeReader::default(),
             files,
             compare: Compare::by_chance(),
             heat: HeatMap::default(),
@@ -127,6 +137,8 @@ impl Window {
             build: BuildPage::default(),
             // Where there is none, the path is one to be completed.
             figures_folder: std::env::current_dir().unwrap_or_default(),
+            asked_output: None,
+            is_output_given,
         })
     }
 
@@ -169,10 +181,12 @@ impl Window {
         let t = tokens(&ctx);
         self.pictures.collect(&ctx);
         self.next_gesture(&ctx);
-        self.session.update(contact_of(self.pad.hand));
+        self.session.update(self.pad.contact(&self.session));
         self.build.collect();
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
+        self.collect_strokes();
+        self.remember_output();
         let mut commands = if self.sheet.is_open() {
             Vec::new()
         } else {
@@ -271,11 +285,11 @@ impl Window {
     /// The map behind the canvas, as far as it is worked out.
     fn follow_map(&mut self, ctx: &egui::Context) -> Option<ShownMap> {
         let session = &self.session;
-        let hand = self.pad.hand;
+        let contact = self.pad.contact(session);
         let wanted = self.map.map(|quantity| Wanted {
             quantity,
             blending: session.blending(&self.project.texture().blend),
-            contact: contact_of(hand),
+            contact,
             generation: session.generation(),
         });
         self.heat.follow(wanted, || (session.authoring().clone(), session.planes().to_vec()), ctx);
@@ -326,7 +340,7 @@ impl Window {
             self.session.mouse(report, self.pad.hand.force_n);
         }
         if self.session.hand_is_running() {
-            self.session.set_hand(Some(self.pad.hand));
+            self.session.set_hand(Some(self.pad.input()));
         }
     }
 
@@ -395,11 +409,6 @@ impl Window {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
     }
-}
-
-/// The speed and force of the automatic hand.
-fn contact_of(hand: Hand) -> Contact {
-    Contact::from_mm_per_s_and_n(1e3 * f64::from(hand.speed_mps), f64::from(hand.force_n))
 }
 
 /// What the picture of a blend is made of: of a field the textures that say the most, as shares of one.

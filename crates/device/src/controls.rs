@@ -4,6 +4,7 @@ use shagreen_synth::renderer::{Blend, Mix};
 use shagreen_synth::tap::Tap;
 
 use crate::hand::Hand;
+use crate::repeat::Repeat;
 
 /// What moves over the texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,6 +19,9 @@ pub enum Input {
     Hand(Hand),
     /// The last track given to [`crate::engine::Handle::play_track`], from its start.
     Track,
+    /// The last track that was given, from its start and again and again. A change of tempo or force goes on from where the
+    /// tip is.
+    Repeat(Repeat),
 }
 
 /// When a person's hand takes over from the chosen input by itself: from the block on that its report arrives in, whatever

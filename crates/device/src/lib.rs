@@ -48,6 +48,7 @@ pub mod output;
 pub mod pressure;
 #[cfg(target_os = "linux")]
 mod pulse;
+pub mod repeat;
 pub mod serial;
 pub mod signal;
 pub mod status;

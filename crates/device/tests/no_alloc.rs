@@ -12,6 +12,7 @@ use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, vio
 use shagreen_device::controls::{Drive, Input, Takeover};
 use shagreen_device::engine::{self, ChannelMask, Engine, EngineConfig, Handle, SLOTS};
 use shagreen_device::hand::{Hand, Path};
+use shagreen_device::repeat::Repeat;
 use shagreen_device::signal::Signal;
 use shagreen_device::synth::contact::Contact;
 use shagreen_device::synth::drive::Driven;
@@ -129,6 +130,8 @@ fn changes_of_input_and_nonsense_touches() {
         Input::Hand(Hand { path: Path::Scribble, speed_mps: f32::NAN, ..HAND }),
         Input::Hand(Hand { extent_m: 0.0, force_n: f32::INFINITY, ..HAND }),
         Input::Track,
+        Input::Repeat(Repeat { tempo: 1.5, force: 2.0 }),
+        Input::Repeat(Repeat { tempo: f32::NAN, force: f32::INFINITY }),
         Input::Lifted,
     ];
     for round in 0..210 {

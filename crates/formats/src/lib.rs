@@ -50,6 +50,7 @@ pub mod places_csv;
 pub mod project;
 pub mod ratings_csv;
 pub mod recording;
+pub mod rig_settings;
 pub mod settings;
 pub mod sorting_csv;
 pub mod space_report;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::layout;
+use crate::rig_settings::RigSettings;
 
 /// All of it stands open.
 const OPEN_DEPTH: usize = 2;
@@ -31,6 +32,9 @@ pub struct Settings {
     /// The project that new ones begin like.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub template: Option<PathBuf>,
+    /// The output, the actuator and the pen; `None` where nobody has chosen any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rig: Option<RigSettings>,
     /// What another version remembers.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
@@ -59,7 +63,8 @@ pub fn write_settings(settings: &Settings) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MAX_RECENT, Settings, read_settings, write_settings};
+    use super::{MAX_RECENT, RigSettings, Settings, read_settings, write_settings};
+    use crate::rig_settings::{ActuatorSettings, PressureSettings, ProfileSettings};
     use std::path::Path;
 
     #[test]
@@ -72,6 +77,37 @@ mod tests {
         for nothing in [&b""[..], b"{{", b"[]", b"{\"recent\": 3}"] {
             assert_eq!(read_settings(nothing), Settings::default());
         }
+    }
+
+    #[test]
+    fn the_rig_comes_back_and_is_nothing_where_nobody_chose_any() {
+        let full = |profile, load_g| {
+            let mut rig = RigSettings {
+                output: Some("pulse:alsa_output.usb-1".to_owned()),
+                buffer_frames: Some(128),
+                channel: Some(3),
+                actuator: Some(ActuatorSettings { profile, load_g }),
+                equalizes: Some(false),
+                full_scale_volts: Some(2.75),
+                full_scale_mps2: Some(0.1 + 0.2),
+                pen: Some("hid:056a:0061".to_owned()),
+                pressure: Some(PressureSettings { activation_n: 0.03, full_n: 4.0, bend: -1.5 }),
+                pen_size_mm: Some([216.0, 135.5]),
+                ..RigSettings::default()
+            };
+            rig.unknown.insert("later".to_owned(), "kept".into());
+            rig
+        };
+        for rig in [
+            RigSettings::default(),
+            full(ProfileSettings::BuiltIn("mm1c".to_owned()), None),
+            full(ProfileSettings::Own("format = \"x\"\n".to_owned()), Some(40.0)),
+        ] {
+            let settings = Settings { rig: Some(rig), ..Settings::default() };
+            assert_eq!(read_settings(&write_settings(&settings)), settings);
+        }
+        let before = read_settings(b"{\"recent\": [], \"has_seen_tour\": true}");
+        assert_eq!((before.rig, before.has_seen_tour), (None, true));
     }
 
     #[test]

@@ -143,6 +143,18 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
     Ok(Imported { value: stroke, warnings })
 }
 
+/// Whether a table is a stroke by the names in its first line, of which `head` holds all. Columns that a recording of
+/// acceleration may have too, such as a bare `x` and `y`, are none by which it is told.
+pub fn is_stroke_table(head: &[u8]) -> bool {
+    let text = csv_text::text_with_odd_letters(head);
+    let (stated, text) = stated_delimiter(&text);
+    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
+    let mut reader = csv_text::rows(delimiter).from_reader(text.as_bytes());
+    let mut records = reader.records().map_while(Result::ok);
+    let first = records.find(|record| record.iter().any(|field| !field.is_empty()));
+    first.is_some_and(|first| Columns::from_header(&first).is_ok_and(|columns| columns.are_of_a_stroke_only))
+}
+
 /// A stroke of a pen as a table that [`read_stroke_csv`] reads: `t_s`, `x_mm`, `y_mm`, `pressure` or `force_n`, and
 /// `touching`. Its time starts at zero; of samples at one time the last is kept, since a time can be there but once.
 pub fn stroke_csv(samples: &[PenSample], press_unit: PressUnit) -> String {

@@ -17,6 +17,7 @@ impl Session {
     /// system tells a pressure, that is the force.
     pub fn mouse(&mut self, report: MouseReport, force_n: f32) {
         let force_n = report.pressure.map_or(f64::from(force_n), |p| self.rig.pressure_map.force_n(p, true));
+        self.record_mouse(report, force_n);
         self.player.mouse(report, force_n);
     }
 

@@ -41,6 +41,8 @@ pub(super) struct Pen {
     pub(super) facts: Option<PenFacts>,
     pub(super) message: Option<String>,
     pub(super) moments: VecDeque<PenMoment>,
+    /// Those of them that came since the frame before.
+    pub(super) fresh: Vec<PenMoment>,
 }
 
 impl Pen {
@@ -93,12 +95,14 @@ impl Pen {
             self.pens = pens;
             self.listing = None;
         }
+        self.fresh.clear();
         let Some(thread) = &mut self.thread else { return };
         while let Some(moment) = thread.next_moment() {
             if self.moments.len() == KEPT {
                 self.moments.pop_front();
             }
             self.moments.push_back(moment);
+            self.fresh.push(moment);
         }
         while let Some(notice) = thread.next_notice() {
             match notice {

@@ -1,5 +1,6 @@
 //! The open output: textures on their way to it, touches, and what it tells back.
 
+use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
 
@@ -10,7 +11,6 @@ use shagreen_core::space::SpacePoint;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::controls::{Controls, Drive, Input, Takeover};
 use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
-use shagreen_device::hand::Hand;
 use shagreen_device::live::LiveInput;
 use shagreen_device::output::{OpenOptions, OutputInfo, OutputKind, Running, list_outputs};
 use shagreen_device::serial::list_serial_ports;
@@ -26,6 +26,7 @@ use super::heard::{Heard, Made, Source};
 use super::opening::{Came, Opening, OutputChoice, Request};
 use crate::background::in_background;
 use crate::pad::MouseReport;
+use crate::recorded_stroke::RecordedStroke;
 use crate::rig::Rig;
 use crate::scope_buffer::ScopeBuffer;
 use crate::strings;
@@ -73,6 +74,8 @@ pub(super) struct Player {
     /// Slot of each texture of the library, and when it was last in a mix.
     slots: Vec<Option<(TextureId, u64)>>,
     made: MadeSlots,
+    /// The stroke that the output has.
+    stroke: Option<Arc<RecordedStroke>>,
     n_mixes: u64,
     stylus: MouseStylus,
     started: Instant,
@@ -102,6 +105,7 @@ impl Player {
             listing_inputs: None,
             slots: vec![None; n_textures],
             made: MadeSlots::default(),
+            stroke: None,
             n_mixes: 0,
             stylus: MouseStylus::new(1.0),
             started: Instant::now(),
@@ -243,6 +247,7 @@ impl Player {
                 self.running = Some(running);
                 self.slots.fill(None);
                 self.made = MadeSlots::default();
+                self.stroke = None;
                 self.mix_is_new = true;
                 true
             }
@@ -352,11 +357,23 @@ impl Player {
         self.handle.as_ref().map_or(0, is_loaded)
     }
 
-    /// What strokes while no person does: the engine itself sees when one does.
-    pub(super) fn set_hand(&mut self, hand: Option<Hand>) {
-        if let Some(handle) = &mut self.handle {
-            handle.set_input(hand.map_or(Input::Lifted, Input::Hand));
+    /// What strokes while no person does: the engine itself sees when one does. The stroke is sent along where it is repeated
+    /// and the output does not have it; where that is busy, the next frame tries again.
+    pub(super) fn set_hand(&mut self, hand: Option<Input>, stroke: Option<&Arc<RecordedStroke>>) {
+        let has_stroke = self.has_stroke(stroke);
+        let Some(handle) = &mut self.handle else { return };
+        match (hand, stroke) {
+            (Some(Input::Repeat(repeat)), Some(stroke)) if !has_stroke => {
+                let is_sent = handle.repeat_track(stroke.track().clone(), repeat).is_ok();
+                self.stroke = is_sent.then(|| Arc::clone(stroke));
+            }
+            _ => handle.set_input(hand.unwrap_or(Input::Lifted)),
         }
+    }
+
+    /// Whether the output has this stroke.
+    pub(super) fn has_stroke(&self, stroke: Option<&Arc<RecordedStroke>>) -> bool {
+        self.stroke.as_ref().zip(stroke).is_some_and(|(held, wanted)| Arc::ptr_eq(held, wanted))
     }
 
     pub(super) fn mouse(&mut self, report: MouseReport, force_n: f64) {

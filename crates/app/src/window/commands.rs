@@ -36,6 +36,7 @@ impl Window {
             Command::RenameTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::to_rename(id))),
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
             Command::BeginTour => (self.workspace, self.tour) = (Workspace::Author, Tour::begun()),
+            Command::Stroke(command) => self.carry_out_stroke(command, ctx),
             Command::ReadPhoto(source) => self.photo.read(source, self.project.texture().key, ctx),
             Command::ShowMap(quantity) => self.map = quantity,
             Command::Compare(command) => self.compare.carry_out(command),
@@ -46,7 +47,7 @@ impl Window {
                 self.history.redo(&mut self.project);
             }
             Command::ToggleHand => {
-                let hand = (!self.session.hand_is_running()).then_some(self.pad.hand);
+                let hand = (!self.session.hand_is_running()).then_some(self.pad.input());
                 self.session.set_hand(hand);
             }
             Command::TogglePathTool => self.canvas.tool.toggle(),
@@ -65,7 +66,10 @@ impl Window {
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
             Command::ListOutputs => self.session.list_outputs(ctx),
-            Command::OpenOutput(id) => self.session.open_output(OutputChoice::Id(id), ctx),
+            Command::OpenOutput(id) => {
+                self.asked_output = Some(id.clone());
+                self.session.open_output(OutputChoice::Id(id), ctx);
+            }
             Command::ResetLimiter => self.session.reset_limiter(),
             Command::OpenDevices => match built_in_actuators() {
                 Ok(actuators) => {
@@ -86,7 +90,10 @@ impl Window {
                 };
                 self.scope.toggle_freeze(&panel);
             }
-            Command::SetRig(rig) => self.session.set_rig(*rig, ctx),
+            Command::SetRig(rig) => {
+                self.remember_rig(&rig);
+                self.session.set_rig(*rig, ctx);
+            }
             Command::PlayTone { frequency_hz, amplitude_mps2 } => {
                 self.session.play_tone(frequency_hz, amplitude_mps2);
             }

@@ -202,7 +202,7 @@ impl Window {
         }
     }
 
-    fn say_warnings(&mut self, warnings: &[String]) {
+    pub(super) fn say_warnings(&mut self, warnings: &[String]) {
         if !warnings.is_empty() {
             self.session.say(warnings.join("; "));
         }
@@ -217,7 +217,7 @@ impl Window {
     }
 
     /// The folder where files are looked for first: that of the project, else of the last one, else where the program is.
-    fn usual_folder(&self) -> PathBuf {
+    pub(super) fn usual_folder(&self) -> PathBuf {
         let of_recent = self.files.settings.recent.first().map(PathBuf::as_path);
         let folder = self.files.document.path().or(of_recent).and_then(Path::parent).filter(|f| f.is_dir());
         folder.map_or_else(|| std::env::current_dir().unwrap_or_default(), Path::to_owned)

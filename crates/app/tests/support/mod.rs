@@ -41,16 +41,21 @@ pub(crate) fn begin(project: Project) -> Begin {
 
 /// The window that opens with this, of this size in points.
 pub(crate) fn author_of(begin: Begin, size: [f32; 2]) -> Author {
-    let mut harness = Harness::builder().with_size(size).build_ui_state(
+    let mut harness = window_of(begin, size);
+    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
+    harness
+}
+
+/// The same after its first frame, whether or not an output opens.
+pub(crate) fn window_of(begin: Begin, size: [f32; 2]) -> Author {
+    Harness::builder().with_size(size).build_ui_state(
         move |ui, window: &mut Option<Window>| {
             let window =
                 window.get_or_insert_with(|| Window::new(ui.ctx(), begin.clone()).expect("a window"));
             window.frame_ui(ui);
         },
         None,
-    );
-    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
-    harness
+    )
 }
 
 pub(crate) fn window(harness: &Author) -> &Window {

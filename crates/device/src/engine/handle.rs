@@ -11,6 +11,7 @@ use crate::controls::{Controls, Drive, Input, Takeover};
 use crate::error::DeviceError;
 use crate::link::Monitor;
 use crate::live::LiveInput;
+use crate::repeat::Repeat;
 use crate::signal::Signal;
 use crate::status::Status;
 use crate::texture::OwnedTexture;
@@ -244,12 +245,15 @@ impl Handle {
     /// # Errors
     /// Gives the track back while the output is busy: try again after its next block.
     pub fn play_track(&mut self, track: Track) -> Result<(), Track> {
-        if self.commands.is_full() {
-            return Err(track);
-        }
-        self.send(Command::Play(Box::new(track)));
-        self.set_input(Input::Track);
-        Ok(())
+        self.send_track(track, Input::Track)
+    }
+
+    /// Plays a stroke from its start and again and again, and makes it the input; [`Handle::set_input`] changes how.
+    ///
+    /// # Errors
+    /// As [`Handle::play_track`].
+    pub fn repeat_track(&mut self, track: Track, repeat: Repeat) -> Result<(), Track> {
+        self.send_track(track, Input::Repeat(repeat))
     }
 
     /// Plays a signal in the place of the texture, once that, or the signal that is played, has faded. Muting silences it,
@@ -301,6 +305,15 @@ impl Handle {
     /// how many. What nobody takes is dropped, newest first: read all that waits and show the end of it.
     pub fn read_scope(&mut self, out: &mut [f32]) -> usize {
         self.scope.pop_partial_slice(out).0.len()
+    }
+
+    fn send_track(&mut self, track: Track, input: Input) -> Result<(), Track> {
+        if self.commands.is_full() {
+            return Err(track);
+        }
+        self.send(Command::Play(Box::new(track)));
+        self.set_input(input);
+        Ok(())
     }
 
     fn publish(&mut self) {

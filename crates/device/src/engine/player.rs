@@ -41,6 +41,8 @@ pub(super) struct Player {
     input_start_secs: f64,
     /// How far the automatic hand has come, in m.
     distance_m: f64,
+    /// Where a stroke that is repeated has come to, in its own time.
+    track_secs: f64,
     live: Touch,
     live_secs: f64,
     /// Which stylus said so, and whether it touches or is near.
@@ -71,6 +73,7 @@ impl Player {
             stream_secs: 0.0,
             input_start_secs: 0.0,
             distance_m: 0.0,
+            track_secs: 0.0,
             live: Touch::default(),
             live_secs: 0.0,
             live_stylus_idx: 0,
@@ -87,13 +90,15 @@ impl Player {
         }
     }
 
-    /// Fades to another input. The automatic hand goes on from where it is when only its numbers change.
+    /// Fades to another input. The automatic hand, or a stroke that is repeated, goes on from where it is when only its
+    /// numbers change.
     pub(super) fn set_input(&mut self, input: Input) {
         if input == self.chosen {
             return;
         }
         let goes_on = match (self.chosen, input) {
             (Input::Hand(old), Input::Hand(new)) => old.path == new.path,
+            (Input::Repeat(_), Input::Repeat(_)) => true,
             _ => false,
         };
         self.chosen = input;
@@ -114,9 +119,10 @@ impl Player {
         if self.has_taken_over { Input::Live } else { self.chosen }
     }
 
-    /// Takes a stroke, to be played from its start while the input is [`Input::Track`]; gives back the one before.
+    /// Takes a stroke, to be played from its start while the input is [`Input::Track`] or [`Input::Repeat`]; gives back the
+    /// one before.
     pub(super) fn play(&mut self, track: Box<Track>) -> Option<Box<Track>> {
-        if self.chosen == Input::Track {
+        if is_track(self.chosen) {
             self.fade_chosen();
             self.start();
         }
@@ -156,7 +162,7 @@ impl Player {
                 let is_new = self.clock_secs - reported_secs <= PATIENCE_SECS;
                 is_new.then_some(Landing { stream_secs, strength })
             }),
-            Input::Track => self.track_landing.take(),
+            Input::Track | Input::Repeat(_) => self.track_landing.take(),
             _ => None,
         }?;
         let is_chatter = self.clock_secs - self.last_landing_secs < CHATTER_SECS;
@@ -208,7 +214,7 @@ impl Player {
 
     fn start(&mut self) {
         self.input_start_secs = self.clock_secs;
-        self.distance_m = 0.0;
+        (self.distance_m, self.track_secs) = (0.0, 0.0);
         // What a person's hand does in its place is none of the stroke's.
         self.track_is_down = !self.has_taken_over && self.touch.contact.force_n > 0.0;
     }
@@ -234,8 +240,20 @@ impl Player {
                 let secs = self.input_secs();
                 self.track.as_ref().map_or_else(|| self.touch.lifted(), |track| track.touch_at(secs))
             }
+            Input::Repeat(repeat) => match &self.track {
+                Some(track) => {
+                    self.track_secs = repeat.advanced(track, self.track_secs, step_secs);
+                    repeat.touch_at(track, self.track_secs)
+                }
+                None => self.touch.lifted(),
+            },
         }
     }
+}
+
+/// Whether a stroke that was given is followed.
+fn is_track(input: Input) -> bool {
+    matches!(input, Input::Track | Input::Repeat(_))
 }
 
 impl ContactSource for Player {
@@ -248,7 +266,7 @@ impl ContactSource for Player {
         }
         self.look_for_a_hand();
         let mut touch = self.asked(step_secs).sanitized();
-        if self.input() == Input::Track {
+        if is_track(self.input()) {
             let is_down = touch.contact.force_n > 0.0;
             if is_down && !self.track_is_down {
                 self.track_landing = Some(Landing { stream_secs: time_secs, strength: 1.0 });

@@ -26,6 +26,8 @@ pub(super) struct Columns {
     pub(super) time: usize,
     pub(super) time_unit: Option<TimeUnit>,
     pub(super) touching: Option<usize>,
+    /// Whether no recording of acceleration has columns of these names.
+    pub(super) are_of_a_stroke_only: bool,
     /// Speed and force, or x, y and pressure or force.
     values: Vec<usize>,
 }
@@ -73,12 +75,19 @@ impl Columns {
                 ),
             }
         };
+        let touching = place(Name::Touching);
+        // Without a unit, x and y may be axes of acceleration.
+        let is_axis = |(field, (name, _)): (&str, &(Name, _))| {
+            matches!(name, Name::X | Name::Y) && !field.to_lowercase().contains("mm")
+        };
+        let has_axes = header.iter().zip(&names).any(is_axis);
         Ok(Self {
             n: names.len(),
             kind,
             time,
             time_unit: names[time].1,
-            touching: place(Name::Touching),
+            touching,
+            are_of_a_stroke_only: !has_axes || touching.is_some() || place(Name::Pressure).is_some(),
             values,
         })
     }
@@ -93,7 +102,7 @@ impl Columns {
                 return Err(StrokeCsvError::Header { problem });
             }
         };
-        Ok(Self { n, kind, time: 0, time_unit: None, touching: None, values })
+        Ok(Self { n, kind, time: 0, time_unit: None, touching: None, are_of_a_stroke_only: false, values })
     }
 
     /// Names and places of the values that a row has beside its time.

@@ -1,4 +1,4 @@
-use super::{StrokeCsvError, read_stroke_csv, stroke_csv};
+use super::{StrokeCsvError, is_stroke_table, read_stroke_csv, stroke_csv};
 use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use proptest::prelude::{any, prop, proptest};
 
@@ -130,4 +130,35 @@ fn of_samples_at_one_time_the_last_is_written() {
     let sample = |time_secs, x_m| PenSample { time_secs, x_m, y_m: 0.0, press: 1.0, touching: true };
     let text = stroke_csv(&[sample(5.0, 0.001), sample(5.0, 0.002), sample(5.5, 0.003)], PressUnit::Newtons);
     assert_eq!(text, "t_s,x_mm,y_mm,force_n,touching\n0,2,0,1,1\n0.5,3,0,1,1\n");
+}
+
+#[test]
+fn a_stroke_is_told_by_its_header_where_no_recording_has_the_same() {
+    for stroke in [
+        "t_s,x_mm,y_mm,force_n,touching\n0,0,0,1,1\n",
+        "t_s,x_mm,y_mm,force_n\n",
+        "\u{feff}Time (ms);x;y;pressure\r\n0;1;2;0,5",
+        "sep=;\nt;speed;force\n",
+        "t,v,f",
+        "t,x,y,force,touching",
+    ] {
+        assert!(is_stroke_table(stroke.as_bytes()), "{stroke}");
+    }
+    for other in [
+        "t,x,y,force\n0,0,0,1\n",
+        "t,x,y,speed,force\n",
+        "time_s,acc,speed_mm/s,force_N\n",
+        "t,x,y,z\n",
+        "0,50,0.5\n",
+        "participant,texture,group\n",
+        "",
+        "\n\n",
+        "\u{0}\u{1}",
+    ] {
+        assert!(!is_stroke_table(other.as_bytes()), "{other}");
+    }
+    let sample = PenSample { time_secs: 0.0, x_m: 0.0, y_m: 0.0, press: 0.5, touching: true };
+    for unit in [PressUnit::Newtons, PressUnit::FullScale] {
+        assert!(is_stroke_table(stroke_csv(&[sample], unit).as_bytes()));
+    }
 }

@@ -2,6 +2,7 @@ use std::time::Instant;
 
 use super::{Contact, ContactSource as _, FADE_SECS, Input, Player, Takeover, TimedTouch};
 use crate::hand::{Hand, Path};
+use crate::repeat::{LIFT_SECS, Repeat};
 use crate::touch::Touch;
 use crate::track::{PenSample, Track};
 
@@ -33,6 +34,18 @@ fn pressed_stroke() -> Track {
     };
     let samples: Vec<PenSample> = (0..100).map(sample).collect();
     Track::new(&samples).unwrap()
+}
+
+/// Half a second to the right at 0.1 m/s, pressed with 0.5 N all the way.
+fn straight_stroke() -> Track {
+    let sample = |i| PenSample {
+        time_secs: 0.01 * f64::from(i),
+        x_m: 1e-3 * f64::from(i),
+        force_n: 0.5,
+        touching: true,
+        ..PenSample::default()
+    };
+    Track::new(&(0..=50).map(sample).collect::<Vec<_>>()).unwrap()
 }
 
 fn distance(a: Touch, b: Touch) -> f32 {
@@ -312,4 +325,85 @@ fn a_hand_that_has_taken_over_stays_when_the_chosen_input_changes() {
     ticks_until(&mut player, Input::Track);
     run(&mut player, 10);
     assert_eq!((player.take_landing(0.0), player.touch().contact.force_n), (None, 2.0));
+}
+
+#[test]
+fn a_repeated_stroke_has_its_speed_and_is_lifted_in_between() {
+    for (tempo, force) in [(1.0, 1.0), (0.5, 2.0), (2.0, 0.5)] {
+        let mut player = Player::new();
+        player.play(Box::new(straight_stroke()));
+        player.set_input(Input::Repeat(Repeat { tempo, force }));
+        let stroke_secs = 0.5 / f64::from(tempo);
+        let cycle_secs = stroke_secs + LIFT_SECS;
+        for (i, (_, touch)) in run(&mut player, 600).into_iter().enumerate() {
+            let secs = ((i + 1) as f64 * TICK).rem_euclid(cycle_secs);
+            // The change of input fades, and at the very ends rounding decides.
+            if i < 5 || secs.min((secs - stroke_secs).abs()).min(cycle_secs - secs) < 1e-6 {
+                continue;
+            }
+            if secs > stroke_secs {
+                assert_eq!(touch.contact, Contact::LIFTED, "{tempo} at {secs}");
+                continue;
+            }
+            assert_eq!(touch.contact.force_n, 0.5 * force, "{tempo} at {secs}");
+            assert!((f64::from(touch.x_m) - 0.1 * f64::from(tempo) * secs).abs() < 1e-6, "{tempo} at {secs}");
+            // The estimate is exact once it has settled; it begins at rest.
+            if secs > 0.1 / f64::from(tempo) {
+                let off = touch.contact.speed_mps - 0.1 * tempo;
+                assert!(off.abs() < 1e-4 * tempo, "{tempo} at {secs}: {}", touch.contact.speed_mps);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_beginning_of_a_repeated_stroke_lands() {
+    let mut player = Player::new();
+    player.play(Box::new(straight_stroke()));
+    player.set_input(Input::Repeat(Repeat::AS_RECORDED));
+    let landed = (0..590).filter(|_| {
+        run(&mut player, 1);
+        player.take_landing(0.0).is_some()
+    });
+    // Almost three seconds, of six tenths each.
+    assert_eq!(landed.count(), 5);
+}
+
+#[test]
+fn a_repeated_stroke_that_is_stopped_is_lifted_once_it_has_faded() {
+    let mut player = Player::new();
+    player.play(Box::new(straight_stroke()));
+    player.set_input(Input::Repeat(Repeat::AS_RECORDED));
+    run(&mut player, 20);
+    assert_eq!(player.touch().contact.force_n, 0.5);
+    player.set_input(Input::Lifted);
+    let touches = run(&mut player, 5);
+    // Less from the first tick on, and nothing after the fade of four.
+    assert!(touches.windows(2).all(|pair| pair[1].1.contact.force_n <= pair[0].1.contact.force_n));
+    assert!(touches[0].1.contact.force_n < 0.5);
+    assert_eq!(touches[4].1.contact, Contact::LIFTED);
+}
+
+#[test]
+fn a_repeated_stroke_goes_on_where_its_tempo_changes_and_waits_for_a_persons_hand() {
+    let mut player = Player::new();
+    player.set_takeover(Some(TAKEOVER));
+    player.play(Box::new(straight_stroke()));
+    player.set_input(Input::Repeat(Repeat::AS_RECORDED));
+    run(&mut player, 40);
+    let before = player.touch();
+    player.set_input(Input::Repeat(Repeat { tempo: 2.0, force: 1.0 }));
+    run(&mut player, 1);
+    assert!((player.touch().x_m - before.x_m - 0.2 * TICK as f32).abs() < 1e-6, "it goes on");
+    let before = player.touch();
+    report(&mut player, PEN);
+    run(&mut player, 30);
+    assert_eq!(player.input(), Input::Live);
+    report(&mut player, PEN.lifted());
+    ticks_until(&mut player, Input::Repeat(Repeat { tempo: 2.0, force: 1.0 }));
+    assert!((player.touch().x_m - before.x_m) <= 0.2 * 2.0 * TICK as f32, "it has waited");
+    // Another stroke begins at its beginning.
+    player.play(Box::new(straight_stroke()));
+    run(&mut player, 1);
+    assert!((player.touch().x_m - 0.2 * TICK as f32).abs() < 1e-6);
 }

@@ -1,0 +1,255 @@
+//! What the mouse or the pen does on the pad, kept while it happens.
+
+use std::time::Instant;
+
+use shagreen_device::controls::Takeover;
+use shagreen_device::hid::tracker::PenMoment;
+use shagreen_device::track::PenSample;
+
+/// Longest recording, in seconds.
+pub(crate) const LONGEST_SECS: f64 = 60.0;
+/// Reports of a tip that stays down and are further apart than this, in seconds, get others in a straight line between
+/// them: a window that was busy is no lift.
+const HOLE_SECS: f64 = 0.03;
+/// How far apart those are at most, in seconds.
+const FILL_SECS: f64 = 0.01;
+
+/// Who says what the tip does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stylus {
+    /// The mouse, or what the window system takes for one.
+    Mouse,
+    /// A pen that is read by itself.
+    Pen,
+}
+
+/// A recording under way. It begins with the first touch.
+#[derive(Debug)]
+pub(crate) struct Recorder {
+    began: Instant,
+    samples: Vec<PenSample>,
+    /// Who said the last of them.
+    stylus: Stylus,
+    /// From the clock of the pen to ours, in seconds.
+    pen_ahead_secs: Option<f64>,
+    /// When a pen was near last, in seconds.
+    pen_near_secs: f64,
+}
+
+impl Recorder {
+    /// Nothing has touched yet.
+    pub(crate) fn new() -> Self {
+        Self {
+            began: Instant::now(),
+            samples: Vec::new(),
+            stylus: Stylus::Mouse,
+            pen_ahead_secs: None,
+            pen_near_secs: f64::NEG_INFINITY,
+        }
+    }
+
+    /// What was recorded so far, the first touch first.
+    pub(crate) fn samples(&self) -> &[PenSample] {
+        &self.samples
+    }
+
+    /// Since the first touch, in seconds; `None` before it.
+    pub(crate) fn secs(&self) -> Option<f64> {
+        self.samples.first().map(|first| self.began.elapsed().as_secs_f64() - first.time_secs)
+    }
+
+    /// Whether no more is kept.
+    pub(crate) fn is_full(&self) -> bool {
+        self.secs().is_some_and(|secs| secs > LONGEST_SECS)
+    }
+
+    /// The mouse is here now; its time is not looked at. While a pen is near the system moves the mouse along.
+    pub(crate) fn take_mouse(&mut self, sample: PenSample) {
+        let time_secs = self.began.elapsed().as_secs_f64();
+        if time_secs - self.pen_near_secs > f64::from(Takeover::USUAL.lifted_secs) {
+            self.take(Stylus::Mouse, PenSample { time_secs, ..sample });
+        }
+    }
+
+    /// The pen has done this since it was asked last, by a clock of its own.
+    pub(crate) fn take_pen(&mut self, moments: &[PenMoment]) {
+        let Some(newest) = moments.last() else { return };
+        let now_secs = self.began.elapsed().as_secs_f64();
+        // The newest is at most a frame old.
+        let ahead_secs = *self.pen_ahead_secs.get_or_insert(now_secs - newest.time_secs);
+        for moment in moments {
+            let time_secs = moment.time_secs + ahead_secs;
+            match moment.sample() {
+                Some(sample) => {
+                    self.pen_near_secs = now_secs;
+                    self.take(Stylus::Pen, PenSample { time_secs, ..sample });
+                }
+                None => self.lift_pen(time_secs),
+            }
+        }
+    }
+
+    /// The pen went away without a word.
+    fn lift_pen(&mut self, time_secs: f64) {
+        if let Some(last) = self.samples.last().copied().filter(|last| last.touching) {
+            self.take(Stylus::Pen, PenSample { time_secs, touching: false, ..last });
+        }
+    }
+
+    fn take(&mut self, stylus: Stylus, sample: PenSample) {
+        let PenSample { time_secs, x_m, y_m, force_n, touching } = sample;
+        if ![time_secs, x_m, y_m, force_n].iter().all(|number| number.is_finite()) {
+            return;
+        }
+        let (Some(first), Some(last)) = (self.samples.first(), self.samples.last().copied()) else {
+            if touching {
+                self.samples.push(sample);
+                self.stylus = stylus;
+            }
+            return;
+        };
+        let secs = time_secs - last.time_secs;
+        let is_forgotten = secs > f64::from(Takeover::USUAL.stale_secs);
+        let is_others_turn = stylus != self.stylus && (!touching || (last.touching && !is_forgotten));
+        if secs < 0.0 || is_others_turn || time_secs - first.time_secs > LONGEST_SECS {
+            return;
+        }
+        let is_held = last.touching && touching && stylus == self.stylus;
+        if is_held && secs > HOLE_SECS && !is_forgotten {
+            let n_steps = (secs / FILL_SECS).ceil();
+            let between = |a: f64, b: f64, step: u32| a + f64::from(step) / n_steps * (b - a);
+            self.samples.extend((1..n_steps as u32).map(|step| PenSample {
+                time_secs: between(last.time_secs, time_secs, step),
+                x_m: between(last.x_m, x_m, step),
+                y_m: between(last.y_m, y_m, step),
+                force_n: between(last.force_n, force_n, step),
+                touching,
+            }));
+        }
+        self.samples.push(sample);
+        self.stylus = stylus;
+    }
+
+    /// What was recorded, from the first touch to the last lift, its time from zero; `None` where nothing touched.
+    pub(crate) fn finish(mut self) -> Option<Vec<PenSample>> {
+        let start_secs = self.samples.first()?.time_secs;
+        let last_touch = self.samples.iter().rposition(|sample| sample.touching)?;
+        self.samples.truncate(last_touch + 2);
+        for sample in &mut self.samples {
+            sample.time_secs -= start_secs;
+        }
+        Some(self.samples)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FILL_SECS, LONGEST_SECS, PenMoment, PenSample, Recorder, Stylus};
+    use shagreen_device::hid::pen::PenReport;
+    use shagreen_device::touch::Touch;
+
+    fn sample(time_secs: f64, x_m: f64, touching: bool) -> PenSample {
+        PenSample { time_secs, x_m, y_m: 0.0, force_n: 0.5, touching }
+    }
+
+    fn recorded(samples: &[(Stylus, f64, bool)]) -> Vec<(f64, bool)> {
+        let mut recorder = Recorder::new();
+        for (stylus, time_secs, touching) in samples {
+            recorder.take(*stylus, sample(*time_secs, 0.1 * time_secs, *touching));
+        }
+        let samples = recorder.finish().unwrap_or_default();
+        samples.iter().map(|s| (s.time_secs, s.touching)).collect()
+    }
+
+    #[test]
+    fn what_is_idle_at_both_ends_is_cut() {
+        use Stylus::Mouse;
+        let samples = [(0.5, false), (1.0, true), (1.25, true), (1.5, false), (2.0, false), (9.0, false)];
+        let kept = recorded(&samples.map(|(time_secs, touching)| (Mouse, time_secs, touching)));
+        assert_eq!((kept[0], kept[kept.len() - 1]), ((0.0, true), (0.5, false)));
+        assert_eq!(recorded(&[(Mouse, 0.5, false), (Mouse, 0.7, false)]), []);
+        assert_eq!(recorded(&[]), []);
+    }
+
+    #[test]
+    fn a_window_that_was_busy_is_no_lift() {
+        use Stylus::Mouse;
+        let mut recorder = Recorder::new();
+        recorder.take(Mouse, sample(0.0, 0.0, true));
+        recorder.take(Mouse, sample(0.2, 0.02, true));
+        recorder.take(Mouse, sample(0.3, 0.02, false));
+        let kept = recorder.finish().unwrap();
+        assert_eq!(kept.len(), 22);
+        assert!(kept[..21].windows(2).all(|pair| pair[1].time_secs - pair[0].time_secs <= FILL_SECS + 1e-12));
+        assert!(kept[..21].iter().all(|s| s.touching && (s.x_m - 0.1 * s.time_secs).abs() < 1e-12));
+        // Who says nothing for seconds has gone.
+        assert_eq!(recorded(&[(Mouse, 0.0, true), (Mouse, 5.0, true)]), [(0.0, true), (5.0, true)]);
+    }
+
+    #[test]
+    fn who_touches_first_is_followed_until_the_tip_is_lifted() {
+        use Stylus::{Mouse, Pen};
+        let kept = recorded(&[
+            (Pen, 0.00, true),
+            (Mouse, 0.01, true),
+            (Pen, 0.02, true),
+            (Mouse, 0.02, false),
+            (Pen, 0.03, false),
+            (Mouse, 0.04, true),
+            (Pen, 0.05, false),
+            (Mouse, 0.06, false),
+        ]);
+        assert_eq!(
+            kept,
+            [(0.0, true), (0.02, true), (0.03, false), (0.04, true), (0.06, false)],
+            "the mouse, then the pen's hovering, do not matter"
+        );
+    }
+
+    #[test]
+    fn it_is_full_a_minute_after_the_first_touch() {
+        let mut recorder = Recorder::new();
+        assert!(!recorder.is_full() && recorder.secs().is_none());
+        recorder.take(Stylus::Mouse, sample(0.0, 0.0, true));
+        assert!(!recorder.is_full());
+        recorder.samples[0].time_secs -= LONGEST_SECS;
+        assert!(recorder.is_full());
+    }
+
+    /// The pen has a clock of its own, and the system moves the mouse along.
+    #[test]
+    fn a_pen_is_recorded_by_its_own_clock_and_the_mouse_beside_it_is_not() {
+        let moment = |time_secs: f64, place_m: Option<[f64; 2]>, tip: bool| PenMoment {
+            time_secs,
+            report: PenReport { tip, in_range: place_m.is_some(), ..PenReport::default() },
+            place_m,
+            force_n: if tip { 0.7 } else { 0.0 },
+            touch: Touch::default(),
+            landing: None,
+        };
+        let mut recorder = Recorder::new();
+        recorder.take_pen(&[moment(500.0, Some([0.0, 0.0]), false), moment(500.01, Some([0.0, 0.0]), true)]);
+        recorder.take_mouse(sample(0.0, 0.01, true));
+        recorder.take_pen(&[moment(500.02, Some([1e-3, 2e-3]), true), moment(500.03, None, false)]);
+        let kept = recorder.finish().unwrap();
+        let of = |s: &PenSample| (s.x_m, s.y_m, s.force_n, s.touching);
+        assert_eq!(
+            kept.iter().map(of).collect::<Vec<_>>(),
+            [(0.0, 0.0, 0.7, true), (1e-3, 2e-3, 0.7, true), (1e-3, 2e-3, 0.7, false)],
+            "out of range it is lifted where it was"
+        );
+        for (sample, expected) in kept.iter().zip([0.0, 0.01, 0.02]) {
+            assert!((sample.time_secs - expected).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn time_neither_goes_back_nor_on_for_ever() {
+        use Stylus::Mouse;
+        let kept =
+            recorded(&[(Mouse, 1.0, true), (Mouse, 0.5, true), (Mouse, 1.01, true), (Mouse, f64::NAN, true)]);
+        assert_eq!(kept.len(), 2);
+        let late = recorded(&[(Mouse, 0.0, true), (Mouse, 0.01, false), (Mouse, LONGEST_SECS + 0.1, true)]);
+        assert_eq!(late.len(), 2);
+    }
+}

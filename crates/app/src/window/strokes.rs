@@ -1,0 +1,50 @@
+//! Commands about strokes that are recorded on the pad.
+
+use egui::Context;
+
+use super::Window;
+use crate::open_sheet::OpenSheet;
+use crate::recorded_stroke::StrokeCommand;
+use crate::save::{SaveSheet, StrokeFile};
+use crate::sheets::Sheet;
+use crate::strings::stroke as strings;
+
+impl Window {
+    /// Does what was asked for about strokes.
+    pub(super) fn carry_out_stroke(&mut self, command: StrokeCommand, ctx: &Context) {
+        match command {
+            StrokeCommand::Record if self.session.recording().is_some() => self.session.end_recording(),
+            StrokeCommand::Record => self.session.begin_recording(),
+            StrokeCommand::AskWhatToOpen => {
+                self.sheet = Sheet::Open(OpenSheet::of_strokes(&self.usual_folder(), ctx));
+            }
+            StrokeCommand::Read(source) => {
+                self.strokes.read(source, self.session.rig().pressure_map, ctx);
+            }
+            StrokeCommand::Save => {
+                if let Some(stroke) = self.session.stroke() {
+                    let path = self.usual_folder().join(strings::FILE_NAME);
+                    self.sheet = Sheet::Save(SaveSheet::stroke(StrokeFile::new(stroke), &path));
+                }
+            }
+        }
+    }
+
+    /// A stroke that was read becomes the one that the hand can repeat.
+    pub(super) fn collect_strokes(&mut self) {
+        match self.strokes.collect() {
+            Some(Ok((stroke, warnings))) => {
+                if matches!(&self.sheet, Sheet::Open(sheet) if sheet.is_for_strokes()) {
+                    self.sheet = Sheet::Closed;
+                }
+                self.session.set_stroke(stroke);
+                self.say_warnings(&warnings);
+            }
+            Some(Err(reason)) => match &mut self.sheet {
+                Sheet::Open(sheet) if sheet.is_for_strokes() => sheet.say(reason),
+                _ => self.session.say(reason),
+            },
+            None => {}
+        }
+    }
+}

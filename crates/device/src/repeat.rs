@@ -1,0 +1,134 @@
+//! A recorded stroke that is repeated for ever, as it was or faster and harder.
+//!
+//! It is walked by its own time: at a tempo of two the tip is where it was in half the time, twice as fast. So a stroke
+//! whose tempo changes while it is repeated goes on from where it is.
+
+use crate::touch::Touch;
+use crate::track::Track;
+
+/// How long the tip is off between the end of a stroke and its next beginning, in seconds: the way from one to the other
+/// is no stroke, and what lands then is no switch that chatters.
+pub const LIFT_SECS: f64 = 0.1;
+
+/// How a stroke is repeated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repeat {
+    /// Speed over that of the recording, above zero.
+    pub tempo: f32,
+    /// Force over that of the recording, at least zero.
+    pub force: f32,
+}
+
+impl Repeat {
+    /// As it was recorded.
+    pub const AS_RECORDED: Self = Self { tempo: 1.0, force: 1.0 };
+
+    /// Where in the time of the track the tip is `step_secs` after it was at `track_secs`: from zero up to its end and on
+    /// through the lift that follows. A tempo that is nonsense stands still.
+    pub(crate) fn advanced(self, track: &Track, track_secs: f64, step_secs: f64) -> f64 {
+        let tempo = f64::from(self.tempo);
+        if !(tempo.is_finite() && tempo > 0.0) {
+            return track_secs;
+        }
+        // The lift takes as long at every tempo.
+        (track_secs + tempo * step_secs).rem_euclid(track.duration_secs() + tempo * LIFT_SECS)
+    }
+
+    /// The tip at this time of the track. Costs what [`Track::touch_at`] does.
+    pub(crate) fn touch_at(self, track: &Track, track_secs: f64) -> Touch {
+        let mut touch = track.touch_at(track_secs);
+        touch.contact.speed_mps *= self.tempo;
+        touch.contact.force_n *= self.force;
+        touch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LIFT_SECS, Repeat};
+    use crate::controls::Input;
+    use crate::engine::{self, ChannelMask, EngineConfig};
+    use crate::track::{PenSample, Track};
+    use shagreen_synth::contact::Contact;
+    use shagreen_synth::drive::DriveConfig;
+
+    /// A second to the right at 0.1 m/s, pressed with 0.5 N.
+    fn straight() -> Track {
+        let sample = |i| PenSample {
+            time_secs: 0.01 * f64::from(i),
+            x_m: 1e-3 * f64::from(i),
+            force_n: 0.5,
+            touching: true,
+            ..PenSample::default()
+        };
+        Track::new(&(0..=100).map(sample).collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn it_begins_again_after_the_lift_at_every_tempo() {
+        let track = straight();
+        for tempo in [0.25_f32, 0.5, 1.0, 3.0] {
+            let repeat = Repeat { tempo, ..Repeat::AS_RECORDED };
+            let cycle_secs = 1.0 / f64::from(tempo) + LIFT_SECS;
+            let mut track_secs = 0.0;
+            for tick in 1..5000 {
+                track_secs = repeat.advanced(&track, track_secs, 1e-3);
+                let expected = (1e-3 * f64::from(tick)).rem_euclid(cycle_secs) * f64::from(tempo);
+                let off = (track_secs - expected).abs();
+                // Rounding adds up, and decides at the very turn whether it is before or behind it.
+                assert!(off < 1e-9 || off > cycle_secs * f64::from(tempo) - 1e-9, "{tempo}: {track_secs}");
+                let touch = repeat.touch_at(&track, track_secs);
+                assert_eq!(touch.contact.force_n == 0.0, track_secs > track.duration_secs(), "{track_secs}");
+            }
+        }
+    }
+
+    #[test]
+    fn tempo_and_force_are_factors() {
+        let (track, repeat) = (straight(), Repeat { tempo: 2.0, force: 0.5 });
+        let (as_it_was, changed) = (track.touch_at(0.5), repeat.touch_at(&track, 0.5));
+        assert_eq!((changed.x_m, changed.y_m), (as_it_was.x_m, as_it_was.y_m));
+        assert_eq!(changed.contact.speed_mps, 2.0 * as_it_was.contact.speed_mps);
+        assert_eq!(changed.contact.force_n, 0.5 * as_it_was.contact.force_n);
+    }
+
+    #[test]
+    fn the_engine_strokes_lifts_strokes_again_and_stops() {
+        let config = EngineConfig {
+            model_rate_hz: 1000.0,
+            device_rate_hz: 48_000.0,
+            seed: 1,
+            drive: DriveConfig::proportional(20.0, 0.9),
+            channels: ChannelMask::FIRST_TWO,
+        };
+        let (mut handle, mut engine) = engine::new(config).unwrap();
+        handle.repeat_track(straight(), Repeat::AS_RECORDED).unwrap();
+        // Blocks of 5 ms.
+        let mut out = [0.0; 480];
+        let mut contacts = Vec::new();
+        for _ in 0..400 {
+            engine.process(&mut out, 2);
+            contacts.push(handle.status().touch.contact);
+        }
+        let at = |secs: f64| contacts[(200.0 * secs) as usize];
+        for secs in [0.5, 0.9, 1.1 + 0.5, 1.1 + 0.85] {
+            let Contact { speed_mps, force_n } = at(secs);
+            assert!((speed_mps - 0.1).abs() < 1e-4 && force_n == 0.5, "{secs}: {speed_mps} {force_n}");
+        }
+        assert_eq!(at(1.05), Contact::LIFTED);
+        handle.set_input(Input::Lifted);
+        // The fade, and a block until it is told.
+        for _ in 0..5 {
+            engine.process(&mut out, 2);
+        }
+        assert_eq!(handle.status().touch.contact, Contact::LIFTED);
+    }
+
+    #[test]
+    fn a_nonsense_tempo_stands_still() {
+        let track = straight();
+        for tempo in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            assert_eq!(Repeat { tempo, ..Repeat::AS_RECORDED }.advanced(&track, 0.3, 0.01), 0.3);
+        }
+    }
+}
