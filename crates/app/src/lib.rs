@@ -67,6 +67,7 @@ pub mod recovery;
 pub mod rig;
 mod rig_memory;
 pub mod save;
+mod scale;
 pub mod scope;
 pub mod scope_buffer;
 pub mod session;

@@ -123,8 +123,10 @@ pub const INSPECTOR_WIDTH: f32 = 290.0;
 pub const BUILD_INPUTS_WIDTH: f32 = 300.0;
 /// Width of the column that says how far a space can be believed, in points.
 pub const VERDICT_WIDTH: f32 = 280.0;
-/// Height of the row of pad and scope, in points.
-pub const STAGE_HEIGHT: f32 = 208.0;
+/// Heights of the row of pad and scope, in points: in a larger window it has more room.
+pub const STAGE_HEIGHTS: std::ops::RangeInclusive<f32> = 208.0..=360.0;
+/// Share of the window's height that it has between these.
+pub const STAGE_SHARE: f32 = 0.27;
 /// Least width of the pad, in points: the sliders above it can still be set.
 pub const PAD_WIDTH: f32 = 440.0;
 

@@ -35,19 +35,19 @@ use crate::panel::Panel;
 use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
 use crate::recorded_stroke::StrokeReader;
+use crate::scale::{fitting_scale, possible_scale};
 use crate::scope::{ScopeState, scope_ui};
 use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
 use crate::status_bar::status_ui;
-use crate::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHT, install, map_color, tokens};
+use crate::theme::{
+    INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHTS, STAGE_SHARE, install, map_color, tokens,
+};
 use crate::tour::{Places, Tour};
 use crate::workspace::Workspace;
 
 /// Pictures that are blended into that of a field: more take longer and show nothing more.
 const MAX_PICTURED: usize = 6;
-
-/// How much larger everything may be drawn than usual.
-const SCALES: std::ops::RangeInclusive<f32> = 0.75..=2.5;
 
 /// The program with its window.
 pub struct Window {
@@ -109,7 +109,7 @@ impl Window {
             ctx.set_theme(if is_light { egui::Theme::Light } else { egui::Theme::Dark });
         }
         if let Some(scale) = files.settings.scale {
-            ctx.set_zoom_factor(scale.clamp(*SCALES.start(), *SCALES.end()));
+            ctx.set_zoom_factor(possible_scale(scale));
         }
         Ok(Self {
             project,
@@ -155,6 +155,11 @@ impl Window {
     /// What is open and what sounds.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// Pictures of the textures, as far as they are there.
+    pub fn pictures(&self) -> &Pictures {
+        &self.pictures
     }
 
     /// The workspace that is shown.
@@ -320,7 +325,9 @@ impl Window {
         };
         let (pad, scope, place) = (&mut self.pad, &mut self.scope, &mut self.tour_places[1]);
         let mut mouse = None;
-        Side::bottom("stage").exact_size(STAGE_HEIGHT).resizable(false).show(ui, |ui| {
+        let stage_height =
+            (STAGE_SHARE * ctx.content_rect().height()).clamp(*STAGE_HEIGHTS.start(), *STAGE_HEIGHTS.end());
+        Side::bottom("stage").exact_size(stage_height).resizable(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 let (width, height) = (ui.available_width(), ui.available_height());
                 let top_down = egui::Layout::top_down(egui::Align::Min);
@@ -394,8 +401,9 @@ impl Window {
     /// How large everything is drawn, which the window system and the keyboard decide, is remembered.
     fn keep_scale(&mut self, ctx: &egui::Context) {
         let scale = ctx.zoom_factor();
-        if !SCALES.contains(&scale) {
-            ctx.set_zoom_factor(scale.clamp(*SCALES.start(), *SCALES.end()));
+        let fitting = fitting_scale(scale, ctx.content_rect().size());
+        if (fitting - scale).abs() > 1e-3 {
+            ctx.set_zoom_factor(fitting);
         }
         self.files.settings.scale = (scale != 1.0).then_some(scale);
     }

@@ -11,7 +11,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::library_filter::{End, Region};
 use shagreen_app::strings::edits::starred;
 use shagreen_app::strings::{self, import, textures as words};
-use shagreen_app::theme::{LIBRARY_WIDTH, STAGE_HEIGHT};
+use shagreen_app::theme::{LIBRARY_WIDTH, STAGE_HEIGHTS};
 use shagreen_app::window::new_project;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::built_in::BuiltIn;
@@ -292,7 +292,7 @@ fn the_menu_of_a_texture_is_reached_by_the_keyboard() {
 fn five_textures_are_seen_beside_five_authored_ones() {
     let authored = (1..=5).map(|key| Arc::new(AuthoredTexture::new(key, &format!("Mine {key}")))).collect();
     let harness = author_of(begin(Project { authored, ..new_project() }), SIZE);
-    let end = SIZE[1] - AROUND - STATUS - STAGE_HEIGHT;
+    let end = SIZE[1] - AROUND - STATUS - STAGE_HEIGHTS.start();
     let rows = window(&harness).session().textures().iter();
     let seen = rows.filter(|t| harness.get_by_label(&strings::texture(&t.name)).rect().bottom() <= end);
     assert!(seen.count() >= 5);

@@ -111,7 +111,7 @@ fn chart_plot(ui: &mut Ui, name: &str, view: View, chart: &Chart) -> (Rect, Plot
     let across =
         AxisHints::new_x().label_spacing(Rangef::new(34.0, 44.0)).formatter(move |mark, _| match view {
             // There the other axis has its lowest number.
-            _ if mark.value <= x.0 => String::new(),
+            _ if mark.value <= laid_out(scale, x.0) => String::new(),
             View::Waveform => format!("{:.0} ms", mark.value),
             View::Spectrum => format!("{:.0} Hz", 10.0_f64.powf(mark.value)),
             View::Spectrogram | View::Level | View::Contact => format!("{:.0} s", mark.value),

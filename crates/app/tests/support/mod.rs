@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
 use egui::{DroppedFile, Shape};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use shagreen_app::Begin;
 use shagreen_app::blend_choice::mode_entry;
 use shagreen_app::files::Keeping;
@@ -48,7 +48,16 @@ pub(crate) fn author_of(begin: Begin, size: [f32; 2]) -> Author {
 
 /// The same after its first frame, whether or not an output opens.
 pub(crate) fn window_of(begin: Begin, size: [f32; 2]) -> Author {
-    Harness::builder().with_size(size).build_ui_state(
+    opened(Harness::builder().with_size(size), begin)
+}
+
+/// The same, drawn by a renderer.
+pub(crate) fn drawn_by(renderer: impl TestRenderer + 'static, begin: Begin, size: [f32; 2]) -> Author {
+    opened(Harness::builder().with_size(size).renderer(renderer), begin)
+}
+
+fn opened(builder: HarnessBuilder<Option<Window>>, begin: Begin) -> Author {
+    builder.build_ui_state(
         move |ui, window: &mut Option<Window>| {
             let window =
                 window.get_or_insert_with(|| Window::new(ui.ctx(), begin.clone()).expect("a window"));

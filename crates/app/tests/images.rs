@@ -1,0 +1,154 @@
+//! What the window looks like: parts of it against reference images, in both themes.
+//!
+//! `UPDATE_SNAPSHOTS=1 cargo test -p shagreen-app --test images` takes new ones, to be looked at before they are kept.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+
+#[path = "images/raster.rs"]
+mod raster;
+mod support;
+
+use std::path::Path;
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Rect, pos2};
+use egui_kittest::kittest::Queryable as _;
+use egui_kittest::{SnapshotOptions, SnapshotResults, try_image_snapshot_options};
+use shagreen_app::scope::view::View;
+use shagreen_app::strings;
+use shagreen_app::strings::{authored, compare, document, gallery, map, scope};
+use shagreen_core::blend::Mode;
+use shagreen_core::heat_map::Quantity;
+use shagreen_formats::gallery::GALLERY;
+
+use image::RgbaImage;
+use image::imageops::crop_imm;
+use raster::Raster;
+use support::{Author, begin, choose, choose_mode, click, says, wait, wait_for_field, window};
+
+/// Letters are drawn with more or less of a pixel on other processors.
+const PIXELS_APART: usize = 12;
+
+/// The window on the second project of the gallery, with pictures of its textures and its field.
+fn drawn() -> Author {
+    let project = GALLERY[1].read().unwrap();
+    let mut harness = support::drawn_by(Raster::default(), begin(project), [1280.0, 720.0]);
+    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
+    wait_for_field(&mut harness);
+    wait(&mut harness, "the pictures are there", |h| {
+        let n_textures = window(h).session().textures().len();
+        (0..n_textures).all(|texture| window(h).pictures().thumbnail(texture).is_some())
+    });
+    harness.run_steps(4);
+    harness
+}
+
+/// What is in an area of the window while nothing is pointed at.
+fn part(harness: &mut Author, area: Rect) -> RgbaImage {
+    harness.hover_at(pos2(700.0, 705.0));
+    // Nothing moves any more.
+    harness.run_steps(30);
+    let image = harness.render().unwrap();
+    let area = area.intersect(Rect::from_min_max(pos2(0.0, 0.0), pos2(1280.0, 720.0)));
+    let (min, size) = (area.min.round(), area.size().round());
+    crop_imm(&image, min.x as u32, min.y as u32, size.x as u32, size.y as u32).to_image()
+}
+
+fn options() -> SnapshotOptions {
+    SnapshotOptions::new().max_failed_pixels(PIXELS_APART)
+}
+
+/// Compares what is in an area of the window with the reference image of this name.
+fn look(harness: &mut Author, results: &mut SnapshotResults, name: &str, area: Rect) {
+    results.add(try_image_snapshot_options(&part(harness, area), name, &options()));
+}
+
+fn canvas(harness: &Author) -> Rect {
+    harness.get_by_role_and_label(Role::Canvas, strings::CANVAS).rect()
+}
+
+fn view(harness: &Author, view: View) -> Rect {
+    let plot = harness.get_by_role_and_label(Role::Canvas, scope::view(view)).rect();
+    Rect::from_min_max(plot.min - egui::vec2(30.0, 30.0), plot.max + egui::vec2(0.0, 16.0))
+}
+
+fn toggle_theme(harness: &mut Author) {
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::T);
+    harness.run_steps(3);
+}
+
+const COLUMN: Rect = Rect { min: pos2(0.0, 38.0), max: pos2(208.0, 480.0) };
+const INSPECTOR: Rect = Rect { min: pos2(990.0, 38.0), max: pos2(1280.0, 480.0) };
+
+#[test]
+fn the_author_workspace_looks_as_it_was_approved() {
+    let mut harness = drawn();
+    let mut results = SnapshotResults::new();
+    for theme in ["dark", "light"] {
+        let area = canvas(&harness);
+        look(&mut harness, &mut results, &format!("canvas_{theme}"), area);
+        look(&mut harness, &mut results, &format!("inspector_{theme}"), INSPECTOR);
+        look(&mut harness, &mut results, &format!("textures_{theme}"), COLUMN);
+        let spectrum = view(&harness, View::Spectrum);
+        look(&mut harness, &mut results, &format!("spectrum_{theme}"), spectrum);
+        toggle_theme(&mut harness);
+    }
+    choose_mode(&mut harness, Mode::Shared);
+    choose(&mut harness, map::MAP, map::name(Some(Quantity::Centroid)));
+    wait(&mut harness, "the map is there", |h| says(h, ", from ") && !says(h, map::WAITING));
+    let area = canvas(&harness);
+    look(&mut harness, &mut results, "map_dark", area);
+    results.unwrap();
+}
+
+#[test]
+fn sheets_and_menus_look_as_they_were_approved() {
+    let mut harness = drawn();
+    let mut results = SnapshotResults::new();
+    click(&mut harness, document::FILE);
+    look(
+        &mut harness,
+        &mut results,
+        "file_menu_dark",
+        Rect::from_min_max(pos2(100.0, 0.0), pos2(380.0, 260.0)),
+    );
+    click(&mut harness, gallery::GALLERY);
+    harness.run_steps(3);
+    look(
+        &mut harness,
+        &mut results,
+        "gallery_dark",
+        Rect::from_min_max(pos2(260.0, 90.0), pos2(1020.0, 630.0)),
+    );
+    click(&mut harness, gallery::CLOSE);
+    harness.run_steps(3);
+    harness.get_by_label(&strings::texture("Glass")).click_secondary();
+    harness.run_steps(3);
+    click(&mut harness, strings::textures::DETAILS);
+    harness.run_steps(3);
+    look(
+        &mut harness,
+        &mut results,
+        "texture_dark",
+        Rect::from_min_max(pos2(230.0, 70.0), pos2(1050.0, 650.0)),
+    );
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    click(&mut harness, &compare::hear("X"));
+    look(&mut harness, &mut results, "blind_dark", Rect::from_min_max(pos2(0.0, 38.0), pos2(208.0, 200.0)));
+    results.unwrap();
+}
+
+/// The negative control: a button more is found in the picture of the column.
+#[test]
+fn a_window_that_looks_different_is_found() {
+    let mut harness = drawn();
+    click(&mut harness, authored::KEEP);
+    let folder = tempfile::tempdir().unwrap();
+    let reference = "textures_dark.png";
+    std::fs::copy(Path::new("tests/snapshots").join(reference), folder.path().join(reference)).unwrap();
+    let part = part(&mut harness, COLUMN);
+    let options = options().output_path(folder.path());
+    // Whoever takes new references takes this one as well.
+    let is_taking = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
+    assert!(try_image_snapshot_options(&part, "textures_dark", &options).is_err() || is_taking);
+}
