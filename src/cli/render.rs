@@ -140,7 +140,7 @@ fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rat
         version: wav::VERSION.to_owned(),
         units: wav::UNITS.to_owned(),
         full_scale: 1.0,
-        channels: vec!["acceleration of the tip, all directions combined into one (as by DFT321)".to_owned()],
+        channels: vec![wav::ONE_CHANNEL.to_owned()],
         rate_hz,
         seconds: motion.seconds(),
         texture: chosen.texture.clone(),

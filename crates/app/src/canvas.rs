@@ -58,7 +58,12 @@ pub struct CanvasState {
     pub tool: PathTool,
     /// What of the space is in view.
     pub view: View,
+    /// How high the controls above it were in the last frame, in points.
+    bar_height: f32,
 }
+
+/// Height of one row of controls, in points.
+const BAR_ROW: f32 = 25.0;
 
 /// How far beyond the view something is still drawn, in points.
 const AROUND_VIEW: f32 = 30.0;
@@ -74,7 +79,9 @@ pub fn canvas_ui(
     let mut commands = Vec::new();
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
-    let rect = Rect::from_min_max(outer.min + vec2(36.0, 40.0), outer.max - vec2(36.0, 48.0));
+    // What controls there are more than fit into a row covers no texture.
+    let top = 40.0 + (state.bar_height - BAR_ROW).max(0.0);
+    let rect = Rect::from_min_max(outer.min + vec2(36.0, top), outer.max - vec2(36.0, 48.0));
     state.view = follow_view(ui, Axes { rect, view: state.view }, &background);
     let axes = Axes { rect, view: state.view };
     let tool = &mut state.tool;
@@ -111,6 +118,7 @@ pub fn canvas_ui(
     let bar = tool_bar(ui, axes, outer, width, panel, tool, map, t);
     commands.extend(bar.commands);
     state.view = bar.view.unwrap_or(state.view);
+    state.bar_height = bar.height;
     foot_ui(ui, axes, panel, t);
     commands
 }

@@ -120,6 +120,8 @@ pub enum FileCommand {
     SaveAs,
     /// Write the project to this file from now on.
     SaveTo(PathBuf),
+    /// Save what is heard as a signal.
+    ExportSignal,
     /// Make the library a part of the project.
     KeepLibraryInside,
     /// Close the program.

@@ -9,7 +9,7 @@ use shagreen_formats::settings::Settings;
 use crate::command::{Command, FileCommand};
 use crate::document::Document;
 use crate::edit::Edit;
-use crate::strings::{document as strings, gallery};
+use crate::strings::{document as strings, gallery, signal};
 use crate::theme::tokens;
 
 /// Projects of before that the menu shows.
@@ -51,6 +51,9 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         ui.separator();
         commands.extend(entry(ui, strings::SAVE, &Command::File(FileCommand::Save)).asked);
         commands.extend(entry(ui, strings::SAVE_AS, &Command::File(FileCommand::SaveAs)).asked);
+        let export = Command::File(FileCommand::ExportSignal);
+        commands.extend(entry(ui, signal::EXPORT, &export).on_hover(signal::EXPORT_HELP));
+        ui.separator();
         let open = files.document.path();
         let is_template = open.is_some() && files.settings.template.as_deref() == open;
         let template = Button::selectable(is_template, strings::TEMPLATE);

@@ -2,12 +2,14 @@
 //! that may not be passed on.
 
 mod figure_file;
+mod signal_file;
 mod stroke_file;
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::{Button, Context, Key, Label, RichText, TextEdit, Ui};
+use shagreen_core::units::Contact;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
 use shagreen_formats::project::{Project, ProjectError, ProjectLibrary, read_project};
@@ -16,10 +18,11 @@ use crate::background::in_background;
 use crate::command::{Command, FileCommand};
 use crate::document::CREATED_BY;
 use crate::sheet_frame::{is_left, sheet};
-use crate::strings::{build, document, import as strings, stroke};
+use crate::strings::{build, document, import as strings, signal, stroke};
 use crate::theme::{GAP, tokens};
 
 pub use crate::save::figure_file::{FigureFile, FigureFormat};
+pub use crate::save::signal_file::{SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, SignalFile, Sounding};
 pub use crate::save::stroke_file::StrokeFile;
 
 /// The sheet, as long as it is open.
@@ -60,6 +63,7 @@ enum Subject {
     Library,
     Figure(FigureFile),
     Stroke(StrokeFile),
+    Signal(Box<SignalFile>),
     Project(Box<Project>),
 }
 
@@ -68,11 +72,17 @@ enum Content {
     Library(Box<Library>),
     Figure(FigureFile),
     Stroke(StrokeFile),
+    Signal(Box<SignalFile>),
     /// It is written by its document once it may be.
     Project,
 }
 
 impl SaveSheet {
+    /// A sheet that saves a signal, at `path` unless another is chosen.
+    pub fn signal(signal: SignalFile, path: &Path) -> Self {
+        Self::of(Subject::Signal(Box::new(signal)), path.display().to_string())
+    }
+
     /// A sheet that saves the library.
     pub fn library() -> Self {
         Self::of(Subject::Library, String::new())
@@ -142,6 +152,7 @@ impl SaveSheet {
             Subject::Library => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
             Subject::Figure(_) => (build::SAVE_TITLE, build::SAVE_PATH, build::SAVE_HINT),
             Subject::Stroke(_) => (stroke::SAVE_TITLE, stroke::SAVE_PATH, stroke::SAVE_HINT),
+            Subject::Signal(_) => (signal::SAVE_TITLE, signal::SAVE_PATH, signal::SAVE_HINT),
             Subject::Project(_) => (document::SAVE_TITLE, document::SAVE_PATH, document::SAVE_HINT),
         };
         ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
@@ -160,6 +171,7 @@ impl SaveSheet {
         let restricted: Vec<&str> = match &self.subject {
             Subject::Library => library.restricted().map(|entry| entry.name.as_str()).collect(),
             Subject::Project(project) => project.restricted().map(|entry| entry.name.as_str()).collect(),
+            Subject::Signal(file) => file.restricted.iter().map(String::as_str).collect(),
             Subject::Figure(_) | Subject::Stroke(_) => Vec::new(),
         };
         if let Some(warning) = Provenance::warning(&restricted) {
@@ -172,6 +184,11 @@ impl SaveSheet {
                     (build::to_save(&figure.title(), figure.format.word()), t.text_weak)
                 }
                 Subject::Stroke(file) => (stroke::to_save(file.secs()), t.text_weak),
+                Subject::Signal(file) => {
+                    let Contact { speed, force } = file.contact;
+                    let text = signal::to_save(SIGNAL_SECS, speed.mm_per_s(), force.0, SIGNAL_RATE_HZ);
+                    (text, t.text_weak)
+                }
                 Subject::Project(project) => {
                     let is_inside = matches!(project.library, ProjectLibrary::Inside(_));
                     (document::to_save(project.authored.len(), is_inside), t.text_weak)
@@ -181,6 +198,7 @@ impl SaveSheet {
                 Subject::Library => (strings::EXISTS.to_owned(), t.warning),
                 Subject::Figure(figure) => (build::exists(figure.format.word()), t.warning),
                 Subject::Stroke(_) => (stroke::EXISTS.to_owned(), t.warning),
+                Subject::Signal(_) => (signal::EXISTS.to_owned(), t.warning),
                 Subject::Project(_) => (document::EXISTS.to_owned(), t.warning),
             },
             State::Saving(_) | State::Granted => (strings::SAVING.to_owned(), t.text_weak),
@@ -215,6 +233,7 @@ impl SaveSheet {
             }
             Subject::Figure(figure) => Content::Figure(figure.clone()),
             Subject::Stroke(file) => Content::Stroke(file.clone()),
+            Subject::Signal(file) => Content::Signal(file.clone()),
             Subject::Project(_) => Content::Project,
         };
         let path = PathBuf::from(path);
@@ -241,19 +260,21 @@ impl SaveSheet {
 }
 
 impl Content {
-    /// `None` where somebody else writes it.
-    fn bytes(&self) -> Option<Result<Vec<u8>, String>> {
-        match self {
-            Self::Library(library) => Some(Ok(write_library(library))),
-            Self::Figure(figure) => Some(figure.bytes()),
-            Self::Stroke(file) => Some(Ok(file.bytes())),
-            Self::Project => None,
-        }
+    /// Writes it to `path`; a project is left to its document.
+    fn put(&self, path: &Path) -> Result<Outcome, String> {
+        let bytes = match self {
+            Self::Library(library) => write_library(library),
+            Self::Figure(figure) => figure.bytes()?,
+            Self::Stroke(file) => file.bytes(),
+            Self::Signal(file) => return file.write(path).map(|()| Outcome::Saved),
+            Self::Project => return Ok(Outcome::MayBeWritten),
+        };
+        atomic::write(path, &bytes).map(|()| Outcome::Saved).map_err(|error| error.to_string())
     }
 
     /// Why a file of these bytes must not be replaced by this; `None` where it is of the same kind, of whatever version
     /// and with whatever mistakes in it.
-    fn refusal(&self, bytes: &[u8]) -> Option<String> {
+    fn refusal(&self, path: &Path, bytes: &[u8]) -> Option<String> {
         match self {
             Self::Library(_) => match read_library(bytes) {
                 Err(error @ (LibraryError::Format { .. } | LibraryError::Damaged { texture: None, .. })) => {
@@ -263,6 +284,7 @@ impl Content {
             },
             Self::Figure(figure) => (!figure.is_like(bytes)).then(|| build::no_figure(figure.format.word())),
             Self::Stroke(_) => (!StrokeFile::is_like(bytes)).then(|| stroke::NO_STROKE.to_owned()),
+            Self::Signal(_) => (!SignalFile::may_replace(path, bytes)).then(|| signal::NO_SIGNAL.to_owned()),
             Self::Project => is_project(bytes).err().map(|reason| document::no_project(&reason)),
         }
     }
@@ -277,11 +299,7 @@ fn write(path: &Path, content: &Content, replaces: bool) -> Outcome {
             None => {}
         }
     }
-    let Some(bytes) = content.bytes() else { return Outcome::MayBeWritten };
-    match bytes.and_then(|bytes| atomic::write(path, &bytes).map_err(|error| error.to_string())) {
-        Ok(()) => Outcome::Saved,
-        Err(reason) => Outcome::Failed(reason),
-    }
+    content.put(path).unwrap_or_else(Outcome::Failed)
 }
 
 /// Whether bytes are a project, of whatever version and with whatever mistakes in it.
@@ -303,7 +321,7 @@ fn refusal(path: &Path, content: &Content) -> Option<String> {
     };
     match bytes {
         Err(error) => Some(strings::cannot_be_checked(&error.to_string())),
-        Ok(bytes) => content.refusal(&bytes),
+        Ok(bytes) => content.refusal(path, &bytes),
     }
 }
 

@@ -12,6 +12,7 @@ mod path_walk;
 mod pen;
 mod places;
 mod player;
+mod signal;
 mod strokes;
 
 use std::collections::{BTreeMap, VecDeque};

@@ -16,6 +16,7 @@ pub mod map;
 pub mod path;
 pub mod rig;
 pub mod scope;
+pub mod signal;
 pub mod stroke;
 pub mod textures;
 pub mod view;

@@ -13,12 +13,13 @@ use shagreen_app::document::{Read, read_file};
 use shagreen_app::files::Keeping;
 use shagreen_app::recovery::INTERVAL;
 use shagreen_app::strings;
-use shagreen_app::strings::{document, gallery, help};
+use shagreen_app::strings::{document, gallery, help, import, signal};
 use shagreen_app::tour::Step;
 use shagreen_app::window::new_project;
 use shagreen_formats::gallery::GALLERY;
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_bytes;
+use shagreen_formats::wav::SidecarV1;
 
 use support::{Author, author, author_of, begin, click, drop_files, says, unnamed_controls, wait, window};
 
@@ -441,4 +442,49 @@ fn the_scale_is_remembered() {
     wait(&mut harness, "it is written", |_| {
         std::fs::read_to_string(&settings).is_ok_and(|text| text.contains("\"scale\": 1.25"))
     });
+}
+
+/// What is heard goes into a file as the hand would stroke it, and the file says what it is.
+#[test]
+fn what_is_heard_is_exported_as_a_signal() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("oak.wav");
+    let mut harness = author();
+    rename(&mut harness, "Oak copy");
+    menu(&mut harness, signal::EXPORT);
+    harness.run_steps(4);
+    let field = harness.get_by_role_and_label(Role::TextInput, signal::SAVE_PATH);
+    assert!(field.accesskit_node().value().unwrap().ends_with("oak-copy.wav"));
+    write_into(&mut harness, signal::SAVE_PATH, &path.display().to_string());
+    harness.key_press(Key::Enter);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
+    click(&mut harness, import::CLOSE);
+    harness.run_steps(3);
+
+    let sidecar: SidecarV1 =
+        serde_json::from_slice(&std::fs::read(folder.path().join("oak.json")).unwrap()).unwrap();
+    assert_eq!((sidecar.rate_hz, sidecar.seconds, sidecar.at), (48_000, 5.0, Some([50.0, 50.0])));
+    assert_eq!((sidecar.trace.speed_mm_per_s[0], sidecar.blend.as_str()), (100.0, "field"));
+    assert_eq!(sidecar.label_source.as_deref(), Some("physical"));
+    let bytes = std::fs::read(&path).unwrap();
+    let (head, samples) = bytes.split_at(bytes.len() - 4 * 240_000);
+    assert!(head.starts_with(b"RIFF"));
+    let squares =
+        samples.as_chunks::<4>().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes)).powi(2));
+    let level = (squares.sum::<f64>() / 240_000.0).sqrt();
+    // As loud as the spectrum that is shown, within the noise of five seconds.
+    let spectra = window(&harness).session().spectra();
+    let steps = spectra.frequencies.windows(2).map(|f| f[1].0 - f[0].0);
+    let modeled = steps.zip(&spectra.blend).map(|(df, p)| df * p).sum::<f64>().sqrt();
+    assert!((level / modeled - 1.0).abs() < 0.15, "{level} m/s² for {modeled}");
+
+    // Somebody else's file beside it is left alone.
+    let other = folder.path().join("other.wav");
+    std::fs::write(folder.path().join("other.json"), "{\"mine\": 1}").unwrap();
+    menu(&mut harness, signal::EXPORT);
+    write_into(&mut harness, signal::SAVE_PATH, &other.display().to_string());
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "it refuses", |h| says(h, signal::NO_SIGNAL));
+    assert!(!other.exists());
 }

@@ -15,6 +15,8 @@ use crate::layout;
 pub const FORMAT: &str = "shagreen-signal";
 /// Version of the sidecar.
 pub const VERSION: &str = "1.0";
+/// What the only channel of a rendered signal is.
+pub const ONE_CHANNEL: &str = "acceleration of the tip, all directions combined into one (as by DFT321)";
 /// What the field `units` of a sidecar holds.
 pub const UNITS: &str = "m/s^2";
 

@@ -17,6 +17,8 @@ pub(super) struct BarOutcome {
     pub(super) commands: Vec<Command>,
     /// The view that was asked for.
     pub(super) view: Option<View>,
+    /// How high the rows are, in points.
+    pub(super) height: f32,
 }
 
 /// The row of controls at the top of the canvas, no wider than `width`: the map behind it, the view, and the path.
@@ -55,5 +57,5 @@ pub(super) fn tool_bar(
     });
     let back = row.min_rect();
     row.painter().set(shape, Shape::rect_filled(back, f32::from(RADIUS), t.background.gamma_multiply(0.85)));
-    BarOutcome { commands, view }
+    BarOutcome { commands, view, height: back.height() }
 }

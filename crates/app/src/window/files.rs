@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::{Context, ViewportCommand};
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::imported::Imported;
+use shagreen_formats::library::id_from_name;
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
 use super::Window;
@@ -61,6 +62,16 @@ impl Window {
             FileCommand::SetTemplate(path) => self.files.settings.template = path,
             FileCommand::SaveAs => self.ask_where_to_save(),
             FileCommand::SaveTo(path) => self.files.document.save(&self.project, path, ctx),
+            FileCommand::ExportSignal => {
+                let signal = self.session.signal(&self.project, self.pad.contact(&self.session));
+                let name =
+                    self.heard_texture().map_or_else(String::new, |texture| id_from_name(&texture.name));
+                let path = self.usual_folder().join(name).with_extension("wav");
+                match signal {
+                    Some(signal) => self.sheet = Sheet::Save(SaveSheet::signal(signal, &path)),
+                    None => self.session.say(strings::signal::NOTHING.to_owned()),
+                }
+            }
             FileCommand::KeepLibraryInside => {
                 if let Some(edit) = kept_inside(&self.project) {
                     self.carry_out(Command::Edit(edit), ctx);

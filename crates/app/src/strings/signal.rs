@@ -1,0 +1,26 @@
+//! Words of signals that are saved.
+
+/// The entry of the menu.
+pub const EXPORT: &str = "Export as WAV…";
+/// What that does.
+pub const EXPORT_HELP: &str =
+    "What is heard, stroked for 5 s at the speed and force of the hand, as samples in m/s²";
+/// Nothing can be exported.
+pub const NOTHING: &str = "Nothing is heard that may be shown";
+/// The title of the sheet that saves a signal.
+pub const SAVE_TITLE: &str = "Export as WAV";
+/// Accessible name of the field for its path.
+pub const SAVE_PATH: &str = "Path of the signal's file";
+/// Hint in the field for its path.
+pub const SAVE_HINT: &str = "/path/to/texture.wav";
+/// There is a signal at the path.
+pub const EXISTS: &str = "There is a signal at this path already. Replace it, or choose another path.";
+/// Why a file of another kind is not replaced.
+pub const NO_SIGNAL: &str = "Choose another path: what is there, or the .json beside it, is no signal of Shagreen, so it is not replaced.";
+
+/// What is saved.
+pub fn to_save(secs: f64, mm_per_s: f64, force_n: f64, rate_hz: u32) -> String {
+    format!(
+        "{secs:.0} s at {mm_per_s:.0} mm/s and {force_n:.2} N (set them beside the pad) go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s²; the .json beside it says what was rendered."
+    )
+}
