@@ -7,8 +7,10 @@ mod site_labels;
 mod tool_bar;
 mod view;
 
+use std::collections::HashSet;
+
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Shape,
+    Align2, Color32, CursorIcon, FontId, Key, PointerButton, Popup, Pos2, Rect, Response, Role, Sense, Shape,
     Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use shagreen_core::authoring::{Authored, Weights};
@@ -197,10 +199,13 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
         authored.map_or(Vec::new(), |a| a.location.corners.iter().map(|(texture, _)| *texture).collect());
     // Edges one by one: the joins of a thin triangle's outline would shoot far beyond its corners.
     let thin = Stroke::new(1.0, t.line);
+    // Two triangles share an edge.
+    let mut drawn = HashSet::new();
     for triangle in space.triangles() {
         let points: Vec<Pos2> = triangle.iter().filter_map(|i| at(*i)).collect();
         let [a, b, c] = points[..] else { continue };
-        let edges = [[a, b], [b, c], [c, a]];
+        let [i, j, k] = triangle;
+        let edges = [([i, j], [a, b]), ([j, k], [b, c]), ([k, i], [c, a])];
         if corners.len() == 3 && triangle.iter().all(|i| corners.contains(i)) {
             let mut fill = egui::Mesh::default();
             for p in [a, b, c] {
@@ -208,12 +213,14 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
             }
             fill.add_triangle(0, 1, 2);
             painter.add(Shape::mesh(fill));
-            for e in edges {
-                painter.line_segment(e, Stroke::new(1.6, t.accent.gamma_multiply(0.6)));
+            for (_, edge) in edges {
+                painter.line_segment(edge, Stroke::new(1.6, t.accent.gamma_multiply(0.6)));
             }
         } else {
-            for e in edges {
-                painter.line_segment(e, thin);
+            for ([from, to], edge) in edges {
+                if drawn.insert((from.min(to), from.max(to))) {
+                    painter.line_segment(edge, thin);
+                }
             }
         }
     }
@@ -243,6 +250,7 @@ fn sites_ui(
     let mut order: Vec<&(usize, SpacePoint)> = sites.iter().collect();
     order.sort_by_key(|(texture, _)| rank(*texture).is_some());
     let mut pointed = None;
+    let has_open_menu = Popup::is_any_open(ui.ctx());
     for (texture, at) in order {
         let pos = axes.ui_from_space(*at);
         let entry = &panel.session.textures()[*texture];
@@ -257,13 +265,11 @@ fn sites_ui(
         if response.hovered() || response.has_focus() {
             pointed = Some(*texture);
         }
-        response.context_menu(|ui| commands.extend(texture_menu(ui, panel, *texture)));
-        let mut help = format!("{}\n{}", entry.name, place_in_words(panel, *texture, *at));
-        if panel.project.texture().blend.can_lock() {
-            let is_locked = panel.is_locked(*texture);
-            help = format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED });
+        // Of a thousand textures one is pointed at: the others cost no words.
+        if response.hovered() || response.has_focus() || has_open_menu {
+            response.context_menu(|ui| commands.extend(texture_menu(ui, panel, *texture)));
+            response.on_hover_text(site_help(panel, *texture, *at));
         }
-        response.on_hover_text(help);
     }
     let named: Vec<(usize, Pos2)> = sites
         .iter()
@@ -273,6 +279,17 @@ fn sites_ui(
     let point = Rect::from_center_size(axes.ui_from_space(panel.project.texture().at), POINT_SIZE);
     site_labels(ui, panel, &named, radius, &Around { words, point, on_map }, pointed, t);
     commands
+}
+
+/// What is said of a texture that is pointed at.
+fn site_help(panel: &Panel<'_>, texture: usize, at: SpacePoint) -> String {
+    let name = &panel.session.textures()[texture].name;
+    let help = format!("{name}\n{}", place_in_words(panel, texture, at));
+    if !panel.project.texture().blend.can_lock() {
+        return help;
+    }
+    let is_locked = panel.is_locked(texture);
+    format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED })
 }
 
 fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {

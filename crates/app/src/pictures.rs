@@ -2,12 +2,14 @@
 
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::{Picture, Rgb, decode};
 use shagreen_formats::project::ProjectLibrary;
+
+use crate::background::in_background;
 
 /// Side of the blended picture in pixels.
 const BLEND_SIDE: usize = 192;
@@ -19,7 +21,7 @@ const MAX_GRAIN: f32 = 70.0;
 /// The pictures of a library, by index; those still being decoded, or absent, are plain.
 pub struct Pictures {
     thumbnails: Vec<Option<TextureHandle>>,
-    pixels: Vec<Option<Rgb>>,
+    pixels: Vec<Option<Arc<Rgb>>>,
     millimeters: Vec<f64>,
     /// What tells one picture from another, and the generation that each is decoded in.
     fingerprints: Vec<(Option<u64>, u64)>,
@@ -30,8 +32,13 @@ pub struct Pictures {
     joined: Vec<Arc<TextureEntry>>,
     /// Goes up when textures join or go: pictures of those that are gone are late.
     generation: u64,
-    blended: Option<(Vec<(usize, u32)>, TextureHandle)>,
+    blended: Option<(Shares, TextureHandle)>,
+    /// A blend that a worker mixes.
+    mixing: Option<(Shares, Receiver<ColorImage>)>,
 }
+
+/// What a blend is of: textures, and their shares in thousandths.
+type Shares = Vec<(usize, u32)>;
 
 /// A picture that a worker has decoded, for which texture, and in which generation.
 type Decoded = (u64, usize, Rgb);
@@ -60,6 +67,7 @@ impl Pictures {
             joined: joined.to_vec(),
             generation: 0,
             blended: None,
+            mixing: None,
         };
         pictures.decode(ctx, textures.iter().map(|entry| entry.picture.clone()).collect());
         pictures
@@ -99,7 +107,7 @@ impl Pictures {
         self.fingerprints.extend(fresh);
         self.thumbnails.resize(self.millimeters.len(), None);
         self.pixels.resize(self.millimeters.len(), None);
-        self.blended = None;
+        (self.blended, self.mixing) = (None, None);
         if sources.is_empty() {
             return;
         }
@@ -128,8 +136,8 @@ impl Pictures {
             let options =
                 TextureOptions { mipmap_mode: Some(egui::TextureFilter::Linear), ..TextureOptions::LINEAR };
             self.thumbnails[index] = Some(ctx.load_texture(format!("texture {index}"), color, options));
-            self.pixels[index] = Some(image);
-            self.blended = None;
+            self.pixels[index] = Some(image.into());
+            (self.blended, self.mixing) = (None, None);
         }
     }
 
@@ -138,56 +146,68 @@ impl Pictures {
         self.thumbnails.get(texture)?.as_ref()
     }
 
-    /// The picture of a blend and the side that it shows in mm: the parents' pictures weighed like their vibrations.
+    /// The picture of a blend and the side that it shows in mm: the parents' pictures weighed like their vibrations. It is
+    /// mixed by a worker; until that is done, the picture is the one before.
     pub fn blend(&mut self, ctx: &Context, parents: &[(usize, f64)]) -> Option<(&TextureHandle, f64)> {
-        let key: Vec<(usize, u32)> = parents.iter().map(|(i, w)| (*i, (w * 1000.0).round() as u32)).collect();
+        let wanted: Shares = parents.iter().map(|(i, w)| (*i, (w * 1000.0).round() as u32)).collect();
         let side_mm = parents.iter().map(|(i, w)| w * self.millimeters[*i]).sum();
-        if self.blended.as_ref().is_none_or(|(k, _)| *k != key) {
-            let image = self.mix(parents)?;
-            match &mut self.blended {
-                Some((k, texture)) => {
-                    *k = key;
-                    texture.set(image, TextureOptions::LINEAR_MIRRORED_REPEAT);
-                }
-                None => {
-                    self.blended =
-                        Some((key, ctx.load_texture("blend", image, TextureOptions::LINEAR_MIRRORED_REPEAT)));
-                }
+        if let Some((shares, receiver)) = self.mixing.take() {
+            match receiver.try_recv() {
+                Ok(image) => self.show_blend(ctx, shares, image),
+                Err(TryRecvError::Empty) => self.mixing = Some((shares, receiver)),
+                Err(TryRecvError::Disconnected) => {}
+            }
+        }
+        let is_shown = self.blended.as_ref().is_some_and(|(shares, _)| *shares == wanted);
+        if !is_shown && self.mixing.is_none() {
+            let sources = parents.iter().map(|(i, w)| Some((Arc::clone(self.pixels.get(*i)?.as_ref()?), *w)));
+            if let Some(sources) = sources.collect::<Option<Vec<(Arc<Rgb>, f64)>>>() {
+                self.mixing = Some((wanted, in_background(ctx.clone(), move || mix(&sources))));
             }
         }
         self.blended.as_ref().map(|(_, texture)| (texture, side_mm))
     }
 
-    fn mix(&self, parents: &[(usize, f64)]) -> Option<ColorImage> {
-        let mut sum = vec![[0.0_f32; 3]; BLEND_SIDE * BLEND_SIDE];
-        for (texture, weight) in parents {
-            let image = self.pixels.get(*texture)?.as_ref()?;
-            for (i, pixel) in sum.iter_mut().enumerate() {
-                let (width, height) = (image.width as usize, image.height as usize);
-                let (x, y) = (i % BLEND_SIDE * width / BLEND_SIDE, i / BLEND_SIDE * height / BLEND_SIDE);
-                let at = 3 * (y * width + x);
-                for (channel, value) in pixel.iter_mut().zip(&image.pixels[at..at + 3]) {
-                    *channel += *weight as f32 * f32::from(*value);
-                }
+    fn show_blend(&mut self, ctx: &Context, shares: Shares, image: ColorImage) {
+        if let Some((shown, texture)) = &mut self.blended {
+            *shown = shares;
+            texture.set(image, TextureOptions::LINEAR_MIRRORED_REPEAT);
+        } else {
+            let texture = ctx.load_texture("blend", image, TextureOptions::LINEAR_MIRRORED_REPEAT);
+            self.blended = Some((shares, texture));
+        }
+    }
+}
+
+/// The mean of pictures with their shares, as lively as they are.
+fn mix(parents: &[(Arc<Rgb>, f64)]) -> ColorImage {
+    let mut sum = vec![[0.0_f32; 3]; BLEND_SIDE * BLEND_SIDE];
+    for (image, weight) in parents {
+        let (width, height) = (image.width as usize, image.height as usize);
+        for (i, pixel) in sum.iter_mut().enumerate() {
+            let (x, y) = (i % BLEND_SIDE * width / BLEND_SIDE, i / BLEND_SIDE * height / BLEND_SIDE);
+            let at = 3 * (y * width + x);
+            for (channel, value) in pixel.iter_mut().zip(&image.pixels[at..at + 3]) {
+                *channel += *weight as f32 * f32::from(*value);
             }
         }
-        // A mean of pictures is flatter than each of them: contrast is brought back by the loss of independent parts.
-        // Light that falls on a whole picture would repeat with every tile, so what is broader than the grain goes.
-        let kept = parents.iter().map(|(_, w)| w * w).sum::<f64>().sqrt() as f32;
-        let n = sum.len() as f32;
-        let mean: [f32; 3] = std::array::from_fn(|c| sum.iter().map(|p| p[c]).sum::<f32>() / n);
-        let light = blurred(&sum);
-        let channel = |c: usize, p: &[f32; 3], light: &[f32; 3]| {
-            let grain = ((p[c] - light[c]) / kept).clamp(-MAX_GRAIN, MAX_GRAIN);
-            (mean[c] + grain).clamp(0.0, 255.0) as u8
-        };
-        let pixels = sum
-            .iter()
-            .zip(&light)
-            .map(|(p, l)| Color32::from_rgb(channel(0, p, l), channel(1, p, l), channel(2, p, l)))
-            .collect();
-        Some(ColorImage::new([BLEND_SIDE, BLEND_SIDE], pixels))
     }
+    // A mean of pictures is flatter than each of them: contrast is brought back by the loss of independent parts.
+    // Light that falls on a whole picture would repeat with every tile, so what is broader than the grain goes.
+    let kept = parents.iter().map(|(_, w)| w * w).sum::<f64>().sqrt() as f32;
+    let n = sum.len() as f32;
+    let mean: [f32; 3] = std::array::from_fn(|c| sum.iter().map(|p| p[c]).sum::<f32>() / n);
+    let light = blurred(&sum);
+    let channel = |c: usize, p: &[f32; 3], light: &[f32; 3]| {
+        let grain = ((p[c] - light[c]) / kept).clamp(-MAX_GRAIN, MAX_GRAIN);
+        (mean[c] + grain).clamp(0.0, 255.0) as u8
+    };
+    let pixels = sum
+        .iter()
+        .zip(&light)
+        .map(|(p, l)| Color32::from_rgb(channel(0, p, l), channel(1, p, l), channel(2, p, l)))
+        .collect();
+    ColorImage::new([BLEND_SIDE, BLEND_SIDE], pixels)
 }
 
 /// What tells a picture from another.
