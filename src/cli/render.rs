@@ -131,18 +131,8 @@ fn samples(
 }
 
 fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rate_hz: u32) -> SidecarV1 {
-    let parent = |(index, weight): &(usize, f64)| {
-        let texture = &library.textures[*index];
-        ParentV1 { id: texture.id.clone(), weight: *weight, licence: library.license_of(texture).to_owned() }
-    };
+    let parent = |(index, weight): &(usize, f64)| ParentV1::new(library, *index, *weight);
     SidecarV1 {
-        format: wav::FORMAT.to_owned(),
-        version: wav::VERSION.to_owned(),
-        units: wav::UNITS.to_owned(),
-        full_scale: 1.0,
-        channels: vec![wav::ONE_CHANNEL.to_owned()],
-        rate_hz,
-        seconds: motion.seconds(),
         texture: chosen.texture.clone(),
         at: chosen.at_json(),
         clamped: chosen.clamped,
@@ -151,13 +141,12 @@ fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rat
         parents: chosen.parents.iter().map(parent).collect(),
         library: library.name.clone(),
         label_source: library.label_source().map(|source| LabelSource::id(source).to_owned()),
-        seed: args.seed,
         // Its name only: a file that is passed on need not tell how someone's folders are called.
         stroke: motion
             .stroke_path()
             .and_then(|path| path.file_name())
             .map(|name| name.to_string_lossy().into_owned()),
         trace: motion.trace(),
-        created_by: output::CREATED_BY.to_owned(),
+        ..SidecarV1::new(rate_hz, motion.seconds(), args.seed, output::CREATED_BY)
     }
 }

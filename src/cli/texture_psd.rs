@@ -30,7 +30,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(2..=65_536))]
     bins: u32,
     /// What the level is told in multiples of: the least that is felt by a hand that holds a tool, or by skin on a large
-    /// contactor. Reference values, good to about 3 dB.
+    /// contactor. Approximate curves.
     #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id),
         default_value = ThresholdKind::default().id())]
     threshold: ThresholdKind,

@@ -5,6 +5,7 @@ use shagreen_formats::project::Project;
 use crate::compare::Compare;
 use crate::pictures::Pictures;
 use crate::session::Session;
+use crate::strings;
 
 /// The state that panels draw.
 #[derive(Clone, Copy)]
@@ -19,7 +20,30 @@ pub struct Panel<'a> {
     pub pictures: &'a Pictures,
 }
 
-impl Panel<'_> {
+impl<'a> Panel<'a> {
+    /// The state of these parts.
+    pub fn new(
+        project: &'a Project,
+        session: &'a Session,
+        compare: &'a Compare,
+        pictures: &'a Pictures,
+    ) -> Self {
+        Self { project, session, compare, pictures }
+    }
+
+    /// The name of what is heard, where it may be known.
+    pub fn heard_name(&self) -> String {
+        if self.session.is_hidden() {
+            return strings::compare::HIDDEN.to_owned();
+        }
+        let compared = self.compare.heard_key();
+        let heard = self.project.authored.iter().find(|texture| Some(texture.key) == compared);
+        match self.solo().filter(|_| heard.is_none()) {
+            Some(alone) => self.session.textures()[alone].name.clone(),
+            None => heard.map_or(&self.project.texture().name, |texture| &texture.name).clone(),
+        }
+    }
+
     /// Whether the field meets a texture of the list exactly at its own place.
     pub fn is_locked(&self, texture: usize) -> bool {
         self.project.texture().blend.is_locked(&self.session.textures()[texture].id)

@@ -59,14 +59,16 @@ impl ScopeState {
     }
 
     /// Holds what is shown of `panel`, or shows what is played again.
+    /// Nothing is held of what may not be shown.
     pub fn toggle_freeze(&mut self, panel: &Panel<'_>) {
         self.frozen = match self.frozen {
             Some(_) => None,
+            None if panel.session.is_hidden() => None,
             None => Some(Box::new(Frozen {
                 buffer: panel.session.scope().clone(),
                 spectra: panel.session.spectra().clone(),
                 parents: parents_of(panel),
-                texture: texture_of(panel),
+                texture: panel.heard_name(),
             })),
         };
     }
@@ -76,16 +78,6 @@ impl ScopeState {
 fn parents_of(panel: &Panel<'_>) -> Vec<String> {
     let name = |(texture, _): &(usize, f64)| panel.session.textures()[*texture].name.clone();
     panel.session.shown_parents().iter().map(name).collect()
-}
-
-/// The name of what is heard.
-fn texture_of(panel: &Panel<'_>) -> String {
-    let compared = panel.compare.heard_key();
-    let heard = panel.project.authored.iter().find(|texture| Some(texture.key) == compared);
-    match panel.solo().filter(|_| heard.is_none()) {
-        Some(alone) => panel.session.textures()[alone].name.clone(),
-        None => heard.map_or(&panel.project.texture().name, |texture| &texture.name).clone(),
-    }
 }
 
 /// Draws both views side by side and returns what the user asked of them.
@@ -103,7 +95,7 @@ pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut ScopeState) -> Vec<C
             return commands;
         }
     };
-    let (parents, texture) = (parents_of(panel), texture_of(panel));
+    let (parents, texture) = (parents_of(panel), panel.heard_name());
     // Put back below: what is held is looked at while the rest of the state changes.
     let frozen = state.frozen.take();
     let live = Seen {
@@ -112,13 +104,15 @@ pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut ScopeState) -> Vec<C
         parents: &parents,
         texture: &texture,
         threshold: &threshold,
+        kind: state.kind,
+        is_simulated: panel.session.is_simulated(),
     };
     let seen = frozen.as_ref().map_or(live, |held| Seen {
         buffer: &held.buffer,
         spectra: &held.spectra,
         parents: &held.parents,
         texture: &held.texture,
-        threshold: &threshold,
+        ..live
     });
     let (width, height) = (ui.available_width() - GAP, ui.available_height());
     ui.horizontal_top(|ui| {
@@ -222,7 +216,8 @@ fn save_ui(ui: &mut Ui, view: View, side: usize, seen: &Seen<'_>, figure: &Figur
     });
     menu.response.accessible_name(words::SAVES[side]).on_hover_text(words::SAVE_HELP);
     asked.map(|format| {
-        let stem = format!("{}-{}", view.stem(), id_from_name(seen.texture));
+        let simulated = if seen.is_simulated { "simulated-" } else { "" };
+        let stem = format!("{simulated}{}-{}", view.stem(), id_from_name(seen.texture));
         Command::SaveFigure(FigureFile { stem, figure: Arc::new(figure.clone()), format })
     })
 }

@@ -115,6 +115,14 @@ impl ScopeBuffer {
         });
     }
 
+    /// Forgets what was played.
+    pub fn clear(&mut self) {
+        self.samples.clear();
+        self.moments.clear();
+        self.density.clear();
+        self.n_since = 0;
+    }
+
     /// Works out what is shown of the samples so far: once a frame.
     pub fn update(&mut self) {
         let newest: Vec<f64> = self.newest(0.75).1;
@@ -152,7 +160,7 @@ impl ScopeBuffer {
     }
 
     /// The moments of the last [`MOMENTS_SECS`], oldest first.
-    pub fn moments(&self) -> impl ExactSizeIterator<Item = &Moment> {
+    pub fn moments(&self) -> impl ExactSizeIterator<Item = &Moment> + DoubleEndedIterator {
         self.moments.iter()
     }
 

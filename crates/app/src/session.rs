@@ -285,6 +285,10 @@ impl Session {
 
     /// Hides what tells what is heard, or shows it again.
     pub fn set_hidden(&mut self, is_hidden: bool) {
+        if self.is_hidden && !is_hidden {
+            // What was played meanwhile tells as much as what plays.
+            self.scope.clear();
+        }
         self.is_hidden = is_hidden;
     }
 

@@ -120,7 +120,7 @@ pub const HAND_PATH: &str = "Path of the hand";
 /// On the button that lets a neighbor be heard alone.
 pub const SOLO: &str = "S";
 /// What that does.
-pub const SOLO_HELP: &str = "Solo: hear this texture by itself, as it was measured; press again to hear the blend. The point stays where it is.";
+pub const SOLO_HELP: &str = "Solo: hear this texture by itself, as the library has it; press again to hear the blend. The point stays where it is.";
 /// Accessible name of the choice of outputs.
 pub const OUTPUT: &str = "Output";
 /// What the choice of outputs does.

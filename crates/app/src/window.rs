@@ -35,7 +35,7 @@ use crate::panel::Panel;
 use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
 use crate::recorded_stroke::StrokeReader;
-use crate::scale::{fitting_scale, possible_scale};
+use crate::scale::Scale;
 use crate::scope::{ScopeState, scope_ui};
 use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
@@ -64,6 +64,7 @@ pub struct Window {
     map: Option<Quantity>,
     pad: PadState,
     scope: ScopeState,
+    scale: Scale,
     canvas: CanvasState,
     library: LibraryState,
     gesture: u64,
@@ -108,9 +109,8 @@ impl Window {
         if let Some(is_light) = files.settings.is_light {
             ctx.set_theme(if is_light { egui::Theme::Light } else { egui::Theme::Dark });
         }
-        if let Some(scale) = files.settings.scale {
-            ctx.set_zoom_factor(possible_scale(scale));
-        }
+        let scale = Scale::new(files.settings.scale);
+        ctx.set_zoom_factor(scale.set());
         Ok(Self {
             project,
             history: History::default(),
@@ -125,6 +125,7 @@ impl Window {
             map: None,
             pad: PadState::default(),
             scope: ScopeState::default(),
+            scale,
             canvas: CanvasState::default(),
             library: LibraryState::default(),
             gesture: 0,
@@ -212,12 +213,7 @@ impl Window {
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
         Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
-        let panel = Panel {
-            project: &self.project,
-            session: &self.session,
-            compare: &self.compare,
-            pictures: &self.pictures,
-        };
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         Side::bottom("status")
             .exact_size(32.0)
             .frame(bar(2))
@@ -225,12 +221,7 @@ impl Window {
         match self.workspace {
             Workspace::Author => self.author_ui(ui, &ctx, &mut commands),
             Workspace::Build => {
-                let panel = Panel {
-                    project: &self.project,
-                    session: &self.session,
-                    compare: &self.compare,
-                    pictures: &self.pictures,
-                };
+                let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                 commands.extend(self.build.show(ui, &panel));
             }
         }
@@ -239,12 +230,7 @@ impl Window {
             // What lies below a sheet goes on as it was.
             commands.clear();
         }
-        let panel = Panel {
-            project: &self.project,
-            session: &self.session,
-            compare: &self.compare,
-            pictures: &self.pictures,
-        };
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         commands.extend(self.sheet.show(&ctx, &panel, &self.files.document, self.workspace));
         if self.workspace == Workspace::Author
             && !self.sheet.is_open()
@@ -266,12 +252,7 @@ impl Window {
     fn author_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
         let map = self.follow_map(ctx);
         self.stage_ui(ui, ctx, commands);
-        let panel = Panel {
-            project: &self.project,
-            session: &self.session,
-            compare: &self.compare,
-            pictures: &self.pictures,
-        };
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let library = &mut self.library;
         Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
             commands.extend(library_ui(ui, &panel, library));
@@ -317,12 +298,7 @@ impl Window {
         let own = heard.and_then(|texture| texture.picture.clone());
         let own = self.own_picture.follow(own.as_ref(), ctx).map(|(texture, mm)| (texture.id(), mm));
         let picture = own.or(blended);
-        let panel = Panel {
-            project: &self.project,
-            session: &self.session,
-            compare: &self.compare,
-            pictures: &self.pictures,
-        };
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let (pad, scope, place) = (&mut self.pad, &mut self.scope, &mut self.tour_places[1]);
         let mut mouse = None;
         let stage_height =
@@ -398,14 +374,14 @@ impl Window {
         self.was_holding = holding;
     }
 
-    /// How large everything is drawn, which the window system and the keyboard decide, is remembered.
+    /// How large everything is drawn, which the keyboard decides and the room of the window, is remembered as it is wanted.
     fn keep_scale(&mut self, ctx: &egui::Context) {
-        let scale = ctx.zoom_factor();
-        let fitting = fitting_scale(scale, ctx.content_rect().size());
-        if (fitting - scale).abs() > 1e-3 {
-            ctx.set_zoom_factor(fitting);
+        let now = ctx.zoom_factor();
+        let scale = self.scale.follow(now, ctx.content_rect().size());
+        if (scale - now).abs() > 1e-3 {
+            ctx.set_zoom_factor(scale);
         }
-        self.files.settings.scale = (scale != 1.0).then_some(scale);
+        self.files.settings.scale = self.scale.wanted();
     }
 
     /// Something moves while something sounds; otherwise a few frames a second show how the output is doing.

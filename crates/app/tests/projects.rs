@@ -479,7 +479,17 @@ fn what_is_heard_is_exported_as_a_signal() {
     let modeled = steps.zip(&spectra.blend).map(|(df, p)| df * p).sum::<f64>().sqrt();
     assert!((level / modeled - 1.0).abs() < 0.15, "{level} m/s² for {modeled}");
 
-    // Somebody else's file beside it is left alone.
+    // Somebody else's signal, which has no sidecar of ours, is left alone.
+    let other = folder.path().join("recorded.wav");
+    std::fs::copy(&path, &other).unwrap();
+    menu(&mut harness, signal::EXPORT);
+    write_into(&mut harness, signal::SAVE_PATH, &other.display().to_string());
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "it refuses", |h| says(h, signal::NO_SIGNAL));
+    click(&mut harness, document::CANCEL);
+    harness.run_steps(4);
+
+    // So is somebody else's file beside it.
     let other = folder.path().join("other.wav");
     std::fs::write(folder.path().join("other.json"), "{\"mine\": 1}").unwrap();
     menu(&mut harness, signal::EXPORT);

@@ -129,8 +129,10 @@ pub struct Map {
     pub x_label: String,
     /// Name and unit of the vertical axis.
     pub y_label: String,
-    /// Name and unit of the value.
+    /// Name of the value.
     pub value_label: String,
+    /// Its unit.
+    pub value_unit: String,
     /// Where the first column begins and the last ends.
     pub x: (f64, f64),
     /// Where the first row begins and the last ends.
@@ -377,7 +379,8 @@ mod tests {
             title: "Spectrogram".to_owned(),
             x_label: "time in s".to_owned(),
             y_label: "frequency in Hz".to_owned(),
-            value_label: "density in dB".to_owned(),
+            value_label: "density".to_owned(),
+            value_unit: "dB".to_owned(),
             x: (-2.0, 0.0),
             y: (0.0, 100.0),
             range: (-60.0, 0.0),

@@ -10,13 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::atomic::{self, WriteError};
 use crate::layout;
+use crate::library::Library;
 
 /// What the field `format` of a sidecar holds.
 pub const FORMAT: &str = "shagreen-signal";
 /// Version of the sidecar.
 pub const VERSION: &str = "1.0";
-/// What the only channel of a rendered signal is.
-pub const ONE_CHANNEL: &str = "acceleration of the tip, all directions combined into one (as by DFT321)";
 /// What the field `units` of a sidecar holds.
 pub const UNITS: &str = "m/s^2";
 
@@ -67,6 +66,49 @@ pub struct SidecarV1 {
     pub trace: TraceV1,
     /// The program that wrote it, with its version.
     pub created_by: String,
+}
+
+impl SidecarV1 {
+    /// The sidecar of a signal of one channel in m/s²; what sounds in it, and how it was stroked, is to be filled in.
+    pub fn new(rate_hz: u32, seconds: f64, seed: u64, created_by: &str) -> Self {
+        Self {
+            format: FORMAT.to_owned(),
+            version: VERSION.to_owned(),
+            units: UNITS.to_owned(),
+            full_scale: 1.0,
+            channels: vec![
+                "acceleration of the tip, all directions combined into one (as by DFT321)".to_owned(),
+            ],
+            rate_hz,
+            seconds,
+            texture: None,
+            at: None,
+            clamped: false,
+            extrapolated: false,
+            blend: String::new(),
+            parents: Vec::new(),
+            library: String::new(),
+            label_source: None,
+            seed,
+            stroke: None,
+            trace: TraceV1::default(),
+            created_by: created_by.to_owned(),
+        }
+    }
+}
+
+impl ParentV1 {
+    /// A texture of a library with its share.
+    pub fn new(library: &Library, texture: usize, weight: f64) -> Self {
+        let entry = &library.textures[texture];
+        Self { id: entry.id.clone(), weight, licence: library.license_of(entry).to_owned() }
+    }
+}
+
+/// Whether bytes are the sidecar of a signal, of whatever version.
+pub fn is_sidecar(bytes: &[u8]) -> bool {
+    let json: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+    json.is_some_and(|json| json["format"] == FORMAT)
 }
 
 /// A texture in a mixture.

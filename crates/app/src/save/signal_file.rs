@@ -1,5 +1,6 @@
 //! What is heard as a file: a signal in m/s², with its sidecar.
 
+use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,7 +9,7 @@ use shagreen_core::plane::{Plane, Prepared};
 use shagreen_core::render::{PathPlan, RenderError, RenderPlan, render, render_path};
 use shagreen_core::texture_path::TexturePath;
 use shagreen_core::units::{Contact, Hertz};
-use shagreen_formats::wav::{FORMAT, SidecarV1, sidecar_path, write_wav};
+use shagreen_formats::wav::{SidecarV1, is_sidecar, sidecar_path, write_wav};
 
 use crate::strings::signal as strings;
 
@@ -73,15 +74,17 @@ impl SignalFile {
         }
     }
 
-    /// Whether a signal may take the place of a file of these bytes at `path`: another one, whose sidecar is one.
+    /// Whether a signal may take the place of a file of these bytes at `path`: another one, with its sidecar.
     pub(super) fn may_replace(path: &Path, bytes: &[u8]) -> bool {
         let is_wave = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE");
-        is_wave && Self::may_lie_beside(path)
+        is_wave && std::fs::read(sidecar_path(path)).is_ok_and(|beside| is_sidecar(&beside))
     }
 
     /// Whether what lies where the sidecar of a signal at `path` would is nothing, or another sidecar.
     fn may_lie_beside(path: &Path) -> bool {
-        let beside = std::fs::read(sidecar_path(path)).unwrap_or_default();
-        beside.is_empty() || String::from_utf8_lossy(&beside).contains(FORMAT)
+        match std::fs::read(sidecar_path(path)) {
+            Ok(beside) => is_sidecar(&beside),
+            Err(error) => error.kind() == ErrorKind::NotFound,
+        }
     }
 }

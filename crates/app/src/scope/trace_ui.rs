@@ -59,7 +59,7 @@ pub(super) fn trace_ui(ui: &mut Ui, view: View, side: usize, figure: &Figure, sp
     }
     if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
         painter.vline(at.x, area.y_range(), Stroke::new(1.0, t.text_weak.gamma_multiply(0.6)));
-        read_ui(ui, figure, &axis, at, area);
+        read_ui(ui, view, figure, &axis, at, area);
     }
 }
 
@@ -171,14 +171,13 @@ fn nice_step(range: f64) -> f64 {
 }
 
 /// What lies under the pointer, in a box beside it: the place on the axis and the value of each line there.
-fn read_ui(ui: &Ui, figure: &Figure, axis: &Axis, at: Pos2, area: Rect) {
+fn read_ui(ui: &Ui, view: View, figure: &Figure, axis: &Axis, at: Pos2, area: Rect) {
     let t = tokens(ui.ctx());
     let x = axis.value_at(at);
     let mut lines: Vec<(String, Color32)> = Vec::new();
     match figure {
         Figure::Chart(chart) => {
-            let (_, unit) = chart.x_label.rsplit_once(' ').unwrap_or_default();
-            lines.push((format!("{x:.1} {unit}"), t.text_weak));
+            lines.push((format!("{x:.1} {}", words::x_unit(view)), t.text_weak));
             for series in &chart.series {
                 let nearest = series.points.iter().min_by(|a, b| (a.x - x).abs().total_cmp(&(b.x - x).abs()));
                 lines.extend(
@@ -188,7 +187,7 @@ fn read_ui(ui: &Ui, figure: &Figure, axis: &Axis, at: Pos2, area: Rect) {
         }
         Figure::Map(map) => {
             let y = axis.transform.value_from_position(at).y;
-            lines.push((format!("{x:.2} s, {y:.0} Hz"), t.text_weak));
+            lines.push((words::place(x, y), t.text_weak));
             let share = |v: f64, (low, high): (f64, f64)| ((v - low) / (high - low)).clamp(0.0, 1.0);
             let row = (share(y, map.y) * map.rows.len() as f64) as usize;
             let value =

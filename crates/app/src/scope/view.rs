@@ -1,9 +1,8 @@
 //! What the scope can show, each as a figure: what is drawn in the window and what is saved is one and the same.
 
-use shagreen_core::spectrum::rms;
 use shagreen_core::threshold::Threshold;
-use shagreen_core::units::Hertz;
 use shagreen_formats::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Tone};
+use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::scope_buffer::{MOMENTS_SECS, Moment, ScopeBuffer};
 use crate::session::{BAND_HZ, Spectra};
@@ -19,6 +18,8 @@ const COLORS_DB: (f64, f64) = (-60.0, 0.0);
 pub(super) const LEVEL_DB: (f64, f64) = (-66.0, 60.0);
 /// Highest speed in mm/s and force in cN that is shown at least.
 const LEAST_CONTACT: f64 = 100.0;
+/// What the newest level is taken over, in s.
+const LEVEL_SECS: f64 = 0.5;
 /// What stands for silence, in dB.
 const SILENCE_DB: f64 = -90.0;
 
@@ -50,6 +51,19 @@ pub struct Seen<'a> {
     pub texture: &'a str,
     /// What can just be felt.
     pub threshold: &'a Threshold,
+    /// Which threshold that is.
+    pub kind: ThresholdKind,
+    /// Whether the places that decide on the blend come from simulated raters.
+    pub is_simulated: bool,
+}
+
+impl Seen<'_> {
+    /// What a figure of a view rests on.
+    fn source(&self, view: View) -> String {
+        let threshold = matches!(view, View::Spectrum | View::Level).then(|| strings::against(self.kind));
+        let simulated = self.is_simulated.then(|| strings::SIMULATED.to_owned());
+        threshold.into_iter().chain(simulated).collect::<Vec<_>>().join("; ")
+    }
 }
 
 impl View {
@@ -71,7 +85,13 @@ impl View {
     /// What it shows, as a figure.
     pub fn figure(self, seen: &Seen<'_>) -> Figure {
         let contact = seen.spectra.contact;
-        let title = strings::title(self, seen.texture, contact.speed.mm_per_s(), contact.force.0);
+        let title = match self {
+            Self::Spectrum => {
+                strings::spectrum_title(seen.texture, contact.speed.mm_per_s(), contact.force.0)
+            }
+            _ => strings::title(self, seen.texture),
+        };
+        let source = seen.source(self);
         let chart = |x_label: &str, x_scale: Scale, shown: [(f64, f64); 2], series: Vec<Series>| {
             Figure::Chart(Chart {
                 title: title.clone(),
@@ -81,7 +101,7 @@ impl View {
                 x_scale,
                 shown: Some(shown),
                 series,
-                source: String::new(),
+                source: source.clone(),
             })
         };
         let history = (-MOMENTS_SECS, 0.0);
@@ -95,7 +115,7 @@ impl View {
                 let shown = [(0.93 * BAND_HZ.0, 1.12 * BAND_HZ.1), DENSITY_DB];
                 chart(strings::FREQUENCY_AXIS, Scale::Logarithmic, shown, spectra(seen))
             }
-            Self::Spectrogram => Figure::Map(spectrogram(seen.buffer, title)),
+            Self::Spectrogram => Figure::Map(Map { source, ..spectrogram(seen.buffer, title) }),
             Self::Level => chart(
                 strings::TIME_AXIS,
                 Scale::Linear,
@@ -164,10 +184,11 @@ fn spectra(seen: &Seen<'_>) -> Vec<Series> {
 
 fn spectrogram(buffer: &ScopeBuffer, title: String) -> Map {
     let step_hz = buffer.moment_step_hz();
+    // A bin is as wide as the step around its frequency; that of zero says nothing.
     let n_rows = (BAND_HZ.1 / step_hz).floor() as usize;
     let n_columns = buffer.n_moments();
     let n_empty = n_columns - buffer.moments().len();
-    let rows = (0..n_rows).map(|row| {
+    let rows = (1..=n_rows).map(|row| {
         let played = buffer.moments().map(|moment| {
             let density = moment.density.get(row).copied().unwrap_or(0.0);
             (10.0 * f64::from(density).max(1e-12).log10()).max(SILENCE_DB)
@@ -179,8 +200,9 @@ fn spectrogram(buffer: &ScopeBuffer, title: String) -> Map {
         x_label: strings::TIME_AXIS.to_owned(),
         y_label: strings::FREQUENCY_AXIS.to_owned(),
         value_label: strings::DENSITY.to_owned(),
+        value_unit: strings::DENSITY_UNIT.to_owned(),
         x: (-MOMENTS_SECS, 0.0),
-        y: (0.0, n_rows as f64 * step_hz),
+        y: (0.5 * step_hz, (n_rows as f64 + 0.5) * step_hz),
         range: COLORS_DB,
         rows: rows.collect(),
         source: String::new(),
@@ -213,24 +235,35 @@ fn contacts(buffer: &ScopeBuffer) -> Vec<Series> {
     ]
 }
 
-/// The level of the blend between two frequencies, in dB re 1 m/s², by the trapezoid rule.
+/// The level of the blend between two frequencies, in dB re 1 m/s², by the trapezoid rule; at the ends the density is
+/// interpolated.
 fn band_level_db(spectra: &Spectra, low_hz: f64, high_hz: f64) -> f64 {
-    let pairs: Vec<(Hertz, f64)> =
-        spectra.frequencies.iter().copied().zip(spectra.blend.iter().copied()).collect();
-    let is_inside = |f: Hertz| (low_hz..=high_hz).contains(&f.0);
-    let power: f64 = pairs
+    let points = spectra.frequencies.iter().map(|f| f.0).zip(spectra.blend.iter().copied());
+    let points: Vec<(f64, f64)> = points.collect();
+    let power: f64 = points
         .windows(2)
-        .filter(|pair| is_inside(pair[0].0) && is_inside(pair[1].0))
-        .map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0.0 - pair[0].0.0))
+        .map(|pair| {
+            let [(f, d), (g, e)] = [pair[0], pair[1]];
+            let at = |hz: f64| d + (e - d) * (hz - f) / (g - f);
+            let (from, to) = (f.max(low_hz), g.min(high_hz));
+            if from < to { 0.5 * (at(from) + at(to)) * (to - from) } else { 0.0 }
+        })
         .sum();
     level_db(power.sqrt())
 }
 
-/// The newest level in dB re 1 m/s², and how many times stronger than the threshold that is, over half a second.
+/// The level in dB re 1 m/s² and how many times stronger than the threshold that is, over the newest half second; `None`
+/// before anything was sent.
 pub(super) fn level_now(seen: &Seen<'_>) -> Option<(f64, f64)> {
-    let newest = seen.buffer.newest(0.5).1;
-    let multiple = seen.threshold.multiple(seen.buffer.density());
-    (!newest.is_empty()).then(|| (level_db(rms(&newest)), multiple))
+    let n = (LEVEL_SECS / seen.buffer.hop_secs()).round() as usize;
+    let weights = seen.buffer.weights(seen.threshold);
+    let newest = seen.buffer.moments().rev().take(n);
+    let powers = newest.map(|moment| (moment.level_mps2.powi(2), moment.multiple(&weights).powi(2)));
+    let (mut level, mut multiple, mut n_seen) = (0.0, 0.0, 0.0);
+    for (level_power, multiple_power) in powers {
+        (level, multiple, n_seen) = (level + level_power, multiple + multiple_power, n_seen + 1.0);
+    }
+    (n_seen > 0.0).then(|| (level_db((level / n_seen).sqrt()), (multiple / n_seen).sqrt()))
 }
 
 #[cfg(test)]
@@ -278,6 +311,8 @@ mod tests {
             parents: &parents,
             texture: "Mine",
             threshold: &threshold,
+            kind: ThresholdKind::Pacinian,
+            is_simulated: true,
         };
         then(&seen)
     }
@@ -294,6 +329,7 @@ mod tests {
             let names: Vec<&str> = chart.series.iter().map(|series| series.name.as_str()).collect();
             assert_eq!(names, ["live", "Oak", "threshold", "blend (model)"]);
             assert_eq!(chart.title, "Spectrum of Mine (120 mm/s, 0.70 N)");
+            assert!(chart.source.contains("Pacinian") && chart.source.contains("simulated"));
             // A tone of a third of an octave at 100 Hz with the peak of the threshold.
             let at_100 = chart.series[2].points.iter().find(|point| point.x == 100.0).unwrap();
             let expected = 10.0 * (0.5 * 0.249_f64.powi(2) / 23.16).log10();
@@ -305,7 +341,10 @@ mod tests {
     #[test]
     fn what_is_measured_is_right() {
         with_seen(|seen| {
-            assert_eq!(View::Spectrum.measured(seen, 300.0, 200.0), "200 to 300 Hz: 0.0 dB re 1 m/s²");
+            let band = |from, to| View::Spectrum.measured(seen, from, to);
+            assert_eq!(band(300.0, 200.0), "blend (model), 200 to 300 Hz: 0.0 dB re 1 m/s²");
+            // A hundredth of it, between two frequencies of the grid.
+            assert_eq!(band(100.25, 101.25), "blend (model), 100 to 101 Hz: -20.0 dB re 1 m/s²");
             assert_eq!(View::Waveform.measured(seen, -20.0, -10.0), "10.0 ms = 100.0 Hz");
             assert_eq!(View::Level.measured(seen, -2.0, -0.5), "1.50 s");
         });
@@ -332,7 +371,7 @@ mod tests {
             let Figure::Map(map) = View::Spectrogram.figure(seen) else { panic!("a map") };
             assert_eq!((map.x, map.rows[0].len()), ((-MOMENTS_SECS, 0.0), seen.buffer.n_moments()));
             let newest = map.cells().filter(|(x, ..)| *x > -0.1).max_by(|a, b| a.2.total_cmp(&b.2)).unwrap();
-            assert!((newest.1 - 100.0).abs() < 8.0, "{newest:?}");
+            assert!((newest.1 - 100.0).abs() <= 0.5 * seen.buffer.moment_step_hz(), "{newest:?}");
             let before = map.cells().filter(|(x, ..)| *x < -2.5).all(|(.., value)| value <= -60.0);
             assert!(before, "nothing was played before");
         });

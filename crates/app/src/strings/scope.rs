@@ -15,7 +15,7 @@ pub const FREEZE_HELP: &str = "Hold what the scope shows, to measure or save it;
 /// The menu of thresholds.
 pub const THRESHOLD: &str = "Threshold";
 /// What it does.
-pub const THRESHOLD_HELP: &str = "What can just be felt, that level and spectrum are seen against. These are reference values, good to about 3 dB, not measurements of you.";
+pub const THRESHOLD_HELP: &str = "What can just be felt, that level and spectrum are seen against. These are approximate curves of the literature, to 3 dB or so, not measurements of you or of your actuator.";
 /// The menus of files.
 pub const SAVE: &str = "Save";
 /// Accessible names of the two menus of files.
@@ -23,7 +23,7 @@ pub const SAVES: [&str; 2] = ["Save the left view", "Save the right view"];
 /// What they do.
 pub const SAVE_HELP: &str = "Save what is shown here as a picture or as numbers.";
 /// The series of the waveform.
-pub const PLAYED: &str = "played";
+pub const PLAYED: &str = "sent";
 /// The blend's line in the spectrum.
 pub const BLEND_LINE: &str = "blend (model)";
 /// The measured line in the spectrum.
@@ -45,9 +45,11 @@ pub const TIME_AXIS: &str = "time in s";
 /// Horizontal axis of short times.
 pub const SHORT_TIME_AXIS: &str = "time in ms";
 /// A value of the spectrogram.
-pub const DENSITY: &str = "density in dB";
-/// Nothing has been played yet.
-pub const NOTHING: &str = "Nothing has been played yet.";
+pub const DENSITY: &str = "density";
+/// Its unit.
+pub const DENSITY_UNIT: &str = "dB re 1 (m/s²)²/Hz";
+/// The places that decide on what is shown are those of simulated raters.
+pub const SIMULATED: &str = "in a space of simulated raters";
 
 /// The name of a threshold.
 pub fn threshold(kind: ThresholdKind) -> &'static str {
@@ -62,7 +64,7 @@ pub fn threshold(kind: ThresholdKind) -> &'static str {
 pub fn threshold_help(kind: ThresholdKind) -> &'static str {
     match kind {
         ThresholdKind::HeldTool => {
-            "What a hand feels that holds a vibrating tool: 15 dB less than bare skin needs. For a stylus."
+            "For a stylus: what bare skin needs, less 15 dB, which is a rule of thumb for a hand around a vibrating tool"
         }
         ThresholdKind::Pacinian => {
             "What bare skin feels on a large contactor, by the channel that serves high frequencies"
@@ -93,22 +95,52 @@ pub fn unit(view: View) -> &'static str {
     }
 }
 
+/// The unit of the level axis of a view, as it stands behind a number.
+pub fn x_unit(view: View) -> &'static str {
+    match view {
+        View::Waveform => "ms",
+        View::Spectrum => "Hz",
+        View::Spectrogram | View::Level | View::Contact => "s",
+    }
+}
+
+/// A place in the spectrogram.
+pub fn place(secs: f64, hz: f64) -> String {
+    format!("{secs:.2} s, {hz:.0} Hz")
+}
+
 /// What a view shows.
 pub fn view_help(view: View) -> &'static str {
     match view {
-        View::Waveform => "What the tip does: acceleration over the last quarter of a second",
-        View::Spectrum => {
-            "The neighbors in their colors, the blend of them, and what was played; with what can just be felt, as a noise a third of an octave wide"
+        View::Waveform => {
+            "The acceleration that is sent to the output, before mute and limits, over the last quarter of a second"
         }
-        View::Spectrogram => "The spectrum over the last five seconds",
-        View::Level => "How strong it is, and how far above what can just be felt",
+        View::Spectrum => {
+            "The neighbors in their colors and the blend of them by their models, and what is sent to the output; with what can just be felt, as a noise a third of an octave wide"
+        }
+        View::Spectrogram => {
+            "The spectrum of what was sent to the output over the last five seconds; lighter is stronger, from -60 to 0 dB re 1 (m/s²)²/Hz"
+        }
+        View::Level => {
+            "How strong what is sent to the output is, before mute and limits, and how far above what can just be felt"
+        }
         View::Contact => "How fast and how hard the tip stroked; 100 cN are 1 N",
     }
 }
 
+/// The title of the figure of the spectra at one contact.
+pub fn spectrum_title(texture: &str, mm_per_s: f64, force_n: f64) -> String {
+    format!("{} ({mm_per_s:.0} mm/s, {force_n:.2} N)", title(View::Spectrum, texture))
+}
+
 /// The title of a figure.
-pub fn title(view: View, texture: &str, mm_per_s: f64, force_n: f64) -> String {
-    format!("{} of {texture} ({mm_per_s:.0} mm/s, {force_n:.2} N)", self::view(view))
+pub fn title(view: View, texture: &str) -> String {
+    format!("{} of {texture}", self::view(view))
+}
+
+/// Which threshold a figure is seen against.
+pub fn against(kind: ThresholdKind) -> String {
+    format!("threshold: {}, approximate", threshold(kind))
 }
 
 /// The newest level.
@@ -119,7 +151,6 @@ pub fn level_now(level_db: f64, multiple: f64) -> String {
 /// A multiple of the threshold.
 pub fn times(multiple: f64) -> String {
     match multiple {
-        m if m < 0.95 => format!("{m:.1} × threshold: not felt"),
         m if m < 9.95 => format!("{m:.1} × threshold"),
         m => format!("{m:.0} × threshold"),
     }
@@ -137,7 +168,7 @@ pub fn between_times(from_secs: f64, to_secs: f64) -> String {
 
 /// What lies between two frequencies, in Hz, and the level of the blend there.
 pub fn between_frequencies(low_hz: f64, high_hz: f64, level_db: f64) -> String {
-    format!("{low_hz:.0} to {high_hz:.0} Hz: {level_db:.1} dB re 1 m/s²")
+    format!("{BLEND_LINE}, {low_hz:.0} to {high_hz:.0} Hz: {level_db:.1} dB re 1 m/s²")
 }
 
 /// A value under the pointer.

@@ -3,10 +3,11 @@
 /// The entry of the menu.
 pub const EXPORT: &str = "Export as WAV…";
 /// What that does.
-pub const EXPORT_HELP: &str =
-    "What is heard, stroked for 5 s at the speed and force of the hand, as samples in m/s²";
+pub const EXPORT_HELP: &str = "What is heard, stroked steadily for 5 s, as samples in m/s²";
 /// Nothing can be exported.
 pub const NOTHING: &str = "Nothing is heard that may be shown";
+/// What is to be exported is not ready.
+pub const PREPARING: &str = "What is to be exported is still being prepared; try again in a moment";
 /// The title of the sheet that saves a signal.
 pub const SAVE_TITLE: &str = "Export as WAV";
 /// Accessible name of the field for its path.
@@ -21,6 +22,6 @@ pub const NO_SIGNAL: &str = "Choose another path: what is there, or the .json be
 /// What is saved.
 pub fn to_save(secs: f64, mm_per_s: f64, force_n: f64, rate_hz: u32) -> String {
     format!(
-        "{secs:.0} s at {mm_per_s:.0} mm/s and {force_n:.2} N (set them beside the pad) go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s²; the .json beside it says what was rendered."
+        "{secs:.0} s, stroked steadily at {mm_per_s:.0} mm/s and {force_n:.2} N as the hand is set (a recorded stroke by its mean), go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s²; the .json beside it says what was rendered."
     )
 }

@@ -65,8 +65,7 @@ pub const RENAME_HELP: &str = "Another name in this project; the file of the lib
 /// Makes a copy.
 pub const DUPLICATE: &str = "Duplicate";
 /// What that does.
-pub const DUPLICATE_HELP: &str =
-    "A copy at the same place joins the project, with a name of its own and under the same terms.";
+pub const DUPLICATE_HELP: &str = "A copy joins the project, with a name of its own and under the same terms. It is at the same place, unless a space that was built is in use: that does not know it.";
 /// Takes a texture away.
 pub const REMOVE: &str = "Remove";
 /// What that does.
@@ -214,7 +213,7 @@ pub fn range(low: &str, high: &str, unit: &str) -> String {
 
 /// A landing.
 pub fn landing(frequency_hz: f64, decay_per_s: f64) -> String {
-    format!("{frequency_hz:.0} Hz, fades within {:.0} ms", 1e3 / decay_per_s)
+    format!("{frequency_hz:.0} Hz, falls to a third in about {:.0} ms", 1e3 / decay_per_s)
 }
 
 /// A level.

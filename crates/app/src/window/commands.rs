@@ -82,12 +82,7 @@ impl Window {
                 Err(error) => self.session.say(error.to_string()),
             },
             Command::ToggleFreeze => {
-                let panel = Panel {
-                    project: &self.project,
-                    session: &self.session,
-                    compare: &self.compare,
-                    pictures: &self.pictures,
-                };
+                let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                 self.scope.toggle_freeze(&panel);
             }
             Command::SetRig(rig) => {

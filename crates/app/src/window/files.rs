@@ -17,6 +17,7 @@ use crate::gallery_sheet::GallerySheet;
 use crate::history::History;
 use crate::leaving::Leave;
 use crate::open_sheet::OpenSheet;
+use crate::panel::Panel;
 use crate::save::SaveSheet;
 use crate::sheets::Sheet;
 use crate::strings;
@@ -63,13 +64,16 @@ impl Window {
             FileCommand::SaveAs => self.ask_where_to_save(),
             FileCommand::SaveTo(path) => self.files.document.save(&self.project, path, ctx),
             FileCommand::ExportSignal => {
-                let signal = self.session.signal(&self.project, self.pad.contact(&self.session));
-                let name =
-                    self.heard_texture().map_or_else(String::new, |texture| id_from_name(&texture.name));
-                let path = self.usual_folder().join(name).with_extension("wav");
-                match signal {
-                    Some(signal) => self.sheet = Sheet::Save(SaveSheet::signal(signal, &path)),
-                    None => self.session.say(strings::signal::NOTHING.to_owned()),
+                let compared = self.compared_texture();
+                let contact = self.pad.contact(&self.session);
+                match self.session.signal(&self.project, compared.as_deref(), contact) {
+                    Ok(signal) => {
+                        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+                        let name = id_from_name(&panel.heard_name());
+                        let path = self.usual_folder().join(name).with_extension("wav");
+                        self.sheet = Sheet::Save(SaveSheet::signal(signal, &path));
+                    }
+                    Err(reason) => self.session.say(reason),
                 }
             }
             FileCommand::KeepLibraryInside => {

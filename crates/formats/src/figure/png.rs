@@ -28,7 +28,7 @@ pub enum PngError {
 /// A figure as PNG, two pixels for each of its SVG.
 ///
 /// # Errors
-/// [`PngError`] where there is no memory for the pixels.
+/// [`PngError`] where the SVG is not understood, or there is no memory for its pixels or their file.
 pub fn figure_png(figure: &Figure) -> Result<Vec<u8>, PngError> {
     let mut fonts = fontdb::Database::new();
     fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());

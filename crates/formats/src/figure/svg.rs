@@ -233,7 +233,7 @@ fn draw_map(page: &Page<'_>, map: &Map, title: &str) -> Drawn {
     for (value, y) in [(map.range.1, top), (map.range.0, top + height - 12)] {
         key.draw_text(&format!("{value}"), &text(12.0, INK), (32, y))?;
     }
-    for (line, part) in (0..).zip(map.value_label.split(" in ")) {
+    for (line, part) in (0..).zip([&map.value_label, &map.value_unit]) {
         key.draw_text(part, &text(12.0, WEAK), (8, top + height + 8 + 16 * line))?;
     }
     Ok(())
