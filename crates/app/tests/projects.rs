@@ -432,7 +432,7 @@ fn the_scale_is_remembered() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("settings.json");
     let keeping = Keeping { settings: Some(settings.clone()), ..Keeping::default() };
-    for (before, after) in [("1.5", 1.5), ("40.0", 2.5)] {
+    for (before, after) in [("1.5", 1.5), ("40.0", 1.8)] {
         std::fs::write(&settings, format!(r#"{{"has_seen_tour": true, "scale": {before}}}"#)).unwrap();
         let harness = author_of(Begin { keeping: keeping.clone(), ..begin(new_project()) }, [1920.0, 1080.0]);
         assert_eq!(harness.ctx.zoom_factor(), after);

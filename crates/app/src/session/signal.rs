@@ -36,8 +36,8 @@ impl Session {
             label_source: self.common_source().map(|source| LabelSource::id(source).to_owned()),
             trace: TraceV1 {
                 time_s: vec![0.0, SIGNAL_SECS],
-                speed_mm_per_s: vec![contact.speed.mm_per_s(); 2],
-                force_n: vec![contact.force.0; 2],
+                speed_mm_per_s: vec![as_set(contact.speed.mm_per_s()); 2],
+                force_n: vec![as_set(contact.force.0); 2],
             },
             ..SidecarV1::new(SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, CREATED_BY)
         };
@@ -87,4 +87,10 @@ impl Session {
         parents.sort_by(|a, b| b.1.total_cmp(&a.1));
         parents
     }
+}
+
+/// A number of the hand as somebody set it: the hand has it in `f32`.
+fn as_set(value: f64) -> f64 {
+    let thousandths = f64::from(value as f32) * 1e3;
+    thousandths.round() / 1e3
 }
