@@ -116,7 +116,8 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     }
     let color = if is_selected { t.on_chosen } else { t.text };
     let mut name = ui.new_child(egui::UiBuilder::new().max_rect(room));
-    name.add(Label::new(RichText::new(&texture.name).color(color)).truncate().selectable(false));
+    let shown = if texture.name.trim().is_empty() { words::UNNAMED } else { &texture.name };
+    name.add(Label::new(RichText::new(shown).color(color)).truncate().selectable(false));
     if response.clicked() {
         commands.push(Command::Edit(Edit::Select(texture.key)));
     }

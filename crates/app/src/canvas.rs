@@ -64,6 +64,9 @@ pub struct CanvasState {
     bar_height: f32,
 }
 
+/// Width of the canvas below which a path's controls take a second row, in points: its room is there before the first point
+/// of a path is, so that nothing moves while points are placed.
+const WRAPPING_WIDTH: f32 = 900.0;
 /// Height of one row of controls, in points.
 const BAR_ROW: f32 = 25.0;
 
@@ -82,7 +85,9 @@ pub fn canvas_ui(
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
     // What controls there are more than fit into a row covers no texture.
-    let top = 40.0 + (state.bar_height - BAR_ROW).max(0.0);
+    let may_wrap = state.tool.is_on && outer.width() < WRAPPING_WIDTH;
+    let bar_height = if may_wrap { state.bar_height.max(2.0 * BAR_ROW) } else { state.bar_height };
+    let top = 40.0 + (bar_height - BAR_ROW).max(0.0);
     let rect = Rect::from_min_max(outer.min + vec2(36.0, top), outer.max - vec2(36.0, 48.0));
     state.view = follow_view(ui, Axes { rect, view: state.view }, &background);
     let axes = Axes { rect, view: state.view };

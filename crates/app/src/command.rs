@@ -42,6 +42,8 @@ pub enum Command {
     ToggleMute,
     /// Change between the dark and the light theme.
     ToggleTheme,
+    /// The message at the foot was read.
+    DismissMessage,
     /// Look for outputs again.
     ListOutputs,
     /// Open the output with this identity.

@@ -3,11 +3,12 @@
 //! A and B are two textures; X is one of the two, drawn anew for every answer. Of a number of answers, how likely so many
 //! are right by chance is told. In a blind comparison A and B are exchanged or not by chance, until they are revealed.
 
+use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use shagreen_core::rng::Random;
 use shagreen_core::statistics::binomial_upper_tail;
-use shagreen_formats::project::Project;
+use shagreen_formats::project::{AuthoredTexture, Project};
 
 /// One of what is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,11 +48,16 @@ pub enum CompareCommand {
     Answer(Side),
 }
 
+/// A texture that is compared, where there is one.
+type Compared = Option<Arc<AuthoredTexture>>;
+
 /// A comparison: what is on which side, what is heard, and what was answered.
 #[derive(Clone, Debug)]
 pub struct Compare {
     /// Keys of the two textures.
     keys: [u32; 2],
+    /// The textures of these keys, as they were in the last frame.
+    compared: [Compared; 2],
     heard: Option<Side>,
     is_blind: bool,
     /// Whether A sounds as B and the other way round.
@@ -69,6 +75,7 @@ impl Compare {
         let x_is_a = random.uniform() < 0.5;
         Self {
             keys: [0, 0],
+            compared: [None, None],
             heard: None,
             is_blind: false,
             is_swapped: false,
@@ -86,7 +93,18 @@ impl Compare {
     }
 
     /// Sees to it that both sides are there: textures that are gone make room for the first ones that are not compared.
+    /// Answers about a texture that has changed since are forgotten.
     pub fn follow(&mut self, project: &Project) {
+        let texture = |key: u32| project.authored.iter().find(|texture| texture.key == key).cloned();
+        let compared = self.keys.map(texture);
+        let is_same = |(before, now): (&Compared, &Compared)| match (before, now) {
+            (Some(before), Some(now)) => before.sounds_like(now),
+            (before, now) => before.is_none() && now.is_none(),
+        };
+        if !self.compared.iter().zip(&compared).all(is_same) {
+            self.forget_answers();
+        }
+        self.compared = compared;
         let is_there = |key: u32| project.authored.iter().any(|texture| texture.key == key);
         if self.keys.iter().all(|key| is_there(*key)) && self.keys[0] != self.keys[1] {
             return;
@@ -199,6 +217,7 @@ mod tests {
     use super::{Compare, CompareCommand, Side};
     use crate::edit::{Edit, edited};
     use crate::window::new_project;
+    use shagreen_core::space::SpacePoint;
     use shagreen_formats::project::{AuthoredTexture, Project};
 
     /// A project of three authored textures, of keys 1, 2 and 3.
@@ -255,6 +274,20 @@ mod tests {
         assert!(compare.chance() < 1e-20);
         compare.carry_out(CompareCommand::Assign(Side::B, 3));
         assert_eq!((compare.answers(), compare.chance()), ((0, 0), 1.0), "others are compared now");
+    }
+
+    /// Answers belong to two sounds: a name may change, a place may not.
+    #[test]
+    fn answers_about_another_sound_are_forgotten() {
+        let mut compare = compare(3);
+        compare.follow(&three());
+        compare.carry_out(CompareCommand::Answer(Side::A));
+        let renamed = edited(&edited(&three(), Edit::Select(1)), Edit::Rename("Other".to_owned()));
+        compare.follow(&renamed);
+        assert_eq!(compare.answers().0, 1);
+        let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
+        compare.follow(&edited(&renamed, Edit::MovePoint(at)));
+        assert_eq!(compare.answers().0, 0);
     }
 
     /// What X sounds like is what is answered, also where A and B have been exchanged.

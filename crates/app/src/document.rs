@@ -104,7 +104,12 @@ impl Document {
     /// Compares the project with what is on the disk, where its `revision` has changed.
     pub(crate) fn follow(&mut self, project: &Project, revision: u64) {
         if self.revision != Some(revision) {
-            self.is_changed = self.on_disk.as_ref() != Some(project);
+            // What is selected and heard alone is looked at, not made: nobody is asked to save it.
+            let is_on_disk = |on_disk: &Project| {
+                let (selected, solo) = (project.selected, project.solo.clone());
+                *project == Project { selected, solo, ..on_disk.clone() }
+            };
+            self.is_changed = !self.on_disk.as_ref().is_some_and(is_on_disk);
             self.revision = Some(revision);
         }
     }

@@ -26,6 +26,8 @@ pub(crate) struct MenuState<'a> {
     pub(crate) document: &'a Document,
     /// Projects that were open.
     pub(crate) settings: &'a Settings,
+    /// Whether something is heard that may be shown.
+    pub(crate) can_export: bool,
 }
 
 /// What came of the menu.
@@ -52,7 +54,9 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         commands.extend(entry(ui, strings::SAVE, &Command::File(FileCommand::Save)).asked);
         commands.extend(entry(ui, strings::SAVE_AS, &Command::File(FileCommand::SaveAs)).asked);
         let export = Command::File(FileCommand::ExportSignal);
-        commands.extend(entry(ui, signal::EXPORT, &export).on_hover(signal::EXPORT_HELP));
+        ui.add_enabled_ui(files.can_export, |ui| {
+            commands.extend(entry(ui, signal::EXPORT, &export).on_hover(signal::EXPORT_HELP));
+        });
         ui.separator();
         let open = files.document.path();
         let is_template = open.is_some() && files.settings.template.as_deref() == open;

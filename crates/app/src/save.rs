@@ -12,7 +12,7 @@ use egui::{Button, Context, Key, Label, RichText, TextEdit, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
-use shagreen_formats::project::{Project, ProjectError, ProjectLibrary, read_project};
+use shagreen_formats::project::{EXTENSION, Project, ProjectError, ProjectLibrary, read_project};
 
 use crate::background::in_background;
 use crate::command::{Command, FileCommand};
@@ -236,7 +236,8 @@ impl SaveSheet {
             Subject::Signal(file) => Content::Signal(file.clone()),
             Subject::Project(_) => Content::Project,
         };
-        let path = PathBuf::from(path);
+        let path = self.subject.completed(path);
+        self.path = path.display().to_string();
         self.state = State::Saving(in_background(ctx.clone(), move || write(&path, &content, replaces)));
     }
 
@@ -256,6 +257,27 @@ impl SaveSheet {
         };
         // A field that was disabled has lost the keyboard.
         self.is_focused = false;
+    }
+}
+
+impl Subject {
+    /// The path as it is written to: told from every folder alike, with the home folder where it begins with one, and with
+    /// the ending of such files where it has none.
+    fn completed(&self, path: &str) -> PathBuf {
+        let path = match path.strip_prefix("~/").zip(std::env::home_dir()) {
+            Some((rest, home)) => home.join(rest),
+            None => PathBuf::from(path),
+        };
+        let ending = match self {
+            Self::Library => "json",
+            Self::Figure(figure) => figure.format.ending(),
+            Self::Stroke(_) => "csv",
+            Self::Signal(_) => "wav",
+            Self::Project(_) => EXTENSION,
+        };
+        let path =
+            if path.extension().is_none() && !path.is_dir() { path.with_extension(ending) } else { path };
+        std::path::absolute(&path).unwrap_or(path)
     }
 }
 
@@ -315,7 +337,7 @@ fn is_project(bytes: &[u8]) -> Result<(), String> {
 fn refusal(path: &Path, content: &Content) -> Option<String> {
     let bytes = match path.metadata() {
         // A pipe or device would be read for ever.
-        Ok(metadata) if !metadata.is_file() => return Some(strings::no_library(strings::NO_FILE)),
+        Ok(metadata) if !metadata.is_file() => return Some(document::NO_FILE.to_owned()),
         Ok(_) => std::fs::read(path),
         Err(error) => Err(error),
     };
@@ -327,8 +349,25 @@ fn refusal(path: &Path, content: &Content) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Content, Outcome, write};
+    use super::{Content, Outcome, Subject, write};
     use shagreen_formats::library::{Library, read_library};
+
+    #[test]
+    fn a_path_is_completed() {
+        let folder = tempfile::tempdir().unwrap();
+        let completed =
+            |name: &str| Subject::Library.completed(&folder.path().join(name).display().to_string());
+        assert_eq!(completed("mine"), folder.path().join("mine.json"));
+        assert_eq!(completed("mine.txt"), folder.path().join("mine.txt"));
+        assert_eq!(completed(""), folder.path().join(""), "a folder stays one, and is refused");
+        assert!(Subject::Library.completed("mine").is_absolute());
+        let at_home = Subject::Library.completed("~/mine");
+        assert!(
+            at_home.is_absolute()
+                && at_home.ends_with("mine.json")
+                && !at_home.display().to_string().contains('~')
+        );
+    }
 
     #[test]
     fn only_a_library_is_replaced_and_only_when_that_was_said() {

@@ -22,6 +22,8 @@ use crate::theme::{GAP, tokens};
 
 /// Share of the width that the left view has.
 const LEFT_SHARE: f32 = 0.45;
+/// Width that the menu of thresholds needs, in points.
+const THRESHOLD_WIDTH: f32 = 96.0;
 /// Width of the choice of views, in points.
 const CHOICE_WIDTH: f32 = 112.0;
 
@@ -114,7 +116,7 @@ pub fn scope_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut ScopeState) -> Vec<C
         texture: &held.texture,
         ..live
     });
-    let (width, height) = (ui.available_width() - GAP, ui.available_height());
+    let (width, height) = ((ui.available_width() - GAP).max(0.0), ui.available_height().max(0.0));
     ui.horizontal_top(|ui| {
         for (side, share) in [(0, LEFT_SHARE), (1, 1.0 - LEFT_SHARE)] {
             let top_down = Layout::top_down(Align::Min);
@@ -145,7 +147,8 @@ fn view_ui(
             if side == 1 {
                 commands.extend(freeze_ui(ui, is_frozen));
             }
-            if matches!(view, View::Spectrum | View::Level) {
+            // In a narrow window the other view, or a wider one, has room for it.
+            if matches!(view, View::Spectrum | View::Level) && ui.available_width() > THRESHOLD_WIDTH {
                 threshold_ui(ui, state);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
@@ -179,13 +182,18 @@ fn choice_ui(ui: &mut Ui, state: &mut ScopeState, side: usize) {
 fn said_ui(ui: &mut Ui, view: View, span: Option<Span>, seen: &Seen<'_>) {
     let t = tokens(ui.ctx());
     let now = if view == View::Level { level_now(seen) } else { None };
-    let (text, color) = match (span, now) {
-        (Some(span), _) => (view.measured(seen, span.from, span.to), t.text),
-        (None, Some((level_db, multiple))) => (words::level_now(level_db, multiple), t.text),
-        (None, None) => (words::unit(view).to_owned(), t.text_weak),
+    let (text, help, color) = match (span, now) {
+        (Some(span), _) => {
+            let measured = view.measured(seen, span.from, span.to);
+            (measured.clone(), format!("{measured}\n{}", words::measured_help(view)), t.text)
+        }
+        (None, Some((level_db, multiple))) => {
+            (words::level_now(level_db, multiple), words::level_now_in_full(level_db, multiple), t.text)
+        }
+        (None, None) => (words::unit(view).to_owned(), words::view_help(view).to_owned(), t.text_weak),
     };
-    ui.add(Label::new(RichText::new(text).small().color(color)).truncate().selectable(false))
-        .on_hover_text(words::view_help(view));
+    let label = Label::new(RichText::new(text).small().color(color)).truncate().selectable(false);
+    ui.add(label.show_tooltip_when_elided(false)).on_hover_text(help);
 }
 
 /// The menu of thresholds.

@@ -532,6 +532,11 @@ impl Session {
         &self.authoring
     }
 
+    /// What was said at the foot was read.
+    pub fn forget_message(&mut self) {
+        self.player.message = None;
+    }
+
     /// Says at the foot what is wrong.
     pub fn say(&mut self, message: String) {
         self.player.message = Some(message);

@@ -1,6 +1,6 @@
 //! The line at the foot of the window: what is driven, how late, and whether anything is wrong.
 
-use egui::{ComboBox, Label, RichText, Ui};
+use egui::{ComboBox, Label, RichText, Sense, Ui};
 use shagreen_device::status::LinkState;
 
 use crate::command::Command;
@@ -54,8 +54,14 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             }
             weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
             for message in [session.output_message(), session.pen_message()].into_iter().flatten() {
-                let label = Label::new(RichText::new(message).color(t.error)).truncate();
-                ui.add(label).on_hover_text(message);
+                let label = Label::new(RichText::new(message).color(t.error))
+                    .truncate()
+                    .show_tooltip_when_elided(false)
+                    .sense(Sense::click());
+                let help = format!("{message}\n{}", strings::DISMISS);
+                if ui.add(label).on_hover_text(help).clicked() {
+                    commands.push(Command::DismissMessage);
+                }
             }
         });
     });

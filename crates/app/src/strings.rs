@@ -117,6 +117,8 @@ pub const HAND_SPEED: &str = "Speed of the hand";
 pub const HAND_FORCE: &str = "Force of the hand";
 /// Accessible name of the choice of paths.
 pub const HAND_PATH: &str = "Path of the hand";
+/// How a message at the foot goes away.
+pub const DISMISS: &str = "Click to take this message away.";
 /// On the button that lets a neighbor be heard alone.
 pub const SOLO: &str = "S";
 /// What that does.

@@ -1,6 +1,8 @@
 //! The first steps: four places of the window with a word to each, which do not stand in the way.
 
-use egui::{Area, Context, Id, LayerId, Order, Pos2, Rect, RichText, Stroke, StrokeKind, vec2};
+use egui::{
+    Area, Context, Id, Key, LayerId, Modifiers, Order, Pos2, Rect, RichText, Stroke, StrokeKind, vec2,
+};
 
 use crate::strings::help as strings;
 use crate::theme::{GAP, RADIUS, tokens};
@@ -84,6 +86,15 @@ impl Tour {
                 });
             });
         });
+        // Nothing that is written into waits for these keys.
+        if !ctx.text_edit_focused() {
+            let is_pressed = |key| ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key));
+            if is_pressed(Key::Escape) {
+                next = None;
+            } else if is_pressed(Key::Enter) {
+                next = (index + 1 < Step::ALL.len()).then_some(index + 1);
+            }
+        }
         self.step = next;
         next.is_none()
     }

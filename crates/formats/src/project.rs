@@ -213,6 +213,11 @@ impl BlendChoice {
 }
 
 impl AuthoredTexture {
+    /// Whether another one is heard as this one is, whatever it is called and looks like.
+    pub fn sounds_like(&self, other: &Self) -> bool {
+        (self.at, &self.blend, &self.path) == (other.at, &other.blend, &other.path)
+    }
+
     /// A texture at the middle of the space, with the first color.
     pub fn new(key: u32, name: &str) -> Self {
         Self {

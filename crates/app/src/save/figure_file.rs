@@ -43,7 +43,7 @@ impl FigureFormat {
     }
 
     /// The ending of the names of its files.
-    fn ending(self) -> &'static str {
+    pub(super) fn ending(self) -> &'static str {
         match self {
             Self::Svg => "svg",
             Self::Png => "png",

@@ -22,7 +22,7 @@ pub const DETAILS_HELP: &str = "Color, tags and notes of this texture";
 /// The field for tags.
 pub const TAGS: &str = "Tags";
 /// What the field takes.
-pub const TAGS_HINT: &str = "wood, dry";
+pub const TAGS_HINT: &str = "none yet; such as: wood, dry";
 /// The field for notes.
 pub const NOTES: &str = "Notes";
 /// What the field takes.
@@ -45,6 +45,8 @@ pub const TAKE_PICTURE_AWAY: &str = "Take away";
 /// What snapshots are.
 pub const SNAPSHOTS_HELP: &str =
     "States to come back to: place, blend, path and picture. Right-click for more.";
+/// Stands for a name that is empty.
+pub const UNNAMED: &str = "(no name)";
 /// Keeps a state.
 pub const KEEP: &str = "Snapshot";
 /// What that does.

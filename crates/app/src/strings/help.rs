@@ -36,18 +36,18 @@ pub fn step(step: Step) -> [&'static str; 2] {
         ],
         Step::Stroke => [
             "Feel it",
-            "Stroke the picture with the mouse or a pen, or press Stroke and the hand does it. Devices… says where it plays: \
+            "Stroke the large picture here with the mouse or a pen, or press Stroke and the hand does it. Devices… says where it plays: \
              to headphones at first, to a voice coil when you have one.",
         ],
         Step::Blend => [
             "See what it is made of",
-            "Name it here, set its place in numbers, and see the real textures around it with their shares. A lock meets one \
-             exactly.",
+            "Name it here, set its place in numbers, and see the textures that say most about it with their shares. S lets one \
+             of them be heard alone.",
         ],
         Step::Keep => [
             "Keep it",
-            "File saves the project, opens others and the gallery. Add makes another texture to compare with. Everything can \
-             be undone.",
+            "File saves the project, exports what you hear as WAV, and opens the gallery. Add, below, makes another texture to \
+             compare with. Everything can be undone.",
         ],
     }
 }

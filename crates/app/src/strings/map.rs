@@ -13,7 +13,7 @@ pub fn name(quantity: Option<Quantity>) -> &'static str {
         None => "No map",
         Some(Quantity::Level) => "Level",
         Some(Quantity::Centroid) => "Spectral centroid",
-        Some(Quantity::Roughness) => "Predicted roughness",
+        Some(Quantity::Roughness) => "Predicted place",
         Some(Quantity::Distance) => "Thin places",
     }
 }
@@ -29,7 +29,7 @@ pub fn help(quantity: Option<Quantity>) -> &'static str {
             "Where the middle of the spectrum lies between 20 and 500 Hz at the speed and force of the hand, by the model"
         }
         Some(Quantity::Roughness) => {
-            "The place along the first axis that level and centroid alone predict: where it differs from the axis, vibration \
+            "The place along the first axis (0 is its left end, in this space the rough one) that level and centroid alone predict: where it differs from the axis, vibration \
              does not tell the whole. A prediction from signals, no rating"
         }
         Some(Quantity::Distance) => {
@@ -44,7 +44,8 @@ pub fn value(quantity: Quantity, value: f64) -> String {
         // Rounded first, so that nothing reads "-0 dB".
         Quantity::Level => format!("{:.0} dB", value.round() + 0.0),
         Quantity::Centroid => format!("{value:.0} Hz"),
-        Quantity::Roughness | Quantity::Distance => format!("{:.0}", value.round() + 0.0),
+        Quantity::Roughness => format!("{:.0} of 100", value.round() + 0.0),
+        Quantity::Distance => format!("{:.0} points", value.round() + 0.0),
     }
 }
 

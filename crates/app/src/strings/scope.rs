@@ -143,16 +143,30 @@ pub fn against(kind: ThresholdKind) -> String {
     format!("threshold: {}, approximate", threshold(kind))
 }
 
-/// The newest level.
+/// The newest level, and how many times stronger than the threshold it is.
 pub fn level_now(level_db: f64, multiple: f64) -> String {
-    format!("{level_db:.0} dB · {}", times(multiple))
+    format!("{level_db:.0} dB · {}×", times(multiple))
+}
+
+/// The same in full.
+pub fn level_now_in_full(level_db: f64, multiple: f64) -> String {
+    format!(
+        "{level_db:.1} dB re 1 m/s² over the last half second: {} times what can just be felt (approximate)",
+        times(multiple)
+    )
 }
 
 /// A multiple of the threshold.
-pub fn times(multiple: f64) -> String {
-    match multiple {
-        m if m < 9.95 => format!("{m:.1} × threshold"),
-        m => format!("{m:.0} × threshold"),
+fn times(multiple: f64) -> String {
+    if multiple < 9.95 { format!("{multiple:.1}") } else { format!("{multiple:.0}") }
+}
+
+/// What a measured span says.
+pub fn measured_help(view: View) -> &'static str {
+    match view {
+        View::Spectrum => "The level of the blend (model) between two frequencies, in dB re 1 m/s²",
+        View::Waveform => "The time between two moments, and the frequency with that period",
+        View::Spectrogram | View::Level | View::Contact => "The time between two moments",
     }
 }
 
@@ -168,7 +182,7 @@ pub fn between_times(from_secs: f64, to_secs: f64) -> String {
 
 /// What lies between two frequencies, in Hz, and the level of the blend there.
 pub fn between_frequencies(low_hz: f64, high_hz: f64, level_db: f64) -> String {
-    format!("{BLEND_LINE}, {low_hz:.0} to {high_hz:.0} Hz: {level_db:.1} dB re 1 m/s²")
+    format!("blend {low_hz:.0}–{high_hz:.0} Hz: {level_db:.1} dB")
 }
 
 /// A value under the pointer.

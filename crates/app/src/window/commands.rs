@@ -65,6 +65,7 @@ impl Window {
                 self.files.settings.is_light = Some(dark);
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
+            Command::DismissMessage => self.session.forget_message(),
             Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => {
                 self.asked_output = Some(id.clone());
