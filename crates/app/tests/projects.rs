@@ -366,7 +366,12 @@ fn the_first_steps_are_shown_once() {
 fn the_keys_are_shown_and_each_is_named() {
     let mut harness = author();
     harness.key_press(Key::F1);
-    harness.run_steps(3);
+    harness.run_steps(6);
+    let close = harness.get_by_label(help::CLOSE).rect();
+    assert!(
+        close.bottom() < SIZE[1] && harness.get_by_label(help::SHORTCUTS).rect().top() > 0.0,
+        "{close:?}"
+    );
     for command in shagreen_app::command::WITH_KEYS {
         let label = command.label().expect("every command with a key says what it does");
         assert!(says(&harness, label), "{label}");
