@@ -15,7 +15,7 @@ use crate::libraries;
 use crate::library_filter::{Candidate, Filter, listed};
 use crate::panel::Panel;
 use crate::strings::{self, textures as words};
-use crate::texture_row::texture_row;
+use crate::texture_row::{ROW, texture_row};
 use crate::theme::{GAP, tokens};
 
 /// Width of the menu of libraries, in points.
@@ -39,6 +39,9 @@ pub struct LibraryState {
     pub(crate) reveal: Option<usize>,
 }
 
+/// Textures up to which all rows are there, for the keyboard and a screen reader to go through.
+const MOST_ROWS: usize = 200;
+
 impl LibraryState {
     /// Clears search and filter.
     pub(crate) fn show_all(&mut self) {
@@ -58,16 +61,29 @@ pub fn library_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut LibraryState) -> V
     search_ui(ui, panel, state);
     let found = found(panel, state);
     count_ui(ui, panel, found.len());
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        for texture in &found {
-            let is_new = state.reveal.take_if(|wanted| *wanted == *texture).is_some();
-            commands.extend(texture_row(ui, panel, *texture, is_new));
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let mut area = ScrollArea::vertical().auto_shrink(false);
+    if found.is_empty() {
+        area.show(ui, |ui| nothing_ui(ui, panel, state));
+    } else if found.len() <= MOST_ROWS {
+        area.show(ui, |ui| {
+            for texture in &found {
+                let is_new = state.reveal.take_if(|wanted| *wanted == *texture).is_some();
+                commands.extend(texture_row(ui, panel, *texture, is_new));
+            }
+        });
+    } else {
+        // Only those in view: a row costs something even where nobody sees it.
+        let new = state.reveal.take().and_then(|wanted| found.iter().position(|texture| *texture == wanted));
+        if let Some(row) = new {
+            area = area.vertical_scroll_offset(row as f32 * ROW);
         }
-        if found.is_empty() {
-            nothing_ui(ui, panel, state);
-        }
-    });
+        area.show_rows(ui, ROW, found.len(), |ui, rows| {
+            for texture in &found[rows] {
+                commands.extend(texture_row(ui, panel, *texture, false));
+            }
+        });
+    }
     commands
 }
 

@@ -17,7 +17,7 @@ use crate::texture_menu::{starred, texture_menu};
 use crate::theme::{RADIUS, Tokens, tokens};
 
 /// Height of a row, in points.
-const ROW: f32 = 35.0;
+pub(crate) const ROW: f32 = 35.0;
 /// Side of its picture, in points.
 const PICTURE: f32 = 29.0;
 /// Side of its buttons, in points.
