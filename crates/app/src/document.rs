@@ -13,6 +13,7 @@ use shagreen_formats::project::{
 };
 
 use crate::background::in_background;
+use crate::import::source::is_special;
 use crate::strings::document as strings;
 
 /// What stands in files as the program that wrote them.
@@ -176,9 +177,7 @@ impl Document {
 /// The file cannot be read or is neither; the message says which file it is.
 pub fn read_file(path: &Path) -> anyhow::Result<Read> {
     let in_file = || path.display().to_string();
-    let metadata = path.metadata().context(strings::CANNOT_READ).with_context(in_file)?;
-    if !metadata.is_file() {
-        // A pipe or device would be read for ever.
+    if is_special(path) {
         bail!("{}: {}", path.display(), strings::NO_FILE);
     }
     let bytes = std::fs::read(path).context(strings::CANNOT_READ).with_context(in_file)?;

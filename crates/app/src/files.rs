@@ -34,8 +34,8 @@ pub(crate) struct Files {
     recovered: Option<Leftover>,
     /// What waits for the project to be saved.
     pub(crate) after_saving: Option<Leave>,
-    /// A project that was read and waits for the one that is open to be left.
-    pub(crate) waiting: Option<(Box<Imported<Project>>, PathBuf)>,
+    /// A project that was read and waits for the one that is open to be left, and its file unless it is a copy.
+    pub(crate) waiting: Option<(Box<Imported<Project>>, Option<PathBuf>)>,
     /// Whether the program may end.
     pub(crate) is_closing: bool,
     /// Whether what is being read is what a new project begins like.
@@ -68,6 +68,11 @@ impl Files {
             is_closing: false,
             is_beginning: false,
         }
+    }
+
+    /// Why nothing may be driven: the settings are there and do not tell what hangs on the output.
+    pub(crate) fn settings_problem(&self) -> Option<&str> {
+        self.settings_file.problem()
     }
 
     /// What other windows left behind.

@@ -11,7 +11,7 @@ use shagreen_formats::project::EXTENSION;
 use crate::background::in_background;
 use crate::command::{Command, FileCommand};
 use crate::import::source::Source;
-use crate::recorded_stroke::StrokeCommand;
+use crate::recorded_stroke::{StrokeCommand, TABLE_ENDINGS};
 use crate::sheet_frame::{is_left, sheet};
 use crate::strings::{document as strings, stroke};
 use crate::theme::{GAP, tokens};
@@ -143,7 +143,7 @@ impl OpenSheet {
             } else if !path.as_os_str().is_empty() {
                 commands.push(match self.wanted {
                     Wanted::Projects => Command::File(FileCommand::Open(path)),
-                    Wanted::Strokes => Command::Stroke(StrokeCommand::Read(Source::Path(path))),
+                    Wanted::Strokes => Command::Stroke(StrokeCommand::Read(vec![Source::Path(path)])),
                 });
             }
         }
@@ -188,7 +188,7 @@ impl OpenSheet {
 fn entries_of(folder: &Path, wanted: Wanted) -> Vec<Entry> {
     let endings: &[&str] = match wanted {
         Wanted::Projects => &[EXTENSION, "json"],
-        Wanted::Strokes => &["csv", "tsv", "txt"],
+        Wanted::Strokes => &TABLE_ENDINGS,
     };
     // A folder that cannot be read shows nothing: a path can still be written.
     let Ok(found) = std::fs::read_dir(folder) else { return Vec::new() };

@@ -13,13 +13,13 @@ use shagreen_formats::stroke::{self, PressUnit, Stroke, TimedContact};
 use shagreen_formats::stroke_csv::{is_stroke_table, read_stroke_csv, stroke_csv};
 
 use crate::background::in_background;
-use crate::import::source::Source;
+use crate::import::source::{Source, is_special};
 use crate::strings::stroke as strings;
 
 /// Longest stroke that is read, in seconds.
 const LONGEST_SECS: f64 = 600.0;
 /// Endings of names of tables, in lower case.
-const TABLE_ENDINGS: [&str; 3] = ["csv", "tsv", "txt"];
+pub(crate) const TABLE_ENDINGS: [&str; 3] = ["csv", "tsv", "txt"];
 /// The first line of a table is no longer than this.
 const HEAD_BYTES: u64 = 4096;
 /// Given speeds are walked round a circle of this radius, in m: a line would leave the pad.
@@ -34,10 +34,12 @@ const MEAN_STEP_SECS: f64 = 0.01;
 pub enum StrokeCommand {
     /// Begin a recording, or end it.
     Record,
+    /// End the recording with the pointer, which has pressed a button: a pen's tap on that is no stroke.
+    FinishByPointer,
     /// Ask which stroke to open.
     AskWhatToOpen,
-    /// Read this file.
-    Read(Source),
+    /// Read the first of these files: the hand repeats but one.
+    Read(Vec<Source>),
     /// Ask where to save the stroke.
     Save,
 }
@@ -177,20 +179,16 @@ pub(crate) fn is_stroke_file(file: &DroppedFileHandle) -> bool {
         return false;
     }
     // What cannot be read is named by whoever imports it.
-    match path.metadata() {
-        Ok(metadata) if metadata.is_file() => {
-            let mut head = Vec::new();
-            let read =
-                std::fs::File::open(path).and_then(|from| from.take(HEAD_BYTES).read_to_end(&mut head));
-            read.is_ok() && is_stroke_table(&head)
-        }
-        // A folder, or something that would be read for ever.
-        Ok(_) => false,
-        // What lies in no folder comes with its bytes.
-        Err(_) => {
-            file.bytes().is_ok_and(|bytes| is_stroke_table(&bytes[..bytes.len().min(HEAD_BYTES as usize)]))
-        }
+    if is_special(path) {
+        return false;
     }
+    if path.exists() {
+        let mut head = Vec::new();
+        let read = std::fs::File::open(path).and_then(|from| from.take(HEAD_BYTES).read_to_end(&mut head));
+        return read.is_ok() && is_stroke_table(&head);
+    }
+    // What lies in no folder comes with its bytes.
+    file.bytes().is_ok_and(|bytes| is_stroke_table(&bytes[..bytes.len().min(HEAD_BYTES as usize)]))
 }
 
 /// A stroke that was read, and what was odd about it.
@@ -200,11 +198,17 @@ type Read = (RecordedStroke, Vec<String>);
 #[derive(Default)]
 pub(crate) struct StrokeReader {
     reading: Option<Receiver<anyhow::Result<Read>>>,
+    /// What there is to say of others that came with it.
+    note: Option<String>,
 }
 
 impl StrokeReader {
-    /// Reads a file in a thread of its own.
-    pub(crate) fn read(&mut self, source: Source, map: PressureMap, ctx: &egui::Context) {
+    /// Reads the first of these files in a thread of its own.
+    pub(crate) fn read(&mut self, sources: Vec<Source>, map: PressureMap, ctx: &egui::Context) {
+        let mut sources = sources.into_iter();
+        let Some(source) = sources.next() else { return };
+        let others: Vec<String> = sources.map(|source| source.name()).collect();
+        self.note = (!others.is_empty()).then(|| strings::only_one(&source.name(), &others));
         let work = move || {
             let bytes = source.bytes().map_err(anyhow::Error::msg);
             bytes.and_then(|bytes| RecordedStroke::read(&bytes, map)).with_context(|| source.name())
@@ -220,7 +224,14 @@ impl StrokeReader {
             Ok(outcome) => outcome.map_err(|error| format!("{error:#}")),
         };
         self.reading = None;
-        Some(outcome)
+        let note = self.note.take();
+        Some(match outcome {
+            Ok((stroke, mut warnings)) => {
+                warnings.extend(note);
+                Ok((stroke, warnings))
+            }
+            Err(reason) => Err(std::iter::once(reason).chain(note).collect::<Vec<_>>().join("; ")),
+        })
     }
 }
 

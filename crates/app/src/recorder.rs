@@ -13,6 +13,10 @@ pub(crate) const LONGEST_SECS: f64 = 60.0;
 const HOLE_SECS: f64 = 0.03;
 /// How far apart those are at most, in seconds.
 const FILL_SECS: f64 = 0.01;
+/// Longest that a press of a button takes with a pen until the window knows of it, in seconds: a longer one is no click.
+const TAP_SECS: f64 = 0.9;
+/// Farthest that the pen moves meanwhile, in m.
+const TAP_M: f64 = 2e-3;
 
 /// Who says what the tip does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,6 +134,27 @@ impl Recorder {
         self.stylus = stylus;
     }
 
+    /// Forgets the last touch of a pen where that may have pressed a button just now: the pen is recorded wherever it is.
+    pub(crate) fn drop_tap(&mut self) {
+        let Some(last) = self.samples.iter().rposition(|sample| sample.touching) else { return };
+        let lift = self.samples[..last].iter().rposition(|sample| !sample.touching);
+        let from = lift.map_or(0, |lift| lift + 1);
+        let PenSample { time_secs, x_m, y_m, .. } = self.samples[from];
+        let is_still = |sample: &PenSample| (sample.x_m - x_m).hypot(sample.y_m - y_m) < TAP_M;
+        let is_short = self.began.elapsed().as_secs_f64() - time_secs < TAP_SECS;
+        if self.stylus == Stylus::Pen && is_short && self.samples[from..=last].iter().all(is_still) {
+            self.samples.truncate(from);
+        }
+    }
+
+    /// What was recorded was so much earlier.
+    #[cfg(test)]
+    pub(crate) fn age(&mut self, secs: f64) {
+        for sample in &mut self.samples {
+            sample.time_secs -= secs;
+        }
+    }
+
     /// What was recorded, from the first touch to the last lift, its time from zero; `None` where nothing touched.
     pub(crate) fn finish(mut self) -> Option<Vec<PenSample>> {
         let start_secs = self.samples.first()?.time_secs;
@@ -207,12 +232,42 @@ mod tests {
     }
 
     #[test]
+    fn a_tap_of_the_pen_on_a_button_is_no_stroke() {
+        use Stylus::{Mouse, Pen};
+        let stroke = [(-3.0, 0.0, true), (-2.5, 0.05, true), (-2.0, 0.05, false)];
+        for (stylus, tap, n_kept) in [
+            (Pen, [(-0.2, 0.09, true), (-0.1, 0.0905, true), (-0.05, 0.0905, false)], 3),
+            (Pen, [(-0.2, 0.09, true), (-0.1, 0.0905, true), (-0.05, 0.0905, true)], 3),
+            // These are none: it moves, it was long ago, it was on the pad.
+            (Pen, [(-0.2, 0.09, true), (-0.1, 0.095, true), (-0.05, 0.095, false)], 6),
+            (Pen, [(-1.5, 0.09, true), (-1.49, 0.09, true), (-1.4, 0.09, false)], 6),
+            (Mouse, [(-0.2, 0.09, true), (-0.19, 0.09, true), (-0.18, 0.09, false)], 6),
+        ] {
+            let mut recorder = Recorder::new();
+            for (time_secs, x_m, touching) in stroke.into_iter().chain(tap) {
+                recorder.take(stylus, sample(time_secs, x_m, touching));
+            }
+            recorder.drop_tap();
+            let mut kept = recorder.finish().unwrap();
+            // What fills holes is left out.
+            let given: Vec<f64> = stroke.iter().chain(&tap).map(|given| given.0 + 3.0).collect();
+            kept.retain(|sample| given.iter().any(|secs| (secs - sample.time_secs).abs() < 1e-9));
+            assert_eq!(kept.len(), n_kept, "{stylus:?} {tap:?}");
+        }
+        let mut alone = Recorder::new();
+        alone.take(Pen, sample(-0.1, 0.0, true));
+        alone.drop_tap();
+        assert!(alone.finish().is_none());
+        Recorder::new().drop_tap();
+    }
+
+    #[test]
     fn it_is_full_a_minute_after_the_first_touch() {
         let mut recorder = Recorder::new();
         assert!(!recorder.is_full() && recorder.secs().is_none());
         recorder.take(Stylus::Mouse, sample(0.0, 0.0, true));
         assert!(!recorder.is_full());
-        recorder.samples[0].time_secs -= LONGEST_SECS;
+        recorder.age(LONGEST_SECS);
         assert!(recorder.is_full());
     }
 

@@ -208,7 +208,7 @@ mod tests {
         let at = folder.path().join("recovery");
         assert!(leftovers(&at).is_empty());
         let slot = Recovery::new(&at).unwrap();
-        write(&project(), &slot.slot, Some(Path::new("/work-of-mine/Woods.shagreen"))).unwrap();
+        write(&project(), &slot.slot, Some(Path::new("/somewhere/Woods.shagreen"))).unwrap();
         assert!(leftovers(&at).is_empty(), "its window lives");
         // As if it had been killed: the lock goes, the files stay.
         let path = slot.slot.clone();
@@ -224,7 +224,7 @@ mod tests {
         let found = leftovers(&at);
         assert_eq!(found.len(), 1);
         assert!(leftovers(&at).is_empty(), "it is offered once");
-        assert_eq!(found[0].origin.as_deref(), Some(Path::new("/work-of-mine/Woods.shagreen")));
+        assert_eq!(found[0].origin.as_deref(), Some(Path::new("/somewhere/Woods.shagreen")));
         let bytes = std::fs::read(found[0].path()).unwrap();
         let read = read_project(&bytes, Path::new("/"), &|_| Err(std::io::ErrorKind::NotFound.into()));
         assert_eq!(read.unwrap().value, project());

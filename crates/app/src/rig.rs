@@ -1,15 +1,25 @@
 //! The rig: how the output is opened, which actuator hangs on it, and which pen is held. It belongs to the machine, not to
 //! the project: undo does not touch it.
 
+use anyhow::bail;
 use shagreen_core::actuator::{Actuator, ActuatorError, Drive, drive_config};
 use shagreen_core::units::{Kilograms, Volts};
 use shagreen_device::engine::ChannelMask;
 use shagreen_device::output::{UNCALIBRATED_FULL_SCALE_MPS2, USUAL_BUFFER_FRAMES, USUAL_CEILING};
 use shagreen_device::pressure::PressureMap;
 use shagreen_device::synth::drive::DriveConfig;
+use shagreen_formats::rig_settings::ActuatorSettings;
+
+use crate::strings::rig as strings;
 
 /// Sizes of buffers that can be chosen, in frames.
 pub const BUFFERS: [u32; 6] = [32, 64, 128, 256, 512, 1024];
+/// Range of the acceleration at full scale, in m/s².
+pub const FULL_SCALES_MPS2: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
+/// Range of the voltage at full scale, in V.
+pub const FULL_SCALES_VOLTS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+/// Range of the sides of a pen's area, in mm.
+pub const SIDES_MM: std::ops::RangeInclusive<f64> = 10.0..=2000.0;
 
 /// An actuator on what it carries.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +54,17 @@ impl Mounted {
     }
 }
 
+/// An actuator of last time that cannot be had, as it is remembered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MissingActuator {
+    /// Its profile and what it carries.
+    pub actuator: ActuatorSettings,
+    /// Volts at it when the output is at full scale.
+    pub full_scale_volts: Option<f64>,
+    /// Why it cannot be had.
+    pub reason: String,
+}
+
 /// What stands around the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
@@ -53,6 +74,9 @@ pub struct Rig {
     pub channel: Option<usize>,
     /// The actuator, on what it carries; without it drive is in proportion to acceleration.
     pub mounted: Option<Mounted>,
+    /// The one that cannot be had, until another is chosen, or none: what stands on the output has limits that nobody knows,
+    /// so nothing is driven.
+    pub missing: Option<MissingActuator>,
     /// Whether the actuator's response is undone.
     pub equalizes: bool,
     /// Volts at the actuator when the output is at full scale.
@@ -73,6 +97,7 @@ impl Default for Rig {
             buffer_frames: USUAL_BUFFER_FRAMES,
             channel: None,
             mounted: None,
+            missing: None,
             equalizes: true,
             full_scale_volts: 1.0,
             full_scale_mps2: f64::from(UNCALIBRATED_FULL_SCALE_MPS2),
@@ -87,8 +112,11 @@ impl Rig {
     /// How acceleration becomes drive.
     ///
     /// # Errors
-    /// Says what of the actuator does not go together.
+    /// Says what of the actuator does not go together, or that it cannot be had.
     pub fn drive(&self) -> anyhow::Result<DriveConfig> {
+        if let Some(missing) = &self.missing {
+            bail!(strings::no_actuator(&missing.reason));
+        }
         match self.actuator() {
             None => Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING)),
             Some(actuator) => {
@@ -114,6 +142,7 @@ impl Rig {
                 rig.buffer_frames,
                 rig.channel,
                 rig.actuator().cloned(),
+                rig.missing.clone(),
                 rig.equalizes,
                 rig.full_scale_volts,
                 rig.full_scale_mps2,

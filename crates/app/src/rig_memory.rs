@@ -1,39 +1,42 @@
 //! What of the rig outlives the program.
 
-use anyhow::{Context as _, anyhow};
+use anyhow::{Context as _, anyhow, ensure};
 use shagreen_core::units::Kilograms;
 use shagreen_device::output::BUFFER_FRAMES;
 use shagreen_device::pressure::PressureMap;
 use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator, write_actuator};
 use shagreen_formats::rig_settings::{ActuatorSettings, PressureSettings, ProfileSettings, RigSettings};
 
-use crate::rig::{Mounted, Rig};
+use crate::rig::{FULL_SCALES_MPS2, FULL_SCALES_VOLTS, MissingActuator, Mounted, Rig, SIDES_MM};
 use crate::strings::rig as strings;
 
 /// Channels are told from one on, and a device has so many at most.
 const CHANNELS: std::ops::RangeInclusive<usize> = 1..=64;
-/// Range of the acceleration at full scale, in m/s².
-const FULL_SCALES_MPS2: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
-/// Range of the voltage at full scale, in V.
-const FULL_SCALES_VOLTS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
-/// Range of the sides of a pen's area, in mm.
-const SIDES_MM: std::ops::RangeInclusive<f64> = 10.0..=2000.0;
 
-/// The rig as it is remembered, in the place of `before`: the output stays, and what another version remembers.
-pub(crate) fn remembered(rig: &Rig, before: Option<&RigSettings>) -> RigSettings {
-    let PressureMap { activation_n, full_n, bend } = rig.pressure_map;
+/// The rig as it is remembered with the output that it was set for, in the place of `before`.
+pub(crate) fn remembered(rig: &Rig, output: String, before: Option<&RigSettings>) -> RigSettings {
+    let missing = rig.missing.as_ref();
+    let actuator = rig.mounted.as_ref().map(remembered_actuator);
     RigSettings {
-        output: before.and_then(|before| before.output.clone()),
+        output: Some(output),
         buffer_frames: Some(rig.buffer_frames),
         channel: rig.channel.map(|channel| channel + 1),
-        actuator: rig.mounted.as_ref().map(remembered_actuator),
+        actuator: actuator.or_else(|| missing.map(|missing| missing.actuator.clone())),
         equalizes: Some(rig.equalizes),
-        full_scale_volts: Some(rig.full_scale_volts),
+        full_scale_volts: missing.map_or(Some(rig.full_scale_volts), |missing| missing.full_scale_volts),
         full_scale_mps2: Some(rig.full_scale_mps2),
+        ..with_pen_of(rig, before)
+    }
+}
+
+/// What is remembered with the pen of this rig: it belongs to no output.
+pub(crate) fn with_pen_of(rig: &Rig, before: Option<&RigSettings>) -> RigSettings {
+    let PressureMap { activation_n, full_n, bend } = rig.pressure_map;
+    RigSettings {
         pen: rig.pen.clone(),
         pressure: Some(PressureSettings { activation_n, full_n, bend }),
         pen_size_mm: rig.pen_size_mm,
-        unknown: before.map(|before| before.unknown.clone()).unwrap_or_default(),
+        ..before.cloned().unwrap_or_default()
     }
 }
 
@@ -52,31 +55,48 @@ fn remembered_actuator(mounted: &Mounted) -> ActuatorSettings {
     }
 }
 
-/// The rig that is remembered. Numbers that make no sense are as on a first start.
-///
-/// # Errors
-/// The actuator cannot be had: what would be driven in its place has other limits, so nothing may be.
-pub(crate) fn restored(settings: &RigSettings) -> anyhow::Result<Rig> {
+/// The rig that is remembered. Numbers that make no sense are as on a first start, but not those that an actuator's limits
+/// hang on: then it cannot be had.
+pub(crate) fn restored(settings: &RigSettings) -> Rig {
     let usual = Rig::default();
-    let mounted = settings.actuator.as_ref().map(restored_actuator).transpose()?;
+    let (mut mounted, mut missing) = (None, None);
+    if let Some(actuator) = &settings.actuator {
+        match restored_actuator(actuator, settings.full_scale_volts) {
+            Ok(restored) => mounted = Some(restored),
+            Err(error) => {
+                missing = Some(MissingActuator {
+                    actuator: actuator.clone(),
+                    full_scale_volts: settings.full_scale_volts,
+                    reason: format!("{error:#}"),
+                });
+            }
+        }
+    }
     let buffer_frames = settings.buffer_frames.filter(|frames| BUFFER_FRAMES.contains(frames));
     let channel = settings.channel.filter(|channel| CHANNELS.contains(channel));
     let full_scale_volts = settings.full_scale_volts.filter(|volts| FULL_SCALES_VOLTS.contains(volts));
     let full_scale_mps2 = settings.full_scale_mps2.filter(|mps2| FULL_SCALES_MPS2.contains(mps2));
-    Ok(Rig {
+    Rig {
         buffer_frames: buffer_frames.unwrap_or(usual.buffer_frames),
         channel: channel.map(|channel| channel - 1),
         mounted,
+        missing,
         equalizes: settings.equalizes.unwrap_or(usual.equalizes),
         full_scale_volts: full_scale_volts.unwrap_or(usual.full_scale_volts),
         full_scale_mps2: full_scale_mps2.unwrap_or(usual.full_scale_mps2),
         pen: settings.pen.clone(),
         pressure_map: settings.pressure.and_then(restored_map).unwrap_or(usual.pressure_map),
         pen_size_mm: settings.pen_size_mm.filter(|size| size.iter().all(|side| SIDES_MM.contains(side))),
-    })
+    }
 }
 
-fn restored_actuator(settings: &ActuatorSettings) -> anyhow::Result<Mounted> {
+fn restored_actuator(settings: &ActuatorSettings, full_scale_volts: Option<f64>) -> anyhow::Result<Mounted> {
+    if let Some(volts) = full_scale_volts {
+        ensure!(
+            FULL_SCALES_VOLTS.contains(&volts),
+            strings::full_scale_out_of_range(volts, FULL_SCALES_VOLTS)
+        );
+    }
     let profile = match &settings.profile {
         ProfileSettings::BuiltIn(id) => {
             let mut all = built_in_actuators()?.into_iter();
@@ -97,8 +117,8 @@ fn restored_map(settings: PressureSettings) -> Option<PressureMap> {
 #[cfg(test)]
 mod tests {
     use super::{
-        ActuatorSettings, Kilograms, Mounted, PressureMap, PressureSettings, ProfileSettings, Rig,
-        RigSettings, built_in_actuators, remembered, restored,
+        ActuatorSettings, FULL_SCALES_VOLTS, Kilograms, Mounted, PressureMap, PressureSettings,
+        ProfileSettings, Rig, RigSettings, built_in_actuators, remembered, restored, with_pen_of,
     };
     use shagreen_core::actuator::Actuator;
 
@@ -121,6 +141,7 @@ mod tests {
                 buffer_frames: 64,
                 channel: Some(1),
                 mounted,
+                missing: None,
                 equalizes: false,
                 full_scale_volts: 2.5,
                 full_scale_mps2: 7.0,
@@ -128,18 +149,24 @@ mod tests {
                 pressure_map: PressureMap { activation_n: 0.1, full_n: 3.0, bend: 0.0 },
                 pen_size_mm: Some([216.0, 135.0]),
             };
-            let before = RigSettings { output: Some("null".to_owned()), ..RigSettings::default() };
-            let settings = remembered(&rig, Some(&before));
-            assert_eq!(settings.output.as_deref(), Some("null"), "the output stays");
+            let mut before = RigSettings { output: Some("other".to_owned()), ..RigSettings::default() };
+            before.unknown.insert("later".to_owned(), 3.into());
+            let settings = remembered(&rig, "null".to_owned(), Some(&before));
+            assert_eq!((settings.output.as_deref(), &settings.unknown), (Some("null"), &before.unknown));
             let profile = settings.actuator.as_ref().map(|actuator| &actuator.profile);
             assert_eq!(matches!(profile, Some(ProfileSettings::BuiltIn(_))), is_built_in);
-            assert_eq!(restored(&settings).unwrap(), rig);
+            assert_eq!(restored(&settings), rig);
+            // The pen alone leaves the rest as it was.
+            let (pen, usual) = (with_pen_of(&rig, Some(&before)), Rig::default());
+            let Rig { pressure_map, pen_size_mm, .. } = rig;
+            assert_eq!(restored(&pen), Rig { pen: rig.pen, pressure_map, pen_size_mm, ..usual });
+            assert_eq!((pen.output, pen.buffer_frames, pen.unknown), (before.output, None, before.unknown));
         }
     }
 
     #[test]
     fn nothing_remembered_and_nonsense_are_a_first_start() {
-        assert_eq!(restored(&RigSettings::default()).unwrap(), Rig::default());
+        assert_eq!(restored(&RigSettings::default()), Rig::default());
         let nonsense = RigSettings {
             buffer_frames: Some(0),
             channel: Some(0),
@@ -149,18 +176,34 @@ mod tests {
             pen_size_mm: Some([0.0, 100.0]),
             ..RigSettings::default()
         };
-        assert_eq!(restored(&nonsense).unwrap(), Rig::default());
+        assert_eq!(restored(&nonsense), Rig::default());
     }
 
+    /// Nothing is driven, the rest is as it was, and the actuator is not forgotten.
     #[test]
-    fn without_its_actuator_a_rig_is_none() {
-        for (profile, words) in [
-            (ProfileSettings::BuiltIn("gone".to_owned()), "gone"),
-            (ProfileSettings::Own("my notes".to_owned()), "profile"),
+    fn an_actuator_that_cannot_be_had_stays_remembered() {
+        let known = ProfileSettings::BuiltIn(known().id);
+        for (profile, volts, words) in [
+            (ProfileSettings::BuiltIn("gone".to_owned()), 2.0, "gone"),
+            (ProfileSettings::Own("my notes".to_owned()), 2.0, "profile"),
+            (known.clone(), -1.0, "-1 V"),
+            (known.clone(), 2.0 * FULL_SCALES_VOLTS.end(), "200 V"),
         ] {
-            let actuator = Some(ActuatorSettings { profile, load_g: None });
-            let error = restored(&RigSettings { actuator, ..RigSettings::default() }).unwrap_err();
-            assert!(format!("{error:#}").contains(words), "{error:#}");
+            let settings = RigSettings {
+                output: Some("null".to_owned()),
+                actuator: Some(ActuatorSettings { profile, load_g: Some(40.0) }),
+                full_scale_volts: Some(volts),
+                pen: Some("hid:056a:0061".to_owned()),
+                ..RigSettings::default()
+            };
+            let rig = restored(&settings);
+            let error = rig.drive().unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+            assert_eq!((rig.mounted.as_ref(), rig.pen.as_ref()), (None, settings.pen.as_ref()));
+            let rig = Rig { buffer_frames: 64, ..rig };
+            let again = remembered(&rig, "null".to_owned(), Some(&settings));
+            assert_eq!((&again.actuator, again.full_scale_volts), (&settings.actuator, Some(volts)));
+            assert_eq!(restored(&again), rig);
         }
     }
 }

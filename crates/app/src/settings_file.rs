@@ -1,5 +1,6 @@
 //! The file of the settings, which follows them.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
@@ -8,24 +9,38 @@ use shagreen_formats::atomic;
 use shagreen_formats::settings::{Settings, read_settings, write_settings};
 
 use crate::background::in_background;
+use crate::strings::rig as strings;
 
 /// The settings of the program, on the disk.
 pub(crate) struct SettingsFile {
     /// `None` remembers nothing.
     path: Option<PathBuf>,
     written: Settings,
+    /// Why it does not tell what hangs on the output.
+    problem: Option<String>,
     writing: Option<Receiver<()>>,
 }
 
 impl SettingsFile {
     /// Reads the settings at `path`.
     pub(crate) fn open(path: Option<PathBuf>) -> (Self, Settings) {
-        let settings = path.as_deref().map(read).unwrap_or_default();
-        (Self { path, written: settings.clone(), writing: None }, settings)
+        let (settings, problem) = path.as_deref().map(read).unwrap_or_default();
+        (Self { path, written: settings.clone(), problem, writing: None }, settings)
     }
 
-    /// Writes the settings in the background where they have changed.
+    /// Why nothing may be driven: the file is there, and does not tell what hangs on the output.
+    pub(crate) fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    /// Writes the settings in the background where they have changed. A file that does not tell what hangs on the output
+    /// stays as it is until an output has been chosen.
     pub(crate) fn follow(&mut self, settings: &Settings, ctx: &Context) {
+        let has_output = settings.rig.as_ref().is_some_and(|rig| rig.output.is_some());
+        if self.problem.is_some() && !has_output {
+            return;
+        }
+        self.problem = None;
         if self.writing.as_ref().is_some_and(|writing| matches!(writing.try_recv(), Err(TryRecvError::Empty)))
         {
             return;
@@ -38,9 +53,20 @@ impl SettingsFile {
     }
 }
 
-/// Settings that are not there, or cannot be read, are as nobody had chosen any.
-fn read(path: &Path) -> Settings {
-    read_settings(&std::fs::read(path).unwrap_or_default())
+/// Settings that are not there, or cannot be read, are as nobody had chosen any; of the rig that is told.
+fn read(path: &Path) -> (Settings, Option<String>) {
+    let (settings, reason) = match std::fs::read(path) {
+        Ok(bytes) => {
+            let (settings, error) = read_settings(&bytes);
+            (settings, error.map(|error| error.to_string()))
+        }
+        // A first start.
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            (Settings::default(), None)
+        }
+        Err(error) => (Settings::default(), Some(error.to_string())),
+    };
+    (settings, reason.map(|reason| strings::unreadable(&path.display().to_string(), &reason)))
 }
 
 /// Best effort: a program that cannot remember works as well.
@@ -60,9 +86,12 @@ mod tests {
     fn settings_come_back_from_a_folder_that_was_not_there() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("sub/settings.json");
-        assert_eq!(read(&path), Settings::default());
+        assert_eq!(read(&path), (Settings::default(), None));
         let settings = Settings { is_light: Some(true), ..Settings::default() };
         write(&path, &settings);
-        assert_eq!(read(&path), settings);
+        assert_eq!(read(&path), (settings, None));
+        // What is there and cannot be read is no first start.
+        let (nothing, problem) = read(folder.path());
+        assert!(nothing == Settings::default() && problem.is_some());
     }
 }

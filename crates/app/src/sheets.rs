@@ -105,13 +105,10 @@ impl Sheet {
         let are_strokes = !are_judgments && !is_import;
         let (strokes, dropped): (Vec<_>, Vec<_>) =
             dropped.into_iter().partition(|file| are_strokes && is_stroke_file(file));
-        // The hand repeats but one.
-        commands.extend(
-            strokes
-                .into_iter()
-                .next()
-                .map(|file| Command::Stroke(StrokeCommand::Read(Source::Dropped(file)))),
-        );
+        if !strokes.is_empty() {
+            let sources = strokes.into_iter().map(Source::Dropped).collect();
+            commands.push(Command::Stroke(StrokeCommand::Read(sources)));
+        }
         let photo = dropped.iter().find(|file| is_photo(file.path()));
         if let Some(project) = dropped.iter().find_map(is_project) {
             commands.push(Command::File(FileCommand::Open(project)));

@@ -81,7 +81,7 @@ pub struct Window {
     figures_folder: PathBuf,
     /// The output that was chosen in this window, until it is open.
     asked_output: Option<String>,
-    /// Whether the output that is open at first was named by whoever started the program.
+    /// Whether the output was named by whoever started the program, and none was chosen since.
     is_output_given: bool,
 }
 
@@ -101,7 +101,7 @@ impl Window {
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
         let files = Files::new(&project, path, keeping);
         let is_output_given = output != OutputChoice::SystemDefault;
-        open_as_left(&mut session, output, &files.settings, ctx);
+        open_as_left(&mut session, output, &files, ctx);
         session.follow(&project, None, ctx);
         let pictures = Pictures::new(ctx, project.library.clone(), &project.joined, session.textures());
         let is_new_here = can_remember && !files.settings.has_seen_tour;

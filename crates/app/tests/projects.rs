@@ -21,21 +21,12 @@ use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_bytes;
 use shagreen_formats::wav::SidecarV1;
 
-use support::{Author, author, author_of, begin, click, drop_files, says, unnamed_controls, wait, window};
+use support::{
+    Author, author, author_of, begin, click, drop_files, enter_path, says, unnamed_controls, wait, window,
+    write_into,
+};
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
-
-/// Types into the field of this name instead of what it says.
-fn write_into(harness: &mut Author, name: &str, text: &str) {
-    // A sheet that was just closed lets go of the keyboard some frames later.
-    harness.run_steps(4);
-    harness.get_by_role_and_label(Role::TextInput, name).focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.run_steps(1);
-    harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
-    harness.run_steps(2);
-}
 
 /// Gives the authored texture a name, and goes on to something else.
 fn rename(harness: &mut Author, name: &str) {
@@ -62,9 +53,7 @@ fn menu(harness: &mut Author, entry: &str) {
 /// Saves under this path by the sheet.
 fn save_as(harness: &mut Author, path: &Path) {
     keys(harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    write_into(harness, document::SAVE_PATH, &path.display().to_string());
-    harness.key_press(Key::Enter);
-    harness.run_steps(2);
+    enter_path(harness, document::SAVE_PATH, path);
 }
 
 fn wait_until_saved(harness: &mut Author) {
@@ -81,9 +70,7 @@ fn project_in(path: &Path) -> Project {
 
 fn open(harness: &mut Author, path: &Path) {
     keys(harness, Modifiers::COMMAND, Key::O);
-    write_into(harness, document::OPEN_PATH, &path.display().to_string());
-    harness.key_press(Key::Enter);
-    harness.run_steps(2);
+    enter_path(harness, document::OPEN_PATH, path);
     wait(harness, "it is read", |h| !window(h).document().is_opening());
     harness.run_steps(2);
 }
@@ -157,8 +144,7 @@ fn nothing_is_left_unasked() {
     menu(&mut harness, document::NEW);
     click(&mut harness, document::SAVE_FIRST);
     harness.run_steps(2);
-    write_into(&mut harness, document::SAVE_PATH, &path.display().to_string());
-    harness.key_press(Key::Enter);
+    enter_path(&mut harness, document::SAVE_PATH, &path);
     wait(&mut harness, "a new project", |h| window(h).project() == &new_project());
     assert_eq!(project_in(&path), project);
 
@@ -198,8 +184,7 @@ fn what_cannot_be_opened_or_saved_is_said_and_nothing_changes() {
     save_as(&mut harness, &notes);
     wait(&mut harness, "it is refused", |h| says(h, "that is no project, and stays"));
     assert_eq!(std::fs::read(&notes).unwrap(), b"my notes");
-    write_into(&mut harness, document::SAVE_PATH, &folder.path().join("no/x.shagreen").display().to_string());
-    harness.key_press(Key::Enter);
+    enter_path(&mut harness, document::SAVE_PATH, &folder.path().join("no/x.shagreen"));
     wait(&mut harness, "it cannot be written", |h| says(h, "cannot write the file"));
     assert!(window(&harness).document().is_changed());
 }
@@ -319,7 +304,7 @@ fn what_was_left_can_be_discarded() {
     std::fs::create_dir(&recovery).unwrap();
     let bytes = shagreen_formats::project::write_project(&new_project(), Path::new(""), "test");
     std::fs::write(recovery.join("1-1.shagreen"), bytes).unwrap();
-    std::fs::write(recovery.join("1-1.origin"), "/work-of-mine/Woods.shagreen").unwrap();
+    std::fs::write(recovery.join("1-1.origin"), "/somewhere/Woods.shagreen").unwrap();
     std::fs::write(recovery.join("1-1.lock"), "").unwrap();
     let mut harness = author_of(Begin { keeping: keeping(folder.path()), ..begin(new_project()) }, SIZE);
     click(&mut harness, &document::about(document::DISCARD, "Woods"));
@@ -402,7 +387,7 @@ fn a_project_of_the_gallery_is_opened_and_heard() {
     assert!(says(&harness, document::LEAVE_TITLE), "what was changed is not lost");
 }
 
-/// New projects begin as a copy of the chosen one's file, and as usual again once that is gone.
+/// New projects begin as a copy of the chosen one's file, and as usual while that cannot be had; nothing is left unasked.
 #[test]
 fn new_projects_begin_like_a_chosen_one() {
     let folder = tempfile::tempdir().unwrap();
@@ -425,10 +410,40 @@ fn new_projects_begin_like_a_chosen_one() {
     click(&mut harness, document::CANCEL);
     harness.run_steps(4);
 
-    std::fs::remove_file(&path).unwrap();
+    let other = folder.path().join("Other.shagreen");
+    std::fs::rename(&path, &other).unwrap();
+    let changed = window(&harness).project().clone();
     menu(&mut harness, document::NEW);
+    wait(&mut harness, "it is asked", |h| says(h, document::LEAVE_TITLE));
+    assert_eq!(window(&harness).project(), &changed);
     click(&mut harness, document::DO_NOT_SAVE);
     wait(&mut harness, "it begins as usual", |h| *window(h).project() == new_project());
+    assert!(says(&harness, &document::no_template("")) && says(&harness, "Woods.shagreen"), "why is said");
+
+    // A library is no project to begin with, and what is opened next is no copy.
+    std::fs::write(&path, starter_bytes()).unwrap();
+    menu(&mut harness, document::NEW);
+    wait(&mut harness, "why is said", |h| says(h, &document::is_library(&path.display().to_string())));
+    assert_eq!(window(&harness).project(), &new_project());
+    open(&mut harness, &other);
+    assert_eq!((window(&harness).project(), window(&harness).document().path()), (&saved, Some(&*other)));
+
+    // The choice was kept. What is changed while the project is read is not left unasked, and not asked about twice.
+    std::fs::rename(&other, &path).unwrap();
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(63.0);
+    let (key, modifiers) = (Key::N, Modifiers::COMMAND);
+    harness.input_mut().events.push(egui::Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers,
+    });
+    wait(&mut harness, "it is asked", |h| says(h, document::LEAVE_TITLE));
+    assert_eq!(window(&harness).project().texture().at.rough_smooth, 63.0);
+    click(&mut harness, document::DO_NOT_SAVE);
+    wait(&mut harness, "a copy of it", |h| window(h).document().path().is_none());
+    assert_eq!(window(&harness).project(), &saved);
 }
 
 /// What was chosen to be larger is larger in the next window, within bounds.
@@ -460,8 +475,7 @@ fn what_is_heard_is_exported_as_a_signal() {
     harness.run_steps(4);
     let field = harness.get_by_role_and_label(Role::TextInput, signal::SAVE_PATH);
     assert!(field.accesskit_node().value().unwrap().ends_with("oak-copy.wav"));
-    write_into(&mut harness, signal::SAVE_PATH, &path.display().to_string());
-    harness.key_press(Key::Enter);
+    enter_path(&mut harness, signal::SAVE_PATH, &path);
     let saved = import::saved(&path.display().to_string());
     wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
     click(&mut harness, import::CLOSE);
@@ -498,8 +512,7 @@ fn what_is_heard_is_exported_as_a_signal() {
     let other = folder.path().join("other.wav");
     std::fs::write(folder.path().join("other.json"), "{\"mine\": 1}").unwrap();
     menu(&mut harness, signal::EXPORT);
-    write_into(&mut harness, signal::SAVE_PATH, &other.display().to_string());
-    harness.key_press(Key::Enter);
+    enter_path(&mut harness, signal::SAVE_PATH, &other);
     wait(&mut harness, "it refuses", |h| says(h, signal::NO_SIGNAL));
     assert!(!other.exists());
 }

@@ -16,11 +16,9 @@ use shagreen_device::output::NULL_ID;
 use shagreen_formats::rig_settings::{ActuatorSettings, ProfileSettings, RigSettings};
 use shagreen_formats::settings::{Settings, read_settings, write_settings};
 
-use support::{Author, author_of, begin, choose, click, says, wait, window, window_of};
+use support::{Author, SILENT, author_of, begin, choose, click, says, wait, window, window_of};
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
-/// The silent output, as people choose it.
-const SILENT: &str = "No output (silent, real clock)";
 
 /// What a window opens with that keeps its settings in this folder.
 fn kept(folder: &Path, output: OutputChoice) -> Begin {
@@ -35,7 +33,7 @@ fn remember(folder: &Path, rig: Option<RigSettings>) {
 }
 
 fn settings(folder: &Path) -> RigSettings {
-    read_settings(&std::fs::read(folder.join("settings.json")).unwrap()).rig.unwrap_or_default()
+    read_settings(&std::fs::read(folder.join("settings.json")).unwrap()).0.rig.unwrap_or_default()
 }
 
 fn rig(harness: &Author) -> &Rig {
@@ -63,11 +61,14 @@ fn what_was_chosen_comes_back() {
     wait(&mut harness, "they are taken over", |h| rig(h).buffer_frames == 512 && rig(h).actuator().is_some());
     harness.key_press(Key::Escape);
     harness.run_steps(4);
-    wait(&mut harness, "it is remembered", |_| settings(folder.path()).actuator.is_some());
-    assert_eq!(settings(folder.path()).output, None, "the output was the command line's");
+    wait(&mut harness, "the pen is remembered", |_| settings(folder.path()).pressure.is_some());
+    let left = settings(folder.path());
+    let of_output = (left.output, left.buffer_frames, left.actuator);
+    assert_eq!(of_output, (None, None, None), "the output was the command line's");
     wait(&mut harness, "the outputs are known", |h| !window(h).session().outputs().is_empty());
     choose(&mut harness, strings::OUTPUT, SILENT);
     wait(&mut harness, "it is remembered", |_| settings(folder.path()).output.as_deref() == Some(NULL_ID));
+    assert!(settings(folder.path()).actuator.is_some(), "with what hangs on it");
     let before = rig(&harness).clone();
     drop(harness);
 
@@ -116,17 +117,106 @@ fn a_pen_that_is_gone_is_said() {
     assert!(says(&harness, &message), "{message}");
 }
 
-/// What would be driven in the place of an actuator has other limits.
+/// What is set for an output that was only named for this start is remembered for no other.
+#[test]
+fn the_rig_of_one_output_is_not_remembered_for_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = Some("gone-output".to_owned());
+    let gone = RigSettings { output, buffer_frames: Some(128), ..RigSettings::default() };
+    remember(folder.path(), Some(gone.clone()));
+    let mut harness = author_of(kept(folder.path(), null()), SIZE);
+    in_devices(&mut harness, devices::BUFFER, &devices::buffer(512, 48_000.0));
+    in_devices(&mut harness, devices::ACTUATOR, "Haptuator Mark II-D");
+    assert!(rig(&harness).buffer_frames == 512 && rig(&harness).actuator().is_some());
+    wait(&mut harness, "the pen is remembered", |_| settings(folder.path()).pressure.is_some());
+    harness.run_steps(5);
+    let left = settings(folder.path());
+    assert_eq!(RigSettings { pressure: None, ..left }, gone);
+}
+
+/// Chooses something in the sheet of devices.
+fn in_devices(harness: &mut Author, name: &str, choice: &str) {
+    click(harness, devices::OPEN);
+    wait(harness, "the sheet opens", |h| says(h, devices::ACTUATOR));
+    choose(harness, name, choice);
+    harness.run_steps(3);
+    harness.key_press(Key::Escape);
+    wait(harness, "the sheet closes", |h| !says(h, devices::ACTUATOR));
+    harness.run_steps(2);
+}
+
+fn is_refused(harness: &Author, words: &str) -> bool {
+    let session = window(harness).session();
+    session.is_output_released() && session.status().is_none() && says(harness, words)
+}
+
+/// What would be driven in the place of an actuator has other limits: until one is chosen, or none, nothing is driven, and
+/// the one that is remembered stays.
 #[test]
 fn without_its_actuator_no_output_is_opened() {
+    const WORDS: &str = "the actuator of last time";
     let folder = tempfile::tempdir().unwrap();
     let profile = ProfileSettings::BuiltIn("gone".to_owned());
     let actuator = Some(ActuatorSettings { profile, load_g: None });
-    remember(folder.path(), Some(RigSettings { actuator, ..RigSettings::default() }));
-    for output in [OutputChoice::SystemDefault, null()] {
+    let pen = Some("hid:ffff:ffff:gone".to_owned());
+    for (output, left) in [(OutputChoice::SystemDefault, Some(NULL_ID.to_owned())), (null(), None)] {
+        let left = RigSettings {
+            output: left,
+            actuator: actuator.clone(),
+            full_scale_volts: Some(2.0),
+            pen: pen.clone(),
+            ..RigSettings::default()
+        };
+        remember(folder.path(), Some(left.clone()));
         let mut harness = window_of(kept(folder.path(), output), SIZE);
         harness.run_steps(10);
-        assert!(says(&harness, "the actuator of last time"), "{:?}", message(&harness));
-        assert!(window(&harness).session().is_output_released());
+        assert!(is_refused(&harness, WORDS), "{:?}", message(&harness));
+        wait(&mut harness, "the pen is asked for", |h| window(h).session().pen_message().is_some());
+
+        in_devices(&mut harness, devices::BUFFER, &devices::buffer(512, 48_000.0));
+        wait(&mut harness, "it is remembered", |_| settings(folder.path()).pressure.is_some());
+        let again = settings(folder.path());
+        let kept = |rig: RigSettings| (rig.output, rig.actuator, rig.full_scale_volts, rig.pen);
+        assert_eq!(kept(again), kept(left));
+        wait(&mut harness, "the outputs are known", |h| !window(h).session().outputs().is_empty());
+        choose(&mut harness, strings::OUTPUT, SILENT);
+        harness.run_steps(10);
+        assert!(is_refused(&harness, WORDS), "{:?}", message(&harness));
+
+        in_devices(&mut harness, devices::ACTUATOR, devices::UNCALIBRATED);
+        wait(&mut harness, "it opens", |h| window(h).session().status().is_some());
+        wait(&mut harness, "it is remembered", |_| settings(folder.path()).actuator.is_none());
+        assert_eq!(settings(folder.path()).pen, pen);
+    }
+}
+
+/// Settings that do not tell what hangs on the output are no first start: nothing is driven, and they are not written over
+/// unless somebody chooses an output.
+#[test]
+fn settings_that_cannot_be_read_open_no_output_and_stay() {
+    for text in [r#"{"has_seen_tour": true, "rig": {"output": "null", "channel": -1}}"#, "{\"recent\": []"] {
+        for output in [OutputChoice::SystemDefault, null()] {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("settings.json");
+            std::fs::write(&path, text).unwrap();
+            let mut harness = window_of(kept(folder.path(), output), SIZE);
+            harness.ctx.set_zoom_factor(1.25);
+            for _ in 0..10 {
+                harness.run_steps(1);
+                std::thread::sleep(std::time::Duration::from_millis(10));
+            }
+            assert!(is_refused(&harness, "No output was opened"), "{:?}", message(&harness));
+            assert!(says(&harness, &path.display().to_string()) && says(&harness, devices::OPEN));
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+            wait(&mut harness, "the outputs are known", |h| !window(h).session().outputs().is_empty());
+            choose(&mut harness, strings::OUTPUT, SILENT);
+            wait(&mut harness, "it opens", |h| window(h).session().status().is_some());
+            wait(&mut harness, "it is remembered", |_| {
+                read_settings(&std::fs::read(&path).unwrap())
+                    .0
+                    .rig
+                    .is_some_and(|rig| rig.output.as_deref() == Some(NULL_ID))
+            });
+        }
     }
 }

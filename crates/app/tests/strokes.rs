@@ -3,11 +3,10 @@
 
 mod support;
 
-use std::path::Path;
 use std::time::Duration;
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, vec2};
+use egui::{Key, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::recorded_stroke::RecordedStroke;
 use shagreen_app::strings::{self, stroke};
@@ -16,7 +15,8 @@ use shagreen_formats::stroke::{PressUnit, Stroke};
 use shagreen_formats::stroke_csv::read_stroke_csv;
 
 use support::{
-    Author, author, author_of, begin, choose, click, drop_files, says, unnamed_controls, wait, window,
+    Author, SILENT, author, author_of, begin, choose, click, drop_files, enter_path, says, unnamed_controls,
+    wait, window,
 };
 
 /// Strokes the pad to the right for about half a second.
@@ -52,18 +52,6 @@ fn session_stroke(harness: &Author) -> &RecordedStroke {
 
 fn touch(harness: &Author) -> Touch {
     window(harness).session().touch()
-}
-
-fn write_into(harness: &mut Author, name: &str, path: &Path) {
-    harness.run_steps(4);
-    harness.get_by_role_and_label(Role::TextInput, name).focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.run_steps(1);
-    harness.get_by_role_and_label(Role::TextInput, name).type_text(&path.display().to_string());
-    harness.run_steps(2);
-    harness.key_press(Key::Enter);
-    harness.run_steps(2);
 }
 
 #[test]
@@ -131,7 +119,7 @@ fn a_repeated_stroke_survives_that_the_output_is_opened_again() {
     click(&mut harness, strings::HAND_START);
     let n_frames = |h: &Author| window(h).session().status().map_or(0, |status| status.frames_played);
     wait(&mut harness, "it strokes for a while", |h| n_frames(h) > 96_000 && touch(h).contact.force_n > 0.0);
-    choose(&mut harness, strings::OUTPUT, "No output (silent, real clock)");
+    choose(&mut harness, strings::OUTPUT, SILENT);
     wait(&mut harness, "the output is another", |h| n_frames(h) < 96_000);
     wait(&mut harness, "it strokes again", |h| touch(h).contact.force_n > 0.0);
 }
@@ -144,8 +132,9 @@ fn a_stroke_is_saved_and_read_again_where_it_is_dropped_or_opened() {
     let first = session_stroke(&harness).clone();
     choose(&mut harness, strings::HAND_PATH, stroke::SAVE);
     assert!(says(&harness, stroke::SAVE_TITLE));
-    write_into(&mut harness, stroke::SAVE_PATH, &path);
-    wait(&mut harness, "it is saved", |_| path.exists());
+    enter_path(&mut harness, stroke::SAVE_PATH, &path);
+    let saved = strings::import::saved(&path.display().to_string());
+    wait(&mut harness, "it is saved", |h| says(h, &saved));
     harness.key_press(Key::Escape);
     harness.run_steps(3);
     let bytes = std::fs::read(&path).unwrap();
@@ -161,7 +150,11 @@ fn a_stroke_is_saved_and_read_again_where_it_is_dropped_or_opened() {
     stroke_pad(&mut harness);
     click(&mut harness, stroke::FINISH);
     assert_eq!(window(&harness).session().n_strokes(), 2);
+    harness.run_steps(2);
+    assert!(says(&harness, stroke::REPLACED));
     click(&mut harness, stroke::RECORD);
+    harness.run_steps(2);
+    assert!(!says(&harness, stroke::REPLACED), "that is over");
     click(&mut harness, stroke::FINISH);
     assert_eq!(window(&harness).session().n_strokes(), 2);
 
@@ -174,12 +167,30 @@ fn a_stroke_is_saved_and_read_again_where_it_is_dropped_or_opened() {
     choose(&mut harness, strings::HAND_PATH, stroke::OPEN);
     assert!(says(&harness, stroke::OPEN_TITLE));
     std::fs::write(folder.path().join("other.csv"), "a,b\n1,2\n").unwrap();
-    write_into(&mut harness, strings::document::OPEN_PATH, &folder.path().join("other.csv"));
+    enter_path(&mut harness, strings::document::OPEN_PATH, &folder.path().join("other.csv"));
     wait(&mut harness, "it is refused", |h| says(h, "other.csv: "));
-    write_into(&mut harness, strings::document::OPEN_PATH, &path);
+    enter_path(&mut harness, strings::document::OPEN_PATH, &path);
     wait(&mut harness, "it is read", |h| window(h).session().n_strokes() == 4);
     harness.run_steps(2);
     assert!(!says(&harness, stroke::OPEN_TITLE), "the sheet is closed");
+}
+
+/// The hand repeats but one, and says so of the others.
+#[test]
+fn of_several_strokes_that_are_dropped_one_is_repeated() {
+    let mut harness = author();
+    let table = b"t_s,x_mm,y_mm,force_n\n0,0,0,1\n1,20,0,1\n";
+    let lifted = b"t_s,x_mm,y_mm,force_n,touching\n0,0,0,1,0\n1,20,0,1,0\n";
+    for (first, n_strokes, said) in [
+        (&table[..], 1, [""; 2]),
+        (&table[..], 2, [stroke::REPLACED, ""]),
+        (&lifted[..], 2, [stroke::NEVER_TOUCHES, "a.csv: "]),
+    ] {
+        drop_files(&mut harness, &[("a.csv", first), ("b.csv", table), ("c.csv", table)]);
+        wait(&mut harness, "the others are named", |h| says(h, "a.csv was read and not b.csv, c.csv"));
+        wait(&mut harness, "the outcome is said", |h| said.iter().all(|words| says(h, words)));
+        assert_eq!(window(&harness).session().n_strokes(), n_strokes);
+    }
 }
 
 /// The negative control: a table with acceleration is imported as before.

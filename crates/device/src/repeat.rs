@@ -24,14 +24,19 @@ impl Repeat {
     pub const AS_RECORDED: Self = Self { tempo: 1.0, force: 1.0 };
 
     /// Where in the time of the track the tip is `step_secs` after it was at `track_secs`: from zero up to its end and on
-    /// through the lift that follows. A tempo that is nonsense stands still.
+    /// through the lift that follows. Where a faster tempo has begun a lift that is over at this one, the stroke begins. A
+    /// tempo that is nonsense stands still.
     pub(crate) fn advanced(self, track: &Track, track_secs: f64, step_secs: f64) -> f64 {
         let tempo = f64::from(self.tempo);
         if !(tempo.is_finite() && tempo > 0.0) {
             return track_secs;
         }
         // The lift takes as long at every tempo.
-        (track_secs + tempo * step_secs).rem_euclid(track.duration_secs() + tempo * LIFT_SECS)
+        let cycle_secs = track.duration_secs() + tempo * LIFT_SECS;
+        if track_secs > cycle_secs {
+            return 0.0;
+        }
+        (track_secs + tempo * step_secs).rem_euclid(cycle_secs)
     }
 
     /// The tip at this time of the track. Costs what [`Track::touch_at`] does.
@@ -79,6 +84,24 @@ mod tests {
                 assert!(off < 1e-9 || off > cycle_secs * f64::from(tempo) - 1e-9, "{tempo}: {track_secs}");
                 let touch = repeat.touch_at(&track, track_secs);
                 assert_eq!(touch.contact.force_n == 0.0, track_secs > track.duration_secs(), "{track_secs}");
+            }
+        }
+    }
+
+    /// Whatever the tempo becomes during the lift, the tip comes down at the beginning.
+    #[test]
+    fn another_tempo_during_the_lift_begins_no_stroke_in_its_middle() {
+        let (track, step_secs) = (straight(), 1e-3);
+        let tempos = [0.25_f32, 0.5, 1.0, 2.0, 4.0];
+        for before in tempos {
+            for share in [0.05, 0.5, 0.95] {
+                let lifted_secs = track.duration_secs() + f64::from(before) * share * LIFT_SECS;
+                for after in tempos {
+                    let repeat = Repeat { tempo: after, ..Repeat::AS_RECORDED };
+                    let next_secs = repeat.advanced(&track, lifted_secs, step_secs);
+                    let begins = next_secs < f64::from(after) * step_secs + 1e-9;
+                    assert!(begins || next_secs > track.duration_secs(), "{before} to {after}: {next_secs}");
+                }
             }
         }
     }

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use crate::layout;
@@ -15,29 +16,39 @@ const OPEN_DEPTH: usize = 2;
 pub const MAX_RECENT: usize = 12;
 
 /// What is remembered.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Settings {
     /// Projects that were open, newest first.
-    #[serde(default)]
     pub recent: Vec<PathBuf>,
     /// Whether the light theme was chosen, or the dark one; `None` follows the system.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub is_light: Option<bool>,
     /// Whether the first steps were shown, or skipped.
-    #[serde(default)]
     pub has_seen_tour: bool,
     /// How much larger everything is drawn than usual; `None` is as usual.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f32>,
     /// The project that new ones begin like.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub template: Option<PathBuf>,
     /// The output, the actuator and the pen; `None` where nobody has chosen any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub rig: Option<RigSettings>,
     /// What another version remembers.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
+}
+
+/// Why the rig of a file of settings is not known: whoever goes on without it drives an actuator without its limits.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// The file is no JSON object.
+    #[error("it is no JSON object: {0}")]
+    Format(serde_json::Error),
+    /// The rig is none that this version understands.
+    #[error("its \"rig\" is none of this version: {0}")]
+    Rig(serde_json::Error),
 }
 
 impl Settings {
@@ -51,9 +62,33 @@ impl Settings {
     }
 }
 
-/// Settings from the bytes of a file; those that cannot be read are as nobody had chosen any.
-pub fn read_settings(bytes: &[u8]) -> Settings {
-    serde_json::from_slice(bytes).unwrap_or_default()
+/// Settings from the bytes of a file, each on its own: one that cannot be read is as nobody had chosen any. That the rig is
+/// one of them is told beside it.
+pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
+    let mut all: Map<String, Value> = match serde_json::from_slice(bytes) {
+        Ok(all) => all,
+        Err(error) => return (Settings::default(), Some(SettingsError::Format(error))),
+    };
+    let (rig, error) = match all.remove("rig").map(serde_json::from_value).transpose() {
+        Ok(rig) => (rig.flatten(), None),
+        Err(error) => (None, Some(SettingsError::Rig(error))),
+    };
+    let settings = Settings {
+        recent: taken(&mut all, "recent").unwrap_or_default(),
+        is_light: taken(&mut all, "is_light"),
+        has_seen_tour: taken(&mut all, "has_seen_tour").unwrap_or_default(),
+        scale: taken(&mut all, "scale"),
+        template: taken(&mut all, "template"),
+        rig,
+        unknown: all,
+    };
+    (settings, error)
+}
+
+/// A setting that does no harm where it is forgotten.
+fn taken<T: DeserializeOwned>(all: &mut Map<String, Value>, name: &str) -> Option<T> {
+    // One that cannot be read is chosen again.
+    all.remove(name).and_then(|value| serde_json::from_value(value).ok())
 }
 
 /// The file of settings.
@@ -63,19 +98,53 @@ pub fn write_settings(settings: &Settings) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MAX_RECENT, RigSettings, Settings, read_settings, write_settings};
+    use super::{MAX_RECENT, RigSettings, Settings, SettingsError, read_settings, write_settings};
     use crate::rig_settings::{ActuatorSettings, PressureSettings, ProfileSettings};
     use std::path::Path;
 
+    /// What comes back where nothing is wrong with the rig.
+    fn read(bytes: &[u8]) -> Settings {
+        let (settings, error) = read_settings(bytes);
+        assert!(error.is_none(), "{error:?}");
+        settings
+    }
+
     #[test]
-    fn settings_come_back_and_what_is_no_settings_is_left() {
+    fn settings_come_back_and_what_is_none_is_told() {
         let mut settings = Settings { is_light: Some(true), ..Settings::default() };
         settings.note_project(Path::new("/a.shagreen"));
         (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
         settings.unknown.insert("later".to_owned(), 3.into());
-        assert_eq!(read_settings(&write_settings(&settings)), settings);
-        for nothing in [&b""[..], b"{{", b"[]", b"{\"recent\": 3}"] {
-            assert_eq!(read_settings(nothing), Settings::default());
+        assert_eq!(read(&write_settings(&settings)), settings);
+        assert_eq!(read(b"{}"), Settings::default());
+        for nothing in [&b""[..], b"{{", b"[]", b"null"] {
+            let (settings, error) = read_settings(nothing);
+            assert!(settings == Settings::default() && matches!(error, Some(SettingsError::Format(_))));
+        }
+    }
+
+    /// One that cannot be read takes no other along, least of all the rig.
+    #[test]
+    fn each_setting_is_read_on_its_own() {
+        let rig = RigSettings { output: Some("null".to_owned()), ..RigSettings::default() };
+        for wrong in [
+            r#""recent": 3"#,
+            r#""is_light": "yes""#,
+            r#""has_seen_tour": 1"#,
+            r#""scale": "large""#,
+            r#""template": 7"#,
+        ] {
+            let bytes = format!(r#"{{"rig": {{"output": "null"}}, "later": 3, {wrong}}}"#);
+            let mut expected = Settings { rig: Some(rig.clone()), ..Settings::default() };
+            expected.unknown.insert("later".to_owned(), 3.into());
+            assert_eq!(read(bytes.as_bytes()), expected, "{wrong}");
+        }
+        assert_eq!(read(br#"{"rig": null}"#), Settings::default());
+        for wrong in ["3", r#"{"channel": -1}"#, r#"{"actuator": {"of_later": "x"}}"#] {
+            let bytes = format!(r#"{{"is_light": true, "rig": {wrong}}}"#);
+            let (settings, error) = read_settings(bytes.as_bytes());
+            assert_eq!(settings, Settings { is_light: Some(true), ..Settings::default() });
+            assert!(matches!(error, Some(SettingsError::Rig(_))), "{wrong}");
         }
     }
 
@@ -104,9 +173,9 @@ mod tests {
             full(ProfileSettings::Own("format = \"x\"\n".to_owned()), Some(40.0)),
         ] {
             let settings = Settings { rig: Some(rig), ..Settings::default() };
-            assert_eq!(read_settings(&write_settings(&settings)), settings);
+            assert_eq!(read(&write_settings(&settings)), settings);
         }
-        let before = read_settings(b"{\"recent\": [], \"has_seen_tour\": true}");
+        let before = read(b"{\"recent\": [], \"has_seen_tour\": true}");
         assert_eq!((before.rig, before.has_seen_tour), (None, true));
     }
 

@@ -12,8 +12,9 @@ use shagreen_formats::actuator_toml::read_actuator;
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::background::in_background;
+use crate::import::source::Source;
 use crate::plot::fixed;
-use crate::rig::Mounted;
+use crate::rig::{FULL_SCALES_MPS2, FULL_SCALES_VOLTS, Mounted};
 use crate::strings::devices as strings;
 use crate::theme::tokens;
 
@@ -30,16 +31,20 @@ impl DevicesSheet {
         if let Some(message) = &self.message {
             warning(ui, message);
         }
+        if let Some(missing) = &self.rig.missing {
+            warning(ui, &missing.reason);
+            return;
+        }
         let Some(mounted) = self.rig.mounted.clone() else {
             row(ui, strings::FULL_SCALE, |ui| {
-                let value = DragValue::new(&mut self.rig.full_scale_mps2).range(0.1..=1000.0).speed(0.1);
+                let value = DragValue::new(&mut self.rig.full_scale_mps2).range(FULL_SCALES_MPS2).speed(0.1);
                 let value = value.suffix(" m/s²");
                 ui.add(value).accessible_name(strings::FULL_SCALE).on_hover_text(strings::FULL_SCALE_HELP);
             });
             return;
         };
         row(ui, strings::VOLTS, |ui| {
-            let value = DragValue::new(&mut self.rig.full_scale_volts).range(0.01..=100.0).speed(0.01);
+            let value = DragValue::new(&mut self.rig.full_scale_volts).range(FULL_SCALES_VOLTS).speed(0.01);
             ui.add(value.suffix(" V")).accessible_name(strings::VOLTS).on_hover_text(strings::VOLTS_HELP);
         });
         if let Some(load_g) = &mut self.load_g {
@@ -74,11 +79,14 @@ impl DevicesSheet {
     }
 
     fn choice_ui(&mut self, ui: &mut Ui) {
-        let chosen = self.rig.actuator().map_or(strings::UNCALIBRATED, |a| a.name.as_str()).to_owned();
+        let is_missing = self.rig.missing.is_some();
+        let none = if is_missing { strings::MISSING } else { strings::UNCALIBRATED };
+        let chosen = self.rig.actuator().map_or(none, |a| a.name.as_str()).to_owned();
         let mut taken = None;
         let combo = ComboBox::from_id_salt("actuator").width(260.0).truncate().selected_text(&chosen);
         let shown = combo.show_ui(ui, |ui| {
-            if ui.selectable_label(self.rig.mounted.is_none(), strings::UNCALIBRATED).clicked() {
+            if ui.selectable_label(self.rig.mounted.is_none() && !is_missing, strings::UNCALIBRATED).clicked()
+            {
                 taken = Some(None);
             }
             for actuator in &self.built_in {
@@ -101,8 +109,9 @@ impl DevicesSheet {
         let can_read = !path.is_empty() && self.reading.is_none();
         if ui.add_enabled(can_read, Button::new(strings::OPEN_PROFILE)).clicked() {
             let read = move || {
-                let bytes = std::fs::read(&path).with_context(|| strings::unreadable_profile(&path))?;
-                read_actuator(&bytes).with_context(|| strings::unreadable_profile(&path))
+                let bytes = Source::Path(path.clone().into()).bytes().map_err(anyhow::Error::msg);
+                let actuator = bytes.and_then(|bytes| Ok(read_actuator(&bytes)?));
+                actuator.with_context(|| strings::unreadable_profile(&path))
             };
             self.reading = Some(in_background(ui.ctx().clone(), read));
         }
@@ -131,7 +140,7 @@ impl DevicesSheet {
                 if load.is_none() {
                     self.load_g = mounted.as_ref().and_then(Mounted::load).map(Kilograms::g);
                 }
-                (self.rig.mounted, self.message) = (mounted, None);
+                (self.rig.mounted, self.rig.missing, self.message) = (mounted, None, None);
             }
             Err(error) => self.message = Some(error.to_string()),
         }

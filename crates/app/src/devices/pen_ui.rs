@@ -6,6 +6,7 @@ use egui_plot::{Line, Plot, PlotPoints, Points};
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
 use crate::plot::fixed;
+use crate::rig::SIDES_MM;
 use crate::session::Session;
 use crate::strings::devices as strings;
 use crate::theme::tokens;
@@ -39,7 +40,7 @@ impl DevicesSheet {
             let mut size = self.rig.pen_size_mm.unwrap_or(FIRST_SIZE_MM);
             for (i, name) in [strings::WIDTH, strings::HEIGHT].into_iter().enumerate() {
                 row(ui, name, |ui| {
-                    let value = DragValue::new(&mut size[i]).range(10.0..=2000.0).speed(0.5).suffix(" mm");
+                    let value = DragValue::new(&mut size[i]).range(SIDES_MM).speed(0.5).suffix(" mm");
                     if ui.add(value).accessible_name(name).changed() {
                         self.rig.pen_size_mm = Some(size);
                     }

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use egui::DroppedFileHandle;
 
+use crate::strings::import as strings;
+
 /// Most files that are taken out of a folder.
 const MAX_OF_FOLDER: usize = 1000;
 
@@ -30,6 +32,9 @@ impl Source {
 
     /// Its bytes, or what kept it from being read.
     pub(crate) fn bytes(&self) -> Result<Vec<u8>, String> {
+        if is_special(self.path()) {
+            return Err(format!("{}; choose a file", strings::NO_FILE));
+        }
         match self {
             Self::Path(path) => std::fs::read(path).map_err(|error| {
                 format!("the file cannot be read ({error}); check its path and permissions")
@@ -49,6 +54,11 @@ impl Source {
     pub(super) fn ending(&self) -> String {
         self.path().extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
     }
+}
+
+/// Whether a folder, pipe or device is at this path: the last two would be read for ever.
+pub(crate) fn is_special(path: &Path) -> bool {
+    path.metadata().is_ok_and(|metadata| !metadata.is_file())
 }
 
 /// The last part of a path.
@@ -83,14 +93,24 @@ pub(super) fn without_folders(sources: Vec<Source>) -> Vec<Source> {
 
 #[cfg(test)]
 mod tests {
-    use super::{paths_in, without_folders};
+    use super::{Source, paths_in, strings, without_folders};
     use std::path::Path;
 
     #[test]
     fn paths_are_one_a_line_with_or_without_quotes() {
         let sources = paths_in(" /a/b c.csv \n\n\"/d.wav\"\n'e.xml'");
-        let paths: Vec<&Path> = sources.iter().map(super::Source::path).collect();
+        let paths: Vec<&Path> = sources.iter().map(Source::path).collect();
         assert_eq!(paths, [Path::new("/a/b c.csv"), Path::new("/d.wav"), Path::new("e.xml")]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_might_never_end_is_not_read() {
+        // This one ends at once: without the check it would be an empty file.
+        for path in ["/dev/null", "/"] {
+            let reason = Source::Path(path.into()).bytes().unwrap_err();
+            assert!(reason.contains(strings::NO_FILE), "{reason}");
+        }
     }
 
     #[test]
@@ -100,7 +120,7 @@ mod tests {
             std::fs::write(folder.path().join(name), "").unwrap();
         }
         let found = without_folders(paths_in(&folder.path().display().to_string()));
-        let names: Vec<String> = found.iter().map(super::Source::name).collect();
+        let names: Vec<String> = found.iter().map(Source::name).collect();
         assert_eq!(names, ["a.wav", "b.CSV"]);
         assert_eq!(without_folders(paths_in("/nowhere/at/all.csv")).len(), 1);
     }

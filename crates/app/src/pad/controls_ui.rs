@@ -1,6 +1,6 @@
 //! The row above the pad: the automatic hand, what it does, and the recording.
 
-use egui::{Button, ComboBox, Slider, Ui, vec2};
+use egui::{Button, ComboBox, PointerButton, Slider, Ui, vec2};
 use shagreen_device::hand::Path;
 
 use super::{FORCES_N, PadState, SPEEDS_MM_PER_S};
@@ -39,7 +39,10 @@ pub(super) fn controls_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) 
             (stroke::RECORD, stroke::RECORD_HELP)
         };
         let button = Button::new(text).selected(is_recording).min_size(vec2(BUTTON_WIDTH, 0.0));
-        if ui.add(button).on_hover_text(help).clicked() {
+        let button = ui.add(button).on_hover_text(help);
+        if is_recording && button.clicked_by(PointerButton::Primary) {
+            commands.push(Command::Stroke(StrokeCommand::FinishByPointer));
+        } else if button.clicked() {
             commands.push(Command::Stroke(StrokeCommand::Record));
         }
         ui.spacing_mut().slider_width = ((ui.available_width() - VALUES_WIDTH) / 2.0).clamp(24.0, 90.0);

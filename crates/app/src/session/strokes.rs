@@ -35,27 +35,47 @@ impl Session {
         self.n_strokes
     }
 
-    /// Another stroke takes the place of the one before; a hand that repeats begins it anew.
-    pub fn set_stroke(&mut self, stroke: RecordedStroke) {
-        self.stroke = Some(Arc::new(stroke));
+    /// Takes a stroke in the place of the one before, and returns whether there was one; a hand that repeats begins it anew.
+    pub fn set_stroke(&mut self, stroke: RecordedStroke) -> bool {
         self.n_strokes += 1;
+        self.stroke.replace(Arc::new(stroke)).is_some()
     }
 
     /// Begins a recording; the hand does not stroke meanwhile.
     pub fn begin_recording(&mut self) {
         self.set_hand(None);
+        // What was said of the recording before is over.
         let full = strings::full(LONGEST_SECS);
-        self.player.message.take_if(|message| *message == full);
+        self.player.message.take_if(|message| message.starts_with(&full) || *message == strings::REPLACED);
         self.recorder = Some(Recorder::new());
     }
 
     /// Ends the recording; where nothing has touched, the stroke before it stays.
     pub fn end_recording(&mut self) {
-        let Some(samples) = self.recorder.take().and_then(Recorder::finish) else { return };
-        match RecordedStroke::new(samples) {
-            Ok(stroke) => self.set_stroke(stroke),
-            Err(error) => self.say(error.to_string()),
+        let is_full = self.recorder.as_ref().is_some_and(Recorder::is_full);
+        let outcome = match self.recorder.take().and_then(Recorder::finish).map(RecordedStroke::new) {
+            Some(Ok(stroke)) => {
+                let is_other_replaced = self.set_stroke(stroke);
+                let outcome = if is_other_replaced { strings::REPLACED } else { strings::KEPT };
+                // What was to be expected is not said.
+                (is_full || is_other_replaced).then(|| outcome.to_owned())
+            }
+            Some(Err(error)) => Some(error.to_string()),
+            None => None,
+        };
+        let full = is_full.then(|| strings::full(LONGEST_SECS));
+        let notes: Vec<String> = full.into_iter().chain(outcome).collect();
+        if !notes.is_empty() {
+            self.say(notes.join("; "));
         }
+    }
+
+    /// The same where the pointer has pressed a button for it: a pen's tap on that is no part of the stroke.
+    pub fn end_recording_by_pointer(&mut self) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.drop_tap();
+        }
+        self.end_recording();
     }
 
     /// What is recorded at the moment and how long it is in seconds, none before the first touch; `None` where nothing is
@@ -79,7 +99,6 @@ impl Session {
             recorder.take_pen(&self.pen.fresh);
             if recorder.is_full() {
                 self.end_recording();
-                self.say(strings::full(LONGEST_SECS));
             }
         }
         let stroke = self.stroke.as_ref();

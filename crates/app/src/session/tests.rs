@@ -4,6 +4,7 @@ use shagreen_core::blend::Mode;
 use shagreen_core::rate::at_rate;
 use shagreen_core::space::LabelSource;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use shagreen_device::track::PenSample;
 use shagreen_formats::actuator_toml::built_in_actuators;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Attribute, Attributes, Library};
@@ -12,7 +13,9 @@ use shagreen_formats::starter::starter_library;
 
 use super::{OutputChoice, Session};
 use crate::edit::{Edit, edited};
+use crate::recorder::LONGEST_SECS;
 use crate::rig::{Mounted, Rig};
+use crate::strings::stroke;
 use crate::window::new_project;
 
 fn starter() -> ProjectLibrary {
@@ -227,4 +230,25 @@ fn an_actuator_that_can_be_driven_opens_what_another_closed() {
     go_on(&mut session, "it is closed", Session::is_output_released);
     session.set_rig(mounted("Mark II-D"), &ctx);
     go_on(&mut session, "it opens", |s| !s.is_opening() && s.status().is_some());
+}
+
+/// A recording that has ended by itself is the stroke, or it is said why not.
+#[test]
+fn a_full_recording_is_said_to_be_kept_only_where_it_is() {
+    let mut session = Session::new(starter()).unwrap();
+    for (force_n, words, n_strokes) in
+        [(-1.0, "at least zero", 0), (1.0, stroke::KEPT, 1), (1.0, stroke::REPLACED, 2)]
+    {
+        session.begin_recording();
+        assert_eq!(session.output_message(), None, "what was said of the one before is over");
+        let recorder = session.recorder.as_mut().unwrap();
+        for _ in 0..2 {
+            recorder.take_mouse(PenSample { force_n, touching: true, ..PenSample::default() });
+        }
+        recorder.age(2.0 * LONGEST_SECS);
+        session.follow_strokes();
+        let message = session.output_message().unwrap();
+        assert!(message.starts_with(&stroke::full(LONGEST_SECS)) && message.ends_with(words), "{message}");
+        assert_eq!((session.n_strokes(), session.recording()), (n_strokes, None));
+    }
 }

@@ -50,6 +50,8 @@ pub const NO_TOUCH: &str = "Stroke the pad or use a pen: every touch is measured
 pub const ACTUATOR: &str = "Actuator";
 /// No actuator is known.
 pub const UNCALIBRATED: &str = "Unknown: in proportion to acceleration";
+/// The actuator of last time, which cannot be had.
+pub const MISSING: &str = "The one of last time, which cannot be had";
 /// What choosing an actuator does.
 pub const ACTUATOR_HELP: &str = "A known actuator is equalized, and kept within what it stands. Profiles of your own come from shagreen calibrate.";
 /// Turns the equalizer on.

@@ -104,6 +104,18 @@ pub fn no_project(reason: &str) -> String {
     format!("There is a file of this name that is no project, and stays: {reason}")
 }
 
+/// What new projects begin like cannot be had.
+pub fn no_template(reason: &str) -> String {
+    format!(
+        "New projects begin as usual until the one that you chose to begin with can be read, or another is chosen: {reason}"
+    )
+}
+
+/// It is no project.
+pub fn is_library(path: &str) -> String {
+    format!("{path} is a texture library now")
+}
+
 /// Saving did not work.
 pub fn not_saved(reason: &str) -> String {
     format!("Not saved: {reason}")

@@ -59,9 +59,19 @@ pub const BROKE_OFF: &str = "Reading the stroke broke off; try again";
 /// The tip never touches.
 pub const NEVER_TOUCHES: &str = "the tip never touches in this stroke; choose another file";
 
+/// A stroke took the place of another.
+pub const REPLACED: &str = "the stroke before is replaced";
+/// A recording that has ended by itself is the stroke now.
+pub const KEPT: &str = "it is kept";
+
 /// A recording has ended by itself.
 pub fn full(longest_secs: f64) -> String {
-    format!("The recording has ended: a stroke lasts {longest_secs:.0} s at most. It is kept.")
+    format!("The recording has ended, for a stroke lasts {longest_secs:.0} s at most")
+}
+
+/// Of several strokes one is read.
+pub fn only_one(name: &str, others: &[String]) -> String {
+    format!("the hand repeats one stroke at a time, so {name} was read and not {}", others.join(", "))
 }
 
 /// How long a recording is so far, and may be.

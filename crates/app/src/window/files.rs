@@ -47,7 +47,14 @@ impl Window {
     /// Does what was asked for about files.
     pub(super) fn carry_out_file(&mut self, command: FileCommand, ctx: &Context) {
         match command {
-            FileCommand::New => self.leave(Leave::New, ctx),
+            FileCommand::New => match self.files.settings.template.clone() {
+                // It is read first, and what is open is left once it is there: it may be changed meanwhile.
+                Some(template) => {
+                    self.files.is_beginning = true;
+                    self.files.document.open(template, ctx);
+                }
+                None => self.leave(Leave::New, ctx),
+            },
             FileCommand::Quit => self.leave(Leave::Quit, ctx),
             FileCommand::AskWhatToOpen => self.sheet = Sheet::Open(OpenSheet::new(&self.usual_folder(), ctx)),
             FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new()),
@@ -103,6 +110,9 @@ impl Window {
     }
 
     fn take_file(&mut self, came: Came, ctx: &Context) {
+        // What is saved meanwhile ends no reading.
+        let is_read = matches!(came, Came::Opened(..) | Came::NotOpened(_));
+        let is_beginning = is_read && std::mem::take(&mut self.files.is_beginning);
         match came {
             Came::Saved(path) => {
                 self.files.settings.note_project(&path);
@@ -111,7 +121,6 @@ impl Window {
                 }
                 // It may have been changed while it was written; then the question comes again.
                 if let Some(leave) = self.files.after_saving.take() {
-                    self.files.document.follow(&self.project, self.history.revision());
                     self.leave(leave, ctx);
                 }
             }
@@ -122,13 +131,12 @@ impl Window {
                     _ => self.session.say(strings::document::not_saved(&reason)),
                 }
             }
-            Came::Opened(Read::Project(imported), _) if std::mem::take(&mut self.files.is_beginning) => {
-                self.begin(imported.value, None);
-                self.say_warnings(&imported.warnings);
-            }
             Came::Opened(Read::Project(imported), path) => {
-                self.files.waiting = Some((imported, path));
+                self.files.waiting = Some((imported, (!is_beginning).then_some(path)));
                 self.leave(Leave::Open, ctx);
+            }
+            Came::Opened(Read::Library(_), path) if is_beginning => {
+                self.begin_as_usual(&strings::document::is_library(&path.display().to_string()), ctx);
             }
             Came::Opened(Read::Library(imported), _) => {
                 self.sheet = Sheet::Closed;
@@ -137,22 +145,24 @@ impl Window {
                 let library = ProjectLibrary::File(value.into());
                 self.carry_out(Command::Edit(Edit::OpenLibrary(library)), ctx);
             }
-            Came::NotOpened(reason) => {
-                if std::mem::take(&mut self.files.is_beginning) {
-                    // What new projects begin like is gone: they begin as usual.
-                    self.files.settings.template = None;
-                    self.begin(new_project(), None);
-                }
-                match &mut self.sheet {
-                    Sheet::Open(sheet) => sheet.say(reason),
-                    _ => self.session.say(reason),
-                }
-            }
+            Came::NotOpened(reason) if is_beginning => self.begin_as_usual(&reason, ctx),
+            Came::NotOpened(reason) => match &mut self.sheet {
+                Sheet::Open(sheet) => sheet.say(reason),
+                _ => self.session.say(reason),
+            },
         }
+    }
+
+    /// A new project begins as where no other was chosen to begin with; that one may be had again later.
+    fn begin_as_usual(&mut self, reason: &str, ctx: &Context) {
+        self.session.say(strings::document::no_template(reason));
+        self.leave(Leave::New, ctx);
     }
 
     /// Leaves the project that is open, where nothing is lost by it; asks first otherwise.
     fn leave(&mut self, leave: Leave, ctx: &Context) {
+        // It may have been changed since the last frame.
+        self.files.document.follow(&self.project, self.history.revision());
         if self.files.document.is_changed() {
             self.sheet = Sheet::Leaving(leave);
         } else {
@@ -162,16 +172,10 @@ impl Window {
 
     fn go(&mut self, leave: Leave, ctx: &Context) {
         match leave {
-            Leave::New => match self.files.settings.template.clone() {
-                Some(template) => {
-                    self.files.is_beginning = true;
-                    self.files.document.open(template, ctx);
-                }
-                None => self.begin(new_project(), None),
-            },
+            Leave::New => self.begin(new_project(), None),
             Leave::Open => {
                 if let Some((imported, path)) = self.files.waiting.take() {
-                    self.begin(imported.value, Some(path));
+                    self.begin(imported.value, path);
                     self.say_warnings(&imported.warnings);
                 }
             }

@@ -15,11 +15,12 @@ impl Window {
         match command {
             StrokeCommand::Record if self.session.recording().is_some() => self.session.end_recording(),
             StrokeCommand::Record => self.session.begin_recording(),
+            StrokeCommand::FinishByPointer => self.session.end_recording_by_pointer(),
             StrokeCommand::AskWhatToOpen => {
                 self.sheet = Sheet::Open(OpenSheet::of_strokes(&self.usual_folder(), ctx));
             }
-            StrokeCommand::Read(source) => {
-                self.strokes.read(source, self.session.rig().pressure_map, ctx);
+            StrokeCommand::Read(sources) => {
+                self.strokes.read(sources, self.session.rig().pressure_map, ctx);
             }
             StrokeCommand::Save => {
                 if let Some(stroke) = self.session.stroke() {
@@ -33,11 +34,13 @@ impl Window {
     /// A stroke that was read becomes the one that the hand can repeat.
     pub(super) fn collect_strokes(&mut self) {
         match self.strokes.collect() {
-            Some(Ok((stroke, warnings))) => {
+            Some(Ok((stroke, mut warnings))) => {
                 if matches!(&self.sheet, Sheet::Open(sheet) if sheet.is_for_strokes()) {
                     self.sheet = Sheet::Closed;
                 }
-                self.session.set_stroke(stroke);
+                if self.session.set_stroke(stroke) {
+                    warnings.insert(0, strings::REPLACED.to_owned());
+                }
                 self.say_warnings(&warnings);
             }
             Some(Err(reason)) => match &mut self.sheet {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
-use egui::{DroppedFile, Shape};
+use egui::{DroppedFile, Key, Modifiers, Shape};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use shagreen_app::Begin;
@@ -19,6 +19,9 @@ use shagreen_app::window::{Window, new_project};
 use shagreen_core::blend::Mode;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::{Project, ProjectLibrary};
+
+/// The silent output, as people choose it.
+pub(crate) const SILENT: &str = "No output (silent, real clock)";
 
 /// The program under test; there is a window after the first frame.
 pub(crate) type Author = Harness<'static, Option<Window>>;
@@ -173,6 +176,25 @@ pub(crate) fn choose_mode(harness: &mut Author, mode: Mode) {
 /// Waits until the field is there.
 pub(crate) fn wait_for_field(harness: &mut Author) {
     wait(harness, "the field is there", |h| !window(h).session().is_preparing());
+    harness.run_steps(2);
+}
+
+/// Types into the field of this name instead of what it says.
+pub(crate) fn write_into(harness: &mut Author, name: &str, text: &str) {
+    // A sheet that was just closed lets go of the keyboard some frames later.
+    harness.run_steps(4);
+    harness.get_by_role_and_label(Role::TextInput, name).focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run_steps(1);
+    harness.get_by_role_and_label(Role::TextInput, name).type_text(text);
+    harness.run_steps(2);
+}
+
+/// The same with a path, and takes it.
+pub(crate) fn enter_path(harness: &mut Author, name: &str, path: &Path) {
+    write_into(harness, name, &path.display().to_string());
+    harness.key_press(Key::Enter);
     harness.run_steps(2);
 }
 

@@ -79,10 +79,10 @@ fn full() -> Project {
 }
 
 fn back(project: &Project) -> Project {
-    let bytes = write_project(project, Path::new("/work"), BY);
-    let read = read_project(&bytes, Path::new("/work"), &nothing).unwrap();
+    let bytes = write_project(project, Path::new("/somewhere"), BY);
+    let read = read_project(&bytes, Path::new("/somewhere"), &nothing).unwrap();
     assert_eq!(read.warnings, Vec::<String>::new());
-    assert_eq!(write_project(&read.value, Path::new("/work"), BY), bytes);
+    assert_eq!(write_project(&read.value, Path::new("/somewhere"), BY), bytes);
     read.value
 }
 
@@ -101,7 +101,7 @@ fn what_is_written_is_read_back() {
 #[test]
 fn every_version_opens() {
     let bytes = include_bytes!("../../../../vectors/project/1.0.shagreen");
-    let read = read_project(bytes, Path::new("/work"), &nothing).unwrap();
+    let read = read_project(bytes, Path::new("/somewhere"), &nothing).unwrap();
     assert_eq!(read.warnings, Vec::<String>::new());
     let project = read.value;
     let [first, second] = &project.authored[..] else { panic!("two textures") };
@@ -124,7 +124,8 @@ fn every_version_opens() {
     assert_eq!(project.starred.len(), 2);
     assert_eq!(project.library, ProjectLibrary::BuiltIn(BuiltIn::Starter));
     assert_eq!(back(&project), project);
-    let written: Value = serde_json::from_slice(&write_project(&project, Path::new("/work"), BY)).unwrap();
+    let written: Value =
+        serde_json::from_slice(&write_project(&project, Path::new("/somewhere"), BY)).unwrap();
     assert_eq!(written["of_a_later_version"], json!({ "kept": [1, 2, 3] }));
 }
 
@@ -133,12 +134,12 @@ fn every_version_opens() {
 fn a_library_beside_the_project_is_found_where_both_went() {
     let bytes = write_library(&starter_library().unwrap());
     let file = LibraryFile {
-        path: PathBuf::from("/work-of-mine/libraries/woods.json"),
+        path: PathBuf::from("/somewhere/libraries/woods.json"),
         sha256: sha256_hex(&bytes),
         library: read_library(&bytes).unwrap().value,
     };
     let project = Project::new(ProjectLibrary::File(Arc::new(file)), "New texture");
-    let written = write_project(&project, Path::new("/work-of-mine"), BY);
+    let written = write_project(&project, Path::new("/somewhere"), BY);
     let other = Path::new("/elsewhere");
     let read_there = |path: &Path| {
         if path == Path::new("/elsewhere/libraries/woods.json") { Ok(bytes.clone()) } else { nothing(path) }
@@ -148,9 +149,9 @@ fn a_library_beside_the_project_is_found_where_both_went() {
     let ProjectLibrary::File(found) = &moved.value.library else { panic!("a file") };
     assert_eq!(found.library, starter_library().unwrap());
     // Written where it is not below, it says where it is.
-    let far = write_project(&project, Path::new("/work-of-yours"), BY);
+    let far = write_project(&project, Path::new("/elsewhere"), BY);
     let wire: Value = serde_json::from_slice(&far).unwrap();
-    assert_eq!(wire["library"]["file"], "/work-of-mine/libraries/woods.json");
+    assert_eq!(wire["library"]["file"], "/somewhere/libraries/woods.json");
     // Another library under the same name is told.
     let mut changed = starter_library().unwrap();
     changed.textures.truncate(3);
