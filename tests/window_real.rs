@@ -193,7 +193,22 @@ fn wait_until<T>(what: &str, found: impl Fn() -> Option<T>) -> (T, Duration) {
     }
 }
 
-/// Open, drag, save, drag again, be killed at once and come back: the second drag is not lost.
+/// Another texture in the project at `path`, far from the first.
+fn author_another(path: &Path) {
+    let mut project: serde_json::Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
+    let mut other = project["authored"][0].clone();
+    (other["key"], other["name"]) = (9.into(), "Other".into());
+    (other["rough_smooth"], other["hard_soft"]) = (15.into(), 85.into());
+    project["authored"].as_array_mut().unwrap().push(other);
+    std::fs::write(path, project.to_string()).unwrap();
+}
+
+/// What the window says of the neighbors.
+fn neighbors(shot: &RgbImage) -> RgbImage {
+    image::imageops::crop_imm(shot, 1000, 300, 270, 170).to_image()
+}
+
+/// Open, drag, compare, save, drag again, be killed at once and come back: the second drag is not lost.
 #[test]
 fn a_killed_program_gives_back_what_was_not_saved() {
     if !have(&["Xvfb", "xdotool", "import"]) {
@@ -204,6 +219,7 @@ fn a_killed_program_gives_back_what_was_not_saved() {
     let program = env!("CARGO_BIN_EXE_shagreen");
     let made = Command::new(program).args(["project", "new", "-o"]).arg(&path).output().unwrap();
     assert!(made.status.success());
+    author_another(&path);
     let open = || {
         let mut command = display.command(program);
         Guard(command.args(["--output", "null"]).arg(&path).stderr(Stdio::null()).spawn().unwrap())
@@ -218,7 +234,12 @@ fn a_killed_program_gives_back_what_was_not_saved() {
     };
     let saved_at = (from.0 - 120, from.1 - 40);
     display.drag(from, saved_at);
-    display.wait_for("project-dragged", "the point follows", near(saved_at));
+    let dragged = display.wait_for("project-dragged", "the point follows", near(saved_at));
+    let of_first = neighbors(&dragged);
+    display.key("2");
+    display.wait_for("project-compared", "B has other neighbors", |shot| neighbors(shot) != of_first);
+    display.key("2");
+    display.wait_for("project-chosen", "the selected one again", |shot| neighbors(shot) == of_first);
     display.key("ctrl+s");
     let (saved, _) = wait_until("it is saved", || place_in(&path).filter(|at| (at - 50.0).abs() > 5.0));
 
