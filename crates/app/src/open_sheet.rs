@@ -79,6 +79,8 @@ impl OpenSheet {
     /// Says why the file could not be opened.
     pub(crate) fn say(&mut self, reason: String) {
         self.failure = Some(reason);
+        // A field that was disabled has lost the keyboard.
+        self.is_focused = false;
     }
 
     fn walk(&mut self, folder: &Path, ctx: &Context) {

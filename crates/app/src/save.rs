@@ -8,7 +8,8 @@ mod stroke_file;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-use egui::{Button, Context, Key, Label, RichText, TextEdit, Ui};
+use egui::text::{CCursor, CCursorRange};
+use egui::{Button, Context, Id, Key, Label, RichText, TextEdit, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
@@ -108,10 +109,11 @@ impl SaveSheet {
         Self { subject, path, state: State::default(), is_focused: false, granted: None }
     }
 
-    /// The folder that a figure was saved in.
-    pub fn folder_of_figure(&self) -> Option<&Path> {
+    /// The folder that a figure, a stroke or a signal was saved in.
+    pub fn folder_of_export(&self) -> Option<&Path> {
         let State::Saved(path) = &self.state else { return None };
-        matches!(self.subject, Subject::Figure(_)).then(|| Path::new(path).parent())?
+        let is_export = !matches!(self.subject, Subject::Library | Subject::Project(_));
+        is_export.then(|| Path::new(path).parent())?
     }
 
     /// Whether it is the project that is saved.
@@ -138,7 +140,8 @@ impl SaveSheet {
         });
         let mut commands = shown.inner;
         commands.extend(self.granted.take().map(|path| Command::File(FileCommand::SaveTo(path))));
-        let is_left = is_left(ctx);
+        let is_done = matches!(self.state, State::Saved(_)) && ctx.input(|i| i.key_pressed(Key::Enter));
+        let is_left = is_left(ctx) || is_done;
         if is_left && !self.is_saving() {
             commands.push(Command::CloseSheet);
         }
@@ -163,6 +166,7 @@ impl SaveSheet {
         let field = ui.add_enabled(!is_saving, field).accessible_name(field_name);
         if !is_saving && !std::mem::replace(&mut self.is_focused, true) {
             field.request_focus();
+            select_name(ui.ctx(), field.id, &self.path);
         }
         if field.changed() {
             self.state = State::Asking;
@@ -279,6 +283,17 @@ impl Subject {
             if path.extension().is_none() && !path.is_dir() { path.with_extension(ending) } else { path };
         std::path::absolute(&path).unwrap_or(path)
     }
+}
+
+/// Selects the name of the file in the field of its path, as who saves another one writes over it.
+fn select_name(ctx: &Context, field: Id, path: &str) {
+    let is_parting = |c: char| c == '/' || c == std::path::MAIN_SEPARATOR;
+    let begin = path.rfind(is_parting).map_or(0, |at| path[..=at].chars().count());
+    let length = Path::new(path).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
+    let mut state = TextEdit::load_state(ctx, field).unwrap_or_default();
+    let ends = CCursorRange::two(CCursor::new(begin), CCursor::new(begin + length));
+    state.cursor.set_char_range(Some(ends));
+    state.store(ctx, field);
 }
 
 impl Content {

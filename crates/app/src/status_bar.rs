@@ -28,7 +28,7 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
                     commands.push(Command::ResetLimiter);
                 }
             } else if session.is_limiting() {
-                ui.colored_label(t.warning, strings::LIMITING);
+                ui.colored_label(t.warning, strings::LIMITING).on_hover_text(strings::LIMITING_HELP);
             }
             if status.state == LinkState::Stalled {
                 ui.colored_label(t.warning, strings::STALLED);

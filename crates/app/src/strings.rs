@@ -119,6 +119,10 @@ pub const HAND_FORCE: &str = "Force of the hand";
 pub const HAND_PATH: &str = "Path of the hand";
 /// How a message at the foot goes away.
 pub const DISMISS: &str = "Click to take this message away.";
+/// What muting does.
+pub const MUTE_HELP: &str = "Silences the output and keeps everything else going (M).";
+/// What the limiter does.
+pub const LIMITING_HELP: &str = "The texture is stronger than the output or the actuator may play, and is turned down. Press less, stroke slower, or choose a weaker texture.";
 /// On the button that lets a neighbor be heard alone.
 pub const SOLO: &str = "S";
 /// What that does.

@@ -77,8 +77,8 @@ pub struct Window {
     tour_places: Places,
     workspace: Workspace,
     build: BuildPage,
-    /// Where figures are saved unless another path is chosen.
-    figures_folder: PathBuf,
+    /// Where figures, strokes and signals are saved unless another path is chosen.
+    exports_folder: PathBuf,
     /// The output that was chosen in this window, until it is open.
     asked_output: Option<String>,
     /// Whether the output was named by whoever started the program, and none was chosen since.
@@ -137,7 +137,7 @@ impl Window {
             workspace: Workspace::default(),
             build: BuildPage::default(),
             // Where there is none, the path is one to be completed.
-            figures_folder: std::env::current_dir().unwrap_or_default(),
+            exports_folder: std::env::current_dir().unwrap_or_default(),
             asked_output: None,
             is_output_given,
         })

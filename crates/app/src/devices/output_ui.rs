@@ -1,6 +1,6 @@
 //! The output: which, how it is opened, a tone to try it, and what goes out.
 
-use egui::{Button, ComboBox, DragValue, ProgressBar, Ui};
+use egui::{Button, Color32, ComboBox, DragValue, ProgressBar, Response, Ui};
 use shagreen_device::status::LinkState;
 
 use super::{DevicesSheet, heading, note, row, warning};
@@ -87,16 +87,21 @@ fn meters_ui(ui: &mut Ui, session: &Session) {
     let status = session.status().copied().unwrap_or_default();
     row(ui, strings::METER, |ui| {
         let color = if session.is_limiting() { t.warning } else { t.accent };
-        let bar = ProgressBar::new(status.peak).desired_width(210.0).fill(color);
-        let bar = bar.text(format!("{:.0} %", 100.0 * status.peak));
-        ui.add(bar).accessible_name(strings::METER).on_hover_text(strings::METER_HELP);
+        meter(ui, status.peak, color).accessible_name(strings::METER).on_hover_text(strings::METER_HELP);
     });
     if session.rig().actuator().is_some_and(|a| a.limits_in_volts().rated_volts_rms.is_some()) {
         row(ui, strings::HEAT, |ui| {
             let color = if status.heat_gain < 0.99 { t.warning } else { t.accent };
-            let bar = ProgressBar::new(status.heat_used).desired_width(210.0).fill(color);
-            let bar = bar.text(format!("{:.0} %", 100.0 * status.heat_used));
-            ui.add(bar).accessible_name(strings::HEAT).on_hover_text(strings::HEAT_HELP);
+            meter(ui, status.heat_used, color)
+                .accessible_name(strings::HEAT)
+                .on_hover_text(strings::HEAT_HELP);
         });
     }
+}
+
+/// A bar with its number beside it, where it can be read whatever the bar is.
+fn meter(ui: &mut Ui, share: f32, color: Color32) -> Response {
+    let bar = ui.add(ProgressBar::new(share).desired_width(170.0).fill(color));
+    ui.label(strings::percent(share));
+    bar
 }

@@ -214,3 +214,8 @@ pub fn limits(rated_v: Option<f64>, peak_v: Option<f64>) -> String {
         known.join(", ")
     }
 }
+
+/// A share of what is possible.
+pub fn percent(share: f32) -> String {
+    format!("{:.0} %", 100.0 * share)
+}

@@ -22,6 +22,6 @@ pub const NO_SIGNAL: &str = "Choose another path: what is there, or the .json be
 /// What is saved.
 pub fn to_save(secs: f64, mm_per_s: f64, force_n: f64, rate_hz: u32) -> String {
     format!(
-        "{secs:.0} s, stroked steadily at {mm_per_s:.0} mm/s and {force_n:.2} N as the hand is set (a recorded stroke by its mean), go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s²; the .json beside it says what was rendered."
+        "{secs:.0} s, stroked steadily at {mm_per_s:.0} mm/s and {force_n:.2} N as the hand is set (a recorded stroke by its mean), go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s², and players clip what is above; the .json beside it says what was rendered."
     )
 }

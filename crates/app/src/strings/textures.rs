@@ -10,7 +10,7 @@ use crate::strings;
 /// Opens the menu of filters.
 pub const FILTER: &str = "Filter";
 /// What the filters do.
-pub const FILTER_HELP: &str = "Shows only textures with certain tags, from a part of the space, with a star, or that joined. It changes what is listed, not what is heard.";
+pub const FILTER_HELP: &str = "Shows only textures with certain tags, from a part of the space, with a star, or that were added to this project. It changes what is listed, not what is heard.";
 /// Heading of the tags.
 pub const TAGS: &str = "Tags";
 /// What choosing tags does.
@@ -30,7 +30,7 @@ pub const ONLY_STARRED: &str = "Only with a star";
 /// What that does.
 pub const ONLY_STARRED_HELP: &str = "Textures that you starred; they stand first in the list anyhow.";
 /// Only textures that joined.
-pub const ONLY_JOINED: &str = "Only those that joined";
+pub const ONLY_JOINED: &str = "Only those added to this project";
 /// What that does.
 pub const ONLY_JOINED_HELP: &str = "Textures that were imported, duplicated or made of a path: they belong to the project, not to the library.";
 /// Takes all filters away.
@@ -101,9 +101,9 @@ pub const TAGS_LABEL: &str = "tags";
 /// It has none.
 pub const NONE: &str = "none";
 /// What may be done with it.
-pub const PASSING_ON: &str = "passing on";
+pub const PASSING_ON: &str = "may be shared";
 /// Its terms are the only bound.
-pub const PASSED_ON_FREELY: &str = "as its terms say";
+pub const PASSED_ON_FREELY: &str = "under its license";
 /// What the terms are for.
 pub const TERMS_HELP: &str = "The license under which it may be used and passed on, as its file states it.";
 /// Heading of the attributes.

@@ -103,13 +103,13 @@ impl Window {
             Command::ReadJudgments(sources) => self.build.read(sources, ctx),
             Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
             Command::SaveFigure(figure) => {
-                self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.figures_folder));
+                self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.exports_folder));
             }
             Command::CloseSheet => {
                 if let Sheet::Save(sheet) = &self.sheet
-                    && let Some(folder) = sheet.folder_of_figure()
+                    && let Some(folder) = sheet.folder_of_export()
                 {
-                    self.figures_folder = folder.to_owned();
+                    self.exports_folder = folder.to_owned();
                 }
                 self.sheet = Sheet::Closed;
                 self.files.stay();

@@ -77,7 +77,7 @@ impl Window {
                     Ok(signal) => {
                         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                         let name = id_from_name(&panel.heard_name());
-                        let path = self.usual_folder().join(name).with_extension("wav");
+                        let path = self.exports_folder.join(name).with_extension("wav");
                         self.sheet = Sheet::Save(SaveSheet::signal(signal, &path));
                     }
                     Err(reason) => self.session.say(reason),

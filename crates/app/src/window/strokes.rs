@@ -24,7 +24,7 @@ impl Window {
             }
             StrokeCommand::Save => {
                 if let Some(stroke) = self.session.stroke() {
-                    let path = self.usual_folder().join(strings::FILE_NAME);
+                    let path = self.exports_folder.join(strings::FILE_NAME);
                     self.sheet = Sheet::Save(SaveSheet::stroke(StrokeFile::new(stroke), &path));
                 }
             }

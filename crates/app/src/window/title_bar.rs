@@ -63,7 +63,8 @@ impl Window {
                     commands.push(Command::OpenDevices);
                 }
                 let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
-                if ui.selectable_label(self.session.is_muted(), mute).clicked() {
+                let mute = ui.selectable_label(self.session.is_muted(), mute);
+                if mute.on_hover_text(strings::MUTE_HELP).clicked() {
                     commands.push(Command::ToggleMute);
                 }
             });
