@@ -19,8 +19,8 @@ use shagreen_formats::sorting_csv::sorting_csv;
 use shagreen_formats::starter::starter_library;
 
 use support::{
-    Author, author, author_on, choose, click, drop_files, painted, says, shown, unnamed_controls, wait,
-    window, words,
+    Author, author, author_on, choose, click, drop_files, enter_path, painted, says, shown, unnamed_controls,
+    wait, window, words, write_into,
 };
 
 /// Goes to the workspace.
@@ -64,25 +64,13 @@ fn set_number(harness: &mut Author, name: &str, value: f64) {
 fn save(harness: &mut Author, button: &str, path: &Path) {
     click(harness, button);
     harness.run_steps(2);
-    let field = harness.get_by_role_and_label(Role::TextInput, build::SAVE_PATH);
-    field.focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.run_steps(1);
-    harness.get_by_role_and_label(Role::TextInput, build::SAVE_PATH).type_text(&path.display().to_string());
-    harness.run_steps(2);
-    harness.key_press(Key::Enter);
+    enter_path(harness, build::SAVE_PATH, path);
 }
 
 /// Types a path into the field of a table, and reads it.
 fn read(harness: &mut Author, what: &str, path: &Path) {
     let field = build::path_of(what);
-    harness.get_by_role_and_label(Role::TextInput, &field).focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.run_steps(1);
-    harness.get_by_role_and_label(Role::TextInput, &field).type_text(&path.display().to_string());
-    harness.run_steps(2);
+    write_into(harness, &field, &path.display().to_string());
     click(harness, &build::read(what));
     wait(harness, "the table is read", |h| !window(h).build().judgments().is_reading());
     harness.run_steps(2);

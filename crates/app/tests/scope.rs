@@ -6,13 +6,15 @@ mod support;
 use std::path::Path;
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, lerp, pos2};
+use egui::{Key, lerp, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::scope::view::View;
 use shagreen_app::strings::{self, build, import, scope};
 use shagreen_formats::thresholds::ThresholdKind;
 
-use support::{Author, author, choose, click, drag, painted, says, unnamed_controls, wait, window, words};
+use support::{
+    Author, author, choose, click, drag, enter_path, painted, says, unnamed_controls, wait, window, words,
+};
 
 /// The window while the automatic hand strokes, and something has been heard for a while.
 fn stroking() -> Author {
@@ -88,13 +90,7 @@ fn save(harness: &mut Author, format: &str, path: &Path) {
     harness.run_steps(4);
     let field = harness.get_by_role_and_label(Role::TextInput, build::SAVE_PATH);
     assert!(field.accesskit_node().value().unwrap().ends_with(&format!(".{}", format.to_lowercase())));
-    field.focus();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.run_steps(1);
-    harness.get_by_role_and_label(Role::TextInput, build::SAVE_PATH).type_text(&path.display().to_string());
-    harness.run_steps(2);
-    harness.key_press(Key::Enter);
+    enter_path(harness, build::SAVE_PATH, path);
     let saved = import::saved(&path.display().to_string());
     wait(harness, "it is saved", |h| h.query_by_label(&saved).is_some());
     click(harness, import::CLOSE);
