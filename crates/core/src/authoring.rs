@@ -94,8 +94,9 @@ impl Blending {
 /// Weights smaller than this are rounding, and left out.
 const LEAST_WEIGHT: f64 = 1e-12;
 
-/// Distance from the hull, in points of the axes, below which stolen areas reach to infinity and digits are lost.
-const NEAR_HULL: f64 = 1e-3;
+/// Distances from the hull, in points of the axes: below the first stolen areas reach to infinity and digits are lost, and
+/// from there to the second they take over from the weights of the triangle.
+const NEAR_HULL: (f64, f64) = (1e-3, 1.0);
 
 /// Radius around a locked texture within which the field gives way to it, in points of the axes.
 const LOCK_RADIUS: f64 = 8.0;
@@ -257,22 +258,34 @@ impl Authoring {
         }
     }
 
-    /// Weights by stolen area. On the hull, where that is infinite, they are those of its edge.
+    /// Weights by stolen area. On the hull, where that is infinite, they are those of its edge, and next to it, between the
+    /// two.
     fn natural_weights(&self, location: &Location) -> Vec<(usize, f64)> {
         let sites = self.space.sites();
         let natural = self.natural.get_or_init(|| {
             let places: Vec<_> = sites.iter().map(|(_, at)| at.xy()).collect();
             NaturalNeighbors::new(&places).ok().map(Arc::new)
         });
-        let is_inside = !location.clamped && self.space.hull_distance(location.at) > NEAR_HULL;
-        let weights = match natural {
-            Some(natural) if is_inside => natural.weights(location.at.xy()),
+        let (never, always) = NEAR_HULL;
+        let inside = if location.clamped { 0.0 } else { self.space.hull_distance(location.at) };
+        let share = ((inside - never) / (always - never)).clamp(0.0, 1.0);
+        let stolen = match natural {
+            Some(natural) if share > 0.0 => natural.weights(location.at.xy()),
             _ => Vec::new(),
         };
-        if weights.is_empty() {
+        if stolen.is_empty() {
             return location.corners.clone();
         }
-        weights.into_iter().map(|(site, weight)| (sites[site].0, weight)).collect()
+        let mut weights: Vec<(usize, f64)> =
+            stolen.into_iter().map(|(site, weight)| (sites[site].0, share * weight)).collect();
+        for (corner, weight) in &location.corners {
+            let weight = (1.0 - share) * weight;
+            match weights.iter_mut().find(|(texture, _)| texture == corner) {
+                Some((_, sum)) => *sum += weight,
+                None => weights.push((*corner, weight)),
+            }
+        }
+        weights
     }
 
     /// The locked texture whose circle holds the point, and its share: one at its own place, and nothing at the rim.

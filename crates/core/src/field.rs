@@ -27,8 +27,10 @@ pub(crate) const LEAST_FRICTION: f64 = 1e-3;
 /// Frequency in Hz, decay in 1/s and amplitude in m/s² of a landing below which nothing is felt: what is less counts as
 /// this, since logarithms of next to nothing would outweigh everything.
 const LEAST_TAP: [f64; 3] = [1.0, 1.0, 1e-3];
-/// Halvings of the way to the limit of extrapolation.
-const N_HALVINGS: usize = 8;
+/// Noise `Σ w²` up to which extrapolation goes all the way; at one it stands still.
+const SURE: f64 = 0.8;
+/// Steps of the way to the limit of extrapolation.
+const N_STEPS: u32 = 32;
 
 /// The field over a space.
 #[derive(Clone, Debug)]
@@ -142,25 +144,25 @@ impl Field {
         self.smoother.weights(at)
     }
 
-    /// How far from `inside` towards `to` the field supports a texture: as long as the noise of the measurements weighs
-    /// no more than in a copy of one texture, `Σ w² ≤ 1`.
+    /// How far from `inside` towards `to` the field supports a texture: the noise of the measurements, `Σ w²`, nowhere on
+    /// the way weighs more than in a copy of one texture. The way is made shorter from [`SURE`] on, in proportion to the
+    /// highest noise met so far: were it simply cut where the noise is one, a bump of the noise that is met or missed
+    /// by a hair would let the end jump from one side of it to the other.
     pub(crate) fn supported(&self, inside: Xy, to: Xy) -> Xy {
         let along = |t: f64| [0, 1].map(|axis| inside[axis] + t * (to[axis] - inside[axis]));
         let noise = |at: Xy| self.weights(at).iter().map(|w| w * w).sum::<f64>();
-        let (mut near, mut far) = ((0.0, noise(inside)), (1.0, noise(to)));
-        if far.1 <= 1.0 {
-            return to;
+        let pace = |worst: f64| ((1.0 - worst) / (1.0 - SURE)).clamp(0.0, 1.0);
+        let mut worst = noise(inside);
+        let mut reached = 0.0;
+        for step in 1..=N_STEPS {
+            let before = pace(worst);
+            if before == 0.0 {
+                break;
+            }
+            worst = worst.max(noise(along(f64::from(step) / f64::from(N_STEPS))));
+            reached += 0.5 * (before + pace(worst)) / f64::from(N_STEPS);
         }
-        if near.1 > 1.0 {
-            return inside;
-        }
-        for _ in 0..N_HALVINGS {
-            let middle = 0.5 * (near.0 + far.0);
-            let there = (middle, noise(along(middle)));
-            if there.1 <= 1.0 { near = there } else { far = there }
-        }
-        // A straight line through the last two: without it the limit would move in steps.
-        along(near.0 + (far.0 - near.0) * (1.0 - near.1) / (far.1 - near.1))
+        along(reached)
     }
 }
 

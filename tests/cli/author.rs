@@ -1,10 +1,7 @@
 //! Authoring from the command line: modes, locks, what lies outside, and paths.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-mod support;
-
+use crate::support::{Bench, rms};
 use serde_json::Value;
-use support::{Bench, rms};
 
 fn psd(bench: &Bench, what: &str) -> Value {
     bench.json(&format!("texture psd {what} --speed 80 --force 0.6 --bins 40"))

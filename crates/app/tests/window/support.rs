@@ -1,7 +1,5 @@
 //! What the tests of the window share: the window on the starter library, and a person's moves.
 
-#![allow(dead_code, reason = "each test uses some of it")]
-
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,7 +1,4 @@
 //! Output, actuator and pen as they were left: they come back with the next window, and what is gone is said.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::path::Path;
 
@@ -16,7 +13,7 @@ use shagreen_device::output::NULL_ID;
 use shagreen_formats::rig_settings::{ActuatorSettings, ProfileSettings, RigSettings};
 use shagreen_formats::settings::{Settings, read_settings, write_settings};
 
-use support::{Author, SILENT, author_of, begin, choose, click, says, wait, window, window_of};
+use crate::support::{Author, SILENT, author_of, begin, choose, click, says, wait, window, window_of};
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
 

@@ -1,11 +1,8 @@
 //! What the window looks like: parts of it against reference images, in both themes.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test -p shagreen-app --test images` takes new ones, to be looked at before they are kept.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+//! `UPDATE_SNAPSHOTS=1 cargo test -p shagreen-app --test window images` takes new ones, to be looked at before they are kept.
 
-#[path = "images/raster.rs"]
 mod raster;
-mod support;
 
 use std::path::Path;
 
@@ -20,10 +17,10 @@ use shagreen_core::blend::Mode;
 use shagreen_core::heat_map::Quantity;
 use shagreen_formats::gallery::GALLERY;
 
+use self::raster::Raster;
+use crate::support::{self, Author, begin, choose, choose_mode, click, says, wait, wait_for_field, window};
 use image::RgbaImage;
 use image::imageops::crop_imm;
-use raster::Raster;
-use support::{Author, begin, choose, choose_mode, click, says, wait, wait_for_field, window};
 
 /// Letters are drawn with more or less of a pixel on other processors.
 const PIXELS_APART: usize = 12;

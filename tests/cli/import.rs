@@ -1,16 +1,13 @@
 //! `shagreen import` and `shagreen export`: what other programs recorded and modelled.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
-
-mod support;
 
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::support::Bench;
 use serde_json::Value;
-use support::Bench;
 
-const MADE_UP: &str = include_str!("../vectors/hatt/made_up.xml");
-const VECTORS: &str = include_str!("../vectors/hatt/hatt_vectors.json");
+const MADE_UP: &str = include_str!("../../vectors/hatt/made_up.xml");
+const VECTORS: &str = include_str!("../../vectors/hatt/hatt_vectors.json");
 
 fn floats(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()

@@ -1,7 +1,4 @@
 //! The project and its file: saved, opened, left, recovered after a crash; nothing is lost unasked.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +18,7 @@ use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_bytes;
 use shagreen_formats::wav::SidecarV1;
 
-use support::{
+use crate::support::{
     Author, author, author_of, begin, click, drop_files, enter_path, says, unnamed_controls, wait, window,
     write_into,
 };

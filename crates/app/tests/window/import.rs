@@ -1,7 +1,4 @@
 //! Importing, as a person would: files dropped on the window, questions answered, the texture accepted, heard, undone.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -17,7 +14,7 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
-use support::{Author, author, choose, click, drop_files, solo, unnamed_controls, wait, window};
+use crate::support::{Author, author, choose, click, drop_files, solo, unnamed_controls, wait, window};
 
 fn names(harness: &Author) -> Vec<String> {
     window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()

@@ -1,12 +1,9 @@
 //! `shagreen devices --descriptor` and `--decode`, and strokes recorded from pens.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::fmt::Write as _;
 
+use crate::support::{Bench, shared_data};
 use serde_json::json;
-use support::{Bench, shared_data};
 
 /// A pen of 209.66 by 157.25 mm with 4.016 N at a pressure of 4095, report 26.
 const PEN: &str = "05 0d 09 02 a1 01 85 1a 09 20 a1 00 15 00 25 01 75 01 95 06 09 42 09 44 09 45 09 3c 09 5a 09 32 \

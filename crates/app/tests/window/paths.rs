@@ -1,7 +1,4 @@
 //! Paths through the space: drawn, changed, played along a stroke, kept as textures.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::time::Duration;
 
@@ -14,7 +11,7 @@ use shagreen_core::drawn_path::DrawnPath;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture_path::{Along, AtEnd};
 
-use support::{
+use crate::support::{
     Author, author, choose, click, painted, solo, unnamed_controls, wait, wait_for_field, window, words,
 };
 

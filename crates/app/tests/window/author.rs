@@ -1,7 +1,4 @@
 //! The workspace Author, used as a person would: controls found by name, the point dragged, the texture heard.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::time::{Duration, Instant};
 
@@ -12,7 +9,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings;
 use shagreen_core::blend::Mode;
 
-use support::{Author, author, choose_mode, click, drag, unnamed_controls, wait, window};
+use crate::support::{Author, author, choose_mode, click, drag, unnamed_controls, wait, window};
 
 /// Lets the texture sound for a while.
 fn listen(harness: &mut Author, seconds: f64) {

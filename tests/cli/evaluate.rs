@@ -1,10 +1,7 @@
 //! `shagreen evaluate leave-one-out`.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-mod support;
-
+use crate::support::Bench;
 use serde_json::Value;
-use support::Bench;
 
 const MODES: [&str; 5] = ["field", "parametric", "shared", "power", "paper"];
 

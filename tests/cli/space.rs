@@ -1,10 +1,7 @@
 //! `shagreen space place` and `shagreen space build`.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-mod support;
-
+use crate::support::Bench;
 use serde_json::{Value, json};
-use support::Bench;
 
 fn text(bench: &Bench, name: &str) -> String {
     std::fs::read_to_string(bench.path(name)).unwrap()
@@ -108,7 +105,7 @@ fn a_space_is_built_from_a_simulated_panel() {
     assert_eq!(std::fs::read_dir(bench.path("figures")).unwrap().count(), 16);
     // It is what the second library of the program was made by.
     bench.json("library places --library l2.json --out places.csv");
-    let built_in = include_str!("../assets/starter/simulated.csv");
+    let built_in = include_str!("../../assets/starter/simulated.csv");
     assert_eq!(std::fs::read_to_string(bench.path("places.csv")).unwrap(), built_in);
     let second = bench.json("library list --library simulated");
     assert_eq!(second["textures"][0]["label_source"], "simulated");

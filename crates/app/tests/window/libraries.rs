@@ -1,7 +1,4 @@
 //! Another library is opened in the window: its places say whom they come from, and nothing is lost.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -13,7 +10,7 @@ use shagreen_core::blend::Mode;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::Library;
 
-use support::{
+use crate::support::{
     Author, author, author_on, choose_mode, click, drop_files, painted, says, shown, unnamed_controls, wait,
     window, words,
 };

@@ -1,7 +1,4 @@
 //! The scope, used as a person would: views chosen, held, measured, saved.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::path::Path;
 
@@ -12,8 +9,9 @@ use shagreen_app::scope::view::View;
 use shagreen_app::strings::{self, build, import, scope};
 use shagreen_formats::thresholds::ThresholdKind;
 
-use support::{
-    Author, author, choose, click, drag, enter_path, painted, says, unnamed_controls, wait, window, words,
+use crate::support::{
+    self, Author, author, choose, click, drag, enter_path, painted, says, unnamed_controls, wait, window,
+    words,
 };
 
 /// The window while the automatic hand strokes, and something has been heard for a while.

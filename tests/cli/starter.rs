@@ -1,5 +1,4 @@
 //! The committed starter library: made from the committed materials, and like real surfaces as far as statistics go.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and shows its numbers")]
 
 use shagreen_core::plane::Plane;
 use shagreen_core::spectrum::centroid;
@@ -10,7 +9,7 @@ use shagreen_formats::library::Library;
 use shagreen_formats::materials_toml::read_materials;
 use shagreen_formats::starter::{starter_bytes, starter_library};
 
-const MATERIALS: &[u8] = include_bytes!("../assets/starter/materials.toml");
+const MATERIALS: &[u8] = include_bytes!("../../assets/starter/materials.toml");
 
 fn library() -> Library {
     starter_library().unwrap()

@@ -1,10 +1,7 @@
 //! Projects on the command line: made, shown, and what was authored in them rendered.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
 
-mod support;
-
+use crate::support::Bench;
 use serde_json::json;
-use support::Bench;
 
 #[test]
 fn the_gallery_is_listed_and_begun_from() {

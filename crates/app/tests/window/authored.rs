@@ -1,7 +1,4 @@
 //! Many authored textures: made, told apart, compared, kept and brought back; the map behind them, and the view.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
@@ -11,7 +8,10 @@ use shagreen_app::strings::{authored as words, compare, map, view};
 use shagreen_core::blend::Mode;
 use shagreen_core::heat_map::Quantity;
 
-use support::{Author, author, choose, choose_mode, click, drag, says, unnamed_controls, wait, window};
+use crate::support::{
+    self, Author, author, choose, choose_mode, click, drag, says, unnamed_controls, wait, wait_for_field,
+    window,
+};
 
 fn slide(harness: &mut Author, name: &str, value: f64) {
     harness.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
@@ -198,6 +198,7 @@ fn two_textures_are_compared() {
 #[test]
 fn a_neighbor_is_heard_alone() {
     let mut harness = author();
+    wait_for_field(&mut harness);
     let (parent, name) = {
         let (parent, _) = window(&harness).session().shown_parents()[0];
         (parent, strings::solo(&window(&harness).session().textures()[parent].name))

@@ -1,9 +1,6 @@
 //! What cannot be done is said in one line, with the right status, and leaves nothing behind.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-mod support;
-
-use support::{Bench, strokes};
+use crate::support::{Bench, strokes};
 
 const STEADY: &str = "--speed 100 --force 1 --seconds 0.2";
 
@@ -203,7 +200,7 @@ fn how_a_stroke_is_read_is_asked_of_what_can_tell() {
 #[test]
 fn damaged_libraries_name_the_texture_and_the_file() {
     let bench = Bench::new();
-    let starter = include_str!("../assets/starter/starter.json");
+    let starter = include_str!("../../assets/starter/starter.json");
     let start = starter.find("\"lsf\":[").unwrap();
     let (before, after) = starter.split_at(start + "\"lsf\":[".len());
     let cases: [(&str, String, &[&str]); 5] = [

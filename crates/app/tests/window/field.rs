@@ -1,7 +1,4 @@
 //! Points that become textures of their own: what is heard, locked, extrapolated and said of it.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::time::{Duration, Instant};
 
@@ -18,7 +15,7 @@ use shagreen_core::units::Contact;
 use shagreen_formats::library::{Library, Place};
 use shagreen_formats::starter::starter_library;
 
-use support::{
+use crate::support::{
     Author, author, author_on, choose_mode, click, is_locked, painted, says, unnamed_controls, wait,
     wait_for_field, window, words,
 };

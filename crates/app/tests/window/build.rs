@@ -1,7 +1,4 @@
 //! The workspace Build, used as a person would: judgments given, a space built, looked at, saved, used and undone.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::path::Path;
 
@@ -18,7 +15,7 @@ use shagreen_formats::ratings_csv::ratings_csv;
 use shagreen_formats::sorting_csv::sorting_csv;
 use shagreen_formats::starter::starter_library;
 
-use support::{
+use crate::support::{
     Author, author, author_on, choose, click, drop_files, enter_path, painted, says, shown, unnamed_controls,
     wait, window, words, write_into,
 };

@@ -1,7 +1,4 @@
 //! The list of textures: found by filters, starred, looked at, renamed, duplicated and removed.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::sync::Arc;
 
@@ -18,7 +15,7 @@ use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Attribute, Attributes, Provenance};
 use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 
-use support::{
+use crate::support::{
     Author, author, author_of, author_on, begin, click, says, shown, solo, unnamed_controls, window,
 };
 

@@ -1,13 +1,10 @@
 //! `shagreen library list` and `shagreen library make`.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-mod support;
-
+use crate::support::Bench;
 use serde_json::Value;
-use support::Bench;
 
-const STARTER: &str = include_str!("../assets/starter/starter.json");
-const MATERIALS: &str = include_str!("../assets/starter/materials.toml");
+const STARTER: &str = include_str!("../../assets/starter/starter.json");
+const MATERIALS: &str = include_str!("../../assets/starter/materials.toml");
 
 /// A library of one texture of the starter.
 fn only(index: usize) -> String {

@@ -1,9 +1,6 @@
 //! `shagreen play` on the silent output, and `shagreen devices`.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-mod support;
-
-use support::Bench;
+use crate::support::Bench;
 
 #[test]
 fn devices_are_listed() {

@@ -1,7 +1,4 @@
 //! The sheet of devices, as a person would use it.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -11,7 +8,7 @@ use shagreen_app::strings::devices as strings;
 use shagreen_core::actuator::Actuator;
 use shagreen_formats::actuator_toml::{built_in_actuators, write_actuator};
 
-use support::{Author, author, choose, click, says, unnamed_controls, wait, window};
+use crate::support::{Author, author, choose, click, says, unnamed_controls, wait, window};
 
 fn opened() -> Author {
     let mut harness = author();

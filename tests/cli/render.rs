@@ -1,12 +1,9 @@
 //! `shagreen render` and `shagreen texture psd`: what comes out is what a stylus would feel.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
 
-mod support;
-
+use crate::support::strokes::{self, Sample, rank_correlation, windows};
+use crate::support::{Bench, rms, shared_data};
 use shagreen_core::spectrum::welch;
 use shagreen_core::units::Hertz;
-use support::strokes::{self, Sample, rank_correlation, windows};
-use support::{Bench, rms, shared_data};
 
 /// Sound while the tip moves on the surface, silence while it is lifted, and louder the faster it moves.
 fn check_stroke(bench: &Bench, samples: &[Sample], least_correlation: f64) {
@@ -132,7 +129,7 @@ fn strokes_can_be_tables() {
 
 /// A library whose cork knows how it sounds when a tip lands on it.
 fn write_tapped_cork(bench: &Bench) {
-    let starter = include_str!("../assets/starter/starter.json");
+    let starter = include_str!("../../assets/starter/starter.json");
     let tap = "\"tap\": {\"frequency_hz\": 180, \"decay_per_s\": 90, \"amplitude_mps2\": 6}, ";
     let cork = starter.find("\"id\": \"cork\"").unwrap();
     let (before, after) = starter.split_at(cork);

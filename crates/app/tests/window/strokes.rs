@@ -1,7 +1,4 @@
 //! Strokes on the pad: recorded with the mouse, repeated by the hand, saved, and read again.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
-
-mod support;
 
 use std::time::Duration;
 
@@ -14,7 +11,7 @@ use shagreen_device::touch::Touch;
 use shagreen_formats::stroke::{PressUnit, Stroke};
 use shagreen_formats::stroke_csv::read_stroke_csv;
 
-use support::{
+use crate::support::{
     Author, SILENT, author, author_of, begin, choose, click, drop_files, enter_path, says, unnamed_controls,
     wait, window,
 };
