@@ -13,7 +13,8 @@ pub(crate) use crate::lsf::quick::QuickLsf;
 /// Smallest distance between neighboring frequencies that [`repair`] leaves, in radians: 0.8 Hz at 1 kHz.
 pub const MIN_GAP: f64 = 0.005;
 
-/// The line spectral frequencies of `A(z) = 1 + Σ ar[k-1] z^-k`, or `None` where the predictor is not stable.
+/// The line spectral frequencies of `A(z) = 1 + Σ ar[k-1] z^-k`, or `None` where the predictor is not stable,
+/// or so nearly unstable (a power gain over 1e9) that the digits of its coefficients do not tell.
 ///
 /// Half-degree polynomials in `cos ω` are searched for sign changes on a grid that is refined until all roots are
 /// found, then bisected to the last bit.

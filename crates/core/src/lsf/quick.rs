@@ -244,8 +244,9 @@ fn clenshaw<S: Simd, const V: usize>(
 #[cfg(test)]
 mod tests {
     use super::{QuickLsf, Roots, half};
+    use crate::ar::power_gain;
     use crate::lsf::lsf_from_ar;
-    use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
+    use proptest::prelude::{prop, prop_assert, prop_assert_eq, prop_assume, proptest};
     use pulp::{Arch, Scalar, Simd};
 
     fn predictor(reflections: &[f64]) -> Vec<f64> {
@@ -264,6 +265,8 @@ mod tests {
         #[test]
         fn agrees_with_the_careful_search(reflections in prop::collection::vec(-0.97_f64..0.97, 1..33)) {
             let ar = predictor(&reflections);
+            // Resonances of 90 dB: with more of them the digits of the coefficients do not always say that it is stable.
+            prop_assume!(power_gain(&ar) < 1e9);
             let (quick, careful) = (QuickLsf::new().of(&ar).unwrap(), lsf_from_ar(&ar).unwrap());
             prop_assert_eq!(quick.len(), careful.len());
             for (a, b) in quick.iter().zip(&careful) {
