@@ -171,7 +171,6 @@ pub fn comparison_frequencies(rate: Hertz, n: usize) -> Vec<Hertz> {
 /// Predictors that tests know the answer for.
 #[cfg(test)]
 pub(crate) mod test_signals {
-    use crate::lsf::convolve;
     use crate::units::Hertz;
     use std::f64::consts::TAU;
 
@@ -179,6 +178,17 @@ pub(crate) mod test_signals {
     pub(crate) fn from_resonances(rate: Hertz, resonances: &[(Hertz, f64)]) -> Vec<f64> {
         let factor = |(f, r): &(Hertz, f64)| [1.0, -2.0 * r * (TAU * f.0 / rate.0).cos(), r * r];
         resonances.iter().map(factor).fold(vec![1.0], |poly, f| convolve(&poly, &f)).split_off(1)
+    }
+
+    /// The product of two polynomials.
+    fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; a.len() + b.len() - 1];
+        for (i, x) in a.iter().enumerate() {
+            for (j, y) in b.iter().enumerate() {
+                out[i + j] += x * y;
+            }
+        }
+        out
     }
 }
 

@@ -95,36 +95,38 @@ fn bisect(value: &impl Fn(f64) -> f64, mut low: f64, mut high: f64, f_low: f64) 
 
 /// The predictor coefficients `a_1 … a_p` of ascending line spectral frequencies.
 pub fn ar_from_lsf(lsf: &[f64]) -> Vec<f64> {
-    let build = |start: usize, ends: &[f64]| {
-        let mut poly = vec![1.0];
-        for w in lsf.iter().skip(start).step_by(2) {
-            // Times 1 - 2 cos(w) z + z², in place from the highest coefficient down.
-            let middle = -2.0 * w.cos();
-            poly.extend([0.0; 2]);
-            for i in (2..poly.len()).rev() {
-                poly[i] += poly[i - 2] + middle * poly[i - 1];
-            }
-            poly[1] += middle * poly[0];
+    let order = lsf.len();
+    // Frequencies take turns; then come the roots at both ends of the circle.
+    let (mut q, mut p) = (with_roots(lsf, 0), with_roots(lsf, 1));
+    if order.is_multiple_of(2) {
+        for i in (1..=order).rev() {
+            q[i] += q[i - 1];
+            p[i] -= p[i - 1];
         }
-        convolve(&poly, ends)
-    };
-    let (q, p) = if lsf.len().is_multiple_of(2) {
-        (build(0, &[1.0, 1.0]), build(1, &[1.0, -1.0]))
     } else {
-        (build(0, &[1.0]), build(1, &[1.0, 0.0, -1.0]))
-    };
-    (1..=lsf.len()).map(|i| 0.5 * (q[i] + p[i])).collect()
-}
-
-/// The product of two polynomials.
-pub(crate) fn convolve(a: &[f64], b: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; a.len() + b.len() - 1];
-    for (i, x) in a.iter().enumerate() {
-        for (j, y) in b.iter().enumerate() {
-            out[i + j] += x * y;
+        for i in (2..=order).rev() {
+            p[i] -= p[i - 2];
         }
     }
-    out
+    (1..=order).map(|i| 0.5 * (q[i] + p[i])).collect()
+}
+
+/// The polynomial with every other frequency from `first` on as an angle of its roots on the circle, with room for as many
+/// coefficients as there are frequencies, and one more.
+fn with_roots(lsf: &[f64], first: usize) -> Vec<f64> {
+    let mut poly = vec![0.0; lsf.len() + 2];
+    poly[0] = 1.0;
+    let mut degree = 0;
+    for w in lsf.iter().skip(first).step_by(2) {
+        // Times 1 - 2 cos(w) z + z², in place from the highest coefficient down.
+        let middle = -2.0 * w.cos();
+        degree += 2;
+        for i in (2..=degree).rev() {
+            poly[i] += poly[i - 2] + middle * poly[i - 1];
+        }
+        poly[1] += middle;
+    }
+    poly
 }
 
 /// Frequencies put back in order and at least [`MIN_GAP`] apart and from both ends, for interpolators that can break

@@ -21,6 +21,7 @@ use shagreen_core::segment::segment;
 use shagreen_core::spectrum::goodness_of_fit;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use shagreen_formats::library::TextureEntry;
 use shagreen_formats::starter::starter_library;
 
 const RATE: Hertz = Hertz(1000.0);
@@ -81,38 +82,55 @@ fn against_truth(fitted: &Fitted, model: &TextureModel, unseen: &Recording) -> A
     }
 }
 
+/// What came of one texture.
+struct Outcome {
+    held_out: Agreement,
+    truth: Agreement,
+    /// Beside the next texture of the library.
+    other: Agreement,
+}
+
+/// The strokes of the texture of this index are fitted.
+fn outcome(index: usize, textures: &[TextureEntry]) -> Outcome {
+    let texture = &textures[index];
+    let recording = strokes(&texture.model, index as u64 + 1);
+    let all = fit(std::slice::from_ref(&recording), &FitOptions::usual()).unwrap();
+    assert!(all.report.held_out);
+    let held_out = Agreement { gfc: all.report.gfc_median(), level_db: all.report.level_error_db_median() };
+    // For the truth, every fifth second stays unseen.
+    let (mut seen, mut unseen) = (recording.clone(), recording);
+    seen.usable = (0..8).map(|i| 5000 * i..5000 * i + 4000).collect();
+    unseen.usable = (0..8).map(|i| 5000 * i + 4000..5000 * (i + 1)).collect();
+    let fitted = fit(&[seen], &FitOptions::usual()).unwrap();
+    let truth = against_truth(&fitted, &texture.model, &unseen);
+    println!(
+        "{:<24} order {:2}, {:3} segments, coverage {:.2}: held-out {:.3} {:.2} dB, truth {:.3} {:.2} dB",
+        texture.name,
+        fitted.report.order,
+        fitted.report.segments.len(),
+        fitted.report.coverage,
+        held_out.gfc,
+        held_out.level_db,
+        truth.gfc,
+        truth.level_db
+    );
+    let next = &textures[(index + 1) % textures.len()];
+    Outcome { held_out, truth, other: against_truth(&fitted, &next.model, &unseen) }
+}
+
 #[test]
 fn forty_seconds_of_strokes_give_back_the_texture() {
-    let (mut measured, mut true_to, mut others) = (Vec::new(), Vec::new(), Vec::new());
     let textures = starter_library().unwrap().textures;
-    for (seed, texture) in (1..).zip(&textures) {
-        let recording = strokes(&texture.model, seed);
-        let all = fit(std::slice::from_ref(&recording), &FitOptions::usual()).unwrap();
-        assert!(all.report.held_out);
-        let held_out =
-            Agreement { gfc: all.report.gfc_median(), level_db: all.report.level_error_db_median() };
-        // For the truth, every fifth second stays unseen.
-        let (mut seen, mut unseen) = (recording.clone(), recording);
-        seen.usable = (0..8).map(|i| 5000 * i..5000 * i + 4000).collect();
-        unseen.usable = (0..8).map(|i| 5000 * i + 4000..5000 * (i + 1)).collect();
-        let fitted = fit(&[seen], &FitOptions::usual()).unwrap();
-        let truth = against_truth(&fitted, &texture.model, &unseen);
-        println!(
-            "{:<24} order {:2}, {:3} segments, coverage {:.2}: held-out {:.3} {:.2} dB, truth {:.3} {:.2} dB",
-            texture.name,
-            fitted.report.order,
-            fitted.report.segments.len(),
-            fitted.report.coverage,
-            held_out.gfc,
-            held_out.level_db,
-            truth.gfc,
-            truth.level_db
-        );
-        measured.push(held_out);
-        true_to.push(truth);
-        let next = &textures[seed as usize % textures.len()];
-        others.push(against_truth(&fitted, &next.model, &unseen));
-    }
+    let outcomes: Vec<Outcome> = std::thread::scope(|scope| {
+        let textures = &textures;
+        let every_other = |first: usize| {
+            move || (first..textures.len()).step_by(2).map(|i| outcome(i, textures)).collect::<Vec<_>>()
+        };
+        let halves = [0, 1].map(|first| scope.spawn(every_other(first)));
+        halves.into_iter().flat_map(|half| half.join().unwrap()).collect()
+    });
+    let of = |which: fn(&Outcome) -> Agreement| outcomes.iter().map(which).collect::<Vec<_>>();
+    let (measured, true_to, others) = (of(|o| o.held_out), of(|o| o.truth), of(|o| o.other));
     for (name, agreements) in [("held-out segments", measured), ("the texture itself", true_to)] {
         let gfc = median(agreements.iter().map(|a| a.gfc));
         let level_db = median(agreements.iter().map(|a| a.level_db));

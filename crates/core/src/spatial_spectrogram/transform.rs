@@ -1,0 +1,186 @@
+//! Profiles to windows of spectra and back.
+
+use std::f64::consts::TAU;
+use std::fmt;
+use std::sync::Arc;
+
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
+
+use super::{Frames, Framing, FramingError, Spectra};
+
+/// Summed squares of windows below which a sample has no weight in any.
+const NO_WEIGHT: f64 = 1e-8;
+
+/// The windowed Fourier transform of one framing, and its inverse: made once, used for many profiles.
+#[derive(Clone)]
+pub struct Transform {
+    framing: Framing,
+    /// Periodic Hann window: `w(n) + w(n + N/2) = 1`.
+    hann: Vec<f64>,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+}
+
+impl fmt::Debug for Transform {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Transform").field("framing", &self.framing).finish_non_exhaustive()
+    }
+}
+
+/// What one window is worked out in.
+struct Work {
+    samples: Vec<f64>,
+    scratch: Vec<Complex<f64>>,
+}
+
+impl Transform {
+    /// The transform of a framing.
+    pub fn new(framing: Framing) -> Self {
+        let n = framing.window();
+        let mut planner = RealFftPlanner::new();
+        Self {
+            framing,
+            hann: (0..n).map(|i| 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos()).collect(),
+            forward: planner.plan_fft_forward(n),
+            inverse: planner.plan_fft_inverse(n),
+        }
+    }
+
+    /// How profiles are cut.
+    pub fn framing(&self) -> Framing {
+        self.framing
+    }
+
+    /// The spectra of a profile's windows.
+    ///
+    /// # Errors
+    /// See [`FramingError`].
+    pub fn spectra(&self, profile: &[f64]) -> Result<Spectra, FramingError> {
+        let n_frames = self.checked(profile)?;
+        let mut spectra = self.empty(profile.len(), n_frames);
+        self.analyze(profile, &mut spectra);
+        Ok(spectra)
+    }
+
+    /// The power of a profile's windows, in the square of its unit: eq. (1).
+    ///
+    /// # Errors
+    /// See [`FramingError`].
+    pub fn power(&self, profile: &[f64]) -> Result<Frames<f64>, FramingError> {
+        let n_frames = self.checked(profile)?;
+        let n_bins = self.framing.n_bins();
+        let mut bins = vec![Complex::default(); n_bins];
+        let mut work = self.work();
+        let mut values = Vec::with_capacity(n_frames * n_bins);
+        for frame in 0..n_frames {
+            self.analyze_window(profile, frame, &mut bins, &mut work);
+            values.extend(bins.iter().map(Complex::norm_sqr));
+        }
+        Ok(Frames { framing: self.framing, n_samples: profile.len(), values })
+    }
+
+    /// The profile of windows of spectra: overlapping windows added up, each windowed again and weighed by the sum of their
+    /// squares, eqs. (5) and (6). The spectra of a profile give it back.
+    pub fn profile(&self, spectra: &Spectra) -> Vec<f64> {
+        self.synthesize(spectra, &self.weights(spectra.n_samples, spectra.n_frames()))
+    }
+
+    /// Spectra of so many windows that are all zero.
+    pub(super) fn empty(&self, n_samples: usize, n_frames: usize) -> Spectra {
+        let values = vec![Complex::default(); n_frames * self.framing.n_bins()];
+        Frames { framing: self.framing, n_samples, values }
+    }
+
+    /// The spectra of a profile that is as long as theirs.
+    pub(super) fn analyze(&self, profile: &[f64], spectra: &mut Spectra) {
+        let mut work = self.work();
+        for (frame, bins) in spectra.frames_mut().enumerate() {
+            self.analyze_window(profile, frame, bins, &mut work);
+        }
+    }
+
+    /// One over the sum of the squares of the windows at each sample; zero where there is none to speak of.
+    pub(super) fn weights(&self, n_samples: usize, n_frames: usize) -> Vec<f64> {
+        let mut sums = vec![0.0; n_samples];
+        for frame in 0..n_frames {
+            let (inside, first) = self.inside(frame, n_samples);
+            for (sum, w) in sums[inside].iter_mut().zip(&self.hann[first..]) {
+                *sum += w * w;
+            }
+        }
+        sums.into_iter().map(|sum| if sum > NO_WEIGHT { 1.0 / sum } else { 0.0 }).collect()
+    }
+
+    /// [`Transform::profile`] with the weights of its samples.
+    pub(super) fn synthesize(&self, spectra: &Spectra, weights: &[f64]) -> Vec<f64> {
+        let scale = 1.0 / self.framing.window() as f64;
+        let mut profile = vec![0.0; spectra.n_samples];
+        let mut bins = vec![Complex::default(); self.framing.n_bins()];
+        let Work { mut samples, mut scratch } = self.work();
+        for (frame, from) in spectra.frames().enumerate() {
+            bins.copy_from_slice(from);
+            // A real signal has none there.
+            let last = bins.len() - 1;
+            (bins[0].im, bins[last].im) = (0.0, 0.0);
+            let done = self.inverse.process_with_scratch(&mut bins, &mut samples, &mut scratch);
+            debug_assert!(done.is_ok(), "the lengths are those of the plan");
+            let (inside, first) = self.inside(frame, profile.len());
+            for ((y, x), w) in profile[inside].iter_mut().zip(&samples[first..]).zip(&self.hann[first..]) {
+                *y += w * x;
+            }
+        }
+        for (y, weight) in profile.iter_mut().zip(weights) {
+            *y *= weight * scale;
+        }
+        if let ([first, second, ..], Some(0.0)) = (profile.as_mut_slice(), weights.first()) {
+            *first = *second;
+        }
+        profile
+    }
+
+    /// The samples of a profile that a window holds, and where in the window the first of them is.
+    pub(super) fn inside(&self, frame: usize, n_samples: usize) -> (std::ops::Range<usize>, usize) {
+        let begin = frame * self.framing.hop();
+        let lead = self.framing.lead();
+        let end = (begin + self.framing.window()).saturating_sub(lead).min(n_samples);
+        let first = begin.saturating_sub(lead).min(end);
+        (first..end, lead.saturating_sub(begin))
+    }
+
+    fn analyze_window(&self, profile: &[f64], frame: usize, bins: &mut [Complex<f64>], work: &mut Work) {
+        let n_samples = profile.len();
+        let begin = frame * self.framing.hop();
+        let lead = self.framing.lead();
+        if let Some(part) =
+            begin.checked_sub(lead).and_then(|begin| profile.get(begin..begin + self.hann.len()))
+        {
+            for ((sample, x), w) in work.samples.iter_mut().zip(part).zip(&self.hann) {
+                *sample = x * w;
+            }
+        } else {
+            // Back and forth over the profile as often as the window reaches beyond it.
+            let lap = 2 * n_samples;
+            let begin = begin + lap * lead.div_ceil(lap) - lead;
+            for (i, (sample, w)) in work.samples.iter_mut().zip(&self.hann).enumerate() {
+                let at = (begin + i) % lap;
+                *sample = w * profile[if at < n_samples { at } else { lap - 1 - at }];
+            }
+        }
+        let done = self.forward.process_with_scratch(&mut work.samples, bins, &mut work.scratch);
+        debug_assert!(done.is_ok(), "the lengths are those of the plan");
+    }
+
+    fn work(&self) -> Work {
+        let n_scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
+        Work { samples: vec![0.0; self.hann.len()], scratch: vec![Complex::default(); n_scratch] }
+    }
+
+    /// Number of windows of a profile that can be cut.
+    fn checked(&self, profile: &[f64]) -> Result<usize, FramingError> {
+        match profile.iter().position(|x| !x.is_finite()) {
+            Some(index) => Err(FramingError::NotFinite { index }),
+            None => self.framing.n_frames(profile.len()),
+        }
+    }
+}
