@@ -30,6 +30,8 @@ pub struct Pictures {
     /// The library whose pictures these are, and the textures that joined it.
     library: ProjectLibrary,
     joined: Vec<Arc<TextureEntry>>,
+    /// Pictures that no worker decodes yet: in which generation, for which texture.
+    undecoded: Vec<(u64, usize, Picture)>,
     /// Goes up when textures join or go: pictures of those that are gone are late.
     generation: u64,
     blended: Option<(Shares, TextureHandle)>,
@@ -47,14 +49,8 @@ type Decoded = (u64, usize, Rgb);
 const USUAL_SIDE_MM: f64 = 20.0;
 
 impl Pictures {
-    /// Starts to decode the pictures of `textures` in a thread of their own; `ctx` is asked to repaint as they come in.
-    /// They are those of the library and those that joined it.
-    pub fn new(
-        ctx: &Context,
-        library: ProjectLibrary,
-        joined: &[Arc<TextureEntry>],
-        textures: &[TextureEntry],
-    ) -> Self {
+    /// The pictures of `textures`, those of the library and those that joined it, still to be decoded.
+    pub fn new(library: ProjectLibrary, joined: &[Arc<TextureEntry>], textures: &[TextureEntry]) -> Self {
         let (sender, incoming) = channel();
         let mut pictures = Self {
             thumbnails: Vec::new(),
@@ -65,18 +61,18 @@ impl Pictures {
             sender,
             library,
             joined: joined.to_vec(),
+            undecoded: Vec::new(),
             generation: 0,
             blended: None,
             mixing: None,
         };
-        pictures.decode(ctx, textures.iter().map(|entry| entry.picture.clone()).collect());
+        pictures.extend(textures);
         pictures
     }
 
     /// Follows the library that is open and the textures that joined it; `textures` are both.
     pub fn follow(
         &mut self,
-        ctx: &Context,
         library: &ProjectLibrary,
         joined: &[Arc<TextureEntry>],
         textures: &[TextureEntry],
@@ -95,27 +91,36 @@ impl Pictures {
         self.pixels.truncate(n_kept);
         self.millimeters.truncate(n_kept);
         self.fingerprints.truncate(n_kept);
-        self.decode(ctx, textures[n_kept..].iter().map(|entry| entry.picture.clone()).collect());
+        self.undecoded.retain(|(_, index, _)| *index < n_kept);
+        self.extend(&textures[n_kept..]);
     }
 
-    /// Decodes the pictures of the textures after those that are known.
-    fn decode(&mut self, ctx: &Context, sources: Vec<Option<Picture>>) {
-        let first = self.millimeters.len();
-        let side_mm = |p: &Option<Picture>| p.as_ref().map_or(USUAL_SIDE_MM, |p| p.millimeters);
-        self.millimeters.extend(sources.iter().map(side_mm));
-        let fresh = sources.iter().map(|source| (fingerprint(source.as_ref()), self.generation));
-        self.fingerprints.extend(fresh);
+    /// Takes in the textures after those that are known.
+    fn extend(&mut self, textures: &[TextureEntry]) {
+        for texture in textures {
+            let picture = texture.picture.as_ref();
+            if let Some(picture) = picture {
+                self.undecoded.push((self.generation, self.millimeters.len(), picture.clone()));
+            }
+            self.millimeters.push(picture.map_or(USUAL_SIDE_MM, |picture| picture.millimeters));
+            self.fingerprints.push((fingerprint(picture), self.generation));
+        }
         self.thumbnails.resize(self.millimeters.len(), None);
         self.pixels.resize(self.millimeters.len(), None);
         (self.blended, self.mixing) = (None, None);
-        if sources.is_empty() {
+    }
+
+    /// Once a frame: decodes what waits for it in a thread of its own; `ctx` is asked to repaint as pictures come in.
+    pub fn begin_work(&mut self, ctx: &Context) {
+        if self.undecoded.is_empty() {
             return;
         }
-        let (sender, generation, ctx) = (self.sender.clone(), self.generation, ctx.clone());
+        let sources = std::mem::take(&mut self.undecoded);
+        let (sender, ctx) = (self.sender.clone(), ctx.clone());
         std::thread::spawn(move || {
-            for (index, source) in (first..).zip(sources) {
+            for (generation, index, source) in sources {
                 // A picture that cannot be decoded stays plain: the library's reader has warned already.
-                if let Some(Ok(image)) = source.as_ref().map(decode) {
+                if let Ok(image) = decode(&source) {
                     if sender.send((generation, index, image)).is_err() {
                         return;
                     }

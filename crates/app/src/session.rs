@@ -94,6 +94,8 @@ pub struct Session {
     rates_hz: Vec<f64>,
     /// What the output takes, worked out ahead by a worker: a drag into textures not yet heard must not wait for it.
     prepared: Vec<Option<Prepared>>,
+    /// Textures that no worker prepares yet.
+    unprepared: Vec<(usize, Arc<Plane>)>,
     incoming: Receiver<Ahead>,
     sender: Sender<Ahead>,
     authoring: Authoring,
@@ -135,7 +137,7 @@ pub struct Session {
 type Ahead = (usize, Arc<Plane>, Prepared);
 
 impl Session {
-    /// A session with a library; no output is open yet.
+    /// A session with a library; no output is open yet, and no worker begins before [`Session::begin_work`].
     ///
     /// # Errors
     /// The positions cannot be triangulated, or a texture cannot be had at the highest rate of them.
@@ -150,7 +152,6 @@ impl Session {
         }
         let rates = library.textures.iter().zip(&places).map(|(t, place)| rate_in(t, place.as_ref(), rate).0);
         let (sender, incoming) = channel();
-        prepare_ahead(planes.iter().cloned().enumerate().collect(), sender.clone());
         let mut session = Self {
             authoring: Authoring::new(Space::new(&positions(&places))?),
             generation: 0,
@@ -158,6 +159,7 @@ impl Session {
             heard: Heard::default(),
             n_made: 0,
             prepared: vec![None; planes.len()],
+            unprepared: planes.iter().cloned().enumerate().collect(),
             incoming,
             sender,
             walk: None,
@@ -363,7 +365,7 @@ impl Session {
         if !has_same_textures || !has_same_names || !has_same_space || self.axes != project.axes {
             self.take(project, &vec![true; self.opened.n_textures() + n_same]);
         }
-        match self.models.collect(ctx) {
+        match self.models.collect() {
             Some(Ok(models)) => {
                 self.authoring = self.authoring.clone().with_models(models);
                 self.generation += 1;
@@ -427,8 +429,11 @@ impl Session {
             rates_hz.push(rate.0);
         }
         (self.planes, self.prepared, self.rates_hz) = (planes, prepared, rates_hz);
-        let fresh = self.planes.iter().cloned().enumerate().filter(|(i, _)| !is_kept[*i]).collect();
-        prepare_ahead(fresh, self.sender.clone());
+        let is_there =
+            |(i, plane): &(usize, Arc<Plane>)| self.planes.get(*i).is_some_and(|now| Arc::ptr_eq(now, plane));
+        self.unprepared.retain(is_there);
+        let fresh = self.planes.iter().cloned().enumerate().filter(|(i, _)| !is_kept[*i]);
+        self.unprepared.extend(fresh);
         self.player.keep(&is_kept);
         if rate_before_hz != self.space_rate_hz || !self.heard.survives(&is_kept, Hertz(self.rate_hz)) {
             self.heard = Heard::default();
@@ -474,6 +479,12 @@ impl Session {
             self.spectra = Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() };
             self.open_output_again(ctx);
         }
+    }
+
+    /// Once a frame: sets workers to what waits for one.
+    pub fn begin_work(&mut self, ctx: &egui::Context) {
+        self.models.begin(ctx);
+        prepare_ahead(std::mem::take(&mut self.unprepared), self.sender.clone());
     }
 
     /// Once a frame: takes in what the output says, and works out what is shown. `contact` is what the spectra are

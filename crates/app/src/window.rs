@@ -67,6 +67,8 @@ pub struct Window {
     scale: Scale,
     canvas: CanvasState,
     library: LibraryState,
+    /// Whether there was a frame already.
+    has_been_shown: bool,
     gesture: u64,
     was_holding: bool,
     /// What had the keyboard in the last frame.
@@ -103,7 +105,7 @@ impl Window {
         let is_output_given = output != OutputChoice::SystemDefault;
         open_as_left(&mut session, output, &files, ctx);
         session.follow(&project, None, ctx);
-        let pictures = Pictures::new(ctx, project.library.clone(), &project.joined, session.textures());
+        let pictures = Pictures::new(project.library.clone(), &project.joined, session.textures());
         let is_new_here = can_remember && !files.settings.has_seen_tour;
         let tour = if is_new_here { Tour::begun() } else { Tour::default() };
         if let Some(is_light) = files.settings.is_light {
@@ -128,6 +130,7 @@ impl Window {
             scale,
             canvas: CanvasState::default(),
             library: LibraryState::default(),
+            has_been_shown: false,
             gesture: 0,
             was_holding: false,
             writing: None,
@@ -185,6 +188,14 @@ impl Window {
     pub fn frame_ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         let t = tokens(&ctx);
+        // The first frame has the processor to itself.
+        if self.has_been_shown {
+            self.session.begin_work(&ctx);
+            self.pictures.begin_work(&ctx);
+        } else {
+            self.has_been_shown = true;
+            ctx.request_repaint();
+        }
         self.pictures.collect(&ctx);
         self.next_gesture(&ctx);
         self.session.update(self.pad.contact(&self.session));
@@ -243,7 +254,7 @@ impl Window {
         }
         self.follow_project(&ctx);
         let (project, textures) = (&self.project, self.session.textures());
-        self.pictures.follow(&ctx, &project.library, &project.joined, textures);
+        self.pictures.follow(&project.library, &project.joined, textures);
         self.keep_scale(&ctx);
         self.keep_going(&ctx);
     }

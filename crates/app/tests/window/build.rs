@@ -156,7 +156,7 @@ fn tables(prefix: &str) -> [Vec<u8>; 2] {
     let (names, labels): (Vec<String>, Vec<Vec<f64>>) =
         placed.map(|(id, at)| (id, vec![at.rough_smooth, at.hard_soft])).unzip();
     let config = PanelConfig {
-        n_participants: 4,
+        n_participants: 12,
         noise_points: 5.0,
         bias_points: 2.0,
         scale_log_spread: 0.1,
@@ -183,8 +183,8 @@ fn dropped_tables_become_a_space_that_says_who_judged() {
         wait(&mut harness, "both are read", |h| !window(h).build().judgments().is_reading());
         harness.run_steps(2);
         assert!(window(&harness).import().is_none(), "they are no recordings");
-        assert!(says(&harness, "4 participants, 8 sorts, 25 textures"));
-        assert!(says(&harness, "4 participants, 200 ratings, 25 textures, 2 pairs"));
+        assert!(says(&harness, "12 participants, 24 sorts, 25 textures"));
+        assert!(says(&harness, "12 participants, 600 ratings, 25 textures, 2 pairs"));
         set_number(&mut harness, build::PERMUTATIONS, 0.0);
         choose(&mut harness, build::FEATURES, build::features(FeatureKind::Physical));
         click(&mut harness, build::BUILD_SPACE);

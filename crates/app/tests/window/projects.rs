@@ -19,8 +19,8 @@ use shagreen_formats::starter::starter_bytes;
 use shagreen_formats::wav::SidecarV1;
 
 use crate::support::{
-    Author, author, author_of, begin, click, drop_files, enter_path, says, unnamed_controls, wait, window,
-    write_into,
+    Author, author, author_of, begin, click, drop_files, enter_path, says, unnamed_controls, wait,
+    wait_for_field, window, write_into,
 };
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
@@ -467,6 +467,7 @@ fn what_is_heard_is_exported_as_a_signal() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("oak.wav");
     let mut harness = author();
+    wait_for_field(&mut harness);
     rename(&mut harness, "Oak copy");
     menu(&mut harness, signal::EXPORT);
     harness.run_steps(4);
