@@ -86,6 +86,7 @@ pub(crate) fn check_run(outcome: &Result<(), realfft::FftError>) {
 mod tests {
     use super::{Dft321Error, dft321};
     use crate::rng::lcg_noise;
+    use crate::spectrum::hann;
     use proptest::prelude::{Strategy as _, any, proptest};
     use std::f64::consts::TAU;
 
@@ -148,8 +149,7 @@ mod tests {
         let allowed = golden["rotation_mag_maxrel"].as_f64().expect("a number") + 1e-12;
         assert!(straight.iter().zip(&turned).all(|(a, b)| (a - b).abs() <= allowed * largest));
         // Windows of 256, half overlapping, square roots of Hann before and after: energy is no longer kept.
-        let window: Vec<f64> =
-            (0..256).map(|i| (0.5 - 0.5 * (TAU * f64::from(i) / 256.0).cos()).sqrt()).collect();
+        let window: Vec<f64> = hann(256).into_iter().map(f64::sqrt).collect();
         let mut sum = vec![0.0; 1000];
         for start in (0..=1000 - 256).step_by(128) {
             let part: Frames =

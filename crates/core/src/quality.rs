@@ -19,7 +19,6 @@ mod tests;
 use crate::threshold::Threshold;
 use crate::units::Hertz;
 
-pub use crate::quality::channels::SMOOTHING;
 pub use crate::quality::d_prime::{Correction, Counts, d_prime};
 pub use crate::quality::features::Features;
 pub use crate::quality::model::{

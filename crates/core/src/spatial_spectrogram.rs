@@ -229,8 +229,7 @@ impl SpatialSpectrogram {
     /// See [`FramingError`].
     pub fn of(profile: &[f64], transform: &Transform) -> Result<Self, FramingError> {
         let offset = profile.iter().fold(0.0_f64, |offset, x| offset.max(-x));
-        let lifted: Vec<f64> = profile.iter().map(|x| x + offset).collect();
-        let power = transform.power(&lifted)?;
+        let power = transform.power(&lifted(profile, offset))?;
         Ok(Self { power, offset })
     }
 
@@ -248,6 +247,11 @@ impl SpatialSpectrogram {
     pub fn offset(&self) -> f64 {
         self.offset
     }
+}
+
+/// A profile with this added.
+fn lifted(profile: &[f64], offset: f64) -> Vec<f64> {
+    profile.iter().map(|x| x + offset).collect()
 }
 
 /// `‖√S − √S'‖ / ‖√S‖` over frequencies from `first_bin` up: how far a profile is from having this spectrogram. Zero for

@@ -20,6 +20,11 @@ pub(crate) fn periodogram(signal: &[f64], rate: Hertz, window: usize, n_bins: us
     hann_windowed(signal, rate, window, n_bins.max(window), |_| 0.0)
 }
 
+/// The periodic Hann window of `n` samples: `w(i) + w(i + n/2) = 1`.
+pub(crate) fn hann(n: usize) -> Vec<f64> {
+    (0..n).map(|i| 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos()).collect()
+}
+
 fn hann_windowed(
     signal: &[f64],
     rate: Hertz,
@@ -30,7 +35,7 @@ fn hann_windowed(
     if window < 2 || signal.len() < window {
         return Vec::new();
     }
-    let hann: Vec<f64> = (0..window).map(|i| 0.5 - 0.5 * (TAU * i as f64 / window as f64).cos()).collect();
+    let hann = hann(window);
     let power: f64 = hann.iter().map(|w| w * w).sum();
     let fft = RealFftPlanner::<f64>::new().plan_fft_forward(n_bins);
     let (mut input, mut bins) = (fft.make_input_vec(), fft.make_output_vec());

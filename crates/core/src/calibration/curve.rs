@@ -1,11 +1,9 @@
 //! Gain, noise and distortion over frequency.
 
-use std::f64::consts::TAU;
-
 use crate::calibration::impulse::{HIGH_EDGE, Impulse, LOW_EDGE, Window, magnitude_at};
 use crate::calibration::sweep::Sweep;
 use crate::calibration::{CurvePoint, DistortionPoint};
-use crate::spectrum::median;
+use crate::spectrum::{hann, median};
 use crate::units::Hertz;
 
 /// Points of a curve in an octave: as fine as a resonance of Q 30 asks for.
@@ -61,7 +59,7 @@ pub(super) fn gains(
     let window = response_window(sweep, rate, begins_secs);
     let kept = impulse.windowed(&window);
     let kept_energy: f64 = window.shape().iter().map(|w| w * w).sum();
-    let pieces: Vec<Vec<f64>> = silence.iter().map(|piece| hann(piece)).collect();
+    let pieces: Vec<Vec<f64>> = silence.iter().map(|piece| windowed(piece)).collect();
     // Noise that is there all the time falls into the window as it falls into a piece of silence, by the energy of each.
     let power_at = |frequency: Hertz| {
         let power = |piece: &Vec<f64>| {
@@ -164,7 +162,6 @@ fn frequencies(sweep: &Sweep) -> impl Iterator<Item = Hertz> {
     (0..=n).map(move |i| Hertz(low * 2.0_f64.powf(i as f64 / POINTS_PER_OCTAVE)))
 }
 
-fn hann(piece: &[f64]) -> Vec<f64> {
-    let n = piece.len() as f64;
-    piece.iter().enumerate().map(|(i, x)| x * (0.5 - 0.5 * (TAU * i as f64 / n).cos())).collect()
+fn windowed(piece: &[f64]) -> Vec<f64> {
+    piece.iter().zip(hann(piece.len())).map(|(x, w)| x * w).collect()
 }

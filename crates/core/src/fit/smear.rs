@@ -1,11 +1,9 @@
 //! Spectra of models and of short signals as one and the same window sees them.
 
-use std::f64::consts::TAU;
-
 use realfft::RealFftPlanner;
 
 use crate::plane::Grain;
-use crate::spectrum::periodogram;
+use crate::spectrum::{hann, periodogram};
 use crate::units::Hertz;
 
 /// Frequencies of a model's density from which its autocorrelation is made, over the whole circle: poles of radius 0.995
@@ -25,7 +23,7 @@ pub(super) fn expected(grain: &Grain, n_samples: usize, n_bins: usize) -> Vec<f6
     let density = mirrored(&grain.psd(&grid), N_GRID);
     // The transform of an even real sequence is real: its autocorrelation, times a constant that cancels.
     let lags = even_transform(&density, N_GRID);
-    let hann: Vec<f64> = (0..window).map(|i| 0.5 - 0.5 * (TAU * i as f64 / window as f64).cos()).collect();
+    let hann = hann(window);
     let power: f64 = hann.iter().map(|w| w * w).sum();
     let mut tapered = vec![0.0; n_bins];
     for k in 0..window {

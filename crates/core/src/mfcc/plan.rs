@@ -14,6 +14,7 @@ use crate::mfcc::options::{
     Dct, FirstCoefficient, Framing, Lifter, Logarithm, MfccOptions, Spectrum, TransformLength, Window,
 };
 use crate::mfcc::transform::Transform;
+use crate::spectrum::hann;
 use crate::units::Hertz;
 
 /// Most samples of a transform.
@@ -266,13 +267,12 @@ fn n_samples(what: &'static str, secs: f64, rate: Hertz) -> Result<usize, MfccPl
 }
 
 fn window(window: Window, n: usize) -> Vec<f64> {
-    let value = |i: usize| match window {
-        Window::Rectangular => 1.0,
-        Window::Hamming if n == 1 => 1.0,
-        Window::Hamming => 0.54 - 0.46 * (TAU * i as f64 / (n - 1) as f64).cos(),
-        Window::Hann => 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos(),
-    };
-    (0..n).map(value).collect()
+    match window {
+        Window::Rectangular => vec![1.0; n],
+        Window::Hamming if n == 1 => vec![1.0],
+        Window::Hamming => (0..n).map(|i| 0.54 - 0.46 * (TAU * i as f64 / (n - 1) as f64).cos()).collect(),
+        Window::Hann => hann(n),
+    }
 }
 
 /// From natural logarithms of `n_sums` sums to coefficients.

@@ -8,7 +8,7 @@ use crate::threshold::Threshold;
 use crate::units::Hertz;
 
 /// Width of a channel as a share of its frequency: not published, our choice.
-pub const SMOOTHING: f64 = 0.2;
+const SMOOTHING: f64 = 0.2;
 /// The channels, and the frequencies that they hear, in Hz.
 const N_CHANNELS: usize = 100;
 const BAND_HZ: (f64, f64) = (40.0, 1000.0);

@@ -2,7 +2,7 @@
 
 use super::{Distances, Feature};
 use crate::least_squares::least_squares;
-use crate::statistics::{dot, mean};
+use crate::statistics::{centered, dot};
 
 /// The features that the paper kept.
 pub const PAPER_FEATURES: [Feature; 4] =
@@ -141,8 +141,8 @@ impl QualityModel {
 
 fn r_squared(squared_error: f64, pairs: &[RatedPair]) -> Option<f64> {
     let rated: Vec<f64> = pairs.iter().map(|pair| pair.d_prime).collect();
-    let mean = mean(&rated);
-    let all: f64 = rated.iter().map(|d| (d - mean).powi(2)).sum();
+    let centered = centered(&rated);
+    let all = dot(&centered, &centered);
     (all > 0.0).then(|| 1.0 - squared_error / all)
 }
 
@@ -208,18 +208,12 @@ pub struct Rotation {
 /// # Errors
 /// [`QualityModelError::Textures`], and those of [`QualityModel::fitted`].
 pub fn rotate(features: &[Feature], pairs: &[RatedPair]) -> Result<Vec<Rotation>, QualityModelError> {
-    let mut textures: Vec<usize> = pairs.iter().map(|pair| pair.texture).collect();
-    textures.sort_unstable();
-    textures.dedup();
-    if textures.len() < 3 {
-        return Err(QualityModelError::Textures { n: textures.len() });
-    }
+    let textures = textures(pairs)?;
     let mut rotations = Vec::new();
     for (i, first) in textures.iter().enumerate() {
         for second in &textures[i + 1..] {
             let left_out = [*first, *second];
-            let (out, used): (Vec<RatedPair>, Vec<RatedPair>) =
-                pairs.iter().cloned().partition(|pair| left_out.contains(&pair.texture));
+            let (out, used) = without(&left_out, pairs);
             let model = QualityModel::fitted(features, &used)?;
             let squared_error_left_out = model.squared_error(&out);
             let squared_error = squared_error_left_out + model.squared_error(&used);
@@ -240,20 +234,27 @@ pub fn nested_r_squared(
     pairs: &[RatedPair],
     tolerance: f64,
 ) -> Result<Option<f64>, QualityModelError> {
-    let mut textures: Vec<usize> = pairs.iter().map(|pair| pair.texture).collect();
-    textures.sort_unstable();
-    textures.dedup();
-    if textures.len() < 3 {
-        return Err(QualityModelError::Textures { n: textures.len() });
-    }
     let mut squared_error = 0.0;
-    for texture in textures {
-        let (out, used): (Vec<RatedPair>, Vec<RatedPair>) =
-            pairs.iter().cloned().partition(|pair| pair.texture == texture);
+    for texture in textures(pairs)? {
+        let (out, used) = without(&[texture], pairs);
         let kept = eliminate(features, &used, tolerance)?.kept;
         squared_error += QualityModel::fitted(&kept, &used)?.squared_error(&out);
     }
     Ok(r_squared(squared_error, pairs))
+}
+
+/// The textures of the pairs, each once: three at least.
+fn textures(pairs: &[RatedPair]) -> Result<Vec<usize>, QualityModelError> {
+    let mut textures: Vec<usize> = pairs.iter().map(|pair| pair.texture).collect();
+    textures.sort_unstable();
+    textures.dedup();
+    let n = textures.len();
+    if n < 3 { Err(QualityModelError::Textures { n }) } else { Ok(textures) }
+}
+
+/// The pairs of the textures that are left out, and all others.
+fn without(left_out: &[usize], pairs: &[RatedPair]) -> (Vec<RatedPair>, Vec<RatedPair>) {
+    pairs.iter().cloned().partition(|pair| left_out.contains(&pair.texture))
 }
 
 /// The least squares of which no coefficient is below zero. There are few columns, so every subset of them is tried: the

@@ -1,9 +1,12 @@
-//! Measures of similarity that others use, to be compared with: ST-SIM and SPQI, as their published code computes them.
+//! Measures of similarity that others use, to be compared with: ST-SIM and SPQI, as we read what is published of them.
 //!
-//! Both are facts about two signals in blocks of 64 ms, 512 samples at the 8 kHz that they were made for; here the block
-//! is as long in time at every rate.
+//! Both look at two signals in blocks of 64 ms, 512 samples at the 8 kHz that they were made for; here the block is as
+//! long in time at every rate.
 
-use realfft::RealFftPlanner;
+use std::sync::Arc;
+
+use realfft::{RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
 use crate::statistics::dot;
@@ -21,11 +24,11 @@ const LEAST_DB: f64 = -100.0;
 /// each frequency is felt. 1 for equal signals; `None` where they are shorter than a block or of different lengths.
 pub fn st_sim(reference: &[f64], other: &[f64], rate: Hertz, threshold: &Threshold) -> Option<f64> {
     let normal = Normal::standard();
-    let felt = |level: &f64| normal.cdf(level / SPREAD_DB);
+    let felt = |level: f64| normal.cdf(level / SPREAD_DB);
+    let levels = Levels::new(rate, threshold)?;
     let (mut time, mut spectrum, mut n) = (0.0, 0.0, 0.0);
-    for (a, b) in blocks(reference, other, rate)? {
-        let [x, y] =
-            [a, b].map(|block| levels(block, rate, threshold).iter().map(felt).collect::<Vec<f64>>());
+    for (a, b) in blocks(reference, other, levels.n_block())? {
+        let [x, y] = [a, b].map(|block| levels.of(block, felt));
         time += likeness(a, b).max(0.0);
         spectrum += likeness(&x, &y);
         n += 1.0;
@@ -36,11 +39,11 @@ pub fn st_sim(reference: &[f64], other: &[f64], rate: Hertz, threshold: &Thresho
 /// SPQI `= mean (1 - tanh(0.3 d + 2)) / 2`, 0 to 1, where `d` is how far the spectra of a block lie apart in what is felt of
 /// them, in dB relative to the reference. 1 for equal signals; `None` as for [`st_sim`].
 pub fn spqi(reference: &[f64], other: &[f64], rate: Hertz, threshold: &Threshold) -> Option<f64> {
-    let felt = |level: &f64| level.max(0.0);
+    let felt = |level: f64| level.max(0.0);
+    let levels = Levels::new(rate, threshold)?;
     let (mut sum, mut n) = (0.0, 0.0);
-    for (a, b) in blocks(reference, other, rate)? {
-        let [x, y] =
-            [a, b].map(|block| levels(block, rate, threshold).iter().map(felt).collect::<Vec<f64>>());
+    for (a, b) in blocks(reference, other, levels.n_block())? {
+        let [x, y] = [a, b].map(|block| levels.of(block, felt));
         let apart: f64 = x.iter().zip(&y).map(|(x, y)| (x - y).powi(2)).sum();
         let all = dot(&x, &x);
         // Of silence, all that is felt is apart.
@@ -55,10 +58,9 @@ pub fn spqi(reference: &[f64], other: &[f64], rate: Hertz, threshold: &Threshold
 fn blocks<'a>(
     a: &'a [f64],
     b: &'a [f64],
-    rate: Hertz,
+    n_block: usize,
 ) -> Option<impl Iterator<Item = (&'a [f64], &'a [f64])>> {
-    let n_block = (BLOCK_SECS * rate.0).round() as usize;
-    let is_enough = n_block >= 2 && a.len() == b.len() && a.len() >= n_block;
+    let is_enough = a.len() == b.len() && a.len() >= n_block;
     is_enough.then(|| a.chunks_exact(n_block).zip(b.chunks_exact(n_block)))
 }
 
@@ -68,17 +70,41 @@ fn likeness(a: &[f64], b: &[f64]) -> f64 {
     if norm > 0.0 { dot(a, b) / norm } else { f64::from(u8::from(a == b)) }
 }
 
-/// Level of each frequency but zero, in dB over the threshold.
-fn levels(block: &[f64], rate: Hertz, threshold: &Threshold) -> Vec<f64> {
-    let n = block.len();
-    let forward = RealFftPlanner::<f64>::new().plan_fft_forward(n);
-    let (mut samples, mut bins) = (block.to_vec(), forward.make_output_vec());
-    let done = forward.process(&mut samples, &mut bins);
-    debug_assert!(done.is_ok(), "the lengths are those of the plan");
-    let level = |(k, bin): (usize, &rustfft::num_complex::Complex<f64>)| {
-        let frequency = Hertz(k as f64 * rate.0 / n as f64);
-        let db = displacement_db_um(frequency, 2.0 * bin.norm() / n as f64);
-        (db - threshold.displacement_db_um(frequency)).max(LEAST_DB)
-    };
-    bins.iter().enumerate().skip(1).map(level).collect()
+/// The levels of the frequencies of a block, all but zero.
+struct Levels {
+    forward: Arc<dyn RealToComplex<f64>>,
+    /// Level of a bin of magnitude 1, in dB over the threshold.
+    of_one_db: Vec<f64>,
+}
+
+impl Levels {
+    /// `None` where a block is no two samples.
+    fn new(rate: Hertz, threshold: &Threshold) -> Option<Self> {
+        let n = (BLOCK_SECS * rate.0).round() as usize;
+        if n < 2 {
+            return None;
+        }
+        let of_one_db = |k: usize| {
+            let frequency = Hertz(k as f64 * rate.0 / n as f64);
+            displacement_db_um(frequency, 2.0 / n as f64) - threshold.displacement_db_um(frequency)
+        };
+        Some(Self {
+            forward: RealFftPlanner::new().plan_fft_forward(n),
+            of_one_db: (1..=n / 2).map(of_one_db).collect(),
+        })
+    }
+
+    /// Samples of a block.
+    fn n_block(&self) -> usize {
+        self.forward.len()
+    }
+
+    /// What is `felt` of each level in dB over the threshold.
+    fn of(&self, block: &[f64], felt: impl Fn(f64) -> f64) -> Vec<f64> {
+        let (mut samples, mut bins) = (block.to_vec(), self.forward.make_output_vec());
+        let done = self.forward.process(&mut samples, &mut bins);
+        debug_assert!(done.is_ok(), "the lengths are those of the plan");
+        let level = |(bin, one_db): (&Complex<f64>, &f64)| 20.0 * bin.norm().log10() + one_db;
+        bins[1..].iter().zip(&self.of_one_db).map(level).map(|db| felt(db.max(LEAST_DB))).collect()
+    }
 }

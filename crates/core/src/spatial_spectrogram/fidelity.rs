@@ -5,7 +5,7 @@ use rustfft::num_complex::Complex;
 
 use crate::statistics::correlation;
 
-use super::{Framing, FramingError, SpatialSpectrogram, Transform, profile_of, spectral_convergence};
+use super::{Framing, FramingError, SpatialSpectrogram, Transform, lifted, profile_of, spectral_convergence};
 
 /// Spatial frequency in 1/m above which there is texture, whose envelope is looked at.
 const TEXTURE_PER_M: f64 = 200.0;
@@ -58,8 +58,7 @@ pub fn fidelity(
     spectrogram: &SpatialSpectrogram,
     transform: &Transform,
 ) -> Result<ProfileFidelity, FramingError> {
-    let lifted: Vec<f64> = made.iter().map(|x| x + spectrogram.offset()).collect();
-    let power = transform.power(&lifted)?;
+    let power = transform.power(&lifted(made, spectrogram.offset))?;
     // What does not vary goes with nothing.
     let correlation = |a: &[f64], b: &[f64]| correlation(a, b).unwrap_or(0.0);
     Ok(ProfileFidelity {

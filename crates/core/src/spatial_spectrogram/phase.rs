@@ -2,7 +2,7 @@
 
 use rustfft::num_complex::Complex;
 
-use super::{SpatialSpectrogram, Spectra, Transform};
+use super::{SpatialSpectrogram, Spectra, Transform, lifted};
 
 /// Share of the largest local mean below which a phase would be round-off.
 const ILL: f64 = 1e-9;
@@ -14,11 +14,8 @@ const ILL: f64 = 1e-9;
 /// The transform has another framing.
 pub fn profile_of(spectrogram: &SpatialSpectrogram, transform: &Transform) -> Vec<f64> {
     assert_eq!(transform.framing(), spectrogram.power.framing, "one framing for both");
-    let mut profile = transform.profile(&with_phases(spectrogram, transform));
-    for x in &mut profile {
-        *x -= spectrogram.offset;
-    }
-    profile
+    let profile = transform.profile(&with_phases(spectrogram, transform));
+    lifted(&profile, -spectrogram.offset)
 }
 
 /// The spectrogram with the phases of its staircase, as if no offset had been added.

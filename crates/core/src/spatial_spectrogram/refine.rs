@@ -2,7 +2,7 @@
 
 use rustfft::num_complex::Complex;
 
-use super::{SpatialSpectrogram, Transform};
+use super::{SpatialSpectrogram, Transform, lifted};
 
 /// How far each step goes beyond the last (fast Griffin-Lim, Perraudin et al. 2013).
 const MOMENTUM: f64 = 0.99;
@@ -38,7 +38,7 @@ pub fn refine(
     }
     let sizes: Vec<f64> = power.values.iter().map(|power| power.max(0.0).sqrt()).collect();
     let weights = transform.weights(power.n_samples, power.n_frames());
-    let mut profile: Vec<f64> = start.iter().map(|x| x + spectrogram.offset).collect();
+    let mut profile = lifted(start, spectrogram.offset);
     let mut ahead = transform.empty(power.n_samples, power.n_frames());
     transform.analyze(&profile, &mut ahead);
     let mut before = ahead.clone();
@@ -55,8 +55,5 @@ pub fn refine(
         }
         std::mem::swap(&mut before, &mut now);
     }
-    for x in &mut profile {
-        *x -= spectrogram.offset;
-    }
-    Ok(profile)
+    Ok(lifted(&profile, -spectrogram.offset))
 }

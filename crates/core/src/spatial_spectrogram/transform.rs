@@ -1,11 +1,12 @@
 //! Profiles to windows of spectra and back.
 
-use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
+
+use crate::spectrum::hann;
 
 use super::{Frames, Framing, FramingError, Spectra};
 
@@ -41,7 +42,7 @@ impl Transform {
         let mut planner = RealFftPlanner::new();
         Self {
             framing,
-            hann: (0..n).map(|i| 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos()).collect(),
+            hann: hann(n),
             forward: planner.plan_fft_forward(n),
             inverse: planner.plan_fft_inverse(n),
         }
