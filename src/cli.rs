@@ -14,9 +14,12 @@ mod calibrate_live;
 mod calibrate_recording;
 mod calibrate_result;
 mod calibrate_sweep;
+mod codec_decode;
+mod codec_encode;
 mod devices;
 mod devices_pens;
 mod evaluate;
+mod evaluate_codec;
 mod export;
 mod figures_folder;
 mod guard;
@@ -36,18 +39,24 @@ mod motion;
 mod near_names;
 mod output;
 mod play;
+mod profile_source;
 mod project_gallery;
 mod project_new;
 mod project_show;
 mod project_source;
+mod quality;
 mod receiver;
 mod recording_answers;
 mod render;
 mod rig;
+mod signal_source;
 mod space_build;
 mod space_judgments;
 mod space_panel;
 mod space_place;
+mod spatial_analyse;
+mod spatial_make;
+mod spatial_reconstruct;
 mod stroke;
 mod stroke_args;
 mod target;
@@ -102,6 +111,26 @@ enum Command {
     #[command(subcommand)]
     Actuator(ActuatorCommand),
     Calibrate(Box<calibrate::Args>),
+    Quality(quality::Args),
+    /// Signals of textures at 1.75 to 3.15 kbit/s.
+    #[command(subcommand)]
+    Codec(CodecCommand),
+    /// Spatial spectrograms of profiles: what is in each window, and not where.
+    #[command(subcommand)]
+    Spatial(SpatialCommand),
+}
+
+#[derive(clap::Subcommand)]
+enum SpatialCommand {
+    Analyse(spatial_analyse::Args),
+    Reconstruct(spatial_reconstruct::Args),
+    Make(spatial_make::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum CodecCommand {
+    Encode(codec_encode::Args),
+    Decode(codec_decode::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -142,6 +171,7 @@ enum SpaceCommand {
 #[derive(clap::Subcommand)]
 enum EvaluateCommand {
     LeaveOneOut(evaluate::Args),
+    Codec(evaluate_codec::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -194,6 +224,13 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Actuator(ActuatorCommand::List(args))) => actuator_list::run(args),
         Some(Command::Actuator(ActuatorCommand::Show(args))) => actuator_show::run(args),
         Some(Command::Actuator(ActuatorCommand::Acf(args))) => actuator_acf::run(args),
+        Some(Command::Quality(args)) => quality::run(args),
+        Some(Command::Codec(CodecCommand::Encode(args))) => codec_encode::run(args),
+        Some(Command::Codec(CodecCommand::Decode(args))) => codec_decode::run(args),
+        Some(Command::Spatial(SpatialCommand::Analyse(args))) => spatial_analyse::run(args),
+        Some(Command::Spatial(SpatialCommand::Reconstruct(args))) => spatial_reconstruct::run(args),
+        Some(Command::Spatial(SpatialCommand::Make(args))) => spatial_make::run(args),
+        Some(Command::Evaluate(EvaluateCommand::Codec(args))) => evaluate_codec::run(args),
         Some(Command::Calibrate(args)) => calibrate::run(args),
     };
     match done {

@@ -2,7 +2,7 @@
 
 mod resample;
 
-pub use crate::filter::resample::resample_down;
+pub use crate::filter::resample::resample;
 pub use shagreen_synth::equalizer::Biquad;
 
 use shagreen_synth::resampler::bessel_i0;
@@ -100,7 +100,7 @@ fn decimation_taps(factor: usize) -> Vec<f64> {
     taps
 }
 
-/// The continuous kernel of [`decimate`] and [`resample_down`], over time in samples of the input.
+/// The continuous kernel of [`decimate`] and [`resample`], over time in samples of the input.
 struct LowPass {
     /// Cut-off in cycles a sample, in the middle of the transition.
     cutoff: f64,

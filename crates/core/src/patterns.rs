@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::blend::Mode;
-use crate::filter::resample_down;
+use crate::filter::resample;
 use crate::plane::{Plane, Prepared};
 use crate::rate::{AtRateError, at_rate};
 use crate::render::{RenderError, RenderPlan, render};
@@ -22,7 +22,7 @@ pub const PAPER_SECS: f64 = 1.0;
 pub const PAPER_RATE: Hertz = Hertz(1000.0);
 
 /// Samples at the ends of a pattern that a lower rate would spoil, at that rate: the kernel of
-/// [`resample_down`] reaches 51 of them.
+/// [`resample`] reaches 51 of them.
 const N_SPOILT: usize = 64;
 
 /// What to stroke.
@@ -256,7 +256,7 @@ fn one(prepared: &Prepared, contact: Contact, plan: &PatternPlan<'_>) -> Result<
         return rendered(plan.seconds);
     }
     let longer = rendered(plan.seconds + (2 * N_SPOILT) as f64 / plan.rate.0)?;
-    let lower = resample_down(&longer, own, plan.rate);
+    let lower = resample(&longer, own, plan.rate);
     Ok(lower.into_iter().skip(N_SPOILT).take(n_samples).collect())
 }
 

@@ -22,8 +22,8 @@ use crate::units::Hertz;
 pub use crate::quality::d_prime::{Correction, Counts, d_prime};
 pub use crate::quality::features::Features;
 pub use crate::quality::model::{
-    Elimination, PAPER_FEATURES, PAPER_WEIGHTS, QualityModel, QualityModelError, RatedPair, Rotation, Term,
-    eliminate, nested_r_squared, rotate,
+    Elimination, PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityModel, QualityModelError,
+    RatedPair, Rotation, Term, eliminate, nested_r_squared, rotate,
 };
 pub use crate::quality::similarity::{spqi, st_sim};
 

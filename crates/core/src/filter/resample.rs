@@ -1,26 +1,26 @@
-//! A lower rate at any ratio.
+//! Another rate at any ratio.
 
 use crate::filter::{LowPass, decimate};
 use crate::units::Hertz;
 
-/// Entries of the kernel's table for a sample of the output: read linearly between, it is wrong by at most
+/// Entries of the kernel's table for a sample of the lower rate: read linearly between, it is wrong by at most
 /// `(π / 1024)² / 8`, a millionth.
 const TABLE_STEPS: usize = 1024;
 
-/// `signal` at the rate `to`, which is `from` or lower: flat and quiet as [`decimate`] is, which does the work where the
-/// ratio is a whole number.
+/// `signal` at the rate `to`: flat and quiet as [`decimate`] is, which does the work where a rate is divided by a whole number.
+/// At a higher rate there is nothing above the band that the signal had.
 ///
 /// Sample `i` of the result belongs to the time `i / to` from the first sample; the signal counts as zero beyond its ends.
-pub fn resample_down(signal: &[f64], from: Hertz, to: Hertz) -> Vec<f64> {
-    assert!(to.0 > 0.0 && to.0 <= from.0, "a lower rate than {from} was meant, got {to}");
+pub fn resample(signal: &[f64], from: Hertz, to: Hertz) -> Vec<f64> {
+    assert!(to.0 > 0.0 && from.0 > 0.0, "rates are above zero, got {from} and {to}");
     let factor = from.0 / to.0;
     let whole = factor.round();
     // Clocks that agree to a millionth stay together to a thousandth of a sample for a second's worth of samples.
     if (factor - whole).abs() < 1e-6 * factor {
         return decimate(signal, whole as usize);
     }
-    let kernel = LowPass::new(factor);
-    let step = factor / TABLE_STEPS as f64;
+    let kernel = LowPass::new(factor.max(1.0));
+    let step = factor.max(1.0) / TABLE_STEPS as f64;
     let n_table = (kernel.half / step).ceil() as usize + 2;
     let table: Vec<f64> = (0..n_table).map(|i| kernel.at(i as f64 * step)).collect();
     let n_out = (signal.len() as f64 / factor).ceil() as usize;
@@ -47,7 +47,7 @@ pub fn resample_down(signal: &[f64], from: Hertz, to: Hertz) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::resample_down;
+    use super::resample;
     use crate::filter::decimate;
     use crate::rng::lcg_noise;
     use crate::spectrum::rms;
@@ -62,7 +62,7 @@ mod tests {
     fn a_sine_in_the_band_is_the_same_sine_and_one_above_is_gone() {
         for from_hz in [1200.0, 3333.0, 11_025.0, 44_100.0] {
             for frequency_hz in [20.0, 200.0, 440.0] {
-                let got = resample_down(&sine(frequency_hz, from_hz), Hertz(from_hz), Hertz(1000.0));
+                let got = resample(&sine(frequency_hz, from_hz), Hertz(from_hz), Hertz(1000.0));
                 let expected = sine(frequency_hz, 1000.0);
                 assert_eq!(got.len(), 1000);
                 for (got, expected) in got[200..800].iter().zip(&expected[200..800]) {
@@ -73,19 +73,34 @@ mod tests {
                     );
                 }
             }
-            let above = resample_down(&sine(560.0, from_hz), Hertz(from_hz), Hertz(1000.0));
+            let above = resample(&sine(560.0, from_hz), Hertz(from_hz), Hertz(1000.0));
             assert!(rms(&above[200..800]) < 3e-4, "{}", rms(&above[200..800]));
+        }
+    }
+
+    #[test]
+    fn a_higher_rate_has_the_same_sine_and_nothing_above() {
+        for to_hz in [1500.0, 2000.0, 4410.0] {
+            for frequency_hz in [20.0, 200.0, 400.0] {
+                let got = resample(&sine(frequency_hz, 1000.0), Hertz(1000.0), Hertz(to_hz));
+                let expected = sine(frequency_hz, to_hz);
+                assert_eq!(got.len(), expected.len());
+                let middle = got.len() / 5..got.len() * 4 / 5;
+                for (got, expected) in got[middle.clone()].iter().zip(&expected[middle]) {
+                    assert!((got - expected).abs() < 3e-4, "{frequency_hz} Hz to {to_hz}: {got}, {expected}");
+                }
+            }
         }
     }
 
     #[test]
     fn whole_ratios_are_those_of_the_decimator() {
         let x = lcg_noise(4000, 2);
-        assert_eq!(resample_down(&x, Hertz(4000.0), Hertz(1000.0)), decimate(&x, 4));
-        assert_eq!(resample_down(&x, Hertz(1000.0), Hertz(1000.0)), x);
-        assert!(resample_down(&[], Hertz(3333.0), Hertz(1000.0)).is_empty());
+        assert_eq!(resample(&x, Hertz(4000.0), Hertz(1000.0)), decimate(&x, 4));
+        assert_eq!(resample(&x, Hertz(1000.0), Hertz(1000.0)), x);
+        assert!(resample(&[], Hertz(3333.0), Hertz(1000.0)).is_empty());
         // The general way beside it, at a ratio just off a whole one.
-        let near = resample_down(&x, Hertz(4000.1), Hertz(1000.0));
+        let near = resample(&x, Hertz(4000.1), Hertz(1000.0));
         for (a, b) in near[300..400].iter().zip(&decimate(&x, 4)[300..400]) {
             assert!((a - b).abs() < 0.06, "{a} for {b}");
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::filter::{DECIMATION_PASS_SHARE, butterworth_high_pass, filter, resample_down};
+use crate::filter::{DECIMATION_PASS_SHARE, butterworth_high_pass, filter, resample};
 use crate::fit::{FitError, HIGH_PASS};
 use crate::recording::Recording;
 use crate::segment::{MIN_FORCE, MIN_SPEED, Segmentation, segment, smoothed};
@@ -84,7 +84,7 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
     for (index, stroked) in stroked.iter().enumerate() {
         let from = nominal(stroked.recording.rate);
         let lower: Vec<Vec<f64>> =
-            stroked.signals.iter().map(|(_, signal)| resample_down(signal, from, rate)).collect();
+            stroked.signals.iter().map(|(_, signal)| resample(signal, from, rate)).collect();
         let speeds: Vec<Vec<f64>> = stroked
             .signals
             .iter()

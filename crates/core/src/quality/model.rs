@@ -3,6 +3,7 @@
 use super::{Distances, Feature};
 use crate::least_squares::least_squares;
 use crate::statistics::{centered, dot};
+use crate::units::Hertz;
 
 /// The features that the paper kept.
 pub const PAPER_FEATURES: [Feature; 4] =
@@ -10,6 +11,10 @@ pub const PAPER_FEATURES: [Feature; 4] =
 /// Their weights: those of the best of the paper's rotations, for distances scaled to unit length over its 25 pairs. The
 /// lengths were not published, so they have to come from a corpus that is like it.
 pub const PAPER_WEIGHTS: [f64; 4] = [5.2, 3.8, 6.3, 3.3];
+/// How many pairs of signals the paper had: lengths are sums over pairs.
+pub const PAPER_PAIRS: usize = 25;
+/// The rate of its signals.
+pub const PAPER_RATE: Hertz = Hertz(2000.0);
 
 /// Most features that are fitted: subsets are tried one by one.
 const MOST_FEATURES: usize = 7;

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Peers of benches/spatial.rs: windowed transforms of one profile, back, and Griffin-Lim.
+
+Usage: spatial.py INPUTS        prints one JSON line a measurement
+       spatial.py --make INPUTS writes a made-up profile where none is at hand
+Input: `profile_100mm_1um.f32`, 100 mm in steps of 1 micrometer.
+
+Windows of 20 to 0.2 mm, steps of a quarter, periodic Hann. "transforms alone" is one real transform a window without
+windowing, cutting or adding: no peer, but what any of them has to do at least.
+"""
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from measure import bench
+
+SAMPLES = 100_000
+WINDOWS = [20_000, 10_000, 5_000, 2_000, 1_000, 500, 200]
+REFINED, STEPS = 2_000, 32
+
+
+def make(folder):
+    """Bumps, a weave and noise."""
+    rng = np.random.default_rng(5)
+    x = np.arange(SAMPLES) * 1e-3
+    y = 0.5 + 0.2 * np.sin(2 * np.pi * x / 13) + 0.1 * np.sin(2 * np.pi * x / 0.4) + 0.05 * rng.standard_normal(SAMPLES)
+    y.astype("<f4").tofile(folder / "profile_100mm_1um.f32")
+
+
+def decibels(a, b):
+    return f"{10 * np.log10((abs(a.astype(complex)) ** 2).sum() / (abs(a - b) ** 2).sum()):.1f} dB"
+
+
+def main(folder):
+    import librosa
+    import scipy.fft
+    from scipy.signal import ShortTimeFFT
+    from scipy.signal.windows import hann
+
+    single = np.fromfile(folder / "profile_100mm_1um.f32", "<f4")
+    double = single.astype("f8")
+    there, back = "spatial spectrogram of 100 mm, 7 windows", "the same turned back"
+
+    for profile in (double, single):
+        name = f"scipy ShortTimeFFT, {profile.dtype}"
+        plans = [ShortTimeFFT(hann(w, sym=False).astype(profile.dtype), hop=w // 4, fs=1e6) for w in WINDOWS]
+        bench(there, name, 1, "profile", lambda: [p.stft(profile) for p in plans])
+        spectra = [p.stft(profile) for p in plans]
+        worst = min(decibels(profile, p.istft(s, k1=SAMPLES)) for p, s in zip(plans, spectra))
+        bench(back, name, 1, "profile", lambda: [p.istft(s, k1=SAMPLES) for p, s in zip(plans, spectra)], note=worst)
+
+    for profile in (double, single):
+        name = f"librosa stft, {profile.dtype}"
+        bench(there, name, 1, "profile", lambda: [librosa.stft(profile, n_fft=w, hop_length=w // 4) for w in WINDOWS])
+        spectra = [librosa.stft(profile, n_fft=w, hop_length=w // 4) for w in WINDOWS]
+
+        def turned():
+            return [librosa.istft(s, n_fft=w, hop_length=w // 4, length=SAMPLES) for w, s in zip(WINDOWS, spectra)]
+
+        bench(back, name, 1, "profile", turned, note=min(decibels(profile, y) for y in turned()))
+
+    for profile in (double, single):
+        name = f"scipy.fft, transforms alone, {profile.dtype}"
+        cuts = [np.ascontiguousarray(np.lib.stride_tricks.sliding_window_view(np.pad(profile, w // 2), w)[:: w // 4])
+                for w in WINDOWS]
+        bench(there, name, 1, "profile", lambda: [scipy.fft.rfft(c, axis=1) for c in cuts])
+        spectra = [scipy.fft.rfft(c, axis=1) for c in cuts]
+        bench(back, name, 1, "profile", lambda: [scipy.fft.irfft(s, axis=1) for s in spectra])
+
+    magnitudes = np.abs(librosa.stft(single, n_fft=REFINED, hop_length=REFINED // 4))
+
+    def refined():
+        return librosa.griffinlim(magnitudes, n_iter=STEPS, hop_length=REFINED // 4, n_fft=REFINED, length=SAMPLES,
+                                  random_state=0)
+
+    reached = np.abs(librosa.stft(refined(), n_fft=REFINED, hop_length=REFINED // 4))
+    bench("Griffin-Lim, 32 steps, windows of 2 mm", "librosa.griffinlim", 1, "profile", refined,
+          note=decibels(magnitudes, reached))
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--make":
+        make(Path(sys.argv[2]))
+    else:
+        main(Path(sys.argv[1]))

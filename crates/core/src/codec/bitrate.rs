@@ -1,0 +1,97 @@
+//! The five rates, and where their bits go.
+
+use crate::codec::{N_CODES_MOST, N_SPLITS};
+
+/// How many bits a second a stream takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Bitrate {
+    /// 1750 bits a second.
+    Kbps1_75,
+    /// 2150 bits a second.
+    Kbps2_15,
+    /// 2450 bits a second.
+    Kbps2_45,
+    /// 2750 bits a second.
+    Kbps2_75,
+    /// 3150 bits a second.
+    Kbps3_15,
+}
+
+/// Bits of one frame, by what they say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Allocation {
+    /// Of each part of the line spectral frequencies.
+    pub lsf: [u32; N_SPLITS],
+    /// Of the lag of each half.
+    pub lag: [u32; 2],
+    /// Of the pair of gains of a half.
+    pub gain: u32,
+    /// Of the fixed code of a half.
+    pub code: u32,
+}
+
+impl Bitrate {
+    /// All, lowest first.
+    pub const ALL: [Self; 5] =
+        [Self::Kbps1_75, Self::Kbps2_15, Self::Kbps2_45, Self::Kbps2_75, Self::Kbps3_15];
+
+    /// Bits a second.
+    pub fn bits_per_sec(self) -> u32 {
+        match self {
+            Self::Kbps1_75 => 1750,
+            Self::Kbps2_15 => 2150,
+            Self::Kbps2_45 => 2450,
+            Self::Kbps2_75 => 2750,
+            Self::Kbps3_15 => 3150,
+        }
+    }
+
+    /// The same in kbit/s.
+    pub fn kbps(self) -> f64 {
+        f64::from(self.bits_per_sec()) / 1e3
+    }
+
+    /// The rate of so many bits a second.
+    pub fn from_bits_per_sec(bits_per_sec: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|rate| rate.bits_per_sec() == bits_per_sec)
+    }
+
+    /// Where the bits of a frame go.
+    pub fn allocation(self) -> Allocation {
+        let allocation = |lsf, gain, code| Allocation { lsf, lag: [7, 5], gain, code };
+        match self {
+            Self::Kbps1_75 => allocation([4, 4, 3], 4, 2),
+            Self::Kbps2_15 => allocation([5; 3], 4, 4),
+            Self::Kbps2_45 => allocation([5; 3], 5, 6),
+            Self::Kbps2_75 => allocation([5; 3], 5, 9),
+            Self::Kbps3_15 => allocation([5; 3], 6, 12),
+        }
+    }
+}
+
+impl Allocation {
+    /// All bits of a frame.
+    pub fn n_bits(&self) -> u32 {
+        self.lsf.iter().sum::<u32>() + self.lag.iter().sum::<u32>() + 2 * (self.gain + self.code)
+    }
+
+    /// Fixed codes that can be told apart.
+    pub fn n_codes(&self) -> usize {
+        (1 << self.code).min(N_CODES_MOST)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Bitrate;
+    use crate::codec::FRAMES_PER_SEC;
+
+    #[test]
+    fn bits_are_those_of_the_rate() {
+        for rate in Bitrate::ALL {
+            assert_eq!(rate.allocation().n_bits() * FRAMES_PER_SEC, rate.bits_per_sec());
+            assert_eq!(Bitrate::from_bits_per_sec(rate.bits_per_sec()), Some(rate));
+        }
+        assert_eq!(Bitrate::from_bits_per_sec(2000), None);
+    }
+}

@@ -1,0 +1,301 @@
+//! Samples to frames.
+
+use std::sync::Arc;
+
+use super::bitrate::Bitrate;
+use super::books::{Code, Codebooks};
+use super::decoder::mixed;
+use super::frame::{Frame, Half, lags};
+use super::spectrum::{Lsf, SpectrumMeter, WINDOW_SAMPLES};
+use super::synthesis::{Predictor, Synthesis};
+use super::{FRAME_SAMPLES, HALF_SAMPLES, LOOK_AHEAD_SAMPLES, N_SPLITS, ORDER, SPLITS, least};
+use crate::statistics::dot;
+
+/// Errors are weighted by `A(z/0.94)/A(z/0.6)`.
+const WEIGHTING: (f64, f64) = (0.94, 0.6);
+/// Lags that are tried with codes, and codes that are tried with gains, for each lag.
+const N_LAGS_TRIED: usize = 3;
+const N_CODES_TRIED: usize = 8;
+/// Codes whose energy is worked out exactly; of more, those that promise most.
+const N_CODES_EXACT: usize = 64;
+/// Range of the gain of the lagged excitation while codes are looked for.
+const LAGGED_GAIN: (f64, f64) = (0.0, 1.2);
+/// Energy below which there is nothing to match.
+const NOTHING: f64 = 1e-12;
+/// Least distance of frequencies that counts in their weights, in radians.
+const LEAST_DISTANCE: f64 = 0.02;
+
+/// Encodes a signal as it comes.
+#[derive(Clone, Debug)]
+pub struct Encoder {
+    rate: Bitrate,
+    books: Arc<Codebooks>,
+    meter: SpectrumMeter,
+    synthesis: Synthesis,
+    /// The window around the next frame, as far as it has come.
+    window: [f64; WINDOW_SAMPLES],
+    n_filled: usize,
+    /// Samples that came and are not yet in a frame.
+    n_waiting: usize,
+}
+
+/// What was tried for half a frame, and what it left of the target.
+#[derive(Clone, Copy, Debug)]
+struct Trial {
+    error: f64,
+    half: Half,
+    excitation: Code,
+}
+
+/// Inner products of the target and of what a lag and a code make of themselves: all that gains have to know.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Products {
+    pub(super) target: f64,
+    pub(super) target_lagged: f64,
+    pub(super) target_fixed: f64,
+    pub(super) lagged: f64,
+    pub(super) fixed: f64,
+    pub(super) both: f64,
+}
+
+impl Products {
+    /// What these gains leave of the target.
+    pub(super) fn error(&self, [lagged, fixed]: [f64; 2]) -> f64 {
+        self.target - 2.0 * (lagged * self.target_lagged + fixed * self.target_fixed)
+            + lagged * lagged * self.lagged
+            + fixed * fixed * self.fixed
+            + 2.0 * lagged * fixed * self.both
+    }
+}
+
+impl Encoder {
+    /// An encoder to this rate. Samples come in a unit in which the signal is about one.
+    pub fn new(rate: Bitrate, books: Arc<Codebooks>) -> Self {
+        let synthesis = Synthesis::new(books.frequencies_of_mean());
+        let meter = SpectrumMeter::new();
+        let window = [0.0; WINDOW_SAMPLES];
+        Self { rate, books, meter, synthesis, window, n_filled: LOOK_AHEAD_SAMPLES, n_waiting: 0 }
+    }
+
+    /// Takes samples, and adds the frames that they complete.
+    pub fn push(&mut self, samples: &[f64], frames: &mut Vec<Frame>) {
+        self.push_looking(samples, frames, |_| ());
+    }
+
+    /// The same; `look` sees what the gains of each half had to choose from.
+    pub(super) fn push_looking(
+        &mut self,
+        samples: &[f64],
+        frames: &mut Vec<Frame>,
+        mut look: impl FnMut(Products),
+    ) {
+        for sample in samples {
+            self.n_waiting += 1;
+            self.take(*sample, frames, &mut look);
+        }
+    }
+
+    /// Adds the frames of what is still waiting, filled up with silence.
+    pub fn finish(&mut self, frames: &mut Vec<Frame>) {
+        let n_wanted = frames.len() + self.n_waiting.div_ceil(FRAME_SAMPLES);
+        while frames.len() < n_wanted {
+            self.take(0.0, frames, &mut |_| ());
+        }
+        self.n_waiting = 0;
+    }
+
+    fn take(&mut self, sample: f64, frames: &mut Vec<Frame>, look: &mut impl FnMut(Products)) {
+        self.window[self.n_filled] = if sample.is_finite() { sample } else { 0.0 };
+        self.n_filled += 1;
+        if self.n_filled == WINDOW_SAMPLES {
+            frames.push(self.encode(look));
+            self.window.copy_within(FRAME_SAMPLES.., 0);
+            self.n_filled -= FRAME_SAMPLES;
+            self.n_waiting = self.n_waiting.saturating_sub(FRAME_SAMPLES);
+        }
+    }
+
+    /// The frame in the middle of the window.
+    fn encode(&mut self, look: &mut impl FnMut(Products)) -> Frame {
+        let measured = self.meter.measure(&self.window);
+        let lsf_indices = self.quantized(&measured);
+        let lsf = self.books.frequencies(self.rate, lsf_indices);
+        let predictors = self.synthesis.predictors(&lsf);
+        let mut frame = Frame { lsf: lsf_indices, ..Frame::default() };
+        let mut first_lag = None;
+        for (half, predictor) in predictors.iter().enumerate() {
+            let begin = LOOK_AHEAD_SAMPLES + half * HALF_SAMPLES;
+            let wanted: Code = std::array::from_fn(|i| self.window[begin + i]);
+            let (trial, products) = self.best(predictor, &wanted, lags(first_lag));
+            look(products);
+            frame.halves[half] = trial.half;
+            first_lag = Some(frame.lags()[0]);
+            self.synthesis.excite(predictor, &trial.excitation);
+        }
+        self.synthesis.lsf = lsf;
+        frame
+    }
+
+    /// The entries that are nearest to the frequencies, where near ones count more.
+    fn quantized(&self, lsf: &Lsf) -> [u16; N_SPLITS] {
+        let below = |i: usize| if i == 0 { 0.0 } else { lsf[i - 1] };
+        let above = |i: usize| if i + 1 == ORDER { std::f64::consts::PI } else { lsf[i + 1] };
+        let weight = |i: usize| 1.0 / (lsf[i] - below(i)).min(above(i) - lsf[i]).max(LEAST_DISTANCE);
+        let mean = self.books.lsf_mean();
+        std::array::from_fn(|split| {
+            let (begin, _) = SPLITS[split];
+            let distance = |entry: &Vec<f64>| -> f64 {
+                let parts = entry.iter().enumerate();
+                parts.map(|(j, e)| weight(begin + j) * (lsf[begin + j] - mean[begin + j] - e).powi(2)).sum()
+            };
+            least(self.books.split(self.rate, split).iter().map(distance)) as u16
+        })
+    }
+
+    /// What excites half a frame best.
+    fn best(&self, predictor: &Predictor, wanted: &Code, (low, high): (usize, usize)) -> (Trial, Products) {
+        let ringing = self.synthesis.ringing(predictor);
+        let missing: Code = std::array::from_fn(|i| wanted[i] - ringing[i]);
+        let weighted = weighted(predictor, &missing);
+        let mut pulse = [0.0; HALF_SAMPLES];
+        pulse[0] = 1.0;
+        let response = weighted_response(predictor, &pulse);
+        let expected = self.synthesis.expected_length();
+        let gains = self.books.gains(self.rate);
+        let mut best: Option<(Trial, Products)> = None;
+        for (lag, before, made) in self.promising_lags(&response, &weighted, low, high) {
+            let energy = dot(&made, &made);
+            let gain = if energy > NOTHING {
+                (dot(&weighted, &made) / energy).clamp(LAGGED_GAIN.0, LAGGED_GAIN.1)
+            } else {
+                0.0
+            };
+            let left: Code = std::array::from_fn(|i| weighted[i] - gain * made[i]);
+            for code in self.promising_codes(&response, &left) {
+                let fixed = convolved(&response, &self.books.codes[code]);
+                let products = Products {
+                    target: dot(&weighted, &weighted),
+                    target_lagged: dot(&weighted, &made),
+                    target_fixed: expected * dot(&weighted, &fixed),
+                    lagged: energy,
+                    fixed: expected * expected * dot(&fixed, &fixed),
+                    both: expected * dot(&made, &fixed),
+                };
+                let chosen = least(gains.iter().map(|gains| products.error(*gains)));
+                let [lagged_gain, fixed_gain] = gains[chosen];
+                let error = products.error([lagged_gain, fixed_gain]);
+                if best.as_ref().is_none_or(|(best, _)| error < best.error) {
+                    let half = Half { lag: (lag - low) as u16, gain: chosen as u16, code: code as u16 };
+                    let code = &self.books.codes[code];
+                    let excitation = mixed(&before, lagged_gain, code, fixed_gain * expected);
+                    best = Some((Trial { error, half, excitation }, products));
+                }
+            }
+        }
+        match best {
+            Some(best) => best,
+            None => unreachable!("there is a lag, and a code"),
+        }
+    }
+
+    /// The lags that match best by themselves: with the excitation there, and what the weighted filter makes of it.
+    fn promising_lags(
+        &self,
+        response: &Code,
+        weighted: &Code,
+        low: usize,
+        high: usize,
+    ) -> Vec<(usize, Code, Code)> {
+        let mut found: Vec<(f64, (usize, Code, Code))> = (low..=high)
+            .map(|lag| {
+                let before = self.synthesis.lagged(lag);
+                let made = convolved(response, &before);
+                let (match_, energy) = (dot(weighted, &made), dot(&made, &made));
+                let score = if energy > NOTHING { match_ * match_.abs() / energy } else { 0.0 };
+                (score, (lag, before, made))
+            })
+            .collect();
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        found.truncate(N_LAGS_TRIED);
+        found.into_iter().map(|(_, lag)| lag).collect()
+    }
+
+    /// The codes that match best by themselves.
+    fn promising_codes(&self, response: &Code, left: &Code) -> Vec<usize> {
+        let codes = &self.books.codes[..self.rate.allocation().n_codes()];
+        // What is left, filtered backwards: one product tells how well a code matches.
+        let backwards: Code = std::array::from_fn(|i| dot(&left[i..], &response[..HALF_SAMPLES - i]));
+        let mut scores: Vec<(f64, usize)> = if codes.len() <= N_CODES_EXACT {
+            codes.iter().enumerate().map(|(i, code)| (exact_score(response, &backwards, code), i)).collect()
+        } else {
+            let shape: Code = std::array::from_fn(|lag| {
+                let both_sides = if lag == 0 { 1.0 } else { 2.0 };
+                both_sides * dot(&response[lag..], &response[..HALF_SAMPLES - lag])
+            });
+            let about = |(i, code): (usize, &Code)| {
+                let energy = dot(&shape, &self.books.correlations[i]).max(NOTHING);
+                (dot(&backwards, code).powi(2) / energy, i)
+            };
+            let mut rough: Vec<(f64, usize)> = codes.iter().enumerate().map(about).collect();
+            rough.select_nth_unstable_by(N_CODES_EXACT, |a, b| b.0.total_cmp(&a.0));
+            rough.truncate(N_CODES_EXACT);
+            rough.into_iter().map(|(_, i)| (exact_score(response, &backwards, &codes[i]), i)).collect()
+        };
+        scores.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        scores.truncate(N_CODES_TRIED);
+        scores.into_iter().map(|(_, i)| i).collect()
+    }
+}
+
+/// How much of the target a code can take away.
+fn exact_score(response: &Code, backwards: &Code, code: &Code) -> f64 {
+    let made = convolved(response, code);
+    dot(backwards, code).powi(2) / dot(&made, &made).max(NOTHING)
+}
+
+/// The first samples of a convolution.
+fn convolved(response: &Code, x: &Code) -> Code {
+    let mut out = [0.0; HALF_SAMPLES];
+    for (i, x) in x.iter().enumerate() {
+        for (y, h) in out[i..].iter_mut().zip(response) {
+            *y += x * h;
+        }
+    }
+    out
+}
+
+/// `A(z/0.94)/A(z/0.6)` of a signal, from rest.
+fn weighted(predictor: &Predictor, x: &Code) -> Code {
+    let (ahead, behind) = (widened(predictor, WEIGHTING.0), widened(predictor, WEIGHTING.1));
+    let mut out = [0.0; HALF_SAMPLES];
+    for n in 0..HALF_SAMPLES {
+        let mut y = x[n];
+        for k in 1..=ORDER.min(n) {
+            y += ahead[k - 1] * x[n - k] - behind[k - 1] * out[n - k];
+        }
+        out[n] = y;
+    }
+    out
+}
+
+/// The same of what `1/A` makes of a signal, from rest.
+fn weighted_response(predictor: &Predictor, x: &Code) -> Code {
+    let mut out = [0.0; HALF_SAMPLES];
+    for n in 0..HALF_SAMPLES {
+        let mut y = x[n];
+        for k in 1..=ORDER.min(n) {
+            y -= predictor[k - 1] * out[n - k];
+        }
+        out[n] = y;
+    }
+    weighted(predictor, &out)
+}
+
+/// `A(z/factor)`.
+fn widened(predictor: &Predictor, factor: f64) -> Predictor {
+    let mut power = 1.0;
+    predictor.map(|a| {
+        power *= factor;
+        power * a
+    })
+}

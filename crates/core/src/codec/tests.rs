@@ -1,0 +1,225 @@
+use std::sync::{Arc, OnceLock};
+
+use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
+use serde_json::Value;
+
+use super::bitrate::Bitrate;
+use super::books::{BooksError, Codebooks, SplitTable, Tables};
+use super::coded::{Coded, snr_db};
+use super::decoder::Decoder;
+use super::encoder::Encoder;
+use super::frame::{BitReader, BitWriter, Frame, Half};
+use super::train::{TrainError, train};
+use super::{DELAY_SAMPLES, FRAME_SAMPLES};
+use crate::ar::test_signals::from_resonances;
+use crate::rng::lcg_noise;
+use crate::spectrum::rms;
+use crate::units::Hertz;
+
+/// Two seconds of a texture of two resonances, of a root mean square of one.
+fn texture(seed: u64) -> Vec<f64> {
+    let at = 60.0 + 37.0 * (seed % 11) as f64;
+    let resonances = [(Hertz(at), 0.95), (Hertz(at + 220.0), 0.85)];
+    let ar = from_resonances(Hertz(2000.0), &resonances);
+    let mut out: Vec<f64> = Vec::new();
+    for x in lcg_noise(4000, seed) {
+        let fed_back: f64 = ar.iter().zip(out.iter().rev()).map(|(a, y)| a * y).sum();
+        out.push(x - fed_back);
+    }
+    let level = rms(&out);
+    out.iter().map(|x| x / level).collect()
+}
+
+/// The tables of the program.
+fn books() -> Arc<Codebooks> {
+    static BOOKS: OnceLock<Arc<Codebooks>> = OnceLock::new();
+    let read = || {
+        let text = include_str!("../../../../assets/codec/tables.json");
+        let json: Value = serde_json::from_str(text).unwrap();
+        let numbers = |json: &Value| -> Vec<f64> {
+            json.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+        };
+        let rows = |json: &Value| -> Vec<Vec<f64>> { json.as_array().unwrap().iter().map(numbers).collect() };
+        let lsf = json["lsf"].as_array().unwrap().iter().map(|table| SplitTable {
+            split: table["split"].as_u64().unwrap() as usize,
+            n_bits: table["bits"].as_u64().unwrap() as u32,
+            entries: rows(&table["entries"]),
+        });
+        let gains = json["gains"].as_array().unwrap().iter();
+        let tables = Tables {
+            lsf_mean: numbers(&json["lsf_mean"]),
+            lsf: lsf.collect(),
+            gains: gains
+                .map(|table| rows(table).iter().map(|gains| [gains[0], gains[1]]).collect())
+                .collect(),
+        };
+        Arc::new(Codebooks::new(tables).unwrap())
+    };
+    Arc::clone(BOOKS.get_or_init(read))
+}
+
+fn encoded(rate: Bitrate, signal: &[f64]) -> Vec<Frame> {
+    let (mut encoder, mut frames) = (Encoder::new(rate, books()), Vec::new());
+    encoder.push(signal, &mut frames);
+    encoder.finish(&mut frames);
+    frames
+}
+
+/// The decoded signal, with every frame lost that `is_lost`.
+fn decoded(rate: Bitrate, frames: &[Frame], is_lost: impl Fn(usize) -> bool) -> Vec<f64> {
+    let mut decoder = Decoder::new(rate, books(), 10.0);
+    let frames = frames.iter().enumerate();
+    frames.flat_map(|(i, frame)| decoder.decode((!is_lost(i)).then_some(frame))).collect()
+}
+
+#[test]
+fn more_bits_are_nearer_to_the_signal() {
+    let mean_snr_db = Bitrate::ALL.map(|rate| {
+        let snrs = (0..4).map(|seed| {
+            let signal = texture(seed);
+            let frames = encoded(rate, &signal);
+            assert_eq!(frames.len(), signal.len() / FRAME_SAMPLES);
+            snr_db(&signal, &decoded(rate, &frames, |_| false))
+        });
+        snrs.sum::<f64>() / 4.0
+    });
+    assert!(mean_snr_db.windows(2).all(|w| w[0] < w[1]), "{mean_snr_db:?}");
+    assert!(mean_snr_db[0] > 3.0 && mean_snr_db[4] > 8.0, "{mean_snr_db:?}");
+}
+
+#[test]
+fn a_stream_has_exactly_the_bits_of_its_rate() {
+    let signal = texture(3);
+    for rate in Bitrate::ALL {
+        let frames = encoded(rate, &signal);
+        let mut bits = BitWriter::default();
+        for frame in &frames {
+            frame.pack(rate, &mut bits);
+        }
+        // Two seconds.
+        assert_eq!(bits.n_bits(), 2 * rate.bits_per_sec() as usize);
+        let bytes = bits.into_bytes();
+        let mut reader = BitReader::new(&bytes);
+        for frame in &frames {
+            assert_eq!(Frame::unpack(rate, &mut reader), Some(*frame));
+        }
+        assert_eq!(Frame::unpack(rate, &mut reader), None);
+    }
+}
+
+/// Samples in any portions give the same frames, and each frame comes once what lies 15 ms beyond it is there.
+#[test]
+fn what_comes_in_pieces_is_the_same_and_on_time() {
+    let (rate, signal) = (Bitrate::Kbps2_45, texture(5));
+    let whole = encoded(rate, &signal);
+    let (mut encoder, mut frames) = (Encoder::new(rate, books()), Vec::new());
+    for (i, sample) in signal.iter().enumerate() {
+        encoder.push(&[*sample], &mut frames);
+        let n_there = (i + 1).saturating_sub(DELAY_SAMPLES - FRAME_SAMPLES) / FRAME_SAMPLES;
+        assert_eq!(frames.len(), n_there, "after {} samples", i + 1);
+    }
+    encoder.finish(&mut frames);
+    assert_eq!(frames, whole);
+}
+
+/// One frame in ten is lost: nothing is louder than the signal was, and less is lost with fewer frames.
+#[test]
+fn lost_frames_are_filled_without_a_burst() {
+    let peak = |x: &[f64]| x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    for rate in Bitrate::ALL {
+        let mut sums = [0.0; 4];
+        for seed in 0..3 {
+            let signal = texture(seed);
+            let frames = encoded(rate, &signal);
+            let whole = decoded(rate, &frames, |_| false);
+            for (sum, every) in sums.iter_mut().zip([usize::MAX, 50, 20, 10]) {
+                let got = decoded(rate, &frames, |i| every != usize::MAX && i % every == every / 2);
+                let (peak, most) = (peak(&got), peak(&whole));
+                assert!(peak < 1.3 * most, "{rate:?}, {seed}, every {every}: {peak} of {most}");
+                *sum += snr_db(&signal, &got);
+            }
+        }
+        assert!(sums.windows(2).all(|w| w[0] > w[1]), "{rate:?}: {sums:?}");
+    }
+}
+
+/// Whatever was lost for however long, and whatever comes then: it fades to silence, and comes back no louder than it was.
+#[test]
+fn a_long_loss_fades_and_what_follows_is_no_louder() {
+    let (rate, signal) = (Bitrate::Kbps2_15, texture(4));
+    let frames = encoded(rate, &signal);
+    let whole = decoded(rate, &frames, |_| false);
+    let got = decoded(rate, &frames, |i| (30..60).contains(&i));
+    let part = |x: &[f64], range: std::ops::Range<usize>| rms(&x[40 * range.start..40 * range.end]);
+    assert!(part(&got, 50..60) < 0.02 * part(&whole, 50..60), "{}", part(&got, 50..60));
+    assert!(part(&got, 60..80) < 1.1 * part(&whole, 60..80));
+    assert!(part(&got, 80..100) > 0.8 * part(&whole, 80..100));
+}
+
+/// A whole signal keeps its unit and its limit, and the same seed trains the same tables, without fitted gains here.
+#[test]
+fn a_signal_in_its_unit_comes_back_in_it() {
+    let loud: Vec<f64> = texture(6).iter().map(|x| 40.0 * x).collect();
+    let coded = Coded::encode(&loud[..1999], Bitrate::Kbps3_15, &books());
+    assert_eq!((coded.n_samples, coded.frames.len(), coded.n_bits()), (1999, 50, 50 * 63));
+    let decoded = coded.decode(&books());
+    assert!(snr_db(&loud[..1999], &decoded) > 8.0);
+    assert!(decoded.iter().all(|x| x.abs() <= coded.limit_mps2));
+    let signals: Vec<Vec<f64>> = (0..4).map(texture).collect();
+    let tables = train(&signals, 0, 3).unwrap();
+    assert_eq!(tables, train(&signals, 0, 3).unwrap());
+    assert_ne!(tables, train(&signals, 0, 4).unwrap());
+}
+
+#[test]
+fn silence_and_steps_are_no_trouble() {
+    for rate in Bitrate::ALL {
+        let silent = decoded(rate, &encoded(rate, &[0.0; 400]), |_| false);
+        assert!(rms(&silent) < 0.03, "{rate:?}: {}", rms(&silent));
+        let step = [vec![0.0; 333], vec![5.0; 333], vec![f64::NAN; 10]].concat();
+        assert!(decoded(rate, &encoded(rate, &step), |_| false).iter().all(|x| x.is_finite()));
+        assert!(encoded(rate, &[]).is_empty());
+    }
+}
+
+#[test]
+fn what_cannot_be_learnt_from_and_tables_that_do_not_fit_are_named() {
+    let few = train(&[vec![0.1; 400]], 1, 1);
+    assert!(matches!(few, Err(TrainError::Few { .. })));
+    let mut tables = books().tables().clone();
+    tables.gains[1].pop();
+    assert_eq!(Codebooks::new(tables).unwrap_err(), BooksError::Size { what: "gains" });
+    let mut tables = books().tables().clone();
+    tables.lsf_mean[3] = f64::NAN;
+    assert_eq!(Codebooks::new(tables).unwrap_err(), BooksError::NotFinite);
+}
+
+proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
+
+    /// Whatever bits arrive, what is decoded is within the limit.
+    #[test]
+    fn any_bits_keep_within_the_limit(
+        bytes in prop::collection::vec(prop::num::u8::ANY, 8..400),
+        limit in 0.1_f64..5.0,
+    ) {
+        for rate in Bitrate::ALL {
+            let (mut reader, mut decoder) = (BitReader::new(&bytes), Decoder::new(rate, books(), limit));
+            while let Some(frame) = Frame::unpack(rate, &mut reader) {
+                prop_assert!(decoder.decode(Some(&frame)).iter().all(|x| x.abs() <= limit));
+            }
+            prop_assert!(decoder.decode(None).iter().all(|x| x.abs() <= limit));
+        }
+    }
+
+    /// Numbers that no rate has bits for do no harm.
+    #[test]
+    fn any_frame_is_decoded(values in prop::collection::vec(0_u16..32, 9)) {
+        let half = |i: usize| Half { lag: values[i] * 4, gain: values[i + 1], code: values[i + 2] * 200 };
+        let frame = Frame { lsf: [values[0] % 8, values[1] % 8, values[2] % 8], halves: [half(3), half(6)] };
+        for rate in Bitrate::ALL {
+            let out = Decoder::new(rate, books(), 1.0).decode(Some(&frame));
+            prop_assert_eq!(out.iter().filter(|x| x.abs() > 1.0).count(), 0);
+        }
+    }
+}

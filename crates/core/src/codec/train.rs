@@ -1,0 +1,169 @@
+//! The tables of the codec, from signals like those that it is for.
+
+use std::sync::Arc;
+
+use super::bitrate::Bitrate;
+use super::books::{Codebooks, GAIN_BITS, SplitTable, Tables};
+use super::encoder::{Encoder, Products};
+use super::spectrum::{Lsf, SpectrumMeter, WINDOW_SAMPLES};
+use super::{FRAME_SAMPLES, SPLITS, least};
+use crate::rng::Random;
+use crate::spectrum::rms;
+
+/// Steps of the averaging of clusters.
+const N_STEPS: usize = 30;
+/// Range of the gains that training begins with.
+const LAGGED: (f64, f64) = (0.0, 1.0);
+const FIXED: (f64, f64) = (0.18, 2.2);
+/// Highest gain of the lagged excitation: above one, what was decoded wrongly would grow.
+const MOST_LAGGED: f64 = 1.0;
+
+/// Why nothing can be learnt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrainError {
+    /// Too few frames.
+    #[error("{n_frames} frames are too few to learn from; {needed} or more are needed")]
+    Few {
+        /// Whole frames of all signals.
+        n_frames: usize,
+        /// Fewest.
+        needed: usize,
+    },
+}
+
+/// Fewest frames: as many as the largest table has entries, several times.
+const LEAST_FRAMES: usize = 256;
+
+/// Tables for signals of [`super::CODEC_RATE`], however loud; the same seed gives the same tables. Gains begin as a grid, and
+/// are fitted in `n_rounds` rounds of encoding with those of the round before.
+///
+/// # Errors
+/// [`TrainError::Few`].
+pub fn train(signals: &[Vec<f64>], n_rounds: usize, seed: u64) -> Result<Tables, TrainError> {
+    let signals: Vec<Vec<f64>> = signals.iter().map(|signal| of_unit_level(signal)).collect();
+    let spectra: Vec<Lsf> = signals.iter().flat_map(|signal| spectra(signal)).collect();
+    let n_frames = spectra.len();
+    if n_frames < LEAST_FRAMES {
+        return Err(TrainError::Few { n_frames, needed: LEAST_FRAMES });
+    }
+    let mut random = Random::new(seed);
+    let mut lsf_mean = vec![0.0; spectra[0].len()];
+    for lsf in &spectra {
+        for (mean, w) in lsf_mean.iter_mut().zip(lsf) {
+            *mean += w / n_frames as f64;
+        }
+    }
+    let mut lsf: Vec<SplitTable> = Vec::new();
+    for (split, (begin, end)) in SPLITS.into_iter().enumerate() {
+        let parts: Vec<Vec<f64>> =
+            spectra.iter().map(|lsf| (begin..end).map(|i| lsf[i] - lsf_mean[i]).collect()).collect();
+        for n_bits in Bitrate::ALL.map(|rate| rate.allocation().lsf[split]) {
+            if !lsf.iter().any(|table| (table.split, table.n_bits) == (split, n_bits)) {
+                lsf.push(SplitTable { split, n_bits, entries: clusters(&parts, 1 << n_bits, &mut random) });
+            }
+        }
+    }
+    let mut tables = Tables { lsf_mean, lsf, gains: GAIN_BITS.map(first_gains).to_vec() };
+    for _ in 0..n_rounds {
+        let Ok(books) = Codebooks::new(tables.clone()) else {
+            unreachable!("the tables are as large as they must be")
+        };
+        let books = Arc::new(books);
+        for (table, n_bits) in tables.gains.iter_mut().zip(GAIN_BITS) {
+            let mut seen = Vec::new();
+            for rate in Bitrate::ALL.into_iter().filter(|rate| rate.allocation().gain == n_bits) {
+                for signal in &signals {
+                    let look = |products: Products| seen.push(products);
+                    Encoder::new(rate, Arc::clone(&books)).push_looking(signal, &mut Vec::new(), look);
+                }
+            }
+            for _ in 0..N_STEPS {
+                improve_gains(table, &seen);
+            }
+        }
+    }
+    Ok(tables)
+}
+
+/// A signal as the encoder takes it: its root mean square is one, unless it is silent.
+fn of_unit_level(signal: &[f64]) -> Vec<f64> {
+    let level = rms(signal);
+    let scale = if level > 0.0 { 1.0 / level } else { 1.0 };
+    signal.iter().map(|x| scale * x).collect()
+}
+
+/// The frequencies of the whole frames of a signal.
+fn spectra(signal: &[f64]) -> Vec<Lsf> {
+    let meter = SpectrumMeter::new();
+    let windows = signal.windows(WINDOW_SAMPLES).step_by(FRAME_SAMPLES);
+    windows.filter_map(|window| window.try_into().ok()).map(|window| meter.measure(window)).collect()
+}
+
+/// The means of so many clusters (Lloyd), begun with rows by chance.
+fn clusters(rows: &[Vec<f64>], n: usize, random: &mut Random) -> Vec<Vec<f64>> {
+    let by_chance =
+        |random: &mut Random| rows[(random.uniform() * rows.len() as f64) as usize % rows.len()].clone();
+    let mut means: Vec<Vec<f64>> = (0..n).map(|_| by_chance(random)).collect();
+    for _ in 0..N_STEPS {
+        let mut sums = vec![(vec![0.0; rows[0].len()], 0.0); n];
+        for row in rows {
+            let distance =
+                |mean: &Vec<f64>| -> f64 { mean.iter().zip(row).map(|(m, x)| (m - x).powi(2)).sum() };
+            let (sum, count) = &mut sums[least(means.iter().map(distance))];
+            for (s, x) in sum.iter_mut().zip(row) {
+                *s += x;
+            }
+            *count += 1.0;
+        }
+        means = sums
+            .into_iter()
+            .map(|(sum, count)| {
+                // A cluster that nothing is near begins anew.
+                if count == 0.0 { by_chance(random) } else { sum.into_iter().map(|s| s / count).collect() }
+            })
+            .collect();
+    }
+    means
+}
+
+/// A grid of gains to begin with: fixed ones of both signs.
+fn first_gains(n_bits: u32) -> Vec<[f64; 2]> {
+    let n_lagged = if n_bits > 4 { 4 } else { 2 };
+    let n_fixed = (1 << n_bits) / n_lagged;
+    let between =
+        |(low, high): (f64, f64), i: usize, n: usize| low + (high - low) * i as f64 / (n - 1) as f64;
+    let mut gains = Vec::with_capacity(1 << n_bits);
+    for i in 0..n_lagged {
+        let lagged = between(LAGGED, i, n_lagged);
+        for j in 0..n_fixed / 2 {
+            let fixed = between((FIXED.0.ln(), FIXED.1.ln()), j, n_fixed / 2).exp();
+            gains.extend([[lagged, fixed], [lagged, -fixed]]);
+        }
+    }
+    gains
+}
+
+/// Every pair of gains becomes the one that leaves least of what chose it; halves count alike, however loud.
+fn improve_gains(gains: &mut [[f64; 2]], seen: &[Products]) {
+    // Normal equations: the squares of both, their product, and both right sides.
+    let mut sums = vec![[0.0; 5]; gains.len()];
+    for products in seen.iter().filter(|products| products.target > 0.0) {
+        let weight = 1.0 / products.target;
+        let sum = &mut sums[least(gains.iter().map(|gains| products.error(*gains)))];
+        let terms =
+            [products.lagged, products.both, products.fixed, products.target_lagged, products.target_fixed];
+        for (s, term) in sum.iter_mut().zip(terms) {
+            *s += weight * term;
+        }
+    }
+    for (gains, [aa, ab, bb, ya, yb]) in gains.iter_mut().zip(sums) {
+        let determinant = aa * bb - ab * ab;
+        if determinant > 1e-9 * aa * bb {
+            let lagged = ((ya * bb - yb * ab) / determinant).clamp(-MOST_LAGGED, MOST_LAGGED);
+            *gains = [lagged, (yb - lagged * ab) / bb];
+        } else if bb > 0.0 {
+            gains[1] = (yb - gains[0] * ab) / bb;
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Something along a line over a surface: height, friction or level, at even steps.
+
+/// A profile: values in a unit of its own, a step apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    step_m: f64,
+    values: Vec<f64>,
+}
+
+/// Why there is no profile.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProfileError {
+    /// A step that is none.
+    #[error("the step of a profile must be from a nanometer to a meter, got {step_m} m")]
+    Step {
+        /// The step in m.
+        step_m: f64,
+    },
+    /// Nothing to go along.
+    #[error("a profile has two values or more, got {n}")]
+    Short {
+        /// How many there are.
+        n: usize,
+    },
+    /// A value that is no number.
+    #[error("value {index} of the profile is not a finite number")]
+    NotFinite {
+        /// Which, from zero.
+        index: usize,
+    },
+}
+
+/// Shortest and longest step in m.
+const STEPS_M: std::ops::RangeInclusive<f64> = 1e-9..=1.0;
+
+impl Profile {
+    /// A profile of values that lie a step in m apart.
+    ///
+    /// # Errors
+    /// See [`ProfileError`].
+    pub fn new(step_m: f64, values: Vec<f64>) -> Result<Self, ProfileError> {
+        if !STEPS_M.contains(&step_m) {
+            return Err(ProfileError::Step { step_m });
+        }
+        if values.len() < 2 {
+            return Err(ProfileError::Short { n: values.len() });
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            Some(index) => Err(ProfileError::NotFinite { index }),
+            None => Ok(Self { step_m, values }),
+        }
+    }
+
+    /// Distance between two values in m.
+    pub fn step_m(&self) -> f64 {
+        self.step_m
+    }
+
+    /// All values, in the unit of the profile.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Length in m, the last step included.
+    pub fn length_m(&self) -> f64 {
+        self.step_m * self.values.len() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Profile, ProfileError};
+
+    #[test]
+    fn what_is_no_profile_is_named() {
+        let profile = Profile::new(1e-5, vec![0.0, 1.0, 0.5]).unwrap();
+        assert!((profile.length_m() - 3e-5).abs() < 1e-18);
+        for step_m in [0.0, -1e-3, 2.0, f64::NAN] {
+            assert!(matches!(Profile::new(step_m, vec![0.0; 9]), Err(ProfileError::Step { .. })));
+        }
+        assert_eq!(Profile::new(1e-5, vec![1.0]), Err(ProfileError::Short { n: 1 }));
+        assert_eq!(Profile::new(1e-5, vec![1.0, f64::NAN]), Err(ProfileError::NotFinite { index: 1 }));
+    }
+}

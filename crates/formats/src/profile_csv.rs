@@ -1,0 +1,149 @@
+//! Profiles as tables: positions in mm, evenly spaced, and what is there.
+//!
+//! ```csv
+//! x_mm,value
+//! 0.00,0.5
+//! 0.01,0.7
+//! ```
+//!
+//! The names of the columns, where there are any, are not read: the first is the position, the second the value.
+
+use std::fmt::Write as _;
+
+use shagreen_core::profile::{Profile, ProfileError};
+
+use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
+
+/// First line of the tables that are written.
+const HEADER: &str = "x_mm,value\n";
+/// How far a position may lie beside the even grid, in steps.
+const TOLERANCE_STEPS: f64 = 0.2;
+
+/// Why bytes are no profile.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProfileCsvError {
+    /// Not text.
+    #[error(transparent)]
+    Text(#[from] TableTextError),
+    /// A row that is not a position and a value.
+    #[error("line {line} is not a position in mm and a value; correct the line")]
+    Row {
+        /// The line, from one.
+        line: u64,
+    },
+    /// Positions that are not evenly spaced.
+    #[error(
+        "the position in line {line} is {found_mm} mm, even steps lead to {wanted_mm} mm; sample the profile evenly"
+    )]
+    Uneven {
+        /// The line, from one.
+        line: u64,
+        /// What stands there.
+        found_mm: f64,
+        /// What an even grid has there.
+        wanted_mm: f64,
+    },
+    /// Rows that make no profile.
+    #[error("{0}; give rows of a position in mm and a value")]
+    Profile(#[from] ProfileError),
+}
+
+/// Reads a profile. Positions may begin anywhere.
+///
+/// # Errors
+/// See [`ProfileCsvError`].
+pub fn read_profile_csv(bytes: &[u8]) -> Result<Profile, ProfileCsvError> {
+    let text = csv_text::text(bytes)?;
+    let (stated, text) = stated_delimiter(&text);
+    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
+    let mut reader = csv_text::rows(delimiter).from_reader(text.as_bytes());
+    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
+    let records = reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
+    let mut rows: Vec<(u64, f64, f64)> = Vec::new();
+    for (index, record) in records.enumerate() {
+        let [x, value] = [0, 1].map(|i| record.get(i).and_then(|field| number(field, delimiter)));
+        match (x, value) {
+            (Some(x), Some(value)) => rows.push((line_of(text, &record), x, value)),
+            // A header.
+            (None, None) if index == 0 => {}
+            _ => return Err(ProfileCsvError::Row { line: line_of(text, &record) }),
+        }
+    }
+    let [(_, first_mm, _), .., (_, last_mm, _)] = rows.as_slice() else {
+        return Err(ProfileError::Short { n: rows.len() }.into());
+    };
+    let step_mm = (last_mm - first_mm) / (rows.len() - 1) as f64;
+    let profile = Profile::new(1e-3 * step_mm, rows.iter().map(|row| row.2).collect())?;
+    for (i, (line, found_mm, _)) in rows.iter().enumerate() {
+        let wanted_mm = first_mm + step_mm * i as f64;
+        if (found_mm - wanted_mm).abs() > TOLERANCE_STEPS * step_mm {
+            return Err(ProfileCsvError::Uneven { line: *line, found_mm: *found_mm, wanted_mm });
+        }
+    }
+    Ok(profile)
+}
+
+/// Whether bytes are a table that [`profile_csv`] wrote.
+pub fn is_profile_csv(bytes: &[u8]) -> bool {
+    bytes.starts_with(HEADER.as_bytes())
+}
+
+/// A profile as a table that [`read_profile_csv`] reads.
+pub fn profile_csv(profile: &Profile) -> String {
+    let mut text = String::from(HEADER);
+    for (i, value) in profile.values().iter().enumerate() {
+        // A picometer is finer than any step. Writing to a string cannot fail.
+        let x_mm = (1e12 * profile.step_m() * i as f64).round() / 1e9;
+        let _ = writeln!(text, "{x_mm},{value}");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ProfileCsvError, profile_csv, read_profile_csv};
+    use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
+    use shagreen_core::profile::{Profile, ProfileError};
+
+    #[test]
+    fn tables_of_spreadsheets_are_read() {
+        let wanted = [0.5, 0.75, -1.0];
+        for table in [
+            "x_mm,height\n0,0.5\n0.01,0.75\n0.02,-1\n",
+            "10;0,5\r\n10,01;0,75\r\n\r\n10,02;-1\r\n",
+            "sep=\t\nx\tv\n-1\t.5\n-0.99\t.75\n-0.98\t-1e0",
+        ] {
+            let profile = read_profile_csv(table.as_bytes()).unwrap();
+            assert_eq!(profile.values(), wanted, "{table}");
+            assert!((profile.step_m() - 1e-5).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn what_is_no_profile_is_named_with_its_line() {
+        let error = |table: &str| read_profile_csv(table.as_bytes()).unwrap_err();
+        assert_eq!(error("x,v\n0,1\n1,2\nend\n"), ProfileCsvError::Row { line: 4 });
+        assert_eq!(error("0,1\n1\n"), ProfileCsvError::Row { line: 2 });
+        assert_eq!(
+            error("0,1\n1,1\n5,1\n6,1\n8,1\n"),
+            ProfileCsvError::Uneven { line: 2, found_mm: 1.0, wanted_mm: 2.0 }
+        );
+        assert_eq!(error("x,v\n"), ProfileError::Short { n: 0 }.into());
+        assert!(matches!(error("1,1\n0,1\n"), ProfileCsvError::Profile(ProfileError::Step { .. })));
+        assert!(matches!(error("a\0b"), ProfileCsvError::Text(_)));
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_written_is_read(
+            values in prop::collection::vec(-1e3_f64..1e3, 2..200),
+            step_m in 1e-7_f64..1e-2,
+        ) {
+            let profile = Profile::new(step_m, values).unwrap();
+            let read = read_profile_csv(profile_csv(&profile).as_bytes()).unwrap();
+            prop_assert_eq!(read.values(), profile.values());
+            prop_assert!((read.step_m() / step_m - 1.0).abs() < 1e-4);
+        }
+    }
+}

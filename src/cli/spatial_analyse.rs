@@ -1,0 +1,113 @@
+//! `shagreen spatial analyse`: how much of a profile its spatial spectrogram keeps, by the width of the windows.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+use shagreen_core::spatial_spectrogram::{
+    Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window,
+};
+use shagreen_formats::atomic;
+
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
+use crate::cli::motion::quantity;
+use crate::cli::output::{self, Usage};
+use crate::cli::profile_source::ProfileArgs;
+
+/// Makes a profile anew from its spatial spectrogram alone, with windows of several widths, and says how near it comes.
+///
+/// A spectrogram keeps what is in each window and not where: the narrower the windows, the more stays in its place.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    profile: ProfileArgs,
+    /// Width of the windows in mm; several may be given. Without it those of the paper: 20 to 0.2.
+    #[arg(long = "window", value_name = "MM", value_parser = quantity)]
+    windows_mm: Vec<f64>,
+    /// Table to write with the spectrogram of one width: position in mm, frequency in 1/mm, power.
+    #[arg(short, long, value_name = "OUT.csv")]
+    out: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// First line of the table of a spectrogram.
+const HEADER: &str = "x_mm,per_mm,power\n";
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if args.out.is_some() && args.windows_mm.len() != 1 {
+        return Err(Usage("a table holds the spectrogram of one width; give one --window".to_owned()).into());
+    }
+    if let Some(out) = &args.out {
+        refuse_inputs(&[out], &[Some(args.profile.path())])?;
+        refuse_foreign(out, "the spectrogram", |bytes| bytes.starts_with(HEADER.as_bytes()))?;
+    }
+    let profile = args.profile.load()?;
+    let windows_m: Vec<f64> = if args.windows_mm.is_empty() {
+        PAPER_WINDOWS_M.to_vec()
+    } else {
+        args.windows_mm.iter().map(|mm| 1e-3 * mm).collect()
+    };
+    let (values, step_m) = (profile.values(), profile.step_m());
+    let found = fidelity_by_window(values, step_m, &windows_m)?;
+    if let (Some(out), [window_m]) = (&args.out, windows_m.as_slice()) {
+        atomic::write(out, table(values, step_m, *window_m)?.as_bytes())?;
+    }
+    let rows: Vec<Value> = found.iter().map(row).collect();
+    let answer = json!({
+        "samples": values.len(),
+        "step_mm": 1e3 * step_m,
+        "length_mm": 1e3 * profile.length_m(),
+        "windows": rows,
+        "out": args.out.as_ref().map(|out| out.display().to_string()),
+    });
+    output::print(args.json, &answer, || {
+        let mut lines = vec![format!(
+            "{:.4} mm in {} steps; what is left of it, by the width of the windows:",
+            1e3 * profile.length_m(),
+            values.len()
+        )];
+        lines.extend(found.iter().map(line));
+        lines.extend(args.out.as_ref().map(|out| format!("Spectrogram: {}", out.display())));
+        lines.join("\n")
+    });
+    Ok(())
+}
+
+/// What became of a profile, for scripts.
+pub(super) fn row(found: &ProfileFidelity) -> Value {
+    json!({
+        "window_mm": 1e3 * found.window_m,
+        "waveform_r": found.correlation,
+        "envelope_r": found.envelope_correlation,
+        "spectral_convergence": found.spectral_convergence,
+    })
+}
+
+/// The same for people.
+pub(super) fn line(found: &ProfileFidelity) -> String {
+    format!(
+        "{:8.4} mm: waveform {:5.2}, envelope {:5.2}, spectrogram off by {:.2}",
+        1e3 * found.window_m,
+        found.correlation,
+        found.envelope_correlation,
+        found.spectral_convergence
+    )
+}
+
+/// The spectrogram with windows of one width.
+fn table(values: &[f64], step_m: f64, window_m: f64) -> anyhow::Result<String> {
+    let framing = Framing::of_length(window_m, step_m);
+    let spectrogram = SpatialSpectrogram::of(values, &Transform::new(framing))?;
+    let per_mm = 1e-3 / (framing.window() as f64 * step_m);
+    let mut text = String::from(HEADER);
+    for (frame, powers) in spectrogram.power().frames().enumerate() {
+        let x_mm = 1e3 * step_m * framing.center(frame);
+        for (k, power) in powers.iter().enumerate() {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{x_mm:.6},{:.6},{power:.6e}", per_mm * k as f64);
+        }
+    }
+    Ok(text)
+}
