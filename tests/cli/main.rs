@@ -18,5 +18,6 @@ mod library;
 mod play;
 mod project;
 mod render;
+mod signals;
 mod space;
 mod starter;

@@ -17,6 +17,7 @@ mod memory;
 mod mutate;
 mod readers;
 mod recordings;
+mod signals;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};

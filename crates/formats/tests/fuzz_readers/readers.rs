@@ -19,6 +19,10 @@ use crate::recordings::{
     table_bombs, table_seeds, wav_bombs, wav_seeds,
 };
 
+use crate::signals::{
+    profile_seeds, read_a_profile, read_a_stream, repair_stream, stream_bombs, stream_seeds,
+};
+
 /// A reader and where its inputs come from.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader {
@@ -115,6 +119,14 @@ pub(crate) const READERS: &[Reader] = &[
         read: read_a_wav_sidecar,
     },
     Reader { name: "map", seeds: map_seeds, repair: None, bombs: toml_bombs, read: read_a_map },
+    Reader {
+        name: "codec_stream",
+        seeds: stream_seeds,
+        repair: Some(repair_stream),
+        bombs: stream_bombs,
+        read: read_a_stream,
+    },
+    Reader { name: "profile", seeds: profile_seeds, repair: None, bombs: csv_bombs, read: read_a_profile },
 ];
 
 fn no_bombs() -> Vec<Vec<u8>> {

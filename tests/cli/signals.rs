@@ -1,0 +1,123 @@
+//! `shagreen quality`, `codec`, `evaluate codec` and `spatial`: what is told of signals, and what becomes of them.
+
+use crate::support::{Bench, rms};
+
+const RATES: [&str; 5] = ["1.75", "2.15", "2.45", "2.75", "3.15"];
+
+#[test]
+fn a_signal_goes_through_the_codec_at_every_rate() {
+    let bench = Bench::new();
+    bench.json("render --texture cork --speed 100 --force 1 --seconds 1.6 --rate 8000 -o cork.wav");
+    let level = rms(&bench.wav("cork.wav").0);
+    let (mut snrs, mut d_primes) = (Vec::new(), Vec::new());
+    for rate in RATES {
+        let coded = bench.json(&format!("codec encode cork.wav -o cork.shgc --kbps {rate}"));
+        let kbps: f64 = rate.parse().unwrap();
+        assert_eq!((coded["kbps"].as_f64(), coded["frames"].as_u64()), (Some(kbps), Some(80)));
+        assert_eq!(coded["bits"].as_f64(), Some((1600.0 * kbps).round()), "1.6 s of it, to the bit");
+        let decoded = bench.json("codec decode cork.shgc -o back.wav");
+        assert_eq!((&decoded["frames"], &decoded["lost_frames"]), (&80.into(), &0.into()));
+        assert!(decoded["peak"].as_f64() <= decoded["limit"].as_f64());
+        let (back, rate_hz) = bench.wav("back.wav");
+        assert_eq!((back.len(), rate_hz), (3200, 2000.0));
+        assert!((rms(&back) / level - 1.0).abs() < 0.3);
+        let quality = bench.json("quality cork.wav back.wav");
+        let snr_db = coded["snr_db"].as_f64().unwrap();
+        // The limits of what is written to a file: singles.
+        assert!((quality["snr_db"].as_f64().unwrap() - snr_db).abs() < 0.01);
+        snrs.push(snr_db);
+        d_primes.push(quality["dprime"].as_f64().unwrap());
+    }
+    assert!(snrs.is_sorted() && snrs[0] > 5.0 && snrs[4] > 13.0, "{snrs:?}");
+    assert!(d_primes.is_sorted_by(|a, b| a > b), "{d_primes:?}");
+}
+
+#[test]
+fn quality_names_every_feature_and_equal_signals_do_not_differ() {
+    let bench = Bench::new();
+    bench.json("render --texture felt --speed 100 --force 1 --seconds 1 --rate 2000 -o felt.wav");
+    bench.json("render --texture brick --speed 100 --force 1 --seconds 2 --rate 4000 -o brick.wav");
+    let same = bench.json("quality felt.wav felt.wav");
+    let other = bench.json("quality felt.wav brick.wav");
+    for feature in ["roughness", "brightness", "regularity", "asymmetry", "envelope"] {
+        assert_eq!(same[feature]["distance"], 0.0, "{feature}");
+        assert!(other[feature]["distance"].as_f64().unwrap() > 0.0, "{feature}");
+    }
+    for key in ["dprime", "d_power", "d_amplitude"] {
+        assert_eq!(same[key], 0.0, "{key}");
+        assert!(other[key].as_f64().unwrap() > 1.0, "{key}");
+    }
+    assert_eq!((&same["st_sim"], &same["spqi"]), (&1.0.into(), &1.0.into()));
+    assert_eq!(other["seconds"], 1.0);
+    let text = bench.run("quality felt.wav brick.wav").stdout;
+    assert!(text.contains("nobody was asked"), "{text}");
+    bench.fails("quality felt.wav felt.json", 1, &["felt.json"]);
+}
+
+#[test]
+fn damaged_streams_are_filled_in_or_refused() {
+    let bench = Bench::new();
+    bench.json("render --texture cork --speed 100 --force 1 --seconds 1.6 --rate 2000 -o cork.wav");
+    bench.json("codec encode cork.wav -o cork.shgc");
+    let bytes = std::fs::read(bench.path("cork.shgc")).unwrap();
+    let mut damaged = bytes.clone();
+    damaged[24 + 65 + 3] ^= 1;
+    bench.write("damaged.shgc", &damaged);
+    let decoded = bench.json("codec decode damaged.shgc -o back.wav");
+    assert_eq!((&decoded["frames"], &decoded["lost_frames"]), (&80.into(), &8.into()));
+    bench.write("cut.shgc", &bytes[..200]);
+    assert_eq!(bench.json("codec decode cut.shgc -o back.wav")["frames"], 16);
+    for (name, bytes) in [("head.shgc", &bytes[..10]), ("other.shgc", b"RIFF")] {
+        bench.write(name, bytes);
+        bench.fails(&format!("codec decode {name} -o back.wav"), 1, &[name]);
+    }
+    // Neither the signal nor somebody's file is written over.
+    bench.fails("codec encode cork.wav -o cork.wav", 1, &["write over"]);
+    bench.fails("codec encode cork.wav -o cork.json", 1, &["something else"]);
+    bench.fails("codec encode cork.wav -o x.shgc --kbps 2", 2, &["1.75, 2.15"]);
+}
+
+#[test]
+fn every_texture_of_a_library_is_told_at_every_rate() {
+    let bench = Bench::new();
+    let told = bench.json("evaluate codec --seconds 0.8");
+    let textures = told["textures"].as_array().unwrap();
+    assert_eq!((textures.len(), &told["n"]), (25, &25.into()));
+    let held_out = textures.iter().filter(|texture| texture["held_out"] == true).count();
+    assert_eq!(held_out, 8);
+    let numbers = |key: &str| -> Vec<f64> {
+        told[key].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+    };
+    let (snr, d_prime) = (numbers("snr_db_mean"), numbers("dprime_mean"));
+    assert!(snr.is_sorted() && snr[0] > 5.0, "{snr:?}");
+    assert!(d_prime.is_sorted_by(|a, b| a > b), "{d_prime:?}");
+}
+
+#[test]
+fn profiles_are_made_analysed_and_made_anew() {
+    let bench = Bench::new();
+    for what in ["A", "B", "C", "D", "gaps", "distractor"] {
+        let made = bench.json(&format!("spatial make {what} --length 40 -o {what}.csv"));
+        assert_eq!((&made["samples"], &made["what"]), (&4000.into(), &what.into()));
+    }
+    let found = bench.json("spatial analyse B.csv");
+    let windows = found["windows"].as_array().unwrap();
+    assert_eq!(windows.len(), 7);
+    let narrow = &windows[6];
+    assert_eq!(narrow["window_mm"], 0.2);
+    assert!(narrow["waveform_r"].as_f64().unwrap() > 0.99 && narrow["envelope_r"].as_f64().unwrap() > 0.99);
+    let paper = bench.json("spatial reconstruct D.csv --window 1 -o D1.csv");
+    let refined = bench.json("spatial reconstruct D.csv --window 1 --refine 40 -o D2.csv");
+    let off = |json: &serde_json::Value| json["spectral_convergence"].as_f64().unwrap();
+    assert!(off(&refined) < 0.5 * off(&paper), "{paper} {refined}");
+    bench.json("spatial analyse D1.csv --window 2 -o spectrogram.csv");
+    let table = std::fs::read_to_string(bench.path("spectrogram.csv")).unwrap();
+    assert!(table.starts_with("x_mm,per_mm,power\n"));
+    // A signal of a stroke is a profile once its speed is known.
+    bench.json("render --texture cork --speed 100 --force 1 --seconds 0.5 --rate 2000 -o cork.wav");
+    let stroke = bench.json("spatial analyse cork.wav --speed 100 --window 1");
+    assert_eq!((&stroke["samples"], &stroke["step_mm"]), (&1000.into(), &0.05.into()));
+    bench.fails("spatial analyse cork.wav", 2, &["--speed"]);
+    bench.write("uneven.csv", "0,1\n1,1\n5,1\n6,1\n8,1\n");
+    bench.fails("spatial analyse uneven.csv", 1, &["line 2"]);
+}
