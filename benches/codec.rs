@@ -23,9 +23,9 @@ fn main() {
     let books = Arc::new(built_in_codebooks().expect("the tables"));
     let felt = signal(&library.textures[2].model, CONTACTS[1], SECONDS, 1).expect("a signal");
     for rate in Bitrate::ALL {
-        let coded = Coded::encode(&felt, rate, &books);
+        let coded = Coded::encode(&felt, rate, &books).expect("a signal");
         bench(&format!("encoding at {} kbit/s", rate.kbps()), SECONDS, "second of signal", || {
-            black_box(Coded::encode(&felt, rate, &books));
+            black_box(Coded::encode(&felt, rate, &books).expect("a signal"));
         });
         bench(&format!("decoding at {} kbit/s", rate.kbps()), SECONDS, "second of signal", || {
             black_box(coded.decode(&books));

@@ -14,7 +14,7 @@ mod measure;
 use std::hint::black_box;
 
 use measure::bench_noted;
-use shagreen_core::codec::coded::snr_db;
+use shagreen_core::quality::snr_db;
 use shagreen_core::rng::lcg_noise;
 use shagreen_core::spatial_spectrogram::{
     Framing, PAPER_WINDOWS_M, SpatialSpectrogram, Transform, profile_of, refine, spectral_convergence,

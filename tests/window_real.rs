@@ -253,8 +253,8 @@ fn a_killed_program_gives_back_what_was_not_saved() {
     };
     let begun = Instant::now();
     let (mut last_kept, mut took) = wait_until("it is kept aside", kept);
-    // That may have been in the middle of the drag.
-    while begun.elapsed() < Duration::from_secs(9) {
+    // That may have been in the middle of the drag: what stays for longer than the program waits is the last.
+    while begun.elapsed() < took + Duration::from_secs(6) {
         if let Some(at) = kept().filter(|at| *at != last_kept) {
             (last_kept, took) = (at, begun.elapsed());
         }

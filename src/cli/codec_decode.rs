@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, anyhow};
 use serde_json::json;
 use shagreen_core::codec::CODEC_RATE;
 use shagreen_core::spectrum::rms;
@@ -15,7 +15,8 @@ use shagreen_formats::wav::{SidecarV1, sidecar_path, write_wav};
 use crate::cli::guard::{is_sidecar, refuse_foreign, refuse_inputs};
 use crate::cli::output;
 
-/// Decodes a stream of `codec encode` to a float WAV in m/s² at 2000 Hz, with a sidecar.
+/// Decodes a stream of `codec encode` to a float WAV in m/s² at 2000 Hz, with a sidecar. How near it is to the signal that was
+/// encoded, `quality` tells.
 ///
 /// What is damaged or was lost is filled in, and said; nothing gets louder than the stream says that its signal was.
 #[derive(clap::Args)]
@@ -38,9 +39,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = output::read_file(&args.stream)?;
     let read = read_stream(&bytes).with_context(|| output::in_file(&args.stream))?;
     for warning in &read.warnings {
-        output::warn(warning);
+        output::warn(&format!("{}: {warning}", output::file_name(&args.stream)));
     }
     let coded = read.value;
+    if coded.n_samples == 0 {
+        return Err(anyhow!("nothing of the signal is there; get the stream anew"))
+            .with_context(|| output::in_file(&args.stream));
+    }
     let samples: Vec<f32> =
         coded.decode(&Arc::new(built_in_codebooks()?)).into_iter().map(|x| x as f32).collect();
     let sidecar = SidecarV1::new(CODEC_RATE.0 as u32, coded.seconds(), 0, output::CREATED_BY);
@@ -57,6 +62,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "frames": frames,
             "bits": coded.n_bits(),
             "lost_frames": n_lost,
+            "warnings": read.warnings,
             "seconds": seconds,
             "rate_hz": CODEC_RATE.0,
             "rms": rms(&felt),

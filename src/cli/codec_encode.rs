@@ -6,8 +6,9 @@ use std::sync::Arc;
 use anyhow::Context as _;
 use serde_json::json;
 use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::coded::{Coded, snr_db};
+use shagreen_core::codec::coded::Coded;
 use shagreen_core::codec::{CODEC_RATE, DELAY_SAMPLES};
+use shagreen_core::quality::snr_db;
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::codec_stream::{is_stream, write_stream};
@@ -19,8 +20,8 @@ use crate::cli::signal_source::SignalArgs;
 
 /// Encodes a signal of a texture at 1.75 to 3.15 kbit/s: 16 bits at 2000 Hz are 32.
 ///
-/// The signal is a WAV file in m/s²; what lies above 1000 Hz, which nobody feels, is dropped. A stream that is decoded as it
-/// comes is 35 ms late.
+/// The signal is a WAV file in m/s²; what lies above 1000 Hz, which nobody feels, is dropped. The codec itself is 35 ms late,
+/// frame by frame; the file has a checksum for every 160 ms.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The signal.
@@ -38,6 +39,9 @@ pub(crate) struct Args {
     #[arg(long)]
     json: bool,
 }
+
+/// Signal to noise in dB below which little is left of a signal.
+const LEAST_SNR_DB: f64 = 2.0;
 
 /// One of the rates by its kbit/s.
 pub(crate) fn kbps(text: &str) -> Result<Bitrate, String> {
@@ -57,9 +61,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "the stream", is_stream)?;
     let signal = args.signals.load_at(&args.signal, CODEC_RATE)?;
     let books = Arc::new(built_in_codebooks()?);
-    let coded = Coded::encode(&signal, args.kbps, &books);
+    let coded = Coded::encode(&signal, args.kbps, &books).with_context(|| output::in_file(&args.signal))?;
     let bytes = write_stream(&coded).with_context(|| output::in_file(&args.signal))?;
     let snr = snr_db(&signal, &coded.decode(&books));
+    if snr < LEAST_SNR_DB {
+        output::warn(
+            "the codec does not follow this signal: it is made for what vibrates all along, and not for single knocks",
+        );
+    }
     atomic::write(&args.out, &bytes)?;
     let (kbps, frames, bits, seconds) =
         (args.kbps.kbps(), coded.frames.len(), coded.n_bits(), coded.seconds());
@@ -79,9 +88,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "{seconds:.2} s in {} of {kbps} kbit/s, {bits} bits ({} bytes with head and checksums); signal to noise {snr:.1} dB: {}",
+                "{seconds:.2} s in {} of {kbps} kbit/s, {bits} bits ({} bytes with head and checksums); signal to noise {}: {}",
                 counted(frames, "frame"),
                 bytes.len(),
+                if snr.is_finite() { format!("{snr:.1} dB") } else { "without end".to_owned() },
                 args.out.display()
             )
         },

@@ -17,7 +17,7 @@ use shagreen_formats::library::Library;
 
 use crate::cli::figures_folder::{check_figures, figure_files, write_together};
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::motion::quantity;
+use crate::cli::motion::within;
 use crate::cli::output::{self, Progress};
 
 /// Takes each texture out, authors one at its place from the rest, and compares the two on signals.
@@ -66,13 +66,7 @@ fn modes_parser() -> impl clap::builder::TypedValueParser<Value = Modes> {
 const SIGNAL_SECS: std::ops::RangeInclusive<f64> = 4.0..=600.0;
 
 fn signal_secs(text: &str) -> Result<f64, String> {
-    let seconds = quantity(text)?;
-    if SIGNAL_SECS.contains(&seconds) {
-        Ok(seconds)
-    } else {
-        let (shortest, longest) = (SIGNAL_SECS.start(), SIGNAL_SECS.end());
-        Err(format!("a signal takes {shortest} to {longest} seconds"))
-    }
+    within(text, &SIGNAL_SECS, "seconds")
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {

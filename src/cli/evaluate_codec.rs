@@ -1,14 +1,16 @@
 //! `shagreen evaluate codec`: how much of textures is lost at each rate of the codec.
 
+use std::borrow::Borrow;
 use std::sync::Arc;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
 use serde_json::json;
 use shagreen_core::codec::bitrate::Bitrate;
 use shagreen_core::codec::books::Codebooks;
-use shagreen_core::codec::coded::{Coded, snr_db};
+use shagreen_core::codec::coded::Coded;
 use shagreen_core::codec::corpus::{is_held_out, signal};
-use shagreen_core::quality::{PAPER_RATE, QualityMeter, QualityModel};
+use shagreen_core::quality::{PAPER_RATE, QualityMeter, QualityModel, snr_db};
+use shagreen_core::spectrum::rms;
 use shagreen_core::statistics::mean;
 use shagreen_core::units::Contact;
 use shagreen_core::words::counted;
@@ -18,7 +20,7 @@ use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::motion::quantity;
+use crate::cli::motion::{positive, within};
 use crate::cli::output::{self, Progress};
 
 /// Takes every texture of a library through the codec at its five rates, and measures what is lost: signal to noise, and the
@@ -31,10 +33,10 @@ pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
     /// Speed of the tip, in mm/s.
-    #[arg(long, value_name = "V", value_parser = quantity, default_value = "100")]
+    #[arg(long, value_name = "V", value_parser = positive, default_value = "100")]
     speed: f64,
     /// Normal force of the tip, in N.
-    #[arg(long, value_name = "F", value_parser = quantity, default_value = "1")]
+    #[arg(long, value_name = "F", value_parser = positive, default_value = "1")]
     force: f64,
     /// Length of each signal, in seconds: 0.8 or more.
     #[arg(long, value_name = "S", value_parser = seconds, default_value = "4")]
@@ -51,13 +53,7 @@ pub(crate) struct Args {
 const SIGNAL_SECS: std::ops::RangeInclusive<f64> = 0.8..=60.0;
 
 fn seconds(text: &str) -> Result<f64, String> {
-    let seconds = quantity(text)?;
-    let (shortest, longest) = (SIGNAL_SECS.start(), SIGNAL_SECS.end());
-    if SIGNAL_SECS.contains(&seconds) {
-        Ok(seconds)
-    } else {
-        Err(format!("a signal takes {shortest} to {longest} seconds"))
-    }
+    within(text, &SIGNAL_SECS, "seconds")
 }
 
 /// What became of a texture at each rate, in the order of [`Bitrate::ALL`].
@@ -92,6 +88,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         progress.step();
     }
     progress.finish();
+    let held_out: Vec<&Row<'_>> = rows.iter().filter(|row| row.is_held_out == Some(true)).collect();
+    let of_held_out = |of: fn(&Row<'_>) -> [f64; 5]| (!held_out.is_empty()).then(|| means(&held_out, of));
     let textures: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -104,6 +102,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         })
         .collect();
     let answer = json!({
+        "measured_on": "signals",
         "kbps": Bitrate::ALL.map(Bitrate::kbps),
         "speed_mm_per_s": args.speed,
         "force_n": args.force,
@@ -111,6 +110,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "n": rows.len(),
         "snr_db_mean": means(&rows, |row| row.snr_db),
         "dprime_mean": means(&rows, |row| row.d_prime),
+        "held_out_snr_db_mean": of_held_out(|row| row.snr_db),
+        "held_out_dprime_mean": of_held_out(|row| row.d_prime),
         "textures": textures,
     });
     output::print(args.json, &answer, || table(&library, &rows));
@@ -128,9 +129,10 @@ impl Bench {
         let contact = Contact::from_mm_per_s_and_n(args.speed, args.force);
         let seed = args.seed.wrapping_mul(1000).wrapping_add(index as u64);
         let felt = signal(&texture.model, contact, args.seconds, seed)?;
+        ensure!(rms(&felt) > 0.0, "it is silent at this speed and force; give others");
         let mut row = Row { texture, is_held_out, snr_db: [0.0; 5], d_prime: [0.0; 5] };
         for (i, rate) in Bitrate::ALL.into_iter().enumerate() {
-            let decoded = Coded::encode(&felt, rate, &self.books).decode(&self.books);
+            let decoded = Coded::encode(&felt, rate, &self.books)?.decode(&self.books);
             row.snr_db[i] = snr_db(&felt, &decoded);
             row.d_prime[i] = self.model.d_prime(&self.meter.distances(&felt, &decoded)?);
         }
@@ -139,8 +141,8 @@ impl Bench {
 }
 
 /// The mean at each rate.
-fn means(rows: &[Row<'_>], of: impl Fn(&Row<'_>) -> [f64; 5]) -> [f64; 5] {
-    std::array::from_fn(|i| mean(&rows.iter().map(|row| of(row)[i]).collect::<Vec<f64>>()))
+fn means<'a, R: Borrow<Row<'a>>>(rows: &[R], of: impl Fn(&Row<'a>) -> [f64; 5]) -> [f64; 5] {
+    std::array::from_fn(|i| mean(&rows.iter().map(|row| of(row.borrow())[i]).collect::<Vec<f64>>()))
 }
 
 fn table(library: &Library, rows: &[Row<'_>]) -> String {
@@ -151,7 +153,7 @@ fn table(library: &Library, rows: &[Row<'_>]) -> String {
     let rates = five(&Bitrate::ALL.map(Bitrate::kbps));
     let mut lines = vec![
         format!(
-            "{}: {} through the codec (signal to noise in dB, then predicted d'; no human rating)",
+            "{}: {} through the codec, measured on signals (signal to noise in dB, then predicted d'; no human rating)",
             library.name,
             counted(rows.len(), "texture")
         ),
@@ -162,7 +164,10 @@ fn table(library: &Library, rows: &[Row<'_>]) -> String {
         lines.push(line(&format!("{}{mark}", row.texture.id), &row.snr_db, &row.d_prime));
     }
     lines.push(line("mean", &means(rows, |row| row.snr_db), &means(rows, |row| row.d_prime)));
-    if rows.iter().any(|row| row.is_held_out == Some(true)) {
+    let is_marked = |row: &&Row<'_>| row.is_held_out == Some(true);
+    let marked: Vec<&Row<'_>> = rows.iter().filter(is_marked).collect();
+    if !marked.is_empty() {
+        lines.push(line("mean of *", &means(&marked, |row| row.snr_db), &means(&marked, |row| row.d_prime)));
         lines.push("* the tables of the codec were not learnt on these".to_owned());
     }
     lines.join("\n")

@@ -59,6 +59,22 @@ pub(crate) fn quantity(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A quantity within a range, in words with its unit as in "0.8 to 60 seconds".
+pub(crate) fn within(text: &str, range: &std::ops::RangeInclusive<f64>, unit: &str) -> Result<f64, String> {
+    let value = quantity(text)?;
+    if range.contains(&value) {
+        Ok(value)
+    } else {
+        Err(format!("it must be {} to {} {unit}", range.start(), range.end()))
+    }
+}
+
+/// A quantity above zero.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    let value = quantity(text)?;
+    if value > 0.0 { Ok(value) } else { Err("it must be above 0".to_owned()) }
+}
+
 /// What the arguments say. `default` is taken where they say nothing; without it, saying nothing is wrong usage.
 pub(crate) fn motion(args: &MotionArgs, default: Option<(f64, f64, f64)>) -> anyhow::Result<Motion> {
     if let Some(path) = &args.stroke {

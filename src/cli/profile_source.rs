@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use shagreen_core::profile::Profile;
+use shagreen_core::spatial_spectrogram::Framing;
 use shagreen_formats::profile_csv::read_profile_csv;
 
-use crate::cli::motion::quantity;
+use crate::cli::motion::positive;
 use crate::cli::output::{self, Usage};
 use crate::cli::signal_source::SignalArgs;
 
@@ -16,13 +17,31 @@ pub(crate) struct ProfileArgs {
     #[arg(value_name = "PROFILE")]
     path: PathBuf,
     /// Of a signal: how fast it was recorded, in mm/s, which makes its times positions.
-    #[arg(long, value_name = "V", value_parser = quantity)]
+    #[arg(long, value_name = "V", value_parser = positive)]
     speed: Option<f64>,
     #[command(flatten)]
     signals: SignalArgs,
 }
 
 impl ProfileArgs {
+    /// Windows of a width in mm on the profile: no wider than it, and four steps at least.
+    pub(crate) fn framing(&self, profile: &Profile, window_mm: f64) -> anyhow::Result<Framing> {
+        let window_m = 1e-3 * window_mm;
+        let (narrowest_m, widest_m) = (4.0 * profile.step_m(), profile.length_m());
+        // Lengths come from products of steps.
+        if !(0.999 * narrowest_m..=1.001 * widest_m).contains(&window_m) {
+            bail!(
+                "a window of {window_mm} mm does not fit a profile of {:.4} mm in steps of {:.4} mm; give {:.4} to {:.4} mm: {}",
+                1e3 * widest_m,
+                1e3 * profile.step_m(),
+                1e3 * narrowest_m,
+                1e3 * widest_m,
+                self.path.display()
+            );
+        }
+        Ok(Framing::of_length(window_m, profile.step_m()))
+    }
+
     /// The file.
     pub(crate) fn path(&self) -> &Path {
         &self.path
@@ -35,15 +54,19 @@ impl ProfileArgs {
             Some(speed) if is_signal => {
                 let signal = self.signals.load(&self.path)?;
                 let step_m = 1e-3 * speed / signal.rate.0;
-                Profile::new(step_m, signal.samples_mps2).with_context(|| output::in_file(&self.path))
+                Profile::new(step_m, signal.samples_mps2)
+                    .with_context(|| format!("at {speed} mm/s the signal is no profile; check --speed"))
+                    .with_context(|| output::in_file(&self.path))
             }
             None if is_signal => {
                 Err(Usage("a signal becomes a profile by its speed; give --speed in mm/s".to_owned()).into())
             }
-            Some(_) => {
-                Err(Usage("a table has positions already; --speed is for signals (.wav)".to_owned()).into())
-            }
-            None => {
+            speed if speed.is_some() || self.signals.is_given() => Err(Usage(
+                "a table has positions and values already; --speed, --full-scale and --channel are for signals (.wav)"
+                    .to_owned(),
+            )
+            .into()),
+            _ => {
                 let bytes = output::read_file(&self.path)?;
                 read_profile_csv(&bytes).with_context(|| output::in_file(&self.path))
             }

@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use anyhow::{Context as _, ensure};
 use serde_json::{Value, json};
-use shagreen_core::codec::coded::snr_db;
-use shagreen_core::quality::{Feature, Features, PAPER_RATE, QualityMeter, spqi, st_sim};
+use shagreen_core::quality::{
+    Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, snr_db, spqi, st_sim,
+};
 use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
 
@@ -15,8 +17,9 @@ use crate::cli::words::words;
 /// Compares a signal with a reference by what is felt of both, and predicts how well people tell them apart.
 ///
 /// Both are WAV files in m/s², compared sample beside sample at 2000 Hz in pieces of 0.8 s. The predicted d' is the distance in
-/// standard deviations: at 1 about two of three answers are right. Nobody felt these signals: a model of published weights
-/// predicts it, with distances scaled by a corpus of simulated textures.
+/// standard deviations: at 1 about two of three answers are right. It is made for a signal and what became of it: two strokes on
+/// one texture are far apart by it. Nobody felt these signals: a model of published weights predicts it, with distances scaled
+/// by a corpus of simulated textures.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The signal as it should be.
@@ -27,7 +30,8 @@ pub(crate) struct Args {
     test: PathBuf,
     #[command(flatten)]
     signals: SignalArgs,
-    /// What is felt at least: by a hand that holds a tool, or by skin on a large contactor. Approximate curves.
+    /// What is felt at least: by a hand that holds a tool, or by skin on a large contactor. Approximate curves; the two of the skin
+    /// differ below 40 Hz only, which the channels of d' do not reach.
     #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id),
         default_value = ThresholdKind::default().id())]
     threshold: ThresholdKind,
@@ -52,9 +56,20 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     test.truncate(n_samples);
     let threshold = args.threshold.read()?;
     let meter = QualityMeter::new(rate, &threshold)?;
-    let distances = meter.distances(&reference, &test)?;
+    let distances = meter.distances(&reference, &test).with_context(|| output::in_file(&args.test))?;
     let (a, b) = (meter.features(&reference)?, meter.features(&test)?);
     let d_prime = built_in_quality_model()?.d_prime(&distances);
+    ensure!(
+        d_prime.is_finite(),
+        "the signals are too far from any touch to be compared; correct their units"
+    );
+    let seconds = (n_samples / meter.n_segment()) as f64 * SEGMENT_SECS;
+    if n_samples % meter.n_segment() > 0 {
+        let whole = n_samples as f64 / rate.0;
+        output::note(&format!(
+            "{seconds:.1} s of {whole:.2} s are compared: whole pieces of {SEGMENT_SECS} s"
+        ));
+    }
     let similarities =
         [st_sim(&reference, &test, rate, &threshold), spqi(&reference, &test, rate, &threshold)];
     let snr = snr_db(&reference, &test);
@@ -68,7 +83,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         // Equal signals have none.
         "snr_db": snr.is_finite().then_some(snr),
         "rate_hz": rate.0,
-        "seconds": n_samples as f64 / rate.0,
+        "seconds": seconds,
         "threshold": args.threshold.id(),
     });
     for feature in Feature::ALL {

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use anyhow::bail;
 use serde_json::{Value, json};
 use shagreen_core::spatial_spectrogram::{
     Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window,
@@ -10,7 +11,7 @@ use shagreen_core::spatial_spectrogram::{
 use shagreen_formats::atomic;
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::motion::quantity;
+use crate::cli::motion::positive;
 use crate::cli::output::{self, Usage};
 use crate::cli::profile_source::ProfileArgs;
 
@@ -21,8 +22,8 @@ use crate::cli::profile_source::ProfileArgs;
 pub(crate) struct Args {
     #[command(flatten)]
     profile: ProfileArgs,
-    /// Width of the windows in mm; several may be given. Without it those of the paper: 20 to 0.2.
-    #[arg(long = "window", value_name = "MM", value_parser = quantity)]
+    /// Width of the windows in mm; several may be given. Without it those of the paper that fit: 20 to 0.2.
+    #[arg(long = "window", value_name = "MM", value_parser = positive)]
     windows_mm: Vec<f64>,
     /// Table to write with the spectrogram of one width: position in mm, frequency in 1/mm, power.
     #[arg(short, long, value_name = "OUT.csv")]
@@ -44,15 +45,23 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         refuse_foreign(out, "the spectrogram", |bytes| bytes.starts_with(HEADER.as_bytes()))?;
     }
     let profile = args.profile.load()?;
-    let windows_m: Vec<f64> = if args.windows_mm.is_empty() {
-        PAPER_WINDOWS_M.to_vec()
+    let framings: Vec<Framing> = if args.windows_mm.is_empty() {
+        let fits = |m: &f64| args.profile.framing(&profile, 1e3 * m).ok();
+        let framings: Vec<Framing> = PAPER_WINDOWS_M.iter().filter_map(fits).collect();
+        if framings.len() < PAPER_WINDOWS_M.len() {
+            output::note("windows that do not fit the profile or its steps were left out");
+        }
+        framings
     } else {
-        args.windows_mm.iter().map(|mm| 1e-3 * mm).collect()
+        args.windows_mm.iter().map(|mm| args.profile.framing(&profile, *mm)).collect::<Result<_, _>>()?
     };
+    if framings.is_empty() {
+        bail!("none of the windows of the paper fits the profile; give one with --window");
+    }
     let (values, step_m) = (profile.values(), profile.step_m());
-    let found = fidelity_by_window(values, step_m, &windows_m)?;
-    if let (Some(out), [window_m]) = (&args.out, windows_m.as_slice()) {
-        atomic::write(out, table(values, step_m, *window_m)?.as_bytes())?;
+    let found = fidelity_by_window(values, step_m, &framings)?;
+    if let (Some(out), [framing]) = (&args.out, framings.as_slice()) {
+        atomic::write(out, table(values, step_m, *framing)?.as_bytes())?;
     }
     let rows: Vec<Value> = found.iter().map(row).collect();
     let answer = json!({
@@ -97,8 +106,7 @@ pub(super) fn line(found: &ProfileFidelity) -> String {
 }
 
 /// The spectrogram with windows of one width.
-fn table(values: &[f64], step_m: f64, window_m: f64) -> anyhow::Result<String> {
-    let framing = Framing::of_length(window_m, step_m);
+fn table(values: &[f64], step_m: f64, framing: Framing) -> anyhow::Result<String> {
     let spectrogram = SpatialSpectrogram::of(values, &Transform::new(framing))?;
     let per_mm = 1e-3 / (framing.window() as f64 * step_m);
     let mut text = String::from(HEADER);

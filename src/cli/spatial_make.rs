@@ -9,8 +9,8 @@ use shagreen_formats::atomic;
 use shagreen_formats::profile_csv::{is_profile_csv, profile_csv};
 
 use crate::cli::guard::refuse_foreign;
-use crate::cli::motion::quantity;
-use crate::cli::output;
+use crate::cli::motion::within;
+use crate::cli::output::{self, Usage};
 use crate::cli::words::words;
 
 /// Makes a profile of the experiments with spatial spectrograms, 0 to 1 as a display of friction can show it, in steps of
@@ -24,12 +24,12 @@ pub(crate) struct Args {
     /// Length in mm.
     #[arg(long, value_name = "MM", value_parser = length, default_value = "80")]
     length: f64,
-    /// Width of the gaps in mm.
-    #[arg(long, value_name = "MM", value_parser = quantity, default_value = "5")]
-    gap: f64,
-    /// Which noise the gaps are in; the textures have one each.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Width of the gaps in mm; without it 5. For gaps and their distractor.
+    #[arg(long, value_name = "MM", value_parser = gap)]
+    gap: Option<f64>,
+    /// Which noise the gaps are in; without it 1. The textures have one each.
+    #[arg(long)]
+    seed: Option<u64>,
     /// Table of positions in mm and values to write.
     #[arg(short, long, value_name = "OUT.csv")]
     out: PathBuf,
@@ -67,22 +67,37 @@ impl Stimulus {
 /// Shortest and longest profile in mm: a window of the paper, and what is still quick.
 const LENGTHS_MM: std::ops::RangeInclusive<f64> = 1.0..=2000.0;
 
+/// Narrowest and widest gap in mm: some steps, and half the longest profile; and the usual one.
+const GAPS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
+const USUAL_GAP_MM: f64 = 5.0;
+
+fn gap(text: &str) -> Result<f64, String> {
+    within(text, &GAPS_MM, "mm")
+}
+
 fn length(text: &str) -> Result<f64, String> {
-    let length = quantity(text)?;
-    let (shortest, longest) = (LENGTHS_MM.start(), LENGTHS_MM.end());
-    if LENGTHS_MM.contains(&length) {
-        Ok(length)
-    } else {
-        Err(format!("a profile is {shortest} to {longest} mm long"))
-    }
+    within(text, &LENGTHS_MM, "mm")
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "the profile", is_profile_csv)?;
     let n_samples = (1e-3 * args.length / STEP_M).round() as usize;
-    // Nothing is narrower than a step.
-    let gap_m = (1e-3 * args.gap).max(STEP_M);
-    let gaps = || -> GapPair { gap_pair(gap_m, n_samples, STEP_M, args.seed) };
+    if matches!(args.what, Stimulus::Texture(_)) && (args.gap.is_some() || args.seed.is_some()) {
+        return Err(Usage(
+            "the textures A to D have no gaps and one noise; leave out --gap and --seed".to_owned(),
+        )
+        .into());
+    }
+    let gap_mm = args.gap.unwrap_or(USUAL_GAP_MM);
+    if !matches!(args.what, Stimulus::Texture(_)) && 2.0 * gap_mm > args.length {
+        return Err(Usage(format!(
+            "{} mm hold no gap of {gap_mm} mm and what lies beside it; give a narrower --gap",
+            args.length
+        ))
+        .into());
+    }
+    let gap_m = 1e-3 * gap_mm;
+    let gaps = || -> GapPair { gap_pair(gap_m, n_samples, STEP_M, args.seed.unwrap_or(1)) };
     let values = match args.what {
         Stimulus::Texture(texture) => texture.profile(n_samples),
         Stimulus::Gaps => gaps().gapped,

@@ -4,14 +4,12 @@ use std::path::PathBuf;
 
 use serde_json::json;
 use shagreen_core::profile::Profile;
-use shagreen_core::spatial_spectrogram::{
-    Framing, SpatialSpectrogram, Transform, fidelity, profile_of, refine,
-};
+use shagreen_core::spatial_spectrogram::{SpatialSpectrogram, Transform, fidelity, profile_of, refine};
 use shagreen_formats::atomic;
 use shagreen_formats::profile_csv::{is_profile_csv, profile_csv};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::motion::quantity;
+use crate::cli::motion::positive;
 use crate::cli::output;
 use crate::cli::profile_source::ProfileArgs;
 use crate::cli::spatial_analyse::{line, row};
@@ -23,7 +21,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     profile: ProfileArgs,
     /// Width of the windows in mm.
-    #[arg(long, value_name = "MM", value_parser = quantity)]
+    #[arg(long, value_name = "MM", value_parser = positive)]
     window: f64,
     /// Steps of the fast Griffin-Lim algorithm; the spectrogram gets nearer, the places of things not always.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1000))]
@@ -41,7 +39,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "the profile", is_profile_csv)?;
     let profile = args.profile.load()?;
     let (values, step_m) = (profile.values(), profile.step_m());
-    let transform = Transform::new(Framing::of_length(1e-3 * args.window, step_m));
+    let transform = Transform::new(args.profile.framing(&profile, args.window)?);
     let spectrogram = SpatialSpectrogram::of(values, &transform)?;
     let mut made = profile_of(&spectrogram, &transform);
     if args.refine > 0 {

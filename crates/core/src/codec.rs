@@ -10,6 +10,7 @@
 
 pub mod bitrate;
 pub mod books;
+mod code_search;
 pub mod coded;
 pub mod corpus;
 pub mod decoder;
@@ -49,6 +50,9 @@ const N_LAGS_SECOND: usize = 32;
 /// Most fixed codes, and the seed of their noise.
 const N_CODES_MOST: usize = 4096;
 const CODES_SEED: u64 = 20_240;
+
+/// Energy below which there is nothing to match.
+const NOTHING: f64 = 1e-12;
 
 /// The index of the least of some numbers; 0 of none.
 fn least(numbers: impl Iterator<Item = f64>) -> usize {

@@ -25,7 +25,7 @@ pub use crate::quality::model::{
     Elimination, PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityModel, QualityModelError,
     RatedPair, Rotation, Term, eliminate, nested_r_squared, rotate,
 };
-pub use crate::quality::similarity::{spqi, st_sim};
+pub use crate::quality::similarity::{snr_db, spqi, st_sim};
 
 use self::channels::Channels;
 use self::features::{FeatureMeter, Measured};
@@ -125,7 +125,9 @@ pub enum QualityError {
         n_other: usize,
     },
     /// Less than a piece.
-    #[error("{n_samples} samples are too short; {needed} or more are needed ({SEGMENT_SECS} s)")]
+    #[error(
+        "the signal has {n_samples} of the {needed} samples that are compared at once ({SEGMENT_SECS} s); take a longer one"
+    )]
     Short {
         /// Samples there are.
         n_samples: usize,

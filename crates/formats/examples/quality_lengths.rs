@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (index, texture) in starter_library()?.textures.iter().enumerate() {
         let reference = signal(&texture.model, REFERENCE_CONTACT, SEGMENT_SECS, index as u64)?;
         for rate in Bitrate::ALL {
-            let decoded = Coded::encode(&reference, rate, &books).decode(&books);
+            let decoded = Coded::encode(&reference, rate, &books)?.decode(&books);
             corpus.push(meter.distances(&reference, &decoded)?);
         }
     }

@@ -4,7 +4,7 @@
 //!
 //! Numbers are little-endian. The header has 24 bytes: `SHGC`; the version, 1; a zero; bits a second (`u16`); samples of the
 //! signal (`u32`, at 2 kHz); the root mean square of the signal and its highest magnitude in m/s² (`f32` each); CRC-32 (ISO-HDLC)
-//! of these 20 bytes. Eight frames of 35 to 63 bits are 35 to 63 whole bytes: a block is these, then CRC-16 (IBM-3740) of its number
+//! of these 20 bytes, which every version has there. Eight frames of 35 to 63 bits are 35 to 63 whole bytes: a block is these, then CRC-16 (IBM-3740) of its number
 //! (`u32`, from zero) and its bytes. The last block has the frames that are left, filled up with zero bits to a byte.
 //!
 //! What is damaged costs its block, 160 ms, which a decoder fills in; what is cut off ends the signal earlier.
@@ -14,6 +14,7 @@ use shagreen_core::codec::FRAME_SAMPLES;
 use shagreen_core::codec::bitrate::Bitrate;
 use shagreen_core::codec::coded::Coded;
 use shagreen_core::codec::frame::{BitReader, BitWriter, Frame};
+use shagreen_core::words::counted;
 
 use crate::imported::Imported;
 
@@ -78,8 +79,10 @@ pub fn write_stream(coded: &Coded) -> Result<Vec<u8>, CodecStreamError> {
     bytes.extend((coded.rate.bits_per_sec() as u16).to_le_bytes());
     bytes.extend(n.to_le_bytes());
     bytes.extend((coded.scale_mps2 as f32).to_le_bytes());
-    // Not below the true one by rounding.
-    bytes.extend((coded.limit_mps2 as f32).next_up().to_le_bytes());
+    // Rounding may not lower it.
+    let limit = coded.limit_mps2 as f32;
+    let limit = if f64::from(limit) < coded.limit_mps2 { limit.next_up() } else { limit };
+    bytes.extend(limit.to_le_bytes());
     bytes.extend(HEADER_CRC.checksum(&bytes).to_le_bytes());
     for (index, block) in coded.frames.chunks(BLOCK_FRAMES).enumerate() {
         let mut bits = BitWriter::default();
@@ -107,12 +110,7 @@ pub fn read_stream(bytes: &[u8]) -> Result<Imported<Coded>, CodecStreamError> {
     let (head, body) = bytes.split_at_checked(HEADER_BYTES).ok_or(CodecStreamError::Header)?;
     let (checked, check) = head.split_at(CHECKED_BYTES);
     if HEADER_CRC.checksum(checked).to_le_bytes() != check {
-        // Of another version even the checksum may be another.
-        return Err(if found == VERSION {
-            CodecStreamError::Header
-        } else {
-            CodecStreamError::Version { found }
-        });
+        return Err(CodecStreamError::Header);
     }
     if found != VERSION {
         return Err(CodecStreamError::Version { found });
@@ -166,7 +164,8 @@ fn read_blocks(mut body: &[u8], rate: Bitrate, n_frames: usize) -> (Vec<Option<F
         }
     }
     if n_damaged > 0 {
-        warnings.push(format!("parts of the stream are damaged and were filled in: {n_damaged} of 160 ms"));
+        let pieces = counted(n_damaged, "piece");
+        warnings.push(format!("the stream is damaged: {pieces} of up to 160 ms were filled in"));
     }
     (frames, warnings)
 }

@@ -6,7 +6,8 @@
 //! 0.01,0.7
 //! ```
 //!
-//! The names of the columns, where there are any, are not read: the first is the position, the second the value.
+//! The first column is the position, the second the value, whatever their names. A position is in mm unless its name ends in
+//! another unit: `x_m`, `x_cm`, `x_um`.
 
 use std::fmt::Write as _;
 
@@ -27,29 +28,37 @@ pub enum ProfileCsvError {
     #[error(transparent)]
     Text(#[from] TableTextError),
     /// A row that is not a position and a value.
-    #[error("line {line} is not a position in mm and a value; correct the line")]
+    #[error("line {line} is not a position in mm and a value, and no more; correct the line")]
     Row {
         /// The line, from one.
         line: u64,
     },
+    /// A first column that is no position.
+    #[error(
+        "the first column is {name:?}, which is no position; give positions, or a signal (.wav) with its speed"
+    )]
+    NoPosition {
+        /// Its name.
+        name: String,
+    },
     /// Positions that are not evenly spaced.
     #[error(
-        "the position in line {line} is {found_mm} mm, even steps lead to {wanted_mm} mm; sample the profile evenly"
+        "the position in line {line} is {found}, even steps lead to {wanted:.6}; sample the profile evenly"
     )]
     Uneven {
         /// The line, from one.
         line: u64,
         /// What stands there.
-        found_mm: f64,
+        found: f64,
         /// What an even grid has there.
-        wanted_mm: f64,
+        wanted: f64,
     },
     /// Rows that make no profile.
-    #[error("{0}; give rows of a position in mm and a value")]
+    #[error("{0}; give rows of a position in mm, ascending, and a value")]
     Profile(#[from] ProfileError),
 }
 
-/// Reads a profile. Positions may begin anywhere.
+/// Reads a profile. Positions may begin anywhere: the profile begins at zero.
 ///
 /// # Errors
 /// See [`ProfileCsvError`].
@@ -61,27 +70,55 @@ pub fn read_profile_csv(bytes: &[u8]) -> Result<Profile, ProfileCsvError> {
     // Text in memory with rows of any length: there is nothing left that the parser could refuse.
     let records = reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
     let mut rows: Vec<(u64, f64, f64)> = Vec::new();
+    let mut unit_m = 1e-3;
     for (index, record) in records.enumerate() {
-        let [x, value] = [0, 1].map(|i| record.get(i).and_then(|field| number(field, delimiter)));
-        match (x, value) {
-            (Some(x), Some(value)) => rows.push((line_of(text, &record), x, value)),
-            // A header.
-            (None, None) if index == 0 => {}
-            _ => return Err(ProfileCsvError::Row { line: line_of(text, &record) }),
+        let line = || line_of(text, &record);
+        // A delimiter at the end of a row parts nothing.
+        let fields: Vec<&str> = record.iter().collect();
+        let fields = fields.strip_suffix(&[""]).unwrap_or(&fields);
+        let &[x, value] = fields else { return Err(ProfileCsvError::Row { line: line() }) };
+        let is_header = index == 0 && [x, value].iter().all(|field| field.parse::<f64>().is_err());
+        match (number(x, delimiter), number(value, delimiter)) {
+            (Some(x), Some(value)) => rows.push((line(), x, value)),
+            (None, None) if is_header => {
+                unit_m = unit_of(x)
+                    .ok_or_else(|| ProfileCsvError::NoPosition { name: x.chars().take(40).collect() })?;
+            }
+            _ => return Err(ProfileCsvError::Row { line: line() }),
         }
     }
-    let [(_, first_mm, _), .., (_, last_mm, _)] = rows.as_slice() else {
+    let [(_, first, _), .., (_, last, _)] = rows.as_slice() else {
         return Err(ProfileError::Short { n: rows.len() }.into());
     };
-    let step_mm = (last_mm - first_mm) / (rows.len() - 1) as f64;
-    let profile = Profile::new(1e-3 * step_mm, rows.iter().map(|row| row.2).collect())?;
-    for (i, (line, found_mm, _)) in rows.iter().enumerate() {
-        let wanted_mm = first_mm + step_mm * i as f64;
-        if (found_mm - wanted_mm).abs() > TOLERANCE_STEPS * step_mm {
-            return Err(ProfileCsvError::Uneven { line: *line, found_mm: *found_mm, wanted_mm });
+    let profile = Profile::new(
+        unit_m * (last - first) / (rows.len() - 1) as f64,
+        rows.iter().map(|row| row.2).collect(),
+    )?;
+    // Most steps are right where one is wrong.
+    let mut steps: Vec<f64> = rows.windows(2).map(|pair| pair[1].1 - pair[0].1).collect();
+    let middle = (steps.len() - 1) / 2;
+    let step = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    for pair in rows.windows(2) {
+        let ((_, before, _), (line, found, _)) = (pair[0], pair[1]);
+        let wanted = before + step;
+        // Positions are finite, and so are their differences: the step was accepted.
+        if (found - wanted).abs() > TOLERANCE_STEPS * step {
+            return Err(ProfileCsvError::Uneven { line, found, wanted });
         }
     }
     Ok(profile)
+}
+
+/// What a position of a column of this name counts, in m; `None` where it is no position.
+fn unit_of(name: &str) -> Option<f64> {
+    let name = name.trim().trim_end_matches([')', ']']).to_lowercase();
+    match name.rsplit(['_', ' ', '(', '[']).next().unwrap_or("") {
+        "m" => Some(1.0),
+        "cm" => Some(1e-2),
+        "um" | "µm" | "μm" => Some(1e-6),
+        "s" | "ms" | "t" | "time" => None,
+        _ => Some(1e-3),
+    }
 }
 
 /// Whether bytes are a table that [`profile_csv`] wrote.
@@ -118,6 +155,8 @@ mod tests {
             assert_eq!(profile.values(), wanted, "{table}");
             assert!((profile.step_m() - 1e-5).abs() < 1e-15);
         }
+        let micrometers = read_profile_csv(b"x (um),height\n0,0.5\n10,0.75\n20,-1\n").unwrap();
+        assert!((micrometers.step_m() - 1e-5).abs() < 1e-15);
     }
 
     #[test]
@@ -125,10 +164,13 @@ mod tests {
         let error = |table: &str| read_profile_csv(table.as_bytes()).unwrap_err();
         assert_eq!(error("x,v\n0,1\n1,2\nend\n"), ProfileCsvError::Row { line: 4 });
         assert_eq!(error("0,1\n1\n"), ProfileCsvError::Row { line: 2 });
+        assert_eq!(error("NaN,inf\n0,1\n1,1\n"), ProfileCsvError::Row { line: 1 });
+        assert_eq!(error("x,y,z\n0,1,5\n1,1,5\n"), ProfileCsvError::Row { line: 1 });
         assert_eq!(
             error("0,1\n1,1\n5,1\n6,1\n8,1\n"),
-            ProfileCsvError::Uneven { line: 2, found_mm: 1.0, wanted_mm: 2.0 }
+            ProfileCsvError::Uneven { line: 3, found: 5.0, wanted: 2.0 }
         );
+        assert!(matches!(error("t_s,v\n0,1\n1,1\n"), ProfileCsvError::NoPosition { .. }));
         assert_eq!(error("x,v\n"), ProfileError::Short { n: 0 }.into());
         assert!(matches!(error("1,1\n0,1\n"), ProfileCsvError::Profile(ProfileError::Step { .. })));
         assert!(matches!(error("a\0b"), ProfileCsvError::Text(_)));

@@ -121,6 +121,11 @@ fn no_acceleration(columns: &[String], faults: &[Fault]) -> String {
     sentences.join("; ")
 }
 
+/// Channels of a WAV file as far as its head says them; 0 where it does not.
+pub(crate) fn n_channels(wav: &[u8]) -> usize {
+    wav::n_channels(wav)
+}
+
 /// Reads a recording: a WAV file by its first bytes, anything else as a table. `file_name` is for messages, `sidecar` the
 /// bytes of the `.json` beside a WAV file, `map` what is known already.
 ///

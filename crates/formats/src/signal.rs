@@ -5,7 +5,9 @@ use shagreen_core::recording::RawClock;
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 
 use crate::imported::Imported;
-use crate::recording::{AccelerationUnit, ColumnMap, RecordingFileError, read_recording};
+use crate::recording::{
+    AccelerationUnit, Channel, ColumnMap, RecordingFileError, n_channels, read_recording,
+};
 
 /// A signal of one axis: several are made one by DFT321.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,18 +18,52 @@ pub struct Signal {
     pub rate: Hertz,
 }
 
+/// What is known of a signal beside its file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SignalHints {
+    /// What a sample of 1.0 is, in m/s², where no sidecar says it.
+    pub full_scale_mps2: Option<f64>,
+    /// The channel that is the signal, from zero; `None` where all are axes of it.
+    pub channel: Option<usize>,
+}
+
+/// Lowest and highest rate of a signal in Hz: what is felt needs more than the one, no converter has more than the other.
+pub const RATES_HZ: std::ops::RangeInclusive<f64> = 200.0..=768_000.0;
+
 /// Why a file is no signal.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {
     /// The file cannot be read.
     #[error(transparent)]
-    File(#[from] RecordingFileError),
+    File(RecordingFileError),
     /// A table, whose rows may come at any time.
     #[error(
         "a signal is a WAV file, and this is none; \"shagreen render\" writes such, and editors of sound do"
     )]
     NotWav,
+    /// A file that has to be explained.
+    #[error(
+        "{what}; say --channel N for the channel that is the signal, and \"units\" and \"full_scale\" in the .json beside the file for what a sample of 1.0 is"
+    )]
+    Unclear {
+        /// What it does not say.
+        what: String,
+    },
+    /// A channel that the file does not have.
+    #[error("there is no channel {channel} among {n_channels}; give one of these")]
+    Channel {
+        /// The channel, from one.
+        channel: usize,
+        /// How many the file has.
+        n_channels: usize,
+    },
+    /// A rate at which nothing is recorded.
+    #[error("the file says {rate_hz} samples a second; {} to {} are read, so correct its head", RATES_HZ.start(), RATES_HZ.end())]
+    Rate {
+        /// Its rate in Hz.
+        rate_hz: f64,
+    },
     /// Axes that cannot be combined.
     #[error(transparent)]
     Axes(#[from] Dft321Error),
@@ -40,7 +76,7 @@ pub enum SignalError {
 }
 
 /// Reads a signal. `sidecar` are the bytes of the `.json` beside the file, which tells what a sample of 1.0 is; where there is
-/// none, it is `full_scale_mps2`, or one with a warning.
+/// none the hints do, and where nothing does, it is taken for 1 m/s², with a warning.
 ///
 /// # Errors
 /// See [`SignalError`].
@@ -48,26 +84,42 @@ pub fn read_signal(
     file_name: &str,
     bytes: &[u8],
     sidecar: Option<&[u8]>,
-    full_scale_mps2: Option<f64>,
+    hints: SignalHints,
 ) -> Result<Imported<Signal>, SignalError> {
-    let is_said = sidecar.is_some() && full_scale_mps2.is_none();
+    let is_wav = bytes.starts_with(b"RIFF") || file_name.to_lowercase().ends_with(".wav");
+    if !is_wav {
+        return Err(SignalError::NotWav);
+    }
+    let is_said = sidecar.is_some();
+    let channels = hints.channel.map(|channel| only(channel, n_channels(bytes))).transpose()?;
     let map = ColumnMap {
         acceleration_unit: (!is_said).then_some(AccelerationUnit::MetersPerSecondSquared),
-        full_scale: (!is_said).then(|| full_scale_mps2.unwrap_or(1.0)),
+        full_scale: (!is_said).then(|| hints.full_scale_mps2.unwrap_or(1.0)),
+        channels,
         // Whatever the stroke was, it changes nothing here.
         constant_speed: Some(MetersPerSecond(0.1)),
         constant_force: Some(Newtons(1.0)),
         ..ColumnMap::default()
     };
-    let file = read_recording(file_name, bytes, sidecar, &map)?;
+    let file = read_recording(file_name, bytes, sidecar, &map).map_err(|error| match error {
+        RecordingFileError::NeedsAnswers(needed) => {
+            let asked = needed.questions.iter().filter(|question| question.guess.is_none());
+            SignalError::Unclear { what: asked.map(|q| q.text.as_str()).collect::<Vec<_>>().join("; ") }
+        }
+        other => SignalError::File(other),
+    })?;
     let RawClock::Rate(rate) = file.raw.clock else { return Err(SignalError::NotWav) };
+    if !RATES_HZ.contains(&rate.0) {
+        return Err(SignalError::Rate { rate_hz: rate.0 });
+    }
     let axes: Vec<&[f64]> = file.raw.acceleration_mps2.iter().map(Vec::as_slice).collect();
     if let Some(index) = axes.iter().find_map(|axis| axis.iter().position(|x| !x.is_finite())) {
         return Err(SignalError::NotFinite { index });
     }
     let samples_mps2 = if let [axis] = axes.as_slice() { axis.to_vec() } else { dft321(&axes)? };
-    let mut warnings = Vec::new();
-    if sidecar.is_none() && full_scale_mps2.is_none() {
+    let mut warnings = file.warnings;
+    warnings.extend(file.questions.into_iter().map(|question| question.text));
+    if sidecar.is_none() && hints.full_scale_mps2.is_none() {
         warnings.push(
             "nothing says what the samples are; a sample of 1.0 is taken for 1 m/s² (--full-scale says otherwise)"
                 .to_owned(),
@@ -76,9 +128,18 @@ pub fn read_signal(
     Ok(Imported { value: Signal { samples_mps2, rate }, warnings })
 }
 
+/// One channel as the signal, the others as nothing.
+fn only(channel: usize, n_channels: usize) -> Result<Vec<Channel>, SignalError> {
+    if channel >= n_channels {
+        return Err(SignalError::Channel { channel: channel + 1, n_channels });
+    }
+    let kind = |i: usize| if i == channel { Channel::Acceleration } else { Channel::Unused };
+    Ok((0..n_channels).map(kind).collect())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{SignalError, read_signal};
+    use super::{SignalError, SignalHints, read_signal};
 
     use crate::wav::{SidecarV1, write_wav};
 
@@ -93,11 +154,12 @@ mod tests {
         let beside = std::fs::read(folder.path().join("s.json")).unwrap();
         for (beside, full_scale, factor, n_warnings) in [
             (Some(beside.as_slice()), None, 2.0, 0),
-            (Some(&beside), Some(3.0), 3.0, 0),
+            (Some(&beside), Some(3.0), 2.0, 0),
             (None, Some(3.0), 3.0, 0),
             (None, None, 1.0, 1),
         ] {
-            let read = read_signal("s.wav", &bytes, beside, full_scale).unwrap();
+            let hints = SignalHints { full_scale_mps2: full_scale, channel: None };
+            let read = read_signal("s.wav", &bytes, beside, hints).unwrap();
             assert_eq!(read.value.rate.0, 2000.0);
             assert_eq!(read.warnings.len(), n_warnings, "{:?}", read.warnings);
             let wanted = samples.iter().map(|x| factor * f64::from(*x));
@@ -105,15 +167,57 @@ mod tests {
         }
     }
 
+    /// A WAV file of 16 bits with these channels.
+    fn integers(rate_hz: u32, channels: &[[i16; 4]]) -> Vec<u8> {
+        let spec = hound::WavSpec {
+            channels: channels.len() as u16,
+            sample_rate: rate_hz,
+            bits_per_sample: 16,
+            sample_format: hound::SampleFormat::Int,
+        };
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let mut writer = hound::WavWriter::new(&mut bytes, spec).unwrap();
+        for i in 0..4 {
+            for channel in channels {
+                writer.write_sample(channel[i]).unwrap();
+            }
+        }
+        writer.finalize().unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn one_channel_of_several_is_the_signal() {
+        let stereo = integers(8000, &[[1, 2, 3, 4], [16_384, 0, -16_384, 0]]);
+        let of = |channel| {
+            read_signal("s.wav", &stereo, None, SignalHints { channel, full_scale_mps2: Some(10.0) })
+        };
+        assert_eq!(of(Some(1)).unwrap().value.samples_mps2, [5.0, 0.0, -5.0, 0.0]);
+        assert!(matches!(of(Some(2)), Err(SignalError::Channel { channel: 3, n_channels: 2 })));
+        let unclear = of(None).unwrap_err();
+        assert!(matches!(unclear, SignalError::Unclear { .. }) && unclear.to_string().contains("--channel"));
+    }
+
     #[test]
     fn what_is_no_signal_is_named() {
+        let none = SignalHints::default();
         let table = b"t,a,speed,force\n0,0.1,1,1\n0.001,0.2,1,1\n0.002,0.1,1,1\n";
-        assert!(read_signal("t.csv", table, None, None).is_err());
+        assert!(matches!(read_signal("t.csv", table, None, none), Err(SignalError::NotWav)));
+        assert!(matches!(read_signal("t.wav", table, None, none), Err(SignalError::File(_))));
+        for rate_hz in [0, 1, 4_000_000_000_u32] {
+            let mut file = integers(8000, &[[1; 4]]);
+            file[24..28].copy_from_slice(&u32::to_le_bytes(rate_hz));
+            let found = read_signal("s.wav", &file, None, none);
+            assert!(matches!(found, Err(SignalError::Rate { .. })), "{rate_hz}: {found:?}");
+        }
+        let mut cut = integers(8000, &[[1; 4]]);
+        cut.truncate(cut.len() - 2);
+        assert_eq!(read_signal("s.wav", &cut, None, none).unwrap().warnings.len(), 2);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("s.wav");
         write_wav(&path, &[0.0, f32::NAN], &SidecarV1::new(2000, 0.001, 1, "test")).unwrap();
         let bytes = std::fs::read(&path).unwrap();
-        let found = read_signal("s.wav", &bytes, None, None);
+        let found = read_signal("s.wav", &bytes, None, none);
         assert!(matches!(found, Err(SignalError::NotFinite { index: 1 })), "{found:?}");
     }
 }

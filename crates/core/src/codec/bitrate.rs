@@ -1,6 +1,6 @@
 //! The five rates, and where their bits go.
 
-use crate::codec::{N_CODES_MOST, N_SPLITS};
+use crate::codec::N_SPLITS;
 
 /// How many bits a second a stream takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -77,7 +77,7 @@ impl Allocation {
 
     /// Fixed codes that can be told apart.
     pub fn n_codes(&self) -> usize {
-        (1 << self.code).min(N_CODES_MOST)
+        1 << self.code
     }
 }
 

@@ -12,15 +12,15 @@ const LEAST_GAP: f64 = 0.02;
 /// Bits of the pairs of gains that there are tables for.
 pub const GAIN_BITS: [u32; 3] = [4, 5, 6];
 
-/// One fixed code, of unit length.
-pub(super) type Code = [f64; HALF_SAMPLES];
+/// Samples of half a frame: of a signal, an excitation, a fixed code or a response.
+pub(super) type HalfFrame = [f64; HALF_SAMPLES];
 
 /// Tables that were trained, as numbers: what a file holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tables {
     /// Mean of the line spectral frequencies, in radians.
     pub lsf_mean: Vec<f64>,
-    /// For each number of bits of a split that is used, as (split, bits): entries about the mean.
+    /// Tables of each part of the frequencies, for each number of bits that a rate has for it.
     pub lsf: Vec<SplitTable>,
     /// For each of [`GAIN_BITS`]: pairs of the gain of the lagged excitation, and of the fixed code relative to what the energy
     /// is expected to be.
@@ -34,7 +34,7 @@ pub struct SplitTable {
     pub split: usize,
     /// Bits of an index.
     pub n_bits: u32,
-    /// As many as the bits can tell apart.
+    /// As many as the bits can tell apart: what is added to the mean, in radians.
     pub entries: Vec<Vec<f64>>,
 }
 
@@ -57,9 +57,11 @@ pub enum BooksError {
 #[derive(Clone, Debug)]
 pub struct Codebooks {
     tables: Tables,
-    pub(super) codes: Vec<Code>,
-    /// Their autocorrelations, from no lag up.
-    pub(super) correlations: Vec<Code>,
+    pub(super) codes: Vec<HalfFrame>,
+    /// The same, sample by sample, in singles: many are looked at side by side.
+    pub(super) code_columns: Vec<Vec<f32>>,
+    /// Their autocorrelations, lag by lag.
+    pub(super) correlation_columns: Vec<Vec<f32>>,
 }
 
 impl Codebooks {
@@ -98,8 +100,9 @@ impl Codebooks {
         }
         let codes = fixed_codes();
         let correlation =
-            |code: &Code| std::array::from_fn(|lag| dot(&code[lag..], &code[..HALF_SAMPLES - lag]));
-        Ok(Self { tables, correlations: codes.iter().map(correlation).collect(), codes })
+            |code: &HalfFrame| std::array::from_fn(|lag| dot(&code[lag..], &code[..HALF_SAMPLES - lag]));
+        let correlations: Vec<HalfFrame> = codes.iter().map(correlation).collect();
+        Ok(Self { tables, code_columns: columns(&codes), correlation_columns: columns(&correlations), codes })
     }
 
     /// The tables.
@@ -129,7 +132,8 @@ impl Codebooks {
     pub(super) fn frequencies(&self, rate: Bitrate, indices: [u16; N_SPLITS]) -> Lsf {
         let mut lsf = self.tables.lsf_mean.clone();
         for (split, index) in indices.into_iter().enumerate() {
-            let entry = &self.split(rate, split)[index as usize];
+            let entries = self.split(rate, split);
+            let entry = &entries[index as usize % entries.len()];
             for (to, from) in lsf[SPLITS[split].0..].iter_mut().zip(entry) {
                 *to += from;
             }
@@ -139,8 +143,13 @@ impl Codebooks {
     }
 }
 
+/// Rows as columns.
+fn columns(rows: &[HalfFrame]) -> Vec<Vec<f32>> {
+    (0..HALF_SAMPLES).map(|i| rows.iter().map(|row| row[i] as f32).collect()).collect()
+}
+
 /// Noise that any language reproduces, row by row of unit length.
-fn fixed_codes() -> Vec<Code> {
+fn fixed_codes() -> Vec<HalfFrame> {
     let noise = lcg_noise(N_CODES_MOST * HALF_SAMPLES, CODES_SEED);
     let code = |row: &[f64]| {
         let length = dot(row, row).sqrt();

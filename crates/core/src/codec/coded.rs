@@ -17,7 +17,7 @@ pub struct Coded {
     pub rate: Bitrate,
     /// Samples of the signal: the last frame may hold fewer than the others.
     pub n_samples: usize,
-    /// What one of the unit of the frames is, in m/s², above 0: the root mean square of the signal.
+    /// What one of the unit of the frames is, in m/s², above 0: the root mean square of the signal, or 1 of silence.
     pub scale_mps2: f64,
     /// The highest magnitude of the signal in m/s², which what is decoded does not exceed.
     pub limit_mps2: f64,
@@ -25,19 +25,48 @@ pub struct Coded {
     pub frames: Vec<Option<Frame>>,
 }
 
+/// Why a signal cannot be encoded.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CodedError {
+    /// A sample that is no number.
+    #[error("sample {index} of the signal is not a finite number; cut it out")]
+    NotFinite {
+        /// Which, from zero.
+        index: usize,
+    },
+    /// A signal that no actuator makes.
+    #[error(
+        "the signal goes up to {peak_mps2:e} m/s², which is no acceleration of a touch; correct its unit"
+    )]
+    Level {
+        /// Its highest magnitude in m/s².
+        peak_mps2: f64,
+    },
+}
+
+/// Highest magnitude of a signal that is not silent, in m/s²: far beyond what is felt on both sides.
+const PEAKS_MPS2: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
+
 impl Coded {
-    /// Encodes a signal of [`CODEC_RATE`] in m/s². What is no finite number counts as silence.
-    pub fn encode(signal_mps2: &[f64], rate: Bitrate, books: &Arc<Codebooks>) -> Self {
-        let finite: Vec<f64> = signal_mps2.iter().map(|x| if x.is_finite() { *x } else { 0.0 }).collect();
-        let limit_mps2 = finite.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let level = rms(&finite);
-        let scale_mps2 = if level > 0.0 { level } else { 1.0 };
-        let scaled: Vec<f64> = finite.iter().map(|x| x / scale_mps2).collect();
+    /// Encodes a signal of [`CODEC_RATE`] in m/s².
+    ///
+    /// # Errors
+    /// See [`CodedError`].
+    pub fn encode(signal_mps2: &[f64], rate: Bitrate, books: &Arc<Codebooks>) -> Result<Self, CodedError> {
+        if let Some(index) = signal_mps2.iter().position(|x| !x.is_finite()) {
+            return Err(CodedError::NotFinite { index });
+        }
+        let peak_mps2 = signal_mps2.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if peak_mps2 > 0.0 && !PEAKS_MPS2.contains(&peak_mps2) {
+            return Err(CodedError::Level { peak_mps2 });
+        }
+        let (scaled, scale_mps2) = of_unit_level(signal_mps2);
         let (mut encoder, mut frames) = (Encoder::new(rate, Arc::clone(books)), Vec::new());
         encoder.push(&scaled, &mut frames);
         encoder.finish(&mut frames);
         let frames = frames.into_iter().map(Some).collect();
-        Self { rate, n_samples: signal_mps2.len(), scale_mps2, limit_mps2, frames }
+        Ok(Self { rate, n_samples: signal_mps2.len(), scale_mps2, limit_mps2: peak_mps2, frames })
     }
 
     /// The signal that the frames make, in m/s²; as long as the frames that there are.
@@ -66,13 +95,10 @@ impl Coded {
     }
 }
 
-/// How far the signal lies over what another differs by, in dB: `10 log₁₀(Σ x² / Σ (x - y)²)`; infinite where they are equal.
-///
-/// # Panics
-/// If the lengths differ.
-pub fn snr_db(signal: &[f64], other: &[f64]) -> f64 {
-    assert_eq!(signal.len(), other.len(), "signals are compared sample by sample");
-    let noise: f64 = signal.iter().zip(other).map(|(x, y)| (x - y).powi(2)).sum();
-    let power: f64 = signal.iter().map(|x| x * x).sum();
-    if noise == 0.0 { f64::INFINITY } else { 10.0 * (power / noise).log10() }
+/// A signal as the encoder takes it, and what one of it is in the unit of the signal: its root mean square, which becomes one,
+/// or one where it is silent.
+pub(super) fn of_unit_level(signal: &[f64]) -> (Vec<f64>, f64) {
+    let level = rms(signal);
+    let scale = if level > 0.0 { level } else { 1.0 };
+    (signal.iter().map(|x| x / scale).collect(), scale)
 }

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::bitrate::Bitrate;
-use super::books::{Code, Codebooks};
+use super::books::{Codebooks, HalfFrame};
 use super::frame::Frame;
 use super::spectrum::Lsf;
-use super::synthesis::Synthesis;
+use super::synthesis::{Synthesis, USUAL_LENGTH};
 use super::{FRAME_SAMPLES, HALF_SAMPLES};
 use crate::rng::Random;
 use crate::statistics::dot;
@@ -18,7 +18,8 @@ const FORGET: f64 = 0.15;
 /// Halves after a lost frame in which no excitation is longer than the longest before it: gains are told relative to what
 /// the encoder remembers, and the decoder remembers something else.
 const N_WARY: u32 = 12;
-/// How much of the longest excitation is remembered from half to half.
+/// How much of the longest excitation is remembered from half to half. It is never less than what is usual: where nothing
+/// was heard yet, nothing says that what comes is too loud.
 const REMEMBER: f64 = 0.9;
 
 /// Decodes a stream frame by frame. A frame that is lost is filled with more of the same, ever quieter.
@@ -47,7 +48,7 @@ impl Decoder {
             synthesis,
             last: (HALF_SAMPLES, [0.0; 2]),
             random: Random::new(0),
-            longest: 0.0,
+            longest: USUAL_LENGTH,
             n_wary: 0,
             limit: limit.abs(),
         }
@@ -67,7 +68,7 @@ impl Decoder {
         samples
     }
 
-    fn known(&mut self, frame: &Frame) -> [Code; 2] {
+    fn known(&mut self, frame: &Frame) -> [HalfFrame; 2] {
         let lsf = self.books.frequencies(self.rate, frame.lsf);
         let predictors = self.synthesis.predictors(&lsf);
         let books = Arc::clone(&self.books);
@@ -79,27 +80,28 @@ impl Decoder {
             let fixed = fixed * self.synthesis.expected_length();
             let code = books.codes[said.code as usize % n_codes];
             let before = self.synthesis.lagged(lags[half]);
-            self.last = (lags[half], [lagged, fixed]);
-            let excitation = self.no_longer_than_before(mixed(&before, lagged, &code, fixed));
-            self.synthesis.excite(&predictors[half], &excitation)
+            let excitation = mixed(&before, lagged, &code, fixed);
+            let share = self.share_of(&excitation);
+            self.last = (lags[half], [share * lagged, share * fixed]);
+            self.synthesis.excite(&predictors[half], &excitation.map(|x| share * x))
         });
         self.synthesis.lsf = lsf;
         made
     }
 
-    /// An excitation as it was said, or shortened to what was heard before a frame was lost.
-    fn no_longer_than_before(&mut self, excitation: Code) -> Code {
-        let length = dot(&excitation, &excitation).sqrt();
+    /// How much of an excitation is played: all of it, or so much that it is no longer than what was heard before a frame
+    /// was lost.
+    fn share_of(&mut self, excitation: &HalfFrame) -> f64 {
+        let length = dot(excitation, excitation).sqrt();
         if self.n_wary == 0 {
-            self.longest = length.max(REMEMBER * self.longest);
-            return excitation;
+            self.longest = length.max(REMEMBER * self.longest).max(USUAL_LENGTH);
+            return 1.0;
         }
         self.n_wary -= 1;
-        let share = if length > self.longest { self.longest / length } else { 1.0 };
-        excitation.map(|x| share * x)
+        if length > self.longest { self.longest / length } else { 1.0 }
     }
 
-    fn lost(&mut self) -> [Code; 2] {
+    fn lost(&mut self) -> [HalfFrame; 2] {
         self.n_wary = N_WARY;
         let mean = self.books.frequencies_of_mean();
         let before = self.synthesis.lsf;
@@ -128,6 +130,6 @@ impl Codebooks {
 }
 
 /// Two excitations with their gains.
-pub(super) fn mixed(a: &Code, gain_a: f64, b: &Code, gain_b: f64) -> Code {
+pub(super) fn mixed(a: &HalfFrame, gain_a: f64, b: &HalfFrame, gain_b: f64) -> HalfFrame {
     std::array::from_fn(|i| gain_a * a[i] + gain_b * b[i])
 }

@@ -3,25 +3,21 @@
 use std::sync::Arc;
 
 use super::bitrate::Bitrate;
-use super::books::{Code, Codebooks};
+use super::books::{Codebooks, HalfFrame};
+use super::code_search::CodeSearch;
 use super::decoder::mixed;
 use super::frame::{Frame, Half, lags};
-use super::spectrum::{Lsf, SpectrumMeter, WINDOW_SAMPLES};
+use super::spectrum::{Lsf, SpectrumMeter, WINDOW_SAMPLES, widen};
 use super::synthesis::{Predictor, Synthesis};
-use super::{FRAME_SAMPLES, HALF_SAMPLES, LOOK_AHEAD_SAMPLES, N_SPLITS, ORDER, SPLITS, least};
+use super::{FRAME_SAMPLES, HALF_SAMPLES, LOOK_AHEAD_SAMPLES, N_SPLITS, NOTHING, ORDER, SPLITS, least};
 use crate::statistics::dot;
 
 /// Errors are weighted by `A(z/0.94)/A(z/0.6)`.
 const WEIGHTING: (f64, f64) = (0.94, 0.6);
-/// Lags that are tried with codes, and codes that are tried with gains, for each lag.
+/// Lags that are tried with codes.
 const N_LAGS_TRIED: usize = 3;
-const N_CODES_TRIED: usize = 8;
-/// Codes whose energy is worked out exactly; of more, those that promise most.
-const N_CODES_EXACT: usize = 64;
 /// Range of the gain of the lagged excitation while codes are looked for.
 const LAGGED_GAIN: (f64, f64) = (0.0, 1.2);
-/// Energy below which there is nothing to match.
-const NOTHING: f64 = 1e-12;
 /// Least distance of frequencies that counts in their weights, in radians.
 const LEAST_DISTANCE: f64 = 0.02;
 
@@ -32,6 +28,7 @@ pub struct Encoder {
     books: Arc<Codebooks>,
     meter: SpectrumMeter,
     synthesis: Synthesis,
+    search: CodeSearch,
     /// The window around the next frame, as far as it has come.
     window: [f64; WINDOW_SAMPLES],
     n_filled: usize,
@@ -44,7 +41,7 @@ pub struct Encoder {
 struct Trial {
     error: f64,
     half: Half,
-    excitation: Code,
+    excitation: HalfFrame,
 }
 
 /// Inner products of the target and of what a lag and a code make of themselves: all that gains have to know.
@@ -74,10 +71,12 @@ impl Encoder {
         let synthesis = Synthesis::new(books.frequencies_of_mean());
         let meter = SpectrumMeter::new();
         let window = [0.0; WINDOW_SAMPLES];
-        Self { rate, books, meter, synthesis, window, n_filled: LOOK_AHEAD_SAMPLES, n_waiting: 0 }
+        let search = CodeSearch::new(rate.allocation().n_codes());
+        Self { rate, books, meter, synthesis, search, window, n_filled: LOOK_AHEAD_SAMPLES, n_waiting: 0 }
     }
 
-    /// Takes samples, and adds the frames that they complete.
+    /// Takes samples, and adds the frames that they complete. A sample that is no finite number counts as zero: nothing may stop
+    /// a stream.
     pub fn push(&mut self, samples: &[f64], frames: &mut Vec<Frame>) {
         self.push_looking(samples, frames, |_| ());
     }
@@ -96,12 +95,11 @@ impl Encoder {
     }
 
     /// Adds the frames of what is still waiting, filled up with silence.
-    pub fn finish(&mut self, frames: &mut Vec<Frame>) {
+    pub fn finish(mut self, frames: &mut Vec<Frame>) {
         let n_wanted = frames.len() + self.n_waiting.div_ceil(FRAME_SAMPLES);
         while frames.len() < n_wanted {
             self.take(0.0, frames, &mut |_| ());
         }
-        self.n_waiting = 0;
     }
 
     fn take(&mut self, sample: f64, frames: &mut Vec<Frame>, look: &mut impl FnMut(Products)) {
@@ -125,7 +123,7 @@ impl Encoder {
         let mut first_lag = None;
         for (half, predictor) in predictors.iter().enumerate() {
             let begin = LOOK_AHEAD_SAMPLES + half * HALF_SAMPLES;
-            let wanted: Code = std::array::from_fn(|i| self.window[begin + i]);
+            let wanted: HalfFrame = std::array::from_fn(|i| self.window[begin + i]);
             let (trial, products) = self.best(predictor, &wanted, lags(first_lag));
             look(products);
             frame.halves[half] = trial.half;
@@ -153,29 +151,39 @@ impl Encoder {
     }
 
     /// What excites half a frame best.
-    fn best(&self, predictor: &Predictor, wanted: &Code, (low, high): (usize, usize)) -> (Trial, Products) {
-        let ringing = self.synthesis.ringing(predictor);
-        let missing: Code = std::array::from_fn(|i| wanted[i] - ringing[i]);
+    fn best(
+        &mut self,
+        predictor: &Predictor,
+        wanted: &HalfFrame,
+        (low, high): (usize, usize),
+    ) -> (Trial, Products) {
+        let Self { rate, books, synthesis, search, .. } = self;
+        let n_codes = rate.allocation().n_codes();
+        let ringing = synthesis.ringing(predictor);
+        let missing: HalfFrame = std::array::from_fn(|i| wanted[i] - ringing[i]);
         let weighted = weighted(predictor, &missing);
+        let target = dot(&weighted, &weighted);
         let mut pulse = [0.0; HALF_SAMPLES];
         pulse[0] = 1.0;
         let response = weighted_response(predictor, &pulse);
-        let expected = self.synthesis.expected_length();
-        let gains = self.books.gains(self.rate);
+        let expected = synthesis.expected_length();
+        let gains = books.gains(*rate);
+        search.begin(books, &response);
         let mut best: Option<(Trial, Products)> = None;
-        for (lag, before, made) in self.promising_lags(&response, &weighted, low, high) {
-            let energy = dot(&made, &made);
+        for (lag, made) in promising_lags(synthesis, &response, &weighted, low, high) {
+            let before = synthesis.lagged(lag);
+            let (energy, target_lagged) = (dot(&made, &made), dot(&weighted, &made));
             let gain = if energy > NOTHING {
-                (dot(&weighted, &made) / energy).clamp(LAGGED_GAIN.0, LAGGED_GAIN.1)
+                (target_lagged / energy).clamp(LAGGED_GAIN.0, LAGGED_GAIN.1)
             } else {
                 0.0
             };
-            let left: Code = std::array::from_fn(|i| weighted[i] - gain * made[i]);
-            for code in self.promising_codes(&response, &left) {
-                let fixed = convolved(&response, &self.books.codes[code]);
+            let left: HalfFrame = std::array::from_fn(|i| weighted[i] - gain * made[i]);
+            for (_, code) in search.promising(books, n_codes, &left) {
+                let fixed = convolved(&response, &books.codes[*code]);
                 let products = Products {
-                    target: dot(&weighted, &weighted),
-                    target_lagged: dot(&weighted, &made),
+                    target,
+                    target_lagged,
                     target_fixed: expected * dot(&weighted, &fixed),
                     lagged: energy,
                     fixed: expected * expected * dot(&fixed, &fixed),
@@ -185,9 +193,8 @@ impl Encoder {
                 let [lagged_gain, fixed_gain] = gains[chosen];
                 let error = products.error([lagged_gain, fixed_gain]);
                 if best.as_ref().is_none_or(|(best, _)| error < best.error) {
-                    let half = Half { lag: (lag - low) as u16, gain: chosen as u16, code: code as u16 };
-                    let code = &self.books.codes[code];
-                    let excitation = mixed(&before, lagged_gain, code, fixed_gain * expected);
+                    let half = Half { lag: (lag - low) as u16, gain: chosen as u16, code: *code as u16 };
+                    let excitation = mixed(&before, lagged_gain, &books.codes[*code], fixed_gain * expected);
                     best = Some((Trial { error, half, excitation }, products));
                 }
             }
@@ -197,64 +204,42 @@ impl Encoder {
             None => unreachable!("there is a lag, and a code"),
         }
     }
-
-    /// The lags that match best by themselves: with the excitation there, and what the weighted filter makes of it.
-    fn promising_lags(
-        &self,
-        response: &Code,
-        weighted: &Code,
-        low: usize,
-        high: usize,
-    ) -> Vec<(usize, Code, Code)> {
-        let mut found: Vec<(f64, (usize, Code, Code))> = (low..=high)
-            .map(|lag| {
-                let before = self.synthesis.lagged(lag);
-                let made = convolved(response, &before);
-                let (match_, energy) = (dot(weighted, &made), dot(&made, &made));
-                let score = if energy > NOTHING { match_ * match_.abs() / energy } else { 0.0 };
-                (score, (lag, before, made))
-            })
-            .collect();
-        found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        found.truncate(N_LAGS_TRIED);
-        found.into_iter().map(|(_, lag)| lag).collect()
-    }
-
-    /// The codes that match best by themselves.
-    fn promising_codes(&self, response: &Code, left: &Code) -> Vec<usize> {
-        let codes = &self.books.codes[..self.rate.allocation().n_codes()];
-        // What is left, filtered backwards: one product tells how well a code matches.
-        let backwards: Code = std::array::from_fn(|i| dot(&left[i..], &response[..HALF_SAMPLES - i]));
-        let mut scores: Vec<(f64, usize)> = if codes.len() <= N_CODES_EXACT {
-            codes.iter().enumerate().map(|(i, code)| (exact_score(response, &backwards, code), i)).collect()
-        } else {
-            let shape: Code = std::array::from_fn(|lag| {
-                let both_sides = if lag == 0 { 1.0 } else { 2.0 };
-                both_sides * dot(&response[lag..], &response[..HALF_SAMPLES - lag])
-            });
-            let about = |(i, code): (usize, &Code)| {
-                let energy = dot(&shape, &self.books.correlations[i]).max(NOTHING);
-                (dot(&backwards, code).powi(2) / energy, i)
-            };
-            let mut rough: Vec<(f64, usize)> = codes.iter().enumerate().map(about).collect();
-            rough.select_nth_unstable_by(N_CODES_EXACT, |a, b| b.0.total_cmp(&a.0));
-            rough.truncate(N_CODES_EXACT);
-            rough.into_iter().map(|(_, i)| (exact_score(response, &backwards, &codes[i]), i)).collect()
-        };
-        scores.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        scores.truncate(N_CODES_TRIED);
-        scores.into_iter().map(|(_, i)| i).collect()
-    }
 }
 
-/// How much of the target a code can take away.
-fn exact_score(response: &Code, backwards: &Code, code: &Code) -> f64 {
-    let made = convolved(response, code);
-    dot(backwards, code).powi(2) / dot(&made, &made).max(NOTHING)
+/// The lags that match best by themselves, each with what the weighted filter makes of the excitation there.
+fn promising_lags(
+    synthesis: &Synthesis,
+    response: &HalfFrame,
+    weighted: &HalfFrame,
+    low: usize,
+    high: usize,
+) -> impl Iterator<Item = (usize, HalfFrame)> {
+    let mut best = [(f64::NEG_INFINITY, low, [0.0; HALF_SAMPLES]); N_LAGS_TRIED];
+    let mut made = convolved(response, &synthesis.lagged(low));
+    for lag in low..=high {
+        if lag > low {
+            // One sample further back: the one that is new goes through the filter, the rest has.
+            let fresh = synthesis.lagged(lag)[0];
+            made.copy_within(..HALF_SAMPLES - 1, 1);
+            made[0] = 0.0;
+            for (y, h) in made.iter_mut().zip(response) {
+                *y += fresh * h;
+            }
+        }
+        let (alike, energy) = (dot(weighted, &made), dot(&made, &made));
+        let score = if energy > NOTHING { alike * alike.abs() / energy } else { 0.0 };
+        // The first of equal ones stays before the others.
+        let place = best.iter().position(|(least, ..)| score > *least);
+        if let Some(place) = place {
+            best[place..].rotate_right(1);
+            best[place] = (score, lag, made);
+        }
+    }
+    best.into_iter().filter(|(score, ..)| *score > f64::NEG_INFINITY).map(|(_, lag, made)| (lag, made))
 }
 
 /// The first samples of a convolution.
-fn convolved(response: &Code, x: &Code) -> Code {
+pub(super) fn convolved(response: &HalfFrame, x: &HalfFrame) -> HalfFrame {
     let mut out = [0.0; HALF_SAMPLES];
     for (i, x) in x.iter().enumerate() {
         for (y, h) in out[i..].iter_mut().zip(response) {
@@ -265,7 +250,7 @@ fn convolved(response: &Code, x: &Code) -> Code {
 }
 
 /// `A(z/0.94)/A(z/0.6)` of a signal, from rest.
-fn weighted(predictor: &Predictor, x: &Code) -> Code {
+fn weighted(predictor: &Predictor, x: &HalfFrame) -> HalfFrame {
     let (ahead, behind) = (widened(predictor, WEIGHTING.0), widened(predictor, WEIGHTING.1));
     let mut out = [0.0; HALF_SAMPLES];
     for n in 0..HALF_SAMPLES {
@@ -279,7 +264,7 @@ fn weighted(predictor: &Predictor, x: &Code) -> Code {
 }
 
 /// The same of what `1/A` makes of a signal, from rest.
-fn weighted_response(predictor: &Predictor, x: &Code) -> Code {
+fn weighted_response(predictor: &Predictor, x: &HalfFrame) -> HalfFrame {
     let mut out = [0.0; HALF_SAMPLES];
     for n in 0..HALF_SAMPLES {
         let mut y = x[n];
@@ -293,9 +278,7 @@ fn weighted_response(predictor: &Predictor, x: &Code) -> Code {
 
 /// `A(z/factor)`.
 fn widened(predictor: &Predictor, factor: f64) -> Predictor {
-    let mut power = 1.0;
-    predictor.map(|a| {
-        power *= factor;
-        power * a
-    })
+    let mut widened = *predictor;
+    widen(&mut widened, factor);
+    widened
 }

@@ -17,12 +17,21 @@ const WIDENING: f64 = 0.985;
 /// Power of a window below which it is silence.
 const SILENCE: f64 = 1e-9;
 
-/// One sort of line spectral frequencies.
+/// One set of line spectral frequencies.
 pub(super) type Lsf = [f64; ORDER];
 
 /// The frequencies of silence, which has none: evenly spaced.
 pub(super) fn flat() -> Lsf {
     std::array::from_fn(|i| PI * (i + 1) as f64 / (ORDER + 1) as f64)
+}
+
+/// `A(z/factor)`: resonances are widened.
+pub(super) fn widen(ar: &mut [f64], factor: f64) {
+    let mut power = 1.0;
+    for a in ar {
+        power *= factor;
+        *a *= power;
+    }
 }
 
 /// Finds the frequencies of frames.
@@ -50,11 +59,7 @@ impl SpectrumMeter {
             return flat();
         }
         let mut ar = levinson(&r, ORDER).ar;
-        let mut factor = 1.0;
-        for a in &mut ar {
-            factor *= WIDENING;
-            *a *= factor;
-        }
+        widen(&mut ar, WIDENING);
         match lsf_from_ar(&ar).and_then(|lsf| lsf.try_into().ok()) {
             Some(lsf) => lsf,
             // So nearly unstable that digits do not tell: no spectrum is better than a wrong one.

@@ -1,19 +1,22 @@
 use std::sync::{Arc, OnceLock};
 
-use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
+use proptest::prelude::{prop, prop_assert, proptest};
 use serde_json::Value;
 
 use super::bitrate::Bitrate;
-use super::books::{BooksError, Codebooks, SplitTable, Tables};
-use super::coded::{Coded, snr_db};
+use super::books::{BooksError, Codebooks, HalfFrame, SplitTable, Tables};
+use super::code_search::CodeSearch;
+use super::coded::{Coded, CodedError};
 use super::decoder::Decoder;
-use super::encoder::Encoder;
+use super::encoder::{Encoder, convolved};
 use super::frame::{BitReader, BitWriter, Frame, Half};
 use super::train::{TrainError, train};
 use super::{DELAY_SAMPLES, FRAME_SAMPLES};
 use crate::ar::test_signals::from_resonances;
+use crate::quality::snr_db;
 use crate::rng::lcg_noise;
 use crate::spectrum::rms;
+use crate::statistics::dot;
 use crate::units::Hertz;
 
 /// Two seconds of a texture of two resonances, of a root mean square of one.
@@ -84,7 +87,7 @@ fn more_bits_are_nearer_to_the_signal() {
         snrs.sum::<f64>() / 4.0
     });
     assert!(mean_snr_db.windows(2).all(|w| w[0] < w[1]), "{mean_snr_db:?}");
-    assert!(mean_snr_db[0] > 3.0 && mean_snr_db[4] > 8.0, "{mean_snr_db:?}");
+    assert!(mean_snr_db[0] > 5.0 && mean_snr_db[4] > 12.0, "{mean_snr_db:?}");
 }
 
 #[test]
@@ -160,7 +163,7 @@ fn a_long_loss_fades_and_what_follows_is_no_louder() {
 #[test]
 fn a_signal_in_its_unit_comes_back_in_it() {
     let loud: Vec<f64> = texture(6).iter().map(|x| 40.0 * x).collect();
-    let coded = Coded::encode(&loud[..1999], Bitrate::Kbps3_15, &books());
+    let coded = Coded::encode(&loud[..1999], Bitrate::Kbps3_15, &books()).unwrap();
     assert_eq!((coded.n_samples, coded.frames.len(), coded.n_bits()), (1999, 50, 50 * 63));
     let decoded = coded.decode(&books());
     assert!(snr_db(&loud[..1999], &decoded) > 8.0);
@@ -169,6 +172,60 @@ fn a_signal_in_its_unit_comes_back_in_it() {
     let tables = train(&signals, 0, 3).unwrap();
     assert_eq!(tables, train(&signals, 0, 3).unwrap());
     assert_ne!(tables, train(&signals, 0, 4).unwrap());
+}
+
+/// Where nothing was heard before a loss, what follows is heard; where losses follow each other closely, nothing bursts.
+#[test]
+fn losses_at_the_beginning_and_close_to_each_other_are_filled_too() {
+    let peak = |x: &[f64]| x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    for rate in Bitrate::ALL {
+        let signal = texture(8);
+        let frames = encoded(rate, &signal);
+        let whole = decoded(rate, &frames, |_| false);
+        let late = decoded(rate, &frames, |i| i < 8);
+        // A stretch of what was not heard goes round for a while.
+        let part = |x: &[f64]| rms(&x[40 * 35..40 * 60]);
+        assert!(part(&late) > 0.7 * part(&whole), "{rate:?}: {} of {}", part(&late), part(&whole));
+        for apart in 2..6 {
+            let got = decoded(rate, &frames, |i| i % apart == 1);
+            assert!(peak(&got) < 1.3 * peak(&whole), "{rate:?}, every {apart}");
+        }
+    }
+}
+
+/// The five textures that the reference was tried on: ours is nearer at every rate. Where the reference does not get better
+/// with more bits (bumpy rubber at the lowest rate), that is its luck, and half a decibel is left to it.
+#[test]
+fn ours_is_nearer_than_the_reference() {
+    let vectors: Value =
+        serde_json::from_str(include_str!("../../../../vectors/i_celp/textures.json")).unwrap();
+    for texture in vectors["textures"].as_array().unwrap() {
+        let signal: Vec<f64> =
+            texture["signal"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+        let reached = Bitrate::ALL.map(|rate| {
+            let coded = Coded::encode(&signal, rate, &books()).unwrap();
+            snr_db(&signal[200..1800], &coded.decode(&books())[200..1800])
+        });
+        let of_reference =
+            Bitrate::ALL.map(|rate| texture["snr_db"][rate.bits_per_sec().to_string()].as_f64().unwrap());
+        let highest_so_far = |i: usize| of_reference[i + 1..].iter().copied().fold(f64::MAX, f64::min);
+        for (i, (reached, wanted)) in reached.iter().zip(of_reference).enumerate() {
+            let luck = if wanted > highest_so_far(i) { 0.5 } else { 0.0 };
+            let rate = Bitrate::ALL[i];
+            assert!(*reached > wanted - luck, "{} at {rate:?}: {reached} for {wanted}", texture["name"]);
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_encoded_is_named() {
+    let encode = |signal: &[f64]| Coded::encode(signal, Bitrate::Kbps1_75, &books());
+    assert_eq!(encode(&[0.0, f64::NAN]), Err(CodedError::NotFinite { index: 1 }));
+    for peak_mps2 in [1e300, 1e-200] {
+        assert_eq!(encode(&[0.0, -peak_mps2]), Err(CodedError::Level { peak_mps2 }));
+    }
+    let silent = encode(&[0.0; 100]).unwrap();
+    assert!(silent.decode(&books()).iter().all(|x| *x == 0.0));
 }
 
 #[test]
@@ -197,16 +254,20 @@ fn what_cannot_be_learnt_from_and_tables_that_do_not_fit_are_named() {
 proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
 
-    /// Whatever bits arrive, what is decoded is within the limit.
+    /// Whatever bits arrive, what is decoded is a number within the limit, and so is what it is before that: the predictors
+    /// are stable, and the excitation is bounded.
     #[test]
     fn any_bits_keep_within_the_limit(
         bytes in prop::collection::vec(prop::num::u8::ANY, 8..400),
         limit in 0.1_f64..5.0,
     ) {
         for rate in Bitrate::ALL {
-            let (mut reader, mut decoder) = (BitReader::new(&bytes), Decoder::new(rate, books(), limit));
+            let mut reader = BitReader::new(&bytes);
+            let (mut decoder, mut unlimited) =
+                (Decoder::new(rate, books(), limit), Decoder::new(rate, books(), 1e9));
             while let Some(frame) = Frame::unpack(rate, &mut reader) {
                 prop_assert!(decoder.decode(Some(&frame)).iter().all(|x| x.abs() <= limit));
+                prop_assert!(unlimited.decode(Some(&frame)).iter().all(|x| x.abs() < 1e8));
             }
             prop_assert!(decoder.decode(None).iter().all(|x| x.abs() <= limit));
         }
@@ -214,12 +275,33 @@ proptest! {
 
     /// Numbers that no rate has bits for do no harm.
     #[test]
-    fn any_frame_is_decoded(values in prop::collection::vec(0_u16..32, 9)) {
-        let half = |i: usize| Half { lag: values[i] * 4, gain: values[i + 1], code: values[i + 2] * 200 };
-        let frame = Frame { lsf: [values[0] % 8, values[1] % 8, values[2] % 8], halves: [half(3), half(6)] };
+    fn any_frame_is_decoded(values in prop::collection::vec(prop::num::u16::ANY, 9)) {
+        let half = |i: usize| Half { lag: values[i], gain: values[i + 1], code: values[i + 2] };
+        let frame = Frame { lsf: [values[0], values[1], values[2]], halves: [half(3), half(6)] };
         for rate in Bitrate::ALL {
             let out = Decoder::new(rate, books(), 1.0).decode(Some(&frame));
-            prop_assert_eq!(out.iter().filter(|x| x.abs() > 1.0).count(), 0);
+            prop_assert!(out.iter().all(|x| x.abs() <= 1.0), "{:?}", out);
+        }
+    }
+
+    /// Of all codes, one that takes nearly as much of the target as the best is found.
+    #[test]
+    fn a_code_as_good_as_the_best_is_found(seed in 0_u64..1000, decay in 0.2_f64..0.95) {
+        let noise = lcg_noise(40, seed);
+        let left: HalfFrame = std::array::from_fn(|i| noise[i]);
+        let response: HalfFrame = std::array::from_fn(|i| decay.powf(i as f64) * (1.0 + 0.2 * noise[20 + i]));
+        let books = books();
+        let taken = |code: &HalfFrame| {
+            let made = convolved(&response, code);
+            dot(&left, &made).powi(2) / dot(&made, &made)
+        };
+        for n_codes in [4, 512, 4096] {
+            let mut search = CodeSearch::new(n_codes);
+            search.begin(&books, &response);
+            let found = search.promising(&books, n_codes, &left)[0];
+            let best = books.codes[..n_codes].iter().map(taken).fold(0.0, f64::max);
+            prop_assert!((found.0 / taken(&books.codes[found.1]) - 1.0).abs() < 1e-6);
+            prop_assert!(found.0 > 0.9 * best, "{} of {best} among {n_codes}", found.0);
         }
     }
 }

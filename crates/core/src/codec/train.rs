@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::bitrate::Bitrate;
 use super::books::{Codebooks, GAIN_BITS, SplitTable, Tables};
+use super::coded::of_unit_level;
 use super::encoder::{Encoder, Products};
 use super::spectrum::{Lsf, SpectrumMeter, WINDOW_SAMPLES};
 use super::{FRAME_SAMPLES, SPLITS, least};
 use crate::rng::Random;
-use crate::spectrum::rms;
 
 /// Steps of the averaging of clusters.
 const N_STEPS: usize = 30;
@@ -41,7 +41,7 @@ const LEAST_FRAMES: usize = 256;
 /// # Errors
 /// [`TrainError::Few`].
 pub fn train(signals: &[Vec<f64>], n_rounds: usize, seed: u64) -> Result<Tables, TrainError> {
-    let signals: Vec<Vec<f64>> = signals.iter().map(|signal| of_unit_level(signal)).collect();
+    let signals: Vec<Vec<f64>> = signals.iter().map(|signal| of_unit_level(signal).0).collect();
     let spectra: Vec<Lsf> = signals.iter().flat_map(|signal| spectra(signal)).collect();
     let n_frames = spectra.len();
     if n_frames < LEAST_FRAMES {
@@ -84,13 +84,6 @@ pub fn train(signals: &[Vec<f64>], n_rounds: usize, seed: u64) -> Result<Tables,
         }
     }
     Ok(tables)
-}
-
-/// A signal as the encoder takes it: its root mean square is one, unless it is silent.
-fn of_unit_level(signal: &[f64]) -> Vec<f64> {
-    let level = rms(signal);
-    let scale = if level > 0.0 { 1.0 / level } else { 1.0 };
-    signal.iter().map(|x| scale * x).collect()
 }
 
 /// The frequencies of the whole frames of a signal.
@@ -165,5 +158,48 @@ fn improve_gains(gains: &mut [[f64; 2]], seen: &[Products]) {
         } else if bb > 0.0 {
             gains[1] = (yb - gains[0] * ab) / bb;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{first_gains, improve_gains};
+    use crate::codec::encoder::Products;
+    use crate::codec::least;
+    use crate::rng::Random;
+
+    /// No step of the averaging leaves more of what it has seen, and the first leaves much less.
+    #[test]
+    fn gains_fit_better_step_by_step() {
+        let mut random = Random::new(4);
+        let mut seen = Vec::new();
+        for _ in 0..400 {
+            let [lagged, fixed] = [random.uniform(), random.normal()];
+            let [energy, noise] = [random.log_normal(0.5), 0.1 * random.normal()];
+            // A target of these gains, and noise along both.
+            seen.push(Products {
+                target: lagged * lagged * energy + fixed * fixed + 0.1,
+                target_lagged: (lagged + noise) * energy,
+                target_fixed: fixed + noise,
+                lagged: energy,
+                fixed: 1.0,
+                both: 0.0,
+            });
+        }
+        let left = |gains: &[[f64; 2]]| -> f64 {
+            let of_one = |p: &Products| gains.iter().map(|g| p.error(*g)).fold(f64::MAX, f64::min) / p.target;
+            seen.iter().map(of_one).sum()
+        };
+        let mut gains = first_gains(4);
+        let mut before = left(&gains);
+        let begun = before;
+        for _ in 0..10 {
+            improve_gains(&mut gains, &seen);
+            let now = left(&gains);
+            assert!(now <= before + 1e-9, "{now} after {before}");
+            before = now;
+        }
+        assert!(before < 0.8 * begun, "{before} of {begun}");
+        assert_eq!(least([3.0, 1.0, 1.0].into_iter()), 1);
     }
 }

@@ -11,6 +11,9 @@ const TABLE_STEPS: usize = 1024;
 /// At a higher rate there is nothing above the band that the signal had.
 ///
 /// Sample `i` of the result belongs to the time `i / to` from the first sample; the signal counts as zero beyond its ends.
+///
+/// # Panics
+/// If a rate is not above zero.
 pub fn resample(signal: &[f64], from: Hertz, to: Hertz) -> Vec<f64> {
     assert!(to.0 > 0.0 && from.0 > 0.0, "rates are above zero, got {from} and {to}");
     let factor = from.0 / to.0;

@@ -87,11 +87,12 @@ impl FeatureMeter {
     pub(super) fn measure(&self, piece: &[f64]) -> Measured {
         let signal = centered(piece);
         let mut spectrum = self.spectrum(&signal);
-        let envelope = self.envelope(&spectrum, mean(piece));
-        // What is left of a constant is round-off.
-        let is_silent = is_constant(piece);
+        let mut envelope = self.envelope(&spectrum, mean(piece));
+        // What is left of a constant is round-off, and below what is felt at all nothing has features.
+        let is_silent = is_constant(piece) || dot(&signal, &signal) < LEAST_POWER * piece.len() as f64;
         if is_silent {
             spectrum.fill(Complex::ZERO);
+            envelope.fill(0.0);
         }
         let roughness = (dot(piece, piece) / piece.len() as f64).max(LEAST_POWER).log10();
         let features = if is_silent {

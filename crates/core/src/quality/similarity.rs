@@ -1,6 +1,7 @@
-//! Measures of similarity that others use, to be compared with: ST-SIM and SPQI, as we read what is published of them.
+//! Measures of similarity that others use, to be compared with: the ratio of signal to noise, and ST-SIM and SPQI, as we
+//! read what is published of them.
 //!
-//! Both look at two signals in blocks of 64 ms, 512 samples at the 8 kHz that they were made for; here the block is as
+//! The latter look at two signals in blocks of 64 ms, 512 samples at the 8 kHz that they were made for; here the block is as
 //! long in time at every rate.
 
 use std::sync::Arc;
@@ -19,6 +20,18 @@ const BLOCK_SECS: f64 = 0.064;
 const SPREAD_DB: f64 = 12.0;
 /// Level below which nothing is told apart from nothing, in dB re threshold.
 const LEAST_DB: f64 = -100.0;
+
+/// How far the signal lies over what another differs by, in dB: `10 log₁₀(Σ x² / Σ (x - y)²)`; infinite where they are equal, and
+/// minus infinity where the signal is silent and the other is not.
+///
+/// # Panics
+/// If the lengths differ.
+pub fn snr_db(signal: &[f64], other: &[f64]) -> f64 {
+    assert_eq!(signal.len(), other.len(), "signals are compared sample by sample");
+    let noise: f64 = signal.iter().zip(other).map(|(x, y)| (x - y).powi(2)).sum();
+    let power: f64 = signal.iter().map(|x| x * x).sum();
+    if noise == 0.0 { f64::INFINITY } else { 10.0 * (power / noise).log10() }
+}
 
 /// ST-SIM `= T^(2/3) S^(1/3)`, 0 to 1: T is the mean correlation of blocks in time, S that of the chances that the level of
 /// each frequency is felt. 1 for equal signals; `None` where they are shorter than a block or of different lengths.

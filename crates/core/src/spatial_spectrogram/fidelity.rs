@@ -27,19 +27,19 @@ pub struct ProfileFidelity {
     pub spectral_convergence: f64,
 }
 
-/// What windows of each length keep of a profile, whose samples lie `step_m` apart.
+/// What windows of each framing keep of a profile, whose samples lie `step_m` apart.
 ///
 /// # Errors
 /// See [`FramingError`].
 pub fn fidelity_by_window(
     profile: &[f64],
     step_m: f64,
-    windows_m: &[f64],
+    framings: &[Framing],
 ) -> Result<Vec<ProfileFidelity>, FramingError> {
-    windows_m
+    framings
         .iter()
-        .map(|window_m| {
-            let transform = Transform::new(Framing::of_length(*window_m, step_m));
+        .map(|framing| {
+            let transform = Transform::new(*framing);
             let spectrogram = SpatialSpectrogram::of(profile, &transform)?;
             let made = profile_of(&spectrogram, &transform);
             fidelity(profile, &made, step_m, &spectrogram, &transform)

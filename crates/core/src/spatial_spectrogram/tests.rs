@@ -81,7 +81,8 @@ fn golden_table() {
 #[test]
 fn the_narrowest_windows_keep_every_texture() {
     for texture in PaperTexture::ALL {
-        let kept = fidelity_by_window(&texture.profile(8000), STEP_M, &PAPER_WINDOWS_M).unwrap();
+        let framings = PAPER_WINDOWS_M.map(|window_m| Framing::of_length(window_m, STEP_M));
+        let kept = fidelity_by_window(&texture.profile(8000), STEP_M, &framings).unwrap();
         let narrowest = kept.last().unwrap();
         assert!(narrowest.envelope_correlation >= 0.99, "{}: {narrowest:?}", texture.name());
         assert!(kept[0].envelope_correlation < 0.5, "{}: {:?}", texture.name(), kept[0]);

@@ -3,7 +3,8 @@ use std::sync::{Arc, OnceLock};
 use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
 use shagreen_core::codec::bitrate::Bitrate;
 use shagreen_core::codec::books::Codebooks;
-use shagreen_core::codec::coded::{Coded, snr_db};
+use shagreen_core::codec::coded::Coded;
+use shagreen_core::quality::snr_db;
 use shagreen_core::rng::lcg_noise;
 
 use super::{CodecStreamError, HEADER_BYTES, HEADER_CRC, read_stream, write_stream};
@@ -25,7 +26,7 @@ fn signal() -> Vec<f64> {
 }
 
 fn coded(rate: Bitrate) -> Coded {
-    Coded::encode(&signal(), rate, books())
+    Coded::encode(&signal(), rate, books()).unwrap()
 }
 
 #[test]
@@ -58,6 +59,9 @@ fn what_is_no_stream_is_named() {
     assert_eq!(read_stream(&damaged), Err(CodecStreamError::Header));
     let mut later = bytes.clone();
     later[4] = 2;
+    assert_eq!(read_stream(&later), Err(CodecStreamError::Header), "a damaged byte is no later version");
+    let check = HEADER_CRC.checksum(&later[..20]).to_le_bytes();
+    later[20..24].copy_from_slice(&check);
     assert_eq!(read_stream(&later), Err(CodecStreamError::Version { found: 2 }));
     for (at, number) in [(6, [1, 0, 0, 0]), (12, (-1.0_f32).to_le_bytes()), (16, f32::NAN.to_le_bytes())] {
         let mut nonsense = bytes.clone();
@@ -90,7 +94,7 @@ fn what_is_cut_off_damaged_or_follows_is_said() {
     // What was lost stays lost.
     let lost = read_stream(&write_stream(&damaged.value).unwrap()).unwrap();
     assert_eq!(lost.value.frames, damaged.value.frames);
-    let silent = Coded::encode(&[], Bitrate::Kbps1_75, books());
+    let silent = Coded::encode(&[], Bitrate::Kbps1_75, books()).unwrap();
     assert_eq!(read_stream(&write_stream(&silent).unwrap()).unwrap().value.frames, []);
 }
 

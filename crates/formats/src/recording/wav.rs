@@ -38,6 +38,19 @@ pub(super) fn is_wav(bytes: &[u8]) -> bool {
     matches!(bytes.get(..4), Some(b"RIFF" | b"RF64" | b"BW64")) && bytes.get(8..12) == Some(b"WAVE")
 }
 
+/// Channels of a WAV file as far as its head says them; 0 where it does not.
+pub(super) fn n_channels(bytes: &[u8]) -> usize {
+    let mut rest = bytes.get(12..).unwrap_or(&[]);
+    while let (Some(name), Some(size)) = (rest.get(..4), u32_at(rest, 4)) {
+        if name == b"fmt " {
+            return u16_at(rest, 10).map_or(0, usize::from).min(MAX_CHANNELS);
+        }
+        let size = size as usize;
+        rest = rest.get(8usize.saturating_add(size).saturating_add(size % 2)..).unwrap_or(&[]);
+    }
+    0
+}
+
 fn error(problem: impl Into<String>) -> RecordingFileError {
     RecordingFileError::Wav { problem: problem.into() }
 }

@@ -21,11 +21,11 @@ fn books() -> &'static Arc<Codebooks> {
 
 pub(crate) fn stream_seeds() -> Vec<Vec<u8>> {
     let signal = lcg_noise(700, 3);
-    let coded = |rate| write_stream(&Coded::encode(&signal, rate, books())).unwrap();
+    let coded = |rate| write_stream(&Coded::encode(&signal, rate, books()).unwrap()).unwrap();
     [Bitrate::Kbps1_75, Bitrate::Kbps3_15].map(coded).to_vec()
 }
 
-/// A head that promises a day of signal, and nothing behind it.
+/// A head that promises 25 days of signal, and nothing behind it.
 pub(crate) fn stream_bombs() -> Vec<Vec<u8>> {
     let mut head = stream_seeds().remove(0);
     head.truncate(HEAD);
