@@ -7,8 +7,6 @@ mod site_labels;
 mod tool_bar;
 mod view;
 
-use std::collections::HashSet;
-
 use egui::{
     Align2, Color32, CursorIcon, FontId, Key, PointerButton, Popup, Pos2, Rect, Response, Role, Sense, Shape,
     Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
@@ -204,8 +202,6 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
         authored.map_or(Vec::new(), |a| a.location.corners.iter().map(|(texture, _)| *texture).collect());
     // Edges one by one: the joins of a thin triangle's outline would shoot far beyond its corners.
     let thin = Stroke::new(1.0, t.line);
-    // Two triangles share an edge.
-    let mut drawn = HashSet::new();
     for triangle in space.triangles() {
         let points: Vec<Pos2> = triangle.iter().filter_map(|i| at(*i)).collect();
         let [a, b, c] = points[..] else { continue };
@@ -222,10 +218,9 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
                 painter.line_segment(edge, Stroke::new(1.6, t.accent.gamma_multiply(0.6)));
             }
         } else {
-            for ([from, to], edge) in edges {
-                if drawn.insert((from.min(to), from.max(to))) {
-                    painter.line_segment(edge, thin);
-                }
+            // Two triangles share an edge, one from each side: all go round the same way. Those of one only are the outline.
+            for (_, edge) in edges.into_iter().filter(|([from, to], _)| from < to) {
+                painter.line_segment(edge, thin);
             }
         }
     }
@@ -309,16 +304,20 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
                 egui::epaint::RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv);
             painter.add(mesh);
         }
+        // A dot is one picture of a disc; a ring around each of a thousand would be most of all triangles.
         _ => {
             painter.circle_filled(pos, radius, t.text_weak);
         }
     }
+    let has_picture = radius >= SITE_RADIUS;
     let ring = match rank {
-        Some(rank) => Stroke::new(3.0, t.parents[rank.min(2)]),
-        None if response.hovered() || response.has_focus() => Stroke::new(2.0, t.text),
-        None => Stroke::new(1.0, t.text_weak.gamma_multiply(0.8)),
+        Some(rank) => Some(Stroke::new(3.0, t.parents[rank.min(2)])),
+        None if response.hovered() || response.has_focus() => Some(Stroke::new(2.0, t.text)),
+        None => has_picture.then(|| Stroke::new(1.0, t.text_weak.gamma_multiply(0.8))),
     };
-    painter.circle_stroke(pos, radius, ring);
+    if let Some(ring) = ring {
+        painter.circle_stroke(pos, radius, ring);
+    }
     if panel.is_locked(texture) {
         let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
         painter.circle_filled(corner, 8.0, t.background);

@@ -10,8 +10,9 @@ use super::coded::{Coded, CodedError};
 use super::decoder::Decoder;
 use super::encoder::{Encoder, convolved};
 use super::frame::{BitReader, BitWriter, Frame, Half};
+use super::spectrum::{SpectrumMeter, WINDOW_SAMPLES};
 use super::train::{TrainError, train};
-use super::{DELAY_SAMPLES, FRAME_SAMPLES};
+use super::{DELAY_SAMPLES, FRAME_SAMPLES, LOOK_AHEAD_SAMPLES};
 use crate::ar::test_signals::from_resonances;
 use crate::quality::snr_db;
 use crate::rng::lcg_noise;
@@ -189,6 +190,32 @@ fn losses_at_the_beginning_and_close_to_each_other_are_filled_too() {
         for apart in 2..6 {
             let got = decoded(rate, &frames, |i| i % apart == 1);
             assert!(peak(&got) < 1.3 * peak(&whole), "{rate:?}, every {apart}");
+        }
+    }
+}
+
+/// Frequencies of frames, and fixed codes, are those of the reference.
+#[test]
+fn spectra_and_codes_are_those_of_the_reference() {
+    let parsed = |text: &str| -> Value { serde_json::from_str(text).unwrap() };
+    let numbers =
+        |json: &Value| -> Vec<f64> { json.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect() };
+    let textures = parsed(include_str!("../../../../vectors/i_celp/textures.json"));
+    let frames = parsed(include_str!("../../../../vectors/i_celp/lsf.json"));
+    for frame in frames["frames"].as_array().unwrap() {
+        let named = |texture: &&Value| texture["name"] == frame["texture"];
+        let texture = textures["textures"].as_array().unwrap().iter().find(named).unwrap();
+        let begin = FRAME_SAMPLES * frame["frame"].as_u64().unwrap() as usize - LOOK_AHEAD_SAMPLES;
+        let window = &numbers(&texture["signal"])[begin..begin + WINDOW_SAMPLES];
+        let found = SpectrumMeter::new().measure(window.try_into().unwrap());
+        for (found, wanted) in found.iter().zip(numbers(&frame["lsf"])) {
+            assert!((found - wanted).abs() < 1e-8, "{}: {found} for {wanted}", frame["texture"]);
+        }
+    }
+    let codes = parsed(include_str!("../../../../vectors/i_celp/codes.json"));
+    for (code, wanted) in [0, 1, 4095].into_iter().zip(codes.as_array().unwrap()) {
+        for (found, wanted) in books().codes[code].iter().zip(numbers(wanted)) {
+            assert!((found - wanted).abs() < 1e-12, "code {code}: {found} for {wanted}");
         }
     }
 }
