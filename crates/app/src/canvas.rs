@@ -295,8 +295,9 @@ fn site_help(panel: &Panel<'_>, texture: usize, at: SpacePoint) -> String {
 fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
     let painter = ui.painter();
     let rank = panel.session.parent_rank(texture);
+    let has_picture = radius >= SITE_RADIUS;
     match panel.pictures.thumbnail(texture) {
-        Some(picture) if radius >= SITE_RADIUS => {
+        Some(picture) if has_picture => {
             let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
             // The middle third of the picture: at this size its grain can still be seen.
             let uv = Rect::from_min_max(pos2(0.3, 0.3), pos2(0.7, 0.7));
@@ -309,7 +310,6 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
             painter.circle_filled(pos, radius, t.text_weak);
         }
     }
-    let has_picture = radius >= SITE_RADIUS;
     let ring = match rank {
         Some(rank) => Some(Stroke::new(3.0, t.parents[rank.min(2)])),
         None if response.hovered() || response.has_focus() => Some(Stroke::new(2.0, t.text)),

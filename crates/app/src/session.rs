@@ -11,18 +11,18 @@ mod opening;
 mod path_walk;
 mod pen;
 mod places;
+mod planes_ahead;
 mod player;
 mod signal;
 mod strokes;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
 use anyhow::Context as _;
 use shagreen_core::authoring::{Authored, Authoring, Blending};
-use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::plane::Plane;
 use shagreen_core::rate::{at_rate, highest_rate};
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
 use shagreen_core::texture_path::Along;
@@ -46,6 +46,7 @@ use self::models_ahead::ModelsAhead;
 use self::path_walk::PathWalk;
 use self::pen::Pen;
 use self::places::{Opened, attribute_names, places, poles_of};
+use self::planes_ahead::PlanesAhead;
 use self::player::Player;
 
 /// Range of frequencies over which spectra are drawn, in Hz.
@@ -92,12 +93,7 @@ pub struct Session {
     /// The textures over speed and force, and the rate in Hz that each has there.
     planes: Vec<Arc<Plane>>,
     rates_hz: Vec<f64>,
-    /// What the output takes, worked out ahead by a worker: a drag into textures not yet heard must not wait for it.
-    prepared: Vec<Option<Prepared>>,
-    /// Textures that no worker prepares yet.
-    unprepared: Vec<(usize, Arc<Plane>)>,
-    incoming: Receiver<Ahead>,
-    sender: Sender<Ahead>,
+    planes_ahead: PlanesAhead,
     authoring: Authoring,
     generation: u64,
     models: ModelsAhead,
@@ -133,9 +129,6 @@ pub struct Session {
     rate_hz: f64,
 }
 
-/// A texture that a worker has prepared: where it was in the list, and the plane that tells whether it still is.
-type Ahead = (usize, Arc<Plane>, Prepared);
-
 impl Session {
     /// A session with a library; no output is open yet, and no worker begins before [`Session::begin_work`].
     ///
@@ -151,17 +144,13 @@ impl Session {
             planes.push(Arc::new(plane_of(texture, rate_in(texture, place.as_ref(), rate))?));
         }
         let rates = library.textures.iter().zip(&places).map(|(t, place)| rate_in(t, place.as_ref(), rate).0);
-        let (sender, incoming) = channel();
         let mut session = Self {
             authoring: Authoring::new(Space::new(&positions(&places))?),
             generation: 0,
             models: ModelsAhead::default(),
             heard: Heard::default(),
             n_made: 0,
-            prepared: vec![None; planes.len()],
-            unprepared: planes.iter().cloned().enumerate().collect(),
-            incoming,
-            sender,
+            planes_ahead: PlanesAhead::new(&planes),
             walk: None,
             walk_alone: None,
             path_point: None,
@@ -393,7 +382,7 @@ impl Session {
             self.player.wanted = Some(wanted);
             self.follow_rate(solo, ctx);
         }
-        self.player.send_mix(&self.heard, &self.prepared, self.rate_hz);
+        self.player.send_mix(&self.heard, self.planes_ahead.prepared(), self.rate_hz);
     }
 
     /// Takes over textures, places and axes of the project; those that `is_same` are as they were heard last, by index.
@@ -405,13 +394,12 @@ impl Session {
         let rate_before_hz = self.space_rate_hz;
         self.space_rate_hz = self.rate_of_places(project).0;
         let mut is_kept = vec![false; self.places.len()];
-        let (mut planes, mut prepared, mut rates_hz) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut planes, mut rates_hz) = (Vec::new(), Vec::new());
         for (i, entry) in self.library.textures.iter_mut().enumerate() {
             let mut rate = rate_in(entry, self.places[i].as_ref(), Hertz(self.space_rate_hz));
             if is_same.get(i).is_some_and(|is_same| *is_same) && self.rates_hz[i] == rate.0 {
                 is_kept[i] = true;
                 planes.push(Arc::clone(&self.planes[i]));
-                prepared.push(self.prepared[i].take());
             } else {
                 let plane = plane_of(entry, rate).unwrap_or_else(|error| {
                     // Not to be blended then, but still to be heard alone.
@@ -424,16 +412,11 @@ impl Session {
                     Plane::new(&entry.model)
                 });
                 planes.push(Arc::new(plane));
-                prepared.push(None);
             }
             rates_hz.push(rate.0);
         }
-        (self.planes, self.prepared, self.rates_hz) = (planes, prepared, rates_hz);
-        let is_there =
-            |(i, plane): &(usize, Arc<Plane>)| self.planes.get(*i).is_some_and(|now| Arc::ptr_eq(now, plane));
-        self.unprepared.retain(is_there);
-        let fresh = self.planes.iter().cloned().enumerate().filter(|(i, _)| !is_kept[*i]);
-        self.unprepared.extend(fresh);
+        (self.planes, self.rates_hz) = (planes, rates_hz);
+        self.planes_ahead.follow(&self.planes, &is_kept);
         self.player.keep(&is_kept);
         if rate_before_hz != self.space_rate_hz || !self.heard.survives(&is_kept, Hertz(self.rate_hz)) {
             self.heard = Heard::default();
@@ -484,18 +467,13 @@ impl Session {
     /// Once a frame: sets workers to what waits for one.
     pub fn begin_work(&mut self, ctx: &egui::Context) {
         self.models.begin(ctx);
-        prepare_ahead(std::mem::take(&mut self.unprepared), self.sender.clone());
+        self.planes_ahead.begin();
     }
 
     /// Once a frame: takes in what the output says, and works out what is shown. `contact` is what the spectra are
     /// drawn for while nothing touches.
     pub fn update(&mut self, contact: Contact) {
-        while let Ok((texture, plane, prepared)) = self.incoming.try_recv() {
-            // Undo may have taken it away meanwhile.
-            if self.planes.get(texture).is_some_and(|now| Arc::ptr_eq(now, &plane)) {
-                self.prepared[texture] = Some(prepared);
-            }
-        }
+        self.planes_ahead.collect(&self.planes);
         let n_touches = self.status().map_or(0, |status| status.latency.n_touches);
         if self.player.collect(&mut self.scope) {
             self.player.set_hand(self.hand, self.stroke.as_ref());
@@ -587,21 +565,6 @@ fn drawn_frequencies(rate_hz: f64) -> Vec<Hertz> {
     let (low, high) = (BAND_HZ.0, BAND_HZ.1.min(0.4995 * rate_hz));
     let frequency = |i: usize| low * (high / low).powf(i as f64 / (N_FREQUENCIES - 1) as f64);
     (0..N_FREQUENCIES).map(|i| Hertz(frequency(i))).collect()
-}
-
-/// Prepares textures in a thread of its own, which ends with them or with the session.
-fn prepare_ahead(planes: Vec<(usize, Arc<Plane>)>, sender: Sender<Ahead>) {
-    if planes.is_empty() {
-        return;
-    }
-    std::thread::spawn(move || {
-        for (texture, plane) in planes {
-            let prepared = plane.prepare();
-            if sender.send((texture, plane, prepared)).is_err() {
-                return;
-            }
-        }
-    });
 }
 
 #[cfg(test)]

@@ -127,6 +127,16 @@ pub(crate) fn rows(delimiter: u8) -> csv::ReaderBuilder {
     builder
 }
 
+/// A table by its rows that hold anything: what parts its columns, its text without a line that said so, and the records.
+pub(crate) fn records(text: &str) -> (u8, &str, impl Iterator<Item = csv::StringRecord>) {
+    let (stated, text) = stated_delimiter(text);
+    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
+    let reader = rows(delimiter).from_reader(text.as_bytes());
+    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
+    let records = reader.into_records().map_while(Result::ok);
+    (delimiter, text, records.filter(|record| record.iter().any(|field| !field.is_empty())))
+}
+
 /// The line, from one, on which a record of `text` stands: the reader counts from the end of the record before it, and
 /// there may be empty lines and comments between.
 pub(crate) fn line_of(text: &str, record: &csv::StringRecord) -> u64 {

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 
 use shagreen_core::profile::{Profile, ProfileError};
 
-use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
+use crate::csv_text::{self, TableTextError, line_of, number};
 
 /// First line of the tables that are written.
 const HEADER: &str = "x_mm,value\n";
@@ -64,11 +64,7 @@ pub enum ProfileCsvError {
 /// See [`ProfileCsvError`].
 pub fn read_profile_csv(bytes: &[u8]) -> Result<Profile, ProfileCsvError> {
     let text = csv_text::text(bytes)?;
-    let (stated, text) = stated_delimiter(&text);
-    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
-    let mut reader = csv_text::rows(delimiter).from_reader(text.as_bytes());
-    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
-    let records = reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
+    let (delimiter, text, records) = csv_text::records(&text);
     let mut rows: Vec<(u64, f64, f64)> = Vec::new();
     let mut unit_m = 1e-3;
     for (index, record) in records.enumerate() {

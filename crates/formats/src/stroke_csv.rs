@@ -9,7 +9,7 @@ mod columns;
 
 use std::fmt::Write as _;
 
-use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
+use crate::csv_text::{self, TableTextError, line_of, number};
 use crate::imported::Imported;
 use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
@@ -95,12 +95,7 @@ struct Row {
 /// See [`StrokeCsvError`].
 pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError> {
     let text = csv_text::text(bytes)?;
-    let (stated, text) = stated_delimiter(&text);
-    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
-    let mut reader = csv_text::rows(delimiter).from_reader(text.as_bytes());
-    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
-    let mut records =
-        reader.records().map_while(Result::ok).filter(|r| r.iter().any(|field| !field.is_empty()));
+    let (delimiter, text, mut records) = csv_text::records(&text);
     let first = records.next().ok_or(StrokeCsvError::Empty)?;
     let mut warnings = Vec::new();
     let is_header =
@@ -147,11 +142,7 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
 /// acceleration may have too, such as a bare `x` and `y`, are none by which it is told.
 pub fn is_stroke_table(head: &[u8]) -> bool {
     let text = csv_text::text_with_odd_letters(head);
-    let (stated, text) = stated_delimiter(&text);
-    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
-    let mut reader = csv_text::rows(delimiter).from_reader(text.as_bytes());
-    let mut records = reader.records().map_while(Result::ok);
-    let first = records.find(|record| record.iter().any(|field| !field.is_empty()));
+    let first = csv_text::records(&text).2.next();
     first.is_some_and(|first| Columns::from_header(&first).is_ok_and(|columns| columns.are_of_a_stroke_only))
 }
 

@@ -99,9 +99,7 @@ impl Codebooks {
             return Err(BooksError::NotFinite);
         }
         let codes = fixed_codes();
-        let correlation =
-            |code: &HalfFrame| std::array::from_fn(|lag| dot(&code[lag..], &code[..HALF_SAMPLES - lag]));
-        let correlations: Vec<HalfFrame> = codes.iter().map(correlation).collect();
+        let correlations: Vec<HalfFrame> = codes.iter().map(autocorrelation).collect();
         Ok(Self { tables, code_columns: columns(&codes), correlation_columns: columns(&correlations), codes })
     }
 
@@ -110,8 +108,9 @@ impl Codebooks {
         &self.tables
     }
 
-    pub(super) fn lsf_mean(&self) -> &[f64] {
-        &self.tables.lsf_mean
+    /// The mean frequencies, as a frame before the first has them.
+    pub(super) fn lsf_mean(&self) -> Lsf {
+        std::array::from_fn(|i| self.tables.lsf_mean[i])
     }
 
     /// The entries of a part of the frequencies at a rate.
@@ -141,6 +140,11 @@ impl Codebooks {
         let lsf = repair_to(lsf, LEAST_GAP);
         std::array::from_fn(|i| lsf[i])
     }
+}
+
+/// `Σ_i x[i + lag] x[i]` for every lag.
+pub(super) fn autocorrelation(x: &HalfFrame) -> HalfFrame {
+    std::array::from_fn(|lag| dot(&x[lag..], &x[..HALF_SAMPLES - lag]))
 }
 
 /// Rows as columns.

@@ -1,6 +1,6 @@
 //! Which of many fixed codes match a target.
 
-use super::books::{Codebooks, HalfFrame};
+use super::books::{Codebooks, HalfFrame, autocorrelation};
 use super::encoder::convolved;
 use super::{HALF_SAMPLES, NOTHING};
 use crate::statistics::dot;
@@ -37,10 +37,10 @@ impl CodeSearch {
     pub(super) fn begin(&mut self, books: &Codebooks, response: &HalfFrame) {
         self.response = *response;
         // Energy as if the response went on: its autocorrelation times that of the code.
-        let shape: HalfFrame = std::array::from_fn(|lag| {
-            let both_sides = if lag == 0 { 1.0 } else { 2.0 };
-            both_sides * dot(&response[lag..], &response[..HALF_SAMPLES - lag])
-        });
+        let mut shape = autocorrelation(response);
+        for both_sides in &mut shape[1..] {
+            *both_sides *= 2.0;
+        }
         weighed(&books.correlation_columns, &shape, &mut self.energies);
     }
 

@@ -40,8 +40,7 @@ pub struct Decoder {
 impl Decoder {
     /// A decoder of a stream of this rate, of which no sample leaves `-limit..=limit`, in the unit of the stream.
     pub fn new(rate: Bitrate, books: Arc<Codebooks>, limit: f64) -> Self {
-        let mean = books.frequencies_of_mean();
-        let synthesis = Synthesis::new(mean);
+        let synthesis = Synthesis::new(books.lsf_mean());
         Self {
             rate,
             books,
@@ -103,7 +102,7 @@ impl Decoder {
 
     fn lost(&mut self) -> [HalfFrame; 2] {
         self.n_wary = N_WARY;
-        let mean = self.books.frequencies_of_mean();
+        let mean = self.books.lsf_mean();
         let before = self.synthesis.lsf;
         let lsf: Lsf = std::array::from_fn(|i| before[i] + FORGET * (mean[i] - before[i]));
         let predictors = self.synthesis.predictors(&lsf);
@@ -119,13 +118,6 @@ impl Decoder {
         });
         self.synthesis.lsf = lsf;
         made
-    }
-}
-
-impl Codebooks {
-    /// The mean frequencies, as a frame before the first has them.
-    pub(super) fn frequencies_of_mean(&self) -> Lsf {
-        std::array::from_fn(|i| self.lsf_mean()[i])
     }
 }
 

@@ -68,7 +68,7 @@ impl Products {
 impl Encoder {
     /// An encoder to this rate. Samples come in a unit in which the signal is about one.
     pub fn new(rate: Bitrate, books: Arc<Codebooks>) -> Self {
-        let synthesis = Synthesis::new(books.frequencies_of_mean());
+        let synthesis = Synthesis::new(books.lsf_mean());
         let meter = SpectrumMeter::new();
         let window = [0.0; WINDOW_SAMPLES];
         let search = CodeSearch::new(rate.allocation().n_codes());
@@ -163,9 +163,7 @@ impl Encoder {
         let missing: HalfFrame = std::array::from_fn(|i| wanted[i] - ringing[i]);
         let weighted = weighted(predictor, &missing);
         let target = dot(&weighted, &weighted);
-        let mut pulse = [0.0; HALF_SAMPLES];
-        pulse[0] = 1.0;
-        let response = weighted_response(predictor, &pulse);
+        let response = weighted_response(predictor);
         let expected = synthesis.expected_length();
         let gains = books.gains(*rate);
         search.begin(books, &response);
@@ -263,15 +261,14 @@ fn weighted(predictor: &Predictor, x: &HalfFrame) -> HalfFrame {
     out
 }
 
-/// The same of what `1/A` makes of a signal, from rest.
-fn weighted_response(predictor: &Predictor, x: &HalfFrame) -> HalfFrame {
+/// What the same makes of the response of `1/A` to a pulse.
+fn weighted_response(predictor: &Predictor) -> HalfFrame {
     let mut out = [0.0; HALF_SAMPLES];
-    for n in 0..HALF_SAMPLES {
-        let mut y = x[n];
+    out[0] = 1.0;
+    for n in 1..HALF_SAMPLES {
         for k in 1..=ORDER.min(n) {
-            y -= predictor[k - 1] * out[n - k];
+            out[n] -= predictor[k - 1] * out[n - k];
         }
-        out[n] = y;
     }
     weighted(predictor, &out)
 }

@@ -40,15 +40,35 @@ pub(super) fn is_wav(bytes: &[u8]) -> bool {
 
 /// Channels of a WAV file as far as its head says them; 0 where it does not.
 pub(super) fn n_channels(bytes: &[u8]) -> usize {
-    let mut rest = bytes.get(12..).unwrap_or(&[]);
-    while let (Some(name), Some(size)) = (rest.get(..4), u32_at(rest, 4)) {
-        if name == b"fmt " {
-            return u16_at(rest, 10).map_or(0, usize::from).min(MAX_CHANNELS);
-        }
-        let size = size as usize;
-        rest = rest.get(8usize.saturating_add(size).saturating_add(size % 2)..).unwrap_or(&[]);
+    let format = chunks(bytes).find(|chunk| chunk.name == b"fmt ");
+    format.and_then(|chunk| u16_at(chunk.there(), 2)).map_or(0, usize::from).min(MAX_CHANNELS)
+}
+
+/// A part of a WAV file.
+struct Chunk<'a> {
+    name: &'a [u8],
+    /// The bytes it says to have.
+    stated: u64,
+    /// All that follows its head.
+    rest: &'a [u8],
+}
+
+impl<'a> Chunk<'a> {
+    /// What is there of the bytes it says to have.
+    fn there(&self) -> &'a [u8] {
+        &self.rest[..self.rest.len().min(usize::try_from(self.stated).unwrap_or(usize::MAX))]
     }
-    0
+}
+
+fn chunks(bytes: &[u8]) -> impl Iterator<Item = Chunk<'_>> {
+    let mut bytes = bytes.get(12..).unwrap_or(&[]);
+    std::iter::from_fn(move || {
+        let (head, rest) = bytes.split_at_checked(8)?;
+        let chunk = Chunk { name: &head[..4], stated: u64::from(u32_at(head, 4)?), rest };
+        // Chunks begin at even places.
+        bytes = rest.get(chunk.there().len().next_multiple_of(2)..).unwrap_or(&[]);
+        Some(chunk)
+    })
 }
 
 fn error(problem: impl Into<String>) -> RecordingFileError {
@@ -67,25 +87,23 @@ fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
 pub(super) fn read_wav(bytes: &[u8]) -> Result<WavSamples, RecordingFileError> {
     let mut format = None;
     let mut data_size_64 = None;
-    let mut rest = bytes.get(12..).unwrap_or(&[]);
-    while rest.len() >= 8 {
-        let (head, body) = rest.split_at(8);
-        let stated = u64::from(u32_at(head, 4).unwrap_or(0));
-        let there = &body[..body.len().min(usize::try_from(stated).unwrap_or(usize::MAX))];
-        match &head[..4] {
+    for chunk in chunks(bytes) {
+        let there = chunk.there();
+        match chunk.name {
             b"fmt " => format = Some(read_format(there)?),
             b"ds64" => {
                 let size = there.get(8..16).and_then(|part| part.try_into().ok());
                 data_size_64 = size.map(u64::from_le_bytes);
             }
             b"data" => {
+                let Chunk { stated, rest, .. } = chunk;
                 let format = format.ok_or_else(|| error("has samples before it says what they are"))?;
                 let stated =
                     if stated == UNKNOWN_SIZE { data_size_64.unwrap_or(UNKNOWN_SIZE) } else { stated };
                 // A recorder that was switched off wrote no size; what follows is samples.
-                let open = stated == UNKNOWN_SIZE || (stated == 0 && !body.is_empty() && is_open(bytes));
-                let n_bytes = if open { body.len() as u64 } else { stated.min(body.len() as u64) };
-                let mut samples = read_samples(&body[..n_bytes as usize], &format);
+                let open = stated == UNKNOWN_SIZE || (stated == 0 && !rest.is_empty() && is_open(bytes));
+                let n_bytes = if open { rest.len() as u64 } else { stated.min(rest.len() as u64) };
+                let mut samples = read_samples(&rest[..n_bytes as usize], &format);
                 if open {
                     samples
                         .warnings
@@ -102,9 +120,6 @@ pub(super) fn read_wav(bytes: &[u8]) -> Result<WavSamples, RecordingFileError> {
             }
             _ => {}
         }
-        // Chunks begin at even places.
-        let next = there.len() + there.len() % 2;
-        rest = body.get(next..).unwrap_or(&[]);
     }
     Err(error(if format.is_some() { "has no samples" } else { "does not say what its samples are" }))
 }
