@@ -58,7 +58,7 @@ fn main() {
     let spectrogram = SpatialSpectrogram::of(&profile, &refined).expect("a spectrogram");
     bench_noted("Griffin-Lim, 32 steps, windows of 2 mm", 1.0, "profile", || {
         let start = profile_of(&spectrogram, &refined);
-        let made = refine(&spectrogram, &refined, &start, N_STEPS).expect("a profile");
+        let made = refine(&spectrogram, &start, N_STEPS).expect("a profile");
         let power = SpatialSpectrogram::of(&made, &refined).expect("a spectrogram");
         let off = spectral_convergence(spectrogram.power(), power.power(), 0);
         format!("{:.1} dB", -20.0 * off.log10())

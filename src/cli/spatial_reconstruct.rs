@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let spectrogram = SpatialSpectrogram::of(values, &transform)?;
     let mut made = profile_of(&spectrogram, &transform);
     if args.refine > 0 {
-        made = refine(&spectrogram, &transform, &made, usize::from(args.refine))?;
+        made = refine(&spectrogram, &made, usize::from(args.refine))?;
     }
     let found = fidelity(values, &made, step_m, &spectrogram, &transform)?;
     atomic::write(&args.out, profile_csv(&Profile::new(step_m, made)?).as_bytes())?;

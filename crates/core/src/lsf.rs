@@ -60,7 +60,7 @@ fn palindrome_roots(poly: &[f64]) -> Option<Vec<f64>> {
         }
         poly[m] + 0.5 * x * b1 - b2
     };
-    let mut n_grid = 512;
+    let mut n_grid = 128;
     while n_grid <= 1 << 17 {
         let mut roots = Vec::with_capacity(m);
         let (mut w0, mut f0) = (0.0, value(0.0));

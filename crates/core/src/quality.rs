@@ -9,6 +9,7 @@
 //! activations depend on the distance between bins, and so on the length.
 
 mod channels;
+mod correlation;
 mod d_prime;
 mod features;
 mod model;

@@ -15,6 +15,11 @@ pub const GAIN_BITS: [u32; 3] = [4, 5, 6];
 /// Samples of half a frame: of a signal, an excitation, a fixed code or a response.
 pub(super) type HalfFrame = [f64; HALF_SAMPLES];
 
+/// Rows that are looked at side by side: as many as a processor has registers for their sums.
+pub(super) const N_BLOCK: usize = 32;
+/// Such rows in singles, sample by sample.
+pub(super) type Block = [[f32; N_BLOCK]; HALF_SAMPLES];
+
 /// Tables that were trained, as numbers: what a file holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tables {
@@ -58,10 +63,10 @@ pub enum BooksError {
 pub struct Codebooks {
     tables: Tables,
     pub(super) codes: Vec<HalfFrame>,
-    /// The same, sample by sample, in singles: many are looked at side by side.
-    pub(super) code_columns: Vec<Vec<f32>>,
-    /// Their autocorrelations, lag by lag.
-    pub(super) correlation_columns: Vec<Vec<f32>>,
+    /// The same, side by side.
+    pub(super) code_blocks: Vec<Block>,
+    /// Their autocorrelations, side by side.
+    pub(super) correlation_blocks: Vec<Block>,
 }
 
 impl Codebooks {
@@ -100,7 +105,7 @@ impl Codebooks {
         }
         let codes = fixed_codes();
         let correlations: Vec<HalfFrame> = codes.iter().map(autocorrelation).collect();
-        Ok(Self { tables, code_columns: columns(&codes), correlation_columns: columns(&correlations), codes })
+        Ok(Self { tables, code_blocks: blocks(&codes), correlation_blocks: blocks(&correlations), codes })
     }
 
     /// The tables.
@@ -147,9 +152,11 @@ pub(super) fn autocorrelation(x: &HalfFrame) -> HalfFrame {
     std::array::from_fn(|lag| dot(&x[lag..], &x[..HALF_SAMPLES - lag]))
 }
 
-/// Rows as columns.
-fn columns(rows: &[HalfFrame]) -> Vec<Vec<f32>> {
-    (0..HALF_SAMPLES).map(|i| rows.iter().map(|row| row[i] as f32).collect()).collect()
+fn blocks(rows: &[HalfFrame]) -> Vec<Block> {
+    let block = |rows: &[HalfFrame]| -> Block {
+        std::array::from_fn(|i| std::array::from_fn(|row| rows.get(row).map_or(0.0, |row| row[i] as f32)))
+    };
+    rows.chunks(N_BLOCK).map(block).collect()
 }
 
 /// Noise that any language reproduces, row by row of unit length.

@@ -1,24 +1,30 @@
 //! Which of many fixed codes match a target.
 
-use super::books::{Codebooks, HalfFrame, autocorrelation};
-use super::encoder::convolved;
+use pulp::{Arch, Simd, WithSimd};
+
+use super::books::{Block, Codebooks, HalfFrame, N_BLOCK, autocorrelation};
 use super::{HALF_SAMPLES, NOTHING};
 use crate::statistics::dot;
 
 /// Codes that are kept.
 const N_KEPT: usize = 8;
 /// Codes whose energy is worked out exactly; of more, those that promise most.
-const N_EXACT: usize = 64;
-/// Codes that are looked at side by side: as many sums as fit the registers of a processor, and some.
-const N_BLOCK: usize = 64;
+const N_EXACT: usize = 32;
+
+/// Codes of one group, whose highest score is known.
+const N_GROUP: usize = 16;
 
 /// A search among the first codes, half after half.
 #[derive(Clone, Debug)]
 pub(super) struct CodeSearch {
     response: HalfFrame,
-    /// About the energy of each code through the response; none where all are looked at exactly.
+    /// What the energy of a code through the response is: `Σ_ij c_i products[i][j] c_j`.
+    products: [HalfFrame; HALF_SAMPLES],
+    /// About that energy for each code; none where all are looked at exactly.
     energies: Vec<f32>,
     scores: Vec<f32>,
+    /// The highest score of each group: of as many codes as there are groups, each belongs to another.
+    highest: Vec<f32>,
     ranked: Vec<(f64, usize)>,
 }
 
@@ -27,8 +33,10 @@ impl CodeSearch {
         let n_rough = if n_codes > N_EXACT { n_codes } else { 0 };
         Self {
             response: [0.0; HALF_SAMPLES],
+            products: [[0.0; HALF_SAMPLES]; HALF_SAMPLES],
             energies: vec![0.0; n_rough],
             scores: vec![0.0; n_rough],
+            highest: vec![0.0; n_rough.div_ceil(N_GROUP)],
             ranked: Vec::with_capacity(n_codes),
         }
     }
@@ -36,12 +44,22 @@ impl CodeSearch {
     /// Begins half a frame, whose weighted filter has this response.
     pub(super) fn begin(&mut self, books: &Codebooks, response: &HalfFrame) {
         self.response = *response;
+        // Two samples of a code that begin later overlap less at the end of the half.
+        for lag in 0..HALF_SAMPLES {
+            let mut sum = 0.0;
+            for n in 0..HALF_SAMPLES - lag {
+                sum += response[n] * response[n + lag];
+                let late = HALF_SAMPLES - 1 - n;
+                (self.products[late - lag][late], self.products[late][late - lag]) = (sum, sum);
+            }
+        }
         // Energy as if the response went on: its autocorrelation times that of the code.
         let mut shape = autocorrelation(response);
         for both_sides in &mut shape[1..] {
             *both_sides *= 2.0;
         }
-        weighed(&books.correlation_columns, &shape, &mut self.energies);
+        let blocks = &books.correlation_blocks;
+        Arch::new().dispatch(Weighed { blocks, weights: &shape, out: &mut self.energies });
     }
 
     /// The codes, best first, that take most of what is left of the target, out of the first `n_codes`; each with how much.
@@ -58,21 +76,12 @@ impl CodeSearch {
         if self.energies.is_empty() {
             self.ranked.extend((0..n_codes).map(|i| (0.0, i)));
         } else {
-            weighed(&books.code_columns, &backwards, &mut self.scores);
-            for (score, energy) in self.scores.iter_mut().zip(&self.energies) {
-                *score = *score * *score / energy.max(NOTHING as f32);
-            }
-            self.ranked.extend(self.scores.iter().enumerate().map(|(i, score)| (f64::from(*score), i)));
-            self.ranked.select_nth_unstable_by(N_EXACT - 1, best_first);
-            self.ranked.truncate(N_EXACT);
+            Arch::new().dispatch(Roughly { search: self, blocks: &books.code_blocks, backwards: &backwards });
         }
-        for (score, code) in &mut self.ranked {
-            let code = &books.codes[*code];
-            let made = convolved(&self.response, code);
-            *score = dot(&backwards, code).powi(2) / dot(&made, &made).max(NOTHING);
-        }
+        let Self { products, ranked, .. } = self;
+        Arch::new().dispatch(Exactly { codes: &books.codes, products, backwards: &backwards, ranked });
+        keep_best(&mut self.ranked, N_KEPT);
         self.ranked.sort_unstable_by(best_first);
-        self.ranked.truncate(N_KEPT);
         &self.ranked
     }
 }
@@ -81,16 +90,111 @@ fn best_first(a: &(f64, usize), b: &(f64, usize)) -> std::cmp::Ordering {
     b.0.total_cmp(&a.0).then(a.1.cmp(&b.1))
 }
 
-/// `Σ_j weights[j] columns[j][i]` for every `i`.
-fn weighed(columns: &[Vec<f32>], weights: &HalfFrame, out: &mut [f32]) {
-    for (block, out) in out.chunks_mut(N_BLOCK).enumerate() {
-        let mut sums = [0.0_f32; N_BLOCK];
-        for (column, weight) in columns.iter().zip(weights) {
-            let weight = *weight as f32;
-            for (sum, x) in sums.iter_mut().zip(&column[block * N_BLOCK..]) {
-                *sum += weight * x;
+fn keep_best(ranked: &mut Vec<(f64, usize)>, n_kept: usize) {
+    if ranked.len() > n_kept {
+        ranked.select_nth_unstable_by(n_kept - 1, best_first);
+        ranked.truncate(n_kept);
+    }
+}
+
+/// Works out `Σ_j weights[j] rows[i][j]` for every `i`.
+struct Weighed<'a> {
+    blocks: &'a [Block],
+    weights: &'a HalfFrame,
+    out: &'a mut [f32],
+}
+
+/// Ranks the codes that promise most of all.
+struct Roughly<'a> {
+    search: &'a mut CodeSearch,
+    blocks: &'a [Block],
+    backwards: &'a HalfFrame,
+}
+
+/// Works out how much each of the ranked codes takes.
+struct Exactly<'a> {
+    codes: &'a [HalfFrame],
+    products: &'a [HalfFrame; HALF_SAMPLES],
+    backwards: &'a HalfFrame,
+    ranked: &'a mut [(f64, usize)],
+}
+
+impl WithSimd for Weighed<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { blocks, weights, out } = self;
+        for (block, out) in blocks.iter().zip(out.chunks_mut(N_BLOCK)) {
+            let mut sums = [0.0_f32; N_BLOCK];
+            for (column, weight) in block.iter().zip(weights) {
+                let weight = *weight as f32;
+                for (sum, x) in sums.iter_mut().zip(column) {
+                    *sum += weight * x;
+                }
+            }
+            out.copy_from_slice(&sums[..out.len()]);
+        }
+    }
+}
+
+impl WithSimd for Roughly<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let CodeSearch { energies, scores, highest, ranked, .. } = self.search;
+        Weighed { blocks: self.blocks, weights: self.backwards, out: scores }.with_simd(simd);
+        for (score, energy) in scores.iter_mut().zip(energies) {
+            // What is no number promises nothing.
+            *score = (*score * *score / energy.max(NOTHING as f32)).max(0.0);
+        }
+        let n_groups = highest.len();
+        highest.fill(0.0);
+        for row in scores.chunks(n_groups) {
+            for (highest, score) in highest.iter_mut().zip(row) {
+                *highest = if *score > *highest { *score } else { *highest };
             }
         }
-        out.copy_from_slice(&sums[..out.len()]);
+        // So many groups have a score as high as the least that may be kept: what is lower is not among them.
+        let mut least = 0.0;
+        if n_groups > N_EXACT {
+            least = *highest.clone().select_nth_unstable_by(N_EXACT - 1, |a, b| b.total_cmp(a)).1;
+        }
+        for (group, _) in highest.iter().enumerate().filter(|(_, highest)| **highest >= least) {
+            for i in (group..scores.len()).step_by(n_groups) {
+                if scores[i] >= least {
+                    ranked.push((f64::from(scores[i]), i));
+                }
+            }
+        }
+        keep_best(ranked, N_EXACT);
+    }
+}
+
+impl WithSimd for Exactly<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        for (score, code) in self.ranked {
+            let code = &self.codes[*code];
+            // Column by column, so that sums stand side by side.
+            let mut filtered = [0.0; HALF_SAMPLES];
+            for (c, row) in code.iter().zip(self.products) {
+                for (sum, product) in filtered.iter_mut().zip(row) {
+                    *sum += c * product;
+                }
+            }
+            let (mut energy, mut alike) = (0.0, 0.0);
+            for ((c, f), b) in code.iter().zip(&filtered).zip(self.backwards) {
+                energy += c * f;
+                alike += c * b;
+            }
+            *score = alike * alike / energy.max(NOTHING);
+        }
     }
 }

@@ -63,6 +63,18 @@ impl Products {
             + fixed * fixed * self.fixed
             + 2.0 * lagged * fixed * self.both
     }
+
+    /// What no gains can better.
+    fn least_error(&self) -> f64 {
+        let determinant = self.lagged * self.fixed - self.both * self.both;
+        if determinant <= 1e-9 * self.lagged * self.fixed {
+            return 0.0;
+        }
+        let taken = self.fixed * self.target_lagged * self.target_lagged
+            + self.lagged * self.target_fixed * self.target_fixed
+            - 2.0 * self.both * self.target_lagged * self.target_fixed;
+        self.target - taken / determinant
+    }
 }
 
 impl Encoder {
@@ -187,6 +199,9 @@ impl Encoder {
                     fixed: expected * expected * dot(&fixed, &fixed),
                     both: expected * dot(&made, &fixed),
                 };
+                if best.as_ref().is_some_and(|(best, _)| products.least_error() >= best.error) {
+                    continue;
+                }
                 let chosen = least(gains.iter().map(|gains| products.error(*gains)));
                 let [lagged_gain, fixed_gain] = gains[chosen];
                 let error = products.error([lagged_gain, fixed_gain]);

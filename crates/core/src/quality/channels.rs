@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use rustfft::num_complex::Complex;
 
+use crate::quality::features::size;
 use crate::threshold::Threshold;
 use crate::units::Hertz;
 
@@ -54,7 +55,7 @@ impl Channels {
     /// The distances of two spectra by power and by amplitude: `Σ |Z₁ - Z₂|` over channels, with
     /// `Z = Σ (A/T)^(2a) exp(-(f - f_c)² / 2(αf_c)²)`, and `(A/T)^a` for amplitudes.
     pub(super) fn distances(&self, a: &[Complex<f64>], b: &[Complex<f64>]) -> [f64; 2] {
-        let felt = |bin: &Complex<f64>, (scale, exponent): (f64, f64)| (bin.norm() * scale).powf(exponent);
+        let felt = |bin: &Complex<f64>, (scale, exponent): (f64, f64)| (size(bin) * scale).powf(exponent);
         let bins = a[self.bins.clone()].iter().zip(&b[self.bins.clone()]).zip(&self.scales);
         let apart: Vec<(f64, f64)> = bins
             .map(|((x, y), scale)| (felt(x, *scale), felt(y, *scale)))

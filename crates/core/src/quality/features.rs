@@ -7,6 +7,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
+use crate::quality::correlation::Correlator;
 use crate::statistics::{centered, dot, is_constant, mean};
 use crate::units::Hertz;
 
@@ -55,9 +56,11 @@ pub(super) struct Measured {
 #[derive(Clone)]
 pub(super) struct FeatureMeter {
     rate: Hertz,
-    /// Shortest and longest lag of the regularity, and the furthest shift of envelopes, in samples.
-    lags: (usize, usize),
-    shift: usize,
+    /// Shortest lag of the regularity, in samples.
+    least_lag: usize,
+    /// To the longest lag of the regularity, and to the furthest shift of envelopes.
+    lags: Correlator,
+    shifts: Correlator,
     forward: Arc<dyn RealToComplex<f64>>,
     backward: Arc<dyn ComplexToReal<f64>>,
     analytic: Arc<dyn Fft<f64>>,
@@ -73,10 +76,12 @@ impl FeatureMeter {
     pub(super) fn new(n_segment: usize, rate: Hertz) -> Self {
         let mut planner = RealFftPlanner::new();
         let samples = |secs: f64| (secs * rate.0) as usize;
+        let correlator = |secs: f64| Correlator::new(n_segment, samples(secs));
         Self {
             rate,
-            lags: (samples(LAGS_SECS.0).max(1), samples(LAGS_SECS.1)),
-            shift: samples(SHIFT_SECS),
+            least_lag: samples(LAGS_SECS.0).max(1),
+            lags: correlator(LAGS_SECS.1),
+            shifts: correlator(SHIFT_SECS),
             forward: planner.plan_fft_forward(n_segment),
             backward: planner.plan_fft_inverse(n_segment),
             analytic: FftPlanner::new().plan_fft_inverse(n_segment),
@@ -111,14 +116,11 @@ impl FeatureMeter {
     /// One less the highest correlation of two envelopes within the furthest shift; 0 of two that do not vary, 1 where only
     /// one does.
     pub(super) fn envelope_distance(&self, a: &[f64], b: &[f64]) -> f64 {
-        let norm = (dot(a, a) * dot(b, b)).sqrt();
-        if norm == 0.0 {
-            return if a == b { 0.0 } else { 1.0 };
+        if a == b {
+            return 0.0;
         }
-        let n = a.len();
-        let shifted = |shift: usize| [dot(&a[shift..], &b[..n - shift]), dot(&a[..n - shift], &b[shift..])];
-        let highest = (0..=self.shift.min(n - 1)).flat_map(shifted).fold(f64::MIN, f64::max);
-        (1.0 - highest / norm).max(0.0)
+        let norm = (dot(a, a) * dot(b, b)).sqrt();
+        if norm == 0.0 { 1.0 } else { (1.0 - self.shifts.highest(a, b) / norm).max(0.0) }
     }
 
     fn spectrum(&self, signal: &[f64]) -> Vec<Complex<f64>> {
@@ -137,7 +139,7 @@ impl FeatureMeter {
             *to = *from * if 2 * k == n { 1.0 } else { 2.0 } / n as f64;
         }
         self.analytic.process(&mut analytic);
-        let magnitude: Vec<f64> = analytic.iter().map(|z| z.norm()).collect();
+        let magnitude: Vec<f64> = analytic.iter().map(size).collect();
         if is_constant(&magnitude) {
             return vec![0.0; n];
         }
@@ -156,9 +158,8 @@ impl FeatureMeter {
     fn brightness_hz(&self, spectrum: &[Complex<f64>], n_samples: usize) -> f64 {
         let (mut moment, mut sum) = (0.0, 0.0);
         for (k, bin) in spectrum.iter().enumerate() {
-            let size = bin.norm();
-            moment += k as f64 * size;
-            sum += size;
+            moment += k as f64 * size(bin);
+            sum += size(bin);
         }
         self.rate.0 / n_samples as f64 * moment / sum
     }
@@ -166,9 +167,15 @@ impl FeatureMeter {
     fn regularity(&self, signal: &[f64]) -> f64 {
         let n = signal.len();
         let power = dot(signal, signal);
-        let at = |lag: usize| dot(&signal[lag..], &signal[..n - lag]) / power * n as f64 / (n - lag) as f64;
-        (self.lags.0..=self.lags.1).map(at).fold(f64::MIN, f64::max)
+        let sums = self.lags.with_itself(signal);
+        let unbiased = |(lag, sum): (usize, &f64)| sum / power * n as f64 / (n - lag) as f64;
+        sums.iter().enumerate().skip(self.least_lag).map(unbiased).fold(f64::MIN, f64::max)
     }
+}
+
+/// The magnitude of a bin: no signal is so strong that its square is none, and `norm` is many times slower for that case.
+pub(super) fn size(bin: &Complex<f64>) -> f64 {
+    bin.norm_sqr().sqrt()
 }
 
 /// `mean(x³) / mean(x²)^1.5` of a signal without its mean.

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::FftNum;
 use rustfft::num_complex::Complex;
 
 use crate::spectrum::hann;
@@ -15,34 +16,40 @@ const NO_WEIGHT: f64 = 1e-8;
 
 /// The windowed Fourier transform of one framing, and its inverse: made once, used for many profiles.
 #[derive(Clone)]
-pub struct Transform {
+pub struct Transform<T = f64> {
     framing: Framing,
     /// Periodic Hann window: `w(n) + w(n + N/2) = 1`.
-    hann: Vec<f64>,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    hann: Vec<T>,
+    forward: Arc<dyn RealToComplex<T>>,
+    inverse: Arc<dyn ComplexToReal<T>>,
 }
 
-impl fmt::Debug for Transform {
+impl<T> fmt::Debug for Transform<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Transform").field("framing", &self.framing).finish_non_exhaustive()
     }
 }
 
-/// What one window is worked out in.
-struct Work {
-    samples: Vec<f64>,
-    scratch: Vec<Complex<f64>>,
+/// A number in the precision of a transform.
+pub(super) fn real<T: FftNum>(x: f64) -> T {
+    // Every kind of real number can be made of one.
+    T::from_f64(x).unwrap_or_else(T::zero)
 }
 
-impl Transform {
+/// What one window is worked out in.
+pub(super) struct Work<T> {
+    samples: Vec<T>,
+    scratch: Vec<Complex<T>>,
+}
+
+impl<T: FftNum + PartialOrd> Transform<T> {
     /// The transform of a framing.
     pub fn new(framing: Framing) -> Self {
         let n = framing.window();
         let mut planner = RealFftPlanner::new();
         Self {
             framing,
-            hann: hann(n),
+            hann: hann(n).into_iter().map(real).collect(),
             forward: planner.plan_fft_forward(n),
             inverse: planner.plan_fft_inverse(n),
         }
@@ -53,6 +60,102 @@ impl Transform {
         self.framing
     }
 
+    /// One over the sum of the squares of the windows at each sample; zero where there is none to speak of.
+    pub(super) fn weights(&self, n_samples: usize, n_frames: usize) -> Vec<T> {
+        let mut sums = vec![T::zero(); n_samples];
+        for frame in 0..n_frames {
+            let (inside, first) = self.inside(frame, n_samples);
+            for (sum, w) in sums[inside].iter_mut().zip(&self.hann[first..]) {
+                *sum = *sum + *w * *w;
+            }
+        }
+        let least = real::<T>(NO_WEIGHT);
+        let weight = |sum: T| if sum > least { T::one() / sum } else { T::zero() };
+        sums.into_iter().map(weight).collect()
+    }
+
+    /// Adds the samples of a window, windowed again, to a profile; the bins are used up.
+    pub(super) fn add_window(
+        &self,
+        bins: &mut [Complex<T>],
+        frame: usize,
+        profile: &mut [T],
+        work: &mut Work<T>,
+    ) {
+        // A real signal has none there.
+        let last = bins.len() - 1;
+        (bins[0].im, bins[last].im) = (T::zero(), T::zero());
+        let done = self.inverse.process_with_scratch(bins, &mut work.samples, &mut work.scratch);
+        debug_assert!(done.is_ok(), "the lengths are those of the plan");
+        let (inside, first) = self.inside(frame, profile.len());
+        for ((y, x), w) in profile[inside].iter_mut().zip(&work.samples[first..]).zip(&self.hann[first..]) {
+            *y = *y + *w * *x;
+        }
+    }
+
+    /// Windows that were added up, weighed by their samples' weights.
+    pub(super) fn weigh(&self, profile: &mut [T], weights: &[T]) {
+        let scale = real::<T>(1.0 / self.framing.window() as f64);
+        for (y, weight) in profile.iter_mut().zip(weights) {
+            *y = *y * *weight * scale;
+        }
+        if let ([first, second, ..], Some(weight)) = (profile, weights.first())
+            && weight.is_zero()
+        {
+            *first = *second;
+        }
+    }
+
+    /// The samples of a profile that a window holds, and where in the window the first of them is.
+    pub(super) fn inside(&self, frame: usize, n_samples: usize) -> (std::ops::Range<usize>, usize) {
+        let begin = frame * self.framing.hop();
+        let lead = self.framing.lead();
+        let end = (begin + self.framing.window()).saturating_sub(lead).min(n_samples);
+        let first = begin.saturating_sub(lead).min(end);
+        (first..end, lead.saturating_sub(begin))
+    }
+
+    /// The spectrum of one window of a profile.
+    pub(super) fn analyze_window(
+        &self,
+        profile: &[T],
+        frame: usize,
+        bins: &mut [Complex<T>],
+        work: &mut Work<T>,
+    ) {
+        let n_samples = profile.len();
+        let begin = frame * self.framing.hop();
+        let lead = self.framing.lead();
+        if let Some(part) =
+            begin.checked_sub(lead).and_then(|begin| profile.get(begin..begin + self.hann.len()))
+        {
+            for ((sample, x), w) in work.samples.iter_mut().zip(part).zip(&self.hann) {
+                *sample = *x * *w;
+            }
+        } else {
+            // Back and forth over the profile as often as the window reaches beyond it.
+            let lap = 2 * n_samples;
+            let begin = begin + lap * lead.div_ceil(lap) - lead;
+            for (i, (sample, w)) in work.samples.iter_mut().zip(&self.hann).enumerate() {
+                let at = (begin + i) % lap;
+                *sample = *w * profile[if at < n_samples { at } else { lap - 1 - at }];
+            }
+        }
+        let done = self.forward.process_with_scratch(&mut work.samples, bins, &mut work.scratch);
+        debug_assert!(done.is_ok(), "the lengths are those of the plan");
+    }
+
+    /// What windows are worked out in, one after the other.
+    pub(super) fn work(&self) -> Work<T> {
+        let n_scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
+        Work {
+            samples: vec![T::zero(); self.hann.len()],
+            scratch: vec![Complex::new(T::zero(), T::zero()); n_scratch],
+        }
+    }
+}
+
+impl Transform {
     /// The spectra of a profile's windows.
     ///
     /// # Errors
@@ -84,7 +187,15 @@ impl Transform {
     /// The profile of windows of spectra: overlapping windows added up, each windowed again and weighed by the sum of their
     /// squares, eqs. (5) and (6). The spectra of a profile give it back.
     pub fn profile(&self, spectra: &Spectra) -> Vec<f64> {
-        self.synthesize(spectra, &self.weights(spectra.n_samples, spectra.n_frames()))
+        let mut profile = vec![0.0; spectra.n_samples];
+        let mut bins = vec![Complex::default(); self.framing.n_bins()];
+        let mut work = self.work();
+        for (frame, from) in spectra.frames().enumerate() {
+            bins.copy_from_slice(from);
+            self.add_window(&mut bins, frame, &mut profile, &mut work);
+        }
+        self.weigh(&mut profile, &self.weights(spectra.n_samples, spectra.n_frames()));
+        profile
     }
 
     /// Spectra of so many windows that are all zero.
@@ -99,82 +210,6 @@ impl Transform {
         for (frame, bins) in spectra.frames_mut().enumerate() {
             self.analyze_window(profile, frame, bins, &mut work);
         }
-    }
-
-    /// One over the sum of the squares of the windows at each sample; zero where there is none to speak of.
-    pub(super) fn weights(&self, n_samples: usize, n_frames: usize) -> Vec<f64> {
-        let mut sums = vec![0.0; n_samples];
-        for frame in 0..n_frames {
-            let (inside, first) = self.inside(frame, n_samples);
-            for (sum, w) in sums[inside].iter_mut().zip(&self.hann[first..]) {
-                *sum += w * w;
-            }
-        }
-        sums.into_iter().map(|sum| if sum > NO_WEIGHT { 1.0 / sum } else { 0.0 }).collect()
-    }
-
-    /// [`Transform::profile`] with the weights of its samples.
-    pub(super) fn synthesize(&self, spectra: &Spectra, weights: &[f64]) -> Vec<f64> {
-        let scale = 1.0 / self.framing.window() as f64;
-        let mut profile = vec![0.0; spectra.n_samples];
-        let mut bins = vec![Complex::default(); self.framing.n_bins()];
-        let Work { mut samples, mut scratch } = self.work();
-        for (frame, from) in spectra.frames().enumerate() {
-            bins.copy_from_slice(from);
-            // A real signal has none there.
-            let last = bins.len() - 1;
-            (bins[0].im, bins[last].im) = (0.0, 0.0);
-            let done = self.inverse.process_with_scratch(&mut bins, &mut samples, &mut scratch);
-            debug_assert!(done.is_ok(), "the lengths are those of the plan");
-            let (inside, first) = self.inside(frame, profile.len());
-            for ((y, x), w) in profile[inside].iter_mut().zip(&samples[first..]).zip(&self.hann[first..]) {
-                *y += w * x;
-            }
-        }
-        for (y, weight) in profile.iter_mut().zip(weights) {
-            *y *= weight * scale;
-        }
-        if let ([first, second, ..], Some(0.0)) = (profile.as_mut_slice(), weights.first()) {
-            *first = *second;
-        }
-        profile
-    }
-
-    /// The samples of a profile that a window holds, and where in the window the first of them is.
-    pub(super) fn inside(&self, frame: usize, n_samples: usize) -> (std::ops::Range<usize>, usize) {
-        let begin = frame * self.framing.hop();
-        let lead = self.framing.lead();
-        let end = (begin + self.framing.window()).saturating_sub(lead).min(n_samples);
-        let first = begin.saturating_sub(lead).min(end);
-        (first..end, lead.saturating_sub(begin))
-    }
-
-    fn analyze_window(&self, profile: &[f64], frame: usize, bins: &mut [Complex<f64>], work: &mut Work) {
-        let n_samples = profile.len();
-        let begin = frame * self.framing.hop();
-        let lead = self.framing.lead();
-        if let Some(part) =
-            begin.checked_sub(lead).and_then(|begin| profile.get(begin..begin + self.hann.len()))
-        {
-            for ((sample, x), w) in work.samples.iter_mut().zip(part).zip(&self.hann) {
-                *sample = x * w;
-            }
-        } else {
-            // Back and forth over the profile as often as the window reaches beyond it.
-            let lap = 2 * n_samples;
-            let begin = begin + lap * lead.div_ceil(lap) - lead;
-            for (i, (sample, w)) in work.samples.iter_mut().zip(&self.hann).enumerate() {
-                let at = (begin + i) % lap;
-                *sample = w * profile[if at < n_samples { at } else { lap - 1 - at }];
-            }
-        }
-        let done = self.forward.process_with_scratch(&mut work.samples, bins, &mut work.scratch);
-        debug_assert!(done.is_ok(), "the lengths are those of the plan");
-    }
-
-    fn work(&self) -> Work {
-        let n_scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
-        Work { samples: vec![0.0; self.hann.len()], scratch: vec![Complex::default(); n_scratch] }
     }
 
     /// Number of windows of a profile that can be cut.
