@@ -110,7 +110,7 @@ fn main() {
     let mut tick = [0.0; MAX_TICK];
     bench("one texture, 1 kHz, coefficients every 5 ms", n as f64, "sample", || {
         for i in 0..n / renderer.tick_len() {
-            renderer.tick(&table, strokes.0[i * 5], &mut tick);
+            renderer.tick(&table, strokes.0[i * 5], 0.0, &mut tick);
             black_box(&tick);
         }
     });
@@ -134,7 +134,7 @@ fn main() {
     let _ = mixed.set_mix(&three);
     bench("three textures mixed, 1 kHz, coefficients every 5 ms", n as f64, "sample", || {
         for i in 0..n / mixed.tick_len() {
-            mixed.tick(&prepared, strokes.0[i * 5], &mut tick);
+            mixed.tick(&prepared, strokes.0[i * 5], 0.0, &mut tick);
             black_box(&tick);
         }
     });

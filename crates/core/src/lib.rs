@@ -66,6 +66,7 @@ pub mod radial_basis;
 pub mod rate;
 pub mod ratings;
 pub mod recording;
+pub mod relief;
 pub mod render;
 pub mod rng;
 mod sampled;

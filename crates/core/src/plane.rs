@@ -5,6 +5,8 @@ mod radial;
 mod refined;
 mod values;
 
+use std::sync::Arc;
+
 pub use crate::plane::prepared::Prepared;
 
 use crate::arma;
@@ -12,6 +14,7 @@ use crate::boundary::{BoundaryModel, boundary};
 use crate::lsf::ar_from_lsf;
 use crate::plane::radial::RadialGrain;
 use crate::plane::values::{Strength, Values};
+use crate::relief::Relief;
 use crate::texture::{self, GrainNode, Interpolation, MIN_NODE_DISTANCE, PublishedNode, TextureModel};
 use crate::triangulation::{Triangulation, Xy};
 use crate::units::{Contact, Hertz};
@@ -33,6 +36,8 @@ pub struct Plane {
     triangulation: Triangulation,
     /// Where this is, the triangles only stand for it.
     radial: Option<RadialGrain>,
+    /// What lies at each place, whatever the contact.
+    relief: Option<Arc<Relief>>,
 }
 
 /// The grain at one contact: white noise through a moving average and a predictor.
@@ -118,7 +123,16 @@ impl Plane {
         };
         let contacts = texture.contacts().map(|c| [c.speed.0, c.force.0]);
         let measured = contacts.filter(|c| c[0] > 0.0 && c[1] > 0.0).collect();
-        Self { rate: texture.rate(), speed_max_mps, force_max_n, measured, vertices, triangulation, radial }
+        Self {
+            rate: texture.rate(),
+            speed_max_mps,
+            force_max_n,
+            measured,
+            vertices,
+            triangulation,
+            radial,
+            relief: texture.relief().cloned(),
+        }
     }
 
     /// The grain at `contact`; outside the measured range that of its nearest edge, in the air silent.
@@ -134,6 +148,11 @@ impl Plane {
             values.strength = values.strength.silent();
         }
         values.into_grain(self.rate)
+    }
+
+    /// What lies at each place, where anything does.
+    pub fn relief(&self) -> Option<&Arc<Relief>> {
+        self.relief.as_ref()
     }
 
     /// Samples a second.

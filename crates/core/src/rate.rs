@@ -121,7 +121,7 @@ pub fn at_rate(model: &TextureModel, rate: Hertz) -> Result<AtRate, AtRateError>
     errors_db.sort_by(f64::total_cmp);
     let n = errors_db.len();
     Ok(AtRate {
-        model: converted.with_tap(model.tap()),
+        model: converted.with_tap(model.tap()).with_relief(model.relief().cloned()),
         error_db_median: 0.5 * (errors_db[(n - 1) / 2] + errors_db[n / 2]),
         error_db_worst: errors_db[n - 1],
     })

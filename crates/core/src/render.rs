@@ -110,13 +110,35 @@ struct Output {
     seed: u64,
 }
 
-/// Contacts shifted by the warm-up: the hand holds its first contact until the first sample is kept.
-struct Shifted<'a>(&'a mut dyn FnMut(f64) -> Contact, f64);
+/// Contacts shifted by the warm-up: the hand holds its first contact until the first sample is kept. It goes over reliefs
+/// from their beginning, forwards: a stroke that says no more than its speed does not turn.
+struct Shifted<'a> {
+    contact_at: &'a mut dyn FnMut(f64) -> Contact,
+    warm_up_secs: f64,
+    /// Time in s of the last contact since the warm-up, and its speed in m/s.
+    last: (f64, f64),
+    /// How far the hand has come.
+    place_m: f64,
+}
+
+impl<'a> Shifted<'a> {
+    fn new(contact_at: &'a mut dyn FnMut(f64) -> Contact, warm_up_secs: f64) -> Self {
+        Self { contact_at, warm_up_secs, last: (0.0, 0.0), place_m: 0.0 }
+    }
+}
 
 impl ContactSource for Shifted<'_> {
     fn contact_at(&mut self, time_secs: f64) -> SynthContact {
-        let contact = self.0((time_secs - self.1).max(0.0));
+        let secs = (time_secs - self.warm_up_secs).max(0.0);
+        let contact = (self.contact_at)(secs);
+        let speed = if contact.speed.0.is_finite() { contact.speed.0.abs() } else { 0.0 };
+        self.place_m += 0.5 * (self.last.1 + speed) * (secs - self.last.0);
+        self.last = (secs, speed);
         SynthContact { speed_mps: contact.speed.0 as f32, force_n: contact.force.0 as f32 }
+    }
+
+    fn place_m(&self) -> f64 {
+        self.place_m
     }
 }
 
@@ -241,7 +263,7 @@ fn at_model_rate(
     let tick_secs = tick_len as f64 / f64::from(output.model_rate_hz);
     let n_warm = (WARM_UP_SECS / tick_secs).ceil();
     let ticks_a_mix = (MIX_STEP_SECS / tick_secs).round().max(1.0);
-    let mut contacts = Shifted(contact_at, n_warm * tick_secs);
+    let mut contacts = Shifted::new(contact_at, n_warm * tick_secs);
     let mut tick = [0.0; MAX_TICK];
     let mut out = Vec::with_capacity(output.n_frames + tick_len);
     let mut tick_idx = 0.0;
@@ -251,7 +273,8 @@ fn at_model_rate(
             let _ = renderer.set_mix(&mix_at((tick_idx - n_warm) * tick_secs));
         }
         tick_idx += 1.0;
-        renderer.tick(lent, contacts.contact_at(tick_idx * tick_secs), &mut tick);
+        let contact = contacts.contact_at(tick_idx * tick_secs);
+        renderer.tick(lent, contact, contacts.place_m(), &mut tick);
         if tick_idx > n_warm {
             out.extend_from_slice(&tick[..tick_len]);
         }
@@ -270,7 +293,7 @@ fn resampled(
     stream.set_mix(mix_at(0.0));
     let delay_secs = f64::from(Resampler::delay_model_samples() / output.model_rate_hz);
     let n_warm = ((WARM_UP_SECS + delay_secs) * output.rate.0).round() as usize;
-    let mut contacts = Shifted(contact_at, WARM_UP_SECS);
+    let mut contacts = Shifted::new(contact_at, WARM_UP_SECS);
     let mut out = vec![0.0; n_warm + output.n_frames];
     let (warm, kept) = out.split_at_mut(n_warm);
     stream.process(lent, &mut contacts, warm);

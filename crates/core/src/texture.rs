@@ -4,7 +4,9 @@ mod check;
 mod error;
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
+use crate::relief::Relief;
 use crate::tap::Tap;
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
@@ -117,6 +119,8 @@ pub struct TextureModel {
     grain: Grain,
     friction: Option<f64>,
     tap: Option<Tap>,
+    /// Shared with planes and blends: it is long.
+    relief: Option<Arc<Relief>>,
 }
 
 impl TextureModel {
@@ -129,7 +133,7 @@ impl TextureModel {
         check::frame(rate, nodes.len(), friction)?;
         check::measured(&nodes)?;
         let grain = Grain::Measured { nodes, interpolation: Interpolation::Barycentric };
-        Ok(Self { rate, grain, friction, tap: None })
+        Ok(Self { rate, grain, friction, tap: None, relief: None })
     }
 
     /// A texture from published nodes, which include the boundary: one at each corner of the rectangle from zero to the
@@ -144,7 +148,7 @@ impl TextureModel {
     ) -> Result<Self, TextureModelError> {
         check::frame(rate, nodes.len(), friction)?;
         check::published(&nodes)?;
-        Ok(Self { rate, grain: Grain::Published { nodes }, friction, tap: None })
+        Ok(Self { rate, grain: Grain::Published { nodes }, friction, tap: None, relief: None })
     }
 
     /// The same measured nodes, interpolated in this way.
@@ -166,6 +170,13 @@ impl TextureModel {
     #[must_use]
     pub fn with_tap(mut self, tap: Option<Tap>) -> Self {
         self.tap = tap;
+        self
+    }
+
+    /// The same texture with a relief.
+    #[must_use]
+    pub fn with_relief(mut self, relief: Option<Arc<Relief>>) -> Self {
+        self.relief = relief;
         self
     }
 
@@ -235,6 +246,11 @@ impl TextureModel {
     /// The transient of a landing, where it was measured.
     pub fn tap(&self) -> Option<Tap> {
         self.tap
+    }
+
+    /// What lies at each place of it, where anything does.
+    pub fn relief(&self) -> Option<&Arc<Relief>> {
+        self.relief.as_ref()
     }
 
     /// The highest speed of a node: above it the texture stays as it is there.

@@ -12,6 +12,7 @@
 mod config;
 mod handle;
 mod meter;
+mod place;
 mod player;
 mod signal_player;
 mod slots;

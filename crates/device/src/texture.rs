@@ -1,5 +1,6 @@
 //! A prepared texture that owns its numbers and lends them to the callback.
 
+use shagreen_synth::relief::Relief;
 use shagreen_synth::texture::{self, Excitation, Node, Parts, Texture, Triangle};
 
 /// Why numbers do not make a texture.
@@ -43,6 +44,27 @@ pub struct OwnedTexture {
     nodes: Box<[Node]>,
     excitations: Box<[Excitation]>,
     triangles: Box<[Triangle]>,
+    relief: Option<Box<OwnedRelief>>,
+}
+
+/// What a [`Relief`] lends.
+#[derive(Clone, Debug, PartialEq)]
+struct OwnedRelief {
+    step_m: f32,
+    force_n: f32,
+    n: usize,
+    octaves: Box<[f32]>,
+}
+
+impl OwnedRelief {
+    fn of(relief: &Relief<'_>) -> Self {
+        let octaves = relief.octaves().into();
+        Self { step_m: relief.step_m(), force_n: relief.force_n(), n: relief.n(), octaves }
+    }
+
+    fn view(&self) -> Relief<'_> {
+        Relief::checked_before(self.step_m, self.force_n, self.n, &self.octaves)
+    }
 }
 
 impl OwnedTexture {
@@ -51,8 +73,17 @@ impl OwnedTexture {
     /// # Errors
     /// [`TextureError`] where the renderer would refuse it.
     pub fn new(parts: Parts<'_>) -> Result<Self, TextureError> {
-        let Parts { rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, triangles } =
-            parts;
+        let Parts {
+            rate_hz,
+            order,
+            ma_order,
+            speed_max_mps,
+            force_max_n,
+            nodes,
+            excitations,
+            triangles,
+            relief,
+        } = parts;
         Texture::new(parts).map_err(|reason| TextureError {
             reason,
             order,
@@ -69,6 +100,7 @@ impl OwnedTexture {
             nodes: nodes.into(),
             excitations: excitations.into(),
             triangles: triangles.into(),
+            relief: relief.as_ref().map(|relief| Box::new(OwnedRelief::of(relief))),
         })
     }
 
@@ -88,6 +120,7 @@ impl OwnedTexture {
             nodes: &self.nodes,
             excitations: &self.excitations,
             triangles: &self.triangles,
+            relief: self.relief.as_deref().map(OwnedRelief::view),
         })
     }
 }
@@ -124,6 +157,7 @@ pub(crate) mod tests {
             nodes,
             excitations: &[],
             triangles,
+            relief: None,
         })
     }
 

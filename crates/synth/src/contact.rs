@@ -26,6 +26,12 @@ impl Contact {
 pub trait ContactSource {
     /// The contact at `time_secs` of the model clock, which starts at zero and never goes back.
     fn contact_at(&mut self, time_secs: f64) -> Contact;
+
+    /// Where the tip was at the contact that was asked for last, in m along the relief: a hand that says nothing of it
+    /// stands still.
+    fn place_m(&self) -> f64 {
+        0.0
+    }
 }
 
 /// A hand that never changes.

@@ -43,6 +43,7 @@ pub mod look_ahead;
 pub mod lsf;
 mod moving_average;
 pub mod noise;
+pub mod relief;
 pub mod renderer;
 pub mod resampler;
 pub mod stream;

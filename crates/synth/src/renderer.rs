@@ -2,6 +2,7 @@
 
 use crate::contact::Contact;
 use crate::noise::{Gaussian, Noise};
+use crate::relief::{Passage, ReliefVoice};
 use crate::texture::Texture;
 use crate::voice::{MAX_TICK, Voice};
 
@@ -76,6 +77,7 @@ impl Mix {
 struct Slot {
     id: Option<TextureId>,
     voice: Voice,
+    relief: ReliefVoice,
     noise: Noise,
     hint: u16,
     weight: f32,
@@ -97,6 +99,8 @@ pub struct Renderer {
     /// How far the power compensation is switched on, 0..1.
     compensation: f32,
     makeup: f32,
+    /// The way of the tip in the last tick.
+    passage: Passage,
 }
 
 impl Renderer {
@@ -107,6 +111,7 @@ impl Renderer {
         let slot = Slot {
             id: None,
             voice: Voice::new(),
+            relief: ReliefVoice::new(rate_hz),
             noise: Noise::new(seed),
             hint: 0,
             weight: 0.0,
@@ -124,6 +129,7 @@ impl Renderer {
             blend: Blend::Power,
             compensation: 1.0,
             makeup: 1.0,
+            passage: Passage::default(),
         }
     }
 
@@ -157,6 +163,7 @@ impl Renderer {
             let Some(slot) = self.slots.iter_mut().find(|s| s.id.is_none()) else { break };
             slot.id = Some(parent.id);
             slot.voice.reset();
+            slot.relief.reset();
             slot.noise = Noise::new(seed);
             slot.hint = 0;
             slot.weight = 0.0;
@@ -184,10 +191,11 @@ impl Renderer {
         self.slots.iter().any(|s| s.id == Some(id))
     }
 
-    /// Renders one tick that ends at `contact` into `out`, of which [`Renderer::tick_len`] samples are overwritten.
+    /// Renders one tick that ends at `contact` and `place_m` into `out`, of which [`Renderer::tick_len`] samples are
+    /// overwritten.
     ///
     /// A texture that the owner no longer has is silent. Cost: bounded by [`MAX_VOICES`] voices.
-    pub fn tick(&mut self, textures: &dyn Textures, contact: Contact, out: &mut [f32]) {
+    pub fn tick(&mut self, textures: &dyn Textures, contact: Contact, place_m: f64, out: &mut [f32]) {
         let n = self.tick_len.min(out.len());
         let out = &mut out[..n];
         out.fill(0.0);
@@ -197,6 +205,7 @@ impl Renderer {
                 *e = self.gaussian.draw(&mut self.shared_noise);
             }
         }
+        self.passage = self.passage.on(place_m, contact.sanitized().force_n);
         let mut starts = [0.0; MAX_VOICES];
         for (slot, start) in self.slots.iter_mut().zip(&mut starts) {
             *start = slot.weight;
@@ -227,6 +236,14 @@ impl Renderer {
                 &own[..n]
             };
             slot.voice.add_tick(noise, (start * makeup_before, slot.weight * self.makeup), out);
+            // Reliefs lie where they lie: their sum needs no making up.
+            let texture = slot.id.and_then(|id| textures.texture(id));
+            match texture.and_then(|texture| texture.relief()) {
+                Some(relief) => {
+                    slot.relief.add_tick(&relief, &self.passage, (start, slot.weight), out);
+                }
+                None => slot.relief.reset(),
+            }
             if slot.weight == 0.0 && slot.target == 0.0 {
                 slot.id = None;
             }

@@ -1,6 +1,7 @@
 //! A texture as the callback sees it: nodes over (speed, force) and a triangulation to interpolate between them.
 
 use crate::contact::Contact;
+use crate::relief::Relief;
 
 /// Highest order of a predictor.
 pub const MAX_ORDER: usize = 32;
@@ -79,6 +80,8 @@ pub struct Parts<'a> {
     pub excitations: &'a [Excitation],
     /// Triangles over the nodes.
     pub triangles: &'a [Triangle],
+    /// What lies at each place, where anything does.
+    pub relief: Option<Relief<'a>>,
 }
 
 /// A prepared texture, lent to the renderer. Checked once by [`Texture::new`], so that everything after is total.
@@ -106,8 +109,9 @@ impl<'a> Texture<'a> {
     /// # Errors
     /// [`TextureError`] names the first rule that a slice breaks.
     pub fn new(parts: Parts<'a>) -> Result<Self, TextureError> {
-        let Parts { rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, triangles } =
-            parts;
+        let Parts {
+            rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, triangles, ..
+        } = parts;
         let positive = |x: f32| x.is_finite() && x > 0.0;
         let is_published = !excitations.is_empty();
         if order == 0 || order > MAX_ORDER || ma_order > MAX_ORDER || (ma_order > 0 && !is_published) {
@@ -165,6 +169,11 @@ impl<'a> Texture<'a> {
     /// Order of the predictor, the same at every node.
     pub fn order(&self) -> usize {
         self.0.order
+    }
+
+    /// What lies at each place, where anything does.
+    pub fn relief(&self) -> Option<Relief<'a>> {
+        self.0.relief
     }
 
     /// The model at `contact`, clamped to the measured range.

@@ -1,8 +1,11 @@
 //! What the modes that make a texture know of a space: its textures sampled alike, and the field over them.
 
+use std::sync::Arc;
+
 use crate::authoring::layers::{mean_friction, mean_tap};
 use crate::field::{Field, Site};
 use crate::plane::Plane;
+use crate::relief::Relief;
 use crate::sampled::{Layers, SampledGrain, Sampling};
 use crate::space::{Space, SpacePoint};
 use crate::tap::Tap;
@@ -24,6 +27,7 @@ struct Sampled {
     grain: SampledGrain,
     friction: Option<f64>,
     tap: Option<Tap>,
+    relief: Option<Arc<Relief>>,
 }
 
 impl Sampled {
@@ -88,6 +92,7 @@ impl Models {
                 grain: sampling.sample(plane),
                 friction,
                 tap,
+                relief: plane.relief().cloned(),
             })
             .collect();
         let at_places: Vec<Site<'_>> =
@@ -106,6 +111,19 @@ impl Models {
             Some((self.sites.iter().find(|site| site.texture == texture)?.at(at), share))
         };
         self.field.texture(&self.sampling, at.xy(), lock.and_then(own))
+    }
+
+    /// The reliefs of textures by weight; `None` where none has one.
+    pub(super) fn relief(&self, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
+        if self.sites.iter().all(|site| site.relief.is_none()) {
+            return None;
+        }
+        let of = |texture: usize| {
+            let site = self.sites.iter().find(|site| site.texture == texture);
+            site.and_then(|site| site.relief.as_deref())
+        };
+        let parts: Vec<_> = parents.iter().map(|(texture, weight)| (of(*texture), *weight)).collect();
+        Relief::blended(&parts).map(Arc::new)
     }
 
     /// What each texture says about a place in the field.

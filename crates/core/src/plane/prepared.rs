@@ -5,6 +5,7 @@ use shagreen_synth::texture::{Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, T
 use crate::plane::Plane;
 use crate::plane::refined::{Refined, Vertex};
 use crate::plane::values::Strength;
+use crate::relief::ReliefOctaves;
 use crate::triangulation::weights_at;
 
 /// A texture as the renderer takes it.
@@ -19,6 +20,7 @@ pub struct Prepared {
     /// One for each node, or none.
     excitations: Vec<Excitation>,
     triangles: Vec<Triangle>,
+    relief: Option<ReliefOctaves>,
 }
 
 impl Plane {
@@ -38,6 +40,7 @@ impl Plane {
             nodes: refined.vertices.iter().map(node).collect(),
             excitations: refined.vertices.iter().filter_map(excitation).collect(),
             triangles: (0..refined.triangles.len()).map(|index| triangle(&refined, index)).collect(),
+            relief: self.relief.as_ref().map(|relief| relief.octaves()),
         }
     }
 }
@@ -59,6 +62,7 @@ impl Prepared {
             nodes: &self.nodes,
             excitations: &self.excitations,
             triangles: &self.triangles,
+            relief: self.relief.as_ref().map(ReliefOctaves::view),
         }
     }
 

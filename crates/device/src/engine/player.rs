@@ -3,6 +3,7 @@
 use shagreen_synth::contact::{Contact, ContactSource};
 
 use super::FADE_SECS;
+use super::place::FollowedPlace;
 use crate::controls::{Input, Takeover};
 use crate::kinematics::held_speed;
 use crate::live::TimedTouch;
@@ -45,6 +46,8 @@ pub(super) struct Player {
     track_secs: f64,
     live: Touch,
     live_secs: f64,
+    /// Where along a relief the tip is.
+    place: FollowedPlace,
     /// Which stylus said so, and whether it touches or is near.
     live_stylus_idx: usize,
     live_is_near: bool,
@@ -76,6 +79,7 @@ impl Player {
             track_secs: 0.0,
             live: Touch::default(),
             live_secs: 0.0,
+            place: FollowedPlace::default(),
             live_stylus_idx: 0,
             live_is_near: false,
             near_secs: f64::NEG_INFINITY,
@@ -141,6 +145,7 @@ impl Player {
         let was_touching = self.live.contact.force_n > 0.0;
         self.live = touch.sanitized();
         self.live_secs = self.clock_secs - age_secs;
+        self.place.report(f64::from(self.live.x_m), self.live_secs);
         if is_near || self.live_is_near {
             self.near_secs = self.live_secs;
         }
@@ -277,8 +282,17 @@ impl ContactSource for Player {
         if share < 1.0 {
             touch.contact = mix_contacts(self.fade_from, touch.contact, share.max(0.0) as f32);
         }
+        if self.input() == Input::Live {
+            self.place.at(self.clock_secs, step_secs, f64::from(touch.contact.speed_mps));
+        } else {
+            self.place.set(f64::from(touch.x_m));
+        }
         self.touch = touch;
         touch.contact
+    }
+
+    fn place_m(&self) -> f64 {
+        self.place.place_m()
     }
 }
 

@@ -40,6 +40,7 @@ pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
         nodes,
         excitations: &[],
         triangles,
+        relief: None,
     })
     .unwrap()
 }

@@ -51,7 +51,7 @@ fn mix(weights: &[f32], blend: Blend) -> Mix {
 fn render(renderer: &mut Renderer, table: &Table, n: usize) -> Vec<f32> {
     let mut out = std::vec![0.0; n];
     for tick in out.chunks_mut(renderer.tick_len()) {
-        renderer.tick(table, FULL, tick);
+        renderer.tick(table, FULL, 0.0, tick);
     }
     out
 }
@@ -141,7 +141,7 @@ fn silence_where_there_is_no_contact_or_no_texture() {
     assert!(renderer.set_mix(&Mix::solo(0)));
     let mut out = [1.0; 5];
     for _ in 0..10 {
-        renderer.tick(&table, Contact::LIFTED, &mut out);
+        renderer.tick(&table, Contact::LIFTED, 0.0, &mut out);
         assert_eq!(out, [0.0; 5]);
     }
 }

@@ -41,6 +41,7 @@ pub(crate) fn parts<'a>(nodes: &'a [Node], triangles: &'a [Triangle]) -> Parts<'
         nodes,
         excitations: &[],
         triangles,
+        relief: None,
     }
 }
 

@@ -1,0 +1,99 @@
+//! Where the tip is between two reports of it.
+
+/// Share of what a place is off that is made up for in a tick: reports come at their own times, and a step would click.
+const CATCH_UP: f64 = 0.25;
+/// Further off than this, in m, the tip is somewhere else.
+const LOST_M: f64 = 0.03;
+/// How long a tip is thought to go on, in s: what it went too far it has to come back.
+const MOST_AHEAD_SECS: f64 = 0.02;
+
+/// A place along one axis, that follows reports without steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct FollowedPlace {
+    /// Where the tip was reported last, in m, when, in s, and how fast it went there, in m/s along the axis.
+    reported_m: f64,
+    reported_secs: f64,
+    velocity_mps: f64,
+    place_m: f64,
+}
+
+impl FollowedPlace {
+    /// The tip was at a place at a time.
+    pub(super) fn report(&mut self, place_m: f64, secs: f64) {
+        let step_secs = secs - self.reported_secs;
+        let step_m = place_m - self.reported_m;
+        if step_secs > 0.0 {
+            self.velocity_mps = if step_m.abs() > LOST_M { 0.0 } else { step_m / step_secs };
+        }
+        (self.reported_m, self.reported_secs) = (place_m, secs);
+    }
+
+    /// The place at a time, a tick of `step_secs` after it was asked for last. The tip goes on as far as `speed_mps` lets it:
+    /// where nothing is reported any more, that has gone to zero.
+    pub(super) fn at(&mut self, secs: f64, step_secs: f64, speed_mps: f64) -> f64 {
+        let velocity_mps = self.velocity_mps.clamp(-speed_mps, speed_mps);
+        let wanted_m =
+            self.reported_m + velocity_mps * (secs - self.reported_secs).clamp(0.0, MOST_AHEAD_SECS);
+        let on_the_way_m = self.place_m + velocity_mps * step_secs;
+        let off_m = wanted_m - on_the_way_m;
+        self.place_m = if off_m.abs() > LOST_M { wanted_m } else { on_the_way_m + CATCH_UP * off_m };
+        self.place_m
+    }
+
+    /// The tip is here.
+    pub(super) fn set(&mut self, place_m: f64) {
+        self.place_m = place_m;
+    }
+
+    /// Where it was asked for last.
+    pub(super) fn place_m(&self) -> f64 {
+        self.place_m
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::FollowedPlace;
+
+    const TICK_SECS: f64 = 0.005;
+
+    /// Reports at 133 Hz, each a little late and by turns: the place goes on evenly, and is nowhere far from the tip.
+    #[test]
+    fn a_steady_tip_is_followed_evenly() {
+        let mut place = FollowedPlace::default();
+        let (mut next_report, mut before, mut n) = (0.0_f64, 0.0, 0);
+        for tick in 1..400 {
+            let now = TICK_SECS * f64::from(tick);
+            while next_report + 0.003 <= now {
+                place.report(0.08 * next_report, next_report);
+                n += 1;
+                next_report += 1.0 / 133.0 + if n % 2 == 0 { 0.001 } else { -0.001 };
+            }
+            let at = place.at(now, TICK_SECS, 0.08);
+            if tick > 40 {
+                assert!((at - 0.08 * now).abs() < 1e-4, "{at} at {now}");
+                assert!(
+                    ((at - before) / TICK_SECS - 0.08).abs() < 0.004,
+                    "{} m/s",
+                    (at - before) / TICK_SECS
+                );
+            }
+            before = at;
+        }
+    }
+
+    #[test]
+    fn a_tip_that_says_no_more_stands_and_one_that_is_elsewhere_is_there() {
+        let mut place = FollowedPlace::default();
+        place.report(0.0, 0.0);
+        place.report(0.001, 0.01);
+        for tick in 1..100 {
+            place.at(0.01 + TICK_SECS * f64::from(tick), TICK_SECS, 0.0);
+        }
+        assert!((place.place_m() - 0.001).abs() < 1e-6);
+        place.report(0.2, 1.0);
+        assert!((place.at(1.0, TICK_SECS, 0.0) - 0.2).abs() < 1e-12);
+        place.set(0.05);
+        assert!((place.place_m() - 0.05).abs() < 1e-12);
+    }
+}
