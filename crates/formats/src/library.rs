@@ -46,6 +46,11 @@
 //!   traveled or (`"along": "time"`) in s that it has touched. `at_end` is `hold`, `turn` or `repeat`; `stop` marks the
 //!   places that somebody chose. Its own anchors are those of the first key, for programs that know no paths.
 //!
+//! Version 1.5 added, to a texture and to the keys of its path:
+//!
+//! - `"relief": {"step_mm": 0.01, "force_n": 1.0, "mps2": [0.1, -0.2]}`: accelerations in m/s² a step apart, played by
+//!   where the tip is, at the force at which they are as they stand here; back and forth beyond the last one.
+//!
 //! A file says the lowest version that has all it uses.
 //!
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
@@ -59,6 +64,7 @@ mod id;
 mod path;
 mod provenance;
 pub(crate) mod read;
+mod relief;
 pub(crate) mod v1;
 pub(crate) mod write;
 
@@ -83,7 +89,7 @@ pub const FORMAT: &str = "shagreen-library";
 /// Major version that is read and written: files of another one are refused.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written: fields may be added by a higher one.
-pub const VERSION_MINOR: u32 = 4;
+pub const VERSION_MINOR: u32 = 5;
 /// Names of the two axes of a space, where a library names no others.
 pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
@@ -183,6 +189,7 @@ pub struct Unknown {
     picture: Map<String, Value>,
     tap: Map<String, Value>,
     path: Map<String, Value>,
+    relief: Map<String, Value>,
     /// Empty, or one for each key of the path.
     keys: Vec<UnknownOfKey>,
     /// Empty, or one for each node of the model.
@@ -194,6 +201,7 @@ pub struct Unknown {
 struct UnknownOfKey {
     key: Map<String, Value>,
     tap: Map<String, Value>,
+    relief: Map<String, Value>,
     /// Empty, or one for each node of the model.
     anchors: Vec<Map<String, Value>>,
 }

@@ -7,7 +7,7 @@
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
 use shagreen_core::tap::Tap;
-use shagreen_core::texture::{Grain, Interpolation};
+use shagreen_core::texture::{Grain, Interpolation, TextureModel};
 use shagreen_core::texture_path::{Along, AtEnd};
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
@@ -18,6 +18,7 @@ const V1_1: &[u8] = include_bytes!("golden/library-1.1.json");
 const V1_2: &[u8] = include_bytes!("golden/library-1.2.json");
 const V1_3: &[u8] = include_bytes!("golden/library-1.3.json");
 const V1_4: &[u8] = include_bytes!("golden/library-1.4.json");
+const V1_5: &[u8] = include_bytes!("golden/library-1.5.json");
 
 /// Reads without a warning.
 fn read(bytes: &[u8]) -> Library {
@@ -147,6 +148,35 @@ fn version_1_4() {
 }
 
 #[test]
+fn version_1_5() {
+    let library = read(V1_5);
+    check_head(&library, "1.5");
+    check_cork(&library.textures[0]);
+    let facts = |model: &TextureModel| {
+        let relief = model.relief()?;
+        let profile = relief.profile();
+        Some((1e3 * profile.step_m(), relief.force().0, profile.values().to_vec()))
+    };
+    let expected = (0.0125, 1.5, vec![0.5, -1.25, 0.0, 123.456, -0.015_625]);
+    assert_eq!(facts(&library.textures[0].model), Some(expected));
+    let keys = library.textures[0].path.as_ref().unwrap().keys();
+    assert_eq!(facts(&keys[1].model), Some((0.05, 1.0, vec![1.0, -1.0])));
+    assert_eq!(facts(&keys[0].model), None);
+    for (change, names) in [
+        (json!({"step_mm": 0.0}), "step"),
+        (json!({"mps2": [1.0]}), "two values or more"),
+        (json!({"mps2": [1e7, 0.0]}), "value 0 of the relief"),
+        (json!({"force_n": -1.0}), "force of a relief"),
+    ] {
+        let mut value: Value = serde_json::from_slice(V1_5).unwrap();
+        let relief = value["textures"][0]["relief"].as_object_mut().unwrap();
+        relief.extend(change.as_object().unwrap().clone());
+        let error = read_library(&serde_json::to_vec(&value).unwrap()).unwrap_err().to_string();
+        assert!(error.contains("\"cork\"") && error.contains(names), "{error}");
+    }
+}
+
+#[test]
 fn paths_that_lead_nowhere_are_refused() {
     let edits: [(&str, Value, &str); 5] = [
         ("/textures/0/path/along", json!("mood"), "distance or time"),
@@ -175,7 +205,7 @@ fn axes_are_two_attributes() {
 
 #[test]
 fn what_is_not_known_is_written_back() {
-    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4] {
+    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4, V1_5] {
         let before: Value = serde_json::from_slice(golden).unwrap();
         let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
         assert_eq!(after, before);

@@ -131,6 +131,14 @@ pub enum LibraryError {
         /// The field.
         field: &'static str,
     },
+    /// A relief is none.
+    #[error("the relief of texture \"{id}\" cannot be played: {reason}")]
+    Relief {
+        /// Identifier of the texture.
+        id: String,
+        /// Why.
+        reason: String,
+    },
     /// A landing is no decaying oscillation.
     #[error("the tap of texture \"{id}\" has {field} {value}; {needs}")]
     Tap {

@@ -6,6 +6,7 @@ use shagreen_core::units::Hertz;
 
 use crate::library::anchors::{anchors, grain};
 use crate::library::read::tap;
+use crate::library::relief;
 use crate::library::v1::{KeyV1, PathV1, TapV1};
 use crate::library::write::{CONVERSION_DIGITS, DIGITS, decimals, digits, tap as tap_v1};
 use crate::library::{LibraryError, Unknown, UnknownOfKey};
@@ -34,10 +35,12 @@ pub(super) fn read(
         let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
             .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
         let tap = wire.tap.map(|wire| tap(id, wire, &mut left.tap)).transpose()?;
+        let relief = wire.relief.map(|wire| relief::read(id, wire, &mut left.relief)).transpose()?;
         let model = grain(id, None, wire.anchors, &mut left.anchors)?
             .model(rate, wire.mu)
             .map_err(|source| LibraryError::Model { id: id.to_owned(), source })?
-            .with_tap(tap);
+            .with_tap(tap)
+            .with_relief(relief);
         unknown.keys.push(left);
         Ok(Key { stop: Stop { at, along: along.unit().0 * wire.along }, is_stop: wire.stop, model })
     };
@@ -56,7 +59,7 @@ pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
         _ => UnknownOfKey::default(),
     };
     let key = |(index, key): (usize, &Key)| {
-        let UnknownOfKey { key: unknown, tap, anchors: of_anchors } = left_at(index);
+        let UnknownOfKey { key: unknown, tap, relief: of_relief, anchors: of_anchors } = left_at(index);
         KeyV1 {
             unknown,
             along: digits(key.stop.along / path.along().unit().0, CONVERSION_DIGITS),
@@ -66,6 +69,7 @@ pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
             mu: key.model.friction().map(|mu| digits(mu, DIGITS)),
             tap: key.model.tap().map(|of| TapV1 { unknown: tap, ..tap_v1(of) }),
             anchors: anchors(&key.model, &of_anchors),
+            relief: key.model.relief().map(|of| relief::write(of, &of_relief)),
         }
     };
     PathV1 {

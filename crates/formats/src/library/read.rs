@@ -17,7 +17,7 @@ use crate::library::{
     FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, Unknown,
     UnknownOfLibrary, VERSION_MAJOR, VERSION_MINOR,
 };
-use crate::library::{attributes, path};
+use crate::library::{attributes, path, relief};
 use crate::own_json::{Header, HeaderFault, minor_version};
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 
@@ -129,12 +129,14 @@ pub(crate) fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
     });
     let provenance = wire.provenance.map(|word| provenance(&id, word)).transpose()?.unwrap_or_default();
     let tap = wire.tap.map(|wire| tap(&id, wire, &mut unknown.tap)).transpose()?;
+    let relief = wire.relief.map(|wire| relief::read(&id, wire, &mut unknown.relief)).transpose()?;
     let rate = Hertz(wire.rate_hz);
     let path = wire.path.map(|wire| path::read(&id, wire, rate, &mut unknown)).transpose()?;
     let model = grain(&id, wire.interpolation.as_deref(), wire.anchors, &mut unknown.anchors)?
         .model(rate, wire.mu)
         .map_err(|source| LibraryError::Model { id: id.clone(), source })?
-        .with_tap(tap);
+        .with_tap(tap)
+        .with_relief(relief);
     Ok(TextureEntry {
         id,
         name: wire.name,

@@ -1,4 +1,4 @@
-//! The wire format of a library, versions 1.0 to 1.4.
+//! The wire format of a library, versions 1.0 to 1.5.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -80,6 +80,9 @@ pub(crate) struct TextureV1 {
     /// Since 1.4.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) path: Option<PathV1>,
+    /// Since 1.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) relief: Option<ReliefV1>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) picture: Option<PictureV1>,
 }
@@ -107,6 +110,18 @@ pub(super) struct KeyV1 {
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     pub(super) anchors: Vec<AnchorV1>,
+    /// Since 1.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) relief: Option<ReliefV1>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct ReliefV1 {
+    pub(super) step_mm: f64,
+    pub(super) force_n: f64,
+    pub(super) mps2: Vec<f64>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
 }
 
 #[derive(Serialize, Deserialize)]

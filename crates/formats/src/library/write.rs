@@ -5,12 +5,13 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::Map;
 use shagreen_core::tap::Tap;
 use shagreen_core::texture::Interpolation;
+use shagreen_core::texture_path::TexturePath;
 
 use crate::layout;
 use crate::library::anchors::{anchors, interpolation_word};
 use crate::library::v1::{LibraryV1, PhysicalV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
 use crate::library::{FORMAT, Library, Place, Provenance, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
-use crate::library::{attributes, path};
+use crate::library::{attributes, path, relief};
 use crate::picture::Picture;
 
 /// The word for [`Provenance::Restricted`].
@@ -39,6 +40,8 @@ pub(crate) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
 pub(crate) const CONVERSION_DIGITS: usize = 12;
 
+/// The minor version that brought paths.
+const WITH_PATHS: u32 = 4;
 /// The minor version that brought names of axes.
 const WITH_AXES: u32 = 3;
 /// The minor version that brought attributes and the report of a space.
@@ -104,6 +107,7 @@ pub(crate) fn texture(entry: &TextureEntry) -> TextureV1 {
         tap: entry.model.tap().map(|measured| TapV1 { unknown: unknown.tap.clone(), ..tap(measured) }),
         anchors: anchors(&entry.model, &unknown.anchors),
         path: entry.path.as_ref().map(|way| path::write(way, unknown)),
+        relief: entry.model.relief().map(|of| relief::write(of, &unknown.relief)),
         picture: entry
             .picture
             .as_ref()
@@ -135,8 +139,15 @@ pub(crate) fn picture(picture: &Picture) -> PictureV1 {
 
 /// The lowest minor version that has all that a library uses: older programs read what they can.
 fn minor_version(library: &Library) -> u32 {
-    if library.textures.iter().any(|entry| entry.path.is_some()) {
+    let has_relief = |entry: &TextureEntry| {
+        let keys = entry.path.iter().flat_map(TexturePath::keys);
+        keys.map(|key| &key.model).chain([&entry.model]).any(|model| model.relief().is_some())
+    };
+    if library.textures.iter().any(has_relief) {
         return VERSION_MINOR;
+    }
+    if library.textures.iter().any(|entry| entry.path.is_some()) {
+        return WITH_PATHS;
     }
     if library.axes.is_some() {
         return WITH_AXES;
