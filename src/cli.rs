@@ -33,6 +33,7 @@ mod latency_onsets;
 mod library_list;
 mod library_make;
 mod library_places;
+mod library_relief;
 mod library_source;
 mod limited;
 mod motion;
@@ -146,6 +147,7 @@ enum LibraryCommand {
     List(library_list::Args),
     Make(library_make::Args),
     Places(library_places::Args),
+    Relief(library_relief::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -205,6 +207,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
         Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
         Some(Command::Library(LibraryCommand::Places(args))) => library_places::run(args),
+        Some(Command::Library(LibraryCommand::Relief(args))) => library_relief::run(args),
         Some(Command::Project(ProjectCommand::Gallery(args))) => project_gallery::run(args),
         Some(Command::Project(ProjectCommand::New(args))) => project_new::run(args),
         Some(Command::Project(ProjectCommand::Show(args))) => project_show::run(args),

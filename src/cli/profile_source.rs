@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use shagreen_core::profile::Profile;
 use shagreen_core::spatial_spectrogram::Framing;
+use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
 
 use crate::cli::motion::positive;
@@ -13,12 +14,19 @@ use crate::cli::signal_source::SignalArgs;
 
 #[derive(clap::Args)]
 pub(crate) struct ProfileArgs {
-    /// The profile: a table of positions in mm and values (.csv), or a signal (.wav) with --speed.
+    /// The profile: a table of positions in mm and values (.csv), a signal (.wav) with --speed, or a row of a photo or height
+    /// map (.png, .jpg) with --width.
     #[arg(value_name = "PROFILE")]
     path: PathBuf,
     /// Of a signal: how fast it was recorded, in mm/s, which makes its times positions.
     #[arg(long, value_name = "V", value_parser = positive)]
     speed: Option<f64>,
+    /// Of a picture: how much surface its width shows, in mm.
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    width: Option<f64>,
+    /// Of a picture: which row, from 0 at its upper edge; without it the one in the middle.
+    #[arg(long, value_name = "ROW", requires = "width")]
+    row: Option<u32>,
     #[command(flatten)]
     signals: SignalArgs,
 }
@@ -47,8 +55,33 @@ impl ProfileArgs {
         &self.path
     }
 
+    /// A row of the picture in it.
+    fn load_row(&self, width_mm: f64) -> anyhow::Result<Profile> {
+        if self.speed.is_some() || self.signals.is_given() {
+            return Err(Usage(
+                "--width is for pictures; --speed, --full-scale and --channel are for signals (.wav)"
+                    .to_owned(),
+            )
+            .into());
+        }
+        let bytes = output::read_file(&self.path)?;
+        let values = brightness_row(&bytes, self.row).with_context(|| output::in_file(&self.path))?;
+        let step_m = 1e-3 * width_mm / values.len() as f64;
+        Profile::new(step_m, values)
+            .with_context(|| format!("over {width_mm} mm the row is no profile; check --width"))
+            .with_context(|| output::in_file(&self.path))
+    }
+
+    /// Whether the values are accelerations: those of a signal.
+    pub(crate) fn is_signal(&self) -> bool {
+        self.speed.is_some()
+    }
+
     /// The profile in it.
     pub(crate) fn load(&self) -> anyhow::Result<Profile> {
+        if let Some(width_mm) = self.width {
+            return self.load_row(width_mm);
+        }
         let is_signal = self.path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav"));
         match self.speed {
             Some(speed) if is_signal => {
@@ -68,6 +101,9 @@ impl ProfileArgs {
             .into()),
             _ => {
                 let bytes = output::read_file(&self.path)?;
+                if is_picture(&bytes) {
+                    return Err(Usage("a picture becomes a profile by its size; give --width in mm".to_owned()).into());
+                }
                 read_profile_csv(&bytes).with_context(|| output::in_file(&self.path))
             }
         }

@@ -10,6 +10,8 @@ mod tests;
 use std::ops::RangeInclusive;
 
 use crate::profile::Profile;
+use crate::spectrum::rms;
+use crate::statistics::{centered, is_constant};
 use crate::texture::FORCES_N;
 use crate::units::Newtons;
 
@@ -41,6 +43,11 @@ pub enum ReliefError {
         /// How many there are.
         n: usize,
     },
+    /// Nothing that could have a level.
+    #[error(
+        "the profile is the same everywhere, or has no level that can be reached; there is nothing to feel in it"
+    )]
+    Flat,
     /// A step that no tip tells.
     #[error("the step of a relief must be from 0.1 µm to 1 cm, got {step_m} m")]
     Step {
@@ -83,6 +90,22 @@ impl Relief {
         match profile.values().iter().position(|value| value.abs() > MAX_MPS2) {
             Some(index) => Err(ReliefError::Value { index, value: profile.values()[index] }),
             None => Ok(Self { profile, force }),
+        }
+    }
+
+    /// A relief of heights, brightness or friction, whatever their unit: without their mean, and so large that the root mean
+    /// square is `level_mps2` at a force.
+    ///
+    /// # Errors
+    /// See [`ReliefError`].
+    pub fn of_level(profile: &Profile, level_mps2: f64, force: Newtons) -> Result<Self, ReliefError> {
+        let values = centered(profile.values());
+        let rms = rms(&values);
+        let flat = is_constant(profile.values()) || !(rms > 0.0 && level_mps2.is_finite());
+        let scale = if flat { return Err(ReliefError::Flat) } else { level_mps2 / rms };
+        match Profile::new(profile.step_m(), values.into_iter().map(|x| scale * x).collect()) {
+            Ok(profile) => Self::new(profile, force),
+            Err(_) => Err(ReliefError::Flat),
         }
     }
 

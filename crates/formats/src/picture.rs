@@ -110,6 +110,14 @@ pub enum PictureError {
         /// Compressed bytes.
         n_bytes: usize,
     },
+    /// There is no such row.
+    #[error("the picture has rows 0 to {}, there is no row {row}", .rows - 1)]
+    Row {
+        /// The row that was asked for.
+        row: u32,
+        /// How many there are.
+        rows: u32,
+    },
     /// The bytes are neither JPEG nor PNG.
     #[error("this is no photo that can be read; save it as JPEG or PNG")]
     NoPhoto,
@@ -152,6 +160,37 @@ pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
 /// [`PictureError::NoPhoto`] for what is neither JPEG nor PNG, [`PictureError::Codec`] for damaged bytes and for photos of
 /// more than [`MAX_PHOTO_SIDE`] pixels a side.
 pub fn of_photo(bytes: &[u8], millimeters: f64) -> Result<Picture, PictureError> {
+    let mut photo = upright(bytes)?;
+    if photo.width().max(photo.height()) > PHOTO_SIDE {
+        photo = photo.thumbnail(PHOTO_SIDE, PHOTO_SIDE);
+    }
+    let rgb = photo.into_rgb8();
+    encode_jpeg(&Rgb { width: rgb.width(), height: rgb.height(), pixels: rgb.into_raw() }, millimeters)
+}
+
+/// The brightness along a row of a photo or of a height map, 0 (black) to 1, pixel by pixel: as finely as the file has it,
+/// which in a PNG may be 16 bits. Row 0 is the upper one; `None` is the one in the middle.
+///
+/// # Errors
+/// As [`of_photo`], and [`PictureError::Row`] where there is no such row.
+pub fn brightness_row(bytes: &[u8], row: Option<u32>) -> Result<Vec<f64>, PictureError> {
+    let photo = upright(bytes)?.into_luma16();
+    let rows = photo.height();
+    let row = row.unwrap_or(rows / 2);
+    if row >= rows {
+        return Err(PictureError::Row { row, rows });
+    }
+    let pixel = |x: u32| f64::from(photo.get_pixel(x, row).0[0]) / f64::from(u16::MAX);
+    Ok((0..photo.width()).map(pixel).collect())
+}
+
+/// Whether bytes begin as JPEG or PNG do.
+pub fn is_picture(bytes: &[u8]) -> bool {
+    image::guess_format(bytes).is_ok_and(|f| matches!(f, ImageFormat::Jpeg | ImageFormat::Png))
+}
+
+/// A photo as it was held.
+fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     let mut reader = ImageReader::new(Cursor::new(bytes));
     let format = image::guess_format(bytes).ok();
     reader.set_format(
@@ -165,11 +204,7 @@ pub fn of_photo(bytes: &[u8], millimeters: f64) -> Result<Picture, PictureError>
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut photo = DynamicImage::from_decoder(decoder)?;
     photo.apply_orientation(orientation);
-    if photo.width().max(photo.height()) > PHOTO_SIDE {
-        photo = photo.thumbnail(PHOTO_SIDE, PHOTO_SIDE);
-    }
-    let rgb = photo.into_rgb8();
-    encode_jpeg(&Rgb { width: rgb.width(), height: rgb.height(), pixels: rgb.into_raw() }, millimeters)
+    Ok(photo)
 }
 
 /// Looks at the head of a picture, in microseconds: whether it is one, of the size that it should have. Damage further
@@ -224,7 +259,10 @@ fn check_size(picture: &Picture, found: (u32, u32)) -> Result<(), PictureError> 
 
 #[cfg(test)]
 mod tests {
-    use super::{PHOTO_SIDE, PictureError, PictureFormat, Rgb, check, decode, encode_jpeg, of_photo};
+    use super::{
+        PHOTO_SIDE, PictureError, PictureFormat, Rgb, brightness_row, check, decode, encode_jpeg, is_picture,
+        of_photo,
+    };
 
     fn gradient() -> Rgb {
         let pixels = (0..32 * 24).flat_map(|i| [(i % 32) * 8, (i / 32) * 10, 128]).map(|v| v as u8).collect();
@@ -246,6 +284,21 @@ mod tests {
         assert!(matches!(of_photo(b"GIF89a", 20.0), Err(PictureError::NoPhoto)));
         assert!(matches!(of_photo(b"", 20.0), Err(PictureError::NoPhoto)));
         assert!(matches!(of_photo(&bytes.get_ref()[..200], 20.0), Err(PictureError::Codec(_))));
+    }
+
+    #[test]
+    fn a_row_is_as_fine_as_its_file() {
+        let map = image::ImageBuffer::from_fn(300, 5, |x, y| image::Luma([(200 * x + y) as u16]));
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        map.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+        for (row, y) in [(None, 2), (Some(0), 0), (Some(4), 4)] {
+            let values = brightness_row(bytes.get_ref(), row).unwrap();
+            let wanted = (0..300).map(|x| f64::from(200 * x + y) / 65_535.0);
+            assert!(values.into_iter().eq(wanted), "row {row:?}");
+        }
+        let error = brightness_row(bytes.get_ref(), Some(5)).unwrap_err();
+        assert!(error.to_string().contains("rows 0 to 4"), "{error}");
+        assert!(is_picture(bytes.get_ref()) && !is_picture(b"0,1"));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What a texture has at each place: played by where the tip is, forwards, backwards, and not at all while it stands.
 
-use core::f32::consts::TAU;
+use core::f32::consts::PI;
 
 use crate::voice::MAX_TICK;
 
@@ -151,8 +151,9 @@ impl Passage {
 /// A relief sounding.
 #[derive(Clone, Debug)]
 pub struct ReliefVoice {
-    /// What is kept of the last output and the last input of the high-pass from sample to sample.
+    /// What the high-pass keeps of its last output from sample to sample, and takes of a change.
     keep: f32,
+    take: f32,
     /// Last input and output in m/s², while the tip is down.
     last: Option<(f32, f32)>,
     octave: f32,
@@ -161,7 +162,9 @@ pub struct ReliefVoice {
 impl ReliefVoice {
     /// A silent voice at a model's rate.
     pub fn new(rate_hz: f32) -> Self {
-        Self { keep: 1.0 / (1.0 + TAU * HIGH_PASS_HZ / rate_hz), last: None, octave: 0.0 }
+        let corner = PI * HIGH_PASS_HZ / rate_hz;
+        let (keep, take) = ((1.0 - corner) / (1.0 + corner), 1.0 / (1.0 + corner));
+        Self { keep, take, last: None, octave: 0.0 }
     }
 
     /// Forgets what sounded.
@@ -197,7 +200,7 @@ impl ReliefVoice {
             let done = (i + 1) as f32 * share;
             let place = (places_m.0 + way_m * (i + 1) as f64) / f64::from(relief.step_m);
             let x = relief.at(place, octave_before + done * (self.octave - octave_before));
-            kept = self.keep * (kept + x - input);
+            kept = self.keep * kept + self.take * (x - input);
             input = x;
             *y += (gains.0 + done * (gains.1 - gains.0)) * kept;
         }

@@ -22,6 +22,18 @@ fn what_is_no_relief_is_named() {
     assert!(matches!(error(1e-5, vec![0.0; 4], f64::NAN), ReliefError::Force { .. }));
 }
 
+#[test]
+fn heights_get_a_level() {
+    let heights = Profile::new(1e-5, (0..100).map(|i| 7.0 + 1e-6 * f64::from(i % 10)).collect()).unwrap();
+    let relief = Relief::of_level(&heights, 1.5, Newtons(1.0)).unwrap();
+    let values = relief.profile().values();
+    assert!((values.iter().map(|x| x * x).sum::<f64>() / 100.0 - 2.25).abs() < 1e-6);
+    assert!(values.iter().sum::<f64>().abs() < 1e-6 && values[9] > values[0]);
+    let flat = Profile::new(1e-5, vec![0.1; 100]).unwrap();
+    assert_eq!(Relief::of_level(&flat, 1.0, Newtons(1.0)), Err(ReliefError::Flat));
+    assert_eq!(Relief::of_level(&heights, f64::INFINITY, Newtons(1.0)), Err(ReliefError::Flat));
+}
+
 /// Values where they lie, straight lines between, and back the way it went.
 #[test]
 fn beyond_its_end_it_comes_back() {

@@ -3,6 +3,8 @@ use crate::ar::test_signals::from_resonances;
 use crate::blend::{Mode, mixture_psd};
 use crate::lsf::lsf_from_ar;
 use crate::plane::{Plane, Prepared};
+use crate::profile::Profile;
+use crate::relief::Relief;
 use crate::space::SpacePoint;
 use crate::spectrum::welch;
 use crate::texture::test_textures::arma;
@@ -174,4 +176,73 @@ fn a_path_is_heard_as_it_is_traveled() {
     }
     let few = PathPlan { path: &path, prepared: &prepared[..1], rate: Hertz(1000.0), seconds: 1.0, seed: 3 };
     assert_eq!(render_path(&few, &mut steady), Err(RenderError::Keys { n: 1, keys: 2 }));
+}
+
+/// A texture that is silent but for its relief: a wave of so many mm.
+fn wave(millimeters: f64) -> Plane {
+    let node = |v: f64| GrainNode {
+        speed: MetersPerSecond(v),
+        force: Newtons(1.0),
+        lsf: vec![1.0, 2.0],
+        level_mps2: 0.0,
+    };
+    let values = (0..1000).map(|i| (std::f64::consts::TAU * 0.02 * f64::from(i) / millimeters).cos());
+    let profile = Profile::new(2e-5, values.collect()).unwrap();
+    let relief = Relief::new(profile, Newtons(1.0)).unwrap();
+    let model = TextureModel::new(Hertz(1000.0), vec![node(0.1)], None).unwrap();
+    Plane::new(&model.with_relief(Some(std::sync::Arc::new(relief))))
+}
+
+/// A relief sounds at the speed over its length, by weight, whatever the mode mixes signals by.
+#[test]
+fn reliefs_sound_by_place_and_by_weight() {
+    let (long, short) = (wave(2.0).prepare(), wave(0.5).prepare());
+    for mode in [Mode::Paper, Mode::Power, Mode::Shared] {
+        for rate in [1000.0, 8000.0] {
+            let parents = [(&long, 0.75), (&short, 0.25)];
+            let plan = RenderPlan { parents: &parents, mode, rate: Hertz(rate), seconds: 1.0, seed: 1 };
+            // At half its force.
+            let x = render(&plan, &mut |_| Contact::from_mm_per_s_and_n(100.0, 0.5)).unwrap();
+            let part = |hz: f64| {
+                let late = x.iter().enumerate().skip(x.len() / 2);
+                let angle = |i: usize| std::f64::consts::TAU * hz * i as f64 / rate;
+                let (mut re, mut im) = (0.0, 0.0);
+                for (i, x) in late {
+                    (re, im) = (re + angle(i).cos() * f64::from(*x), im + angle(i).sin() * f64::from(*x));
+                }
+                2.0 * f64::hypot(re, im) / (0.5 * x.len() as f64)
+            };
+            // What stands still for the high-pass at 10 Hz is a little less at 50.
+            assert!((part(50.0) / 0.375 - 0.98).abs() < 0.03, "{mode:?}: {} at 50 Hz", part(50.0));
+            assert!((part(200.0) / 0.125 - 1.0).abs() < 0.05, "{mode:?}: {} at 200 Hz", part(200.0));
+            assert!(part(120.0) < 1e-3);
+        }
+    }
+}
+
+/// A recording as a relief, under the speed at which it was recorded, is the recording again.
+#[test]
+fn at_its_own_speed_a_recording_comes_back() {
+    let noise = crate::rng::lcg_noise(4000, 3);
+    // Without what a tip that stands must not feel, and what lies at the end of the band.
+    let recorded: Vec<f64> = noise.windows(4).map(|w| 0.25 * (w[0] + w[1] - w[2] - w[3])).collect();
+    let profile = Profile::new(1e-4, recorded.clone()).unwrap();
+    let relief = Relief::new(profile, Newtons(1.0)).unwrap();
+    let node =
+        GrainNode { speed: MetersPerSecond(0.1), force: Newtons(1.0), lsf: vec![1.0, 2.0], level_mps2: 0.0 };
+    let model = TextureModel::new(Hertz(1000.0), vec![node], None).unwrap();
+    let prepared = Plane::new(&model.with_relief(Some(std::sync::Arc::new(relief)))).prepare();
+    let plan = RenderPlan {
+        parents: &[(&prepared, 1.0)],
+        mode: Mode::Power,
+        rate: Hertz(1000.0),
+        seconds: 3.0,
+        seed: 1,
+    };
+    let x = render(&plan, &mut |_| Contact::from_mm_per_s_and_n(100.0, 1.0)).unwrap();
+    let heard: Vec<f64> = x.iter().map(|x| f64::from(*x)).collect();
+    // A sample stands where the tip is at its end.
+    let snr = |lag: usize| crate::quality::snr_db(&recorded[100 + lag..2900], &heard[100..2900 - lag]);
+    let best = (0..4).map(snr).fold(f64::MIN, f64::max);
+    assert!(best > 15.0, "{best} dB");
 }

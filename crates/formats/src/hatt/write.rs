@@ -85,6 +85,9 @@ pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
     if entry.model.tap().is_some() {
         lost.push("the tap of a landing".to_owned());
     }
+    if entry.model.relief().is_some() {
+        lost.push("the relief".to_owned());
+    }
     if entry.place.is_some() {
         lost.push("the place in the space".to_owned());
     }

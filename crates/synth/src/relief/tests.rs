@@ -53,9 +53,8 @@ fn rms(samples: &[f32]) -> f64 {
 
 /// The gain of the high-pass at a frequency in Hz.
 fn high_pass(hz: f64) -> f64 {
-    let keep = 1.0 / (1.0 + TAU * f64::from(HIGH_PASS_HZ / RATE_HZ));
-    let w = TAU * hz / f64::from(RATE_HZ);
-    keep * (2.0 - 2.0 * w.cos()).sqrt() / (1.0 + keep * keep - 2.0 * keep * w.cos()).sqrt()
+    let tangent = (0.5 * TAU * hz / f64::from(RATE_HZ)).tan();
+    tangent / tangent.hypot(0.5 * TAU * f64::from(HIGH_PASS_HZ / RATE_HZ))
 }
 
 /// A tip at speed v on a wave of length λ hears v/λ, whichever way it goes.
