@@ -5,6 +5,7 @@
 //! thrown away, except what the steps of the local mean tell of them: where something *is* survives as far as windows are
 //! narrow. So a spectrogram says how much of the place of things a hand needs.
 
+pub mod edit;
 mod fidelity;
 mod phase;
 mod refine;
