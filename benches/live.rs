@@ -32,7 +32,7 @@ use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_library;
 use shagreen_synth::budget::Budget;
-use shagreen_synth::contact::{Contact, ContactSource};
+use shagreen_synth::contact::{Contact, ContactSource, Place};
 use shagreen_synth::drive::{DriveConfig, Inverse};
 use shagreen_synth::equalizer::Resonance;
 use shagreen_synth::noise::{Gaussian, Noise};
@@ -110,7 +110,7 @@ fn main() {
     let mut tick = [0.0; MAX_TICK];
     bench("one texture, 1 kHz, coefficients every 5 ms", n as f64, "sample", || {
         for i in 0..n / renderer.tick_len() {
-            renderer.tick(&table, strokes.0[i * 5], 0.0, &mut tick);
+            renderer.tick(&table, strokes.0[i * 5], Place::default(), &mut tick);
             black_box(&tick);
         }
     });
@@ -134,7 +134,7 @@ fn main() {
     let _ = mixed.set_mix(&three);
     bench("three textures mixed, 1 kHz, coefficients every 5 ms", n as f64, "sample", || {
         for i in 0..n / mixed.tick_len() {
-            mixed.tick(&prepared, strokes.0[i * 5], 0.0, &mut tick);
+            mixed.tick(&prepared, strokes.0[i * 5], Place::default(), &mut tick);
             black_box(&tick);
         }
     });

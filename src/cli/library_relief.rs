@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use anyhow::{Context as _, anyhow};
+use anyhow::{Context as _, anyhow, bail};
 use serde_json::json;
 use shagreen_core::relief::Relief;
 use shagreen_core::spectrum::rms;
@@ -49,6 +49,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(args.profile.path()), args.library.path()])?;
     refuse_foreign(&args.out, "a library", is_library)?;
+    let profile = args.profile.load()?;
     if args.level.is_none() && !args.profile.is_signal() {
         return Err(Usage(
             "the values of a profile have no unit; say how strong it is felt with --level in m/s²".to_owned(),
@@ -58,7 +59,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut library = load(&args.library)?;
     let index =
         library.index_of(&args.texture).ok_or_else(|| anyhow!(unknown_texture(&library, &args.texture)))?;
-    let profile = args.profile.load()?;
     let force = Newtons(args.force);
     let relief = match args.level {
         Some(level_mps2) => Relief::of_level(&profile, level_mps2, force),
@@ -69,7 +69,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let (length_mm, step_mm) = (1e3 * relief.profile().length_m(), 1e3 * relief.profile().step_m());
     let entry = &mut library.textures[index];
     if entry.path.is_some() {
-        output::warn("the texture changes along a path, whose textures stay without the relief");
+        bail!(
+            "\"{}\" changes along a path and is played by its textures; give the relief to these, and make the path then",
+            args.texture
+        );
+    }
+    if entry.model.relief().is_some() {
+        output::warn(&format!("\"{}\" had a relief already; this one takes its place", args.texture));
     }
     entry.model = entry.model.clone().with_relief(Some(Arc::new(relief)));
     output::CREATED_BY.clone_into(&mut library.created_by);

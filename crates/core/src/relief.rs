@@ -23,7 +23,7 @@ pub const MAX_VALUES: usize = 1 << 16;
 pub const STEPS_M: RangeInclusive<f64> = 1e-7..=1e-2;
 /// Largest acceleration in a relief, in m/s².
 pub const MAX_MPS2: f64 = 1e6;
-/// Parents of less weight have no say in a blend.
+/// Parents of less weight, either way, have no say in a blend.
 const LEAST_WEIGHT: f64 = 1e-3;
 
 /// A profile in m/s², and the force at which it has its level: it grows in proportion to the force.
@@ -44,10 +44,14 @@ pub enum ReliefError {
         n: usize,
     },
     /// Nothing that could have a level.
-    #[error(
-        "the profile is the same everywhere, or has no level that can be reached; there is nothing to feel in it"
-    )]
+    #[error("the profile is the same everywhere; there is nothing to feel in it")]
     Flat,
+    /// A level that is none.
+    #[error("the level of a relief must be above 0 and up to {MAX_MPS2} m/s², got {level_mps2}")]
+    Level {
+        /// The level in m/s².
+        level_mps2: f64,
+    },
     /// A step that no tip tells.
     #[error("the step of a relief must be from 0.1 µm to 1 cm, got {step_m} m")]
     Step {
@@ -99,10 +103,14 @@ impl Relief {
     /// # Errors
     /// See [`ReliefError`].
     pub fn of_level(profile: &Profile, level_mps2: f64, force: Newtons) -> Result<Self, ReliefError> {
+        if !(level_mps2 > 0.0 && level_mps2 <= MAX_MPS2) {
+            return Err(ReliefError::Level { level_mps2 });
+        }
         let values = centered(profile.values());
-        let rms = rms(&values);
-        let flat = is_constant(profile.values()) || !(rms > 0.0 && level_mps2.is_finite());
-        let scale = if flat { return Err(ReliefError::Flat) } else { level_mps2 / rms };
+        let scale = level_mps2 / rms(&values);
+        if is_constant(profile.values()) || !scale.is_finite() {
+            return Err(ReliefError::Flat);
+        }
         match Profile::new(profile.step_m(), values.into_iter().map(|x| scale * x).collect()) {
             Ok(profile) => Self::new(profile, force),
             Err(_) => Err(ReliefError::Flat),
@@ -134,10 +142,11 @@ impl Relief {
         a + (place - whole) * (b - a)
     }
 
-    /// The sum of reliefs by weight, on the finest of their steps that leaves room for the longest: what lies at one place
-    /// stays there. Parents without a relief take their share of the level. `None` where none has one.
+    /// The sum of reliefs by weight, on the finest of their steps and as long as the longest, as far as [`MAX_VALUES`] reach:
+    /// what lies at one place stays there up to this length, and from there all of it comes back. Parents without a relief
+    /// take their share of the level. `None` where none has one.
     pub fn blended(parents: &[(Option<&Self>, f64)]) -> Option<Self> {
-        let known = parents.iter().filter(|(_, weight)| *weight > LEAST_WEIGHT);
+        let known = parents.iter().filter(|(_, weight)| weight.abs() > LEAST_WEIGHT);
         let known: Vec<(&Self, f64)> =
             known.filter_map(|(relief, weight)| Some(((*relief)?, *weight))).collect();
         if let [(only, weight)] = known.as_slice()
@@ -145,11 +154,13 @@ impl Relief {
         {
             return Some((*only).clone());
         }
-        let total: f64 = known.iter().map(|(_, weight)| weight).sum();
-        let force_n = known.iter().map(|(relief, weight)| weight / total * relief.force.0).sum();
+        // Weights of a field may be below zero; forces may not.
+        let total: f64 = known.iter().map(|(_, weight)| weight.abs()).sum();
+        let mean = known.iter().map(|(relief, weight)| weight.abs() / total * relief.force.0).sum::<f64>();
+        // A mean of forces is one, but for its last digit at the ends of their range.
+        let force_n = mean.clamp(*FORCES_N.start(), *FORCES_N.end());
         let length_m = known.iter().map(|(relief, _)| relief.profile.length_m()).fold(0.0, f64::max);
-        let finest_m = known.iter().map(|(relief, _)| relief.profile.step_m()).fold(f64::INFINITY, f64::min);
-        let step_m = finest_m.max(length_m / MAX_VALUES as f64);
+        let step_m = known.iter().map(|(relief, _)| relief.profile.step_m()).fold(f64::INFINITY, f64::min);
         let n = ((length_m / step_m).round() as usize).clamp(2, MAX_VALUES);
         let value = |i: usize| {
             let part = |(relief, weight): &(&Self, f64)| {

@@ -1,6 +1,6 @@
 //! Offline rendering: what a stylus would feel, as samples.
 
-use shagreen_synth::contact::{Contact as SynthContact, ContactSource};
+use shagreen_synth::contact::{Contact as SynthContact, ContactSource, Place};
 use shagreen_synth::renderer::{Blend, FADE_SECS, MAX_PARENTS, Mix, Parent, Renderer, TextureId, Textures};
 use shagreen_synth::resampler::Resampler;
 use shagreen_synth::stream::Stream;
@@ -110,8 +110,8 @@ struct Output {
     seed: u64,
 }
 
-/// Contacts shifted by the warm-up: the hand holds its first contact until the first sample is kept. It goes over reliefs
-/// from their beginning, forwards: a stroke that says no more than its speed does not turn.
+/// Contacts shifted by the warm-up: the hand holds its first contact until the first sample is kept. It is at the beginning of
+/// reliefs then, and goes forwards: a stroke that says no more than its speed does not turn.
 struct Shifted<'a> {
     contact_at: &'a mut dyn FnMut(f64) -> Contact,
     warm_up_secs: f64,
@@ -132,13 +132,18 @@ impl ContactSource for Shifted<'_> {
         let secs = (time_secs - self.warm_up_secs).max(0.0);
         let contact = (self.contact_at)(secs);
         let speed = if contact.speed.0.is_finite() { contact.speed.0.abs() } else { 0.0 };
-        self.place_m += 0.5 * (self.last.1 + speed) * (secs - self.last.0);
+        if time_secs <= self.warm_up_secs {
+            // On its way already: a tip that begins to move of a sudden would be heard to.
+            self.place_m = speed * (time_secs - self.warm_up_secs);
+        } else {
+            self.place_m += 0.5 * (self.last.1 + speed) * (secs - self.last.0);
+        }
         self.last = (secs, speed);
         SynthContact { speed_mps: contact.speed.0 as f32, force_n: contact.force.0 as f32 }
     }
 
-    fn place_m(&self) -> f64 {
-        self.place_m
+    fn place(&self) -> Place {
+        Place { x_m: self.place_m, n_jumps: 0 }
     }
 }
 
@@ -274,7 +279,7 @@ fn at_model_rate(
         }
         tick_idx += 1.0;
         let contact = contacts.contact_at(tick_idx * tick_secs);
-        renderer.tick(lent, contact, contacts.place_m(), &mut tick);
+        renderer.tick(lent, contact, contacts.place(), &mut tick);
         if tick_idx > n_warm {
             out.extend_from_slice(&tick[..tick_len]);
         }

@@ -22,15 +22,23 @@ impl Contact {
     }
 }
 
+/// Where the tip is along a relief.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// The place in m.
+    pub x_m: f64,
+    /// How often it was somewhere else of a sudden, without a way there.
+    pub n_jumps: u32,
+}
+
 /// Where the renderer asks what the hand does.
 pub trait ContactSource {
     /// The contact at `time_secs` of the model clock, which starts at zero and never goes back.
     fn contact_at(&mut self, time_secs: f64) -> Contact;
 
-    /// Where the tip was at the contact that was asked for last, in m along the relief: a hand that says nothing of it
-    /// stands still.
-    fn place_m(&self) -> f64 {
-        0.0
+    /// Where the tip was at the contact that was asked for last: a hand that says nothing of it stands still.
+    fn place(&self) -> Place {
+        Place::default()
     }
 }
 

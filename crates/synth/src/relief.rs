@@ -2,14 +2,17 @@
 
 use core::f32::consts::PI;
 
+use crate::contact::Place;
 use crate::voice::MAX_TICK;
 
 /// Fewest samples of an octave: as many as the cubic between samples looks at.
 pub const LEAST_SAMPLES: usize = 4;
+/// Most samples of an octave.
+pub const MOST_SAMPLES: usize = 1 << 24;
 /// What changes slower is no vibration, and a tip that stands feels none: the cut-off in Hz.
 pub const HIGH_PASS_HZ: f32 = 10.0;
 /// A way in one tick that no hand goes, in m: the tip is somewhere else.
-const JUMP_M: f64 = 0.03;
+const JUMP_M: f64 = 0.015;
 /// Times the force of its level that a relief may be pressed with.
 const MOST_GAIN: f32 = 4.0;
 
@@ -37,7 +40,7 @@ pub struct Relief<'a> {
 
 /// Numbers of all octaves of a relief of `n` samples, a power of two, down to [`LEAST_SAMPLES`].
 pub const fn length(n: usize) -> usize {
-    2 * n - LEAST_SAMPLES
+    (2 * n).saturating_sub(LEAST_SAMPLES)
 }
 
 impl<'a> Relief<'a> {
@@ -51,7 +54,8 @@ impl<'a> Relief<'a> {
         if !(positive(step_m) && positive(force_n)) {
             return Err(ReliefError::Range);
         }
-        if n < LEAST_SAMPLES || !n.is_power_of_two() || octaves.len() != length(n) {
+        if !(LEAST_SAMPLES..=MOST_SAMPLES).contains(&n) || !n.is_power_of_two() || octaves.len() != length(n)
+        {
             return Err(ReliefError::Length);
         }
         if !octaves.iter().all(|x| x.is_finite()) {
@@ -62,7 +66,7 @@ impl<'a> Relief<'a> {
 
     /// A relief over numbers that [`Relief::new`] has accepted before. Others are silent or not finite, never out of bounds.
     pub fn checked_before(step_m: f32, force_n: f32, n: usize, octaves: &'a [f32]) -> Self {
-        Self { step_m, force_n, n: n.max(LEAST_SAMPLES).next_power_of_two(), octaves }
+        Self { step_m, force_n, n: n.clamp(LEAST_SAMPLES, MOST_SAMPLES).next_power_of_two(), octaves }
     }
 
     /// Distance of two samples of the first octave, in m.
@@ -87,8 +91,9 @@ impl<'a> Relief<'a> {
 
     /// The value in m/s² at a place, in samples of the first octave, between octaves: 0.5 is half of both.
     fn at(&self, place: f64, octave: f32) -> f32 {
-        let last = (self.n / LEAST_SAMPLES).ilog2();
-        let octave = octave.clamp(0.0, last as f32);
+        // Beyond the last octave nothing but the mean is left.
+        let beyond = (self.n / LEAST_SAMPLES).ilog2() + 1;
+        let octave = octave.clamp(0.0, beyond as f32);
         let lower = octave as u32;
         let share = octave - lower as f32;
         let value = self.in_octave(place, lower);
@@ -98,9 +103,15 @@ impl<'a> Relief<'a> {
     /// The cubic through the four samples around (Catmull and Rom).
     fn in_octave(&self, place: f64, octave: u32) -> f32 {
         let n = self.n >> octave;
+        if n < LEAST_SAMPLES {
+            let last = self.octaves.get(2 * (self.n - LEAST_SAMPLES)..).unwrap_or(&[]);
+            return last.iter().sum::<f32>() / LEAST_SAMPLES as f32;
+        }
         let begin = 2 * (self.n - n);
         // The first samples of all octaves lie at one place.
         let at = place / f64::from(1_u32 << octave);
+        // So far away that there is no telling where.
+        let at = if at.is_finite() { at } else { 0.0 };
         let whole = libm::floor(at);
         let t = (at - whole) as f32;
         let sample = |i: i64| {
@@ -134,17 +145,20 @@ pub struct Passage {
     pub forces_n: (f32, f32),
     /// Whether it begins elsewhere than the one before ended.
     pub is_elsewhere: bool,
+    n_jumps: u32,
 }
 
 impl Passage {
     /// The way from the end of this one to another place and force. Where the tip was in the air, or is somewhere else of a
     /// sudden, it does not go there: it is there.
     #[must_use]
-    pub fn on(self, place_m: f64, force_n: f32) -> Self {
-        let place_m = if place_m.is_finite() { place_m } else { self.places_m.1 };
-        let is_elsewhere = self.forces_n.1 <= 0.0 || libm::fabs(place_m - self.places_m.1) > JUMP_M;
+    pub fn on(self, place: Place, force_n: f32) -> Self {
+        let Place { x_m, n_jumps } = place;
+        let place_m = if x_m.is_finite() { x_m } else { self.places_m.1 };
+        let is_far = libm::fabs(place_m - self.places_m.1) > JUMP_M;
+        let is_elsewhere = self.forces_n.1 <= 0.0 || n_jumps != self.n_jumps || is_far;
         let before_m = if is_elsewhere { place_m } else { self.places_m.1 };
-        Self { places_m: (before_m, place_m), forces_n: (self.forces_n.1, force_n), is_elsewhere }
+        Self { places_m: (before_m, place_m), forces_n: (self.forces_n.1, force_n), is_elsewhere, n_jumps }
     }
 }
 
@@ -177,7 +191,7 @@ impl ReliefVoice {
     ///
     /// Cost a sample: two cubics.
     pub fn add_tick(&mut self, relief: &Relief<'_>, passage: &Passage, weights: (f32, f32), out: &mut [f32]) {
-        let Passage { places_m, forces_n, is_elsewhere } = *passage;
+        let Passage { places_m, forces_n, is_elsewhere, .. } = *passage;
         if forces_n.1 <= 0.0 && (forces_n.0 <= 0.0 || self.last.is_none()) {
             self.last = None;
             return;
@@ -185,8 +199,11 @@ impl ReliefVoice {
         let n = out.len().min(MAX_TICK);
         let share = 1.0 / n.max(1) as f32;
         let way_m = (places_m.1 - places_m.0) * f64::from(share);
-        let octave_before = self.octave;
-        self.octave = relief.octave(way_m);
+        let octave = relief.octave(way_m);
+        // What was played before a landing or a jump says nothing of how fast the tip is now.
+        let goes_on = self.last.is_some() && !is_elsewhere;
+        let octave_before = if goes_on { self.octave } else { octave };
+        self.octave = octave;
         let here = || relief.at(places_m.0 / f64::from(relief.step_m), octave_before);
         // What still sounds goes on from there, so that nothing clicks.
         let (mut input, mut kept) = match self.last {

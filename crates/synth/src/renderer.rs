@@ -1,6 +1,6 @@
 //! Up to three textures mixed into one signal at the model's rate, a tick at a time.
 
-use crate::contact::Contact;
+use crate::contact::{Contact, Place};
 use crate::noise::{Gaussian, Noise};
 use crate::relief::{Passage, ReliefVoice};
 use crate::texture::Texture;
@@ -191,11 +191,11 @@ impl Renderer {
         self.slots.iter().any(|s| s.id == Some(id))
     }
 
-    /// Renders one tick that ends at `contact` and `place_m` into `out`, of which [`Renderer::tick_len`] samples are
+    /// Renders one tick that ends at `contact` and `place` into `out`, of which [`Renderer::tick_len`] samples are
     /// overwritten.
     ///
     /// A texture that the owner no longer has is silent. Cost: bounded by [`MAX_VOICES`] voices.
-    pub fn tick(&mut self, textures: &dyn Textures, contact: Contact, place_m: f64, out: &mut [f32]) {
+    pub fn tick(&mut self, textures: &dyn Textures, contact: Contact, place: Place, out: &mut [f32]) {
         let n = self.tick_len.min(out.len());
         let out = &mut out[..n];
         out.fill(0.0);
@@ -205,7 +205,7 @@ impl Renderer {
                 *e = self.gaussian.draw(&mut self.shared_noise);
             }
         }
-        self.passage = self.passage.on(place_m, contact.sanitized().force_n);
+        self.passage = self.passage.on(place, contact.sanitized().force_n);
         let mut starts = [0.0; MAX_VOICES];
         for (slot, start) in self.slots.iter_mut().zip(&mut starts) {
             *start = slot.weight;

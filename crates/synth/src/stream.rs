@@ -63,7 +63,7 @@ impl Stream {
                     *ticks_done += 1;
                     let time_secs = (*ticks_done * tick_len as u64) as f64 / *model_rate_hz;
                     let contact = contacts.contact_at(time_secs);
-                    renderer.tick(textures, contact, contacts.place_m(), tick);
+                    renderer.tick(textures, contact, contacts.place(), tick);
                     *next_in_tick = 0;
                 }
                 *next_in_tick += 1;

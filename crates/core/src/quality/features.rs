@@ -173,7 +173,7 @@ impl FeatureMeter {
     }
 }
 
-/// The magnitude of a bin: no signal is so strong that its square is none, and `norm` is many times slower for that case.
+/// The magnitude of a bin. `norm` is many times slower, for magnitudes whose squares are no numbers: no touch has these.
 pub(super) fn size(bin: &Complex<f64>) -> f64 {
     bin.norm_sqr().sqrt()
 }

@@ -31,7 +31,10 @@ fn heights_get_a_level() {
     assert!(values.iter().sum::<f64>().abs() < 1e-6 && values[9] > values[0]);
     let flat = Profile::new(1e-5, vec![0.1; 100]).unwrap();
     assert_eq!(Relief::of_level(&flat, 1.0, Newtons(1.0)), Err(ReliefError::Flat));
-    assert_eq!(Relief::of_level(&heights, f64::INFINITY, Newtons(1.0)), Err(ReliefError::Flat));
+    for level_mps2 in [0.0, -1.0, f64::INFINITY] {
+        let error = Relief::of_level(&heights, level_mps2, Newtons(1.0));
+        assert_eq!(error, Err(ReliefError::Level { level_mps2 }));
+    }
 }
 
 /// Values where they lie, straight lines between, and back the way it went.
@@ -93,10 +96,13 @@ fn a_blend_is_the_sum_by_weight() {
     assert_eq!(Relief::blended(&[(Some(&bumps), 1.0), (Some(&waves), 0.0)]), Some(bumps.clone()));
     assert_eq!(Relief::blended(&[(None, 1.0)]), None);
     assert_eq!(Relief::blended(&[]), None);
-    // What is long and what is fine do not fit both: the finest step gives way.
+    // Weights of a field sum to one, and some are below zero.
+    let field = Relief::blended(&[(Some(&bumps), 1.25), (Some(&bumps), -0.25)]).unwrap();
+    assert!((0..300).all(|i| (field.at(1e-4 * f64::from(i)) - bumps.at(1e-4 * f64::from(i))).abs() < 1e-9));
+    // What is long and what is fine do not fit both: the length gives way.
     let long = relief(1e-2, vec![1.0; 6000], 1.0);
     let both = Relief::blended(&[(Some(&bumps), 0.5), (Some(&long), 0.5)]).unwrap();
-    assert_eq!(both.profile().values().len(), MAX_VALUES);
+    assert_eq!((both.profile().values().len(), both.profile().step_m()), (MAX_VALUES, 1e-4));
 }
 
 proptest! {

@@ -1,13 +1,16 @@
 //! Painting over spatial spectrograms: louder and softer, away, here and there, longer and shorter.
 //!
-//! The local mean, frequency zero, is left alone by all of these: its steps tell the phases of everything else.
+//! The local mean, frequency zero, is left alone by brush, eraser and paste, and stretched with the rest: its steps tell the
+//! phases of everything else.
 
 use std::ops::Range;
 
-use super::{Frames, SpatialSpectrogram};
+use super::{Edges, Frames, Framing, SpatialSpectrogram};
 
-/// Most that one stroke of a brush changes, in dB.
+/// Most that one touch of a brush changes, in dB: more counts as this.
 pub const MAX_GAIN_DB: f64 = 60.0;
+/// Highest power that a brush makes: the square of what no profile has.
+const MAX_POWER: f64 = 1e24;
 /// Factors by which a spectrogram may be stretched.
 pub const STRETCHES: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 
@@ -37,17 +40,17 @@ pub struct Patch {
     first_bin: usize,
     /// Window after window.
     power: Vec<Vec<f64>>,
-    window: usize,
-    hop: usize,
+    framing: Framing,
+    step_m: f64,
 }
 
 /// Why something cannot be pasted or stretched.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EditError {
-    /// Windows of another width, or other steps.
+    /// Windows of another width, other steps, or samples at another distance.
     #[error(
-        "what was copied has other windows than this spectrogram; copy it again from windows of this width"
+        "what was copied has other windows or another distance of samples than this spectrogram; copy it from one like it"
     )]
     Windows,
     /// A factor beyond reason.
@@ -62,6 +65,9 @@ impl SpatialSpectrogram {
     /// One touch of a brush at a place in m and a spatial frequency in 1/m, on samples of a distance in m. Nothing becomes of
     /// what is not there: a gain of silence is silence.
     pub fn paint(&mut self, brush: &Brush, step_m: f64, place_m: f64, per_m: f64) {
+        if !brush.gain_db.is_finite() {
+            return;
+        }
         let gain_db = brush.gain_db.clamp(-MAX_GAIN_DB, MAX_GAIN_DB);
         let octave = per_m.log2();
         self.each(step_m, |at_m, at_per_m, power| {
@@ -70,7 +76,7 @@ impl SpatialSpectrogram {
             let distance = across.hypot(up);
             if distance < 1.0 {
                 let share = 0.5 + 0.5 * (std::f64::consts::PI * distance).cos();
-                *power *= 10.0_f64.powf(0.1 * gain_db * share);
+                *power = (*power * 10.0_f64.powf(0.1 * gain_db * share)).min(MAX_POWER.max(*power));
             }
         });
     }
@@ -97,7 +103,7 @@ impl SpatialSpectrogram {
             (*frames.first()?, *frames.last()?, *bins.first()?, *bins.last()?);
         let power = self.power.frames().skip(first).take(last - first + 1);
         let power = power.map(|bins| bins[first_bin..=last_bin].to_vec()).collect();
-        Some(Patch { first_bin, power, window: framing.window(), hop: framing.hop() })
+        Some(Patch { first_bin, power, framing, step_m })
     }
 
     /// Puts what was copied where its first window is the one nearest to a place in m, in the place of what is there; what
@@ -107,7 +113,8 @@ impl SpatialSpectrogram {
     /// [`EditError::Windows`].
     pub fn paste(&mut self, patch: &Patch, step_m: f64, place_m: f64) -> Result<(), EditError> {
         let framing = self.power.framing;
-        if (patch.window, patch.hop) != (framing.window(), framing.hop()) {
+        // Lengths come from products.
+        if patch.framing != framing || (patch.step_m / step_m - 1.0).abs() > 1e-6 {
             return Err(EditError::Windows);
         }
         let at = ((place_m / step_m - framing.center(0)) / framing.hop() as f64).round();
@@ -129,9 +136,12 @@ impl SpatialSpectrogram {
         }
         let Frames { framing, n_samples, .. } = self.power;
         let hop = framing.hop();
-        // A whole number of steps, so that windows may also lie inside; one window at least.
-        let steps = ((factor * n_samples as f64 / hop as f64).round() as usize).max(framing.window() / hop);
-        let n_samples = steps * hop;
+        let wanted = factor * n_samples as f64;
+        let n_samples = match framing.edges {
+            Edges::Mirrored => (wanted.round() as usize).max(2),
+            // A whole number of steps, of one window at least.
+            Edges::Cut => ((wanted / hop as f64).round() as usize).max(framing.window() / hop) * hop,
+        };
         let Ok(n_frames) = framing.n_frames(n_samples) else {
             return Err(EditError::Factor { factor });
         };
@@ -257,7 +267,7 @@ mod tests {
         let (before, end_m) = (power(&spectrogram, (0.0, 0.04), 4000.0), 0.04);
         for factor in [0.5, 1.7, 3.0] {
             let stretched = spectrogram.stretched(factor).unwrap();
-            assert!((stretched.power().n_samples() as f64 / (factor * N as f64) - 1.0).abs() < 0.06);
+            assert!((stretched.power().n_samples() as f64 / (factor * N as f64) - 1.0).abs() < 1e-3);
             let after = power(&stretched, (0.0, factor * end_m), 4000.0);
             assert!((after / before / factor - 1.0).abs() < 0.1, "{after} of {before} at {factor}");
             let late = power(&stretched, (factor * 0.024, factor * 0.036), 4000.0);

@@ -1,6 +1,8 @@
 //! What moves over the texture, at any moment of the engine's clock.
 
-use shagreen_synth::contact::{Contact, ContactSource};
+use std::mem::{Discriminant, discriminant};
+
+use shagreen_synth::contact::{Contact, ContactSource, Place};
 
 use super::FADE_SECS;
 use super::place::FollowedPlace;
@@ -48,6 +50,9 @@ pub(super) struct Player {
     live_secs: f64,
     /// Where along a relief the tip is.
     place: FollowedPlace,
+    n_jumps: u32,
+    /// What was followed in the last tick.
+    last_kind: Discriminant<Input>,
     /// Which stylus said so, and whether it touches or is near.
     live_stylus_idx: usize,
     live_is_near: bool,
@@ -80,6 +85,8 @@ impl Player {
             live: Touch::default(),
             live_secs: 0.0,
             place: FollowedPlace::default(),
+            n_jumps: 0,
+            last_kind: discriminant(&Input::Lifted),
             live_stylus_idx: 0,
             live_is_near: false,
             near_secs: f64::NEG_INFINITY,
@@ -145,7 +152,13 @@ impl Player {
         let was_touching = self.live.contact.force_n > 0.0;
         self.live = touch.sanitized();
         self.live_secs = self.clock_secs - age_secs;
-        self.place.report(f64::from(self.live.x_m), self.live_secs);
+        let x_m = f64::from(self.live.x_m);
+        if was_touching {
+            self.place.report(x_m, self.live_secs);
+        } else {
+            self.place.begin(x_m, self.live_secs);
+            self.n_jumps = self.n_jumps.wrapping_add(1);
+        }
         if is_near || self.live_is_near {
             self.near_secs = self.live_secs;
         }
@@ -220,6 +233,7 @@ impl Player {
     fn start(&mut self) {
         self.input_start_secs = self.clock_secs;
         (self.distance_m, self.track_secs) = (0.0, 0.0);
+        self.n_jumps = self.n_jumps.wrapping_add(1);
         // What a person's hand does in its place is none of the stroke's.
         self.track_is_down = !self.has_taken_over && self.touch.contact.force_n > 0.0;
     }
@@ -282,17 +296,28 @@ impl ContactSource for Player {
         if share < 1.0 {
             touch.contact = mix_contacts(self.fade_from, touch.contact, share.max(0.0) as f32);
         }
-        if self.input() == Input::Live {
-            self.place.at(self.clock_secs, step_secs, f64::from(touch.contact.speed_mps));
-        } else {
-            self.place.set(f64::from(touch.x_m));
+        let kind = discriminant(&self.input());
+        if kind != self.last_kind {
+            self.n_jumps = self.n_jumps.wrapping_add(1);
+            self.last_kind = kind;
+            if self.input() == Input::Live {
+                self.place.begin(f64::from(self.live.x_m), self.live_secs);
+            }
+        }
+        match self.input() {
+            Input::Live => {
+                self.place.at(self.clock_secs, step_secs, f64::from(touch.contact.speed_mps));
+            }
+            // A tip that leaves does so where it is.
+            Input::Lifted => {}
+            _ => self.place.set(f64::from(touch.x_m)),
         }
         self.touch = touch;
         touch.contact
     }
 
-    fn place_m(&self) -> f64 {
-        self.place.place_m()
+    fn place(&self) -> Place {
+        Place { x_m: self.place.place_m(), n_jumps: self.n_jumps }
     }
 }
 

@@ -10,7 +10,7 @@ use shagreen_core::texture_path::TexturePath;
 use crate::layout;
 use crate::library::anchors::{anchors, interpolation_word};
 use crate::library::v1::{LibraryV1, PhysicalV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
-use crate::library::{FORMAT, Library, Place, Provenance, TextureEntry, VERSION_MAJOR, VERSION_MINOR};
+use crate::library::{FORMAT, Library, Place, Provenance, TextureEntry, VERSION_MAJOR};
 use crate::library::{attributes, path, relief};
 use crate::picture::Picture;
 
@@ -40,6 +40,8 @@ pub(crate) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
 pub(crate) const CONVERSION_DIGITS: usize = 12;
 
+/// The minor version that brought reliefs.
+const WITH_RELIEFS: u32 = 5;
 /// The minor version that brought paths.
 const WITH_PATHS: u32 = 4;
 /// The minor version that brought names of axes.
@@ -144,7 +146,7 @@ fn minor_version(library: &Library) -> u32 {
         keys.map(|key| &key.model).chain([&entry.model]).any(|model| model.relief().is_some())
     };
     if library.textures.iter().any(has_relief) {
-        return VERSION_MINOR;
+        return WITH_RELIEFS;
     }
     if library.textures.iter().any(|entry| entry.path.is_some()) {
         return WITH_PATHS;

@@ -4,6 +4,8 @@ use core::f64::consts::TAU;
 use std::vec;
 use std::vec::Vec;
 
+use crate::contact::Place;
+
 use super::{HIGH_PASS_HZ, LEAST_SAMPLES, Passage, Relief, ReliefError, ReliefVoice, length};
 
 const RATE_HZ: f32 = 1000.0;
@@ -34,7 +36,7 @@ fn played(relief: &Relief<'_>, touches: impl IntoIterator<Item = (f64, f32)>) ->
     let mut passage = Passage::default();
     let mut out = Vec::new();
     for (place_m, force_n) in touches {
-        passage = passage.on(place_m, force_n);
+        passage = passage.on(Place { x_m: place_m, n_jumps: 0 }, force_n);
         let mut tick = [0.0; TICK];
         voice.add_tick(relief, &passage, (1.0, 1.0), &mut tick);
         out.extend(tick);
@@ -87,6 +89,26 @@ fn what_is_too_fast_for_the_rate_is_left_out() {
         let out = played(&relief(&octaves), at_speed(hz * length_m, 400));
         assert!(rms(&out[500..]) < 1e-6, "{hz} Hz folds back: {}", rms(&out[500..]));
     }
+    // The longest wave that there is, faster than half the rate.
+    let once = wave(1);
+    let length_m = f64::from(STEP_M) * N as f64;
+    for hz in [600.0, 900.0] {
+        let places = at_speed(hz * length_m, 400).map(|(place, force)| (place % (0.9 * length_m), force));
+        let mut voice = ReliefVoice::new(RATE_HZ);
+        let mut out = Vec::new();
+        for ((place, force), n_jumps) in places.zip(0..) {
+            // Every tick begins anew: its way alone counts.
+            let begun = Passage::default().on(Place { x_m: place, n_jumps }, force);
+            let end = place + hz * length_m * TICK as f64 / f64::from(RATE_HZ);
+            let passage = Passage { places_m: (place, end), ..begun };
+            let mut tick = [0.0; TICK];
+            voice.add_tick(&relief(&once), &passage, (1.0, 1.0), &mut tick);
+            out.extend(tick);
+        }
+        assert!(rms(&out) < 1e-6, "{hz} Hz folds back: {}", rms(&out));
+    }
+    let octaves = wave(200);
+    let length_m = length_m / 200.0;
     let out = played(&relief(&octaves), at_speed(380.0 * length_m, 400));
     assert!(rms(&out[500..]) > 0.6, "{}", rms(&out[500..]));
 }
@@ -112,6 +134,35 @@ fn nothing_clicks() {
     assert!(rms(&out[3210..]) == 0.0, "a tip that lands and stands feels nothing");
 }
 
+/// A place that jumps is not gone to, and a tip that lands after a fast stroke and stands feels nothing.
+#[test]
+fn jumps_and_landings_are_silent() {
+    let octaves = wave(100);
+    let relief = relief(&octaves);
+    let mut voice = ReliefVoice::new(RATE_HZ);
+    let mut passage = Passage::default();
+    let mut heard = |place: Place, force_n: f32| {
+        passage = passage.on(place, force_n);
+        let mut tick = [0.0; TICK];
+        voice.add_tick(&relief, &passage, (1.0, 1.0), &mut tick);
+        rms(&tick)
+    };
+    let mut x_m = 0.0;
+    for _ in 0..100 {
+        x_m += 0.01;
+        heard(Place { x_m, n_jumps: 0 }, 1.0);
+    }
+    heard(Place { x_m, n_jumps: 0 }, 0.0);
+    for _ in 0..20 {
+        assert!(heard(Place { x_m: 0.003_1, n_jumps: 0 }, 1.0) < 1e-6);
+    }
+    for n_jumps in 1..20 {
+        let x_m = 0.001_3 * f64::from(n_jumps);
+        assert!(heard(Place { x_m, n_jumps }, 1.0) < 1e-6, "a jump is heard");
+    }
+    assert!(heard(Place { x_m: 0.0258, n_jumps: 19 }, 1.0) > 1e-3, "a way is heard");
+}
+
 #[test]
 fn force_and_weight_scale_it() {
     let octaves = wave(16);
@@ -126,7 +177,7 @@ fn force_and_weight_scale_it() {
     let mut voice = ReliefVoice::new(RATE_HZ);
     let mut passage = Passage::default();
     for (i, (place, force)) in at_speed(0.05, 200).enumerate() {
-        passage = passage.on(place, force);
+        passage = passage.on(Place { x_m: place, n_jumps: 0 }, force);
         let mut tick = [1.0; TICK];
         voice.add_tick(&relief, &passage, (0.5, 0.5), &mut tick);
         for (x, once) in tick.iter().zip(&once[i * TICK..]) {

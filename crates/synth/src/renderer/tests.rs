@@ -1,6 +1,6 @@
 extern crate std;
 use super::{Blend, MAX_VOICES, Mix, Parent, Renderer, TextureId, Textures};
-use crate::contact::Contact;
+use crate::contact::{Contact, Place};
 use crate::texture::tests::{parts, square};
 use crate::texture::{Node, Texture, Triangle};
 use std::vec::Vec;
@@ -51,7 +51,7 @@ fn mix(weights: &[f32], blend: Blend) -> Mix {
 fn render(renderer: &mut Renderer, table: &Table, n: usize) -> Vec<f32> {
     let mut out = std::vec![0.0; n];
     for tick in out.chunks_mut(renderer.tick_len()) {
-        renderer.tick(table, FULL, 0.0, tick);
+        renderer.tick(table, FULL, Place::default(), tick);
     }
     out
 }
@@ -141,7 +141,7 @@ fn silence_where_there_is_no_contact_or_no_texture() {
     assert!(renderer.set_mix(&Mix::solo(0)));
     let mut out = [1.0; 5];
     for _ in 0..10 {
-        renderer.tick(&table, Contact::LIFTED, 0.0, &mut out);
+        renderer.tick(&table, Contact::LIFTED, Place::default(), &mut out);
         assert_eq!(out, [0.0; 5]);
     }
 }
