@@ -129,11 +129,35 @@ impl OwnedTexture {
 pub(crate) mod tests {
     use super::OwnedTexture;
     use shagreen_synth::contact::Contact;
+    use shagreen_synth::relief::Relief;
     use shagreen_synth::texture::{self, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 
     /// White noise of `level_mps2` at 1 m/s and 1 N, in proportion to the smaller of speed and force below that.
     pub(crate) fn white(level_mps2: f32) -> OwnedTexture {
         white_at(1000.0, level_mps2).unwrap()
+    }
+
+    /// Without noise, a wave of 0.64 mm along x: sixteen of them before it repeats.
+    pub(crate) fn wavy() -> OwnedTexture {
+        let mut octaves = Vec::new();
+        for n in (2..=10).rev().map(|octave| 1_usize << octave) {
+            let value = |i: usize| (core::f32::consts::TAU * 16.0 * i as f32 / n as f32).sin();
+            octaves.extend((0..n).map(|i| if n >= 64 { value(i) } else { 0.0 }));
+        }
+        let relief = Relief::new(1e-5, 1.0, 1024, &octaves).unwrap();
+        let silent = white(0.0);
+        let parts = Parts {
+            rate_hz: silent.rate_hz,
+            order: silent.order,
+            ma_order: silent.ma_order,
+            speed_max_mps: silent.speed_max_mps,
+            force_max_n: silent.force_max_n,
+            nodes: &silent.nodes,
+            excitations: &silent.excitations,
+            triangles: &silent.triangles,
+            relief: Some(relief),
+        };
+        OwnedTexture::new(parts).unwrap()
     }
 
     pub(crate) fn white_at(rate_hz: f32, level_mps2: f32) -> Result<OwnedTexture, super::TextureError> {
