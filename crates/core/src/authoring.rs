@@ -218,10 +218,7 @@ impl Authoring {
                     Weights::Natural => self.natural_weights(&authored.location),
                 };
                 // A mean of textures is one; should rounding make it none, there is nothing to hear.
-                authored.model = models.and_then(|models| {
-                    let mean = models.mean(&authored.parents).ok()?;
-                    Some(mean.with_relief(models.relief(&authored.parents)))
-                });
+                authored.model = models.and_then(|models| models.mean(&authored.parents).ok());
             }
             Mode::Field => {
                 if let Some(models) = models {
@@ -234,8 +231,7 @@ impl Authoring {
                     authored.location.at = reached;
                     authored.parents = models.weights(reached);
                     // Far from all textures a spectrum may be beyond what a texture may be: then nothing is heard.
-                    let field = models.texture(reached, None).ok();
-                    authored.model = field.map(|model| model.with_relief(models.relief(&authored.parents)));
+                    authored.model = models.texture(reached, None, &authored.parents).ok();
                     authored.lock = self.lock(reached, &blending.locked);
                     if let Some((locked, share)) = authored.lock {
                         for (texture, weight) in &mut authored.parents {
@@ -258,8 +254,7 @@ impl Authoring {
         match (authored.lock, self.models.as_deref()) {
             // As in `author`.
             (Some(lock), Some(models)) => {
-                let model = models.texture(authored.location.at, Some(lock)).ok()?;
-                Some(model.with_relief(models.relief(&authored.parents)))
+                models.texture(authored.location.at, Some(lock), &authored.parents).ok()
             }
             _ => authored.model,
         }

@@ -13,6 +13,7 @@ mod correlation;
 mod d_prime;
 mod features;
 mod model;
+mod real_transform;
 mod similarity;
 #[cfg(test)]
 mod tests;

@@ -108,7 +108,7 @@ fn is_delimiter(byte: u8) -> bool {
 }
 
 /// The delimiter of the first line that is neither empty nor a comment: a semicolon or tab is never part of a number.
-pub(crate) fn delimiter_of(text: &str) -> u8 {
+fn delimiter_of(text: &str) -> u8 {
     let is_content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
     let line = text.lines().find(is_content).unwrap_or("");
     if line.contains(';') {
@@ -127,10 +127,15 @@ pub(crate) fn rows(delimiter: u8) -> csv::ReaderBuilder {
     builder
 }
 
+/// What parts the columns of a text, stated or told by its first line, and the text without a line that stated it.
+pub(crate) fn delimited(text: &str) -> (u8, &str) {
+    let (stated, text) = stated_delimiter(text);
+    (stated.unwrap_or_else(|| delimiter_of(text)), text)
+}
+
 /// A table by its rows that hold anything: what parts its columns, its text without a line that said so, and the records.
 pub(crate) fn records(text: &str) -> (u8, &str, impl Iterator<Item = csv::StringRecord>) {
-    let (stated, text) = stated_delimiter(text);
-    let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
+    let (delimiter, text) = delimited(text);
     let reader = rows(delimiter).from_reader(text.as_bytes());
     // Text in memory with rows of any length: there is nothing left that the parser could refuse.
     let records = reader.into_records().map_while(Result::ok);

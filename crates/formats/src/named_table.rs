@@ -6,7 +6,7 @@
 
 use std::collections::HashSet;
 
-use crate::csv_text::{self, TableTextError, delimiter_of, line_of, number, stated_delimiter};
+use crate::csv_text::{self, TableTextError, line_of, number};
 
 /// Why bytes are no such table, or a field of it cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -121,8 +121,7 @@ impl NamedTable {
         of: &'static str,
     ) -> Result<Self, NamedTableError> {
         let text = csv_text::text(bytes)?;
-        let (stated, text) = stated_delimiter(&text);
-        let delimiter = stated.unwrap_or_else(|| delimiter_of(text));
+        let (delimiter, text) = csv_text::delimited(&text);
         let mut reader = csv_text::rows(delimiter).comment(Some(b'#')).from_reader(text.as_bytes());
         let mut columns: Option<Vec<String>> = None;
         let mut first_line = 1;

@@ -186,16 +186,17 @@ pub fn brightness_row(bytes: &[u8], row: Option<u32>) -> Result<Vec<f64>, Pictur
 
 /// Whether bytes begin as JPEG or PNG do.
 pub fn is_picture(bytes: &[u8]) -> bool {
-    image::guess_format(bytes).is_ok_and(|f| matches!(f, ImageFormat::Jpeg | ImageFormat::Png))
+    photo_format(bytes).is_some()
+}
+
+fn photo_format(bytes: &[u8]) -> Option<ImageFormat> {
+    image::guess_format(bytes).ok().filter(|f| matches!(f, ImageFormat::Jpeg | ImageFormat::Png))
 }
 
 /// A photo as it was held.
 fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     let mut reader = ImageReader::new(Cursor::new(bytes));
-    let format = image::guess_format(bytes).ok();
-    reader.set_format(
-        format.filter(|f| matches!(f, ImageFormat::Jpeg | ImageFormat::Png)).ok_or(PictureError::NoPhoto)?,
-    );
+    reader.set_format(photo_format(bytes).ok_or(PictureError::NoPhoto)?);
     let mut limits = image::Limits::default();
     (limits.max_image_width, limits.max_image_height) = (Some(MAX_PHOTO_SIDE), Some(MAX_PHOTO_SIDE));
     reader.limits(limits);

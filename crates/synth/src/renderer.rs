@@ -206,8 +206,8 @@ impl Renderer {
             }
         }
         self.passage = self.passage.on(place, contact.sanitized().force_n);
-        let mut starts = [0.0; MAX_VOICES];
-        for (slot, start) in self.slots.iter_mut().zip(&mut starts) {
+        let (mut starts, mut reliefs) = ([0.0; MAX_VOICES], [None; MAX_VOICES]);
+        for ((slot, start), relief) in self.slots.iter_mut().zip(&mut starts).zip(&mut reliefs) {
             *start = slot.weight;
             let Some(id) = slot.id else { continue };
             slot.weight = approach(slot.weight, slot.target, slot.step);
@@ -215,6 +215,7 @@ impl Renderer {
                 let at = texture.evaluate(contact, &mut slot.hint);
                 slot.level = at.level_mps2;
                 slot.voice.aim(texture.order(), &at);
+                *relief = texture.relief();
             } else {
                 slot.weight = 0.0;
                 slot.target = 0.0;
@@ -222,7 +223,7 @@ impl Renderer {
         }
         let makeup_before = self.makeup;
         self.makeup = self.next_makeup();
-        for (slot, start) in self.slots.iter_mut().zip(starts) {
+        for ((slot, start), relief) in self.slots.iter_mut().zip(starts).zip(reliefs) {
             if slot.id.is_none() {
                 continue;
             }
@@ -237,8 +238,7 @@ impl Renderer {
             };
             slot.voice.add_tick(noise, (start * makeup_before, slot.weight * self.makeup), out);
             // Reliefs lie where they lie: their sum needs no making up.
-            let texture = slot.id.and_then(|id| textures.texture(id));
-            match texture.and_then(|texture| texture.relief()) {
+            match relief {
                 Some(relief) => {
                     slot.relief.add_tick(&relief, &self.passage, (start, slot.weight), out);
                 }

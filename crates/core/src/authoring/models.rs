@@ -101,20 +101,22 @@ impl Models {
         Ok(Self { sampling, sites, field })
     }
 
-    /// The texture of the field at a place, or so far on the way to a locked one.
+    /// The texture of the field at a place, or so far on the way to a locked one. Its relief is that of the `parents` by weight.
     pub(super) fn texture(
         &self,
         at: SpacePoint,
         lock: Option<(usize, f64)>,
+        parents: &[(usize, f64)],
     ) -> Result<TextureModel, TextureModelError> {
         let own = |(texture, share): (usize, f64)| {
             Some((self.sites.iter().find(|site| site.texture == texture)?.at(at), share))
         };
-        self.field.texture(&self.sampling, at.xy(), lock.and_then(own))
+        let model = self.field.texture(&self.sampling, at.xy(), lock.and_then(own))?;
+        Ok(model.with_relief(self.relief(parents)))
     }
 
     /// The reliefs of textures by weight; `None` where none has one.
-    pub(super) fn relief(&self, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
+    fn relief(&self, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
         if self.sites.iter().all(|site| site.relief.is_none()) {
             return None;
         }
@@ -154,6 +156,7 @@ impl Models {
         }
         let friction = mean_friction(known.iter().map(|(site, weight)| (site.friction, *weight)));
         let tap = mean_tap(known.iter().map(|(site, weight)| (site.tap, *weight)));
-        self.sampling.texture_of_frequencies(&lsf, &ln_level, friction, tap)
+        let model = self.sampling.texture_of_frequencies(&lsf, &ln_level, friction, tap)?;
+        Ok(model.with_relief(self.relief(parents)))
     }
 }

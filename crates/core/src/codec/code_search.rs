@@ -25,6 +25,8 @@ pub(super) struct CodeSearch {
     scores: Vec<f32>,
     /// The highest score of each group: of as many codes as there are groups, each belongs to another.
     highest: Vec<f32>,
+    /// The same, to be put in order.
+    ordered: Vec<f32>,
     ranked: Vec<(f64, usize)>,
 }
 
@@ -37,6 +39,7 @@ impl CodeSearch {
             energies: vec![0.0; n_rough],
             scores: vec![0.0; n_rough],
             highest: vec![0.0; n_rough.div_ceil(N_GROUP)],
+            ordered: Vec::new(),
             ranked: Vec::with_capacity(n_codes),
         }
     }
@@ -145,7 +148,7 @@ impl WithSimd for Roughly<'_> {
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
     fn with_simd<S: Simd>(self, simd: S) {
-        let CodeSearch { energies, scores, highest, ranked, .. } = self.search;
+        let CodeSearch { energies, scores, highest, ordered, ranked, .. } = self.search;
         Weighed { blocks: self.blocks, weights: self.backwards, out: scores }.with_simd(simd);
         for (score, energy) in scores.iter_mut().zip(energies) {
             // What is no number promises nothing.
@@ -161,7 +164,8 @@ impl WithSimd for Roughly<'_> {
         // So many groups have a score as high as the least that may be kept: what is lower is not among them.
         let mut least = 0.0;
         if n_groups > N_EXACT {
-            least = *highest.clone().select_nth_unstable_by(N_EXACT - 1, |a, b| b.total_cmp(a)).1;
+            ordered.clone_from(highest);
+            least = *ordered.select_nth_unstable_by(N_EXACT - 1, |a, b| b.total_cmp(a)).1;
         }
         for (group, _) in highest.iter().enumerate().filter(|(_, highest)| **highest >= least) {
             for i in (group..scores.len()).step_by(n_groups) {

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
+use crate::quality::real_transform::{bins_of, samples_of};
+
 /// Correlates pieces of one length up to a furthest shift.
 #[derive(Clone)]
 pub(super) struct Correlator {
@@ -31,7 +33,7 @@ impl Correlator {
 
     /// `Σ_i x[i + lag] x[i]` for lags from 0 to the furthest.
     pub(super) fn with_itself(&self, x: &[f64]) -> Vec<f64> {
-        let mut bins = self.spectrum(x);
+        let mut bins = bins_of(&*self.forward, x);
         for bin in &mut bins {
             *bin = Complex::new(bin.norm_sqr(), 0.0);
         }
@@ -42,8 +44,8 @@ impl Correlator {
 
     /// The highest `Σ_i x[i + shift] y[i]` of all shifts to either side.
     pub(super) fn highest(&self, x: &[f64], y: &[f64]) -> f64 {
-        let mut bins = self.spectrum(x);
-        for (x, y) in bins.iter_mut().zip(self.spectrum(y)) {
+        let mut bins = bins_of(&*self.forward, x);
+        for (x, y) in bins.iter_mut().zip(bins_of(&*self.forward, y)) {
             *x *= y.conj();
         }
         let sums = self.turned_back(bins);
@@ -51,21 +53,11 @@ impl Correlator {
         later.iter().chain(earlier).copied().fold(f64::MIN, f64::max)
     }
 
-    fn spectrum(&self, x: &[f64]) -> Vec<Complex<f64>> {
-        let (mut samples, mut bins) = (self.forward.make_input_vec(), self.forward.make_output_vec());
-        samples[..x.len()].copy_from_slice(x);
-        let done = self.forward.process(&mut samples, &mut bins);
-        debug_assert!(done.is_ok(), "the lengths are those of the plan");
-        bins
-    }
-
     fn turned_back(&self, mut bins: Vec<Complex<f64>>) -> Vec<f64> {
-        let mut sums = self.backward.make_output_vec();
         // These of a real signal are real; a product leaves round-off.
         let last = bins.len() - 1;
         (bins[0].im, bins[last].im) = (0.0, 0.0);
-        let done = self.backward.process(&mut bins, &mut sums);
-        debug_assert!(done.is_ok(), "the lengths are those of the plan");
+        let mut sums = samples_of(&*self.backward, bins);
         let share = 1.0 / sums.len() as f64;
         for sum in &mut sums {
             *sum *= share;

@@ -8,6 +8,7 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use crate::quality::correlation::Correlator;
+use crate::quality::real_transform::{bins_of, samples_of};
 use crate::statistics::{centered, dot, is_constant, mean};
 use crate::units::Hertz;
 
@@ -91,7 +92,7 @@ impl FeatureMeter {
     /// The features, the spectrum and the envelope of a piece.
     pub(super) fn measure(&self, piece: &[f64]) -> Measured {
         let signal = centered(piece);
-        let mut spectrum = self.spectrum(&signal);
+        let mut spectrum = bins_of(&*self.forward, &signal);
         let mut envelope = self.envelope(&spectrum, mean(piece));
         // What is left of a constant is round-off, and below what is felt at all nothing has features.
         let is_silent = is_constant(piece) || dot(&signal, &signal) < LEAST_POWER * piece.len() as f64;
@@ -123,13 +124,6 @@ impl FeatureMeter {
         if norm == 0.0 { 1.0 } else { (1.0 - self.shifts.highest(a, b) / norm).max(0.0) }
     }
 
-    fn spectrum(&self, signal: &[f64]) -> Vec<Complex<f64>> {
-        let (mut samples, mut bins) = (signal.to_vec(), self.forward.make_output_vec());
-        let done = self.forward.process(&mut samples, &mut bins);
-        debug_assert!(done.is_ok(), "the lengths are those of the plan");
-        bins
-    }
-
     /// The magnitude of the analytic signal up to 20 Hz, without its mean, of a signal's spectrum and its mean.
     fn envelope(&self, spectrum: &[Complex<f64>], mean: f64) -> Vec<f64> {
         let n = self.analytic.len();
@@ -143,16 +137,13 @@ impl FeatureMeter {
         if is_constant(&magnitude) {
             return vec![0.0; n];
         }
-        let mut bins = self.spectrum(&magnitude);
+        let mut bins = bins_of(&*self.forward, &magnitude);
         bins[0] = Complex::ZERO;
         for (k, bin) in bins.iter_mut().enumerate() {
             let is_slow = k as f64 * self.rate.0 <= ENVELOPE_HZ * n as f64;
             *bin *= if is_slow { 1.0 / n as f64 } else { 0.0 };
         }
-        let mut slow = vec![0.0; n];
-        let done = self.backward.process(&mut bins, &mut slow);
-        debug_assert!(done.is_ok(), "the lengths are those of the plan");
-        slow
+        samples_of(&*self.backward, bins)
     }
 
     fn brightness_hz(&self, spectrum: &[Complex<f64>], n_samples: usize) -> f64 {

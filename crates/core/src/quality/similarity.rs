@@ -10,6 +10,7 @@ use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
+use crate::quality::real_transform::bins_of;
 use crate::statistics::dot;
 use crate::threshold::{Threshold, displacement_db_um};
 use crate::units::Hertz;
@@ -114,9 +115,7 @@ impl Levels {
 
     /// What is `felt` of each level in dB over the threshold.
     fn of(&self, block: &[f64], felt: impl Fn(f64) -> f64) -> Vec<f64> {
-        let (mut samples, mut bins) = (block.to_vec(), self.forward.make_output_vec());
-        let done = self.forward.process(&mut samples, &mut bins);
-        debug_assert!(done.is_ok(), "the lengths are those of the plan");
+        let bins = bins_of(&*self.forward, block);
         let level = |(bin, one_db): (&Complex<f64>, &f64)| 20.0 * bin.norm().log10() + one_db;
         bins[1..].iter().zip(&self.of_one_db).map(level).map(|db| felt(db.max(LEAST_DB))).collect()
     }

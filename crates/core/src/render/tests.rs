@@ -180,16 +180,15 @@ fn a_path_is_heard_as_it_is_traveled() {
 
 /// A texture that is silent but for its relief: a wave of so many mm.
 fn wave(millimeters: f64) -> Plane {
-    let node = |v: f64| GrainNode {
-        speed: MetersPerSecond(v),
-        force: Newtons(1.0),
-        lsf: vec![1.0, 2.0],
-        level_mps2: 0.0,
-    };
     let values = (0..1000).map(|i| (std::f64::consts::TAU * 0.02 * f64::from(i) / millimeters).cos());
-    let profile = Profile::new(2e-5, values.collect()).unwrap();
+    silent_but_for(Profile::new(2e-5, values.collect()).unwrap())
+}
+
+fn silent_but_for(profile: Profile) -> Plane {
     let relief = Relief::new(profile, Newtons(1.0)).unwrap();
-    let model = TextureModel::new(Hertz(1000.0), vec![node(0.1)], None).unwrap();
+    let node =
+        GrainNode { speed: MetersPerSecond(0.1), force: Newtons(1.0), lsf: vec![1.0, 2.0], level_mps2: 0.0 };
+    let model = TextureModel::new(Hertz(1000.0), vec![node], None).unwrap();
     Plane::new(&model.with_relief(Some(std::sync::Arc::new(relief))))
 }
 
@@ -226,12 +225,7 @@ fn at_its_own_speed_a_recording_comes_back() {
     let noise = crate::rng::lcg_noise(4000, 3);
     // Without what a tip that stands must not feel, and what lies at the end of the band.
     let recorded: Vec<f64> = noise.windows(4).map(|w| 0.25 * (w[0] + w[1] - w[2] - w[3])).collect();
-    let profile = Profile::new(1e-4, recorded.clone()).unwrap();
-    let relief = Relief::new(profile, Newtons(1.0)).unwrap();
-    let node =
-        GrainNode { speed: MetersPerSecond(0.1), force: Newtons(1.0), lsf: vec![1.0, 2.0], level_mps2: 0.0 };
-    let model = TextureModel::new(Hertz(1000.0), vec![node], None).unwrap();
-    let prepared = Plane::new(&model.with_relief(Some(std::sync::Arc::new(relief)))).prepare();
+    let prepared = silent_but_for(Profile::new(1e-4, recorded.clone()).unwrap()).prepare();
     let plan = RenderPlan {
         parents: &[(&prepared, 1.0)],
         mode: Mode::Power,

@@ -40,8 +40,11 @@ pub fn refine(
     let sizes: Vec<f64> = power.values.iter().map(|power| power.max(0.0).sqrt()).collect();
     // Whatever the unit is, singles have room for squares of what is about one.
     let unit = sizes.iter().fold(0.0_f64, |most, size| most.max(*size));
-    if unit == 0.0 || n_steps == 0 {
-        return Ok(start.iter().map(|x| if unit == 0.0 { -spectrogram.offset } else { *x }).collect());
+    if n_steps == 0 {
+        return Ok(start.to_vec());
+    }
+    if unit == 0.0 {
+        return Ok(vec![-spectrogram.offset; start.len()]);
     }
     let sizes: Vec<f32> = sizes.iter().map(|size| (size / unit) as f32).collect();
     let weights = transform.weights(power.n_samples, power.n_frames());

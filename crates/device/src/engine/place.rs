@@ -1,5 +1,7 @@
 //! Where the tip is between two reports of it.
 
+use shagreen_synth::contact::Place;
+
 /// Share of what a place is off that is made up for in a tick: reports come at their own times, and a step would click.
 const CATCH_UP: f64 = 0.25;
 /// How much a new velocity counts.
@@ -17,6 +19,7 @@ pub(super) struct FollowedPlace {
     reported_secs: f64,
     velocity_mps: f64,
     place_m: f64,
+    n_jumps: u32,
 }
 
 impl FollowedPlace {
@@ -33,7 +36,9 @@ impl FollowedPlace {
 
     /// The tip is at a place at a time, and did not go there.
     pub(super) fn begin(&mut self, place_m: f64, secs: f64) {
-        *self = Self { reported_m: place_m, reported_secs: secs, velocity_mps: 0.0, place_m };
+        let n_jumps = self.n_jumps;
+        *self = Self { reported_m: place_m, reported_secs: secs, velocity_mps: 0.0, place_m, n_jumps };
+        self.jump();
     }
 
     /// The place at a time, a tick of `step_secs` after it was asked for last. The tip goes on as far as `speed_mps` lets it:
@@ -48,14 +53,19 @@ impl FollowedPlace {
         self.place_m
     }
 
+    /// The next place is not gone to from the last.
+    pub(super) fn jump(&mut self) {
+        self.n_jumps = self.n_jumps.wrapping_add(1);
+    }
+
     /// The tip is here.
     pub(super) fn set(&mut self, place_m: f64) {
         self.place_m = place_m;
     }
 
     /// Where it was asked for last.
-    pub(super) fn place_m(&self) -> f64 {
-        self.place_m
+    pub(super) fn place(&self) -> Place {
+        Place { x_m: self.place_m, n_jumps: self.n_jumps }
     }
 }
 
@@ -100,13 +110,13 @@ mod tests {
         for tick in 1..100 {
             place.at(0.01 + TICK_SECS * f64::from(tick), TICK_SECS, 0.0);
         }
-        assert!((place.place_m() - 0.001).abs() < 1e-6);
+        assert!((place.place().x_m - 0.001).abs() < 1e-6);
         place.begin(0.02, 1.0);
         for tick in 0..20 {
             let at = place.at(1.0 + TICK_SECS * f64::from(tick), TICK_SECS, 1.0);
             assert!((at - 0.02).abs() < 1e-12, "it goes to {at}");
         }
         place.set(0.05);
-        assert!((place.place_m() - 0.05).abs() < 1e-12);
+        assert!((place.place().x_m - 0.05).abs() < 1e-12);
     }
 }

@@ -50,7 +50,6 @@ pub(super) struct Player {
     live_secs: f64,
     /// Where along a relief the tip is.
     place: FollowedPlace,
-    n_jumps: u32,
     /// What was followed in the last tick.
     last_kind: Discriminant<Input>,
     /// Which stylus said so, and whether it touches or is near.
@@ -85,7 +84,6 @@ impl Player {
             live: Touch::default(),
             live_secs: 0.0,
             place: FollowedPlace::default(),
-            n_jumps: 0,
             last_kind: discriminant(&Input::Lifted),
             live_stylus_idx: 0,
             live_is_near: false,
@@ -157,7 +155,6 @@ impl Player {
             self.place.report(x_m, self.live_secs);
         } else {
             self.place.begin(x_m, self.live_secs);
-            self.n_jumps = self.n_jumps.wrapping_add(1);
         }
         if is_near || self.live_is_near {
             self.near_secs = self.live_secs;
@@ -233,7 +230,7 @@ impl Player {
     fn start(&mut self) {
         self.input_start_secs = self.clock_secs;
         (self.distance_m, self.track_secs) = (0.0, 0.0);
-        self.n_jumps = self.n_jumps.wrapping_add(1);
+        self.place.jump();
         // What a person's hand does in its place is none of the stroke's.
         self.track_is_down = !self.has_taken_over && self.touch.contact.force_n > 0.0;
     }
@@ -298,10 +295,11 @@ impl ContactSource for Player {
         }
         let kind = discriminant(&self.input());
         if kind != self.last_kind {
-            self.n_jumps = self.n_jumps.wrapping_add(1);
             self.last_kind = kind;
             if self.input() == Input::Live {
                 self.place.begin(f64::from(self.live.x_m), self.live_secs);
+            } else {
+                self.place.jump();
             }
         }
         match self.input() {
@@ -317,7 +315,7 @@ impl ContactSource for Player {
     }
 
     fn place(&self) -> Place {
-        Place { x_m: self.place.place_m(), n_jumps: self.n_jumps }
+        self.place.place()
     }
 }
 

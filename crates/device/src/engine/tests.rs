@@ -1,11 +1,14 @@
 //! Both halves together, block by block.
 
+mod relief;
+mod signals;
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use shagreen_synth::contact::Contact;
-use shagreen_synth::drive::{DriveConfig, Driven};
+use shagreen_synth::drive::DriveConfig;
 use shagreen_synth::renderer::{Blend, Mix, Parent};
 use shagreen_synth::tap::Tap;
 
@@ -14,8 +17,7 @@ use super::{
 };
 use crate::controls::{Controls, Drive, Input, Takeover};
 use crate::hand::{Hand, Path};
-use crate::signal::Signal;
-use crate::texture::tests::{wavy, white, white_at};
+use crate::texture::tests::{white, white_at};
 use crate::touch::Touch;
 use crate::track::{PenSample, Track};
 
@@ -79,37 +81,6 @@ fn output_does_not_depend_on_the_size_of_blocks() {
             assert!(run(block, input) == whole, "{input:?} in blocks of {block}");
         }
     }
-}
-
-/// A hand at 64 mm/s on waves of 0.64 mm makes 100 Hz, whatever the blocks; where hands change and where it turns nothing
-/// clicks, and a tip in the air is silent.
-#[test]
-fn a_relief_is_played_by_place() {
-    let run = |block: usize| {
-        let (mut handle, mut engine) = new(CONFIG).unwrap();
-        let id = handle.load(wavy()).unwrap();
-        handle.set_mix(Mix::solo(id)).unwrap();
-        let mut out = Vec::new();
-        let hand = Hand { speed_mps: 0.064, force_n: 1.0, ..HAND };
-        for input in [Input::Hand(hand), Input::Lifted, Input::Hand(Hand { path: Path::Circle, ..hand })] {
-            handle.set_input(input);
-            out.extend(play(&mut engine, 96_000, block));
-        }
-        out
-    };
-    let whole = run(960);
-    assert!(run(257) == whole);
-    let steady = &whole[4800..33_600];
-    let part = |of: fn(f64) -> f64| -> f64 {
-        let turn = |i: usize| std::f64::consts::TAU * 100.0 * i as f64 / 48e3;
-        steady.iter().enumerate().map(|(i, x)| of(turn(i)) * f64::from(*x)).sum::<f64>() / steady.len() as f64
-    };
-    let power = steady.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / steady.len() as f64;
-    let tone = 2.0 * (part(f64::sin).powi(2) + part(f64::cos).powi(2));
-    assert!(power > 1e-4 && tone > 0.95 * power, "{tone} of {power} is at 100 Hz");
-    assert!(peak(&whole[110_000..192_000]) < 1e-6, "{} in the air", peak(&whole[110_000..192_000]));
-    let steepest = |x: &[f32]| x.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
-    assert!(steepest(&whole) < 2.0 * steepest(steady), "{} of {}", steepest(&whole), steepest(steady));
 }
 
 #[test]
@@ -510,99 +481,4 @@ fn landings_of_a_stroke_do_not_depend_on_blocks() {
     let (mut handle, mut engine) = stroking(CONFIG, 1.0);
     handle.play_track(track(200)).unwrap();
     assert_ne!(play(&mut engine, 48_000, 256), whole, "without its landings");
-}
-
-#[test]
-fn a_signal_takes_the_place_of_the_texture_and_gives_it_back() {
-    let (mut handle, mut engine) = stroking(CONFIG, 1.0);
-    let (_undisturbed, mut undisturbed) = stroking(CONFIG, 1.0);
-    play(&mut engine, 9600, 256);
-    let samples: Vec<f32> = (0..4800).map(|i| 0.5 * (i as f32 * 0.05).sin()).collect();
-    handle.play_signal(Signal::new(samples.clone(), 48_000.0, Driven::Drive).unwrap()).unwrap();
-    handle.set_drive(Drive { muted: false, gain: 0.1 });
-    let out = play(&mut engine, 48_000, 256);
-    // The texture fades in 960 samples; a signal begins with a block.
-    assert!(out[1024..5824] == samples, "as it is, whatever the gain");
-    assert!(peak(&out[5900..]) < 0.1 && peak(&out[20_000..]) > 0.0);
-    assert_eq!(handle.collect(), 1);
-    assert!(!handle.status().plays_signal);
-    play(&mut undisturbed, 57_600, 256);
-    handle.set_drive(Drive::default());
-    let (before, after) = (play(&mut undisturbed, 9600, 256), play(&mut engine, 9600, 256));
-    assert!(before[960..] == after[960..], "the texture went on beneath");
-}
-
-#[test]
-fn signals_are_stopped_muted_replaced_and_limited() {
-    let signal = |level| Signal::new(vec![level; 480_000], 48_000.0, Driven::Drive).unwrap();
-    let (mut handle, mut engine) = stroking(CONFIG, 1.0);
-    handle.play_signal(signal(7.0)).unwrap();
-    let out = play(&mut engine, 9600, 256);
-    assert!(handle.status().plays_signal && peak(&out) <= 1.0 && out[9000] > 0.9);
-    handle.set_drive(Drive { muted: true, gain: 1.0 });
-    play(&mut engine, 960, 256);
-    assert_eq!(peak(&play(&mut engine, 9600, 256)), 0.0);
-    handle.set_drive(Drive::default());
-    handle.play_signal(signal(0.25)).unwrap();
-    let out = play(&mut engine, 9600, 256);
-    assert_eq!((out[9000], handle.collect()), (0.25, 1));
-    handle.stop_signal();
-    let out = play(&mut engine, 9600, 256);
-    let steps = out.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f32::max);
-    assert!(steps < 0.05, "it fades: {steps}");
-    assert!(!handle.status().plays_signal && handle.collect() == 1);
-    // A stop without a signal stops none that comes later.
-    handle.stop_signal();
-    play(&mut engine, 256, 256);
-    handle.play_signal(signal(0.25)).unwrap();
-    assert_eq!(play(&mut engine, 9600, 256)[9000], 0.25);
-}
-
-#[test]
-fn a_signal_after_a_stop_is_played_and_one_before_it_is_not() {
-    let signal = |level| Signal::new(vec![level; 9600], 48_000.0, Driven::Drive).unwrap();
-    // All within one block: what is stopped is nothing, then a signal nobody has heard, then one that plays.
-    for n_before in 0..3 {
-        let (mut handle, mut engine) = new(CONFIG).unwrap();
-        if n_before > 0 {
-            handle.play_signal(signal(0.5)).unwrap();
-        }
-        if n_before == 2 {
-            assert_eq!(play(&mut engine, 4800, 256)[4000], 0.5);
-        }
-        handle.stop_signal();
-        handle.play_signal(signal(0.25)).unwrap();
-        let out = play(&mut engine, 24_000, 256);
-        // The fade of the one before may meet its level, too.
-        let n_frames = out.iter().filter(|x| **x == 0.25).count();
-        assert!((9600..=9601).contains(&n_frames), "{n_frames} after {n_before}");
-        assert!(n_before == 2 || peak(&out) == 0.25);
-        assert_eq!(handle.collect(), if n_before == 0 { 1 } else { 2 });
-        handle.play_signal(signal(0.25)).unwrap();
-        handle.stop_signal();
-        assert_eq!(peak(&play(&mut engine, 9600, 256)), 0.0);
-        assert_eq!((handle.collect(), handle.status().plays_signal), (1, false));
-    }
-}
-
-#[test]
-fn a_signal_that_takes_over_another_begins_when_that_has_faded() {
-    let ramp = |from: f32| {
-        let samples = (0..9600).map(|i| from + 1e-5 * i as f32).collect();
-        Signal::new(samples, 48_000.0, Driven::Drive).unwrap()
-    };
-    let (mut handle, mut engine) = new(CONFIG).unwrap();
-    handle.play_signal(ramp(0.5)).unwrap();
-    play(&mut engine, 4864, 256);
-    // The one in the middle is never heard.
-    handle.play_signal(ramp(0.2)).unwrap();
-    handle.play_signal(ramp(0.0)).unwrap();
-    let out = play(&mut engine, 24_000, 256);
-    let begin = out.windows(2).position(|w| w == [0.0, 1e-5]).unwrap();
-    // 0.55 in the 960 frames of the fade.
-    let steps = out[..begin].windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f32::max);
-    assert!(steps < 7e-4, "{steps}");
-    assert!(out[begin..begin + 9600] == *ramp(0.0).part(0, 9600), "from its beginning");
-    assert!((960..=960 + 256).contains(&begin) && peak(&out[begin + 9600..]) == 0.0, "{begin}");
-    assert_eq!(handle.collect(), 3);
 }
