@@ -1,6 +1,6 @@
 //! Work that the window does not wait for.
 
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Does something on a thread of its own; what comes of it can be taken in the frame after.
 pub(crate) fn in_background<T: Send + 'static>(
@@ -14,4 +14,95 @@ pub(crate) fn in_background<T: Send + 'static>(
         ctx.request_repaint();
     });
     receiver
+}
+
+/// Work of which only the newest counts: one thread at most, and what is asked for meanwhile waits in the place of what
+/// waited before.
+pub(crate) struct Newest<T> {
+    running: Option<Receiver<T>>,
+    waiting: Option<Box<dyn FnOnce() -> T + Send>>,
+}
+
+impl<T> Default for Newest<T> {
+    fn default() -> Self {
+        Self { running: None, waiting: None }
+    }
+}
+
+impl<T: Send + 'static> Newest<T> {
+    /// Asks for work.
+    pub(crate) fn ask(&mut self, ctx: &egui::Context, work: impl FnOnce() -> T + Send + 'static) {
+        if self.running.is_some() {
+            self.waiting = Some(Box::new(work));
+        } else {
+            self.running = Some(in_background(ctx.clone(), work));
+        }
+    }
+
+    /// What came of the work that was asked for last, once it is done.
+    pub(crate) fn collect(&mut self, ctx: &egui::Context) -> Option<T> {
+        let done = match self.running.as_ref()?.try_recv() {
+            Ok(done) => Some(done),
+            Err(TryRecvError::Empty) => return None,
+            // Its thread broke off, and nothing came of it.
+            Err(TryRecvError::Disconnected) => None,
+        };
+        self.running = None;
+        if let Some(work) = self.waiting.take() {
+            self.running = Some(in_background(ctx.clone(), work));
+            return None;
+        }
+        done
+    }
+
+    /// Whether something is being done.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.running.is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Newest;
+    use std::sync::mpsc::channel;
+    use std::time::{Duration, Instant};
+
+    fn wait<T: Send + 'static>(newest: &mut Newest<T>, ctx: &egui::Context) -> T {
+        let begun = Instant::now();
+        loop {
+            if let Some(done) = newest.collect(ctx) {
+                return done;
+            }
+            assert!(begun.elapsed() < Duration::from_mins(1), "nothing came");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn only_the_newest_work_counts() {
+        let (ctx, mut newest) = (egui::Context::default(), Newest::default());
+        let (go, held) = channel::<()>();
+        newest.ask(&ctx, move || {
+            let _ = held.recv();
+            0
+        });
+        for i in 1..10 {
+            newest.ask(&ctx, move || i);
+        }
+        assert!(newest.is_busy() && newest.collect(&ctx).is_none());
+        go.send(()).unwrap();
+        assert_eq!(wait(&mut newest, &ctx), 9);
+        assert!(!newest.is_busy());
+    }
+
+    #[test]
+    fn after_work_that_broke_off_there_is_other_work() {
+        let (ctx, mut newest) = (egui::Context::default(), Newest::<u8>::default());
+        newest.ask(&ctx, || panic!("as asked for"));
+        while newest.is_busy() {
+            assert!(newest.collect(&ctx).is_none());
+        }
+        newest.ask(&ctx, || 7);
+        assert_eq!(wait(&mut newest, &ctx), 7);
+    }
 }

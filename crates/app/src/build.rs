@@ -3,8 +3,6 @@
 //! On the left what the space is made of and how, in the middle the figures that papers print, on the right how far it
 //! can be believed, and the button that puts it to use. Building runs in a thread of its own; the window goes on.
 
-mod chart_ui;
-mod figure_ui;
 mod figures_ui;
 mod input_ui;
 mod job;

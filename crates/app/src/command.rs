@@ -14,6 +14,7 @@ use crate::edit::Edit;
 use crate::recorded_stroke::StrokeCommand;
 use crate::rig::Rig;
 use crate::save::FigureFile;
+use crate::signals::SignalsCommand;
 use crate::strings::commands as strings;
 use crate::workspace::Workspace;
 
@@ -95,6 +96,8 @@ pub enum Command {
     OpenShortcuts,
     /// Begin the tour.
     BeginTour,
+    /// Something about the signals of the bench.
+    Signals(SignalsCommand),
     /// Something about recorded strokes.
     Stroke(StrokeCommand),
     /// Something about files.
@@ -139,7 +142,7 @@ pub enum FileCommand {
 }
 
 /// The commands that have a key.
-pub const WITH_KEYS: [Command; 19] = [
+pub const WITH_KEYS: [Command; 20] = [
     Command::File(FileCommand::New),
     Command::File(FileCommand::AskWhatToOpen),
     Command::File(FileCommand::Save),
@@ -149,6 +152,7 @@ pub const WITH_KEYS: [Command; 19] = [
     Command::Redo,
     Command::Show(Workspace::Author),
     Command::Show(Workspace::Build),
+    Command::Show(Workspace::Signals),
     Command::TogglePathTool,
     Command::Compare(CompareCommand::Hear(Side::A)),
     Command::Compare(CompareCommand::Hear(Side::B)),
@@ -174,6 +178,7 @@ impl Command {
             Self::Redo => (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z),
             Self::Show(Workspace::Author) => (Modifiers::COMMAND, Key::Num1),
             Self::Show(Workspace::Build) => (Modifiers::COMMAND, Key::Num2),
+            Self::Show(Workspace::Signals) => (Modifiers::COMMAND, Key::Num3),
             Self::TogglePathTool => (Modifiers::NONE, Key::P),
             Self::Compare(CompareCommand::Hear(Side::A)) => (Modifiers::NONE, Key::Num1),
             Self::Compare(CompareCommand::Hear(Side::B)) => (Modifiers::NONE, Key::Num2),
@@ -201,6 +206,7 @@ impl Command {
             Self::Redo => strings::REDO,
             Self::Show(Workspace::Author) => strings::SHOW_AUTHOR,
             Self::Show(Workspace::Build) => strings::SHOW_BUILD,
+            Self::Show(Workspace::Signals) => strings::SHOW_SIGNALS,
             Self::TogglePathTool => strings::DRAW_PATHS,
             Self::Compare(CompareCommand::Hear(Side::A)) => strings::HEAR_A,
             Self::Compare(CompareCommand::Hear(Side::B)) => strings::HEAR_B,

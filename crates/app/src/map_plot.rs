@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{ColorImage, Id, TextureHandle, TextureOptions, Ui, vec2};
+use egui::{ColorImage, Id, Label, Rect, RichText, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
 use egui_plot::{GridMark, Plot, PlotImage, PlotPoint, PlotResponse};
 use shagreen_formats::figure::Map;
 
@@ -11,6 +11,39 @@ use crate::theme::{map_color, tokens};
 
 /// Draws a map into the space that there is; `name` tells it from the others.
 pub(crate) fn map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
+    show(ui, name, map, |plot| plot)
+}
+
+/// The same with the names of its axes beside them.
+pub(crate) fn labeled_map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
+    let label = |text: &str| RichText::new(text).small();
+    show(ui, name, map, |plot| plot.x_axis_label(label(&map.x_label)).y_axis_label(label(&map.y_label)))
+}
+
+/// The colors of a map, from the lowest to the highest value that they tell apart, in a line.
+pub(crate) fn color_key_ui(ui: &mut Ui, map: &Map) {
+    const WIDTH: f32 = 44.0;
+    let t = tokens(ui.ctx());
+    let word = |ui: &mut Ui, text: String| {
+        let text = RichText::new(text).small().color(t.text_weak);
+        ui.add(Label::new(text).selectable(false)).on_hover_text(&map.value_label);
+    };
+    word(ui, format!("{:.0} {}", map.range.1, map.value_unit));
+    let (area, _) = ui.allocate_exact_size(vec2(WIDTH, 8.0), Sense::hover());
+    for i in 0..WIDTH as usize {
+        let left = area.left() + i as f32;
+        let strip = Rect::from_min_max(pos2(left, area.top()), pos2(left + 1.0, area.bottom()));
+        ui.painter().rect_filled(strip, 0.0, map_color(i as f32 / (WIDTH - 1.0)));
+    }
+    word(ui, format!("{:.0}", map.range.0));
+}
+
+fn show<'a>(
+    ui: &mut Ui,
+    name: &str,
+    map: &Map,
+    labeled: impl FnOnce(Plot<'a>) -> Plot<'a>,
+) -> PlotResponse<()> {
     let t = tokens(ui.ctx());
     let picture = picture(ui, Id::unique(("colors of a map", name)), map);
     let middle = PlotPoint::new(0.5 * (map.x.0 + map.x.1), 0.5 * (map.y.0 + map.y.1));
@@ -22,7 +55,7 @@ pub(crate) fn map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
     };
     let plot =
         fixed(Plot::new(name.to_owned()), t.line).x_axis_formatter(across).height(ui.available_height());
-    plot.show(ui, move |plot| {
+    labeled(plot).show(ui, move |plot| {
         plot.set_plot_bounds_x(x.0..=x.1);
         plot.set_plot_bounds_y(y.0..=y.1);
         plot.image(PlotImage::new("", &picture, middle, size).allow_hover(false));

@@ -1,4 +1,4 @@
-//! The sheet that opens a project or a library, or a stroke: a path, or a walk through folders.
+//! The sheet that opens a project or a library, a stroke or a signal: a path, or a walk through folders.
 //!
 //! The system's own dialog would need a desktop portal on Linux and cannot be driven where there is none, so this is ours.
 
@@ -13,7 +13,9 @@ use crate::command::{Command, FileCommand};
 use crate::import::source::Source;
 use crate::recorded_stroke::{StrokeCommand, TABLE_ENDINGS};
 use crate::sheet_frame::{is_left, sheet};
-use crate::strings::{document as strings, stroke};
+use crate::signals::reading::SIGNAL_ENDINGS;
+use crate::signals::{SignalsCommand, Slot};
+use crate::strings::{document as strings, signals, stroke};
 use crate::theme::{GAP, tokens};
 
 /// Height of the list, in points.
@@ -37,6 +39,8 @@ enum Wanted {
     Projects,
     /// Tables of strokes.
     Strokes,
+    /// What becomes a signal in a place of the bench.
+    Signal(Slot),
 }
 
 /// Something in a folder that can be opened or walked into.
@@ -55,6 +59,11 @@ impl OpenSheet {
     /// A sheet that looks for a stroke, and begins in `folder`.
     pub(crate) fn of_strokes(folder: &Path, ctx: &Context) -> Self {
         Self::of(Wanted::Strokes, folder, ctx)
+    }
+
+    /// A sheet that looks for a signal, and begins in `folder`.
+    pub(crate) fn of_signals(slot: Slot, folder: &Path, ctx: &Context) -> Self {
+        Self::of(Wanted::Signal(slot), folder, ctx)
     }
 
     fn of(wanted: Wanted, folder: &Path, ctx: &Context) -> Self {
@@ -112,6 +121,7 @@ impl OpenSheet {
         let (title, hint) = match self.wanted {
             Wanted::Projects => (strings::OPEN_TITLE, strings::OPEN_HINT),
             Wanted::Strokes => (stroke::OPEN_TITLE, stroke::OPEN_HINT),
+            Wanted::Signal(_) => (signals::OPEN_TITLE, signals::OPEN_PATH_HINT),
         };
         ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
@@ -146,6 +156,7 @@ impl OpenSheet {
                 commands.push(match self.wanted {
                     Wanted::Projects => Command::File(FileCommand::Open(path)),
                     Wanted::Strokes => Command::Stroke(StrokeCommand::Read(vec![Source::Path(path)])),
+                    Wanted::Signal(slot) => Command::Signals(SignalsCommand::Read(slot, Source::Path(path))),
                 });
             }
         }
@@ -191,6 +202,7 @@ fn entries_of(folder: &Path, wanted: Wanted) -> Vec<Entry> {
     let endings: &[&str] = match wanted {
         Wanted::Projects => &[EXTENSION, "json"],
         Wanted::Strokes => &TABLE_ENDINGS,
+        Wanted::Signal(_) => &SIGNAL_ENDINGS,
     };
     // A folder that cannot be read shows nothing: a path can still be written.
     let Ok(found) = std::fs::read_dir(folder) else { return Vec::new() };

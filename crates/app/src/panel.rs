@@ -36,6 +36,9 @@ impl<'a> Panel<'a> {
         if self.session.is_hidden() {
             return strings::compare::HIDDEN.to_owned();
         }
+        if let Some(felt) = self.session.felt_name() {
+            return felt.to_owned();
+        }
         let compared = self.compare.heard_key();
         let heard = self.project.authored.iter().find(|texture| Some(texture.key) == compared);
         match self.solo().filter(|_| heard.is_none()) {

@@ -3,6 +3,7 @@
 //! Nothing here is undone; everything here follows from the project, the library and the hands of the user.
 
 mod devices;
+mod felt;
 mod heard;
 mod making;
 mod models_ahead;
@@ -41,6 +42,7 @@ use crate::strings;
 pub use self::opening::OutputChoice;
 pub use self::pen::PenFacts;
 
+use self::felt::Felt;
 use self::heard::Heard;
 use self::models_ahead::ModelsAhead;
 use self::path_walk::PathWalk;
@@ -101,6 +103,8 @@ pub struct Session {
     /// Whether what is heard may not be shown.
     is_hidden: bool,
     heard: Heard,
+    /// What is felt in the place of what is authored.
+    felt: Option<Felt>,
     /// How many textures were made for points.
     n_made: u64,
     spectra: Spectra,
@@ -149,6 +153,7 @@ impl Session {
             generation: 0,
             models: ModelsAhead::default(),
             heard: Heard::default(),
+            felt: None,
             n_made: 0,
             planes_ahead: PlanesAhead::new(&planes),
             walk: None,
@@ -366,6 +371,14 @@ impl Session {
             }
             None => {}
         }
+        if !self.follow_felt(ctx) {
+            self.follow_texture(project, heard, ctx);
+        }
+        self.player.send_mix(&self.heard, self.planes_ahead.prepared(), self.rate_hz);
+    }
+
+    /// What is authored is heard, where it is not the one that was.
+    fn follow_texture(&mut self, project: &Project, heard: Option<&AuthoredTexture>, ctx: &egui::Context) {
         let texture = heard.unwrap_or(project.texture());
         self.path_point = self.follow_path(texture.path.as_ref());
         // What is played along a path is no texture alone.
@@ -380,9 +393,10 @@ impl Session {
             };
             self.hear();
             self.player.wanted = Some(wanted);
-            self.follow_rate(solo, ctx);
+            // What is heard alone may have another rate than the space.
+            let alone = solo.filter(|texture| self.places[*texture].is_none());
+            self.set_rate(alone.map_or(self.space_rate_hz, |texture| self.rates_hz[texture]), ctx);
         }
-        self.player.send_mix(&self.heard, self.planes_ahead.prepared(), self.rate_hz);
     }
 
     /// Takes over textures, places and axes of the project; those that `is_same` are as they were heard last, by index.
@@ -439,6 +453,9 @@ impl Session {
             (project.joined.clone(), project.space.clone(), project.axes.clone());
         self.renamed.clone_from(&project.renamed);
         self.player.wanted = None;
+        if let Some(felt) = &mut self.felt {
+            felt.is_new = true;
+        }
     }
 
     /// The rate of the space: as the library was opened, its textures bring it, and those that join fit in or stay out.
@@ -453,10 +470,8 @@ impl Session {
         rate_of_space(&self.library.textures[..n_deciding], &self.places[..n_deciding])
     }
 
-    /// What is heard alone may have another rate than the space: then the output is opened again, at that rate.
-    fn follow_rate(&mut self, solo: Option<usize>, ctx: &egui::Context) {
-        let alone = solo.filter(|texture| self.places[*texture].is_none());
-        let rate_hz = alone.map_or(self.space_rate_hz, |texture| self.rates_hz[texture]);
+    /// What is heard has this rate: where that is another one, the output is opened again.
+    fn set_rate(&mut self, rate_hz: f64, ctx: &egui::Context) {
         if rate_hz != self.rate_hz {
             self.rate_hz = rate_hz;
             self.spectra = Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() };

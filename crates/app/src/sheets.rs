@@ -19,6 +19,7 @@ use crate::recovered_ui::recovered_ui;
 use crate::recovery::Leftover;
 use crate::save::SaveSheet;
 use crate::shortcuts_ui::shortcuts_ui;
+use crate::signals::SignalsCommand;
 use crate::strings;
 use crate::texture_sheet::TextureSheet;
 use crate::theme::{RADIUS, tokens};
@@ -66,7 +67,8 @@ impl Sheet {
     }
 
     /// Draws the sheet over the window, and where files would go that hover over it; returns what the user asked for.
-    /// Files dropped on the workspace Build are judgments; elsewhere a stroke is repeated, and others are imported.
+    /// Files dropped on the workspace Build are judgments, on Signals they are signals; elsewhere a stroke is repeated, and
+    /// others are imported.
     pub(crate) fn show(
         &mut self,
         ctx: &Context,
@@ -102,6 +104,7 @@ impl Sheet {
             let path = file.path();
             (path.extension()? == EXTENSION).then(|| path.to_owned())
         };
+        let are_signals = workspace == Workspace::Signals && !is_import;
         let are_strokes = !are_judgments && !is_import;
         let (strokes, dropped): (Vec<_>, Vec<_>) =
             dropped.into_iter().partition(|file| are_strokes && is_stroke_file(file));
@@ -112,6 +115,9 @@ impl Sheet {
         let photo = dropped.iter().find(|file| is_photo(file.path()));
         if let Some(project) = dropped.iter().find_map(is_project) {
             commands.push(Command::File(FileCommand::Open(project)));
+        } else if are_signals && !dropped.is_empty() {
+            let sources = dropped.into_iter().map(Source::Dropped).collect();
+            commands.push(Command::Signals(SignalsCommand::ReadAll(sources)));
         } else if let Some(photo) = photo.filter(|_| !are_judgments) {
             commands.push(Command::ReadPhoto(Source::Dropped(photo.clone())));
         } else if !dropped.is_empty() {
@@ -125,6 +131,8 @@ impl Sheet {
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
             let (here, kinds) = if are_judgments {
                 (strings::build::DROP_HERE, strings::build::DROP_KINDS)
+            } else if are_signals {
+                (strings::signals::DROP_HERE, strings::signals::DROP_KINDS)
             } else {
                 (strings::import::DROP_HERE, strings::import::DROP_KINDS)
             };

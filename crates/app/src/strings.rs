@@ -17,6 +17,7 @@ pub mod path;
 pub mod rig;
 pub mod scope;
 pub mod signal;
+pub mod signals;
 pub mod stroke;
 pub mod textures;
 pub mod view;

@@ -3,6 +3,7 @@
 mod commands;
 mod files;
 mod rig;
+mod signals;
 mod strokes;
 mod title_bar;
 
@@ -39,6 +40,7 @@ use crate::scale::Scale;
 use crate::scope::{ScopeState, scope_ui};
 use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
+use crate::signals::page::SignalsPage;
 use crate::status_bar::status_ui;
 use crate::theme::{
     INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHTS, STAGE_SHARE, install, map_color, tokens,
@@ -79,6 +81,7 @@ pub struct Window {
     tour_places: Places,
     workspace: Workspace,
     build: BuildPage,
+    signals: SignalsPage,
     /// Where figures, strokes and signals are saved unless another path is chosen.
     exports_folder: PathBuf,
     /// The output that was chosen in this window, until it is open.
@@ -139,6 +142,7 @@ impl Window {
             tour_places: [egui::Rect::NOTHING; 4],
             workspace: Workspace::default(),
             build: BuildPage::default(),
+            signals: SignalsPage::default(),
             // Where there is none, the path is one to be completed.
             exports_folder: std::env::current_dir().unwrap_or_default(),
             asked_output: None,
@@ -176,6 +180,11 @@ impl Window {
         &self.build
     }
 
+    /// The workspace where signals are compared.
+    pub fn signals(&self) -> &SignalsPage {
+        &self.signals
+    }
+
     /// The import sheet, where it is open.
     pub fn import(&self) -> Option<&ImportSheet> {
         match &self.sheet {
@@ -200,6 +209,7 @@ impl Window {
         self.next_gesture(&ctx);
         self.session.update(self.pad.contact(&self.session));
         self.build.collect();
+        self.signals.collect(&ctx);
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
         self.collect_strokes();
@@ -213,9 +223,14 @@ impl Window {
             // Where nothing shows the hand it can be stopped, but does not start unseen.
             commands.retain(|command| !matches!(command, Command::ToggleHand));
         }
-        if self.workspace == Workspace::Build {
+        if self.workspace != Workspace::Author {
             commands.retain(|command| !matches!(command, Command::TogglePathTool));
-        } else if self.canvas.tool.is_on
+        }
+        if self.workspace == Workspace::Signals {
+            commands = commands.into_iter().filter_map(|command| self.of_signals(command)).collect();
+        }
+        if self.workspace == Workspace::Author
+            && self.canvas.tool.is_on
             && !self.sheet.is_open()
             && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
         {
@@ -234,6 +249,11 @@ impl Window {
             Workspace::Build => {
                 let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                 commands.extend(self.build.show(ui, &panel));
+            }
+            Workspace::Signals => {
+                self.stage_ui(ui, &ctx, &mut commands);
+                let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+                commands.extend(self.signals.show(ui, &panel));
             }
         }
 
@@ -305,7 +325,8 @@ impl Window {
         let parents = pictured(parents);
         let blended = if parents.is_empty() { None } else { self.pictures.blend(ctx, &parents) };
         let blended = blended.map(|(texture, mm)| (texture.id(), [mm, mm]));
-        let heard = self.heard_texture().filter(|_| !self.compare.is_hidden());
+        let is_felt = self.session.felt_name().is_some();
+        let heard = self.heard_texture().filter(|_| !self.compare.is_hidden() && !is_felt);
         let own = heard.and_then(|texture| texture.picture.clone());
         let own = self.own_picture.follow(own.as_ref(), ctx).map(|(texture, mm)| (texture.id(), mm));
         let picture = own.or(blended);
@@ -370,6 +391,8 @@ impl Window {
         self.compare.follow(&self.project);
         let heard = self.compared_texture();
         self.session.set_hidden(self.compare.is_hidden());
+        let is_bench = self.workspace == Workspace::Signals;
+        self.session.feel(self.signals.felt_signal().filter(|_| is_bench));
         self.session.follow(&self.project, heard.as_deref(), ctx);
     }
 

@@ -10,17 +10,20 @@ pub enum Workspace {
     Author,
     /// A space is made of what people sorted and rated.
     Build,
+    /// Signals are compared, compressed and painted.
+    Signals,
 }
 
 impl Workspace {
     /// All workspaces, in the order of their tabs.
-    pub const ALL: [Self; 2] = [Self::Author, Self::Build];
+    pub const ALL: [Self; 3] = [Self::Author, Self::Build, Self::Signals];
 
     /// Name on its tab.
     pub fn name(self) -> &'static str {
         match self {
             Self::Author => strings::AUTHOR,
             Self::Build => strings::BUILD,
+            Self::Signals => strings::signals::SIGNALS,
         }
     }
 
@@ -29,6 +32,7 @@ impl Workspace {
         match self {
             Self::Author => strings::AUTHOR_HELP,
             Self::Build => strings::BUILD_HELP,
+            Self::Signals => strings::signals::SIGNALS_HELP,
         }
     }
 }

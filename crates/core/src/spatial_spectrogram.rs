@@ -215,6 +215,14 @@ impl<T> Frames<T> {
 /// The windowed transform of a profile, phases and all.
 pub type Spectra = Frames<Complex<f64>>;
 
+impl Spectra {
+    /// The power of each window and frequency, in the square of the profile's unit.
+    pub fn power(&self) -> Frames<f64> {
+        let values = self.values.iter().map(Complex::norm_sqr).collect();
+        Frames { framing: self.framing, n_samples: self.n_samples, values }
+    }
+}
+
 /// A spatial spectrogram: `S = |Σ w f e^(-2πikn/N)|²` in the square of the profile's unit, by window and frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialSpectrogram {

@@ -180,6 +180,17 @@ impl TextureModel {
         self
     }
 
+    /// A texture that is silent but for its relief, with so many samples a second: a relief is played up to half of them.
+    ///
+    /// # Errors
+    /// [`TextureModelError`], where no texture has this rate.
+    pub fn of_relief(relief: Arc<Relief>, rate: Hertz) -> Result<Self, TextureModelError> {
+        // One node of no level: whatever its shape, nothing is heard of it.
+        let (speed, force) = (MetersPerSecond(0.1), relief.force());
+        let node = GrainNode { speed, force, lsf: vec![1.0, 2.0], level_mps2: 0.0 };
+        Ok(Self::new(rate, vec![node], None)?.with_relief(Some(relief)))
+    }
+
     /// Samples a second of the model.
     pub fn rate(&self) -> Hertz {
         self.rate

@@ -53,6 +53,24 @@ pub enum Scale {
     Logarithmic,
 }
 
+impl Scale {
+    /// Where a coordinate is on its axis, in any unit of length.
+    pub fn laid_out(self, coordinate: f64) -> f64 {
+        match self {
+            Self::Linear => coordinate,
+            Self::Logarithmic => coordinate.log10(),
+        }
+    }
+
+    /// The coordinate at a place on the axis: the other way round.
+    pub fn coordinate(self, place: f64) -> f64 {
+        match self {
+            Self::Linear => place,
+            Self::Logarithmic => 10.0_f64.powf(place),
+        }
+    }
+}
+
 /// Points that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
@@ -219,14 +237,8 @@ impl Chart {
             let room = if high > low { 0.06 * (high - low) } else { 0.5 };
             (low - room, high + room)
         };
-        let across = match self.x_scale {
-            Scale::Linear => of(&|p| p.x),
-            Scale::Logarithmic => {
-                let (low, high) = of(&|p| p.x.log10());
-                (10.0_f64.powf(low), 10.0_f64.powf(high))
-            }
-        };
-        [across, of(&|p| p.y)]
+        let (low, high) = of(&|p| self.x_scale.laid_out(p.x));
+        [(self.x_scale.coordinate(low), self.x_scale.coordinate(high)), of(&|p| p.y)]
     }
 }
 

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use egui::{Align, Layout, Ui, UiBuilder, vec2};
 use shagreen_core::space::LabelSource;
 
-use crate::build::figure_ui::figure_ui;
 use crate::build::page::Built;
 use crate::command::Command;
+use crate::figure_ui::figure_ui;
 use crate::save::{FigureFile, FigureFormat};
 use crate::strings::build as strings;
 use crate::theme::GAP;

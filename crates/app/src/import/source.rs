@@ -51,7 +51,7 @@ impl Source {
     }
 
     /// The ending of its name, in lower case.
-    pub(super) fn ending(&self) -> String {
+    pub(crate) fn ending(&self) -> String {
         self.path().extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
     }
 }

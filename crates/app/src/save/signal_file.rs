@@ -55,7 +55,11 @@ impl SignalFile {
         write_wav(path, &samples, &self.sidecar).map_err(|error| error.to_string())
     }
 
-    fn samples(&self) -> Result<Vec<f32>, RenderError> {
+    /// Its samples in m/s², at [`SIGNAL_RATE_HZ`].
+    ///
+    /// # Errors
+    /// It cannot be rendered.
+    pub(crate) fn samples(&self) -> Result<Vec<f32>, RenderError> {
         let (rate, seconds, seed) = (Hertz(f64::from(SIGNAL_RATE_HZ)), SIGNAL_SECS, SIGNAL_SEED);
         let mut contact_at = |_| self.contact;
         match &self.sounding {

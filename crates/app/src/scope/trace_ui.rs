@@ -71,23 +71,11 @@ struct Axis {
 
 impl Axis {
     fn on_screen(&self, x: f64) -> f32 {
-        self.transform.position_from_point(&PlotPoint::new(laid_out(self.scale, x), 0.0)).x
+        self.transform.position_from_point(&PlotPoint::new(self.scale.laid_out(x), 0.0)).x
     }
 
     fn value_at(&self, pos: Pos2) -> f64 {
-        let x = self.transform.value_from_position(pos).x;
-        match self.scale {
-            Scale::Linear => x,
-            Scale::Logarithmic => 10.0_f64.powf(x),
-        }
-    }
-}
-
-/// Where a coordinate is on its axis.
-fn laid_out(scale: Scale, x: f64) -> f64 {
-    match scale {
-        Scale::Linear => x,
-        Scale::Logarithmic => x.log10(),
+        self.scale.coordinate(self.transform.value_from_position(pos).x)
     }
 }
 
@@ -111,9 +99,9 @@ fn chart_plot(ui: &mut Ui, name: &str, view: View, chart: &Chart) -> (Rect, Plot
     let across =
         AxisHints::new_x().label_spacing(Rangef::new(34.0, 44.0)).formatter(move |mark, _| match view {
             // There the other axis has its lowest number.
-            _ if mark.value <= laid_out(scale, x.0) => String::new(),
+            _ if mark.value <= scale.laid_out(x.0) => String::new(),
             View::Waveform => format!("{:.0} ms", mark.value),
-            View::Spectrum => format!("{:.0} Hz", 10.0_f64.powf(mark.value)),
+            View::Spectrum => format!("{:.0} Hz", scale.coordinate(mark.value)),
             View::Spectrogram | View::Level | View::Contact => format!("{:.0} s", mark.value),
         });
     // From one line of the grid to the next: far enough that every number can be read.
@@ -138,11 +126,11 @@ fn chart_plot(ui: &mut Ui, name: &str, view: View, chart: &Chart) -> (Rect, Plot
         });
     }
     let shown = plot.show(ui, |plot| {
-        plot.set_plot_bounds_x(laid_out(scale, x.0)..=laid_out(scale, x.1));
+        plot.set_plot_bounds_x(scale.laid_out(x.0)..=scale.laid_out(x.1));
         plot.set_plot_bounds_y(y.0..=y.1);
         for series in &chart.series {
             let points: PlotPoints<'_> =
-                series.points.iter().map(|point| [laid_out(scale, point.x), point.y]).collect();
+                series.points.iter().map(|point| [scale.laid_out(point.x), point.y]).collect();
             let (width, style) = match series.tone {
                 Tone::Faint => (1.0, LineStyle::Solid),
                 Tone::Limit => (1.2, LineStyle::dashed_loose()),

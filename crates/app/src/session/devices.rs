@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::InputInfo;
 use shagreen_device::output::OutputInfo;
 use shagreen_device::status::Status;
@@ -104,7 +105,12 @@ impl Session {
         self.player.play_tone(frequency_hz, amplitude_mps2);
     }
 
-    /// Ends the tone.
+    /// Plays samples in m/s² at a rate in the place of the texture, once.
+    pub fn play_samples(&mut self, samples_mps2: &[f64], rate: Hertz) {
+        self.player.play_samples(samples_mps2, rate);
+    }
+
+    /// Ends the tone or the samples.
     pub fn stop_tone(&mut self) {
         self.player.stop_tone();
     }

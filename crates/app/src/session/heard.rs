@@ -59,6 +59,13 @@ impl Heard {
         heard
     }
 
+    /// One texture that was made, alone; it gets this `number`.
+    pub(super) fn made_alone(plane: Plane, number: u64) -> Self {
+        let made = Some(Made { number, prepared: plane.prepare() });
+        let voice = HeardVoice { source: Source::Made, plane: Arc::new(plane), share: 1.0 };
+        Self { voices: vec![voice], made, ..Self::default() }
+    }
+
     /// Whether all of it can go on sounding where only the textures that `is_kept` are there still, at this rate.
     pub(super) fn survives(&self, is_kept: &[bool], rate: Hertz) -> bool {
         self.voices.iter().all(|voice| {

@@ -5,19 +5,21 @@ use std::sync::mpsc::Receiver;
 use std::time::Instant;
 
 use shagreen_core::authoring::Blending;
+use shagreen_core::filter::resample;
 use shagreen_core::plane::Prepared;
 use shagreen_core::render::synth_blend;
 use shagreen_core::space::SpacePoint;
+use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::controls::{Controls, Drive, Input, Takeover};
 use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
 use shagreen_device::live::LiveInput;
 use shagreen_device::output::{OpenOptions, OutputInfo, OutputKind, Running, list_outputs};
 use shagreen_device::serial::list_serial_ports;
-use shagreen_device::signal::Signal;
+use shagreen_device::signal::{Signal, SignalError};
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::stylus::MouseStylus;
-use shagreen_device::synth::drive::DriveConfig;
+use shagreen_device::synth::drive::{DriveConfig, Driven};
 use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
 use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
@@ -392,11 +394,22 @@ impl Player {
     }
 
     pub(super) fn play_tone(&mut self, frequency_hz: f64, amplitude_mps2: f64) {
+        self.play(|rate_hz| Signal::tone(frequency_hz, amplitude_mps2, TONE_SECS, rate_hz));
+    }
+
+    pub(super) fn play_samples(&mut self, samples_mps2: &[f64], rate: Hertz) {
+        self.play(|rate_hz| {
+            let samples = resample(samples_mps2, rate, Hertz(rate_hz));
+            Signal::new(samples.iter().map(|x| *x as f32).collect(), rate_hz, Driven::Acceleration)
+        });
+    }
+
+    /// Plays what is made for the rate of the output in Hz.
+    fn play(&mut self, made: impl FnOnce(f64) -> Result<Signal, SignalError>) {
         let Some(handle) = &mut self.handle else { return };
-        let rate_hz = f64::from(handle.config().device_rate_hz);
-        match Signal::tone(frequency_hz, amplitude_mps2, TONE_SECS, rate_hz) {
-            Ok(tone) => {
-                if handle.play_signal(tone).is_err() {
+        match made(f64::from(handle.config().device_rate_hz)) {
+            Ok(signal) => {
+                if handle.play_signal(signal).is_err() {
                     self.message = Some(strings::OUTPUT_BUSY.to_owned());
                 }
             }

@@ -25,6 +25,12 @@ pub const RATINGS_HELP: &str =
 pub const VOTES_HELP: &str = "A CSV table: which adjectives people found relevant. Without it, all count.";
 /// Hint in the field for a path.
 pub const PATH_HINT: &str = "Path of a CSV file…";
+/// The menu that saves a figure.
+pub const SAVE: &str = "Save";
+/// Its accessible name.
+pub fn save(title: &str) -> String {
+    format!("Save {title}")
+}
 /// Nothing was read yet.
 pub const NOTHING_YET: &str = "none yet";
 /// Nothing was read, and nothing has to be.

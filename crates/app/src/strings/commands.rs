@@ -18,12 +18,14 @@ pub const REDO: &str = "Redo";
 pub const SHOW_AUTHOR: &str = "Workspace Author";
 /// The second workspace.
 pub const SHOW_BUILD: &str = "Workspace Build";
+/// The third workspace.
+pub const SHOW_SIGNALS: &str = "Workspace Signals";
 /// The path tool.
 pub const DRAW_PATHS: &str = "Draw paths, or points again";
 /// Compare.
-pub const HEAR_A: &str = "Hear A, or the selected texture again";
+pub const HEAR_A: &str = "Hear A, or the selected texture again; feel signal A";
 /// Compare.
-pub const HEAR_B: &str = "Hear B, or the selected texture again";
+pub const HEAR_B: &str = "Hear B, or the selected texture again; feel signal B";
 /// Compare.
 pub const HEAR_X: &str = "Hear X, which is A or B";
 /// The automatic hand.

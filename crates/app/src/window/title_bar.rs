@@ -10,6 +10,11 @@ use crate::theme::tokens;
 use crate::workspace::Workspace;
 
 impl Window {
+    /// What painting could take back or make again, where signals are painted: it comes before what was done to the project.
+    pub(super) fn painting_labels(&self) -> [Option<&'static str>; 2] {
+        if self.workspace == Workspace::Signals { self.signals.painting_labels() } else { [None; 2] }
+    }
+
     /// Draws the bar and returns what the user asked of it.
     pub(super) fn title_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let mut commands = Vec::new();
@@ -39,9 +44,10 @@ impl Window {
                 }
             }
             ui.add_space(10.0);
+            let painting = self.painting_labels();
             for (command, name, label) in [
-                (Command::Undo, strings::UNDO, self.history.undo_label()),
-                (Command::Redo, strings::REDO, self.history.redo_label()),
+                (Command::Undo, strings::UNDO, painting[0].or(self.history.undo_label())),
+                (Command::Redo, strings::REDO, painting[1].or(self.history.redo_label())),
             ] {
                 let what = label.map_or(name.to_owned(), |l| strings::verb(name, l));
                 let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));

@@ -11,8 +11,10 @@ use egui::{Key, Modifiers, Rect, pos2};
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{SnapshotOptions, SnapshotResults, try_image_snapshot_options};
 use shagreen_app::scope::view::View;
+use shagreen_app::signals::Slot;
+use shagreen_app::signals::page::View as Tab;
 use shagreen_app::strings;
-use shagreen_app::strings::{authored, compare, document, gallery, map, scope};
+use shagreen_app::strings::{authored, compare, document, gallery, map, scope, signals};
 use shagreen_core::blend::Mode;
 use shagreen_core::heat_map::Quantity;
 use shagreen_formats::gallery::GALLERY;
@@ -132,6 +134,36 @@ fn sheets_and_menus_look_as_they_were_approved() {
     harness.run_steps(3);
     click(&mut harness, &compare::hear("X"));
     look(&mut harness, &mut results, "blind_dark", Rect::from_min_max(pos2(0.0, 38.0), pos2(208.0, 200.0)));
+    results.unwrap();
+}
+
+/// Waves of 1 mm in packs of 10 mm, as a table.
+fn packs() -> String {
+    let value = |i: u32| {
+        let mm = 0.05 * f64::from(i);
+        let is_there = (mm / 10.0).rem_euclid(2.0) < 1.0;
+        if is_there { (std::f64::consts::TAU * mm).sin() } else { 0.0 }
+    };
+    (0..2000).map(|i| format!("{},{}", 0.05 * f64::from(i), value(i))).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_bench_looks_as_it_was_approved() {
+    let mut harness = drawn();
+    let mut results = SnapshotResults::new();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+    harness.run_steps(2);
+    for slot in Slot::ALL {
+        support::drop_files(&mut harness, &[("packs.csv", packs().as_bytes())]);
+        wait(&mut harness, "a signal is known", |h| window(h).signals().known(slot).is_some());
+    }
+    wait(&mut harness, "both are compared", |h| window(h).signals().compared().is_some());
+    for (tab, name) in [(Tab::Places, "signals_places_dark"), (Tab::Differences, "signals_differences_light")]
+    {
+        click(&mut harness, signals::view(tab));
+        look(&mut harness, &mut results, name, Rect::from_min_max(pos2(0.0, 38.0), pos2(1280.0, 480.0)));
+        toggle_theme(&mut harness);
+    }
     results.unwrap();
 }
 

@@ -16,5 +16,6 @@ mod paths;
 mod projects;
 mod rig;
 mod scope;
+mod signals;
 mod strokes;
 mod textures;

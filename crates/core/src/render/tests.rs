@@ -186,10 +186,7 @@ fn wave(millimeters: f64) -> Plane {
 
 fn silent_but_for(profile: Profile) -> Plane {
     let relief = Relief::new(profile, Newtons(1.0)).unwrap();
-    let node =
-        GrainNode { speed: MetersPerSecond(0.1), force: Newtons(1.0), lsf: vec![1.0, 2.0], level_mps2: 0.0 };
-    let model = TextureModel::new(Hertz(1000.0), vec![node], None).unwrap();
-    Plane::new(&model.with_relief(Some(std::sync::Arc::new(relief))))
+    Plane::new(&TextureModel::of_relief(relief.into(), Hertz(1000.0)).unwrap())
 }
 
 /// A relief sounds at the speed over its length, by weight, whatever the mode mixes signals by.

@@ -1,16 +1,18 @@
 //! Painting over spatial spectrograms: louder and softer, away, here and there, longer and shorter.
 //!
-//! The local mean, frequency zero, is left alone by brush, eraser and paste, and stretched with the rest: its steps tell the
-//! phases of everything else.
+//! What is painted are the spectra of a profile with their phases: where nothing was painted, the profile stays as it was.
+//! What is stretched is the spectrogram without them, since at other places other phases follow.
 
 use std::ops::Range;
 
-use super::{Edges, Frames, Framing, SpatialSpectrogram};
+use rustfft::num_complex::Complex;
+
+use super::{Edges, Frames, Framing, SpatialSpectrogram, Spectra};
 
 /// Most that one touch of a brush changes, in dB: more counts as this.
 pub const MAX_GAIN_DB: f64 = 60.0;
-/// Highest power that a brush makes: the square of what no profile has.
-const MAX_POWER: f64 = 1e24;
+/// Highest amplitude of a bin that a brush makes: what no profile has.
+const MAX_AMPLITUDE: f64 = 1e12;
 /// Factors by which a spectrogram may be stretched.
 pub const STRETCHES: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 
@@ -21,7 +23,7 @@ pub struct Brush {
     pub radius_m: f64,
     /// Half its height, in octaves of spatial frequency.
     pub radius_octaves: f64,
-    /// What becomes of the power in its middle, in dB.
+    /// What becomes of the amplitude in its middle, in dB.
     pub gain_db: f64,
 }
 
@@ -30,16 +32,16 @@ pub struct Brush {
 pub struct Region {
     /// Places of the middles of windows.
     pub places_m: Range<f64>,
-    /// Spatial frequencies; zero is never part of it.
+    /// Spatial frequencies.
     pub per_m: Range<f64>,
 }
 
-/// What was copied: power, window by window, of neighboring frequencies.
+/// What was copied: window by window, neighboring frequencies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     first_bin: usize,
     /// Window after window.
-    power: Vec<Vec<f64>>,
+    windows: Vec<Vec<Complex<f64>>>,
     framing: Framing,
     step_m: f64,
 }
@@ -61,7 +63,7 @@ pub enum EditError {
     },
 }
 
-impl SpatialSpectrogram {
+impl Spectra {
     /// One touch of a brush at a place in m and a spatial frequency in 1/m, on samples of a distance in m. Nothing becomes of
     /// what is not there: a gain of silence is silence.
     pub fn paint(&mut self, brush: &Brush, step_m: f64, place_m: f64, per_m: f64) {
@@ -70,40 +72,42 @@ impl SpatialSpectrogram {
         }
         let gain_db = brush.gain_db.clamp(-MAX_GAIN_DB, MAX_GAIN_DB);
         let octave = per_m.log2();
-        self.each(step_m, |at_m, at_per_m, power| {
+        self.each(step_m, |at_m, at_per_m, bin| {
             let across = (at_m - place_m) / brush.radius_m;
             let up = (at_per_m.log2() - octave) / brush.radius_octaves;
             let distance = across.hypot(up);
             if distance < 1.0 {
                 let share = 0.5 + 0.5 * (std::f64::consts::PI * distance).cos();
-                *power = (*power * 10.0_f64.powf(0.1 * gain_db * share)).min(MAX_POWER.max(*power));
+                let before = bin.norm();
+                let most = if before > 0.0 { (MAX_AMPLITUDE / before).max(1.0) } else { 1.0 };
+                *bin *= 10.0_f64.powf(0.05 * gain_db * share).min(most);
             }
         });
     }
 
     /// Takes everything out of a region.
     pub fn erase(&mut self, region: &Region, step_m: f64) {
-        self.each(step_m, |at_m, at_per_m, power| {
+        self.each(step_m, |at_m, at_per_m, bin| {
             if region.places_m.contains(&at_m) && region.per_m.contains(&at_per_m) {
-                *power = 0.0;
+                *bin = Complex::ZERO;
             }
         });
     }
 
     /// What is in a region; `None` where there is no window, or no frequency.
     pub fn copy(&self, region: &Region, step_m: f64) -> Option<Patch> {
-        let framing = self.power.framing;
-        let frames: Vec<usize> = (0..self.power.n_frames())
+        let framing = self.framing;
+        let frames: Vec<usize> = (0..self.n_frames())
             .filter(|frame| region.places_m.contains(&(step_m * framing.center(*frame))))
             .collect();
-        let bins: Vec<usize> = (1..framing.n_bins())
+        let bins: Vec<usize> = (0..framing.n_bins())
             .filter(|bin| region.per_m.contains(&per_m(*bin, framing.window(), step_m)))
             .collect();
         let (first, last, first_bin, last_bin) =
             (*frames.first()?, *frames.last()?, *bins.first()?, *bins.last()?);
-        let power = self.power.frames().skip(first).take(last - first + 1);
-        let power = power.map(|bins| bins[first_bin..=last_bin].to_vec()).collect();
-        Some(Patch { first_bin, power, framing, step_m })
+        let windows = self.frames().skip(first).take(last - first + 1);
+        let windows = windows.map(|bins| bins[first_bin..=last_bin].to_vec()).collect();
+        Some(Patch { first_bin, windows, framing, step_m })
     }
 
     /// Puts what was copied where its first window is the one nearest to a place in m, in the place of what is there; what
@@ -112,7 +116,7 @@ impl SpatialSpectrogram {
     /// # Errors
     /// [`EditError::Windows`].
     pub fn paste(&mut self, patch: &Patch, step_m: f64, place_m: f64) -> Result<(), EditError> {
-        let framing = self.power.framing;
+        let framing = self.framing;
         // Lengths come from products.
         if patch.framing != framing || (patch.step_m / step_m - 1.0).abs() > 1e-6 {
             return Err(EditError::Windows);
@@ -120,12 +124,25 @@ impl SpatialSpectrogram {
         let at = ((place_m / step_m - framing.center(0)) / framing.hop() as f64).round();
         // A place before the first window is the first.
         let first = at.max(0.0) as usize;
-        for (to, from) in self.power.frames_mut().skip(first).zip(&patch.power) {
+        for (to, from) in self.frames_mut().skip(first).zip(&patch.windows) {
             to[patch.first_bin..patch.first_bin + from.len()].copy_from_slice(from);
         }
         Ok(())
     }
 
+    /// Every place in m and spatial frequency in 1/m, with its bin.
+    fn each(&mut self, step_m: f64, mut change: impl FnMut(f64, f64, &mut Complex<f64>)) {
+        let framing = self.framing;
+        for (frame, bins) in self.frames_mut().enumerate() {
+            let at_m = step_m * framing.center(frame);
+            for (k, bin) in bins.iter_mut().enumerate() {
+                change(at_m, per_m(k, framing.window(), step_m), bin);
+            }
+        }
+    }
+}
+
+impl SpatialSpectrogram {
     /// The same spectra over a length that is so many times as long: what happens is drawn out, frequencies stay.
     ///
     /// # Errors
@@ -159,17 +176,6 @@ impl SpatialSpectrogram {
         });
         Ok(Self { power: Frames { framing, n_samples, values: values.collect() }, offset: self.offset })
     }
-
-    /// Every place in m and spatial frequency in 1/m but zero, with its power.
-    fn each(&mut self, step_m: f64, mut change: impl FnMut(f64, f64, &mut f64)) {
-        let framing = self.power.framing;
-        for (frame, bins) in self.power.frames_mut().enumerate() {
-            let at_m = step_m * framing.center(frame);
-            for (bin, power) in bins.iter_mut().enumerate().skip(1) {
-                change(at_m, per_m(bin, framing.window(), step_m), power);
-            }
-        }
-    }
 }
 
 /// The spatial frequency of a bin in 1/m.
@@ -182,99 +188,149 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::{Brush, EditError, Region};
-    use crate::spatial_spectrogram::{Framing, SpatialSpectrogram, Transform, profile_of};
+    use crate::spatial_spectrogram::{Framing, SpatialSpectrogram, Spectra, Transform, profile_of, refine};
+    use crate::statistics::correlation;
 
     const STEP_M: f64 = 1e-5;
     const N: usize = 4000;
 
-    /// Two waves, of 1 and 0.25 mm, on a level: 1000 and 4000 in a meter.
-    fn two_waves() -> (SpatialSpectrogram, Transform) {
-        let wave = |i: usize, per_m: f64| (TAU * per_m * STEP_M * i as f64).sin();
-        let profile: Vec<f64> = (0..N).map(|i| 2.0 + 0.5 * wave(i, 1000.0) + 0.5 * wave(i, 4000.0)).collect();
-        let transform = Transform::new(Framing::of_length(4e-3, STEP_M));
-        (SpatialSpectrogram::of(&profile, &transform).unwrap(), transform)
+    fn transform() -> Transform {
+        Transform::new(Framing::of_length(4e-3, STEP_M))
     }
 
-    /// The power around a spatial frequency between two places.
-    fn power(spectrogram: &SpatialSpectrogram, places_m: (f64, f64), per_m: f64) -> f64 {
-        let framing = spectrogram.power().framing();
+    /// Two waves, of 1 and 0.25 mm, on a level: 1000 and 4000 in a meter.
+    fn two_waves() -> Vec<f64> {
+        let wave = |i: usize, per_m: f64| (TAU * per_m * STEP_M * i as f64).sin();
+        (0..N).map(|i| 2.0 + 0.5 * wave(i, 1000.0) + 0.5 * wave(i, 4000.0)).collect()
+    }
+
+    /// The power of a profile around a spatial frequency between two places.
+    fn power(profile: &[f64], places_m: (f64, f64), per_m: f64) -> f64 {
+        let transform = transform();
+        let power = transform.power(profile).unwrap();
+        let framing = transform.framing();
         let bin = (per_m * framing.window() as f64 * STEP_M).round() as usize;
-        let frames = spectrogram.power().frames().enumerate();
+        let frames = power.frames().enumerate();
         let inside =
             frames.filter(|(frame, _)| (places_m.0..places_m.1).contains(&(STEP_M * framing.center(*frame))));
         inside.map(|(_, bins)| bins[bin - 1..=bin + 1].iter().sum::<f64>()).sum()
     }
 
+    fn difference(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    /// The profile of the two waves after a change.
+    fn after(change: impl FnOnce(&mut Spectra)) -> Vec<f64> {
+        let transform = transform();
+        let mut spectra = transform.spectra(&two_waves()).unwrap();
+        change(&mut spectra);
+        transform.profile(&spectra)
+    }
+
     #[test]
-    fn a_brush_changes_what_is_under_it() {
-        let (before, _) = two_waves();
-        let mut after = before.clone();
-        let brush = Brush { radius_m: 6e-3, radius_octaves: 0.5, gain_db: 12.0 };
-        after.paint(&brush, STEP_M, 0.02, 4000.0);
-        let ratio = |places_m, per_m| power(&after, places_m, per_m) / power(&before, places_m, per_m);
-        assert!((ratio((0.0195, 0.0205), 4000.0) - 10.0_f64.powf(1.2)).abs() < 2.0);
-        assert!((ratio((0.0, 0.013), 4000.0) - 1.0).abs() < 1e-12);
-        assert!((ratio((0.0, 0.04), 1000.0) - 1.0).abs() < 1e-12);
+    fn a_brush_changes_what_is_under_it_and_nothing_else() {
+        let (before, brush) = (two_waves(), Brush { radius_m: 6e-3, radius_octaves: 0.5, gain_db: 12.0 });
+        let painted = after(|spectra| spectra.paint(&brush, STEP_M, 0.02, 4000.0));
+        let ratio = |places_m, per_m| power(&painted, places_m, per_m) / power(&before, places_m, per_m);
+        assert!((ratio((0.0195, 0.0205), 4000.0) / 10.0_f64.powf(1.2) - 1.0).abs() < 0.2);
+        assert!((ratio((0.015, 0.025), 1000.0) - 1.0).abs() < 0.01);
+        // Two windows beyond its rim the profile is the same.
+        let at = |m: f64| (m / STEP_M) as usize;
+        assert!(difference(&painted[..at(0.01)], &before[..at(0.01)]) < 1e-12);
+        assert!(difference(&painted[at(0.03)..], &before[at(0.03)..]) < 1e-12);
         // The way back is the same way.
-        after.paint(&Brush { gain_db: -12.0, ..brush }, STEP_M, 0.02, 4000.0);
-        for (a, b) in after.power().frames().flatten().zip(before.power().frames().flatten()) {
-            assert!((a - b).abs() <= 1e-9 * b.abs());
-        }
+        let back = after(|spectra| {
+            spectra.paint(&brush, STEP_M, 0.02, 4000.0);
+            spectra.paint(&Brush { gain_db: -12.0, ..brush }, STEP_M, 0.02, 4000.0);
+        });
+        assert!(difference(&back, &before) < 1e-12);
+        // Whatever is asked for, it stays finite.
+        let wild = after(|spectra| {
+            for _ in 0..100 {
+                spectra.paint(&Brush { gain_db: 1e9, ..brush }, STEP_M, 0.02, 4000.0);
+            }
+            spectra.paint(&Brush { gain_db: f64::NAN, ..brush }, STEP_M, 0.02, 4000.0);
+        });
+        assert!(wild.iter().all(|x| x.is_finite()));
     }
 
     #[test]
     fn what_is_erased_is_not_in_the_profile_any_more() {
-        let (mut spectrogram, transform) = two_waves();
-        let left = |spectrogram: &SpatialSpectrogram| {
-            let made = profile_of(spectrogram, &transform);
-            let again = SpatialSpectrogram::of(&made, &transform).unwrap();
-            [1000.0, 4000.0].map(|per_m| power(&again, (0.01, 0.03), per_m))
-        };
-        let [low, high] = left(&spectrogram);
-        spectrogram.erase(&Region { places_m: -1.0..1.0, per_m: 3000.0..5000.0 }, STEP_M);
-        let [low_after, high_after] = left(&spectrogram);
-        assert!(high_after < 1e-3 * high && (low_after / low - 1.0).abs() < 0.1, "{low_after} {high_after}");
-        let level = |s: &SpatialSpectrogram| s.power().frames().map(|bins| bins[0]).sum::<f64>();
-        assert!(level(&spectrogram) > 0.0, "the local mean stays");
+        let all = -1.0..1.0;
+        let high = Region { places_m: all.clone(), per_m: 3000.0..5000.0 };
+        let (before, left) = (two_waves(), after(|spectra| spectra.erase(&high, STEP_M)));
+        let of = |per_m| power(&left, (0.01, 0.03), per_m) / power(&before, (0.01, 0.03), per_m);
+        assert!(of(4000.0) < 1e-6 && (of(1000.0) - 1.0).abs() < 1e-3, "{} {}", of(4000.0), of(1000.0));
+        let nothing = after(|spectra| spectra.erase(&Region { places_m: all, per_m: 0.0..1e9 }, STEP_M));
+        assert!(nothing.iter().all(|x| *x == 0.0));
     }
 
     #[test]
-    fn what_is_copied_is_pasted() {
-        let (mut spectrogram, _) = two_waves();
-        let patch =
-            spectrogram.copy(&Region { places_m: 0.005..0.01, per_m: 3000.0..5000.0 }, STEP_M).unwrap();
-        let all = Region { places_m: -1.0..1.0, per_m: 3000.0..5000.0 };
-        let there = power(&spectrogram, (0.0199, 0.0225), 4000.0);
-        spectrogram.erase(&all, STEP_M);
-        spectrogram.paste(&patch, STEP_M, 0.02).unwrap();
-        assert!((power(&spectrogram, (0.0199, 0.0225), 4000.0) / there - 1.0).abs() < 1e-6);
-        assert!(power(&spectrogram, (0.0, 0.0195), 4000.0) == 0.0);
-        // Beyond the end it is cut, and before the beginning it begins there.
+    fn what_is_copied_is_pasted_as_it_was() {
+        let high = Region { places_m: 0.005..0.015, per_m: 3000.0..5000.0 };
+        let everywhere = Region { places_m: -1.0..1.0, ..high.clone() };
+        let hop_m = STEP_M * transform().framing().hop() as f64;
+        let begin = (0.005 / hop_m).ceil() * hop_m;
+        let pasted = after(|spectra| {
+            let patch = spectra.copy(&high, STEP_M).unwrap();
+            spectra.erase(&everywhere, STEP_M);
+            spectra.paste(&patch, STEP_M, begin + 5.0 * hop_m).unwrap();
+        });
+        // A wave of a whole number of periods in a hop is the same five hops later, phases and all.
+        let fine = |profile: &[f64]| -> Vec<f64> {
+            let transform = transform();
+            let mut spectra = transform.spectra(profile).unwrap();
+            spectra.erase(&Region { places_m: -1.0..1.0, per_m: 0.0..3000.0 }, STEP_M);
+            transform.profile(&spectra)
+        };
+        let inside = |profile: &[f64]| fine(profile)[1700..2300].to_vec();
+        let same = correlation(&inside(&pasted), &inside(&two_waves())).unwrap();
+        assert!(same > 0.999, "{same}");
+        let before = (0.003, 0.009);
+        assert!(power(&pasted, before, 4000.0) < 1e-6 * power(&two_waves(), before, 4000.0));
+    }
+
+    #[test]
+    fn pastes_beyond_the_ends_are_cut_and_those_of_other_windows_refused() {
+        let transform = transform();
+        let mut spectra = transform.spectra(&two_waves()).unwrap();
+        let part = Region { places_m: 0.005..0.01, per_m: 3000.0..5000.0 };
+        let patch = spectra.copy(&part, STEP_M).unwrap();
+        let n_windows = spectra.n_frames();
         for place_m in [0.0399, 1.0, -1.0] {
-            spectrogram.paste(&patch, STEP_M, place_m).unwrap();
+            let before = spectra.clone();
+            spectra.paste(&patch, STEP_M, place_m).unwrap();
+            assert_eq!(spectra.n_frames(), n_windows);
+            assert_eq!(spectra == before, place_m == 1.0, "beyond the end nothing changes");
         }
-        assert!(spectrogram.copy(&Region { places_m: 2.0..3.0, ..all }, STEP_M).is_none());
+        assert!(spectra.copy(&Region { places_m: 2.0..3.0, ..part.clone() }, STEP_M).is_none());
+        assert!(spectra.copy(&Region { per_m: 1e9..2e9, ..part }, STEP_M).is_none());
         let other = Transform::new(Framing::of_length(1e-3, STEP_M));
-        let mut other = SpatialSpectrogram::of(&vec![0.5; N], &other).unwrap();
+        let mut other = other.spectra(&vec![0.5; N]).unwrap();
         assert_eq!(other.paste(&patch, STEP_M, 0.0), Err(EditError::Windows));
+        assert_eq!(spectra.paste(&patch, 2.0 * STEP_M, 0.0), Err(EditError::Windows));
     }
 
     #[test]
     fn what_is_stretched_lasts_longer_at_its_frequencies() {
-        let (mut spectrogram, transform) = two_waves();
+        let transform = transform();
         // The short waves end in the middle.
-        spectrogram.erase(&Region { places_m: 0.02..1.0, per_m: 3000.0..5000.0 }, STEP_M);
-        let (before, end_m) = (power(&spectrogram, (0.0, 0.04), 4000.0), 0.04);
+        let half = after(|spectra| {
+            spectra.erase(&Region { places_m: 0.02..1.0, per_m: 3000.0..5000.0 }, STEP_M);
+        });
+        let spectrogram = SpatialSpectrogram::of(&half, &transform).unwrap();
+        let (before, end_m) = (power(&half, (0.0, 0.04), 4000.0), 0.04);
         for factor in [0.5, 1.7, 3.0] {
             let stretched = spectrogram.stretched(factor).unwrap();
-            assert!((stretched.power().n_samples() as f64 / (factor * N as f64) - 1.0).abs() < 1e-3);
-            let after = power(&stretched, (0.0, factor * end_m), 4000.0);
-            assert!((after / before / factor - 1.0).abs() < 0.1, "{after} of {before} at {factor}");
-            let late = power(&stretched, (factor * 0.024, factor * 0.036), 4000.0);
-            assert!(late < 0.02 * after, "{late} of {after}");
-            let made = profile_of(&stretched, &transform);
+            // Phases that the staircase tells leave less of waves that go on: steps towards the spectrogram bring it back.
+            let made = refine(&stretched, &profile_of(&stretched, &transform), 32).unwrap();
             assert_eq!(made.len(), stretched.power().n_samples());
-            assert!(made.iter().all(|x| x.is_finite()));
+            assert!((made.len() as f64 / (factor * N as f64) - 1.0).abs() < 1e-3);
+            let after = power(&made, (0.0, factor * end_m), 4000.0);
+            assert!((after / before / factor - 1.0).abs() < 0.25, "{after} of {before} at {factor}");
+            let late = power(&made, (factor * 0.024, factor * 0.036), 4000.0);
+            assert!(late < 0.05 * after, "{late} of {after}");
         }
         for factor in [0.0, 11.0, f64::NAN] {
             assert!(matches!(spectrogram.stretched(factor), Err(EditError::Factor { .. })));

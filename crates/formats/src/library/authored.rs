@@ -2,13 +2,18 @@
 
 use std::sync::Arc;
 
+use shagreen_core::relief::Relief;
 use shagreen_core::space::LabelSource;
+use shagreen_core::texture::{TextureModel, TextureModelError};
 use shagreen_core::texture_path::TexturePath;
+use shagreen_core::units::Hertz;
 
 use crate::library::{Library, Provenance, TextureEntry, free_id, id_from_name};
 
 /// What stands for terms that nobody stated, in the form of the SPDX.
 const UNKNOWN_TERMS: &str = "LicenseRef-unknown";
+/// Samples a second of a texture that is a relief alone: a relief is played up to half of them, and more is not felt.
+const RELIEF_RATE: Hertz = Hertz(2000.0);
 
 impl Library {
     /// Adds textures. One whose identifier is taken gets another: it may have been made for a library that has none of this
@@ -60,6 +65,38 @@ impl Library {
             ..TextureEntry::new(id, name, first)
         }
     }
+
+    /// The entry of a relief, felt over the texture at an index or alone, with an identifier that is free in this library. What
+    /// the relief itself was made of is `restricted` where it may not be passed on; its terms nobody stated. It has no place: it
+    /// was not felt where the other texture lies.
+    ///
+    /// # Errors
+    /// [`TextureModelError`], which no relief has.
+    pub fn entry_of_relief(
+        &self,
+        name: &str,
+        relief: Arc<Relief>,
+        over: Option<usize>,
+        is_restricted: bool,
+    ) -> Result<TextureEntry, TextureModelError> {
+        let id = free_id(&id_from_name(name), |id| self.index_of(id).is_some());
+        let Some(texture) = over.and_then(|index| self.textures.get(index)) else {
+            return Ok(TextureEntry {
+                license: UNKNOWN_TERMS.to_owned(),
+                origin: "A relief from the signal bench.".to_owned(),
+                provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
+                ..TextureEntry::new(id, name, TextureModel::of_relief(relief, RELIEF_RATE)?)
+            });
+        };
+        let is_restricted = is_restricted || texture.provenance == Provenance::Restricted;
+        Ok(TextureEntry {
+            license: all_terms(&[self.license_of(texture), UNKNOWN_TERMS]),
+            origin: format!("A relief from the signal bench, over \"{}\".", texture.name),
+            provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
+            picture: texture.picture.clone(),
+            ..TextureEntry::new(id, name, texture.model.clone().with_relief(Some(relief)))
+        })
+    }
 }
 
 /// Terms that have to be kept together, as an SPDX expression; those that nobody stated are named as unknown.
@@ -82,10 +119,15 @@ fn all_terms(licenses: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::{Library, Provenance};
     use crate::starter::starter_library;
+    use shagreen_core::profile::Profile;
+    use shagreen_core::relief::Relief;
     use shagreen_core::space::SpacePoint;
     use shagreen_core::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
+    use shagreen_core::units::Newtons;
 
     fn path(library: &Library) -> TexturePath {
         let key = |i: usize| Key {
@@ -94,6 +136,23 @@ mod tests {
             model: library.textures[i].model.clone(),
         };
         TexturePath::new(Along::Time, AtEnd::Hold, vec![key(0), key(1)]).unwrap()
+    }
+
+    #[test]
+    fn a_relief_is_felt_alone_or_over_a_texture_with_its_terms() {
+        let library = starter_library().unwrap();
+        let profile = Profile::new(1e-4, vec![0.0, 1.0, -1.0, 0.5]).unwrap();
+        let relief = Arc::new(Relief::new(profile, Newtons(1.0)).unwrap());
+        let alone = library.entry_of_relief("Cork", Arc::clone(&relief), None, false).unwrap();
+        assert_eq!((alone.model.relief(), alone.model.tap()), (Some(&relief), None));
+        assert!(library.index_of(&alone.id).is_none() && alone.place.is_none());
+        assert_eq!((alone.license.as_str(), alone.provenance), ("LicenseRef-unknown", Provenance::Free));
+        let over = library.entry_of_relief("Bumps", Arc::clone(&relief), Some(3), true).unwrap();
+        let bare = &library.textures[3];
+        assert_eq!(over.model, bare.model.clone().with_relief(Some(relief)));
+        assert!(over.origin.contains(&bare.name) && over.place.is_none());
+        assert_eq!(over.license, "(MIT OR Apache-2.0) AND LicenseRef-unknown");
+        assert_eq!(over.provenance, Provenance::Restricted);
     }
 
     #[test]

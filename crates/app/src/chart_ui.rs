@@ -4,8 +4,8 @@ use egui::{
     Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
-use egui_plot::{AxisHints, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
-use shagreen_formats::figure::{Chart, Mark, Point, Series, Tone};
+use egui_plot::{AxisHints, GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
+use shagreen_formats::figure::{Chart, Mark, Point, Scale, Series, Tone};
 
 use crate::label_places::{Placed, Wish, label_places, remembered_places};
 use crate::plot::fixed;
@@ -17,13 +17,18 @@ const DOT: f32 = 3.5;
 const REACH: f32 = 9.0;
 
 /// Draws the chart into the space that there is; `name` tells it from the others, a screen reader says its `title`.
-pub(super) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
+pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     let t = tokens(ui.ctx());
     legend_ui(ui, chart, t);
     let [x, y] = chart.bounds();
     // Numbers stand as close as they can be read.
     let across = AxisHints::new_x().label(RichText::new(&chart.x_label).small());
-    let across = across.label_spacing(Rangef::new(34.0, 46.0));
+    let mut across = across.label_spacing(Rangef::new(34.0, 46.0));
+    let scale = chart.x_scale;
+    if scale == Scale::Logarithmic {
+        across =
+            across.formatter(move |mark, _| format!("{}", round_to_digits(scale.coordinate(mark.value))));
+    }
     let up = AxisHints::new_y().label(RichText::new(&chart.y_label).small());
     let up = up.label_spacing(Rangef::new(16.0, 20.0));
     let mut plot = fixed(Plot::new(name.to_owned()), t.line)
@@ -34,12 +39,18 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     if chart.is_isotropic {
         plot = plot.data_aspect(1.0);
     }
+    if scale == Scale::Logarithmic {
+        plot = plot.x_grid_spacer(move |_: GridInput| {
+            round_numbers(x).map(|x| GridMark { value: scale.laid_out(x), step_size: 0.3 }).collect()
+        });
+    }
+    let laid_out = [(scale.laid_out(x.0), scale.laid_out(x.1)), y];
     let shown = plot.show(ui, |plot| {
-        plot.set_plot_bounds_x(x.0..=x.1);
+        plot.set_plot_bounds_x(scale.laid_out(x.0)..=scale.laid_out(x.1));
         plot.set_plot_bounds_y(y.0..=y.1);
         for series in &chart.series {
             let color = tone_color(t, series.tone);
-            let points: Vec<[f64; 2]> = series.points.iter().map(|p| [p.x, p.y]).collect();
+            let points: Vec<[f64; 2]> = series.points.iter().map(|p| [scale.laid_out(p.x), p.y]).collect();
             match series.mark {
                 Mark::Dots => {
                     plot.points(
@@ -48,7 +59,7 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
                 }
                 // Pieces one by one: the joins of a line that turns back on itself would be wider than the line.
                 Mark::Line => {
-                    for ends in thinned(&points, [x, y]).windows(2) {
+                    for ends in thinned(&points, laid_out).windows(2) {
                         plot.line(piece(ends, 2.0, color));
                     }
                 }
@@ -65,8 +76,24 @@ pub(super) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     names_ui(ui, chart, shown.response.rect, &shown.transform, t);
     let near = shown.response.hover_pos().and_then(|at| nearest(chart, &shown.transform, at));
     if let Some(point) = near {
-        pointed_ui(ui, point, on_screen(&shown.transform, point.x, point.y), shown.response.rect, t);
+        let at = on_screen(chart, &shown.transform, point);
+        pointed_ui(ui, point, at, shown.response.rect, t);
     }
+}
+
+/// The numbers of an axis whose places are ratios: 1, 2 and 5 of each decade.
+fn round_numbers((low, high): (f64, f64)) -> impl Iterator<Item = f64> {
+    let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
+    let of = |decade: i32| [1.0, 2.0, 5.0].map(|digit| digit * 10.0_f64.powi(decade));
+    decades.flat_map(of).filter(move |x| (low..=high).contains(x))
+}
+
+/// A number without the digits that a logarithm leaves behind.
+fn round_to_digits(x: f64) -> f64 {
+    let unit = 10.0_f64.powf(x.log10().floor() - 2.0);
+    // Once more in decimals: a tenth is no sum of powers of two.
+    let rounded = (x / unit).round() * unit;
+    format!("{rounded:.6}").parse().unwrap_or(rounded)
 }
 
 fn piece(ends: &[[f64; 2]], width: f32, color: Color32) -> Line<'static> {
@@ -85,7 +112,12 @@ fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
         series.mark == Mark::Segments && (has_labels || is_single_line(series))
     };
     ui.horizontal_wrapped(|ui| {
+        // A line and its dots are one thing.
+        let mut before = "";
         for series in chart.series.iter().filter(|series| !is_named(series)) {
+            if std::mem::replace(&mut before, &series.name) == series.name {
+                continue;
+            }
             let color = tone_color(t, series.tone);
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 5.0;
@@ -111,7 +143,7 @@ fn names_ui(ui: &Ui, chart: &Chart, area: Rect, transform: &PlotTransform, t: &T
     let painter = ui.painter_at(area);
     let (mut dots, mut named) = (Vec::new(), Vec::new());
     for series in &chart.series {
-        let at = |point: &Point| on_screen(transform, point.x, point.y);
+        let at = |point: &Point| on_screen(chart, transform, point);
         for (i, point) in series.points.iter().enumerate() {
             // A name at the end of a line goes on where the line ends.
             let beyond = match series.mark {
@@ -174,8 +206,8 @@ fn thinned(points: &[[f64; 2]], [x, y]: [(f64, f64); 2]) -> Vec<[f64; 2]> {
     kept
 }
 
-fn on_screen(transform: &PlotTransform, x: f64, y: f64) -> Pos2 {
-    let pos = transform.position_from_point(&PlotPoint::new(x, y));
+fn on_screen(chart: &Chart, transform: &PlotTransform, point: &Point) -> Pos2 {
+    let pos = transform.position_from_point(&PlotPoint::new(chart.x_scale.laid_out(point.x), point.y));
     pos2(pos.x, pos.y)
 }
 
@@ -185,7 +217,7 @@ fn nearest<'a>(chart: &'a Chart, transform: &PlotTransform, at: Pos2) -> Option<
         let is_dot = series.mark == Mark::Dots;
         series.points.iter().filter(move |point| is_dot || !point.label.is_empty())
     });
-    let by_distance = dots.map(|point| (on_screen(transform, point.x, point.y).distance(at), point));
+    let by_distance = dots.map(|point| (on_screen(chart, transform, point).distance(at), point));
     let (distance, point) = by_distance.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (distance < REACH).then_some(point)
 }
@@ -211,7 +243,16 @@ fn pointed_ui(ui: &Ui, point: &Point, at: Pos2, area: Rect, t: &Tokens) {
 
 #[cfg(test)]
 mod tests {
-    use super::thinned;
+    use super::{round_numbers, round_to_digits, thinned};
+
+    #[test]
+    fn an_axis_of_ratios_has_round_numbers() {
+        let numbers: Vec<f64> = round_numbers((0.15, 27.0)).collect();
+        assert_eq!(numbers.len(), 7);
+        let shown: Vec<String> =
+            numbers.iter().map(|x| format!("{}", round_to_digits(10.0_f64.powf(x.log10())))).collect();
+        assert_eq!(shown, ["0.2", "0.5", "1", "2", "5", "10", "20"]);
+    }
 
     #[test]
     fn a_line_keeps_its_ends_and_loses_what_cannot_be_seen() {

@@ -1,0 +1,63 @@
+//! The tools of the editor.
+
+use egui::{Button, DragValue, Label, RichText, Ui};
+use shagreen_core::spatial_spectrogram::edit::STRETCHES;
+
+use super::editor::{Editor, GAINS_DB, RADII_MM, RADII_OCTAVES, Tool};
+use crate::strings::signals as strings;
+use crate::theme::{GROUP_GAP, tokens};
+
+/// What was asked of the tools.
+#[derive(Default)]
+pub(super) struct Asked {
+    pub(super) stretch: bool,
+    pub(super) undo: bool,
+    pub(super) redo: bool,
+}
+
+/// Draws the tools; returns what is to be done, where one of them acts at once.
+pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
+    let t = tokens(ui.ctx());
+    let mut asked = Asked::default();
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let words = RichText::new(strings::PAINT_B).color(t.text_weak);
+        ui.add(Label::new(words).selectable(false)).on_hover_text(strings::PAINT_B_HELP);
+        for tool in Tool::ALL {
+            let can_be_used = tool != Tool::Paste || editor.has_copy();
+            let button = Button::selectable(editor.tool == tool, strings::tool(tool));
+            let button = ui.add_enabled(can_be_used, button).on_hover_text(strings::tool_help(tool));
+            if button.on_disabled_hover_text(strings::NOTHING_TO_PASTE).clicked() {
+                editor.tool = tool;
+            }
+        }
+        if editor.tool.is_brush() {
+            ui.add_space(GROUP_GAP);
+            let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05).suffix(" mm");
+            number(ui, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH_HELP, width);
+            let height = DragValue::new(&mut editor.radius_octaves).range(RADII_OCTAVES).speed(0.01);
+            number(ui, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height.suffix(" oct"));
+            let gain = DragValue::new(&mut editor.gain_db).range(GAINS_DB).speed(0.1).suffix(" dB");
+            number(ui, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
+        }
+        ui.add_space(GROUP_GAP);
+        asked.stretch = ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked();
+        let stretch = DragValue::new(&mut editor.stretch).range(STRETCHES).speed(0.02).prefix("× ");
+        ui.add(stretch).accessible_name(strings::STRETCH_FACTOR).on_hover_text(strings::STRETCH_HELP);
+        ui.add_space(GROUP_GAP);
+        let [undo, redo] = editor.labels();
+        for (name, what, wanted) in
+            [(strings::UNDO_PAINTING, undo, &mut asked.undo), (strings::REDO_PAINTING, redo, &mut asked.redo)]
+        {
+            let button = ui.add_enabled(what.is_some(), Button::new(name));
+            *wanted = button.on_hover_text(what.unwrap_or(name)).clicked();
+        }
+    });
+    (asked.stretch || asked.undo || asked.redo).then_some(asked)
+}
+
+fn number(ui: &mut Ui, name: &str, help: &str, value: DragValue<'_>) {
+    let text = RichText::new(name).small().color(tokens(ui.ctx()).text_weak);
+    ui.add(Label::new(text).selectable(false)).on_hover_text(help);
+    ui.add(value).accessible_name(name).on_hover_text(help);
+}

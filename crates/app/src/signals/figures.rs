@@ -1,0 +1,235 @@
+//! What the bench shows, each as a figure: what is drawn in the window and what is saved is one and the same.
+
+use shagreen_core::quality::Feature;
+use shagreen_core::spatial_spectrogram::{Frames, Framing, ProfileFidelity, Transform};
+use shagreen_core::units::Hertz;
+use shagreen_formats::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone};
+
+use super::analysis::{Compared, OfOne};
+use super::bench_signal::BenchSignal;
+use crate::strings::signals as strings;
+
+/// Samples of a window of the spectrogram, at [`TIME_RATE`]: 64 ms.
+const TIME_WINDOW: usize = 128;
+/// Rate at which a spectrogram over time is taken: half of it is as high as a hand feels.
+const TIME_RATE: Hertz = Hertz(2000.0);
+/// Highest frequency that is shown, in Hz.
+const SHOWN_HZ: f64 = 1000.0;
+/// Range of the colors, in dB below the highest level of both signals.
+const RANGE_DB: f64 = 60.0;
+/// Most columns and rows of a map: more cannot be told apart on a screen.
+const MAX_CELLS: (usize, usize) = (480, 192);
+/// Lowest level that colors begin at, in dB re 1 m/s²: what is below can never be felt.
+const LEAST_DB: f64 = -80.0;
+
+/// Amplitudes over two axes, in dB re 1 m/s²: before the range of colors is known, which several share.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Levels {
+    x: (f64, f64),
+    y: (f64, f64),
+    rows: Vec<Vec<f64>>,
+}
+
+impl Levels {
+    /// Amplitudes of a signal over time in s and frequency in Hz; `None` where it is shorter than two samples.
+    pub(super) fn over_time(signal: &BenchSignal) -> Option<Self> {
+        let framing = Framing::new(TIME_WINDOW).ok()?.with_hop(TIME_WINDOW / 4).ok()?;
+        let power = Transform::new(framing).power(&signal.at(TIME_RATE)).ok()?;
+        let step_hz = TIME_RATE.0 / TIME_WINDOW as f64;
+        let n_bins = n_bins_to(SHOWN_HZ, step_hz, &power);
+        let rows = cells(&power, (0.0, power.n_samples() as f64), n_bins);
+        Some(Self { x: (0.0, signal.seconds()), y: (0.0, step_hz * n_bins as f64), rows })
+    }
+
+    /// Amplitudes over the places that are shown, in mm, and spatial frequencies in 1/mm, up to those that are too fast to be
+    /// felt, of the power of a signal's windows.
+    pub(super) fn over_places(power: &Frames<f64>, signal: &BenchSignal, shown_mm: (f64, f64)) -> Self {
+        let step_mm = 1e3 * signal.profile.step_m();
+        let step_per_mm = 1.0 / (power.framing().window() as f64 * step_mm);
+        let n_bins = n_bins_to(1e-3 * SHOWN_HZ / signal.speed.0, step_per_mm, power);
+        let samples = (shown_mm.0 / step_mm, shown_mm.1 / step_mm);
+        let rows = cells(power, samples, n_bins);
+        Self { x: shown_mm, y: (0.0, step_per_mm * n_bins as f64), rows }
+    }
+
+    /// The highest level, in dB re 1 m/s².
+    pub(super) fn highest_db(&self) -> f64 {
+        self.rows.iter().flatten().copied().fold(LEAST_DB, f64::max)
+    }
+
+    /// The map, with colors up to a level.
+    pub(super) fn figure(self, title: String, axes: [&str; 2], highest_db: f64) -> Figure {
+        // Whole tens, so that both sides of a comparison keep their colors while one is changed a little.
+        let top = (highest_db / 10.0).ceil() * 10.0;
+        Figure::Map(Map {
+            title,
+            x_label: axes[0].to_owned(),
+            y_label: axes[1].to_owned(),
+            value_label: strings::AMPLITUDE.to_owned(),
+            value_unit: strings::DB_MPS2.to_owned(),
+            x: self.x,
+            y: self.y,
+            range: (top - RANGE_DB, top),
+            rows: self.rows,
+            source: String::new(),
+        })
+    }
+}
+
+/// How many frequencies there are up to one, so many apart; some at least.
+fn n_bins_to(highest: f64, step: f64, power: &Frames<f64>) -> usize {
+    let n_bins = power.framing().n_bins();
+    ((highest / step).ceil() as usize + 1).clamp(2, n_bins)
+}
+
+/// Levels in dB of the windows whose middles lie between two samples, at the lowest frequencies, in no more cells than can be
+/// seen.
+fn cells(power: &Frames<f64>, (first, last): (f64, f64), n_bins: usize) -> Vec<Vec<f64>> {
+    let framing = power.framing();
+    let hop = framing.hop() as f64;
+    // The window that is nearest to a place, of those whose middle is inside: others show what is inside once more.
+    let begin = ((0.0 - framing.center(0)) / hop).ceil().max(0.0);
+    let end = (power.n_frames() - 1) as f64;
+    let frame =
+        |sample: f64| ((sample - framing.center(0)) / hop).round().clamp(begin.min(end), end) as usize;
+    let (from, to) = (frame(first), frame(last));
+    let (n_columns, n_rows) = ((to - from + 1).min(MAX_CELLS.0), n_bins.min(MAX_CELLS.1));
+    // A wave of amplitude one has a bin of Σ w / 2 = N / 4.
+    let unit = (4.0 / framing.window() as f64).powi(2);
+    let mut rows = vec![vec![LEAST_DB; n_columns]; n_rows];
+    for (i, frame) in power.frames().skip(from).take(to - from + 1).enumerate() {
+        let column = i * n_columns / (to - from + 1);
+        for (j, power) in frame[..n_bins].iter().enumerate() {
+            let cell = &mut rows[j * n_rows / n_bins][column];
+            // The highest of all that share a cell: what is narrow stays seen.
+            *cell = cell.max(10.0 * (unit * power).log10());
+        }
+    }
+    rows
+}
+
+fn line(name: &str, tone: Tone, mark: Mark, points: Vec<Point>) -> Series {
+    Series { name: name.to_owned(), mark, tone, points }
+}
+
+/// What windows of each width keep of the signals, and where the window that is looked through lies.
+pub(super) fn fidelity_figure(of: &[(Tone, &str, &OfOne)], window_m: f64) -> Figure {
+    let points = |of: &OfOne, value: fn(&ProfileFidelity) -> f64| {
+        of.by_window.iter().map(|at| Point::new(1e3 * at.window_m, value(at).max(0.0))).collect()
+    };
+    let window_mm = 1e3 * window_m;
+    let mark = vec![Point::new(window_mm, 0.0), Point::new(window_mm, 1.0)];
+    let mut series = vec![line(strings::THIS_WINDOW, Tone::Limit, Mark::Line, mark)];
+    for (_, _, of) in of {
+        series.push(line(strings::WAVE, Tone::Faint, Mark::Line, points(of, |at| at.correlation)));
+    }
+    for (tone, name, of) in of {
+        for mark in [Mark::Line, Mark::Dots] {
+            series.push(line(name, *tone, mark, points(of, |at| at.envelope_correlation)));
+        }
+    }
+    Figure::Chart(Chart {
+        title: strings::FIDELITY.to_owned(),
+        x_label: strings::WINDOW_MM.to_owned(),
+        y_label: strings::CORRELATION.to_owned(),
+        is_isotropic: false,
+        x_scale: Scale::Logarithmic,
+        shown: Some([(0.15, 27.0), (-0.03, 1.08)]),
+        series,
+        source: strings::MEASURED.to_owned(),
+    })
+}
+
+/// Predicted d' of the signals against what the codec leaves of them at each rate.
+pub(super) fn rates_figure(of: &[(Tone, &str, &OfOne)]) -> Figure {
+    let told = vec![Point::new(1.6, 1.0), Point::new(3.3, 1.0)];
+    let mut series = vec![line(strings::TOLD_APART, Tone::Limit, Mark::Line, told)];
+    let mut highest = 2.0_f64;
+    for (tone, name, of) in of {
+        let Ok(rates) = &of.by_rate else { continue };
+        let points = || rates.iter().map(|at| Point::new(at.kbps, at.d_prime)).collect();
+        highest = rates.iter().map(|at| at.d_prime).fold(highest, f64::max);
+        series.push(line(name, *tone, Mark::Line, points()));
+        series.push(line(name, *tone, Mark::Dots, points()));
+    }
+    Figure::Chart(Chart {
+        title: strings::BY_RATE.to_owned(),
+        x_label: strings::KBPS.to_owned(),
+        y_label: strings::D_PRIME.to_owned(),
+        is_isotropic: false,
+        x_scale: Scale::Linear,
+        shown: Some([(1.6, 3.3), (0.0, 1.08 * highest)]),
+        series,
+        source: strings::PREDICTED.to_owned(),
+    })
+}
+
+/// All features of a pair, as numbers.
+pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
+    let own = |feature, i: usize| {
+        let of = &compared.features[i];
+        match feature {
+            Feature::Roughness => Some(of.roughness),
+            Feature::Brightness => Some(of.brightness_hz),
+            Feature::Regularity => Some(of.regularity),
+            Feature::Asymmetry => Some(of.asymmetry),
+            Feature::SpectralPower | Feature::SpectralAmplitude | Feature::Envelope => None,
+        }
+    };
+    let part = |feature| compared.parts.iter().find(|(of, _)| *of == feature).map(|(_, part)| *part);
+    let row = |feature: Feature| {
+        let numbers =
+            vec![own(feature, 0), own(feature, 1), Some(compared.distances.by(feature)), part(feature)];
+        (strings::feature(feature), numbers)
+    };
+    Figure::Table(Table {
+        title: strings::features_title(names, compared.d_prime),
+        columns: strings::FEATURE_COLUMNS.map(str::to_owned).to_vec(),
+        rows: Feature::ALL.into_iter().map(row).collect(),
+        decimals: 3,
+        source: strings::PREDICTED.to_owned(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Levels, rates_figure};
+    use crate::signals::analysis::{AtRate, OfOne};
+    use crate::signals::bench_signal::tests::tone;
+    use shagreen_core::spatial_spectrogram::{Framing, Transform};
+    use shagreen_formats::figure::{Figure, Tone};
+
+    /// The middle of the cell with the highest value.
+    fn loudest(figure: &Figure) -> (f64, f64) {
+        let Figure::Map(map) = figure else { panic!("no map") };
+        let (x, y, _) = map.cells().max_by(|a, b| a.2.total_cmp(&b.2)).unwrap();
+        (x, y)
+    }
+
+    #[test]
+    fn a_tone_of_one_is_zero_decibels_at_its_frequency() {
+        let signal = tone(250.0, 4000.0, 2.0);
+        let levels = Levels::over_time(&signal).unwrap();
+        assert!(levels.highest_db().abs() < 0.6, "{}", levels.highest_db());
+        let figure = levels.figure(String::new(), ["", ""], 0.0);
+        assert!((loudest(&figure).1 - 250.0).abs() < 20.0);
+        // 250 Hz at 100 mm/s are waves of 0.4 mm: 2.5 in a mm.
+        let transform = Transform::new(Framing::of_length(5e-3, signal.profile.step_m()));
+        let power = transform.power(signal.profile.values()).unwrap();
+        let levels = Levels::over_places(&power, &signal, (20.0, 60.0));
+        let figure = levels.clone().figure(String::new(), ["", ""], levels.highest_db());
+        let (x, y) = loudest(&figure);
+        assert!((20.0..60.0).contains(&x) && (y - 2.5).abs() < 0.3, "{x} {y}");
+    }
+
+    #[test]
+    fn a_signal_without_rates_leaves_the_others_shown() {
+        let at = AtRate { kbps: 1.75, snr_db: 6.0, d_prime: 5.0 };
+        let with = OfOne { by_window: Vec::new(), by_rate: Ok(vec![at]) };
+        let without = OfOne { by_window: Vec::new(), by_rate: Err("short".to_owned()) };
+        let figure = rates_figure(&[(Tone::Main, "a", &with), (Tone::Second, "b", &without)]);
+        let Figure::Chart(chart) = figure else { panic!("no chart") };
+        assert_eq!(chart.series.len(), 3, "the limit, a line and its dots");
+        assert!(chart.bounds()[1].1 > 5.0);
+    }
+}

@@ -1,0 +1,199 @@
+//! Files that become signals of the bench: recordings, profiles, and rows of photos or height maps.
+
+use std::path::Path;
+
+use shagreen_core::profile::Profile;
+use shagreen_core::relief::Relief;
+use shagreen_core::units::{MetersPerSecond, Newtons};
+use shagreen_formats::imported::Imported;
+use shagreen_formats::picture::{brightness_row, is_picture};
+use shagreen_formats::profile_csv::read_profile_csv;
+use shagreen_formats::signal::{SignalHints, read_signal};
+use shagreen_formats::wav::sidecar_names;
+
+use super::bench_signal::BenchSignal;
+use crate::import::source::Source;
+use crate::strings::signals as strings;
+
+/// Endings of the names of files that become signals.
+pub(crate) const SIGNAL_ENDINGS: [&str; 5] = ["wav", "csv", "png", "jpg", "jpeg"];
+
+/// What a file does not say of itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terms {
+    /// How fast a recording was stroked, or how fast a line is to be.
+    pub speed: MetersPerSecond,
+    /// How hard.
+    pub force: Newtons,
+    /// Of a line without a unit: the root mean square that it gets, in m/s².
+    pub level_mps2: f64,
+    /// Of a picture: how much surface its width shows, in mm.
+    pub width_mm: f64,
+    /// Of a picture: the row from its upper edge; `None` is the one in the middle.
+    pub row: Option<u32>,
+}
+
+impl Default for Terms {
+    fn default() -> Self {
+        Self { speed: MetersPerSecond(0.1), force: Newtons(1.0), level_mps2: 1.0, width_mm: 50.0, row: None }
+    }
+}
+
+/// What a file turned out to be, which decides on what has to be asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// Samples in m/s².
+    Recording,
+    /// Values over places, without a unit.
+    Profile,
+    /// A photo or a height map.
+    Picture,
+}
+
+/// A file as it was read: changed terms need no second look at the disk.
+#[derive(Clone, Debug)]
+pub struct BenchFile {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: FileKind,
+    bytes: Vec<u8>,
+    sidecar: Option<Vec<u8>>,
+}
+
+impl BenchFile {
+    /// Reads a file, with the one beside it that says what its samples are.
+    ///
+    /// # Errors
+    /// In words: it cannot be read.
+    pub(super) fn read(source: &Source) -> Result<Self, String> {
+        let (name, bytes) = (source.name(), source.bytes()?);
+        let kind = if is_picture(&bytes) {
+            FileKind::Picture
+        } else if bytes.starts_with(b"RIFF") || source.ending() == "wav" {
+            FileKind::Recording
+        } else {
+            FileKind::Profile
+        };
+        let sidecar = if kind == FileKind::Recording { sidecar_of(source.path()) } else { None };
+        Ok(Self { name, kind, bytes, sidecar })
+    }
+
+    /// The signal in it, on these terms.
+    ///
+    /// # Errors
+    /// In words: what is in the file is no signal.
+    pub(super) fn signal(&self, terms: &Terms) -> Result<Imported<BenchSignal>, String> {
+        let name = without_ending(&self.name);
+        match self.kind {
+            FileKind::Recording => {
+                let hints = SignalHints::default();
+                let read = read_signal(&self.name, &self.bytes, self.sidecar.as_deref(), hints)
+                    .map_err(|error| error.to_string())?;
+                let signal = read.value;
+                let made = BenchSignal::of_samples(
+                    &name,
+                    &signal.samples_mps2,
+                    signal.rate,
+                    terms.speed,
+                    terms.force,
+                );
+                let mut made = made?;
+                made.warnings.extend(read.warnings);
+                Ok(made)
+            }
+            FileKind::Profile => {
+                let profile = read_profile_csv(&self.bytes).map_err(|error| error.to_string())?;
+                leveled(&name, &profile, terms)
+            }
+            FileKind::Picture => {
+                let row = brightness_row(&self.bytes, terms.row).map_err(|error| error.to_string())?;
+                let step_m = 1e-3 * terms.width_mm / row.len() as f64;
+                let profile = Profile::new(step_m, row).map_err(|error| error.to_string())?;
+                leveled(&strings::row_of(&name, terms.row), &profile, terms)
+            }
+        }
+    }
+}
+
+/// A line without a unit, at the level that it is to have.
+fn leveled(name: &str, profile: &Profile, terms: &Terms) -> Result<Imported<BenchSignal>, String> {
+    let relief = Relief::of_level(profile, terms.level_mps2, terms.force);
+    let relief = relief.map_err(|error| error.to_string())?;
+    BenchSignal::of_profile(name, relief.profile(), terms.speed, terms.force)
+}
+
+/// What lies beside a recording and says what its samples are; one that cannot be read says nothing.
+fn sidecar_of(path: &Path) -> Option<Vec<u8>> {
+    let name = path.file_name()?.to_string_lossy().into_owned();
+    sidecar_names(&name).into_iter().find_map(|beside| std::fs::read(path.with_file_name(beside)).ok())
+}
+
+fn without_ending(name: &str) -> String {
+    Path::new(name).file_stem().map_or(name.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BenchFile, FileKind, Terms};
+    use crate::import::source::Source;
+    use shagreen_core::units::MetersPerSecond;
+    use shagreen_formats::wav::{SidecarV1, write_wav};
+
+    fn file(folder: &std::path::Path, name: &str, bytes: &[u8]) -> BenchFile {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        BenchFile::read(&Source::Path(path)).unwrap()
+    }
+
+    #[test]
+    fn a_recording_has_the_unit_of_its_sidecar_and_the_length_of_its_speed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("carpet.wav");
+        let samples: Vec<f32> = (0..4000_u16).map(|i| f32::from(i % 8) * 0.125 - 0.4).collect();
+        let sidecar = SidecarV1 { full_scale: 3.0, ..SidecarV1::new(4000, 1.0, 1, "test") };
+        write_wav(&path, &samples, &sidecar).unwrap();
+        let file = BenchFile::read(&Source::Path(path)).unwrap();
+        assert_eq!(file.kind, FileKind::Recording);
+        let terms = Terms { speed: MetersPerSecond(0.05), ..Terms::default() };
+        let made = file.signal(&terms).unwrap();
+        assert!(made.warnings.is_empty(), "{:?}", made.warnings);
+        assert_eq!(made.value.name, "carpet");
+        assert!((made.value.profile.length_m() - 0.05).abs() < 1e-9);
+        assert!((made.value.profile.values()[0] + 1.2).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_profile_and_a_row_of_a_picture_get_the_level_that_is_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let rows: Vec<String> = (0..200).map(|i| format!("{},{}", 0.1 * f64::from(i), i % 5)).collect();
+        let profile = file(folder.path(), "bumps.csv", rows.join("\n").as_bytes());
+        assert_eq!(profile.kind, FileKind::Profile);
+        let terms = Terms { level_mps2: 2.0, width_mm: 30.0, row: Some(1), ..Terms::default() };
+        let made = profile.signal(&terms).unwrap().value;
+        assert!((made.level_mps2() - 2.0).abs() < 1e-9 && (made.profile.length_m() - 0.02).abs() < 1e-9);
+
+        let mut png = std::io::Cursor::new(Vec::new());
+        image::GrayImage::from_fn(64, 4, |x, y| image::Luma([if y == 1 { (x % 2 * 200) as u8 } else { 9 }]))
+            .write_to(&mut png, image::ImageFormat::Png)
+            .unwrap();
+        let picture = file(folder.path(), "weave.png", &png.into_inner());
+        assert_eq!(picture.kind, FileKind::Picture);
+        let made = picture.signal(&terms).unwrap().value;
+        assert!((made.profile.length_m() - 0.03).abs() < 1e-9 && made.profile.values().len() == 64);
+        assert!((made.level_mps2() - 2.0).abs() < 1e-9);
+        for (row, expected) in [(Some(4), "rows 0 to 3"), (Some(0), "the same everywhere")] {
+            let reason = picture.signal(&Terms { row, ..terms }).unwrap_err();
+            assert!(reason.contains(expected), "{reason}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_signal_is_said() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(file(folder.path(), "a.csv", b"x_mm,value\n0,1\nhello").signal(&Terms::default()).is_err());
+        assert!(file(folder.path(), "a.wav", b"hello").signal(&Terms::default()).is_err());
+        assert!(BenchFile::read(&Source::Path(folder.path().join("none.wav"))).is_err());
+        assert!(BenchFile::read(&Source::Path(folder.path().to_owned())).is_err());
+    }
+}

@@ -1,0 +1,226 @@
+//! The card of a place: what lies there, where the next comes from, and its way to the hand.
+
+use egui::{Align, Button, ComboBox, DragValue, Frame, Key, Label, Layout, RichText, TextEdit, Ui};
+use shagreen_core::codec::bitrate::Bitrate;
+use shagreen_core::units::{MetersPerSecond, Newtons};
+
+use super::reading::FileKind;
+use super::slot::{Place, Slot};
+use super::{Remaking, SignalsCommand};
+use crate::command::Command;
+use crate::import::source::paths_in;
+use crate::strings::signals as strings;
+use crate::theme::{RADIUS, tokens};
+
+/// Speeds of strokes that can be given, in mm/s.
+const SPEEDS_MM_PER_S: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
+/// Forces, in N.
+const FORCES_N: std::ops::RangeInclusive<f64> = 0.05..=10.0;
+/// Widths of pictures, in mm.
+const WIDTHS_MM: std::ops::RangeInclusive<f64> = 1.0..=2000.0;
+/// Levels, in m/s².
+const LEVELS_MPS2: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+/// Rows of pictures that can be asked for: one that there is not is said.
+const MAX_ROW: f64 = 100_000.0;
+/// Steps of refinement that can be asked for.
+const MAX_REFINEMENTS: usize = 200;
+
+/// What the user asked of a place.
+#[derive(Default)]
+pub(super) struct Asked {
+    /// Commands for the rest.
+    pub(super) commands: Vec<Command>,
+    /// Another reading of the file.
+    pub(super) is_again: bool,
+    /// Nothing is to lie there.
+    pub(super) is_cleared: bool,
+}
+
+/// What becomes of the signal in a place at the moment.
+#[derive(Clone, Copy)]
+pub(super) struct State {
+    /// The pen feels it.
+    pub(super) is_felt: bool,
+    /// It is played as it was recorded.
+    pub(super) is_playing: bool,
+}
+
+/// Draws the card of a place.
+pub(super) fn place_ui(ui: &mut Ui, slot: Slot, place: &mut Place, state: State) -> Asked {
+    let t = tokens(ui.ctx());
+    let mut asked = Asked::default();
+    Frame::new().fill(t.raised).corner_radius(RADIUS).inner_margin(8.0).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        head_ui(ui, slot, place, state, &mut asked);
+        facts_ui(ui, place);
+        ui.add_space(2.0);
+        source_ui(ui, slot, place, &mut asked);
+        asked.is_again = terms_ui(ui, slot, place);
+        for (lines, color) in [(place.warnings.as_slice(), t.warning), (place.failure.as_slice(), t.error)] {
+            for line in lines {
+                ui.add(Label::new(RichText::new(line).small().color(color)).wrap());
+            }
+        }
+    });
+    asked
+}
+
+/// The letter, the name, and the buttons that need a signal.
+fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Asked) {
+    let State { is_felt, is_playing } = state;
+    let t = tokens(ui.ctx());
+    let has_signal = place.signal().is_some();
+    ui.horizontal(|ui| {
+        let letter = RichText::new(slot.name()).heading().strong().color(slot_color(ui, slot));
+        ui.add(Label::new(letter).selectable(false));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if has_signal {
+                let cross = Button::new(RichText::new("×").color(t.text_weak)).frame(false);
+                let name = strings::remove(slot);
+                asked.is_cleared = ui.add(cross).accessible_name(&name).on_hover_text(name).clicked();
+            }
+            let feel = Button::selectable(is_felt, strings::FEEL);
+            let feel = ui.add_enabled(has_signal, feel).accessible_name(strings::feel(slot));
+            if feel.on_hover_text(strings::feel_help(slot)).clicked() {
+                let wanted = (!is_felt).then_some(slot);
+                asked.commands.push(Command::Signals(SignalsCommand::Feel(wanted)));
+            }
+            let word = if is_playing { strings::STOP } else { strings::PLAY };
+            let play = ui.add_enabled(has_signal, Button::new(word));
+            let play = play.accessible_name(strings::play(slot));
+            if play.on_hover_text(strings::PLAY_HELP).clicked() {
+                let play = Command::Signals(SignalsCommand::Play(slot));
+                asked.commands.push(if is_playing { Command::StopTone } else { play });
+            }
+            let name = place.signal().map_or(strings::NOTHING_THERE, |signal| &signal.name);
+            let color = if has_signal { t.text } else { t.text_weak };
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let label = Label::new(RichText::new(name).color(color)).truncate().selectable(false);
+                ui.add(label).on_hover_text(name);
+            });
+        });
+    });
+}
+
+fn facts_ui(ui: &mut Ui, place: &Place) {
+    let t = tokens(ui.ctx());
+    let said = match place.signal() {
+        _ if place.is_making() => strings::MAKING.to_owned(),
+        Some(signal) => strings::facts(
+            signal.seconds(),
+            1e3 * signal.profile.length_m(),
+            signal.level_mps2(),
+            signal.speed.mm_per_s(),
+        ),
+        None => return,
+    };
+    ui.add(Label::new(RichText::new(said).small().color(t.text_weak)).truncate().selectable(false));
+}
+
+/// Where the next signal comes from.
+fn source_ui(ui: &mut Ui, slot: Slot, place: &mut Place, asked: &mut Asked) {
+    ui.horizontal(|ui| {
+        let heard = Button::new(strings::TAKE_HEARD);
+        if ui
+            .add(heard)
+            .accessible_name(strings::take_heard(slot))
+            .on_hover_text(strings::TAKE_HEARD_HELP)
+            .clicked()
+        {
+            asked.commands.push(Command::Signals(SignalsCommand::TakeHeard(slot)));
+        }
+        let open = Button::new(strings::OPEN);
+        if ui.add(open).accessible_name(strings::open(slot)).on_hover_text(strings::OPEN_HELP).clicked() {
+            asked.commands.push(Command::Signals(SignalsCommand::AskWhatToOpen(slot)));
+        }
+        let field = TextEdit::singleline(&mut place.path).hint_text(strings::PATH_HINT);
+        let field = ui.add(field.desired_width(ui.available_width() - 4.0));
+        let field = field.accessible_name(strings::path_of(slot)).on_hover_text(strings::OPEN_HELP);
+        if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
+            let sources = paths_in(&place.path).into_iter();
+            let read = |source| Command::Signals(SignalsCommand::Read(slot, source));
+            asked.commands.extend(sources.take(1).map(read));
+        }
+    });
+}
+
+/// What the file does not say of itself; returns whether something else was said.
+fn terms_ui(ui: &mut Ui, slot: Slot, place: &mut Place) -> bool {
+    let Some(kind) = place.file().map(|file| file.kind) else { return false };
+    let terms = &mut place.terms;
+    let before = *terms;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let mut speed = terms.speed.mm_per_s();
+        let value = DragValue::new(&mut speed).range(SPEEDS_MM_PER_S).suffix(" mm/s").speed(1.0);
+        number(ui, slot, strings::SPEED, strings::SPEED_HELP, value);
+        terms.speed = MetersPerSecond::from_mm_per_s(speed);
+        let mut force = terms.force.0;
+        let value = DragValue::new(&mut force).range(FORCES_N).suffix(" N").speed(0.01);
+        number(ui, slot, strings::FORCE, strings::FORCE_HELP, value);
+        terms.force = Newtons(force);
+    });
+    if kind == FileKind::Recording {
+        return *terms != before;
+    }
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let level = DragValue::new(&mut terms.level_mps2).range(LEVELS_MPS2).suffix(" m/s²").speed(0.02);
+        number(ui, slot, strings::LEVEL, strings::LEVEL_HELP, level);
+        if kind == FileKind::Picture {
+            let width = DragValue::new(&mut terms.width_mm).range(WIDTHS_MM).suffix(" mm").speed(0.5);
+            number(ui, slot, strings::WIDTH, strings::WIDTH_HELP, width);
+            let mut row = terms.row.map_or(-1.0, f64::from);
+            let value = DragValue::new(&mut row).range(-1.0..=MAX_ROW).max_decimals(0).speed(0.5);
+            let value = value.custom_formatter(|row, _| strings::row(row));
+            number(ui, slot, strings::ROW, strings::ROW_HELP, value);
+            terms.row = (row >= 0.0).then_some(row as u32);
+        }
+    });
+    *terms != before
+}
+
+fn number(ui: &mut Ui, slot: Slot, name: &str, help: &str, value: DragValue<'_>) {
+    let text = RichText::new(name).small().color(tokens(ui.ctx()).text_weak);
+    ui.add(Label::new(text).selectable(false)).on_hover_text(help);
+    ui.add(value).accessible_name(format!("{name} {}", slot.name())).on_hover_text(help);
+}
+
+/// How B is made of A; returns what was asked for.
+pub(super) fn remaking_ui(ui: &mut Ui, remaking: &mut Remaking, window_mm: f64) -> Option<Command> {
+    let mut asked = None;
+    ui.horizontal(|ui| {
+        if ui.button(strings::COPY_OF_A).on_hover_text(strings::COPY_OF_A_HELP).clicked() {
+            asked = Some(SignalsCommand::CopyOfA);
+        }
+        if ui.button(strings::CODEC).on_hover_text(strings::CODEC_HELP).clicked() {
+            asked = Some(SignalsCommand::ThroughCodec);
+        }
+        let combo = ComboBox::from_id_salt("bitrate").width(84.0);
+        let combo = combo.selected_text(strings::kbps(remaking.rate.kbps())).show_ui(ui, |ui| {
+            for rate in Bitrate::ALL {
+                ui.selectable_value(&mut remaking.rate, rate, strings::kbps(rate.kbps()));
+            }
+        });
+        combo.response.accessible_name(strings::BITRATE).on_hover_text(strings::CODEC_HELP);
+    });
+    ui.horizontal(|ui| {
+        let remake = ui.button(strings::remake(window_mm));
+        if remake.accessible_name(strings::REMAKE).on_hover_text(strings::REMAKE_HELP).clicked() {
+            asked = Some(SignalsCommand::Remake);
+        }
+        let steps = DragValue::new(&mut remaking.n_steps).range(0..=MAX_REFINEMENTS).speed(0.2);
+        let steps = ui.add(steps.suffix(strings::STEPS)).accessible_name(strings::REFINEMENTS);
+        steps.on_hover_text(strings::REFINEMENTS_HELP);
+    });
+    asked.map(Command::Signals)
+}
+
+/// The color that a place has everywhere.
+pub(super) fn slot_color(ui: &Ui, slot: Slot) -> egui::Color32 {
+    let t = tokens(ui.ctx());
+    match slot {
+        Slot::A => t.accent,
+        Slot::B => t.parents[0],
+    }
+}

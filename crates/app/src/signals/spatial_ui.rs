@@ -1,0 +1,200 @@
+//! The spatial spectrogram that is painted: the pointer over it, and what comes of that.
+
+use std::f32::consts::TAU;
+use std::sync::Arc;
+
+use egui::{CursorIcon, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2};
+use egui_plot::{PlotPoint, PlotResponse, PlotTransform};
+use shagreen_core::spatial_spectrogram::edit::Region;
+use shagreen_formats::figure::{Figure, Map};
+
+use super::bench_signal::BenchSignal;
+use super::editor::{Editor, Tool};
+use super::slot::Slot;
+use crate::command::Command;
+use crate::drag::dragged_to;
+use crate::figure_ui::figure_head_ui;
+use crate::map_plot::labeled_map_plot;
+use crate::strings::signals as strings;
+use crate::theme::tokens;
+
+/// Corners of the outline of a brush.
+const N_CORNERS: usize = 48;
+
+/// The part of a line that is shown, in mm; `None` shows all of it.
+pub(super) type ShownMm = Option<(f64, f64)>;
+
+/// Least length that is shown, in mm.
+const LEAST_SHOWN_MM: f64 = 1.0;
+/// How much a point of scrolling zooms.
+const ZOOM_PER_POINT: f64 = 0.004;
+
+/// Where a rectangle was begun, and which part of the lines is shown.
+#[derive(Default)]
+pub(super) struct Spatial {
+    from: Option<(f64, f64)>,
+    pub(super) shown_mm: ShownMm,
+}
+
+/// What came of a frame.
+#[derive(Default)]
+pub(super) struct Shown {
+    /// A figure is to be saved.
+    pub(super) save: Option<Command>,
+    /// What was painted, where something was.
+    pub(super) painted: Option<Result<Option<Arc<BenchSignal>>, String>>,
+}
+
+/// Draws a map over places, which scrolling zooms; returns what the user asked of it, and the map on the screen.
+pub(super) fn places_map_ui(
+    ui: &mut Ui,
+    slot: Slot,
+    figure: &Arc<Figure>,
+    stem: &str,
+    state: &mut Spatial,
+    length_mm: f64,
+) -> (Option<Command>, Option<PlotResponse<()>>) {
+    let save = figure_head_ui(ui, figure, stem);
+    let Figure::Map(map) = &**figure else { return (save, None) };
+    let plot = labeled_map_plot(ui, strings::map_name(slot), map);
+    let pointed = ui.input(|i| i.pointer.hover_pos()).filter(|pos| plot.response.rect.contains(*pos));
+    if let Some(pos) = pointed {
+        let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
+        if scrolled != 0.0 {
+            let at_mm = plot.transform.value_from_position(pos).x;
+            state.shown_mm = zoomed(map.x, length_mm, at_mm, f64::from(scrolled));
+        }
+    }
+    (save, Some(plot))
+}
+
+/// The part that is shown after so many points of scrolling at a place: that stays where it is.
+fn zoomed((from, to): (f64, f64), length_mm: f64, at_mm: f64, scrolled: f64) -> ShownMm {
+    let factor = (-ZOOM_PER_POINT * scrolled).exp();
+    let shown = (factor * (to - from)).max(LEAST_SHOWN_MM.min(length_mm));
+    if shown >= length_mm {
+        return None;
+    }
+    let share = ((at_mm - from) / (to - from)).clamp(0.0, 1.0);
+    let from = (at_mm - share * shown).clamp(0.0, length_mm - shown);
+    Some((from, from + shown))
+}
+
+/// Draws the spectrogram of `signal` and lets the tool of the editor work on it.
+pub(super) fn spatial_ui(
+    ui: &mut Ui,
+    figure: &Arc<Figure>,
+    stem: &str,
+    state: &mut Spatial,
+    editor: &mut Editor,
+    signal: &Arc<BenchSignal>,
+    window_m: f64,
+) -> Shown {
+    let length_mm = 1e3 * signal.profile.length_m();
+    let (save, plot) = places_map_ui(ui, Slot::B, figure, stem, state, length_mm);
+    let mut shown = Shown { save, painted: None };
+    let (Figure::Map(map), Some(plot)) = (&**figure, plot) else { return shown };
+    let (area, transform) = (plot.response.rect, plot.transform);
+    let response = ui.interact(area, ui.scope_id().with("painting"), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAINTED_MAP));
+    let at = |pos: Pos2| on_map(&transform, map, pos);
+    let pressed_at = ui.input(|i| i.pointer.press_origin()).filter(|_| response.is_pointer_button_down_on());
+    let held = dragged_to(ui, &response).or(pressed_at).map(at);
+    if editor.tool.is_brush() {
+        if let Some(point) = held {
+            shown.painted = Some(editor.brush_at(signal, window_m, point));
+        }
+        if !response.is_pointer_button_down_on() {
+            editor.lift();
+        }
+    } else if editor.tool == Tool::Paste {
+        let clicked = response.interact_pointer_pos().filter(|_| response.clicked()).map(at);
+        if let Some((place_m, _)) = clicked {
+            shown.painted = Some(editor.paste(signal, window_m, place_m).map(Some));
+        }
+    } else if let Some(to) = held.filter(|_| editor.tool.takes_region()) {
+        let from = *state.from.get_or_insert(to);
+        if response.drag_stopped() {
+            state.from = None;
+            let region = region(from, to);
+            shown.painted = Some(if editor.tool == Tool::Erase {
+                editor.erase(signal, window_m, &region).map(Some)
+            } else {
+                editor.copy(signal, window_m, &region).map(|()| None)
+            });
+        } else {
+            outline_region(ui, area, &transform, from, to);
+        }
+    } else {
+        state.from = None;
+    }
+    if let Some(pos) = response.hover_pos() {
+        if editor.tool.is_brush() {
+            outline_brush(ui, area, &transform, editor, at(pos));
+        }
+        response.on_hover_cursor(CursorIcon::Crosshair);
+    }
+    shown
+}
+
+/// The place in m and spatial frequency in 1/m under a pointer, on the map.
+fn on_map(transform: &PlotTransform, map: &Map, pos: Pos2) -> (f64, f64) {
+    let value = transform.value_from_position(pos);
+    let within = |x: f64, (low, high): (f64, f64)| x.clamp(low, high);
+    (1e-3 * within(value.x, map.x), 1e3 * within(value.y, map.y))
+}
+
+/// Between two corners, whichever they are. What reaches the lowest frequency takes it along.
+fn region(from: (f64, f64), to: (f64, f64)) -> Region {
+    let ordered = |a: f64, b: f64| a.min(b)..a.max(b);
+    Region { places_m: ordered(from.0, to.0), per_m: ordered(from.1, to.1) }
+}
+
+fn on_screen(transform: &PlotTransform, (place_m, per_m): (f64, f64)) -> Pos2 {
+    let pos = transform.position_from_point(&PlotPoint::new(1e3 * place_m, 1e-3 * per_m));
+    pos2(pos.x, pos.y)
+}
+
+fn outline_region(ui: &Ui, area: Rect, transform: &PlotTransform, from: (f64, f64), to: (f64, f64)) {
+    let rect = Rect::from_two_pos(on_screen(transform, from), on_screen(transform, to));
+    let stroke = Stroke::new(1.5, tokens(ui.ctx()).accent);
+    ui.painter_at(area).rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
+}
+
+/// How far a brush reaches around a point: octaves are as far up as down, which on an even axis they are not.
+fn outline_brush(ui: &Ui, area: Rect, transform: &PlotTransform, editor: &Editor, at: (f64, f64)) {
+    let corner = |i: usize| {
+        let (up, across) = (TAU * i as f32 / N_CORNERS as f32).sin_cos();
+        let place_m = at.0 + 1e-3 * editor.radius_mm * f64::from(across);
+        on_screen(transform, (place_m, at.1 * (editor.radius_octaves * f64::from(up)).exp2()))
+    };
+    let painter = ui.painter_at(area);
+    // Light within dark is seen on every color of the map.
+    let corners: Vec<Pos2> = (0..=N_CORNERS).map(corner).collect();
+    painter.line(corners.clone(), Stroke::new(3.0, egui::Color32::from_black_alpha(160)));
+    painter.line(corners, Stroke::new(1.5, egui::Color32::WHITE));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{region, zoomed};
+
+    #[test]
+    fn zooming_keeps_what_is_pointed_at_and_ends_with_the_whole() {
+        let (from, to) = zoomed((0.0, 100.0), 100.0, 25.0, 100.0).unwrap();
+        assert!(((25.0 - from) / (to - from) - 0.25).abs() < 1e-12 && to - from < 70.0);
+        let back = zoomed((from, to), 100.0, 25.0, -60.0).unwrap();
+        assert!(back.1 - back.0 > to - from && back.0 >= 0.0);
+        assert_eq!(zoomed((from, to), 100.0, 25.0, -500.0), None);
+        let (from, to) = zoomed((99.0, 100.0), 100.0, 99.9, 1e4).unwrap();
+        assert!((to - from - 1.0).abs() < 1e-9 && to <= 100.0);
+        assert_eq!(zoomed((0.0, 0.5), 0.5, 0.1, 100.0), None, "shorter than what can be shown");
+    }
+
+    #[test]
+    fn a_rectangle_is_the_same_from_every_corner() {
+        let one = region((0.01, 100.0), (0.03, 900.0));
+        assert_eq!(one, region((0.03, 100.0), (0.01, 900.0)));
+        assert_eq!((one.places_m, one.per_m), (0.01..0.03, 100.0..900.0));
+    }
+}

@@ -1,0 +1,197 @@
+//! The workspace Signals: two signals are put side by side, remade, compared, felt, painted and kept.
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, pos2};
+use egui_kittest::kittest::Queryable as _;
+use shagreen_app::signals::Slot;
+use shagreen_app::signals::bench_signal::BenchSignal;
+use shagreen_app::signals::editor::Tool;
+use shagreen_app::signals::page::View;
+use shagreen_app::strings::{self, signals};
+use shagreen_app::workspace::Workspace;
+use shagreen_formats::wav::{SidecarV1, write_wav};
+
+use crate::support::{
+    Author, author, choose, click, drag, drop_files, enter_path, says, unnamed_controls, wait,
+    wait_for_field, window,
+};
+
+/// The window with what is heard in A.
+fn with_heard() -> Author {
+    let mut harness = author();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+    harness.run_steps(2);
+    assert_eq!(window(&harness).workspace(), Workspace::Signals);
+    wait_for_field(&mut harness);
+    click(&mut harness, &signals::take_heard(Slot::A));
+    wait_for(&mut harness, Slot::A);
+    harness
+}
+
+fn wait_for(harness: &mut Author, slot: Slot) {
+    wait(harness, "a signal is there", |h| window(h).signals().signal(slot).is_some());
+    harness.run_steps(2);
+}
+
+fn signal(harness: &Author, slot: Slot) -> &BenchSignal {
+    window(harness).signals().signal(slot).expect("a signal")
+}
+
+/// The level of a signal between two shares of its length, in m/s².
+fn level(signal: &BenchSignal, from: f64, to: f64) -> f64 {
+    let values = signal.profile.values();
+    let at = |share: f64| (share * values.len() as f64) as usize;
+    let part = &values[at(from)..at(to)];
+    (part.iter().map(|x| x * x).sum::<f64>() / part.len() as f64).sqrt()
+}
+
+#[test]
+fn what_is_heard_goes_through_the_codec_and_both_are_compared() {
+    let mut harness = with_heard();
+    let name = window(&harness).project().texture().name.clone();
+    assert_eq!(signal(&harness, Slot::A).name, name);
+    assert!(says(&harness, "5.00 s at"));
+    choose(&mut harness, signals::BITRATE, &signals::kbps(1.75));
+    click(&mut harness, signals::CODEC);
+    wait_for(&mut harness, Slot::B);
+    assert!(signal(&harness, Slot::B).name.contains("1.75 kbit/s"));
+    click(&mut harness, signals::view(View::Differences));
+    wait(&mut harness, "both are known", |h| {
+        let page = window(h).signals();
+        page.compared().is_some() && Slot::ALL.iter().all(|slot| page.known(*slot).is_some())
+    });
+    harness.run_steps(2);
+    let page = window(&harness).signals();
+    let compared = page.compared().unwrap().as_ref().unwrap();
+    let rates = page.known(Slot::A).unwrap().by_rate.as_ref().unwrap();
+    // B is A at the lowest rate: what the curve says of it, the pair says too.
+    assert!((rates[0].d_prime - compared.d_prime).abs() < 0.2 * compared.d_prime + 0.2);
+    assert!(rates[0].d_prime > rates[4].d_prime && rates[0].snr_db < rates[4].snr_db);
+    assert!(says(&harness, &signals::d_prime(compared.d_prime)) && says(&harness, "nobody was asked"));
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+}
+
+#[test]
+fn signals_are_felt_in_turn_and_what_is_authored_comes_back() {
+    let mut harness = with_heard();
+    click(&mut harness, signals::COPY_OF_A);
+    let at_first = window(&harness).session().authored().map(|authored| authored.location.at);
+    click(&mut harness, &signals::feel(Slot::A));
+    assert_eq!(window(&harness).signals().felt(), Some(Slot::A));
+    assert!(window(&harness).session().felt_name().is_some());
+    wait(&mut harness, "the output has the rate of signals", |h| {
+        window(h).session().status().is_some() && window(h).session().n_loaded() > 0
+    });
+    // The automatic hand feels it, too.
+    harness.key_press(Key::Space);
+    wait(&mut harness, "something is felt", |h| window(h).session().scope().rms(0.1) > 0.01);
+    harness.key_press(Key::Num2);
+    harness.run_steps(2);
+    assert_eq!(window(&harness).signals().felt(), Some(Slot::B));
+    harness.key_press(Key::Num2);
+    harness.run_steps(2);
+    assert_eq!(window(&harness).signals().felt(), None);
+    click(&mut harness, &signals::feel(Slot::B));
+    // Elsewhere what is authored is felt.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
+    harness.run_steps(3);
+    assert!(window(&harness).session().felt_name().is_none());
+    let now = window(&harness).session().authored().map(|authored| authored.location.at);
+    assert_eq!(now, at_first);
+    harness.key_press(Key::Space);
+    harness.run_steps(2);
+}
+
+#[test]
+fn a_spectrogram_is_painted_felt_at_once_and_taken_back() {
+    let mut harness = with_heard();
+    click(&mut harness, signals::COPY_OF_A);
+    click(&mut harness, signals::view(View::Places));
+    harness.run_steps(2);
+    let map = harness.get_by_role_and_label(Role::Canvas, signals::PAINTED_MAP).rect();
+    let at = |across: f32, up: f32| pos2(map.left() + across * map.width(), map.bottom() - up * map.height());
+    let before = level(signal(&harness, Slot::A), 0.3, 0.6);
+    drag(&mut harness, at(0.35, 0.1), at(0.55, 0.1));
+    let painted = signal(&harness, Slot::B);
+    assert!(painted.name.ends_with("painted") && level(painted, 0.3, 0.6) > 1.2 * before);
+    assert_eq!(level(signal(&harness, Slot::A), 0.3, 0.6), before, "A stays as it is");
+    assert_eq!(window(&harness).signals().felt(), Some(Slot::B), "it is felt at once");
+    // Undo is that of painting here, and one stroke is one step.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(2);
+    assert_eq!(level(signal(&harness, Slot::B), 0.3, 0.6), before);
+    harness.key_press_modifiers(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    harness.run_steps(2);
+    assert!(level(signal(&harness, Slot::B), 0.3, 0.6) > 1.2 * before);
+
+    click(&mut harness, signals::tool(Tool::Erase));
+    drag(&mut harness, at(0.7, 0.01), at(0.97, 0.99));
+    assert!(level(signal(&harness, Slot::B), 0.75, 0.9) < 0.6 * level(signal(&harness, Slot::A), 0.75, 0.9));
+    click(&mut harness, signals::tool(Tool::Copy));
+    drag(&mut harness, at(0.3, 0.01), at(0.55, 0.99));
+    let erased = level(signal(&harness, Slot::B), 0.75, 0.9);
+    // A click, which is short.
+    harness.hover_at(at(0.7, 0.5));
+    harness.run_steps(2);
+    harness.drag_at(at(0.7, 0.5));
+    harness.drop_at(at(0.7, 0.5));
+    harness.run_steps(2);
+    assert!(level(signal(&harness, Slot::B), 0.75, 0.9) > 1.5 * erased, "what was copied is there");
+    let length = signal(&harness, Slot::B).profile.length_m();
+    click(&mut harness, signals::STRETCH);
+    assert!((signal(&harness, Slot::B).profile.length_m() / length - 2.0).abs() < 0.02);
+}
+
+#[test]
+fn a_signal_is_kept_as_the_relief_of_a_texture() {
+    let mut harness = with_heard();
+    let n_textures = window(&harness).session().textures().len();
+    click(&mut harness, &signals::keep(Slot::A));
+    harness.run_steps(2);
+    assert_eq!(window(&harness).session().textures().len(), n_textures + 1);
+    let first = window(&harness).session().textures()[0].clone();
+    choose(&mut harness, signals::OVER_WHICH, &first.name);
+    click(&mut harness, &signals::keep(Slot::A));
+    harness.run_steps(2);
+    let textures = window(&harness).session().textures();
+    let [alone, over] = [&textures[n_textures], &textures[n_textures + 1]];
+    assert!(alone.model.relief().is_some() && over.model.relief().is_some());
+    assert!(over.model.clone().with_relief(None) == first.model);
+    assert!(alone.id != over.id && over.place.is_none());
+    // Nothing was painted: undo is that of the project.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).session().textures().len(), n_textures + 1);
+}
+
+#[test]
+fn files_are_opened_dropped_and_refused_with_a_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("carpet.wav");
+    let samples: Vec<f32> = (0..4000_u16).map(|i| f32::from(i % 9) * 0.1 - 0.4).collect();
+    write_wav(&path, &samples, &SidecarV1::new(2000, 2.0, 1, "test")).unwrap();
+    let mut harness = author();
+    click(&mut harness, signals::SIGNALS);
+    assert!(says(&harness, signals::EMPTY_TITLE));
+    enter_path(&mut harness, &signals::path_of(Slot::A), &path);
+    wait_for(&mut harness, Slot::A);
+    assert_eq!((signal(&harness, Slot::A).name.as_str(), signal(&harness, Slot::A).speed.0), ("carpet", 0.1));
+    // What is dropped goes where nothing is.
+    let rows: Vec<String> = (0..500).map(|i| format!("{},{}", 0.1 * f64::from(i), i % 5)).collect();
+    drop_files(&mut harness, &[("bumps.csv", rows.join("\n").as_bytes())]);
+    wait_for(&mut harness, Slot::B);
+    assert!((signal(&harness, Slot::B).profile.length_m() - 0.05).abs() < 1e-9);
+    // A file that is none leaves what was there.
+    drop_files(&mut harness, &[("bumps.csv", b"hello")]);
+    wait(&mut harness, "it is refused", |h| window(h).signals().failure(Slot::B).is_some());
+    let reason = window(&harness).signals().failure(Slot::B).unwrap();
+    assert!(reason.starts_with("bumps.csv: "), "{reason}");
+    assert_eq!(signal(&harness, Slot::B).name, "bumps");
+    click(&mut harness, &signals::remove(Slot::B));
+    assert!(window(&harness).signals().signal(Slot::B).is_none());
+    // The sheet that walks through folders.
+    click(&mut harness, &signals::open(Slot::B));
+    enter_path(&mut harness, strings::document::OPEN_PATH, &path);
+    wait_for(&mut harness, Slot::B);
+    assert_eq!(signal(&harness, Slot::B).name, "carpet");
+}
