@@ -120,6 +120,16 @@ impl Motion {
         }
     }
 
+    /// Where the tip is along x `time_secs` after the start, in m; `None` where only its speed is known.
+    pub(crate) fn place_m_at(&self, time_secs: f64) -> Option<f64> {
+        match self {
+            Self::Stroke { contacts: StrokeContacts::Track(track), .. } => {
+                Some(f64::from(track.touch_at(time_secs).x_m))
+            }
+            Self::Steady { .. } | Self::Stroke { contacts: StrokeContacts::Given(_), .. } => None,
+        }
+    }
+
     /// The file of the stroke.
     pub(crate) fn stroke_path(&self) -> Option<&Path> {
         match self {

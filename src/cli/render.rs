@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use anyhow::{Context as _, bail};
 use serde_json::json;
 use shagreen_core::plane::{Plane, Prepared};
-use shagreen_core::render::{PathPlan, RenderPlan, render, render_path};
+use shagreen_core::render::{Hand, PathPlan, RenderPlan, render, render_path};
 use shagreen_core::space::LabelSource;
-use shagreen_core::units::Hertz;
+use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav};
 
@@ -104,6 +104,23 @@ fn whole(rate: Hertz) -> anyhow::Result<u32> {
     }
 }
 
+/// A motion that tells how far it is.
+struct Watched<'a> {
+    motion: &'a Motion,
+    progress: Progress,
+}
+
+impl Hand for Watched<'_> {
+    fn contact_at(&mut self, time_secs: f64) -> Contact {
+        self.progress.set_secs(time_secs);
+        self.motion.contact_at(time_secs)
+    }
+
+    fn place_m_at(&mut self, time_secs: f64) -> Option<f64> {
+        self.motion.place_m_at(time_secs)
+    }
+}
+
 fn samples(
     args: &Args,
     library: &Library,
@@ -111,23 +128,20 @@ fn samples(
     motion: &Motion,
     rate_hz: u32,
 ) -> anyhow::Result<Vec<f32>> {
-    let progress = Progress::new("ms rendered", output::in_ms(motion.seconds()));
-    let mut contact_at = |time_secs| {
-        progress.set_secs(time_secs);
-        motion.contact_at(time_secs)
-    };
+    let mut hand =
+        Watched { motion, progress: Progress::new("ms rendered", output::in_ms(motion.seconds())) };
     let (rate, seconds, seed) = (Hertz(f64::from(rate_hz)), motion.seconds(), args.seed);
     if let Some(path) = &chosen.path {
         let prepared: Vec<Prepared> =
             path.keys().iter().map(|key| Plane::new(&key.model).prepare()).collect();
         let plan = PathPlan { path, prepared: &prepared, rate, seconds, seed };
-        return render_path(&plan, &mut contact_at).context("the path cannot be rendered like that");
+        return render_path(&plan, &mut hand).context("the path cannot be rendered like that");
     }
     let prepared: Vec<(Prepared, f64)> =
         chosen.planes(library)?.iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect();
     let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
     let plan = RenderPlan { parents: &parents, mode: chosen.mixing, rate, seconds, seed };
-    render(&plan, &mut contact_at).context("the texture cannot be rendered like that")
+    render(&plan, &mut hand).context("the texture cannot be rendered like that")
 }
 
 fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rate_hz: u32) -> SidecarV1 {

@@ -169,6 +169,20 @@ fn a_relief_lies_at_its_places() {
         let found = wavy(speed, force) / std::f64::consts::SQRT_2;
         assert!((found / wanted - 1.0).abs() < 0.1, "{found} at {speed} mm/s and {force} N");
     }
+    // A stroke that comes back feels the same backwards.
+    let x_mm = |i: u32| 2.0 + 0.2 * (250.0 - (f64::from(i) - 250.0).abs());
+    let report = |i: u32| format!("{},{},0,1\n", 0.002 * f64::from(i), x_mm(i));
+    let reports: String = (0..=500).map(report).collect();
+    bench.write("turn.csv", format!("t,x,y,force\n{reports}"));
+    bench.json("render --library wavy.json --texture cork --stroke turn.csv -o turn.wav");
+    bench.json("render --texture cork --stroke turn.csv -o noise.wav");
+    let (with, _) = bench.wav("turn.wav");
+    let (without, _) = bench.wav("noise.wav");
+    let relief: Vec<f64> = with.iter().zip(&without).map(|(a, b)| a - b).collect();
+    let (forth, back): (Vec<f64>, Vec<f64>) =
+        (100..480).map(|i| (relief[i], relief[relief.len() - 2 - i])).unzip();
+    let same: f64 = forth.iter().zip(&back).map(|(a, b)| a * b).sum();
+    assert!(same > 0.8 * rms(&forth) * rms(&back) * forth.len() as f64, "{same}");
     // A row of a picture, and a recording at its speed, become reliefs too.
     bench.json("render --texture brick --speed 100 --force 1 --seconds 1 -o brick.wav");
     let brick =

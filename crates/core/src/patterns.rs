@@ -249,7 +249,7 @@ fn one(prepared: &Prepared, contact: Contact, plan: &PatternPlan<'_>) -> Result<
     let rendered = |seconds: f64| {
         let parents = [(prepared, 1.0)];
         let render_plan = RenderPlan { parents: &parents, mode: Mode::Paper, rate: own, seconds, seed };
-        let samples = render(&render_plan, &mut |_| contact)?;
+        let samples = render(&render_plan, &mut |_: f64| contact)?;
         Ok(samples.into_iter().map(f64::from).collect::<Vec<f64>>())
     };
     if own.0 <= plan.rate.0 {

@@ -110,10 +110,31 @@ struct Output {
     seed: u64,
 }
 
-/// Contacts shifted by the warm-up: the hand holds its first contact until the first sample is kept. It is at the beginning of
-/// reliefs then, and goes forwards: a stroke that says no more than its speed does not turn.
+/// What moves a tip.
+pub trait Hand {
+    /// Speed and force at a time in s, which never goes back.
+    fn contact_at(&mut self, time_secs: f64) -> Contact;
+
+    /// Where the tip is along reliefs at any time, in m. A hand that says `None`, and says it always, is at their beginning first, and
+    /// goes forwards: a stroke that tells no more than its speed does not turn.
+    fn place_m_at(&mut self, _time_secs: f64) -> Option<f64> {
+        None
+    }
+}
+
+/// A hand that says how fast and how hard, and no more.
+impl<F: FnMut(f64) -> Contact> Hand for F {
+    fn contact_at(&mut self, time_secs: f64) -> Contact {
+        self(time_secs)
+    }
+}
+
+/// What is looked at to tell how fast a hand comes to its first place, in s.
+const APPROACH_SECS: f64 = 0.005;
+
+/// A hand shifted by the warm-up: it holds its first contact until the first sample is kept.
 struct Shifted<'a> {
-    contact_at: &'a mut dyn FnMut(f64) -> Contact,
+    hand: &'a mut dyn Hand,
     warm_up_secs: f64,
     /// Time in s of the last contact since the warm-up, and its speed in m/s.
     last: (f64, f64),
@@ -122,22 +143,27 @@ struct Shifted<'a> {
 }
 
 impl<'a> Shifted<'a> {
-    fn new(contact_at: &'a mut dyn FnMut(f64) -> Contact, warm_up_secs: f64) -> Self {
-        Self { contact_at, warm_up_secs, last: (0.0, 0.0), place_m: 0.0 }
+    fn new(hand: &'a mut dyn Hand, warm_up_secs: f64) -> Self {
+        Self { hand, warm_up_secs, last: (0.0, 0.0), place_m: 0.0 }
     }
 }
 
 impl ContactSource for Shifted<'_> {
     fn contact_at(&mut self, time_secs: f64) -> SynthContact {
         let secs = (time_secs - self.warm_up_secs).max(0.0);
-        let contact = (self.contact_at)(secs);
+        let contact = self.hand.contact_at(secs);
         let speed = if contact.speed.0.is_finite() { contact.speed.0.abs() } else { 0.0 };
-        if time_secs <= self.warm_up_secs {
-            // On its way already: a tip that begins to move of a sudden would be heard to.
-            self.place_m = speed * (time_secs - self.warm_up_secs);
-        } else {
-            self.place_m += 0.5 * (self.last.1 + speed) * (secs - self.last.0);
-        }
+        // On its way already: a tip that begins to move of a sudden would be heard to.
+        let (is_ahead, ahead_secs) = (time_secs <= self.warm_up_secs, self.warm_up_secs - time_secs);
+        self.place_m = match self.hand.place_m_at(secs) {
+            Some(place_m) if is_ahead => {
+                let next_m = self.hand.place_m_at(APPROACH_SECS).unwrap_or(place_m);
+                place_m - ahead_secs * (next_m - place_m) / APPROACH_SECS
+            }
+            Some(place_m) => place_m,
+            None if is_ahead => -speed * ahead_secs,
+            None => self.place_m + 0.5 * (self.last.1 + speed) * (secs - self.last.0),
+        };
         self.last = (secs, speed);
         SynthContact { speed_mps: contact.speed.0 as f32, force_n: contact.force.0 as f32 }
     }
@@ -147,16 +173,13 @@ impl ContactSource for Shifted<'_> {
     }
 }
 
-/// The acceleration in m/s² that a stylus moving as `contact_at` (time in seconds) would feel.
+/// The acceleration in m/s² that a stylus moved by `hand` would feel.
 ///
 /// The output is not late: the delay of the resampler is taken out.
 ///
 /// # Errors
 /// See [`RenderError`].
-pub fn render(
-    plan: &RenderPlan<'_>,
-    contact_at: &mut dyn FnMut(f64) -> Contact,
-) -> Result<Vec<f32>, RenderError> {
+pub fn render(plan: &RenderPlan<'_>, hand: &mut dyn Hand) -> Result<Vec<f32>, RenderError> {
     let n = plan.parents.len();
     if n == 0 || n > MAX_PARENTS {
         return Err(RenderError::Parents { n });
@@ -167,7 +190,7 @@ pub fn render(
         mix.parents[i] = Parent { id: i as TextureId, weight: *weight as f32 };
     }
     let output = output(&lent, plan.rate, plan.seconds, plan.seed)?;
-    rendered(&lent, &output, &mut |_| mix, contact_at)
+    rendered(&lent, &output, &mut |_| mix, hand)
 }
 
 /// What to render of a path.
@@ -190,10 +213,7 @@ pub struct PathPlan<'a> {
 ///
 /// # Errors
 /// See [`RenderError`].
-pub fn render_path(
-    plan: &PathPlan<'_>,
-    contact_at: &mut dyn FnMut(f64) -> Contact,
-) -> Result<Vec<f32>, RenderError> {
+pub fn render_path(plan: &PathPlan<'_>, hand: &mut dyn Hand) -> Result<Vec<f32>, RenderError> {
     let keys = plan.path.keys().len();
     if plan.prepared.len() != keys {
         return Err(RenderError::Keys { n: plan.prepared.len(), keys });
@@ -201,9 +221,10 @@ pub fn render_path(
     let lent = Lent(plan.prepared.iter().collect());
     let output = output(&lent, plan.rate, plan.seconds, plan.seed)?;
     // Worked out ahead, since the mix and the contact are asked for by turns.
-    let ahead = TraveledAhead::new(plan.path.along(), plan.seconds, MIX_STEP_SECS, contact_at);
+    let ahead =
+        TraveledAhead::new(plan.path.along(), plan.seconds, MIX_STEP_SECS, &mut |secs| hand.contact_at(secs));
     let mut mix_at = |time_secs: f64| path_mix(plan.path, ahead.at(time_secs));
-    rendered(&lent, &output, &mut mix_at, contact_at)
+    rendered(&lent, &output, &mut mix_at, hand)
 }
 
 /// The mix of a path's textures, numbered as its keys, where so much was traveled.
@@ -241,12 +262,12 @@ fn rendered(
     lent: &Lent<'_>,
     output: &Output,
     mix_at: &mut dyn FnMut(f64) -> Mix,
-    contact_at: &mut dyn FnMut(f64) -> Contact,
+    hand: &mut dyn Hand,
 ) -> Result<Vec<f32>, RenderError> {
     let samples = if output.rate.0 == f64::from(output.model_rate_hz) {
-        at_model_rate(lent, output, mix_at, contact_at)
+        at_model_rate(lent, output, mix_at, hand)
     } else {
-        resampled(lent, output, mix_at, contact_at)
+        resampled(lent, output, mix_at, hand)
     };
     match samples.iter().position(|x| !x.is_finite()) {
         Some(index) => Err(RenderError::NotFinite { index, value: samples[index] }),
@@ -258,7 +279,7 @@ fn at_model_rate(
     lent: &Lent<'_>,
     output: &Output,
     mix_at: &mut dyn FnMut(f64) -> Mix,
-    contact_at: &mut dyn FnMut(f64) -> Contact,
+    hand: &mut dyn Hand,
 ) -> Vec<f32> {
     let mut renderer = Renderer::new(output.model_rate_hz, output.seed);
     // A fresh renderer takes any mix.
@@ -268,7 +289,7 @@ fn at_model_rate(
     let tick_secs = tick_len as f64 / f64::from(output.model_rate_hz);
     let n_warm = (WARM_UP_SECS / tick_secs).ceil();
     let ticks_a_mix = (MIX_STEP_SECS / tick_secs).round().max(1.0);
-    let mut contacts = Shifted::new(contact_at, n_warm * tick_secs);
+    let mut contacts = Shifted::new(hand, n_warm * tick_secs);
     let mut tick = [0.0; MAX_TICK];
     let mut out = Vec::with_capacity(output.n_frames + tick_len);
     let mut tick_idx = 0.0;
@@ -292,13 +313,13 @@ fn resampled(
     lent: &Lent<'_>,
     output: &Output,
     mix_at: &mut dyn FnMut(f64) -> Mix,
-    contact_at: &mut dyn FnMut(f64) -> Contact,
+    hand: &mut dyn Hand,
 ) -> Vec<f32> {
     let mut stream = Stream::new(output.model_rate_hz, output.rate.0 as f32, output.seed);
     stream.set_mix(mix_at(0.0));
     let delay_secs = f64::from(Resampler::delay_model_samples() / output.model_rate_hz);
     let n_warm = ((WARM_UP_SECS + delay_secs) * output.rate.0).round() as usize;
-    let mut contacts = Shifted::new(contact_at, WARM_UP_SECS);
+    let mut contacts = Shifted::new(hand, WARM_UP_SECS);
     let mut out = vec![0.0; n_warm + output.n_frames];
     let (warm, kept) = out.split_at_mut(n_warm);
     stream.process(lent, &mut contacts, warm);

@@ -33,7 +33,7 @@ fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
     let force_n = |t: f64| 1.2 + 0.8 * (0.23 * t).sin();
     let plan = RenderPlan { parents: &[(&prepared, 1.0)], mode: Mode::Shared, rate, seconds, seed: 5 };
     let samples =
-        render(&plan, &mut |t| Contact::from_mm_per_s_and_n(speed_mm_per_s(t), force_n(t))).unwrap();
+        render(&plan, &mut |t: f64| Contact::from_mm_per_s_and_n(speed_mm_per_s(t), force_n(t))).unwrap();
     let mut text = "time_s,acc,speed_mm/s,force_N\n".to_owned();
     for (i, sample) in samples.iter().enumerate() {
         let t = i as f64 / rate.0;

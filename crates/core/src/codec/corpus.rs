@@ -64,5 +64,5 @@ fn rendered(
 ) -> Result<Vec<f64>, RenderError> {
     let prepared = Plane::new(model).prepare();
     let plan = RenderPlan { parents: &[(&prepared, 1.0)], mode: Mode::default(), rate, seconds, seed };
-    Ok(render(&plan, &mut |_| contact)?.into_iter().map(f64::from).collect())
+    Ok(render(&plan, &mut |_: f64| contact)?.into_iter().map(f64::from).collect())
 }

@@ -70,7 +70,7 @@ fn profile(made: &Made, seconds: f64, seed: u64) -> Result<Profile, RenderError>
     for (index, contact) in conditions(made.parts.iter().map(|(plane, _)| &**plane)).into_iter().enumerate() {
         let seed = derive_seed(seed, &format!("condition {index}"));
         let plan = RenderPlan { parents: &parents, mode: made.mixing, rate, seconds, seed };
-        let signal = render(&plan, &mut |_| contact)?;
+        let signal = render(&plan, &mut |_: f64| contact)?;
         signals.push(signal.into_iter().map(f64::from).collect());
     }
     Ok(Channels::of_signals(rate).profile_of_signals(&signals, rate))

@@ -1,4 +1,4 @@
-use super::{PathPlan, RenderError, RenderPlan, render, render_path};
+use super::{Hand, PathPlan, RenderError, RenderPlan, render, render_path};
 use crate::ar::test_signals::from_resonances;
 use crate::blend::{Mode, mixture_psd};
 use crate::lsf::lsf_from_ar;
@@ -43,7 +43,7 @@ fn check_spectrum(
     let prepared: Vec<Prepared> = planes.iter().map(|(plane, _)| plane.prepare()).collect();
     let parents: Vec<(&Prepared, f64)> = prepared.iter().zip(planes).map(|(p, (_, w))| (p, *w)).collect();
     let plan = RenderPlan { parents: &parents, mode, rate: Hertz(rate), seconds, seed: 5 };
-    let x = render(&plan, &mut |_| contact).unwrap();
+    let x = render(&plan, &mut |_: f64| contact).unwrap();
     let wide: Vec<f64> = x.iter().map(|v| f64::from(*v)).collect();
     let estimate = welch(&wide, Hertz(rate), (rate * 0.256) as usize);
     // Third-octave-like groups of bins: 30..60, 60..120, 120..240, 240..440 Hz.
@@ -178,6 +178,44 @@ fn a_path_is_heard_as_it_is_traveled() {
     assert_eq!(render_path(&few, &mut steady), Err(RenderError::Keys { n: 1, keys: 2 }));
 }
 
+/// A hand that goes forth for a time at 100 mm/s, and the same way back.
+struct BackAndForth(f64);
+
+impl Hand for BackAndForth {
+    fn contact_at(&mut self, _: f64) -> Contact {
+        Contact::from_mm_per_s_and_n(100.0, 1.0)
+    }
+
+    fn place_m_at(&mut self, time_secs: f64) -> Option<f64> {
+        Some(0.005 + 0.1 * (self.0 - (time_secs - self.0).abs()))
+    }
+}
+
+#[test]
+fn a_hand_that_says_where_it_is_feels_a_relief_backwards_on_its_way_back() {
+    let prepared = wave(2.0).prepare();
+    let plan = RenderPlan {
+        parents: &[(&prepared, 1.0)],
+        mode: Mode::Power,
+        rate: Hertz(1000.0),
+        seconds: 1.0,
+        seed: 1,
+    };
+    let mirrored = |x: &[f32]| {
+        // Sample i is felt at the end of its interval.
+        let forth: Vec<f64> = x[50..480].iter().map(|x| f64::from(*x)).collect();
+        let back: Vec<f64> = x.iter().rev().skip(51).take(430).map(|x| f64::from(*x)).collect();
+        crate::statistics::correlation(&forth, &back).unwrap()
+    };
+    let x = render(&plan, &mut BackAndForth(0.5)).unwrap();
+    assert!(mirrored(&x) > 0.85, "{}", mirrored(&x));
+    // Whoever says nothing of it goes on; a turn elsewhere is another one.
+    let on = render(&plan, &mut |_: f64| Contact::from_mm_per_s_and_n(100.0, 1.0)).unwrap();
+    assert_ne!(x[600..], on[600..]);
+    let off = render(&plan, &mut BackAndForth(0.495)).unwrap();
+    assert!(mirrored(&off) < 0.0, "{}", mirrored(&off));
+}
+
 /// A texture that is silent but for its relief: a wave of so many mm.
 fn wave(millimeters: f64) -> Plane {
     let values = (0..1000).map(|i| (std::f64::consts::TAU * 0.02 * f64::from(i) / millimeters).cos());
@@ -198,7 +236,7 @@ fn reliefs_sound_by_place_and_by_weight() {
             let parents = [(&long, 0.75), (&short, 0.25)];
             let plan = RenderPlan { parents: &parents, mode, rate: Hertz(rate), seconds: 1.0, seed: 1 };
             // At half its force.
-            let x = render(&plan, &mut |_| Contact::from_mm_per_s_and_n(100.0, 0.5)).unwrap();
+            let x = render(&plan, &mut |_: f64| Contact::from_mm_per_s_and_n(100.0, 0.5)).unwrap();
             let part = |hz: f64| {
                 let late = x.iter().enumerate().skip(x.len() / 2);
                 let angle = |i: usize| std::f64::consts::TAU * hz * i as f64 / rate;
@@ -230,7 +268,7 @@ fn at_its_own_speed_a_recording_comes_back() {
         seconds: 3.0,
         seed: 1,
     };
-    let x = render(&plan, &mut |_| Contact::from_mm_per_s_and_n(100.0, 1.0)).unwrap();
+    let x = render(&plan, &mut |_: f64| Contact::from_mm_per_s_and_n(100.0, 1.0)).unwrap();
     let heard: Vec<f64> = x.iter().map(|x| f64::from(*x)).collect();
     // A sample stands where the tip is at its end.
     let snr = |lag: usize| crate::quality::snr_db(&recorded[100 + lag..2900], &heard[100..2900 - lag]);
