@@ -42,6 +42,9 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
             let length = path.length() / scale;
             json!({"keys": path.keys().len(), "length": length, "unit": unit, "at_end": path.at_end().id()})
         }),
+        "relief": texture.model.relief().map(|relief| {
+            json!({"length_mm": 1e3 * relief.profile().length_m(), "force_n": relief.force().0})
+        }),
         "restricted": texture.provenance == Provenance::Restricted,
         "licence": library.license_of(texture),
     })
@@ -60,8 +63,11 @@ fn table(library: &Library) -> String {
             let length = path.length() / scale;
             format!(", a path of {} textures along {length} {unit}", path.keys().len())
         });
+        let relief = model.relief().map_or_else(String::new, |relief| {
+            format!(", a relief of {:.1} mm", 1e3 * relief.profile().length_m())
+        });
         format!(
-            "{:widest$}  {}, {place}, {} nodes of order {} at {}{path}",
+            "{:widest$}  {}, {place}, {} nodes of order {} at {}{path}{relief}",
             texture.id,
             texture.name,
             model.n_nodes(),

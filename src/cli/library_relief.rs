@@ -49,7 +49,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(args.profile.path()), args.library.path()])?;
     refuse_foreign(&args.out, "a library", is_library)?;
-    let profile = args.profile.load()?;
+    let profile = args.profile.load_felt()?;
     if args.level.is_none() && !args.profile.is_signal() {
         return Err(Usage(
             "the values of a profile have no unit; say how strong it is felt with --level in m/s²".to_owned(),

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use shagreen_core::profile::Profile;
+use shagreen_core::relief::felt_profile;
 use shagreen_core::spatial_spectrogram::Framing;
+use shagreen_core::units::{Hertz, MetersPerSecond};
 use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
 
@@ -75,6 +77,14 @@ impl ProfileArgs {
     /// Whether the values are accelerations: those of a signal.
     pub(crate) fn is_signal(&self) -> bool {
         self.speed.is_some()
+    }
+
+    /// The profile in it as it is felt: of a recording without what comes too fast.
+    pub(crate) fn load_felt(&self) -> anyhow::Result<Profile> {
+        let profile = self.load()?;
+        let Some(speed) = self.speed.map(MetersPerSecond::from_mm_per_s) else { return Ok(profile) };
+        let rate = Hertz(speed.0 / profile.step_m());
+        felt_profile(profile.values(), rate, speed).with_context(|| output::in_file(&self.path))
     }
 
     /// The profile in it.

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use shagreen_core::spatial_spectrogram::{
     Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window,
 };
+use shagreen_core::statistics::is_constant;
 use shagreen_formats::atomic;
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
@@ -59,6 +60,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("none of the windows of the paper fits the profile; give one with --window");
     }
     let (values, step_m) = (profile.values(), profile.step_m());
+    if is_constant(values) {
+        bail!(
+            "the profile is the same everywhere; there is nothing to lose: {}",
+            args.profile.path().display()
+        );
+    }
     let found = fidelity_by_window(values, step_m, &framings)?;
     if let (Some(out), [framing]) = (&args.out, framings.as_slice()) {
         atomic::write(out, table(values, step_m, *framing)?.as_bytes())?;

@@ -66,6 +66,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let rms = mixture_level_mps2(&parents, chosen.mixing, contact);
     let pairs: Vec<(Hertz, f64)> = frequencies.iter().copied().zip(psd.iter().copied()).collect();
     let multiple = args.threshold.read()?.multiple(&pairs);
+    if planes.iter().any(|(plane, _)| plane.relief().is_some()) {
+        output::note("the texture has a relief, which depends on the place: this is the noise over it alone");
+    }
     let hz: Vec<f64> = frequencies.iter().map(|frequency| frequency.0).collect();
     output::print(
         args.json,

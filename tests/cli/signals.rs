@@ -147,6 +147,29 @@ fn amplitude(signal: &[f64], rate_hz: f64, hz: f64) -> f64 {
     2.0 * part(f64::cos).hypot(part(f64::sin)) / signal.len() as f64
 }
 
+/// A height map of 16 bits: steps of one in 65535 from pixel to pixel in its row 1, nothing in the others.
+#[test]
+fn a_row_of_a_height_map_is_a_profile_and_a_relief() {
+    let bench = Bench::new();
+    let height = |x: u32, y: u32| image::Luma([if y == 1 { 30_000 + (x % 7) as u16 } else { 500 }]);
+    let mut png = std::io::Cursor::new(Vec::new());
+    image::ImageBuffer::from_fn(400, 4, height).write_to(&mut png, image::ImageFormat::Png).unwrap();
+    bench.write("map.png", png.into_inner());
+    let made = bench
+        .json("library relief map.png --width 40 --row 1 --level 1.5 --texture cork --force 1 -o map.json");
+    assert_eq!(made["values"], 400);
+    assert!((made["level_mps2"].as_f64().unwrap() - 1.5).abs() < 1e-9);
+    assert!((made["length_mm"].as_f64().unwrap() - 40.0).abs() < 1e-9);
+    let analysed = bench.json("spatial analyse map.png --width 40 --row 1 --window 2");
+    assert_eq!((&analysed["samples"], &analysed["step_mm"]), (&400.into(), &0.1.into()));
+    // The row in the middle is another one, and flat.
+    let flat = "library relief map.png --width 40 --level 1 --texture cork -o no.json";
+    bench.fails(flat, 1, &["map.png", "nothing to feel"]);
+    bench.fails("spatial analyse map.png --width 40", 1, &["map.png", "the same everywhere"]);
+    bench.fails("spatial analyse map.png --width 40 --row 4", 1, &["rows 0 to 3"]);
+    bench.fails("spatial analyse map.png", 2, &["--width"]);
+}
+
 #[test]
 fn a_relief_lies_at_its_places() {
     let bench = Bench::new();
@@ -188,6 +211,16 @@ fn a_relief_lies_at_its_places() {
     let brick =
         bench.json("library relief brick.wav --speed 100 --texture felt --library wavy.json -o both.json");
     assert!((brick["length_mm"].as_f64().unwrap() - 100.0).abs() < 1e-6);
+    // However fast it was recorded: what is felt of three seconds at 48 kHz fits.
+    bench.json("render --texture brick --speed 100 --force 1 --seconds 3 --rate 48000 -o fast.wav");
+    let fast = bench.json("library relief fast.wav --speed 100 --texture felt -o fast_felt.json");
+    assert_eq!((&fast["values"], &fast["step_mm"]), (&12_000.into(), &0.025.into()));
+    let listed = bench.json("library list --library both.json");
+    let relief_of = |id: &str| {
+        let textures = listed["textures"].as_array().unwrap();
+        textures.iter().find(|texture| texture["id"] == id).unwrap()["relief"]["length_mm"].as_f64()
+    };
+    assert!(relief_of("cork") == Some(10.0) && relief_of("felt").is_some() && relief_of("glass").is_none());
     bench.fails("library relief wave.csv --texture cork -o no.json", 2, &["--level"]);
     bench.fails("library relief wave.csv --texture corc --level 1 -o no.json", 1, &["corc", "cork"]);
     bench.write("flat.csv", "0,1\n1,1\n2,1\n");

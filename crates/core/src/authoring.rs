@@ -13,6 +13,7 @@ pub use crate::sampled::Layers;
 use self::layers::mean_tap;
 use crate::blend::{Mode, inverse_distance};
 use crate::natural_neighbor::NaturalNeighbors;
+use crate::relief::Relief;
 use crate::space::{Location, Space, SpacePoint};
 use crate::tap::Tap;
 use crate::texture::TextureModel;
@@ -180,18 +181,27 @@ pub struct Authoring {
     space: Space,
     models: Option<Arc<Models>>,
     natural: OnceLock<Option<Arc<NaturalNeighbors>>>,
+    has_reliefs: bool,
 }
 
 impl Authoring {
     /// A space for the modes that mix signals.
     pub fn new(space: Space) -> Self {
-        Self { space, models: None, natural: OnceLock::new() }
+        Self { space, models: None, natural: OnceLock::new(), has_reliefs: true }
     }
 
     /// The same with what the modes that make a texture need; `models` were made for this space.
     #[must_use]
     pub fn with_models(mut self, models: Arc<Models>) -> Self {
         self.models = Some(models);
+        self
+    }
+
+    /// The same without the reliefs of what is made: adding up lines of 65,000 values is too much for what is looked at in
+    /// thousands of places.
+    #[must_use]
+    pub fn without_reliefs(mut self) -> Self {
+        self.has_reliefs = false;
         self
     }
 
@@ -218,7 +228,11 @@ impl Authoring {
                     Weights::Natural => self.natural_weights(&authored.location),
                 };
                 // A mean of textures is one; should rounding make it none, there is nothing to hear.
-                authored.model = models.and_then(|models| models.mean(&authored.parents).ok());
+                let mean = |models: &Models| {
+                    let model = models.mean(&authored.parents).ok()?;
+                    Some(model.with_relief(self.relief(models, &authored.parents)))
+                };
+                authored.model = models.and_then(mean);
             }
             Mode::Field => {
                 if let Some(models) = models {
@@ -231,7 +245,9 @@ impl Authoring {
                     authored.location.at = reached;
                     authored.parents = models.weights(reached);
                     // Far from all textures a spectrum may be beyond what a texture may be: then nothing is heard.
-                    authored.model = models.texture(reached, None, &authored.parents).ok();
+                    let relief = self.relief(models, &authored.parents);
+                    authored.model =
+                        models.texture(reached, None).ok().map(|model| model.with_relief(relief));
                     authored.lock = self.lock(reached, &blending.locked);
                     if let Some((locked, share)) = authored.lock {
                         for (texture, weight) in &mut authored.parents {
@@ -254,10 +270,16 @@ impl Authoring {
         match (authored.lock, self.models.as_deref()) {
             // As in `author`.
             (Some(lock), Some(models)) => {
-                models.texture(authored.location.at, Some(lock), &authored.parents).ok()
+                let model = models.texture(authored.location.at, Some(lock)).ok()?;
+                Some(model.with_relief(self.relief(models, &authored.parents)))
             }
             _ => authored.model,
         }
+    }
+
+    /// The reliefs of textures by weight, where reliefs are wanted.
+    fn relief(&self, models: &Models, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
+        if self.has_reliefs { models.relief(parents) } else { None }
     }
 
     /// Weights by stolen area. On the hull, where that is infinite, they are those of its edge, and next to it, between the

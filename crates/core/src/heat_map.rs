@@ -40,7 +40,8 @@ impl Quantity {
 /// Works a quantity out at one point after the other.
 #[derive(Clone, Debug)]
 pub struct HeatMapper<'a> {
-    authoring: &'a Authoring,
+    /// What is looked at are models: reliefs say nothing of them.
+    authoring: Authoring,
     /// Planes of the textures, by library index.
     planes: &'a [&'a Plane],
     blending: &'a Blending,
@@ -53,12 +54,13 @@ pub struct HeatMapper<'a> {
 impl<'a> HeatMapper<'a> {
     /// A quantity of what `authoring` makes of textures with these `planes` (by library index), at one contact.
     pub fn new(
-        authoring: &'a Authoring,
+        authoring: &Authoring,
         planes: &'a [&'a Plane],
         blending: &'a Blending,
         contact: Contact,
         quantity: Quantity,
     ) -> Self {
+        let authoring = authoring.clone().without_reliefs();
         let mapper = Self { authoring, planes, blending, contact, quantity, prediction: None };
         let prediction = if quantity == Quantity::Roughness { mapper.prediction() } else { None };
         Self { prediction, ..mapper }

@@ -29,8 +29,18 @@ pub enum ProfileError {
         /// Which, from zero.
         index: usize,
     },
+    /// A value whose square is beyond what a number holds.
+    #[error("value {index} of the profile is {value:e}; up to 1e100 is possible, so choose another unit")]
+    Huge {
+        /// Which, from zero.
+        index: usize,
+        /// What it is.
+        value: f64,
+    },
 }
 
+/// Largest value, whatever its unit.
+const MAX_VALUE: f64 = 1e100;
 /// Shortest and longest step in m.
 const STEPS_M: std::ops::RangeInclusive<f64> = 1e-9..=1.0;
 
@@ -46,7 +56,11 @@ impl Profile {
         if values.len() < 2 {
             return Err(ProfileError::Short { n: values.len() });
         }
-        match values.iter().position(|value| !value.is_finite()) {
+        let is_value = |value: &f64| value.is_finite() && value.abs() <= MAX_VALUE;
+        match values.iter().position(|value| !is_value(value)) {
+            Some(index) if values[index].is_finite() => {
+                Err(ProfileError::Huge { index, value: values[index] })
+            }
             Some(index) => Err(ProfileError::NotFinite { index }),
             None => Ok(Self { step_m, values }),
         }
@@ -76,6 +90,7 @@ mod tests {
     fn what_is_no_profile_is_named() {
         let profile = Profile::new(1e-5, vec![0.0, 1.0, 0.5]).unwrap();
         assert!((profile.length_m() - 3e-5).abs() < 1e-18);
+        assert!(matches!(Profile::new(1e-3, vec![0.0, -1e101]), Err(ProfileError::Huge { index: 1, .. })));
         for step_m in [0.0, -1e-3, 2.0, f64::NAN] {
             assert!(matches!(Profile::new(step_m, vec![0.0; 9]), Err(ProfileError::Step { .. })));
         }

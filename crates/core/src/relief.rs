@@ -9,11 +9,12 @@ mod tests;
 
 use std::ops::RangeInclusive;
 
-use crate::profile::Profile;
+use crate::filter::resample;
+use crate::profile::{Profile, ProfileError};
 use crate::spectrum::rms;
 use crate::statistics::{centered, is_constant};
 use crate::texture::FORCES_N;
-use crate::units::Newtons;
+use crate::units::{Hertz, MetersPerSecond, Newtons};
 
 pub use crate::relief::octaves::ReliefOctaves;
 
@@ -23,6 +24,8 @@ pub const MAX_VALUES: usize = 1 << 16;
 pub const STEPS_M: RangeInclusive<f64> = 1e-7..=1e-2;
 /// Largest acceleration in a relief, in m/s².
 pub const MAX_MPS2: f64 = 1e6;
+/// Rate in Hz to which faster recordings are brought: nothing above half of it is felt, and more would fill a relief soon.
+const HIGHEST_RATE: Hertz = Hertz(4000.0);
 /// Parents of less weight, either way, have no say in a blend.
 const LEAST_WEIGHT: f64 = 1e-3;
 
@@ -72,6 +75,24 @@ pub enum ReliefError {
         /// The force in N.
         force_n: f64,
     },
+}
+
+/// The profile of a recording in m/s² that was stroked at a speed, without what comes too fast to be felt.
+///
+/// # Errors
+/// See [`ProfileError`].
+pub fn felt_profile(
+    samples_mps2: &[f64],
+    rate: Hertz,
+    speed: MetersPerSecond,
+) -> Result<Profile, ProfileError> {
+    let is_fast = rate.0 > HIGHEST_RATE.0 && samples_mps2.iter().all(|x| x.is_finite());
+    let (values, rate) = if is_fast {
+        (resample(samples_mps2, rate, HIGHEST_RATE), HIGHEST_RATE)
+    } else {
+        (samples_mps2.to_vec(), rate)
+    };
+    Profile::new(speed.0 / rate.0, values)
 }
 
 impl Relief {

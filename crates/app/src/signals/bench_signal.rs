@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use shagreen_core::filter::resample;
 use shagreen_core::profile::Profile;
-use shagreen_core::relief::{MAX_VALUES, Relief};
+use shagreen_core::relief::{MAX_VALUES, Relief, felt_profile};
 use shagreen_core::spectrum::rms;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
@@ -12,8 +12,6 @@ use shagreen_formats::imported::Imported;
 
 use crate::strings::signals as strings;
 
-/// Rate in Hz to which faster recordings are brought: nothing above half of it is felt.
-const HIGHEST_RATE: Hertz = Hertz(4000.0);
 /// Rate in Hz of the texture as which a signal is felt: a relief goes up to half of it.
 const FELT_RATE: Hertz = Hertz(2000.0);
 
@@ -44,13 +42,7 @@ impl BenchSignal {
         speed: MetersPerSecond,
         force: Newtons,
     ) -> Result<Imported<Self>, String> {
-        let is_fast = rate.0 > HIGHEST_RATE.0;
-        let (brought, rate) = if is_fast {
-            (resample(samples_mps2, rate, HIGHEST_RATE), HIGHEST_RATE)
-        } else {
-            (samples_mps2.to_vec(), rate)
-        };
-        let profile = Profile::new(speed.0 / rate.0, brought).map_err(|error| error.to_string())?;
+        let profile = felt_profile(samples_mps2, rate, speed).map_err(|error| error.to_string())?;
         Self::of_profile(name, &profile, speed, force)
     }
 

@@ -101,22 +101,20 @@ impl Models {
         Ok(Self { sampling, sites, field })
     }
 
-    /// The texture of the field at a place, or so far on the way to a locked one. Its relief is that of the `parents` by weight.
+    /// The texture of the field at a place, or so far on the way to a locked one, without a relief.
     pub(super) fn texture(
         &self,
         at: SpacePoint,
         lock: Option<(usize, f64)>,
-        parents: &[(usize, f64)],
     ) -> Result<TextureModel, TextureModelError> {
         let own = |(texture, share): (usize, f64)| {
             Some((self.sites.iter().find(|site| site.texture == texture)?.at(at), share))
         };
-        let model = self.field.texture(&self.sampling, at.xy(), lock.and_then(own))?;
-        Ok(model.with_relief(self.relief(parents)))
+        self.field.texture(&self.sampling, at.xy(), lock.and_then(own))
     }
 
     /// The reliefs of textures by weight; `None` where none has one.
-    fn relief(&self, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
+    pub(super) fn relief(&self, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
         if self.sites.iter().all(|site| site.relief.is_none()) {
             return None;
         }
@@ -138,7 +136,7 @@ impl Models {
         if inside == to { to } else { SpacePoint::from_xy(self.field.supported(inside.xy(), to.xy())) }
     }
 
-    /// The mean of textures: line spectral frequencies and ln level by weight, at every contact.
+    /// The mean of textures: line spectral frequencies and ln level by weight, at every contact; without a relief.
     pub(super) fn mean(&self, parents: &[(usize, f64)]) -> Result<TextureModel, TextureModelError> {
         let first = &self.sites[0].grain;
         let (mut lsf, mut ln_level) = (vec![0.0; first.lsf.len()], vec![0.0; first.ln_level.len()]);
@@ -156,7 +154,6 @@ impl Models {
         }
         let friction = mean_friction(known.iter().map(|(site, weight)| (site.friction, *weight)));
         let tap = mean_tap(known.iter().map(|(site, weight)| (site.tap, *weight)));
-        let model = self.sampling.texture_of_frequencies(&lsf, &ln_level, friction, tap)?;
-        Ok(model.with_relief(self.relief(parents)))
+        self.sampling.texture_of_frequencies(&lsf, &ln_level, friction, tap)
     }
 }

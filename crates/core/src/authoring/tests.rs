@@ -8,12 +8,14 @@ use crate::authoring::{
 };
 use crate::blend::{Mode, mixture_psd};
 use crate::plane::Plane;
+use crate::profile::Profile;
+use crate::relief::Relief;
 use crate::rng::Random;
 use crate::space::{Space, SpacePoint};
 use crate::tap::Tap;
 use crate::texture::test_textures::two_resonances;
 use crate::texture::{GrainNode, TextureModel};
-use crate::units::{Contact, Hertz};
+use crate::units::{Contact, Hertz, Newtons};
 
 fn point(rs: f64, hs: f64) -> SpacePoint {
     SpacePoint::new(rs, hs).unwrap()
@@ -320,4 +322,33 @@ fn the_papers_weights_jump() {
     let ways = [(point(20.0, 50.0), point(80.0, 55.0)), (point(50.0, 10.0), point(45.0, 90.0))];
     let worst = ways.map(|(a, b)| jump_at_worst(&world, &Mode::Paper.into(), a, b));
     assert!(worst.iter().any(|jump| *jump > 0.3), "{worst:?} dB");
+}
+
+/// Where one texture has a relief, what is made near it has it by its share; what is looked at in thousands of places has none.
+#[test]
+fn what_is_made_has_reliefs_by_weight_unless_none_are_wanted() {
+    let world = world(6, 0.0, 9);
+    let relief = Relief::new(Profile::new(1e-4, vec![0.0, 1.0, -1.0, 0.5]).unwrap(), Newtons(1.0)).unwrap();
+    let relief = Arc::new(relief);
+    let textures: Vec<TextureModel> = (0..6)
+        .map(|i| truth(world.places[i], 0.0).with_relief((i == 2).then(|| Arc::clone(&relief))))
+        .collect();
+    let planes: Vec<Plane> = textures.iter().map(Plane::new).collect();
+    let layers: Vec<_> = textures.iter().zip(&planes).map(|(t, plane)| Some(Layers::of(t, plane))).collect();
+    let space = world.authoring.space().clone();
+    let models = Arc::new(Models::new(&space, &layers).unwrap());
+    let authoring = Authoring::new(space).with_models(models);
+    for mode in [Mode::Parametric, Mode::Field] {
+        let there = authoring.author(world.places[2], &mode.into()).unwrap();
+        let weight = there.parents.iter().find(|(texture, _)| *texture == 2).unwrap().1;
+        let made = there.model.as_ref().unwrap().relief().unwrap();
+        let level = |relief: &Relief| crate::spectrum::rms(relief.profile().values());
+        assert!((level(made) / level(&relief) - weight).abs() < 0.02, "{mode:?}: {weight}");
+        let bare = authoring.clone().without_reliefs().author(world.places[2], &mode.into()).unwrap();
+        let model = there.model.unwrap().with_relief(None);
+        assert!(bare.model.unwrap() == model && bare.parents == there.parents);
+    }
+    let whole = Blending { locked: vec![2], ..Mode::Field.into() };
+    let model = authoring.model(world.places[2], &whole).unwrap();
+    assert_eq!(model.relief().map(|relief| relief.profile()), Some(relief.profile()));
 }

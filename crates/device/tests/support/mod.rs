@@ -3,6 +3,7 @@
 use shagreen_device::synth::budget::Budget;
 use shagreen_device::synth::drive::{DriveConfig, Inverse};
 use shagreen_device::synth::equalizer::Resonance;
+use shagreen_device::synth::relief::Relief;
 use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 use shagreen_device::texture::OwnedTexture;
 
@@ -18,7 +19,7 @@ pub(crate) const DRIVE: DriveConfig = DriveConfig {
     budget: Some(Budget { rms: 0.3, time_secs: 5.0 }),
 };
 
-/// White noise whose level grows with speed and force.
+/// White noise whose level grows with speed and force, over waves of 0.64 mm that lie along x.
 pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
     let mut lsf = [0.0; MAX_ORDER];
     (lsf[0], lsf[1]) = (1.0, 2.0);
@@ -30,6 +31,11 @@ pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
         ln_gain: [0.0; 6],
     };
     let nodes = [node(0.0), node(level_mps2), node(level_mps2)];
+    let mut octaves = Vec::new();
+    for n in (2..=10).rev().map(|octave| 1_usize << octave) {
+        let value = |i: usize| (std::f32::consts::TAU * 16.0 * i as f32 / n as f32).sin();
+        octaves.extend((0..n).map(|i| if n >= 64 { 0.3 * level_mps2 * value(i) } else { 0.0 }));
+    }
     let (nodes, triangles) = (&nodes, &[triangle]);
     OwnedTexture::new(Parts {
         rate_hz: 1000.0,
@@ -40,7 +46,7 @@ pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
         nodes,
         excitations: &[],
         triangles,
-        relief: None,
+        relief: Some(Relief::new(1e-5, 1.0, 1024, &octaves).unwrap()),
     })
     .unwrap()
 }
