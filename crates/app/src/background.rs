@@ -16,6 +16,10 @@ pub(crate) fn in_background<T: Send + 'static>(
     receiver
 }
 
+/// A thread panicked: nothing came of its work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BrokenOff;
+
 /// Work of which only the newest counts: one thread at most, and what is asked for meanwhile waits in the place of what
 /// waited before.
 pub(crate) struct Newest<T> {
@@ -40,19 +44,18 @@ impl<T: Send + 'static> Newest<T> {
     }
 
     /// What came of the work that was asked for last, once it is done.
-    pub(crate) fn collect(&mut self, ctx: &egui::Context) -> Option<T> {
+    pub(crate) fn collect(&mut self, ctx: &egui::Context) -> Option<Result<T, BrokenOff>> {
         let done = match self.running.as_ref()?.try_recv() {
-            Ok(done) => Some(done),
+            Ok(done) => Ok(done),
             Err(TryRecvError::Empty) => return None,
-            // Its thread broke off, and nothing came of it.
-            Err(TryRecvError::Disconnected) => None,
+            Err(TryRecvError::Disconnected) => Err(BrokenOff),
         };
         self.running = None;
         if let Some(work) = self.waiting.take() {
             self.running = Some(in_background(ctx.clone(), work));
             return None;
         }
-        done
+        Some(done)
     }
 
     /// Whether something is being done.
@@ -63,7 +66,7 @@ impl<T: Send + 'static> Newest<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::Newest;
+    use super::{BrokenOff, Newest};
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 
@@ -71,7 +74,7 @@ mod tests {
         let begun = Instant::now();
         loop {
             if let Some(done) = newest.collect(ctx) {
-                return done;
+                return done.expect("it does not break off");
             }
             assert!(begun.elapsed() < Duration::from_mins(1), "nothing came");
             std::thread::sleep(Duration::from_millis(1));
@@ -99,9 +102,12 @@ mod tests {
     fn after_work_that_broke_off_there_is_other_work() {
         let (ctx, mut newest) = (egui::Context::default(), Newest::<u8>::default());
         newest.ask(&ctx, || panic!("as asked for"));
-        while newest.is_busy() {
-            assert!(newest.collect(&ctx).is_none());
-        }
+        let outcome = loop {
+            if let Some(outcome) = newest.collect(&ctx) {
+                break outcome;
+            }
+        };
+        assert_eq!(outcome, Err(BrokenOff));
         newest.ask(&ctx, || 7);
         assert_eq!(wait(&mut newest, &ctx), 7);
     }

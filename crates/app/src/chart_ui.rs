@@ -83,6 +83,7 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
 
 /// The numbers of an axis whose places are ratios: 1, 2 and 5 of each decade.
 fn round_numbers((low, high): (f64, f64)) -> impl Iterator<Item = f64> {
+    debug_assert!(low > 0.0, "ratios are above zero");
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let of = |decade: i32| [1.0, 2.0, 5.0].map(|digit| digit * 10.0_f64.powi(decade));
     decades.flat_map(of).filter(move |x| (low..=high).contains(x))

@@ -1,23 +1,24 @@
 //! A value over two axes, drawn as colors.
 
-use std::ops::RangeInclusive;
-
-use egui::{ColorImage, Id, Label, Rect, RichText, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
-use egui_plot::{GridMark, Plot, PlotImage, PlotPoint, PlotResponse};
+use egui::{
+    ColorImage, Id, Label, Rangef, Rect, RichText, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2,
+};
+use egui_plot::{AxisHints, Plot, PlotImage, PlotPoint, PlotResponse, uniform_grid_spacer};
 use shagreen_formats::figure::Map;
 
-use crate::plot::fixed;
+use crate::plot::{fixed, nice_step};
 use crate::theme::{map_color, tokens};
 
 /// Draws a map into the space that there is; `name` tells it from the others.
 pub(crate) fn map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
-    show(ui, name, map, |plot| plot)
+    show(ui, name, map, AxisHints::new_x(), AxisHints::new_y())
 }
 
 /// The same with the names of its axes beside them.
 pub(crate) fn labeled_map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
     let label = |text: &str| RichText::new(text).small();
-    show(ui, name, map, |plot| plot.x_axis_label(label(&map.x_label)).y_axis_label(label(&map.y_label)))
+    let across = AxisHints::new_x().label(label(&map.x_label));
+    show(ui, name, map, across, AxisHints::new_y().label(label(&map.y_label)))
 }
 
 /// The colors of a map, from the lowest to the highest value that they tell apart, in a line.
@@ -28,34 +29,34 @@ pub(crate) fn color_key_ui(ui: &mut Ui, map: &Map) {
         let text = RichText::new(text).small().color(t.text_weak);
         ui.add(Label::new(text).selectable(false)).on_hover_text(&map.value_label);
     };
-    word(ui, format!("{:.0} {}", map.range.1, map.value_unit));
+    word(ui, format!("{:.0} {}", map.range.1 + 0.0, map.value_unit));
     let (area, _) = ui.allocate_exact_size(vec2(WIDTH, 8.0), Sense::hover());
     for i in 0..WIDTH as usize {
         let left = area.left() + i as f32;
         let strip = Rect::from_min_max(pos2(left, area.top()), pos2(left + 1.0, area.bottom()));
         ui.painter().rect_filled(strip, 0.0, map_color(i as f32 / (WIDTH - 1.0)));
     }
-    word(ui, format!("{:.0}", map.range.0));
+    word(ui, format!("{:.0}", map.range.0 + 0.0));
 }
 
-fn show<'a>(
-    ui: &mut Ui,
-    name: &str,
-    map: &Map,
-    labeled: impl FnOnce(Plot<'a>) -> Plot<'a>,
-) -> PlotResponse<()> {
+fn show(ui: &mut Ui, name: &str, map: &Map, across: AxisHints<'_>, up: AxisHints<'_>) -> PlotResponse<()> {
     let t = tokens(ui.ctx());
     let picture = picture(ui, Id::unique(("colors of a map", name)), map);
     let middle = PlotPoint::new(0.5 * (map.x.0 + map.x.1), 0.5 * (map.y.0 + map.y.1));
     let size = vec2((map.x.1 - map.x.0) as f32, (map.y.1 - map.y.0) as f32);
     let (x, y) = (map.x, map.y);
-    // At its beginning the other axis has its lowest number.
-    let across = move |mark: GridMark, _: &RangeInclusive<f64>| {
-        if mark.value <= x.0 { String::new() } else { format!("{}", mark.value + 0.0) }
-    };
-    let plot =
-        fixed(Plot::new(name.to_owned()), t.line).x_axis_formatter(across).height(ui.available_height());
-    labeled(plot).show(ui, move |plot| {
+    // Five numbers or more.
+    let step = nice_step(0.4 * (x.1 - x.0));
+    let across = across.label_spacing(Rangef::new(30.0, 40.0)).formatter(move |mark, _| {
+        // At its beginning the other axis has its lowest number, and sums of tenths are no tenths.
+        if mark.value <= x.0 { String::new() } else { format!("{}", (mark.value * 1e6).round() / 1e6 + 0.0) }
+    });
+    let plot = fixed(Plot::new(name.to_owned()), t.line)
+        .custom_x_axes(vec![across])
+        .custom_y_axes(vec![up])
+        .x_grid_spacer(uniform_grid_spacer(move |_| [5.0 * step, step, step]))
+        .height(ui.available_height());
+    plot.show(ui, move |plot| {
         plot.set_plot_bounds_x(x.0..=x.1);
         plot.set_plot_bounds_y(y.0..=y.1);
         plot.image(PlotImage::new("", &picture, middle, size).allow_hover(false));

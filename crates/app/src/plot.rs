@@ -27,3 +27,22 @@ pub(crate) fn fixed(plot: Plot<'_>, grid: Color32) -> Plot<'_> {
         .show_background(true)
         .set_margin_fraction(vec2(0.0, 0.05))
 }
+
+/// A round number, of which two to five go into `range`.
+pub(crate) fn nice_step(range: f64) -> f64 {
+    let decade = 10.0_f64.powf((0.5 * range).log10().floor());
+    let fitting = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= 0.5 * range);
+    fitting.unwrap_or(1.0) * decade
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nice_step;
+
+    #[test]
+    fn steps_are_round_and_few() {
+        for (range, step) in [(110.0, 50.0), (500.0, 200.0), (90.0, 20.0), (22.0, 10.0)] {
+            assert!((nice_step(range) - step).abs() < 1e-9, "{range}: {}", nice_step(range));
+        }
+    }
+}

@@ -190,7 +190,12 @@ impl SaveSheet {
                 Subject::Stroke(file) => (stroke::to_save(file.secs()), t.text_weak),
                 Subject::Signal(file) => {
                     let Contact { speed, force } = file.contact;
-                    let text = signal::to_save(SIGNAL_SECS, speed.mm_per_s(), force.0, SIGNAL_RATE_HZ);
+                    let text = match &file.sounding {
+                        Sounding::Bench(of) => signal::bench_to_save(&of.name, of.seconds(), SIGNAL_RATE_HZ),
+                        Sounding::Mix(..) | Sounding::Path(_) => {
+                            signal::to_save(SIGNAL_SECS, speed.mm_per_s(), force.0, SIGNAL_RATE_HZ)
+                        }
+                    };
                     (text, t.text_weak)
                 }
                 Subject::Project(project) => {

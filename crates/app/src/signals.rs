@@ -6,9 +6,10 @@ pub mod editor;
 mod editor_ui;
 mod features_ui;
 mod figures;
+mod known;
 pub mod page;
-pub mod reading;
-pub mod slot;
+pub(crate) mod reading;
+mod slot;
 mod slot_ui;
 mod spatial_ui;
 

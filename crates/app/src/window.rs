@@ -227,7 +227,7 @@ impl Window {
             commands.retain(|command| !matches!(command, Command::TogglePathTool));
         }
         if self.workspace == Workspace::Signals {
-            commands = commands.into_iter().filter_map(|command| self.of_signals(command)).collect();
+            commands = commands.into_iter().filter_map(Self::of_signals).collect();
         }
         if self.workspace == Workspace::Author
             && self.canvas.tool.is_on

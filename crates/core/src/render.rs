@@ -112,7 +112,7 @@ struct Output {
 
 /// What moves a tip.
 pub trait Hand {
-    /// Speed and force at a time in s, which never goes back.
+    /// Speed and force at a time in s. What is rendered asks forwards; a path is walked once before.
     fn contact_at(&mut self, time_secs: f64) -> Contact;
 
     /// Where the tip is along reliefs at any time, in m. A hand that says `None`, and says it always, is at their beginning first, and

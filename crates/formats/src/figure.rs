@@ -216,7 +216,13 @@ impl Figure {
 impl Table {
     /// A number as it is shown.
     pub fn shown(&self, value: Option<f64>) -> String {
-        value.map_or_else(|| "\u{2013}".to_owned(), |value| format!("{value:.*}", self.decimals))
+        let Some(value) = value else { return "\u{2013}".to_owned() };
+        let text = format!("{value:.*}", self.decimals);
+        // Nothing reads "-0.000".
+        match text.strip_prefix('-') {
+            Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
+            _ => text,
+        }
     }
 }
 

@@ -77,6 +77,7 @@ use crate::picture::Picture;
 
 pub(crate) use crate::library::attributes::is_usual;
 pub use crate::library::attributes::{Attribute, Attributes};
+pub use crate::library::authored::ReliefSource;
 pub use crate::library::error::LibraryError;
 pub use crate::library::id::{free_id, free_name, id_from_name, name_from_file};
 pub use crate::library::provenance::Provenance;

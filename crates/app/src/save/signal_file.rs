@@ -11,6 +11,7 @@ use shagreen_core::texture_path::TexturePath;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::wav::{SidecarV1, is_sidecar, sidecar_path, write_wav};
 
+use crate::signals::bench_signal::BenchSignal;
 use crate::strings::signal as strings;
 
 /// Length of the signal, in seconds.
@@ -27,6 +28,8 @@ pub enum Sounding {
     Mix(Vec<(Arc<Plane>, f64)>, Mode),
     /// Textures one after the other along a path.
     Path(Box<TexturePath>),
+    /// A signal of the bench, as it was recorded.
+    Bench(Arc<BenchSignal>),
 }
 
 /// A signal on its way into a file.
@@ -63,6 +66,7 @@ impl SignalFile {
         let (rate, seconds, seed) = (Hertz(f64::from(SIGNAL_RATE_HZ)), SIGNAL_SECS, SIGNAL_SEED);
         let mut contact_at = |_| self.contact;
         match &self.sounding {
+            Sounding::Bench(signal) => Ok(signal.at(rate).into_iter().map(|x| x as f32).collect()),
             Sounding::Path(path) => {
                 let prepared: Vec<Prepared> =
                     path.keys().iter().map(|key| Plane::new(&key.model).prepare()).collect();

@@ -11,7 +11,7 @@ use shagreen_formats::figure::{Chart, Figure, Scale, Series, Tone};
 
 use super::view::View;
 use crate::map_plot::map_plot;
-use crate::plot::fixed;
+use crate::plot::{fixed, nice_step};
 use crate::strings::scope as words;
 use crate::theme::{tokens, tone_color};
 
@@ -151,13 +151,6 @@ fn named(view: View, series: &Series) -> &str {
     if is_parent { "" } else { &series.name }
 }
 
-/// A round number, of which two to five go into `range`.
-fn nice_step(range: f64) -> f64 {
-    let decade = 10.0_f64.powf((0.5 * range).log10().floor());
-    let fitting = [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= 0.5 * range);
-    fitting.unwrap_or(1.0) * decade
-}
-
 /// What lies under the pointer, in a box beside it: the place on the axis and the value of each line there.
 fn read_ui(ui: &Ui, view: View, figure: &Figure, axis: &Axis, at: Pos2, area: Rect) {
     let t = tokens(ui.ctx());
@@ -199,17 +192,5 @@ fn read_ui(ui: &Ui, view: View, figure: &Figure, axis: &Axis, at: Pos2, area: Re
         let line_height = galley.size().y;
         painter.galley(pos2(left + 6.0, y), galley, t.text);
         y += line_height;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::nice_step;
-
-    #[test]
-    fn steps_are_round_and_few() {
-        for (range, step) in [(110.0, 50.0), (500.0, 200.0), (90.0, 20.0), (22.0, 10.0)] {
-            assert!((nice_step(range) - step).abs() < 1e-9, "{range}: {}", nice_step(range));
-        }
     }
 }

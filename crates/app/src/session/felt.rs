@@ -8,6 +8,7 @@ use shagreen_device::synth::tap::Tap;
 
 use super::Session;
 use super::heard::Heard;
+use super::path_walk::PathWalk;
 use crate::signals::bench_signal::BenchSignal;
 
 /// A signal that the pen feels.
@@ -26,9 +27,20 @@ impl Session {
         };
         if !is_same {
             self.felt = signal.map(|signal| Felt { signal: Arc::clone(signal), is_new: true });
+            if self.felt.is_none() {
+                // What was felt is nothing that was authored, and meanwhile no path went on.
+                (self.heard, self.player.mix_is_new) = (Heard::default(), true);
+                self.walk = self.walk.map(|walk| PathWalk::new(walk.along()));
+                self.walk_alone = None;
+            }
             // What comes next is found anew.
             self.player.wanted = None;
         }
+    }
+
+    /// The signal that the pen feels.
+    pub(super) fn felt_signal(&self) -> Option<&Arc<BenchSignal>> {
+        self.felt.as_ref().map(|felt| &felt.signal)
     }
 
     /// The name of the signal that the pen feels, where it feels one.

@@ -14,10 +14,11 @@ use super::Session;
 use crate::document::CREATED_BY;
 use crate::kept_path::drawn_path;
 use crate::save::{SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, SignalFile, Sounding};
+use crate::signals::bench_signal::BenchSignal;
 use crate::strings::signal as strings;
 
 impl Session {
-    /// The signal of what is heard at one contact: of the texture that is heard alone, of the path that is played, else of the
+    /// The signal of what is heard at one contact: that of the bench where one is felt; else of the texture that is heard alone, of the path that is played, else of the
     /// point of `compared` or of the selected texture.
     ///
     /// # Errors
@@ -28,6 +29,9 @@ impl Session {
         compared: Option<&AuthoredTexture>,
         contact: Contact,
     ) -> Result<SignalFile, String> {
+        if let Some(signal) = self.felt_signal() {
+            return Ok(of_bench(signal));
+        }
         let authored = self.authored().ok_or(strings::NOTHING)?;
         let alone = self.solo(project).filter(|_| compared.is_none() && !self.is_path_playing());
         let mut sidecar = SidecarV1 {
@@ -87,6 +91,21 @@ impl Session {
         parents.sort_by(|a, b| b.1.total_cmp(&a.1));
         parents
     }
+}
+
+/// A signal of the bench, as it was recorded.
+fn of_bench(signal: &Arc<BenchSignal>) -> SignalFile {
+    let contact = Contact { speed: signal.speed, force: signal.force };
+    let sidecar = SidecarV1 {
+        trace: TraceV1 {
+            time_s: vec![0.0, signal.seconds()],
+            speed_mm_per_s: vec![as_set(contact.speed.mm_per_s()); 2],
+            force_n: vec![as_set(contact.force.0); 2],
+        },
+        ..SidecarV1::new(SIGNAL_RATE_HZ, signal.seconds(), SIGNAL_SEED, CREATED_BY)
+    };
+    let restricted = signal.restricted.clone();
+    SignalFile { sounding: Sounding::Bench(Arc::clone(signal)), contact, sidecar, restricted }
 }
 
 /// A number of the hand as somebody set it: the hand has it in `f32`.

@@ -30,14 +30,8 @@ pub struct AtRate {
     pub d_prime: f64,
 }
 
-/// What is known of one signal.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OfOne {
-    /// What windows of each width keep of it, widest first.
-    pub by_window: Vec<ProfileFidelity>,
-    /// What the codec keeps of it, or why that is not known.
-    pub by_rate: Result<Vec<AtRate>, String>,
-}
+/// What the codec keeps of a signal at its rates, or why that is not known.
+pub type ByRate = Result<Vec<AtRate>, String>;
 
 /// How two signals differ.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,15 +44,10 @@ pub struct Compared {
     pub parts: Vec<(Feature, f64)>,
     /// Predicted: nobody was asked.
     pub d_prime: f64,
-    /// Of the second against the first, in dB; infinite where they are equal.
+    /// Of the second against the first, in dB; infinite where they are equal, minus infinite where only the first is silent.
     pub snr_db: f64,
     /// How much of both was compared, in s.
     pub seconds: f64,
-}
-
-/// Works out what is known of one signal.
-pub(super) fn of_one(signal: &BenchSignal) -> OfOne {
-    OfOne { by_window: by_window(signal), by_rate: by_rate(signal) }
 }
 
 /// The windows of the paper that fit a signal, widest first: no wider than it, and of four samples at least.
@@ -68,13 +57,18 @@ fn windows_of(signal: &BenchSignal) -> Vec<Framing> {
     windows.map(|window_m| Framing::of_length(window_m, step_m)).collect()
 }
 
-fn by_window(signal: &BenchSignal) -> Vec<ProfileFidelity> {
+/// What windows of each width keep of a signal, widest first.
+pub(super) fn by_window(signal: &BenchSignal) -> Vec<ProfileFidelity> {
     let (values, step_m) = (signal.profile.values(), signal.profile.step_m());
     // The windows fit, and a profile holds finite numbers only.
     fidelity_by_window(values, step_m, &windows_of(signal)).unwrap_or_default()
 }
 
-fn by_rate(signal: &BenchSignal) -> Result<Vec<AtRate>, String> {
+/// What the codec keeps of a signal, lowest rate first.
+///
+/// # Errors
+/// In words: it is too short, or cannot be encoded.
+pub(super) fn by_rate(signal: &BenchSignal) -> ByRate {
     let samples = signal.at(CODEC_RATE);
     let meter = meter(samples.len())?;
     let books = Arc::new(built_in_codebooks().map_err(|error| error.to_string())?);
@@ -151,17 +145,18 @@ pub(super) fn through_codec(signal: &BenchSignal, rate: Bitrate) -> Result<Bench
 /// # Errors
 /// In words: the window does not fit.
 pub(super) fn remade(signal: &BenchSignal, window_m: f64, n_steps: usize) -> Result<BenchSignal, String> {
-    let transform = Transform::new(Framing::of_length(window_m, signal.profile.step_m()));
+    let framing = signal.framing(window_m);
+    let transform = Transform::new(framing);
     let spectrogram =
         SpatialSpectrogram::of(signal.profile.values(), &transform).map_err(|error| error.to_string())?;
     let made = profile_of(&spectrogram, &transform);
     let made = refine(&spectrogram, &made, n_steps).map_err(|error| error.to_string())?;
-    signal.with_values(strings::remade(&signal.name, 1e3 * window_m, n_steps), made)
+    signal.with_values(strings::remade(&signal.name, 1e3 * signal.window_m(framing), n_steps), made)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{compare, of_one, remade, through_codec};
+    use super::{by_rate, by_window, compare, remade, through_codec};
     use crate::signals::bench_signal::tests::tone;
     use shagreen_core::codec::bitrate::Bitrate;
     use shagreen_core::units::Hertz;
@@ -184,15 +179,14 @@ mod tests {
     #[test]
     fn one_signal_has_all_rates_and_the_windows_that_fit() {
         let signal = tone(80.0, 4000.0, 1.0);
-        let of = of_one(&signal);
-        let rates = of.by_rate.unwrap();
+        let rates = by_rate(&signal).unwrap();
         assert_eq!(rates.iter().map(|at| at.kbps).collect::<Vec<_>>(), [1.75, 2.15, 2.45, 2.75, 3.15]);
         // Steps of 25 µm: 0.2 mm are eight of them.
-        assert_eq!(of.by_window.len(), 7);
-        let short = of_one(&tone(80.0, 4000.0, 0.5));
-        assert!(short.by_rate.is_err() && short.by_window.len() == 7);
-        let coarse = of_one(&tone(80.0, 400.0, 1.0));
-        assert!(coarse.by_window.len() < 7 && coarse.by_window.len() > 2);
+        assert_eq!(by_window(&signal).len(), 7);
+        let short = tone(80.0, 4000.0, 0.5);
+        assert!(by_rate(&short).is_err() && by_window(&short).len() == 7);
+        let coarse = by_window(&tone(80.0, 400.0, 1.0));
+        assert!(coarse.len() < 7 && coarse.len() > 2);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use shagreen_core::filter::resample;
 use shagreen_core::profile::Profile;
 use shagreen_core::relief::{MAX_VALUES, Relief, felt_profile};
+use shagreen_core::spatial_spectrogram::Framing;
 use shagreen_core::spectrum::rms;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
@@ -12,7 +13,9 @@ use shagreen_formats::imported::Imported;
 
 use crate::strings::signals as strings;
 
-/// Rate in Hz of the texture as which a signal is felt: a relief goes up to half of it.
+/// Longest stroke of the bench, in s.
+const LONGEST_SECS: f64 = 30.0;
+/// Samples a second of the texture as which a signal is felt: a relief goes up to half of it.
 const FELT_RATE: Hertz = Hertz(2000.0);
 
 /// Accelerations along a line.
@@ -28,6 +31,8 @@ pub struct BenchSignal {
     pub force: Newtons,
     /// Names of the textures it was made of that may not be passed on.
     pub restricted: Vec<String>,
+    /// Terms of the textures it was made of; empty where nobody stated any.
+    pub terms: Vec<String>,
 }
 
 impl BenchSignal {
@@ -56,15 +61,9 @@ impl BenchSignal {
         speed: MetersPerSecond,
         force: Newtons,
     ) -> Result<Imported<Self>, String> {
-        let n = profile.values().len();
-        let mut warnings = Vec::new();
-        let mut values = profile.values().to_vec();
-        if n > MAX_VALUES {
-            values.truncate(MAX_VALUES);
-            warnings.push(strings::cut(MAX_VALUES as f64 / n as f64 * profile.length_m() / speed.0));
-        }
-        let profile = Profile::new(profile.step_m(), values).map_err(|error| error.to_string())?;
-        let value = Self { name: name.to_owned(), profile, speed, force, restricted: Vec::new() };
+        let Imported { value: profile, warnings } = cut(profile, speed)?;
+        let value =
+            Self { name: name.to_owned(), profile, speed, force, restricted: Vec::new(), terms: Vec::new() };
         // It can be felt, or it is none.
         value.relief()?;
         Ok(Imported { value, warnings })
@@ -81,13 +80,24 @@ impl BenchSignal {
         Ok(signal)
     }
 
+    /// How it is cut into windows of a length in m, or of the nearest that there is: four samples at least, and no more than
+    /// twice its own length.
+    pub(super) fn framing(&self, window_m: f64) -> Framing {
+        Framing::of_length(window_m.min(2.0 * self.profile.length_m()), self.profile.step_m())
+    }
+
+    /// The length of windows in m.
+    pub(super) fn window_m(&self, framing: Framing) -> f64 {
+        framing.window() as f64 * self.profile.step_m()
+    }
+
     /// Samples a second at its own speed.
     pub(crate) fn rate(&self) -> Hertz {
         Hertz(self.speed.0 / self.profile.step_m())
     }
 
     /// How long it takes at its own speed, in s.
-    pub(super) fn seconds(&self) -> f64 {
+    pub(crate) fn seconds(&self) -> f64 {
         self.profile.length_m() / self.speed.0
     }
 
@@ -97,7 +107,7 @@ impl BenchSignal {
     }
 
     /// Its samples in m/s² at a rate, at its own speed.
-    pub(super) fn at(&self, rate: Hertz) -> Vec<f64> {
+    pub(crate) fn at(&self, rate: Hertz) -> Vec<f64> {
         resample(self.profile.values(), self.rate(), rate)
     }
 
@@ -116,6 +126,21 @@ impl BenchSignal {
     pub(crate) fn texture(&self) -> Result<TextureModel, String> {
         TextureModel::of_relief(Arc::new(self.relief()?), FELT_RATE).map_err(|error| error.to_string())
     }
+}
+
+/// What the bench takes of a profile: as much as a relief can hold, and as much as is worked out soon.
+///
+/// # Errors
+/// In words: too little is left.
+pub(super) fn cut(profile: &Profile, speed: MetersPerSecond) -> Result<Imported<Profile>, String> {
+    let n = profile.values().len();
+    let in_time = (LONGEST_SECS * speed.0 / profile.step_m()) as usize;
+    let n_kept = n.min(MAX_VALUES).min(in_time.max(2));
+    let step_m = profile.step_m();
+    let kept = Profile::new(step_m, profile.values()[..n_kept].to_vec());
+    let value = kept.map_err(|error| error.to_string())?;
+    let warnings = if n_kept < n { vec![strings::cut(value.length_m() / speed.0)] } else { Vec::new() };
+    Ok(Imported { value, warnings })
 }
 
 #[cfg(test)]
@@ -159,6 +184,9 @@ pub(super) mod tests {
         assert!(imported.warnings[0].contains("16.4 s"), "{:?}", imported.warnings);
         assert!(BenchSignal::of_samples("none", &[1.0], Hertz(4000.0), speed, force).is_err());
         assert!(BenchSignal::of_samples("huge", &[1e9; 100], Hertz(4000.0), speed, force).is_err());
+        // A slow stroke takes long: so much of it is taken as is worked out soon.
+        let slow = BenchSignal::of_samples("slow", &long, Hertz(1000.0), speed, force).unwrap();
+        assert!((slow.value.seconds() - 30.0).abs() < 0.01, "{}", slow.value.seconds());
         let model = tone(50.0, 1000.0, 1.0).texture().unwrap();
         assert!(model.relief().is_some());
     }

@@ -3,10 +3,9 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+use shagreen_core::relief::MAX_VALUES;
 use shagreen_core::spatial_spectrogram::edit::{Brush, Patch, Region};
-use shagreen_core::spatial_spectrogram::{
-    Framing, SpatialSpectrogram, Spectra, Transform, profile_of, refine,
-};
+use shagreen_core::spatial_spectrogram::{SpatialSpectrogram, Spectra, Transform, profile_of, refine};
 
 use super::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
@@ -110,7 +109,7 @@ impl Editor {
     /// # Errors
     /// In words: the windows do not fit.
     pub(super) fn spectra(&self, signal: &Arc<BenchSignal>, window_m: f64) -> Result<Arc<Spectra>, String> {
-        let framing = Framing::of_length(window_m, signal.profile.step_m());
+        let framing = signal.framing(window_m);
         if let Some(painted) = &self.painted
             && Arc::ptr_eq(&painted.signal, signal)
             && painted.spectra.framing() == framing
@@ -149,9 +148,9 @@ impl Editor {
             spectra.paint(&brush, step_m, *place_m, *per_m);
         }
         // What is drawn without letting go is one step.
-        let is_new = self.last_touch.is_none();
+        let painted = self.take(signal, spectra, self.last_touch.is_none(), strings::BRUSH_STROKE)?;
         self.last_touch = Some(*last);
-        self.take(signal, spectra, is_new, strings::BRUSH_STROKE).map(Some)
+        Ok(Some(painted))
     }
 
     /// Where a brush touches on its way from its last touch, all of the same distance; at once where it is put down.
@@ -232,7 +231,11 @@ impl Editor {
         signal: &Arc<BenchSignal>,
         window_m: f64,
     ) -> Result<Arc<BenchSignal>, String> {
-        let transform = Transform::new(Framing::of_length(window_m, signal.profile.step_m()));
+        let n_stretched = self.stretch * signal.profile.values().len() as f64;
+        if n_stretched > MAX_VALUES as f64 {
+            return Err(strings::too_long(MAX_VALUES as f64 / signal.profile.values().len() as f64));
+        }
+        let transform = Transform::new(signal.framing(window_m));
         // The phases of other places tell nothing: what is left is the spectrogram without them.
         let spectrogram = SpatialSpectrogram::of(signal.profile.values(), &transform)
             .map_err(|error| error.to_string())?
@@ -297,7 +300,15 @@ impl Editor {
         signal
     }
 
-    /// Another signal is there: what was done to the one before is past.
+    /// Another signal takes the place of this one, which can be had back.
+    pub(super) fn replaced(&mut self, before: &Arc<BenchSignal>) {
+        self.redo.clear();
+        let state = self.state_of(before, strings::REPLACING);
+        self.undo.push(state);
+        (self.painted, self.last_touch) = (None, None);
+    }
+
+    /// Nothing is there any more: what was done is past.
     pub(super) fn forget(&mut self) {
         (self.painted, self.last_touch) = (None, None);
         self.undo.clear();
@@ -401,7 +412,7 @@ mod tests {
                 Err(reason) => break reason,
             }
         };
-        assert!(refused.contains("65536"), "{refused}");
+        assert!(refused.contains("times at most"), "{refused}");
         assert_eq!(editor.labels()[0], Some(crate::strings::signals::STRETCHING));
         editor.forget();
         assert!(editor.undo(&now).is_none());

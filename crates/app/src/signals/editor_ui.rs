@@ -8,17 +8,20 @@ use crate::strings::signals as strings;
 use crate::theme::{GROUP_GAP, tokens};
 
 /// What was asked of the tools.
-#[derive(Default)]
-pub(super) struct Asked {
-    pub(super) stretch: bool,
-    pub(super) undo: bool,
-    pub(super) redo: bool,
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Asked {
+    /// Draw the signal out.
+    Stretch,
+    /// Take the last change back.
+    Undo,
+    /// Make it again.
+    Redo,
 }
 
 /// Draws the tools; returns what is to be done, where one of them acts at once.
 pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
     let t = tokens(ui.ctx());
-    let mut asked = Asked::default();
+    let mut asked = None;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let words = RichText::new(strings::PAINT_B).color(t.text_weak);
@@ -31,29 +34,36 @@ pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
                 editor.tool = tool;
             }
         }
-        if editor.tool.is_brush() {
-            ui.add_space(GROUP_GAP);
-            let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05).suffix(" mm");
+        ui.add_space(GROUP_GAP);
+        // What is beside them stays where it is, whichever tool it is.
+        ui.add_enabled_ui(editor.tool.is_brush(), |ui| {
+            let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05);
+            let width = width.prefix("± ").suffix(" mm");
             number(ui, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH_HELP, width);
             let height = DragValue::new(&mut editor.radius_octaves).range(RADII_OCTAVES).speed(0.01);
-            number(ui, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height.suffix(" oct"));
+            let height = height.prefix("± ").suffix(" oct");
+            number(ui, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height);
             let gain = DragValue::new(&mut editor.gain_db).range(GAINS_DB).speed(0.1).suffix(" dB");
             number(ui, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
-        }
+        });
         ui.add_space(GROUP_GAP);
-        asked.stretch = ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked();
+        if ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked() {
+            asked = Some(Asked::Stretch);
+        }
         let stretch = DragValue::new(&mut editor.stretch).range(STRETCHES).speed(0.02).prefix("× ");
         ui.add(stretch).accessible_name(strings::STRETCH_FACTOR).on_hover_text(strings::STRETCH_HELP);
         ui.add_space(GROUP_GAP);
         let [undo, redo] = editor.labels();
         for (name, what, wanted) in
-            [(strings::UNDO_PAINTING, undo, &mut asked.undo), (strings::REDO_PAINTING, redo, &mut asked.redo)]
+            [(strings::UNDO_PAINTING, undo, Asked::Undo), (strings::REDO_PAINTING, redo, Asked::Redo)]
         {
             let button = ui.add_enabled(what.is_some(), Button::new(name));
-            *wanted = button.on_hover_text(what.unwrap_or(name)).clicked();
+            if button.on_hover_text(what.unwrap_or(name)).clicked() {
+                asked = Some(wanted);
+            }
         }
     });
-    (asked.stretch || asked.undo || asked.redo).then_some(asked)
+    asked
 }
 
 fn number(ui: &mut Ui, name: &str, help: &str, value: DragValue<'_>) {

@@ -5,7 +5,7 @@ use shagreen_core::spatial_spectrogram::{Frames, Framing, ProfileFidelity, Trans
 use shagreen_core::units::Hertz;
 use shagreen_formats::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone};
 
-use super::analysis::{Compared, OfOne};
+use super::analysis::{ByRate, Compared};
 use super::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
 
@@ -37,8 +37,9 @@ impl Levels {
         let power = Transform::new(framing).power(&signal.at(TIME_RATE)).ok()?;
         let step_hz = TIME_RATE.0 / TIME_WINDOW as f64;
         let n_bins = n_bins_to(SHOWN_HZ, step_hz, &power);
-        let rows = cells(&power, (0.0, power.n_samples() as f64), n_bins);
-        Some(Self { x: (0.0, signal.seconds()), y: (0.0, step_hz * n_bins as f64), rows })
+        let (x, rows) = cells(&power, (0.0, power.n_samples() as f64), n_bins);
+        let secs = |sample: f64| sample / TIME_RATE.0;
+        Some(Self { x: (secs(x.0), secs(x.1)), y: edges(step_hz, n_bins), rows })
     }
 
     /// Amplitudes over the places that are shown, in mm, and spatial frequencies in 1/mm, up to those that are too fast to be
@@ -48,8 +49,8 @@ impl Levels {
         let step_per_mm = 1.0 / (power.framing().window() as f64 * step_mm);
         let n_bins = n_bins_to(1e-3 * SHOWN_HZ / signal.speed.0, step_per_mm, power);
         let samples = (shown_mm.0 / step_mm, shown_mm.1 / step_mm);
-        let rows = cells(power, samples, n_bins);
-        Self { x: shown_mm, y: (0.0, step_per_mm * n_bins as f64), rows }
+        let (x, rows) = cells(power, samples, n_bins);
+        Self { x: (step_mm * x.0, step_mm * x.1), y: edges(step_per_mm, n_bins), rows }
     }
 
     /// The highest level, in dB re 1 m/s².
@@ -82,9 +83,14 @@ fn n_bins_to(highest: f64, step: f64, power: &Frames<f64>) -> usize {
     ((highest / step).ceil() as usize + 1).clamp(2, n_bins)
 }
 
+/// The edges of the lowest frequencies, so many apart: each lies in the middle of its cell.
+fn edges(step: f64, n_bins: usize) -> (f64, f64) {
+    (-0.5 * step, (n_bins as f64 - 0.5) * step)
+}
+
 /// Levels in dB of the windows whose middles lie between two samples, at the lowest frequencies, in no more cells than can be
-/// seen.
-fn cells(power: &Frames<f64>, (first, last): (f64, f64), n_bins: usize) -> Vec<Vec<f64>> {
+/// seen; and where the first cell begins and the last ends, in samples.
+fn cells(power: &Frames<f64>, (first, last): (f64, f64), n_bins: usize) -> ((f64, f64), Vec<Vec<f64>>) {
     let framing = power.framing();
     let hop = framing.hop() as f64;
     // The window that is nearest to a place, of those whose middle is inside: others show what is inside once more.
@@ -105,7 +111,8 @@ fn cells(power: &Frames<f64>, (first, last): (f64, f64), n_bins: usize) -> Vec<V
             *cell = cell.max(10.0 * (unit * power).log10());
         }
     }
-    rows
+    // Each window lies in the middle of what it stands for.
+    ((framing.center(from) - 0.5 * hop, framing.center(to) + 0.5 * hop), rows)
 }
 
 fn line(name: &str, tone: Tone, mark: Mark, points: Vec<Point>) -> Series {
@@ -113,9 +120,9 @@ fn line(name: &str, tone: Tone, mark: Mark, points: Vec<Point>) -> Series {
 }
 
 /// What windows of each width keep of the signals, and where the window that is looked through lies.
-pub(super) fn fidelity_figure(of: &[(Tone, &str, &OfOne)], window_m: f64) -> Figure {
-    let points = |of: &OfOne, value: fn(&ProfileFidelity) -> f64| {
-        of.by_window.iter().map(|at| Point::new(1e3 * at.window_m, value(at).max(0.0))).collect()
+pub(super) fn fidelity_figure(of: &[(Tone, &str, &[ProfileFidelity])], window_m: f64) -> Figure {
+    let points = |of: &[ProfileFidelity], value: fn(&ProfileFidelity) -> f64| {
+        of.iter().map(|at| Point::new(1e3 * at.window_m, value(at).max(0.0))).collect()
     };
     let window_mm = 1e3 * window_m;
     let mark = vec![Point::new(window_mm, 0.0), Point::new(window_mm, 1.0)];
@@ -141,12 +148,12 @@ pub(super) fn fidelity_figure(of: &[(Tone, &str, &OfOne)], window_m: f64) -> Fig
 }
 
 /// Predicted d' of the signals against what the codec leaves of them at each rate.
-pub(super) fn rates_figure(of: &[(Tone, &str, &OfOne)]) -> Figure {
+pub(super) fn rates_figure(of: &[(Tone, &str, &ByRate)]) -> Figure {
     let told = vec![Point::new(1.6, 1.0), Point::new(3.3, 1.0)];
     let mut series = vec![line(strings::TOLD_APART, Tone::Limit, Mark::Line, told)];
     let mut highest = 2.0_f64;
     for (tone, name, of) in of {
-        let Ok(rates) = &of.by_rate else { continue };
+        let Ok(rates) = of else { continue };
         let points = || rates.iter().map(|at| Point::new(at.kbps, at.d_prime)).collect();
         highest = rates.iter().map(|at| at.d_prime).fold(highest, f64::max);
         series.push(line(name, *tone, Mark::Line, points()));
@@ -194,7 +201,7 @@ pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::{Levels, rates_figure};
-    use crate::signals::analysis::{AtRate, OfOne};
+    use crate::signals::analysis::AtRate;
     use crate::signals::bench_signal::tests::tone;
     use shagreen_core::spatial_spectrogram::{Framing, Transform};
     use shagreen_formats::figure::{Figure, Tone};
@@ -208,25 +215,29 @@ mod tests {
 
     #[test]
     fn a_tone_of_one_is_zero_decibels_at_its_frequency() {
+        // The sixteenth of frequencies 15.6 Hz apart.
         let signal = tone(250.0, 4000.0, 2.0);
         let levels = Levels::over_time(&signal).unwrap();
-        assert!(levels.highest_db().abs() < 0.6, "{}", levels.highest_db());
+        assert!(levels.highest_db().abs() < 0.1, "{}", levels.highest_db());
         let figure = levels.figure(String::new(), ["", ""], 0.0);
-        assert!((loudest(&figure).1 - 250.0).abs() < 20.0);
-        // 250 Hz at 100 mm/s are waves of 0.4 mm: 2.5 in a mm.
+        assert!((loudest(&figure).1 - 250.0).abs() < 1e-9, "{:?}", loudest(&figure));
+        // At 100 mm/s 260 Hz are 2.6 waves in a mm, which is the thirteenth frequency of windows of 5 mm.
+        let signal = tone(260.0, 4000.0, 2.0);
         let transform = Transform::new(Framing::of_length(5e-3, signal.profile.step_m()));
         let power = transform.power(signal.profile.values()).unwrap();
         let levels = Levels::over_places(&power, &signal, (20.0, 60.0));
         let figure = levels.clone().figure(String::new(), ["", ""], levels.highest_db());
         let (x, y) = loudest(&figure);
-        assert!((20.0..60.0).contains(&x) && (y - 2.5).abs() < 0.3, "{x} {y}");
+        assert!((17.0..63.0).contains(&x) && (y - 2.6).abs() < 1e-9, "{x} {y}");
+        let Figure::Map(map) = figure else { panic!("no map") };
+        // Windows are 2.5 mm apart, and their middles lie in the middle of their cells.
+        assert!((map.x.0 - 18.75).abs() < 1e-9 && (map.x.1 - 61.25).abs() < 1e-9, "{:?}", map.x);
     }
 
     #[test]
     fn a_signal_without_rates_leaves_the_others_shown() {
         let at = AtRate { kbps: 1.75, snr_db: 6.0, d_prime: 5.0 };
-        let with = OfOne { by_window: Vec::new(), by_rate: Ok(vec![at]) };
-        let without = OfOne { by_window: Vec::new(), by_rate: Err("short".to_owned()) };
+        let (with, without) = (Ok(vec![at]), Err("short".to_owned()));
         let figure = rates_figure(&[(Tone::Main, "a", &with), (Tone::Second, "b", &without)]);
         let Figure::Chart(chart) = figure else { panic!("no chart") };
         assert_eq!(chart.series.len(), 3, "the limit, a line and its dots");

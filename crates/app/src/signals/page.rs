@@ -4,19 +4,21 @@ use std::sync::Arc;
 
 use egui::{CentralPanel, ComboBox, Context, Frame, Label, Margin, Panel as Side, RichText, ScrollArea, Ui};
 use shagreen_core::codec::bitrate::Bitrate;
+use shagreen_core::spatial_spectrogram::{ProfileFidelity, Transform};
 use shagreen_formats::figure::{Figure, Tone};
 
-use super::analysis::{Compared, OfOne, compare, remade, through_codec};
+use super::analysis::{AtRate, ByRate, Compared, compare, remade, through_codec};
 use super::bench_signal::BenchSignal;
 use super::editor::Editor;
-use super::editor_ui::tools_ui;
+use super::editor_ui::{Asked, tools_ui};
 use super::features_ui::features_ui;
 use super::figures::{Levels, features_figure, fidelity_figure, rates_figure};
+use super::known::Known;
 use super::slot::{Place, Slot};
 use super::slot_ui::{State, place_ui, remaking_ui};
 use super::spatial_ui::{ShownMm, Spatial, places_map_ui, spatial_ui};
 use super::{Remaking, SignalsCommand};
-use crate::background::Newest;
+use crate::background::BrokenOff;
 use crate::command::Command;
 use crate::figure_ui::framed_figure_ui;
 use crate::import::source::Source;
@@ -46,17 +48,30 @@ impl View {
     pub const ALL: [Self; 3] = [Self::Times, Self::Places, Self::Differences];
 }
 
-/// What the maps were drawn of.
+/// The levels of a signal, and what they were drawn of.
 struct Drawn {
-    of: [Option<Arc<BenchSignal>>; 2],
+    of: Arc<BenchSignal>,
     view: View,
     window_mm: f64,
     shown_mm: ShownMm,
-    figures: [Option<Result<Arc<Figure>, String>>; 2],
+    levels: Result<Levels, String>,
 }
 
-/// A pair and what came of comparing it.
+/// Both signals.
 type Pair = [Arc<BenchSignal>; 2];
+
+/// A signal that is played as it was recorded.
+#[derive(Clone, Copy)]
+struct Playing {
+    slot: Slot,
+    /// Whether the output said so.
+    was_seen: bool,
+    /// How long it may take to.
+    frames_left: u32,
+}
+
+/// Frames in which an output says that it plays, or never will.
+const PATIENCE_FRAMES: u32 = 60;
 
 /// The state of the workspace.
 pub struct SignalsPage {
@@ -64,18 +79,18 @@ pub struct SignalsPage {
     view: View,
     window_mm: f64,
     remaking: Remaking,
-    pub(super) editor: Editor,
+    editor: Editor,
     felt: Option<Slot>,
     /// The texture whose noise and taps a relief is kept with, by its identifier.
     over: Option<String>,
     /// The name of the texture that was kept last.
     last_kept: Option<String>,
     /// Which signal is played as it was recorded.
-    playing: Option<Slot>,
-    compared: Option<(Pair, Result<Arc<Compared>, String>)>,
-    comparing: Newest<(Pair, Result<Compared, String>)>,
-    drawn: Option<Drawn>,
-    pub(super) spatial: Spatial,
+    playing: Option<Playing>,
+    compared: Known<Result<Compared, String>, 2>,
+    drawn: [Option<Drawn>; 2],
+    maps: [Option<Result<Arc<Figure>, String>>; 2],
+    spatial: Spatial,
 }
 
 impl Default for SignalsPage {
@@ -90,9 +105,9 @@ impl Default for SignalsPage {
             over: None,
             last_kept: None,
             playing: None,
-            compared: None,
-            comparing: Newest::default(),
-            drawn: None,
+            compared: Known::default(),
+            drawn: [None, None],
+            maps: [None, None],
             spatial: Spatial::default(),
         }
     }
@@ -104,17 +119,23 @@ impl SignalsPage {
         self.places[slot.index()].signal()
     }
 
-    /// What is known of the signal in a place, once it is.
-    pub fn known(&self, slot: Slot) -> Option<&OfOne> {
-        let place = &self.places[slot.index()];
-        place.known().filter(|_| place.is_known())
+    /// What the codec keeps of the signal in a place, once that is known; it is asked about where differences are shown.
+    pub fn by_rate(&self, slot: Slot) -> Option<Result<&[AtRate], &str>> {
+        let by_rate = self.places[slot.index()].by_rate()?;
+        Some(by_rate.as_ref().map(Vec::as_slice).map_err(String::as_str))
     }
 
-    /// How the two differ, once that is known of them as they are.
-    pub fn compared(&self) -> Option<&Result<Arc<Compared>, String>> {
-        let pair = self.pair()?;
-        let is_now = |of: &Pair| of.iter().zip(&pair).all(|(a, b)| Arc::ptr_eq(a, b));
-        self.compared.as_ref().filter(|(of, _)| is_now(of)).map(|(_, compared)| compared)
+    /// What windows of each width keep of the signal in a place, once that is known; it is asked about where places are shown.
+    pub fn by_window(&self, slot: Slot) -> Option<&[ProfileFidelity]> {
+        self.places[slot.index()].by_window()
+    }
+
+    /// How the two differ, once that is known; it is asked about where differences are shown.
+    pub fn compared(&self) -> Option<Result<&Compared, &str>> {
+        Some(match self.compared.of(&self.pair()?)? {
+            Ok(compared) => compared.as_ref().map_err(String::as_str),
+            Err(BrokenOff) => Err(strings::BROKE_OFF),
+        })
     }
 
     /// Why what was tried last for a place came to nothing.
@@ -141,24 +162,34 @@ impl SignalsPage {
         Some([Arc::clone(self.signal(Slot::A)?), Arc::clone(self.signal(Slot::B)?)])
     }
 
-    /// Takes in what the workers have done, and sets them to what is to be known next.
+    /// Takes in what the workers have done, and sets them to what is shown next.
     pub fn collect(&mut self, ctx: &Context) {
         for slot in Slot::ALL {
+            let before = self.signal(slot).map(Arc::clone);
             if self.places[slot.index()].collect(ctx) && slot == Slot::B {
-                self.editor.forget();
+                self.note_replaced(before.as_ref());
             }
         }
-        if let Some((of, compared)) = self.comparing.collect(ctx) {
-            self.compared = Some((of, compared.map(Arc::new)));
+        for place in &mut self.places {
+            match self.view {
+                View::Times => {}
+                View::Places => place.ask_for_windows(ctx),
+                View::Differences => place.ask_for_rates(ctx),
+            }
         }
-        if let Some(pair) = self.pair().filter(|_| !self.comparing.is_busy() && self.compared().is_none()) {
-            self.comparing.ask(ctx, move || {
-                let compared = compare(&pair[0], &pair[1]);
-                (pair, compared)
-            });
+        if let Some(pair) = self.pair().filter(|_| self.view == View::Differences) {
+            self.compared.follow(pair, ctx, |[first, second]| compare(first, second));
         }
         if self.felt_signal().is_none() {
             self.felt = None;
+        }
+    }
+
+    /// Another signal lies in B: the one before can be had back.
+    fn note_replaced(&mut self, before: Option<&Arc<BenchSignal>>) {
+        match before {
+            Some(before) => self.editor.replaced(before),
+            None => self.editor.forget(),
         }
     }
 
@@ -169,7 +200,7 @@ impl SignalsPage {
         place.read(source, ctx);
     }
 
-    /// Reads files into the places that are free, then into both.
+    /// Reads one file into the place that is free, or else into B; of several the first two into both.
     pub(crate) fn read_all(&mut self, sources: Vec<Source>, ctx: &Context) {
         let is_free = |slot: &Slot| self.signal(*slot).is_none();
         let mut wanted: Vec<Slot> = Slot::ALL.into_iter().filter(is_free).collect();
@@ -208,8 +239,9 @@ impl SignalsPage {
         let (Remaking { rate, n_steps }, window_m) = (self.remaking, self.window_m());
         match command {
             SignalsCommand::CopyOfA => {
+                let before = self.signal(Slot::B).map(Arc::clone);
                 self.places[Slot::B.index()].put(first);
-                self.editor.forget();
+                self.note_replaced(before.as_ref());
             }
             SignalsCommand::ThroughCodec => {
                 self.make(Slot::B, ctx, move || through_codec(&first, rate));
@@ -231,9 +263,20 @@ impl SignalsPage {
         self.last_kept = Some(name.to_owned());
     }
 
-    /// A signal is being played.
+    /// A signal is on its way to the output.
     pub(crate) fn note_playing(&mut self, slot: Slot) {
-        self.playing = Some(slot);
+        self.playing = Some(Playing { slot, was_seen: false, frames_left: PATIENCE_FRAMES });
+    }
+
+    /// Follows what the output plays; it tells so a block later than it was asked.
+    fn follow_playing(&mut self, plays_signal: bool) {
+        if let Some(playing) = &mut self.playing {
+            playing.was_seen |= plays_signal;
+            playing.frames_left = playing.frames_left.saturating_sub(1);
+            if !plays_signal && (playing.was_seen || playing.frames_left == 0) {
+                self.playing = None;
+            }
+        }
     }
 
     /// What painting could take back or make again.
@@ -241,11 +284,16 @@ impl SignalsPage {
         self.editor.labels()
     }
 
-    /// Takes the last stroke of painting back, or makes it again.
-    pub(crate) fn undo(&mut self, is_redo: bool) {
-        let Some(now) = self.signal(Slot::B).map(Arc::clone) else { return };
-        let then = if is_redo { self.editor.redo(&now) } else { self.editor.undo(&now) };
-        if let Some(then) = then {
+    /// Takes the last change of B back.
+    pub(crate) fn undo(&mut self) {
+        if let Some(then) = self.signal(Slot::B).map(Arc::clone).and_then(|now| self.editor.undo(&now)) {
+            self.places[Slot::B.index()].put(then);
+        }
+    }
+
+    /// Makes it again.
+    pub(crate) fn redo(&mut self) {
+        if let Some(then) = self.signal(Slot::B).map(Arc::clone).and_then(|now| self.editor.redo(&now)) {
             self.places[Slot::B.index()].put(then);
         }
     }
@@ -284,17 +332,21 @@ impl SignalsPage {
 
     fn left_ui(&mut self, ui: &mut Ui, panel: &Panel<'_>, commands: &mut Vec<Command>) {
         ui.add_space(GAP);
-        if !panel.session.status().is_some_and(|status| status.plays_signal) {
-            self.playing = None;
-        }
+        self.follow_playing(panel.session.status().is_some_and(|status| status.plays_signal));
         for slot in Slot::ALL {
-            let state = State { is_felt: self.felt == Some(slot), is_playing: self.playing == Some(slot) };
+            let state = State {
+                is_felt: self.felt == Some(slot),
+                is_playing: self.playing.is_some_and(|playing| playing.slot == slot),
+            };
             let asked = place_ui(ui, slot, &mut self.places[slot.index()], state);
             commands.extend(asked.commands);
             if asked.is_again {
                 self.places[slot.index()].read_again(ui.ctx());
             }
             if asked.is_cleared {
+                if state.is_playing {
+                    commands.push(Command::StopTone);
+                }
                 self.places[slot.index()].clear();
                 if slot == Slot::B {
                     self.editor.forget();
@@ -385,51 +437,59 @@ impl SignalsPage {
 
     /// Draws the maps anew where they are of something else than they were.
     fn draw(&mut self) {
-        let of = Slot::ALL.map(|slot| self.signal(slot).map(Arc::clone));
-        let is_same = |(a, b): (&Option<Arc<BenchSignal>>, &Option<Arc<BenchSignal>>)| match (a, b) {
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
-            (a, b) => a.is_none() && b.is_none(),
-        };
-        if let Some(drawn) = &self.drawn
-            && drawn.view == self.view
-            && (drawn.window_mm, drawn.shown_mm) == (self.window_mm, self.spatial.shown_mm)
-            && drawn.of.iter().zip(&of).all(is_same)
-        {
+        if self.view == View::Differences {
             return;
         }
-        let levels = of.each_ref().map(|signal| signal.as_ref().map(|signal| self.levels(signal)));
-        let highest = levels.iter().flatten().flatten().map(Levels::highest_db);
-        let highest_db = highest.fold(f64::NEG_INFINITY, f64::max);
-        let titled = |(levels, signal): (Option<Result<Levels, String>>, &Option<Arc<BenchSignal>>)| {
-            let (levels, signal) = levels.zip(signal.as_ref())?;
-            Some(levels.map(|levels| {
-                let title = strings::map_title(self.view, &signal.name, self.window_mm);
-                Arc::new(levels.figure(title, strings::map_axes(self.view), highest_db))
-            }))
-        };
-        let mut figures = levels.into_iter().zip(&of).map(titled);
-        let figures = [figures.next().flatten(), figures.next().flatten()];
-        let (view, window_mm, shown_mm) = (self.view, self.window_mm, self.spatial.shown_mm);
-        self.drawn = Some(Drawn { of, view, window_mm, shown_mm, figures });
-    }
-
-    fn levels(&self, signal: &Arc<BenchSignal>) -> Result<Levels, String> {
-        match self.view {
-            View::Places => {
-                let power = self.editor.spectra(signal, self.window_m())?.power();
-                let length_mm = 1e3 * signal.profile.length_m();
-                // The other signal may be longer.
-                let shown = self.spatial.shown_mm.filter(|(from, _)| *from < length_mm);
-                Ok(Levels::over_places(&power, signal, shown.unwrap_or((0.0, length_mm))))
-            }
-            View::Times | View::Differences => {
-                Levels::over_time(signal).ok_or_else(|| strings::TOO_SHORT.to_owned())
+        let mut is_new = false;
+        for slot in Slot::ALL {
+            let signal = self.signal(slot).map(Arc::clone);
+            let (view, window_mm, shown_mm) = (self.view, self.window_mm, self.spatial.shown_mm);
+            let is_drawn = match (&self.drawn[slot.index()], &signal) {
+                (Some(drawn), Some(signal)) => {
+                    let is_same_window = view == View::Times || drawn.window_mm == window_mm;
+                    let is_same_part = view == View::Times || drawn.shown_mm == shown_mm;
+                    Arc::ptr_eq(&drawn.of, signal) && drawn.view == view && is_same_window && is_same_part
+                }
+                (drawn, signal) => drawn.is_none() && signal.is_none(),
+            };
+            if !is_drawn {
+                is_new = true;
+                self.drawn[slot.index()] = signal.map(|signal| {
+                    let levels = self.levels(&signal);
+                    Drawn { of: signal, view, window_mm, shown_mm, levels }
+                });
             }
         }
+        if is_new {
+            let drawn = || self.drawn.iter().flatten().filter_map(|drawn| drawn.levels.as_ref().ok());
+            let highest_db = drawn().map(Levels::highest_db).fold(f64::NEG_INFINITY, f64::max);
+            self.maps = self.drawn.each_ref().map(|drawn| Some(self.figure(drawn.as_ref()?, highest_db)));
+        }
+    }
+
+    fn figure(&self, drawn: &Drawn, highest_db: f64) -> Result<Arc<Figure>, String> {
+        let levels = drawn.levels.clone()?;
+        let window_mm = 1e3 * drawn.of.window_m(drawn.of.framing(self.window_m()));
+        let title = strings::map_title(self.view, &drawn.of.name, window_mm);
+        Ok(Arc::new(levels.figure(title, strings::map_axes(self.view), highest_db)))
+    }
+
+    fn levels(&self, signal: &BenchSignal) -> Result<Levels, String> {
+        if self.view != View::Places {
+            return Levels::over_time(signal).ok_or_else(|| strings::TOO_SHORT_TO_DRAW.to_owned());
+        }
+        // Of the signal as it is: what was painted is what is wanted of it.
+        let transform = Transform::new(signal.framing(self.window_m()));
+        let power = transform.power(signal.profile.values()).map_err(|error| error.to_string())?;
+        let length_mm = 1e3 * signal.profile.length_m();
+        // The other signal may be longer.
+        let shown = self.spatial.shown_mm.filter(|(from, _)| *from < length_mm);
+        let (from, to) = shown.unwrap_or((0.0, length_mm));
+        Ok(Levels::over_places(&power, signal, (from, to.min(length_mm))))
     }
 
     fn map(&self, slot: Slot) -> Option<Result<Arc<Figure>, String>> {
-        self.drawn.as_ref()?.figures[slot.index()].clone()
+        self.maps[slot.index()].clone()
     }
 
     fn times_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
@@ -444,17 +504,18 @@ impl SignalsPage {
     fn places_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
         let signal = self.signal(Slot::B).map(Arc::clone);
         let window_m = self.window_m();
-        let stretched = ui.add_enabled_ui(signal.is_some(), |ui| tools_ui(ui, &mut self.editor)).inner;
-        match (stretched, &signal) {
-            (Some(asked), Some(signal)) if asked.stretch => {
+        let asked = ui.add_enabled_ui(signal.is_some(), |ui| tools_ui(ui, &mut self.editor)).inner;
+        match (asked, &signal) {
+            (Some(Asked::Stretch), Some(signal)) => {
                 let stretched = self.editor.stretch(signal, window_m);
                 self.take_painted(stretched.map(Some));
             }
-            (Some(asked), _) if asked.undo || asked.redo => self.undo(asked.redo),
+            (Some(Asked::Undo), _) => self.undo(),
+            (Some(Asked::Redo), _) => self.redo(),
             _ => {}
         }
         ui.add_space(GAP);
-        let known: Vec<(Tone, &str, &OfOne)> = self.shown_known();
+        let known = self.of_each(Place::by_window);
         let fidelity = Arc::new(fidelity_figure(&known, window_m));
         let maps = Slot::ALL.map(|slot| self.map(slot));
         let mut painted = None;
@@ -485,15 +546,17 @@ impl SignalsPage {
         }
     }
 
-    /// What is known of the signals, in their colors.
-    fn shown_known(&self) -> Vec<(Tone, &'static str, &OfOne)> {
-        let tones = [Tone::Main, Tone::Second];
-        let of = Slot::ALL.into_iter().zip(tones);
-        of.filter_map(|(slot, tone)| Some((tone, slot.name(), self.places[slot.index()].known()?))).collect()
+    /// What is known of the signals as they are, in their colors.
+    fn of_each<'a, T: ?Sized>(
+        &'a self,
+        known: impl Fn(&'a Place) -> Option<&'a T>,
+    ) -> Vec<(Tone, &'static str, &'a T)> {
+        let of = Slot::ALL.into_iter().zip([Tone::Main, Tone::Second]);
+        of.filter_map(|(slot, tone)| Some((tone, slot.name(), known(&self.places[slot.index()])?))).collect()
     }
 
     fn differences_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        let known = self.shown_known();
+        let known: Vec<(Tone, &str, &ByRate)> = self.of_each(Place::by_rate);
         let rates = Arc::new(rates_figure(&known));
         let names = Slot::ALL.map(|slot| self.signal(slot).map_or("", |signal| &signal.name));
         let compared = self.compared();
@@ -502,10 +565,11 @@ impl SignalsPage {
             match compared {
                 Some(Ok(compared)) => {
                     let figure = Arc::new(features_figure(compared, names));
-                    commands.extend(features_ui(left, compared, &figure));
+                    let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
+                    commands.extend(scroll.show(left, |ui| features_ui(ui, compared, &figure)).inner);
                 }
                 Some(Err(reason)) => {
-                    let text = RichText::new(reason).color(tokens(left.ctx()).error);
+                    let text = RichText::new(reason).color(tokens(left.ctx()).warning);
                     left.add(Label::new(text).wrap());
                 }
                 None => {
@@ -515,12 +579,10 @@ impl SignalsPage {
                     left.add(Label::new(text).wrap());
                 }
             }
-            for (slot, of) in
-                Slot::ALL.into_iter().zip(Slot::ALL.map(|slot| self.places[slot.index()].known()))
-            {
-                if let Some(Err(reason)) = of.map(|of| &of.by_rate) {
-                    let text = format!("{}: {reason}", slot.name());
-                    right.add(Label::new(RichText::new(text).small()).wrap());
+            for (_, name, of) in &known {
+                if let Err(reason) = of {
+                    let text = RichText::new(format!("{name}: {reason}")).small();
+                    right.add(Label::new(text).wrap());
                 }
             }
             commands.extend(framed_figure_ui(right, "d' by rate", &rates, "d-prime-by-rate"));

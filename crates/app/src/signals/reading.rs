@@ -11,7 +11,7 @@ use shagreen_formats::profile_csv::read_profile_csv;
 use shagreen_formats::signal::{SignalHints, read_signal};
 use shagreen_formats::wav::sidecar_names;
 
-use super::bench_signal::BenchSignal;
+use super::bench_signal::{BenchSignal, cut};
 use crate::import::source::Source;
 use crate::strings::signals as strings;
 
@@ -20,28 +20,40 @@ pub(crate) const SIGNAL_ENDINGS: [&str; 5] = ["wav", "csv", "png", "jpg", "jpeg"
 
 /// What a file does not say of itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Terms {
+pub(crate) struct Terms {
     /// How fast a recording was stroked, or how fast a line is to be.
-    pub speed: MetersPerSecond,
+    pub(crate) speed: MetersPerSecond,
     /// How hard.
-    pub force: Newtons,
+    pub(crate) force: Newtons,
+    /// Of a recording that does not say it: what a sample of 1.0 is, in m/s².
+    pub(crate) full_scale_mps2: Option<f64>,
+    /// Of a recording of several channels: the one that is the signal, from 0; `None` takes all for its axes.
+    pub(crate) channel: Option<usize>,
     /// Of a line without a unit: the root mean square that it gets, in m/s².
-    pub level_mps2: f64,
+    pub(crate) level_mps2: f64,
     /// Of a picture: how much surface its width shows, in mm.
-    pub width_mm: f64,
+    pub(crate) width_mm: f64,
     /// Of a picture: the row from its upper edge; `None` is the one in the middle.
-    pub row: Option<u32>,
+    pub(crate) row: Option<u32>,
 }
 
 impl Default for Terms {
     fn default() -> Self {
-        Self { speed: MetersPerSecond(0.1), force: Newtons(1.0), level_mps2: 1.0, width_mm: 50.0, row: None }
+        Self {
+            speed: MetersPerSecond(0.1),
+            force: Newtons(1.0),
+            full_scale_mps2: None,
+            channel: None,
+            level_mps2: 1.0,
+            width_mm: 50.0,
+            row: None,
+        }
     }
 }
 
 /// What a file turned out to be, which decides on what has to be asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileKind {
+pub(crate) enum FileKind {
     /// Samples in m/s².
     Recording,
     /// Values over places, without a unit.
@@ -52,11 +64,11 @@ pub enum FileKind {
 
 /// A file as it was read: changed terms need no second look at the disk.
 #[derive(Clone, Debug)]
-pub struct BenchFile {
+pub(crate) struct BenchFile {
     /// Its name.
-    pub name: String,
+    pub(crate) name: String,
     /// What it is.
-    pub kind: FileKind,
+    pub(crate) kind: FileKind,
     bytes: Vec<u8>,
     sidecar: Option<Vec<u8>>,
 }
@@ -87,7 +99,7 @@ impl BenchFile {
         let name = without_ending(&self.name);
         match self.kind {
             FileKind::Recording => {
-                let hints = SignalHints::default();
+                let hints = SignalHints { full_scale_mps2: terms.full_scale_mps2, channel: terms.channel };
                 let read = read_signal(&self.name, &self.bytes, self.sidecar.as_deref(), hints)
                     .map_err(|error| error.to_string())?;
                 let signal = read.value;
@@ -118,9 +130,12 @@ impl BenchFile {
 
 /// A line without a unit, at the level that it is to have.
 fn leveled(name: &str, profile: &Profile, terms: &Terms) -> Result<Imported<BenchSignal>, String> {
-    let relief = Relief::of_level(profile, terms.level_mps2, terms.force);
+    let Imported { value: profile, mut warnings } = cut(profile, terms.speed)?;
+    let relief = Relief::of_level(&profile, terms.level_mps2, terms.force);
     let relief = relief.map_err(|error| error.to_string())?;
-    BenchSignal::of_profile(name, relief.profile(), terms.speed, terms.force)
+    let mut made = BenchSignal::of_profile(name, relief.profile(), terms.speed, terms.force)?;
+    made.warnings.append(&mut warnings);
+    Ok(made)
 }
 
 /// What lies beside a recording and says what its samples are; one that cannot be read says nothing.

@@ -3,13 +3,16 @@
 use std::sync::Arc;
 
 use egui::Context;
+use shagreen_core::spatial_spectrogram::ProfileFidelity;
 use shagreen_formats::imported::Imported;
 
-use super::analysis::{OfOne, of_one};
+use super::analysis::{ByRate, by_rate, by_window};
 use super::bench_signal::BenchSignal;
+use super::known::Known;
 use super::reading::{BenchFile, Terms};
-use crate::background::Newest;
+use crate::background::{BrokenOff, Newest};
 use crate::import::source::Source;
+use crate::strings::signals as strings;
 
 /// Which place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,8 +65,10 @@ pub(super) struct Place {
     /// Why what was tried last came to nothing: what was there stays.
     pub(super) failure: Option<String>,
     making: Newest<Made>,
-    known: Option<(Arc<BenchSignal>, Arc<OfOne>)>,
-    asking: Newest<(Arc<BenchSignal>, OfOne)>,
+    /// Whether what is being made is of a file that was not read before.
+    is_reading: bool,
+    by_window: Known<Vec<ProfileFidelity>, 1>,
+    by_rate: Known<ByRate, 1>,
 }
 
 impl Place {
@@ -77,9 +82,14 @@ impl Place {
         self.file.as_deref()
     }
 
-    /// What is known of the signal, or of the one that it was a moment ago.
-    pub(super) fn known(&self) -> Option<&OfOne> {
-        self.known.as_ref().map(|(_, of)| &**of)
+    /// What windows of each width keep of the signal, once that is known.
+    pub(super) fn by_window(&self) -> Option<&[ProfileFidelity]> {
+        self.by_window.of(&[Arc::clone(self.signal.as_ref()?)])?.ok().map(Vec::as_slice)
+    }
+
+    /// What the codec keeps of it, once that is known.
+    pub(super) fn by_rate(&self) -> Option<&ByRate> {
+        self.by_rate.of(&[Arc::clone(self.signal.as_ref()?)])?.ok()
     }
 
     /// Whether something is being made for this place.
@@ -87,15 +97,11 @@ impl Place {
         self.making.is_busy()
     }
 
-    /// Whether what is known is of the signal as it is.
-    pub(super) fn is_known(&self) -> bool {
-        self.known.as_ref().zip(self.signal.as_ref()).is_some_and(|((of, _), now)| Arc::ptr_eq(of, now))
-    }
-
-    /// Puts a signal there at once.
+    /// Puts a signal there at once. What is being made for this place comes too late, and no file says anything of it.
     pub(super) fn put(&mut self, signal: Arc<BenchSignal>) {
-        (self.signal, self.failure) = (Some(signal), None);
+        (self.signal, self.failure, self.file) = (Some(signal), None, None);
         self.warnings.clear();
+        (self.making, self.is_reading) = (Newest::default(), false);
     }
 
     /// Nothing lies there any more.
@@ -106,6 +112,7 @@ impl Place {
     /// Reads a file in the background.
     pub(super) fn read(&mut self, source: Source, ctx: &Context) {
         let terms = self.terms;
+        self.is_reading = true;
         self.making.ask(ctx, move || match BenchFile::read(&source) {
             Ok(file) => {
                 let signal = file.signal(&terms).map_err(|reason| format!("{}: {reason}", file.name));
@@ -115,8 +122,11 @@ impl Place {
         });
     }
 
-    /// Makes the signal of the file once more, on the terms as they are now.
+    /// Makes the signal of the file once more, on the terms as they are now; another file that is being read comes first.
     pub(super) fn read_again(&mut self, ctx: &Context) {
+        if self.is_reading {
+            return;
+        }
         let (Some(file), terms) = (self.file.clone(), self.terms) else { return };
         self.making.ask(ctx, move || {
             let signal = file.signal(&terms).map_err(|reason| format!("{}: {reason}", file.name));
@@ -136,38 +146,95 @@ impl Place {
         });
     }
 
-    /// Takes in what workers came to; returns whether another signal lies there.
+    /// Takes in what the worker came to; returns whether another signal lies there.
     pub(super) fn collect(&mut self, ctx: &Context) -> bool {
-        let mut is_new = false;
-        if let Some(Made { file, signal }) = self.making.collect(ctx) {
-            match signal {
-                Ok(Imported { value, warnings }) => {
-                    self.put(Arc::new(value));
-                    (self.file, self.warnings) = (file, warnings);
-                    is_new = true;
+        let Some(outcome) = self.making.collect(ctx) else { return false };
+        self.is_reading = false;
+        let broken = |BrokenOff| Made { file: None, signal: Err(strings::BROKE_OFF.to_owned()) };
+        let Made { file, signal } = outcome.unwrap_or_else(broken);
+        match signal {
+            Ok(Imported { value, warnings }) => {
+                self.put(Arc::new(value));
+                (self.file, self.warnings) = (file, warnings);
+                true
+            }
+            Err(reason) => {
+                self.failure = Some(reason);
+                // What it needs can be said, and it is tried again.
+                if self.signal.is_none() {
+                    self.file = file;
                 }
-                Err(reason) => {
-                    self.failure = Some(reason);
-                    // What it needs can be said, and it is tried again.
-                    if self.signal.is_none() {
-                        self.file = file;
-                    }
-                }
+                false
             }
         }
-        if let Some((signal, of)) = self.asking.collect(ctx) {
-            self.known = Some((signal, Arc::new(of)));
+    }
+
+    /// Has worked out what windows keep of the signal.
+    pub(super) fn ask_for_windows(&mut self, ctx: &Context) {
+        if let Some(signal) = &self.signal {
+            self.by_window.follow([Arc::clone(signal)], ctx, |[signal]| by_window(signal));
         }
-        if let Some(signal) = &self.signal
-            && !self.is_known()
-            && !self.asking.is_busy()
-        {
-            let signal = Arc::clone(signal);
-            self.asking.ask(ctx, move || {
-                let of = of_one(&signal);
-                (signal, of)
-            });
+    }
+
+    /// Has worked out what the codec keeps of it.
+    pub(super) fn ask_for_rates(&mut self, ctx: &Context) {
+        if let Some(signal) = &self.signal {
+            self.by_rate.follow([Arc::clone(signal)], ctx, |[signal]| by_rate(signal));
         }
-        is_new
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Place;
+    use crate::import::source::Source;
+    use crate::signals::bench_signal::tests::tone;
+    use std::sync::Arc;
+    use std::time::{Duration, Instant};
+
+    fn wait(place: &mut Place, ctx: &egui::Context) {
+        let start = Instant::now();
+        while place.is_making() {
+            place.collect(ctx);
+            assert!(start.elapsed() < Duration::from_mins(1), "nothing came");
+        }
+    }
+
+    #[test]
+    fn what_is_put_there_stays_whatever_was_on_its_way() {
+        let (ctx, mut place) = (egui::Context::default(), Place::default());
+        let [late, now] = [50.0, 100.0].map(|hz| tone(hz, 1000.0, 1.0));
+        place.make(&ctx, move || {
+            std::thread::sleep(Duration::from_millis(20));
+            Ok(late)
+        });
+        let now = Arc::new(now);
+        place.put(Arc::clone(&now));
+        assert!(!place.is_making());
+        std::thread::sleep(Duration::from_millis(60));
+        assert!(!place.collect(&ctx) && Arc::ptr_eq(place.signal().unwrap(), &now));
+    }
+
+    #[test]
+    fn a_copy_over_a_file_is_no_file_any_more() {
+        let (ctx, mut place) = (egui::Context::default(), Place::default());
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.csv");
+        std::fs::write(&path, "0,1\n1,2\n2,1\n3,2\n").unwrap();
+        place.read(Source::Path(path), &ctx);
+        wait(&mut place, &ctx);
+        assert!(place.file().is_some() && place.signal().is_some());
+        place.put(Arc::new(tone(50.0, 1000.0, 1.0)));
+        assert!(place.file().is_none());
+        place.read_again(&ctx);
+        assert!(!place.is_making(), "nothing is read over it");
+    }
+
+    #[test]
+    fn work_that_breaks_off_is_said() {
+        let (ctx, mut place) = (egui::Context::default(), Place::default());
+        place.make(&ctx, || panic!("as asked for"));
+        wait(&mut place, &ctx);
+        assert!(place.failure.is_some());
     }
 }

@@ -4,7 +4,7 @@ use egui::{Align, Button, ComboBox, DragValue, Frame, Key, Label, Layout, RichTe
 use shagreen_core::codec::bitrate::Bitrate;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
-use super::reading::FileKind;
+use super::reading::{FileKind, Terms};
 use super::slot::{Place, Slot};
 use super::{Remaking, SignalsCommand};
 use crate::command::Command;
@@ -22,6 +22,10 @@ const WIDTHS_MM: std::ops::RangeInclusive<f64> = 1.0..=2000.0;
 const LEVELS_MPS2: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 /// Rows of pictures that can be asked for: one that there is not is said.
 const MAX_ROW: f64 = 100_000.0;
+/// What a sample of 1.0 can be, in m/s².
+const FULL_SCALES_MPS2: std::ops::RangeInclusive<f64> = 0.001..=10_000.0;
+/// Channels that can be asked for: one that there is not is said.
+const MAX_CHANNEL: f64 = 64.0;
 /// Steps of refinement that can be asked for.
 const MAX_REFINEMENTS: usize = 200;
 
@@ -85,9 +89,13 @@ fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Ask
                 let wanted = (!is_felt).then_some(slot);
                 asked.commands.push(Command::Signals(SignalsCommand::Feel(wanted)));
             }
-            let word = if is_playing { strings::STOP } else { strings::PLAY };
+            let (word, name) = if is_playing {
+                (strings::STOP, strings::stop(slot))
+            } else {
+                (strings::PLAY, strings::play(slot))
+            };
             let play = ui.add_enabled(has_signal, Button::new(word));
-            let play = play.accessible_name(strings::play(slot));
+            let play = play.accessible_name(name);
             if play.on_hover_text(strings::PLAY_HELP).clicked() {
                 let play = Command::Signals(SignalsCommand::Play(slot));
                 asked.commands.push(if is_playing { Command::StopTone } else { play });
@@ -161,6 +169,7 @@ fn terms_ui(ui: &mut Ui, slot: Slot, place: &mut Place) -> bool {
         terms.force = Newtons(force);
     });
     if kind == FileKind::Recording {
+        recording_ui(ui, slot, terms);
         return *terms != before;
     }
     ui.horizontal(|ui| {
@@ -170,14 +179,37 @@ fn terms_ui(ui: &mut Ui, slot: Slot, place: &mut Place) -> bool {
         if kind == FileKind::Picture {
             let width = DragValue::new(&mut terms.width_mm).range(WIDTHS_MM).suffix(" mm").speed(0.5);
             number(ui, slot, strings::WIDTH, strings::WIDTH_HELP, width);
+        }
+    });
+    if kind == FileKind::Picture {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
             let mut row = terms.row.map_or(-1.0, f64::from);
             let value = DragValue::new(&mut row).range(-1.0..=MAX_ROW).max_decimals(0).speed(0.5);
             let value = value.custom_formatter(|row, _| strings::row(row));
             number(ui, slot, strings::ROW, strings::ROW_HELP, value);
             terms.row = (row >= 0.0).then_some(row as u32);
-        }
-    });
+        });
+    }
     *terms != before
+}
+
+/// What a recording may not say: which channel is the signal, and what a sample of 1.0 is.
+fn recording_ui(ui: &mut Ui, slot: Slot, terms: &mut Terms) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let mut full_scale = terms.full_scale_mps2.unwrap_or(1.0);
+        let value = DragValue::new(&mut full_scale).range(FULL_SCALES_MPS2).suffix(" m/s²").speed(0.05);
+        number(ui, slot, strings::FULL_SCALE, strings::FULL_SCALE_HELP, value);
+        if full_scale != terms.full_scale_mps2.unwrap_or(1.0) {
+            terms.full_scale_mps2 = Some(full_scale);
+        }
+        let mut channel = terms.channel.map_or(0.0, |channel| channel as f64 + 1.0);
+        let value = DragValue::new(&mut channel).range(0.0..=MAX_CHANNEL).max_decimals(0).speed(0.05);
+        let value = value.custom_formatter(|channel, _| strings::channel(channel));
+        number(ui, slot, strings::CHANNEL, strings::CHANNEL_HELP, value);
+        terms.channel = (channel >= 1.0).then(|| channel as usize - 1);
+    });
 }
 
 fn number(ui: &mut Ui, slot: Slot, name: &str, help: &str, value: DragValue<'_>) {

@@ -57,7 +57,8 @@ pub(super) fn places_map_ui(
     let save = figure_head_ui(ui, figure, stem);
     let Figure::Map(map) = &**figure else { return (save, None) };
     let plot = labeled_map_plot(ui, strings::map_name(slot), map);
-    let pointed = ui.input(|i| i.pointer.hover_pos()).filter(|pos| plot.response.rect.contains(*pos));
+    // A sheet may lie over it.
+    let pointed = ui.input(|i| i.pointer.hover_pos()).filter(|_| plot.response.contains_pointer());
     if let Some(pos) = pointed {
         let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
         if scrolled != 0.0 {
@@ -97,9 +98,10 @@ pub(super) fn spatial_ui(
     let (area, transform) = (plot.response.rect, plot.transform);
     let response = ui.interact(area, ui.scope_id().with("painting"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAINTED_MAP));
-    let at = |pos: Pos2| on_map(&transform, map, pos);
+    let at = |pos: Pos2| on_map(&transform, map, length_mm, pos);
     let pressed_at = ui.input(|i| i.pointer.press_origin()).filter(|_| response.is_pointer_button_down_on());
-    let held = dragged_to(ui, &response).or(pressed_at).map(at);
+    let is_other_button = ui.input(|i| i.pointer.secondary_down() || i.pointer.middle_down());
+    let held = dragged_to(ui, &response).or(pressed_at).filter(|_| !is_other_button).map(at);
     if editor.tool.is_brush() {
         if let Some(point) = held {
             shown.painted = Some(editor.brush_at(signal, window_m, point));
@@ -116,7 +118,7 @@ pub(super) fn spatial_ui(
         let from = *state.from.get_or_insert(to);
         if response.drag_stopped() {
             state.from = None;
-            let region = region(from, to);
+            let region = region(from, to, (1e-3 * length_mm, 1e3 * map.y.1));
             shown.painted = Some(if editor.tool == Tool::Erase {
                 editor.erase(signal, window_m, &region).map(Some)
             } else {
@@ -138,16 +140,26 @@ pub(super) fn spatial_ui(
 }
 
 /// The place in m and spatial frequency in 1/m under a pointer, on the map.
-fn on_map(transform: &PlotTransform, map: &Map, pos: Pos2) -> (f64, f64) {
+fn on_map(transform: &PlotTransform, map: &Map, length_mm: f64, pos: Pos2) -> (f64, f64) {
     let value = transform.value_from_position(pos);
-    let within = |x: f64, (low, high): (f64, f64)| x.clamp(low, high);
-    (1e-3 * within(value.x, map.x), 1e3 * within(value.y, map.y))
+    let within = |x: f64, (low, high): (f64, f64), least: f64, most: f64| {
+        x.clamp(low, high.max(low)).clamp(least, most)
+    };
+    (1e-3 * within(value.x, map.x, 0.0, length_mm), 1e3 * within(value.y, map.y, 0.0, f64::INFINITY))
 }
 
-/// Between two corners, whichever they are. What reaches the lowest frequency takes it along.
-fn region(from: (f64, f64), to: (f64, f64)) -> Region {
-    let ordered = |a: f64, b: f64| a.min(b)..a.max(b);
-    Region { places_m: ordered(from.0, to.0), per_m: ordered(from.1, to.1) }
+/// Between two corners, whichever they are. What reaches an end of the line takes along the windows whose middle lies beyond it,
+/// and what reaches the upper edge of the map all frequencies above.
+fn region(from: (f64, f64), to: (f64, f64), (end_m, top_per_m): (f64, f64)) -> Region {
+    let reaching = |a: f64, b: f64, end: f64, before: f64| {
+        let (low, high) = (a.min(b), a.max(b));
+        let low = if low <= 0.0 { before } else { low };
+        low..if high >= 0.9999 * end { f64::INFINITY } else { high }
+    };
+    Region {
+        places_m: reaching(from.0, to.0, end_m, f64::NEG_INFINITY),
+        per_m: reaching(from.1, to.1, top_per_m, 0.0),
+    }
 }
 
 fn on_screen(transform: &PlotTransform, (place_m, per_m): (f64, f64)) -> Pos2 {
@@ -193,8 +205,11 @@ mod tests {
 
     #[test]
     fn a_rectangle_is_the_same_from_every_corner() {
-        let one = region((0.01, 100.0), (0.03, 900.0));
-        assert_eq!(one, region((0.03, 100.0), (0.01, 900.0)));
+        let end = (0.1, 5000.0);
+        let one = region((0.01, 100.0), (0.03, 900.0), end);
+        assert_eq!(one, region((0.03, 100.0), (0.01, 900.0), end));
         assert_eq!((one.places_m, one.per_m), (0.01..0.03, 100.0..900.0));
+        let all = region((0.0, 0.0), end, end);
+        assert_eq!((all.places_m, all.per_m), (f64::NEG_INFINITY..f64::INFINITY, 0.0..f64::INFINITY));
     }
 }

@@ -25,3 +25,10 @@ pub fn to_save(secs: f64, mm_per_s: f64, force_n: f64, rate_hz: u32) -> String {
         "{secs:.0} s, stroked steadily at {mm_per_s:.0} mm/s and {force_n:.2} N as the hand is set (a recorded stroke by its mean), go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s², and players clip what is above; the .json beside it says what was rendered."
     )
 }
+
+/// What is saved of a signal of the bench.
+pub fn bench_to_save(name: &str, secs: f64, rate_hz: u32) -> String {
+    format!(
+        "{name}: {secs:.2} s at its own speed go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s², and players clip what is above; the .json beside it says what it is."
+    )
+}

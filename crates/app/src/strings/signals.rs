@@ -2,9 +2,9 @@
 
 use shagreen_core::quality::Feature;
 
+use crate::signals::Slot;
 use crate::signals::editor::Tool;
 use crate::signals::page::View;
-use crate::signals::slot::Slot;
 
 /// Name of the workspace.
 pub const SIGNALS: &str = "Signals";
@@ -29,13 +29,17 @@ pub fn feel_help(slot: Slot) -> String {
         Slot::B => "2",
     };
     format!(
-        "The pen, the mouse on the pad or the automatic hand feels it place by place, as fast and as hard as they go; once more, and they feel what is authored again ({key})"
+        "The pen, the mouse on the pad or the automatic hand feels it place by place, as fast and as hard as they go ({key}); pressed once more, they feel what is authored again"
     )
 }
 /// Plays a signal.
 pub const PLAY: &str = "Play";
 /// Ends that.
 pub const STOP: &str = "Stop";
+/// Accessible name of the button.
+pub fn stop(slot: Slot) -> String {
+    of(STOP, slot)
+}
 /// Accessible name of the button.
 pub fn play(slot: Slot) -> String {
     of(PLAY, slot)
@@ -83,7 +87,7 @@ pub fn facts(seconds: f64, length_mm: f64, level_mps2: f64, mm_per_s: f64) -> St
 }
 /// A signal was cut.
 pub fn cut(seconds: f64) -> String {
-    format!("only its first {seconds:.1} s are taken: a relief has no room for more")
+    format!("only its first {seconds:.1} s are taken: the bench has no room for more")
 }
 /// How fast the stroke is.
 pub const SPEED: &str = "speed";
@@ -99,6 +103,19 @@ pub const LEVEL: &str = "level";
 /// What that decides on.
 pub const LEVEL_HELP: &str =
     "Heights, brightness and friction are no accelerations: this is the root mean square that they get";
+/// What a sample of 1.0 is.
+pub const FULL_SCALE: &str = "1.0 is";
+/// When that is asked.
+pub const FULL_SCALE_HELP: &str = "What a sample of 1.0 is, where no .json beside the recording says it";
+/// Which channel is the signal.
+pub const CHANNEL: &str = "channel";
+/// What that decides on.
+pub const CHANNEL_HELP: &str =
+    "The channel that is the signal; all are taken for its axes, which are combined";
+/// A channel as it is shown; below 1 they are all.
+pub fn channel(channel: f64) -> String {
+    if channel < 1.0 { "all".to_owned() } else { format!("{channel:.0}") }
+}
 /// How much surface a picture shows.
 pub const WIDTH: &str = "width";
 /// What that decides on.
@@ -180,6 +197,10 @@ pub const OVER_HELP: &str =
     "The texture whose noise, friction and taps are felt with it; with nothing it is a relief alone";
 /// Nothing lies under it.
 pub const NOTHING: &str = "nothing";
+/// The name of a texture that has a signal as its relief.
+pub fn kept_name(signal: &str, over: Option<&str>) -> String {
+    over.map_or_else(|| format!("{signal} (relief)"), |over| format!("{signal} over {over}"))
+}
 /// A texture was kept.
 pub fn kept(name: &str) -> String {
     format!("\"{name}\" joined the textures of the workspace Author.")
@@ -301,8 +322,10 @@ pub const D_PRIME_HELP: &str = "How well people would tell the two apart, in sta
 pub fn compared(snr_db: f64, seconds: f64) -> String {
     let noise = if snr_db.is_finite() {
         format!("signal to noise {snr_db:.1} dB")
-    } else {
+    } else if snr_db > 0.0 {
         "the same samples".to_owned()
+    } else {
+        "A is silent".to_owned()
     };
     format!("predicted over {seconds:.1} s; {noise}")
 }
@@ -327,6 +350,14 @@ pub const NEEDS_PAIR: &str = "Two signals are compared; one is missing.";
 /// Too little to compare.
 pub const TOO_SHORT: &str =
     "0.8 s are compared at once, and it is shorter; take a longer signal, or stroke it slower";
+/// Too little to draw.
+pub const TOO_SHORT_TO_DRAW: &str = "it is too short for a spectrogram";
+/// Work came to nothing.
+pub const BROKE_OFF: &str = "working it out broke off; this is an error of the program, so please report it";
+/// A signal would become too long.
+pub fn too_long(factor: f64) -> String {
+    format!("it can be drawn out {factor:.2} times at most: the bench has no room for more")
+}
 /// Nothing that is felt.
 pub const BEYOND_TOUCH: &str = "the signals are too far from any touch to be compared; correct their units";
 
@@ -384,6 +415,8 @@ pub const BRUSH_STROKE: &str = "stroke of the brush";
 pub const ERASING: &str = "erase";
 /// A step that can be taken back.
 pub const PASTING: &str = "paste";
+/// A step that can be taken back.
+pub const REPLACING: &str = "another B";
 /// A step that can be taken back.
 pub const STRETCHING: &str = "stretch";
 /// Nothing to copy.

@@ -41,11 +41,11 @@ impl Window {
             Command::ShowMap(quantity) => self.map = quantity,
             Command::Compare(command) => self.compare.carry_out(command),
             Command::Signals(command) => self.carry_out_signals(command, ctx),
-            Command::Undo if self.painting_labels()[0].is_some() => self.signals.undo(false),
+            Command::Undo if self.painting_labels()[0].is_some() => self.signals.undo(),
             Command::Undo => {
                 self.history.undo(&mut self.project);
             }
-            Command::Redo if self.painting_labels()[1].is_some() => self.signals.undo(true),
+            Command::Redo if self.painting_labels()[1].is_some() => self.signals.redo(),
             Command::Redo => {
                 self.history.redo(&mut self.project);
             }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use egui::Context;
 use shagreen_core::units::Hertz;
+use shagreen_formats::library::ReliefSource;
 
 use super::Window;
 use crate::command::Command;
@@ -15,6 +16,7 @@ use crate::save::{SIGNAL_RATE_HZ, SignalFile};
 use crate::sheets::Sheet;
 use crate::signals::bench_signal::BenchSignal;
 use crate::signals::{SignalsCommand, Slot};
+use crate::strings::signals as strings;
 
 impl Window {
     /// Does what was asked for about signals.
@@ -45,15 +47,14 @@ impl Window {
     }
 
     /// What the keys of comparing mean where signals are compared; `None` where they mean nothing.
-    pub(super) fn of_signals(&self, command: Command) -> Option<Command> {
+    pub(super) fn of_signals(command: Command) -> Option<Command> {
         let Command::Compare(CompareCommand::Hear(side)) = command else { return Some(command) };
         let slot = match side {
             Side::A => Slot::A,
             Side::B => Slot::B,
             Side::X => return None,
         };
-        let is_felt = self.signals.felt() == Some(slot);
-        Some(Command::Signals(SignalsCommand::Feel((!is_felt).then_some(slot))))
+        Some(Command::Signals(SignalsCommand::Feel(Some(slot))))
     }
 
     /// What is authored becomes a signal, stroked as the hand is set.
@@ -80,7 +81,11 @@ impl Window {
         let entry = signal.relief().and_then(|relief| {
             let is_restricted = !signal.restricted.is_empty();
             let library = self.session.library();
-            let entry = library.entry_of_relief(&signal.name, Arc::new(relief), over, is_restricted);
+            let of =
+                over.and_then(|texture| library.textures.get(texture)).map(|texture| texture.name.as_str());
+            let name = strings::kept_name(&signal.name, of);
+            let source = ReliefSource { terms: &signal.terms, is_restricted };
+            let entry = library.entry_of_relief(&name, Arc::new(relief), over, &source);
             entry.map_err(|error| error.to_string())
         });
         match entry {
@@ -99,5 +104,7 @@ fn rendered(name: &str, file: SignalFile) -> Result<BenchSignal, String> {
     let samples: Vec<f64> = samples.into_iter().map(f64::from).collect();
     let (rate, contact) = (Hertz(f64::from(SIGNAL_RATE_HZ)), file.contact);
     let made = BenchSignal::of_samples(name, &samples, rate, contact.speed, contact.force)?;
-    Ok(BenchSignal { restricted: file.restricted, ..made.value })
+    let mut terms: Vec<String> = file.sidecar.parents.into_iter().map(|parent| parent.licence).collect();
+    terms.dedup();
+    Ok(BenchSignal { restricted: file.restricted, terms, ..made.value })
 }

@@ -29,7 +29,7 @@ impl Window {
                 project: &self.project,
                 document: &self.files.document,
                 settings: &self.files.settings,
-                can_export: self.session.authored().is_some(),
+                can_export: self.session.authored().is_some() || self.session.felt_name().is_some(),
             };
             let menu = file_menu(ui, files);
             self.tour_places[3] = menu.area;

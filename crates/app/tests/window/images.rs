@@ -137,12 +137,12 @@ fn sheets_and_menus_look_as_they_were_approved() {
     results.unwrap();
 }
 
-/// Waves of 1 mm in packs of 10 mm, as a table.
-fn packs() -> String {
+/// Waves of a length in mm in packs of 10 mm, as a table.
+fn packs(wave_mm: f64) -> String {
     let value = |i: u32| {
         let mm = 0.05 * f64::from(i);
         let is_there = (mm / 10.0).rem_euclid(2.0) < 1.0;
-        if is_there { (std::f64::consts::TAU * mm).sin() } else { 0.0 }
+        if is_there { (std::f64::consts::TAU * mm / wave_mm).sin() } else { 0.0 }
     };
     (0..2000).map(|i| format!("{},{}", 0.05 * f64::from(i), value(i))).collect::<Vec<_>>().join("\n")
 }
@@ -153,14 +153,21 @@ fn the_bench_looks_as_it_was_approved() {
     let mut results = SnapshotResults::new();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
     harness.run_steps(2);
-    for slot in Slot::ALL {
-        support::drop_files(&mut harness, &[("packs.csv", packs().as_bytes())]);
-        wait(&mut harness, "a signal is known", |h| window(h).signals().known(slot).is_some());
+    for (slot, wave_mm) in Slot::ALL.into_iter().zip([1.0, 0.6]) {
+        let name = format!("{}.csv", slot.name());
+        support::drop_files(&mut harness, &[(name.as_str(), packs(wave_mm).as_bytes())]);
+        wait(&mut harness, "a signal is there", |h| window(h).signals().signal(slot).is_some());
     }
-    wait(&mut harness, "both are compared", |h| window(h).signals().compared().is_some());
     for (tab, name) in [(Tab::Places, "signals_places_dark"), (Tab::Differences, "signals_differences_light")]
     {
         click(&mut harness, signals::view(tab));
+        wait(&mut harness, "all is known of both", |h| {
+            let page = window(h).signals();
+            Slot::ALL.iter().all(|slot| match tab {
+                Tab::Differences => page.by_rate(*slot).is_some() && page.compared().is_some(),
+                _ => page.by_window(*slot).is_some(),
+            })
+        });
         look(&mut harness, &mut results, name, Rect::from_min_max(pos2(0.0, 38.0), pos2(1280.0, 480.0)));
         toggle_theme(&mut harness);
     }

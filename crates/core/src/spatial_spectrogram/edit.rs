@@ -72,7 +72,8 @@ impl Spectra {
         }
         let gain_db = brush.gain_db.clamp(-MAX_GAIN_DB, MAX_GAIN_DB);
         let octave = per_m.log2();
-        self.each(step_m, |at_m, at_per_m, bin| {
+        let places_m = place_m - brush.radius_m..place_m + brush.radius_m;
+        self.each(step_m, &places_m, |at_m, at_per_m, bin| {
             let across = (at_m - place_m) / brush.radius_m;
             let up = (at_per_m.log2() - octave) / brush.radius_octaves;
             let distance = across.hypot(up);
@@ -87,8 +88,8 @@ impl Spectra {
 
     /// Takes everything out of a region.
     pub fn erase(&mut self, region: &Region, step_m: f64) {
-        self.each(step_m, |at_m, at_per_m, bin| {
-            if region.places_m.contains(&at_m) && region.per_m.contains(&at_per_m) {
+        self.each(step_m, &region.places_m, |_, at_per_m, bin| {
+            if region.per_m.contains(&at_per_m) {
                 *bin = Complex::ZERO;
             }
         });
@@ -130,11 +131,19 @@ impl Spectra {
         Ok(())
     }
 
-    /// Every place in m and spatial frequency in 1/m, with its bin.
-    fn each(&mut self, step_m: f64, mut change: impl FnMut(f64, f64, &mut Complex<f64>)) {
+    /// Every spatial frequency in 1/m at some places in m, with its bin.
+    fn each(
+        &mut self,
+        step_m: f64,
+        places_m: &Range<f64>,
+        mut change: impl FnMut(f64, f64, &mut Complex<f64>),
+    ) {
         let framing = self.framing;
         for (frame, bins) in self.frames_mut().enumerate() {
             let at_m = step_m * framing.center(frame);
+            if !places_m.contains(&at_m) {
+                continue;
+            }
             for (k, bin) in bins.iter_mut().enumerate() {
                 change(at_m, per_m(k, framing.window(), step_m), bin);
             }

@@ -15,6 +15,15 @@ const UNKNOWN_TERMS: &str = "LicenseRef-unknown";
 /// Samples a second of a texture that is a relief alone: a relief is played up to half of them, and more is not felt.
 const RELIEF_RATE: Hertz = Hertz(2000.0);
 
+/// What a relief was made of.
+#[derive(Clone, Copy, Debug)]
+pub struct ReliefSource<'a> {
+    /// The terms of that; empty where nobody stated any.
+    pub terms: &'a [String],
+    /// Whether it may not be passed on.
+    pub is_restricted: bool,
+}
+
 impl Library {
     /// Adds textures. One whose identifier is taken gets another: it may have been made for a library that has none of this
     /// name.
@@ -66,9 +75,8 @@ impl Library {
         }
     }
 
-    /// The entry of a relief, felt over the texture at an index or alone, with an identifier that is free in this library. What
-    /// the relief itself was made of is `restricted` where it may not be passed on; its terms nobody stated. It has no place: it
-    /// was not felt where the other texture lies.
+    /// The entry of a relief, felt over the texture at an index or alone, with an identifier that is free in this library and the
+    /// terms of both. It has no place: it was not felt where the other texture lies.
     ///
     /// # Errors
     /// [`TextureModelError`], which no relief has.
@@ -77,21 +85,26 @@ impl Library {
         name: &str,
         relief: Arc<Relief>,
         over: Option<usize>,
-        is_restricted: bool,
+        source: &ReliefSource<'_>,
     ) -> Result<TextureEntry, TextureModelError> {
         let id = free_id(&id_from_name(name), |id| self.index_of(id).is_some());
+        let mut terms: Vec<&str> = source.terms.iter().map(String::as_str).collect();
+        if terms.is_empty() {
+            terms.push(UNKNOWN_TERMS);
+        }
         let Some(texture) = over.and_then(|index| self.textures.get(index)) else {
             return Ok(TextureEntry {
-                license: UNKNOWN_TERMS.to_owned(),
-                origin: "A relief from the signal bench.".to_owned(),
-                provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
+                license: all_terms(&terms),
+                origin: "A relief from the workspace Signals.".to_owned(),
+                provenance: if source.is_restricted { Provenance::Restricted } else { Provenance::Free },
                 ..TextureEntry::new(id, name, TextureModel::of_relief(relief, RELIEF_RATE)?)
             });
         };
-        let is_restricted = is_restricted || texture.provenance == Provenance::Restricted;
+        let is_restricted = source.is_restricted || texture.provenance == Provenance::Restricted;
+        terms.insert(0, self.license_of(texture));
         Ok(TextureEntry {
-            license: all_terms(&[self.license_of(texture), UNKNOWN_TERMS]),
-            origin: format!("A relief from the signal bench, over \"{}\".", texture.name),
+            license: all_terms(&terms),
+            origin: format!("A relief from the workspace Signals, over \"{}\".", texture.name),
             provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
             picture: texture.picture.clone(),
             ..TextureEntry::new(id, name, texture.model.clone().with_relief(Some(relief)))
@@ -121,7 +134,7 @@ fn all_terms(licenses: &[&str]) -> String {
 mod tests {
     use std::sync::Arc;
 
-    use super::{Library, Provenance};
+    use super::{Library, Provenance, ReliefSource};
     use crate::starter::starter_library;
     use shagreen_core::profile::Profile;
     use shagreen_core::relief::Relief;
@@ -143,13 +156,17 @@ mod tests {
         let library = starter_library().unwrap();
         let profile = Profile::new(1e-4, vec![0.0, 1.0, -1.0, 0.5]).unwrap();
         let relief = Arc::new(Relief::new(profile, Newtons(1.0)).unwrap());
-        let alone = library.entry_of_relief("Cork", Arc::clone(&relief), None, false).unwrap();
+        let source = |is_restricted| ReliefSource { terms: &[], is_restricted };
+        let alone = library.entry_of_relief("Cork", Arc::clone(&relief), None, &source(false)).unwrap();
         assert_eq!((alone.model.relief(), alone.model.tap()), (Some(&relief), None));
         assert!(library.index_of(&alone.id).is_none() && alone.place.is_none());
         assert_eq!((alone.license.as_str(), alone.provenance), ("LicenseRef-unknown", Provenance::Free));
-        let over = library.entry_of_relief("Bumps", Arc::clone(&relief), Some(3), true).unwrap();
+        let over = library.entry_of_relief("Bumps", Arc::clone(&relief), Some(3), &source(true)).unwrap();
         let bare = &library.textures[3];
-        assert_eq!(over.model, bare.model.clone().with_relief(Some(relief)));
+        assert_eq!(over.model, bare.model.clone().with_relief(Some(Arc::clone(&relief))));
+        let stated = ["CC-BY-4.0".to_owned()];
+        let source = ReliefSource { terms: &stated, is_restricted: false };
+        assert_eq!(library.entry_of_relief("Weave", relief, None, &source).unwrap().license, "CC-BY-4.0");
         assert!(over.origin.contains(&bare.name) && over.place.is_none());
         assert_eq!(over.license, "(MIT OR Apache-2.0) AND LicenseRef-unknown");
         assert_eq!(over.provenance, Provenance::Restricted);

@@ -1,0 +1,107 @@
+//! What is known of signals: worked out by a thread, and of no other signals than those that are asked about.
+
+use std::sync::Arc;
+
+use egui::Context;
+
+use super::bench_signal::BenchSignal;
+use crate::background::{BrokenOff, Newest};
+
+/// What came of a question.
+struct Answer<T, const N: usize> {
+    of: [Arc<BenchSignal>; N],
+    value: Result<T, BrokenOff>,
+}
+
+/// What was worked out of signals, `N` at a time.
+pub(super) struct Known<T, const N: usize> {
+    answer: Option<Answer<T, N>>,
+    asking: Newest<([Arc<BenchSignal>; N], T)>,
+    asked: Option<[Arc<BenchSignal>; N]>,
+}
+
+impl<T, const N: usize> Default for Known<T, N> {
+    fn default() -> Self {
+        Self { answer: None, asking: Newest::default(), asked: None }
+    }
+}
+
+impl<T: Send + 'static, const N: usize> Known<T, N> {
+    /// Takes in what came, and asks about these signals where they are others than those that were asked about.
+    pub(super) fn follow(
+        &mut self,
+        signals: [Arc<BenchSignal>; N],
+        ctx: &Context,
+        work: fn(&[Arc<BenchSignal>; N]) -> T,
+    ) {
+        match self.asking.collect(ctx) {
+            Some(Ok((of, value))) => self.answer = Some(Answer { of, value: Ok(value) }),
+            Some(Err(broken)) => {
+                self.answer = self.asked.take().map(|of| Answer { of, value: Err(broken) });
+            }
+            None => {}
+        }
+        let is_asked = self.asked.as_ref().is_some_and(|asked| are_same(asked, &signals));
+        // One after the other: while somebody paints, what comes in between is not asked about at all.
+        if !is_asked && !self.asking.is_busy() && self.of(&signals).is_none() {
+            self.asked = Some(signals.clone());
+            self.asking.ask(ctx, move || {
+                let value = work(&signals);
+                (signals, value)
+            });
+        }
+    }
+
+    /// What came of these signals, once something has.
+    pub(super) fn of(&self, signals: &[Arc<BenchSignal>; N]) -> Option<Result<&T, BrokenOff>> {
+        let answer = self.answer.as_ref().filter(|answer| are_same(&answer.of, signals))?;
+        Some(answer.value.as_ref().map_err(|broken| *broken))
+    }
+}
+
+fn are_same<const N: usize>(a: &[Arc<BenchSignal>; N], b: &[Arc<BenchSignal>; N]) -> bool {
+    a.iter().zip(b).all(|(a, b)| Arc::ptr_eq(a, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Known;
+    use crate::background::BrokenOff;
+    use crate::signals::bench_signal::tests::tone;
+    use std::sync::Arc;
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn what_is_known_is_of_the_signal_that_is_asked_about() {
+        let ctx = egui::Context::default();
+        let [first, second] = [100.0, 50.0].map(|hz| [Arc::new(tone(hz, 1000.0, 1.0))]);
+        let mut known: Known<f64, 1> = Known::default();
+        let start = Instant::now();
+        let wait = |known: &mut Known<f64, 1>, of: &[Arc<_>; 1]| loop {
+            known.follow(of.clone(), &ctx, |[signal]| signal.profile.values()[1]);
+            if let Some(value) = known.of(of) {
+                return value.copied();
+            }
+            assert!(start.elapsed() < Duration::from_mins(1), "nothing came");
+        };
+        let found = wait(&mut known, &first);
+        assert_eq!(found, Ok(first[0].profile.values()[1]));
+        assert!(known.of(&second).is_none(), "nothing is known of it, whatever is known of another");
+        assert_eq!(wait(&mut known, &second), Ok(second[0].profile.values()[1]));
+    }
+
+    #[test]
+    fn a_thread_that_breaks_off_is_not_started_for_ever() {
+        let ctx = egui::Context::default();
+        let signal = [Arc::new(tone(100.0, 1000.0, 1.0))];
+        let mut known: Known<f64, 1> = Known::default();
+        let start = Instant::now();
+        while known.of(&signal).is_none() {
+            known.follow(signal.clone(), &ctx, |_| panic!("as asked for"));
+            assert!(start.elapsed() < Duration::from_mins(1), "nothing came");
+        }
+        assert_eq!(known.of(&signal), Some(Err(BrokenOff)));
+        known.follow(signal, &ctx, |_| panic!("it is asked once"));
+        assert!(!known.asking.is_busy());
+    }
+}
