@@ -516,6 +516,7 @@ impl SignalsPage {
         }
         ui.add_space(GAP);
         let known = self.of_each(Place::by_window);
+        let is_waiting = known.len() < self.n_signals();
         let fidelity = Arc::new(fidelity_figure(&known, window_m));
         let maps = Slot::ALL.map(|slot| self.map(slot));
         let mut painted = None;
@@ -539,11 +540,16 @@ impl SignalsPage {
                 }
                 (map, _) => commands.extend(map_ui(second, Slot::B, map.as_ref(), "")),
             }
+            waiting_ui(third, is_waiting);
             commands.extend(framed_figure_ui(third, "fidelity by window", &fidelity, "fidelity-by-window"));
         });
         if let Some(painted) = painted {
             self.take_painted(painted);
         }
+    }
+
+    fn n_signals(&self) -> usize {
+        self.places.iter().filter(|place| place.signal().is_some()).count()
     }
 
     /// What is known of the signals as they are, in their colors.
@@ -579,6 +585,7 @@ impl SignalsPage {
                     left.add(Label::new(text).wrap());
                 }
             }
+            waiting_ui(right, known.len() < self.n_signals());
             for (_, name, of) in &known {
                 if let Err(reason) = of {
                     let text = RichText::new(format!("{name}: {reason}")).small();
@@ -587,6 +594,14 @@ impl SignalsPage {
             }
             commands.extend(framed_figure_ui(right, "d' by rate", &rates, "d-prime-by-rate"));
         });
+    }
+}
+
+/// Says that something is still being worked out.
+fn waiting_ui(ui: &mut Ui, is_waiting: bool) {
+    if is_waiting {
+        let text = RichText::new(strings::MAKING).small().color(tokens(ui.ctx()).text_weak);
+        ui.add(Label::new(text).selectable(false));
     }
 }
 
