@@ -64,10 +64,8 @@ pub fn refine(
                 let now = *bin;
                 let ahead = now + (now - *before) * momentum;
                 *before = now;
-                let power = ahead.norm_sqr();
-                // Without a branch, so that several are done at once: where there is no phase it is zero.
-                let (scale, alone) = if power > 0.0 { (size / power.sqrt(), 0.0) } else { (0.0, *size) };
-                *bin = Complex::new(ahead.re * scale + alone, ahead.im * scale);
+                let norm = ahead.norm_sqr().sqrt();
+                *bin = if norm > 0.0 { ahead * (size / norm) } else { Complex::new(*size, 0.0) };
             }
             transform.add_window(&mut bins, frame, &mut added, &mut work);
         }
