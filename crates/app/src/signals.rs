@@ -7,7 +7,10 @@ mod editor_ui;
 mod features_ui;
 mod figures;
 mod known;
+mod maps;
+mod number_ui;
 pub mod page;
+mod playing;
 pub(crate) mod reading;
 mod slot;
 mod slot_ui;
@@ -34,17 +37,24 @@ pub enum SignalsCommand {
     Feel(Option<Slot>),
     /// Play a signal as it was recorded.
     Play(Slot),
-    /// Make B the same as A.
-    CopyOfA,
-    /// Make B what the codec leaves of A.
-    ThroughCodec,
-    /// Make B what its spatial spectrogram leaves of A.
-    Remake,
+    /// Make B of A.
+    MakeB(FromA),
     /// Make a texture of a signal.
     Keep(Slot),
 }
 
 /// How B is made of A.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FromA {
+    /// It is the same.
+    Copy,
+    /// It is what the codec leaves.
+    Codec,
+    /// It is made of the spatial spectrogram alone.
+    Spectrogram,
+}
+
+/// What is set for making B of A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Remaking {
     /// Bits a second of the codec.

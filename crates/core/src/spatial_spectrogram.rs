@@ -247,11 +247,6 @@ impl SpatialSpectrogram {
         &self.power
     }
 
-    /// The same, to be painted over: what is below zero counts as zero.
-    pub fn power_mut(&mut self) -> &mut Frames<f64> {
-        &mut self.power
-    }
-
     /// What was added to the profile before, in its unit; what is made of the spectrogram has it taken off again.
     pub fn offset(&self) -> f64 {
         self.offset

@@ -252,7 +252,7 @@ fn is_sidecar(json: &Source, all: &[Source]) -> bool {
 }
 
 /// The units beside a WAV file: imported with it, or in the same folder.
-fn sidecar_of(source: &Source, all: &[Source]) -> Option<Arc<[u8]>> {
+pub(crate) fn sidecar_of(source: &Source, all: &[Source]) -> Option<Arc<[u8]>> {
     if source.ending() != "wav" {
         return None;
     }

@@ -5,9 +5,7 @@ use std::sync::Arc;
 use shagreen_core::codec::CODEC_RATE;
 use shagreen_core::codec::bitrate::Bitrate;
 use shagreen_core::codec::coded::Coded;
-use shagreen_core::quality::{
-    Distances, Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, Term, snr_db,
-};
+use shagreen_core::quality::{Distances, Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, snr_db};
 use shagreen_core::spatial_spectrogram::{
     Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window, profile_of,
     refine,
@@ -105,10 +103,9 @@ pub(super) fn compare(first: &BenchSignal, second: &BenchSignal) -> Result<Compa
     if !d_prime.is_finite() {
         return Err(strings::BEYOND_TOUCH.to_owned());
     }
-    let part = |term: &Term| (term.feature, term.weight * distances.by(term.feature) / term.length);
     Ok(Compared {
         features: [features(&a)?, features(&b)?],
-        parts: model.terms().iter().map(part).collect(),
+        parts: model.parts(&distances).collect(),
         distances,
         d_prime,
         snr_db: snr_db(&a, &b),

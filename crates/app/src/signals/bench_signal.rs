@@ -48,31 +48,31 @@ impl BenchSignal {
         force: Newtons,
     ) -> Result<Imported<Self>, String> {
         let profile = felt_profile(samples_mps2, rate, speed).map_err(|error| error.to_string())?;
-        Self::of_profile(name, &profile, speed, force)
+        let Imported { value: profile, warnings } = cut(&profile, speed)?;
+        Ok(Imported { value: Self::new(name, profile, speed, force)?, warnings })
     }
 
-    /// Accelerations in m/s² over places; what is longer than a relief can be is left out.
+    /// Accelerations in m/s² over places.
     ///
     /// # Errors
     /// In words: it makes no relief.
-    pub(super) fn of_profile(
+    pub(super) fn new(
         name: &str,
-        profile: &Profile,
+        profile: Profile,
         speed: MetersPerSecond,
         force: Newtons,
-    ) -> Result<Imported<Self>, String> {
-        let Imported { value: profile, warnings } = cut(profile, speed)?;
-        let value =
+    ) -> Result<Self, String> {
+        let signal =
             Self { name: name.to_owned(), profile, speed, force, restricted: Vec::new(), terms: Vec::new() };
         // It can be felt, or it is none.
-        value.relief()?;
-        Ok(Imported { value, warnings })
+        signal.relief()?;
+        Ok(signal)
     }
 
     /// The same stroke with other accelerations.
     ///
     /// # Errors
-    /// As [`BenchSignal::of_profile`].
+    /// As [`BenchSignal::new`].
     pub(super) fn with_values(&self, name: String, values: Vec<f64>) -> Result<Self, String> {
         let profile = Profile::new(self.profile.step_m(), values).map_err(|error| error.to_string())?;
         let signal = Self { name, profile, ..self.clone() };

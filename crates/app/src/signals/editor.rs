@@ -258,14 +258,19 @@ impl Editor {
         let values = Transform::new(spectra.framing()).profile(&spectra);
         let signal = Arc::new(before.with_values(strings::painted(&before.name), values)?);
         if is_step {
-            self.redo.clear();
-            self.undo.push(self.state_of(before, what));
-            if self.undo.len() > MAX_STEPS {
-                self.undo.remove(0);
-            }
+            self.push_step(before, what);
         }
         self.painted = Some(Painted { signal: Arc::clone(&signal), spectra: Arc::new(spectra) });
         Ok(signal)
+    }
+
+    /// What is there `before` a step can be had back, and what was taken back cannot be made again.
+    fn push_step(&mut self, before: &Arc<BenchSignal>, what: &'static str) {
+        self.redo.clear();
+        self.undo.push(self.state_of(before, what));
+        if self.undo.len() > MAX_STEPS {
+            self.undo.remove(0);
+        }
     }
 
     fn state_of(&self, signal: &Arc<BenchSignal>, tool: &'static str) -> State {
@@ -302,9 +307,7 @@ impl Editor {
 
     /// Another signal takes the place of this one, which can be had back.
     pub(super) fn replaced(&mut self, before: &Arc<BenchSignal>) {
-        self.redo.clear();
-        let state = self.state_of(before, strings::REPLACING);
-        self.undo.push(state);
+        self.push_step(before, strings::REPLACING);
         (self.painted, self.last_touch) = (None, None);
     }
 

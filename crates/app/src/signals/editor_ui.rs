@@ -4,6 +4,7 @@ use egui::{Button, DragValue, Label, RichText, Ui};
 use shagreen_core::spatial_spectrogram::edit::STRETCHES;
 
 use super::editor::{Editor, GAINS_DB, RADII_MM, RADII_OCTAVES, Tool};
+use super::number_ui::number_ui;
 use crate::strings::signals as strings;
 use crate::theme::{GROUP_GAP, tokens};
 
@@ -39,12 +40,12 @@ pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
         ui.add_enabled_ui(editor.tool.is_brush(), |ui| {
             let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05);
             let width = width.prefix("± ").suffix(" mm");
-            number(ui, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH_HELP, width);
+            number_ui(ui, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH_HELP, width);
             let height = DragValue::new(&mut editor.radius_octaves).range(RADII_OCTAVES).speed(0.01);
             let height = height.prefix("± ").suffix(" oct");
-            number(ui, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height);
+            number_ui(ui, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height);
             let gain = DragValue::new(&mut editor.gain_db).range(GAINS_DB).speed(0.1).suffix(" dB");
-            number(ui, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
+            number_ui(ui, strings::BRUSH_GAIN, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
         });
         ui.add_space(GROUP_GAP);
         if ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked() {
@@ -64,10 +65,4 @@ pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
         }
     });
     asked
-}
-
-fn number(ui: &mut Ui, name: &str, help: &str, value: DragValue<'_>) {
-    let text = RichText::new(name).small().color(tokens(ui.ctx()).text_weak);
-    ui.add(Label::new(text).selectable(false)).on_hover_text(help);
-    ui.add(value).accessible_name(name).on_hover_text(help);
 }

@@ -1,33 +1,30 @@
 //! The page: two places at the left, what is known of them beside it.
 
+mod views;
+
 use std::sync::Arc;
 
 use egui::{CentralPanel, ComboBox, Context, Frame, Label, Margin, Panel as Side, RichText, ScrollArea, Ui};
 use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::spatial_spectrogram::{ProfileFidelity, Transform};
-use shagreen_formats::figure::{Figure, Tone};
+use shagreen_core::spatial_spectrogram::ProfileFidelity;
 
-use super::analysis::{AtRate, ByRate, Compared, compare, remade, through_codec};
+use super::analysis::{AtRate, Compared, compare, remade, through_codec};
 use super::bench_signal::BenchSignal;
 use super::editor::Editor;
-use super::editor_ui::{Asked, tools_ui};
-use super::features_ui::features_ui;
-use super::figures::{Levels, features_figure, fidelity_figure, rates_figure};
 use super::known::Known;
+use super::maps::Maps;
+use super::playing::Playing;
 use super::slot::{Place, Slot};
 use super::slot_ui::{State, place_ui, remaking_ui};
-use super::spatial_ui::{ShownMm, Spatial, places_map_ui, spatial_ui};
-use super::{Remaking, SignalsCommand};
+use super::spatial_ui::Spatial;
+use super::{FromA, Remaking, SignalsCommand};
 use crate::background::BrokenOff;
 use crate::command::Command;
-use crate::figure_ui::framed_figure_ui;
 use crate::import::source::Source;
 use crate::panel::Panel;
 use crate::strings::signals as strings;
-use crate::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, tokens};
+use crate::theme::{BUILD_INPUTS_WIDTH, GAP, tokens};
 
-/// Windows of the slider, in mm: those of the paper, and all between.
-const WINDOWS_MM: (f64, f64) = (0.2, 20.0);
 /// Width of what stands there before there is a signal, in points.
 const EMPTY_WIDTH: f32 = 560.0;
 
@@ -48,30 +45,8 @@ impl View {
     pub const ALL: [Self; 3] = [Self::Times, Self::Places, Self::Differences];
 }
 
-/// The levels of a signal, and what they were drawn of.
-struct Drawn {
-    of: Arc<BenchSignal>,
-    view: View,
-    window_mm: f64,
-    shown_mm: ShownMm,
-    levels: Result<Levels, String>,
-}
-
 /// Both signals.
 type Pair = [Arc<BenchSignal>; 2];
-
-/// A signal that is played as it was recorded.
-#[derive(Clone, Copy)]
-struct Playing {
-    slot: Slot,
-    /// Whether the output said so.
-    was_seen: bool,
-    /// How long it may take to.
-    frames_left: u32,
-}
-
-/// Frames in which an output says that it plays, or never will.
-const PATIENCE_FRAMES: u32 = 60;
 
 /// The state of the workspace.
 pub struct SignalsPage {
@@ -88,8 +63,7 @@ pub struct SignalsPage {
     /// Which signal is played as it was recorded.
     playing: Option<Playing>,
     compared: Known<Result<Compared, String>, 2>,
-    drawn: [Option<Drawn>; 2],
-    maps: [Option<Result<Arc<Figure>, String>>; 2],
+    maps: Maps,
     spatial: Spatial,
 }
 
@@ -106,8 +80,7 @@ impl Default for SignalsPage {
             last_kept: None,
             playing: None,
             compared: Known::default(),
-            drawn: [None, None],
-            maps: [None, None],
+            maps: Maps::default(),
             spatial: Spatial::default(),
         }
     }
@@ -234,22 +207,17 @@ impl SignalsPage {
     }
 
     /// Makes B of A.
-    pub(crate) fn remake(&mut self, command: &SignalsCommand, ctx: &Context) {
+    pub(crate) fn make_b(&mut self, how: FromA, ctx: &Context) {
         let Some(first) = self.signal(Slot::A).map(Arc::clone) else { return };
         let (Remaking { rate, n_steps }, window_m) = (self.remaking, self.window_m());
-        match command {
-            SignalsCommand::CopyOfA => {
+        match how {
+            FromA::Copy => {
                 let before = self.signal(Slot::B).map(Arc::clone);
                 self.places[Slot::B.index()].put(first);
                 self.note_replaced(before.as_ref());
             }
-            SignalsCommand::ThroughCodec => {
-                self.make(Slot::B, ctx, move || through_codec(&first, rate));
-            }
-            SignalsCommand::Remake => {
-                self.make(Slot::B, ctx, move || remade(&first, window_m, n_steps));
-            }
-            _ => {}
+            FromA::Codec => self.make(Slot::B, ctx, move || through_codec(&first, rate)),
+            FromA::Spectrogram => self.make(Slot::B, ctx, move || remade(&first, window_m, n_steps)),
         }
     }
 
@@ -265,18 +233,7 @@ impl SignalsPage {
 
     /// A signal is on its way to the output.
     pub(crate) fn note_playing(&mut self, slot: Slot) {
-        self.playing = Some(Playing { slot, was_seen: false, frames_left: PATIENCE_FRAMES });
-    }
-
-    /// Follows what the output plays; it tells so a block later than it was asked.
-    fn follow_playing(&mut self, plays_signal: bool) {
-        if let Some(playing) = &mut self.playing {
-            playing.was_seen |= plays_signal;
-            playing.frames_left = playing.frames_left.saturating_sub(1);
-            if !plays_signal && (playing.was_seen || playing.frames_left == 0) {
-                self.playing = None;
-            }
-        }
+        self.playing = Some(Playing::new(slot));
     }
 
     /// What painting could take back or make again.
@@ -332,11 +289,12 @@ impl SignalsPage {
 
     fn left_ui(&mut self, ui: &mut Ui, panel: &Panel<'_>, commands: &mut Vec<Command>) {
         ui.add_space(GAP);
-        self.follow_playing(panel.session.status().is_some_and(|status| status.plays_signal));
+        let plays_signal = panel.session.status().is_some_and(|status| status.plays_signal);
+        self.playing = self.playing.and_then(|playing| playing.followed(plays_signal));
         for slot in Slot::ALL {
             let state = State {
                 is_felt: self.felt == Some(slot),
-                is_playing: self.playing.is_some_and(|playing| playing.slot == slot),
+                is_playing: self.playing.is_some_and(|playing| playing.slot() == slot),
             };
             let asked = place_ui(ui, slot, &mut self.places[slot.index()], state);
             commands.extend(asked.commands);
@@ -393,231 +351,6 @@ impl SignalsPage {
         if let Some(name) = &self.last_kept {
             let text = RichText::new(strings::kept(name)).small().color(t.text_weak);
             ui.add(Label::new(text).wrap());
-        }
-    }
-
-    fn views_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        ui.horizontal(|ui| {
-            for view in View::ALL {
-                ui.selectable_value(&mut self.view, view, strings::view(view))
-                    .on_hover_text(strings::view_help(view));
-            }
-            if self.view == View::Places {
-                ui.add_space(GROUP_GAP);
-                self.window_ui(ui);
-                let is_zoomed = self.spatial.shown_mm.is_some();
-                let whole = ui.add_enabled(is_zoomed, egui::Button::new(strings::SHOW_ALL));
-                if whole
-                    .on_hover_text(strings::ZOOM_HELP)
-                    .on_disabled_hover_text(strings::ZOOM_HELP)
-                    .clicked()
-                {
-                    self.spatial.shown_mm = None;
-                }
-            }
-        });
-        ui.add_space(GAP);
-        self.draw();
-        match self.view {
-            View::Times => self.times_ui(ui, commands),
-            View::Places => self.places_ui(ui, commands),
-            View::Differences => self.differences_ui(ui, commands),
-        }
-    }
-
-    fn window_ui(&mut self, ui: &mut Ui) {
-        let t = tokens(ui.ctx());
-        let text = RichText::new(strings::WINDOW).color(t.text_weak);
-        ui.add(Label::new(text).selectable(false)).on_hover_text(strings::WINDOW_HELP);
-        ui.spacing_mut().slider_width = 220.0;
-        let slider = egui::Slider::new(&mut self.window_mm, WINDOWS_MM.0..=WINDOWS_MM.1);
-        let slider = slider.logarithmic(true).suffix(" mm").max_decimals(2);
-        ui.add(slider).accessible_name(strings::WINDOW).on_hover_text(strings::WINDOW_HELP);
-    }
-
-    /// Draws the maps anew where they are of something else than they were.
-    fn draw(&mut self) {
-        if self.view == View::Differences {
-            return;
-        }
-        let mut is_new = false;
-        for slot in Slot::ALL {
-            let signal = self.signal(slot).map(Arc::clone);
-            let (view, window_mm, shown_mm) = (self.view, self.window_mm, self.spatial.shown_mm);
-            let is_drawn = match (&self.drawn[slot.index()], &signal) {
-                (Some(drawn), Some(signal)) => {
-                    let is_same_window = view == View::Times || drawn.window_mm == window_mm;
-                    let is_same_part = view == View::Times || drawn.shown_mm == shown_mm;
-                    Arc::ptr_eq(&drawn.of, signal) && drawn.view == view && is_same_window && is_same_part
-                }
-                (drawn, signal) => drawn.is_none() && signal.is_none(),
-            };
-            if !is_drawn {
-                is_new = true;
-                self.drawn[slot.index()] = signal.map(|signal| {
-                    let levels = self.levels(&signal);
-                    Drawn { of: signal, view, window_mm, shown_mm, levels }
-                });
-            }
-        }
-        if is_new {
-            let drawn = || self.drawn.iter().flatten().filter_map(|drawn| drawn.levels.as_ref().ok());
-            let highest_db = drawn().map(Levels::highest_db).fold(f64::NEG_INFINITY, f64::max);
-            self.maps = self.drawn.each_ref().map(|drawn| Some(self.figure(drawn.as_ref()?, highest_db)));
-        }
-    }
-
-    fn figure(&self, drawn: &Drawn, highest_db: f64) -> Result<Arc<Figure>, String> {
-        let levels = drawn.levels.clone()?;
-        let window_mm = 1e3 * drawn.of.window_m(drawn.of.framing(self.window_m()));
-        let title = strings::map_title(self.view, &drawn.of.name, window_mm);
-        Ok(Arc::new(levels.figure(title, strings::map_axes(self.view), highest_db)))
-    }
-
-    fn levels(&self, signal: &BenchSignal) -> Result<Levels, String> {
-        if self.view != View::Places {
-            return Levels::over_time(signal).ok_or_else(|| strings::TOO_SHORT_TO_DRAW.to_owned());
-        }
-        // Of the signal as it is: what was painted is what is wanted of it.
-        let transform = Transform::new(signal.framing(self.window_m()));
-        let power = transform.power(signal.profile.values()).map_err(|error| error.to_string())?;
-        let length_mm = 1e3 * signal.profile.length_m();
-        // The other signal may be longer.
-        let shown = self.spatial.shown_mm.filter(|(from, _)| *from < length_mm);
-        let (from, to) = shown.unwrap_or((0.0, length_mm));
-        Ok(Levels::over_places(&power, signal, (from, to.min(length_mm))))
-    }
-
-    fn map(&self, slot: Slot) -> Option<Result<Arc<Figure>, String>> {
-        self.maps[slot.index()].clone()
-    }
-
-    fn times_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        let maps = Slot::ALL.map(|slot| self.map(slot));
-        ui.columns_const(|columns: &mut [Ui; 2]| {
-            for ((ui, map), slot) in columns.iter_mut().zip(&maps).zip(Slot::ALL) {
-                commands.extend(map_ui(ui, slot, map.as_ref(), strings::stem(self.view, slot)));
-            }
-        });
-    }
-
-    fn places_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        let signal = self.signal(Slot::B).map(Arc::clone);
-        let window_m = self.window_m();
-        let asked = ui.add_enabled_ui(signal.is_some(), |ui| tools_ui(ui, &mut self.editor)).inner;
-        match (asked, &signal) {
-            (Some(Asked::Stretch), Some(signal)) => {
-                let stretched = self.editor.stretch(signal, window_m);
-                self.take_painted(stretched.map(Some));
-            }
-            (Some(Asked::Undo), _) => self.undo(),
-            (Some(Asked::Redo), _) => self.redo(),
-            _ => {}
-        }
-        ui.add_space(GAP);
-        let known = self.of_each(Place::by_window);
-        let is_waiting = known.len() < self.n_signals();
-        let fidelity = Arc::new(fidelity_figure(&known, window_m));
-        let maps = Slot::ALL.map(|slot| self.map(slot));
-        let mut painted = None;
-        ui.columns_const(|columns: &mut [Ui; 3]| {
-            let [first, second, third] = columns;
-            let stem = strings::stem(View::Places, Slot::A);
-            match (&maps[0], self.signal(Slot::A).map(|signal| 1e3 * signal.profile.length_m())) {
-                (Some(Ok(figure)), Some(length_mm)) => {
-                    let (save, _) = places_map_ui(first, Slot::A, figure, stem, &mut self.spatial, length_mm);
-                    commands.extend(save);
-                }
-                (map, _) => commands.extend(map_ui(first, Slot::A, map.as_ref(), stem)),
-            }
-            match (&maps[1], &signal) {
-                (Some(Ok(figure)), Some(signal)) => {
-                    let stem = strings::stem(View::Places, Slot::B);
-                    let editor = &mut self.editor;
-                    let shown = spatial_ui(second, figure, stem, &mut self.spatial, editor, signal, window_m);
-                    commands.extend(shown.save);
-                    painted = shown.painted;
-                }
-                (map, _) => commands.extend(map_ui(second, Slot::B, map.as_ref(), "")),
-            }
-            waiting_ui(third, is_waiting);
-            commands.extend(framed_figure_ui(third, "fidelity by window", &fidelity, "fidelity-by-window"));
-        });
-        if let Some(painted) = painted {
-            self.take_painted(painted);
-        }
-    }
-
-    fn n_signals(&self) -> usize {
-        self.places.iter().filter(|place| place.signal().is_some()).count()
-    }
-
-    /// What is known of the signals as they are, in their colors.
-    fn of_each<'a, T: ?Sized>(
-        &'a self,
-        known: impl Fn(&'a Place) -> Option<&'a T>,
-    ) -> Vec<(Tone, &'static str, &'a T)> {
-        let of = Slot::ALL.into_iter().zip([Tone::Main, Tone::Second]);
-        of.filter_map(|(slot, tone)| Some((tone, slot.name(), known(&self.places[slot.index()])?))).collect()
-    }
-
-    fn differences_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        let known: Vec<(Tone, &str, &ByRate)> = self.of_each(Place::by_rate);
-        let rates = Arc::new(rates_figure(&known));
-        let names = Slot::ALL.map(|slot| self.signal(slot).map_or("", |signal| &signal.name));
-        let compared = self.compared();
-        ui.columns_const(|columns: &mut [Ui; 2]| {
-            let [left, right] = columns;
-            match compared {
-                Some(Ok(compared)) => {
-                    let figure = Arc::new(features_figure(compared, names));
-                    let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
-                    commands.extend(scroll.show(left, |ui| features_ui(ui, compared, &figure)).inner);
-                }
-                Some(Err(reason)) => {
-                    let text = RichText::new(reason).color(tokens(left.ctx()).warning);
-                    left.add(Label::new(text).wrap());
-                }
-                None => {
-                    let is_pair = self.pair().is_some();
-                    let said = if is_pair { strings::MAKING } else { strings::NEEDS_PAIR };
-                    let text = RichText::new(said).color(tokens(left.ctx()).text_weak);
-                    left.add(Label::new(text).wrap());
-                }
-            }
-            waiting_ui(right, known.len() < self.n_signals());
-            for (_, name, of) in &known {
-                if let Err(reason) = of {
-                    let text = RichText::new(format!("{name}: {reason}")).small();
-                    right.add(Label::new(text).wrap());
-                }
-            }
-            commands.extend(framed_figure_ui(right, "d' by rate", &rates, "d-prime-by-rate"));
-        });
-    }
-}
-
-/// Says that something is still being worked out.
-fn waiting_ui(ui: &mut Ui, is_waiting: bool) {
-    if is_waiting {
-        let text = RichText::new(strings::MAKING).small().color(tokens(ui.ctx()).text_weak);
-        ui.add(Label::new(text).selectable(false));
-    }
-}
-
-/// The map of a place, or why there is none.
-fn map_ui(ui: &mut Ui, slot: Slot, map: Option<&Result<Arc<Figure>, String>>, stem: &str) -> Option<Command> {
-    let t = tokens(ui.ctx());
-    match map {
-        Some(Ok(figure)) => framed_figure_ui(ui, strings::map_name(slot), figure, stem),
-        Some(Err(reason)) => {
-            ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
-            None
-        }
-        None => {
-            let text = RichText::new(strings::nothing_in(slot)).color(t.text_weak);
-            ui.add(Label::new(text).wrap().selectable(false));
-            None
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Files that become signals of the bench: recordings, profiles, and rows of photos or height maps.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use shagreen_core::profile::Profile;
 use shagreen_core::relief::Relief;
@@ -9,10 +10,10 @@ use shagreen_formats::imported::Imported;
 use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
 use shagreen_formats::signal::{SignalHints, read_signal};
-use shagreen_formats::wav::sidecar_names;
 
 use super::bench_signal::{BenchSignal, cut};
 use crate::import::source::Source;
+use crate::import::worker::sidecar_of;
 use crate::strings::signals as strings;
 
 /// Endings of the names of files that become signals.
@@ -70,7 +71,7 @@ pub(crate) struct BenchFile {
     /// What it is.
     pub(crate) kind: FileKind,
     bytes: Vec<u8>,
-    sidecar: Option<Vec<u8>>,
+    sidecar: Option<Arc<[u8]>>,
 }
 
 impl BenchFile {
@@ -87,7 +88,7 @@ impl BenchFile {
         } else {
             FileKind::Profile
         };
-        let sidecar = if kind == FileKind::Recording { sidecar_of(source.path()) } else { None };
+        let sidecar = sidecar_of(source, &[]);
         Ok(Self { name, kind, bytes, sidecar })
     }
 
@@ -130,18 +131,11 @@ impl BenchFile {
 
 /// A line without a unit, at the level that it is to have.
 fn leveled(name: &str, profile: &Profile, terms: &Terms) -> Result<Imported<BenchSignal>, String> {
-    let Imported { value: profile, mut warnings } = cut(profile, terms.speed)?;
+    let Imported { value: profile, warnings } = cut(profile, terms.speed)?;
     let relief = Relief::of_level(&profile, terms.level_mps2, terms.force);
     let relief = relief.map_err(|error| error.to_string())?;
-    let mut made = BenchSignal::of_profile(name, relief.profile(), terms.speed, terms.force)?;
-    made.warnings.append(&mut warnings);
-    Ok(made)
-}
-
-/// What lies beside a recording and says what its samples are; one that cannot be read says nothing.
-fn sidecar_of(path: &Path) -> Option<Vec<u8>> {
-    let name = path.file_name()?.to_string_lossy().into_owned();
-    sidecar_names(&name).into_iter().find_map(|beside| std::fs::read(path.with_file_name(beside)).ok())
+    let value = BenchSignal::new(name, relief.profile().clone(), terms.speed, terms.force)?;
+    Ok(Imported { value, warnings })
 }
 
 fn without_ending(name: &str) -> String {

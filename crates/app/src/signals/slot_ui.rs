@@ -4,9 +4,10 @@ use egui::{Align, Button, ComboBox, DragValue, Frame, Key, Label, Layout, RichTe
 use shagreen_core::codec::bitrate::Bitrate;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
+use super::number_ui::number_ui;
 use super::reading::{FileKind, Terms};
 use super::slot::{Place, Slot};
-use super::{Remaking, SignalsCommand};
+use super::{FromA, Remaking, SignalsCommand};
 use crate::command::Command;
 use crate::import::source::paths_in;
 use crate::strings::signals as strings;
@@ -213,9 +214,7 @@ fn recording_ui(ui: &mut Ui, slot: Slot, terms: &mut Terms) {
 }
 
 fn number(ui: &mut Ui, slot: Slot, name: &str, help: &str, value: DragValue<'_>) {
-    let text = RichText::new(name).small().color(tokens(ui.ctx()).text_weak);
-    ui.add(Label::new(text).selectable(false)).on_hover_text(help);
-    ui.add(value).accessible_name(format!("{name} {}", slot.name())).on_hover_text(help);
+    number_ui(ui, name, &format!("{name} {}", slot.name()), help, value);
 }
 
 /// How B is made of A; returns what was asked for.
@@ -223,10 +222,10 @@ pub(super) fn remaking_ui(ui: &mut Ui, remaking: &mut Remaking, window_mm: f64) 
     let mut asked = None;
     ui.horizontal(|ui| {
         if ui.button(strings::COPY_OF_A).on_hover_text(strings::COPY_OF_A_HELP).clicked() {
-            asked = Some(SignalsCommand::CopyOfA);
+            asked = Some(FromA::Copy);
         }
         if ui.button(strings::CODEC).on_hover_text(strings::CODEC_HELP).clicked() {
-            asked = Some(SignalsCommand::ThroughCodec);
+            asked = Some(FromA::Codec);
         }
         let combo = ComboBox::from_id_salt("bitrate").width(84.0);
         let combo = combo.selected_text(strings::kbps(remaking.rate.kbps())).show_ui(ui, |ui| {
@@ -239,13 +238,13 @@ pub(super) fn remaking_ui(ui: &mut Ui, remaking: &mut Remaking, window_mm: f64) 
     ui.horizontal(|ui| {
         let remake = ui.button(strings::remake(window_mm));
         if remake.accessible_name(strings::REMAKE).on_hover_text(strings::REMAKE_HELP).clicked() {
-            asked = Some(SignalsCommand::Remake);
+            asked = Some(FromA::Spectrogram);
         }
         let steps = DragValue::new(&mut remaking.n_steps).range(0..=MAX_REFINEMENTS).speed(0.2);
         let steps = ui.add(steps.suffix(strings::STEPS)).accessible_name(strings::REFINEMENTS);
         steps.on_hover_text(strings::REFINEMENTS_HELP);
     });
-    asked.map(Command::Signals)
+    asked.map(|how| Command::Signals(SignalsCommand::MakeB(how)))
 }
 
 /// The color that a place has everywhere.

@@ -39,9 +39,7 @@ impl Window {
                     self.signals.note_playing(slot);
                 }
             }
-            SignalsCommand::CopyOfA | SignalsCommand::ThroughCodec | SignalsCommand::Remake => {
-                self.signals.remake(&command, ctx);
-            }
+            SignalsCommand::MakeB(how) => self.signals.make_b(how, ctx),
             SignalsCommand::Keep(slot) => self.keep_relief(slot, ctx),
         }
     }

@@ -130,7 +130,12 @@ impl QualityModel {
 
     /// d′ of a pair of signals, 0 where they are equal.
     pub fn d_prime(&self, distances: &Distances) -> f64 {
-        self.terms.iter().map(|term| term.weight * distances.by(term.feature) / term.length).sum()
+        self.parts(distances).map(|(_, part)| part).sum()
+    }
+
+    /// What each feature of the model adds to it.
+    pub fn parts(&self, distances: &Distances) -> impl Iterator<Item = (Feature, f64)> {
+        self.terms.iter().map(|term| (term.feature, term.weight * distances.by(term.feature) / term.length))
     }
 
     /// The sum of the squares of what the model is off by.

@@ -195,7 +195,7 @@ proptest! {
     ) {
         let transform = Transform::new(Framing::new(16).unwrap());
         let mut spectrogram = SpatialSpectrogram::of(&[-offset; 24], &transform).unwrap();
-        for (power, painted) in spectrogram.power_mut().frames_mut().flatten().zip(painted) {
+        for (power, painted) in spectrogram.power.frames_mut().flatten().zip(painted) {
             *power = painted;
         }
         prop_assert!(profile_of(&spectrogram, &transform).iter().all(|x| x.is_finite()));

@@ -1,0 +1,182 @@
+//! What is shown beside the places: maps over time, maps over places with the editor, and differences.
+
+use std::sync::Arc;
+
+use egui::{Label, RichText, ScrollArea, Ui};
+use shagreen_formats::figure::Tone;
+
+use super::{SignalsPage, View};
+use crate::command::Command;
+use crate::figure_ui::framed_figure_ui;
+use crate::signals::analysis::ByRate;
+use crate::signals::editor_ui::{Asked, tools_ui};
+use crate::signals::features_ui::features_ui;
+use crate::signals::figures::{features_figure, fidelity_figure, rates_figure};
+use crate::signals::maps::{Seen, map_ui};
+use crate::signals::slot::{Place, Slot};
+use crate::signals::spatial_ui::{places_map_ui, spatial_ui};
+use crate::strings::signals as strings;
+use crate::theme::{GAP, GROUP_GAP, tokens};
+
+/// Windows of the slider, in mm: those of the paper, and all between.
+const WINDOWS_MM: (f64, f64) = (0.2, 20.0);
+
+impl SignalsPage {
+    /// Draws the tabs and the view that is chosen.
+    pub(super) fn views_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        ui.horizontal(|ui| {
+            for view in View::ALL {
+                ui.selectable_value(&mut self.view, view, strings::view(view))
+                    .on_hover_text(strings::view_help(view));
+            }
+            if self.view == View::Places {
+                ui.add_space(GROUP_GAP);
+                self.window_ui(ui);
+                let is_zoomed = self.spatial.shown_mm.is_some();
+                let whole = ui.add_enabled(is_zoomed, egui::Button::new(strings::SHOW_ALL));
+                if whole
+                    .on_hover_text(strings::ZOOM_HELP)
+                    .on_disabled_hover_text(strings::ZOOM_HELP)
+                    .clicked()
+                {
+                    self.spatial.shown_mm = None;
+                }
+            }
+        });
+        ui.add_space(GAP);
+        if self.view != View::Differences {
+            let signals = Slot::ALL.map(|slot| self.signal(slot).map(Arc::clone));
+            self.maps.follow(
+                &signals,
+                Seen { view: self.view, window_mm: self.window_mm, shown_mm: self.spatial.shown_mm },
+            );
+        }
+        match self.view {
+            View::Times => self.times_ui(ui, commands),
+            View::Places => self.places_ui(ui, commands),
+            View::Differences => self.differences_ui(ui, commands),
+        }
+    }
+
+    fn window_ui(&mut self, ui: &mut Ui) {
+        let t = tokens(ui.ctx());
+        let text = RichText::new(strings::WINDOW).color(t.text_weak);
+        ui.add(Label::new(text).selectable(false)).on_hover_text(strings::WINDOW_HELP);
+        ui.spacing_mut().slider_width = 220.0;
+        let slider = egui::Slider::new(&mut self.window_mm, WINDOWS_MM.0..=WINDOWS_MM.1);
+        let slider = slider.logarithmic(true).suffix(" mm").max_decimals(2);
+        ui.add(slider).accessible_name(strings::WINDOW).on_hover_text(strings::WINDOW_HELP);
+    }
+
+    fn times_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        ui.columns_const(|columns: &mut [Ui; 2]| {
+            for (ui, slot) in columns.iter_mut().zip(Slot::ALL) {
+                commands.extend(map_ui(ui, slot, self.maps.map(slot), strings::stem(self.view, slot)));
+            }
+        });
+    }
+
+    fn places_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let signal = self.signal(Slot::B).map(Arc::clone);
+        let window_m = self.window_m();
+        let asked = ui.add_enabled_ui(signal.is_some(), |ui| tools_ui(ui, &mut self.editor)).inner;
+        match (asked, &signal) {
+            (Some(Asked::Stretch), Some(signal)) => {
+                let stretched = self.editor.stretch(signal, window_m);
+                self.take_painted(stretched.map(Some));
+            }
+            (Some(Asked::Undo), _) => self.undo(),
+            (Some(Asked::Redo), _) => self.redo(),
+            _ => {}
+        }
+        ui.add_space(GAP);
+        let known = self.of_each(Place::by_window);
+        let is_waiting = known.len() < self.n_signals();
+        let fidelity = Arc::new(fidelity_figure(&known, window_m));
+        // Those of this frame, whatever is painted in it.
+        let maps = Slot::ALL.map(|slot| self.maps.map(slot).cloned());
+        let mut painted = None;
+        ui.columns_const(|columns: &mut [Ui; 3]| {
+            let [first, second, third] = columns;
+            let stem = strings::stem(View::Places, Slot::A);
+            match (&maps[0], self.signal(Slot::A).map(|signal| 1e3 * signal.profile.length_m())) {
+                (Some(Ok(figure)), Some(length_mm)) => {
+                    let (save, _) = places_map_ui(first, Slot::A, figure, stem, &mut self.spatial, length_mm);
+                    commands.extend(save);
+                }
+                (map, _) => commands.extend(map_ui(first, Slot::A, map.as_ref(), stem)),
+            }
+            match (&maps[1], &signal) {
+                (Some(Ok(figure)), Some(signal)) => {
+                    let stem = strings::stem(View::Places, Slot::B);
+                    let editor = &mut self.editor;
+                    let shown = spatial_ui(second, figure, stem, &mut self.spatial, editor, signal, window_m);
+                    commands.extend(shown.save);
+                    painted = shown.painted;
+                }
+                (map, _) => commands.extend(map_ui(second, Slot::B, map.as_ref(), "")),
+            }
+            waiting_ui(third, is_waiting);
+            commands.extend(framed_figure_ui(third, "fidelity by window", &fidelity, "fidelity-by-window"));
+        });
+        if let Some(painted) = painted {
+            self.take_painted(painted);
+        }
+    }
+
+    fn n_signals(&self) -> usize {
+        self.places.iter().filter(|place| place.signal().is_some()).count()
+    }
+
+    /// What is known of the signals as they are, in their colors.
+    fn of_each<'a, T: ?Sized>(
+        &'a self,
+        known: impl Fn(&'a Place) -> Option<&'a T>,
+    ) -> Vec<(Tone, &'static str, &'a T)> {
+        let of = Slot::ALL.into_iter().zip([Tone::Main, Tone::Second]);
+        of.filter_map(|(slot, tone)| Some((tone, slot.name(), known(&self.places[slot.index()])?))).collect()
+    }
+
+    fn differences_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let known: Vec<(Tone, &str, &ByRate)> = self.of_each(Place::by_rate);
+        let rates = Arc::new(rates_figure(&known));
+        let names = Slot::ALL.map(|slot| self.signal(slot).map_or("", |signal| &signal.name));
+        let compared = self.compared();
+        ui.columns_const(|columns: &mut [Ui; 2]| {
+            let [left, right] = columns;
+            match compared {
+                Some(Ok(compared)) => {
+                    let figure = Arc::new(features_figure(compared, names));
+                    let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
+                    commands.extend(scroll.show(left, |ui| features_ui(ui, compared, &figure)).inner);
+                }
+                Some(Err(reason)) => {
+                    let text = RichText::new(reason).color(tokens(left.ctx()).warning);
+                    left.add(Label::new(text).wrap());
+                }
+                None => {
+                    let is_pair = self.pair().is_some();
+                    let said = if is_pair { strings::MAKING } else { strings::NEEDS_PAIR };
+                    let text = RichText::new(said).color(tokens(left.ctx()).text_weak);
+                    left.add(Label::new(text).wrap());
+                }
+            }
+            waiting_ui(right, known.len() < self.n_signals());
+            for (_, name, of) in &known {
+                if let Err(reason) = of {
+                    let text = RichText::new(format!("{name}: {reason}")).small();
+                    right.add(Label::new(text).wrap());
+                }
+            }
+            commands.extend(framed_figure_ui(right, "d' by rate", &rates, "d-prime-by-rate"));
+        });
+    }
+}
+
+/// Says that something is still being worked out.
+fn waiting_ui(ui: &mut Ui, is_waiting: bool) {
+    if is_waiting {
+        let text = RichText::new(strings::MAKING).small().color(tokens(ui.ctx()).text_weak);
+        ui.add(Label::new(text).selectable(false));
+    }
+}
