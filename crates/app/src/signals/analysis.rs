@@ -132,9 +132,9 @@ pub(super) fn through_codec(signal: &BenchSignal, rate: Bitrate) -> Result<Bench
     let books = Arc::new(built_in_codebooks().map_err(|error| error.to_string())?);
     let decoded = Coded::encode(&samples, rate, &books).map_err(|error| error.to_string())?.decode(&books);
     let name = strings::through_codec(&signal.name, rate.kbps());
-    let mut made = BenchSignal::of_samples(&name, &decoded, CODEC_RATE, signal.speed, signal.force)?.value;
-    made.restricted.clone_from(&signal.restricted);
-    Ok(made)
+    let made = BenchSignal::of_samples(&name, &decoded, CODEC_RATE, signal.speed, signal.force)?.value;
+    // The terms that it came under hold for what is made of it.
+    Ok(BenchSignal { name, profile: made.profile, ..signal.clone() })
 }
 
 /// What a spatial spectrogram leaves of a signal, made to fit it better by so many steps.
@@ -154,6 +154,7 @@ pub(super) fn remade(signal: &BenchSignal, window_m: f64, n_steps: usize) -> Res
 #[cfg(test)]
 mod tests {
     use super::{by_rate, by_window, compare, remade, through_codec};
+    use crate::signals::bench_signal::BenchSignal;
     use crate::signals::bench_signal::tests::tone;
     use shagreen_core::codec::bitrate::Bitrate;
     use shagreen_core::units::Hertz;
@@ -164,7 +165,10 @@ mod tests {
         let same = compare(&signal, &signal).unwrap();
         assert_eq!((same.d_prime, same.seconds), (0.0, 1.6));
         assert!(same.snr_db.is_infinite());
-        let coded = through_codec(&signal, Bitrate::ALL[0]).unwrap();
+        let restricted = vec!["not to be given away".to_owned()];
+        let licensed = BenchSignal { terms: vec!["CC-BY-4.0".to_owned()], restricted, ..signal.clone() };
+        let coded = through_codec(&licensed, Bitrate::ALL[0]).unwrap();
+        assert_eq!((&coded.terms, &coded.restricted), (&licensed.terms, &licensed.restricted));
         assert!(coded.seconds() > 1.69 && coded.name.contains("kbit/s"));
         let other = compare(&signal, &coded).unwrap();
         let sum: f64 = other.parts.iter().map(|(_, part)| part).sum();
