@@ -11,6 +11,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("shagreen-core", &["shagreen-synth"]),
     ("shagreen-formats", &["shagreen-core"]),
     ("shagreen-device", &["shagreen-synth"]),
+    ("shagreen-learn", &["shagreen-core"]),
     ("shagreen-app", &["shagreen-core", "shagreen-formats", "shagreen-device"]),
     ("shagreen", &["shagreen-app", "shagreen-core", "shagreen-formats", "shagreen-device"]),
 ];

@@ -43,10 +43,30 @@ pub struct Picture {
 ///
 /// x of the tile runs to the right and y down; `field` is the tile of the same material.
 pub fn shade(field: &HeightField, material: &Material, framing: &Framing) -> Picture {
+    picture(field, material, framing, Edges::Open)
+}
+
+/// The picture of a whole tile, which has no seam either where it is laid beside itself: all of it is seen from straight
+/// above, and what lies around a place goes on beyond the edges.
+pub fn shade_tile(field: &HeightField, material: &Material, n_pixels: usize) -> Picture {
+    let framing = Framing { n_pixels, millimeters: field.tile().side_m() * 1e3 };
+    picture(field, material, &framing, Edges::Seamless)
+}
+
+/// What lies beyond the edges of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Edges {
+    /// Something that is not seen.
+    Open,
+    /// The same picture again.
+    Seamless,
+}
+
+fn picture(field: &HeightField, material: &Material, framing: &Framing, edges: Edges) -> Picture {
     assert!(framing.n_pixels >= 8, "a picture needs 8 pixels a side, got {}", framing.n_pixels);
     let n_points = framing.n_pixels * SUPERSAMPLING;
     let relief = Relief::new(field, framing.millimeters * 1e-3, n_points);
-    let points = shade_points(&relief, material);
+    let points = shade_points(&relief, material, edges);
     let mut rgb = Vec::with_capacity(3 * framing.n_pixels * framing.n_pixels);
     for row in 0..framing.n_pixels {
         for column in 0..framing.n_pixels {
@@ -115,23 +135,26 @@ impl Relief {
     }
 
     /// How far each point lies below its neighborhood, in units of the relief's root mean square height.
-    fn depth_below_neighbors(&self, radius_m: f64) -> Vec<f64> {
+    fn depth_below_neighbors(&self, radius_m: f64, edges: Edges) -> Vec<f64> {
         let radius = (radius_m / self.spacing_m).round().max(1.0) as usize;
-        let mean = box_mean(&self.heights_m, self.n_points, radius);
+        let mean = match edges {
+            Edges::Open => box_mean(&self.heights_m, self.n_points, radius),
+            Edges::Seamless => box_mean_around(&self.heights_m, self.n_points, radius),
+        };
         let unit = self.height_rms_m.max(f64::MIN_POSITIVE);
         mean.iter().zip(&self.heights_m).map(|(mean, height)| (mean - height) / unit).collect()
     }
 }
 
 /// Linear color of every point.
-fn shade_points(relief: &Relief, material: &Material) -> Vec<Rgb> {
+fn shade_points(relief: &Relief, material: &Material, edges: Edges) -> Vec<Rgb> {
     let n = relief.n_points;
     let depth = display_slope(relief.slope_rms, material.gloss);
     let exaggeration = depth / relief.slope_rms.max(f64::MIN_POSITIVE);
     let valley = light::linear(material.valley_srgb);
     let peak = light::linear(material.peak_srgb);
-    let flecks = Flecks::new(material, relief);
-    let hollows = CAVITY_RADII_M.map(|radius_m| relief.depth_below_neighbors(radius_m));
+    let flecks = Flecks::new(material, relief, edges);
+    let hollows = CAVITY_RADII_M.map(|radius_m| relief.depth_below_neighbors(radius_m, edges));
 
     (0..n * n)
         .map(|i| {
@@ -144,7 +167,10 @@ fn shade_points(relief: &Relief, material: &Material) -> Vec<Rgb> {
             let open = 1.0 / (1.0 + 0.9 * depth * hollow);
             let normal =
                 light::unit([-exaggeration * relief.slopes[i][0], -exaggeration * relief.slopes[i][1], 1.0]);
-            let place = [x, y].map(|k| (k as f64 + 0.5) / n as f64);
+            let place = match edges {
+                Edges::Open => [x, y].map(|k| (k as f64 + 0.5) / n as f64),
+                Edges::Seamless => [0.5; 2],
+            };
             light::reflect(material, albedo, normal, place, open)
         })
         .collect()
@@ -153,33 +179,76 @@ fn shade_points(relief: &Relief, material: &Material) -> Vec<Rgb> {
 /// Color variation that is not relief: two octaves of smooth lattice noise.
 struct Flecks {
     strength: f64,
-    points_per_fleck: f64,
+    octaves: [Octave; 2],
     seed: u64,
 }
 
+/// A lattice of random numbers.
+#[derive(Clone, Copy)]
+struct Octave {
+    /// Cells for each point of a picture.
+    cells_per_point: f64,
+    /// Where it begins, in cells.
+    shift: [f64; 2],
+    /// Cells after which it repeats.
+    period: Option<i64>,
+    /// How much it counts.
+    weight: f64,
+}
+
 impl Flecks {
-    fn new(material: &Material, relief: &Relief) -> Self {
+    fn new(material: &Material, relief: &Relief, edges: Edges) -> Self {
+        let points_per_fleck = (material.mottle_scale_m / relief.spacing_m).max(1.0);
+        let octave = |finer: f64, shift: [f64; 2], weight: f64| {
+            let cells = finer * relief.n_points as f64 / points_per_fleck;
+            let (cells_per_point, period) = match edges {
+                Edges::Open => (finer / points_per_fleck, None),
+                Edges::Seamless => {
+                    let cells = cells.round().max(1.0);
+                    (cells / relief.n_points as f64, Some(cells as i64))
+                }
+            };
+            Octave { cells_per_point, shift, period, weight }
+        };
         Self {
             strength: material.mottle,
-            points_per_fleck: (material.mottle_scale_m / relief.spacing_m).max(1.0),
+            octaves: [octave(1.0, [0.0; 2], 0.65), octave(2.3, [0.37, 0.71], 0.35)],
             seed: derive_seed(0, &material.id),
         }
     }
 
     /// 0, none, to `strength`.
     fn at(&self, x: usize, y: usize) -> f64 {
-        let [u, v] = [x, y].map(|k| k as f64 / self.points_per_fleck);
-        let noise = 0.65 * self.smooth(u, v) + 0.35 * self.smooth(2.3 * u + 0.37, 2.3 * v + 0.71);
+        let noise: f64 = self.octaves.iter().map(|octave| octave.weight * octave.at(self.seed, x, y)).sum();
         self.strength * light::smoothstep(0.42, 0.72, noise)
     }
+}
 
-    fn smooth(&self, u: f64, v: f64) -> f64 {
+impl Octave {
+    fn at(&self, seed: u64, x: usize, y: usize) -> f64 {
+        let u = x as f64 * self.cells_per_point + self.shift[0];
+        let v = y as f64 * self.cells_per_point + self.shift[1];
         let (i, j) = (u.floor(), v.floor());
         let [s, t] = [u - i, v - j].map(|t| light::smoothstep(0.0, 1.0, t));
-        let at = |di: i64, dj: i64| lattice_uniform(self.seed, i as i64 + di, j as i64 + dj);
+        let cell = |k: f64, step: i64| {
+            let cell = k as i64 + step;
+            self.period.map_or(cell, |period| cell.rem_euclid(period))
+        };
+        let at = |di: i64, dj: i64| lattice_uniform(seed, cell(i, di), cell(j, dj));
         let row = |dj: i64| at(0, dj) + s * (at(1, dj) - at(0, dj));
         row(0) + t * (row(1) - row(0))
     }
+}
+
+/// Mean over the square of side `2 radius + 1` around each cell, where beyond each edge the other one follows.
+fn box_mean_around(values: &[f64], n: usize, radius: usize) -> Vec<f64> {
+    // More than once around would count some cells twice.
+    let radius = radius.min((n - 1) / 2);
+    let wide = n + 2 * radius;
+    let at = |i: usize| ((i / wide + n - radius) % n) * n + (i % wide + n - radius) % n;
+    let around: Vec<f64> = (0..wide * wide).map(|i| values[at(i)]).collect();
+    let means = box_mean(&around, wide, radius);
+    (0..n * n).map(|i| means[(i / n + radius) * wide + i % n + radius]).collect()
 }
 
 /// Mean over the square of side `2 radius + 1` around each cell, cut off at the edges.
@@ -208,7 +277,9 @@ fn box_mean(values: &[f64], n: usize, radius: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Framing, Material, Picture, box_mean, display_slope, light, shade};
+    use super::{
+        Framing, Material, Picture, box_mean, box_mean_around, display_slope, light, shade, shade_tile,
+    };
     use crate::height_field::{Tile, synthesize};
     use crate::material::tests::plain;
     use crate::rng::lcg_noise;
@@ -235,6 +306,52 @@ mod tests {
                 assert!((got - expected).abs() < 1e-12);
             }
         }
+    }
+
+    #[test]
+    fn around_the_edges_the_mean_is_that_of_the_torus() {
+        let n = 9;
+        let values = lcg_noise(n * n, 4);
+        for radius in [1, 3, 50] {
+            let near = |a: usize, b: usize| a.abs_diff(b).min(n - a.abs_diff(b)) <= radius;
+            for (i, got) in box_mean_around(&values, n, radius).iter().enumerate() {
+                let around = (0..n * n).filter(|j| near(i % n, j % n) && near(i / n, j / n));
+                let around: Vec<f64> = around.map(|j| values[j]).collect();
+                assert!((got - around.iter().sum::<f64>() / around.len() as f64).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_tile_beside_itself_has_no_seam_and_a_photo_has() {
+        let material = Material {
+            gloss: 0.8,
+            mottle: 1.0,
+            mottle_scale_m: 0.7e-3,
+            height_rms_m: 5e-6,
+            valley_srgb: [90, 20, 20],
+            ..plain()
+        };
+        let field = synthesize(&material, TILE, 3);
+        // How much more neighbors differ across the seam than within, over rows and columns.
+        let seam = |picture: &Picture| {
+            let n = picture.width;
+            let at = |x: usize, y: usize, c: usize| f64::from(picture.rgb[3 * ((y % n) * n + x % n) + c]);
+            let step = |x: usize| {
+                let differences = (0..n * 3).map(|i| {
+                    let (k, c) = (i / 3, i % 3);
+                    (at(x, k, c) - at(x + 1, k, c)).abs() + (at(k, x, c) - at(k, x + 1, c)).abs()
+                });
+                differences.sum::<f64>()
+            };
+            let within: f64 = (0..n - 1).map(step).sum::<f64>() / (n - 1) as f64;
+            step(n - 1) / within
+        };
+        let tile = shade_tile(&field, &material, 64);
+        assert!((tile.millimeters - 1e3 * TILE.side_m()).abs() < 1e-9);
+        let photo = shade(&field, &material, &Framing { n_pixels: 64, millimeters: tile.millimeters });
+        assert!(seam(&tile) < 1.4, "{}", seam(&tile));
+        assert!(seam(&photo) > 1.5 * seam(&tile), "{}", seam(&photo));
     }
 
     #[test]

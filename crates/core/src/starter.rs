@@ -6,7 +6,7 @@
 
 use crate::ar::{ArError, order_by_bic, yule_walker};
 use crate::contact_model::{
-    PEN, STARTER_PATH_M, STROKE_RATE, StrokeError, drag, hardness, prepare, press, roughness,
+    PEN, STARTER_PATH_M, STROKE_RATE, StrokeError, Surface, drag, hardness, prepare, press, roughness,
 };
 use crate::height_field::{STARTER_TILE, synthesize};
 use crate::lsf::lsf_from_ar;
@@ -91,6 +91,26 @@ struct Stroked {
     accel_mps2: Vec<f64>,
 }
 
+/// The labels and the picture of a material as [`make`] would give them, without all of its strokes: a small part of the
+/// work.
+///
+/// # Errors
+/// See [`StarterError`].
+pub fn pictured(material: &Material, seed: u64) -> Result<(Labels, Picture), StarterError> {
+    validate(material)?;
+    let field = synthesize(material, STARTER_TILE, seed);
+    let surface = prepare(material, &field, &PEN, STARTER_PATH_M, seed);
+    Ok((labels(material, &surface, seed)?, shade(&field, material, &FRAMING)))
+}
+
+fn labels(material: &Material, surface: &Surface, seed: u64) -> Result<Labels, StarterError> {
+    let seed = derive_seed(derive_seed(seed, &material.id), "roughness");
+    Ok(Labels {
+        roughness_log10_mps2: roughness(surface, seed)?,
+        hardness_log10_n_per_m: hardness(material, &PEN),
+    })
+}
+
 /// The texture of a material, the same for the same seed; takes some seconds.
 ///
 /// # Errors
@@ -110,10 +130,7 @@ pub fn make(material: &Material, seed: u64) -> Result<StarterTexture, StarterErr
             strokes.push(Stroked { speed_mm_per_s, force_n, accel_mps2 });
         }
     }
-    let labels = Labels {
-        roughness_log10_mps2: roughness(&surface, stroke_seed("roughness"))?,
-        hardness_log10_n_per_m: hardness(material, &PEN),
-    };
+    let labels = labels(material, &surface, seed)?;
     let model = fit(&strokes, material.friction_coefficient)?;
     Ok(StarterTexture { model, labels, picture: shade(&field, material, &FRAMING) })
 }
@@ -174,7 +191,8 @@ pub fn places(labels: &[Labels]) -> Vec<SpacePoint> {
 #[cfg(test)]
 mod tests {
     use super::{
-        FORCES_N, Labels, MAX_ORDER, MIN_ORDER, SPEEDS_MM_PER_S, StarterError, Stroked, fit, make, places,
+        FORCES_N, Labels, MAX_ORDER, MIN_ORDER, SPEEDS_MM_PER_S, StarterError, Stroked, fit, make, pictured,
+        places,
     };
     use crate::ar::test_signals::from_resonances;
     use crate::material::tests::plain;
@@ -240,6 +258,7 @@ mod tests {
         // One second of a random surface: levels agree within some decibels, and speed and force differ a little.
         assert!((near.level_mps2.log10() - at_reference).abs() < 0.3);
         assert_eq!(make(&plain(), 4).unwrap().model, texture.model);
+        assert_eq!(pictured(&plain(), 4).unwrap(), (texture.labels, texture.picture.clone()));
         assert_ne!(make(&plain(), 5).unwrap().model, texture.model);
     }
 

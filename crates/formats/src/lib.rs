@@ -36,6 +36,7 @@ pub mod hatt;
 pub mod hid_text;
 pub mod imported;
 mod layout;
+pub mod lexicon_toml;
 pub mod library;
 pub mod look_alikes;
 pub mod map_toml;

@@ -92,9 +92,10 @@ struct PatternV1 {
     jitter: f64,
 }
 
+/// The shape of a pattern, by its name.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum PatternKindV1 {
+pub(crate) enum PatternKindV1 {
     Ridges,
     PlainWeave,
     Twill,
@@ -174,16 +175,22 @@ fn material(wire: MaterialV1) -> Material {
 }
 
 fn pattern(wire: &PatternV1) -> Pattern {
-    let kind = match wire.kind {
-        PatternKindV1::Ridges => PatternKind::Ridges,
-        PatternKindV1::PlainWeave => PatternKind::PlainWeave,
-        PatternKindV1::Twill => PatternKind::Twill,
-        PatternKindV1::Domes => PatternKind::Domes,
-        PatternKindV1::Loops => PatternKind::Loops,
-        PatternKindV1::Pebbles => PatternKind::Pebbles,
-        PatternKindV1::Cells => PatternKind::Cells,
-    };
-    Pattern { kind, period_m: wire.period_m, amplitude_m: wire.amplitude_m, jitter: wire.jitter }
+    let PatternV1 { kind, period_m, amplitude_m, jitter } = *wire;
+    Pattern { kind: kind.into(), period_m, amplitude_m, jitter }
+}
+
+impl From<PatternKindV1> for PatternKind {
+    fn from(kind: PatternKindV1) -> Self {
+        match kind {
+            PatternKindV1::Ridges => Self::Ridges,
+            PatternKindV1::PlainWeave => Self::PlainWeave,
+            PatternKindV1::Twill => Self::Twill,
+            PatternKindV1::Domes => Self::Domes,
+            PatternKindV1::Loops => Self::Loops,
+            PatternKindV1::Pebbles => Self::Pebbles,
+            PatternKindV1::Cells => Self::Cells,
+        }
+    }
 }
 
 fn bumps(wire: &BumpsV1) -> Bumps {

@@ -1,0 +1,257 @@
+//! A material as a prompt describes it, to be pictured and felt: one of known materials, changed until its looks and labels
+//! are those that were asked for.
+
+use crate::material::{Bumps, Material, Pattern};
+use crate::prompt::Understood;
+use crate::space::SpacePoint;
+use crate::touch_words::Shade;
+
+/// A material whose place in the space is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anchor {
+    /// The material.
+    pub material: Material,
+    /// Where it lies by its physical labels.
+    pub place: SpacePoint,
+}
+
+/// What the axes of the anchors' space span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spans {
+    /// From the smoothest to the roughest: decades of acceleration at 100 mm/s and 1 N.
+    pub roughness_decades: f64,
+    /// From the softest to the hardest: decades of stiffness at 1 N.
+    pub hardness_decades: f64,
+}
+
+/// Factors of heights and periods that a surface may be changed by: beyond them it would be another.
+const HEIGHTS: (f64, f64) = (0.05, 20.0);
+/// Stiffness of a Hertz contact goes with the modulus to the power of two thirds.
+const MODULUS_OF_STIFFNESS: f64 = 1.5;
+/// Range of moduli, in Pa.
+const MODULI_PA: (f64, f64) = (1e5, 2e11);
+/// Highest relief of any part, in m.
+const HIGHEST_M: f64 = 2e-3;
+/// Periods that a pattern may have, in m: those that a stylus can tell.
+const PERIODS_M: (f64, f64) = (2e-4, 2e-2);
+/// Half the height of a pattern on a surface that had none, in m: flat, and how many decades more at the bumpiest.
+const FLAT_M: f64 = 2e-6;
+const BUMPY_DECADES: f64 = 1.4;
+/// Color of a surface of which no color is known.
+const GRAY: [u8; 3] = [150, 148, 144];
+
+/// The material that a prompt describes; its name is the prompt's.
+///
+/// It is made of the anchor that the prompt names, or else of the nearest one; `None` without anchors. Heights are scaled so
+/// that its roughness moves by as much as the prompt asks, the modulus likewise for its hardness.
+pub fn imagine(name: &str, understood: &Understood, anchors: &[Anchor], spans: Spans) -> Option<Material> {
+    let [rough, hard, bumpy, ..] = understood.attributes;
+    let looks = &understood.looks;
+    let named =
+        looks.like.as_ref().and_then(|like| anchors.iter().find(|anchor| anchor.material.id == *like));
+    let off = |anchor: &Anchor| {
+        let [rs, hs] = [anchor.place.rough_smooth, anchor.place.hard_soft];
+        ((rs - rough.mean) / rough.deviation).powi(2) + ((hs - hard.mean) / hard.deviation).powi(2)
+    };
+    let anchor = named.or_else(|| anchors.iter().min_by(|a, b| off(a).total_cmp(&off(b))))?;
+    let mut material = anchor.material.clone();
+    "imagined".clone_into(&mut material.id);
+    name.clone_into(&mut material.name);
+    material.tags.clear();
+
+    let decades = (anchor.place.rough_smooth - rough.mean) / 100.0 * spans.roughness_decades;
+    let higher = 10.0_f64.powf(decades).clamp(HEIGHTS.0, HEIGHTS.1);
+    let decades = (anchor.place.hard_soft - hard.mean) / 100.0 * spans.hardness_decades;
+    let stiffer = 10.0_f64.powf(decades * MODULUS_OF_STIFFNESS);
+    material.youngs_modulus_pa = (material.youngs_modulus_pa * stiffer).clamp(MODULI_PA.0, MODULI_PA.1);
+    material.height_rms_m = (material.height_rms_m * higher).min(HIGHEST_M);
+    // Uneven friction goes with the relief, but less.
+    material.friction_heterogeneity = (material.friction_heterogeneity * higher.sqrt()).clamp(0.01, 1.0);
+    material.roll_off_m = (material.roll_off_m * looks.scale).clamp(1e-4, 2e-2);
+    for bumps in &mut material.bumps {
+        *bumps = scaled(*bumps, higher, looks.scale);
+    }
+    let before = material.pattern;
+    material.pattern = match (looks.pattern, before) {
+        (Some((kind, period_m)), _) => {
+            let flat = FLAT_M * 10.0_f64.powf(BUMPY_DECADES * bumpy.mean / 100.0);
+            let amplitude_m = before.map_or(flat, |before| (before.amplitude_m * higher).max(flat));
+            let jitter = before.map_or(0.08, |before| before.jitter);
+            Some(pattern(Pattern { kind, period_m, amplitude_m, jitter }, looks.scale))
+        }
+        (None, Some(before)) => {
+            Some(pattern(Pattern { amplitude_m: before.amplitude_m * higher, ..before }, looks.scale))
+        }
+        (None, None) => None,
+    };
+    color(&mut material, understood, named.is_some());
+    if let Some(gloss) = looks.gloss {
+        material.gloss = gloss;
+    }
+    if let Some(mottle) = looks.mottle {
+        material.mottle = mottle;
+    }
+    Some(material)
+}
+
+fn scaled(bumps: Bumps, higher: f64, wider: f64) -> Bumps {
+    let radius_m = (bumps.radius_m * wider).clamp(1e-5, 2e-3);
+    let widened = radius_m / bumps.radius_m;
+    let height_m = (bumps.height_m * higher).clamp(-HIGHEST_M, HIGHEST_M);
+    // As much of the surface is covered as was.
+    Bumps { height_m, radius_m, density_per_m2: bumps.density_per_m2 / (widened * widened).max(1.0), ..bumps }
+}
+
+fn pattern(pattern: Pattern, wider: f64) -> Pattern {
+    let period_m = (pattern.period_m * wider).clamp(PERIODS_M.0, PERIODS_M.1);
+    // No steeper than a stud that is half as high as wide.
+    let amplitude_m = pattern.amplitude_m.min(0.25 * period_m).min(HIGHEST_M);
+    Pattern { period_m, amplitude_m, ..pattern }
+}
+
+/// The colors that were asked for: valleys are as much darker as they were.
+fn color(material: &mut Material, understood: &Understood, is_named: bool) {
+    let looks = &understood.looks;
+    let wanted = match looks.color_srgb {
+        Some(color) => Some(color),
+        // The color of a material that is only near means nothing.
+        None if is_named => None,
+        None => Some(GRAY),
+    };
+    if let Some(wanted) = wanted {
+        let darker = (luma(material.valley_srgb) / luma(material.peak_srgb).max(1.0)).clamp(0.2, 1.0);
+        material.peak_srgb = wanted;
+        material.valley_srgb = wanted.map(|channel| (f64::from(channel) * darker).round() as u8);
+        if material.metallic < 0.5 {
+            material.metallic = material.metallic.min(0.2);
+        }
+    }
+    if let Some(second) = looks.second_srgb {
+        material.valley_srgb = second;
+    }
+    material.peak_srgb = shaded(material.peak_srgb, looks.shade);
+    material.valley_srgb = shaded(material.valley_srgb, looks.shade);
+}
+
+/// Rec. 601 luma, 0..255.
+fn luma(srgb: [u8; 3]) -> f64 {
+    let [r, g, b] = srgb.map(f64::from);
+    0.299 * r + 0.587 * g + 0.114 * b
+}
+
+fn shaded(srgb: [u8; 3], shade: Shade) -> [u8; 3] {
+    let middle = luma(srgb);
+    srgb.map(|channel| {
+        let vivid = middle + (1.0 + shade.saturation) * (f64::from(channel) - middle);
+        let end = if shade.lightness < 0.0 { 0.0 } else { 255.0 };
+        (vivid + shade.lightness.abs() * (end - vivid)).round().clamp(0.0, 255.0) as u8
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Anchor, Spans, imagine};
+    use crate::gaussian_process::Estimate;
+    use crate::material::tests::plain;
+    use crate::material::{Bumps, Material, Pattern, PatternKind, validate};
+    use crate::prompt::{Looks, Understood};
+    use crate::space::SpacePoint;
+    use crate::touch_words::Shade;
+    use proptest::prelude::{prop_assert, proptest};
+
+    const SPANS: Spans = Spans { roughness_decades: 1.5, hardness_decades: 2.6 };
+
+    fn anchors() -> Vec<Anchor> {
+        let bumps =
+            Bumps { height_m: 5e-6, radius_m: 1e-4, elongation: 2.0, spread_rad: 1.0, density_per_m2: 9e6 };
+        let pattern = Pattern { kind: PatternKind::Loops, period_m: 2e-3, amplitude_m: 6e-5, jitter: 0.1 };
+        let carpet = Material {
+            id: "carpet".to_owned(),
+            youngs_modulus_pa: 1e6,
+            bumps: vec![bumps],
+            pattern: Some(pattern),
+            ..plain()
+        };
+        let at = |rs, hs| SpacePoint::new(rs, hs).unwrap();
+        vec![
+            Anchor { material: plain(), place: at(80.0, 5.0) },
+            Anchor { material: carpet, place: at(30.0, 90.0) },
+        ]
+    }
+
+    fn understood(rs: f64, hs: f64, looks: Looks) -> Understood {
+        let estimate = |mean| Estimate { mean, deviation: 10.0 };
+        Understood {
+            attributes: [rs, hs, 50.0, 50.0, 50.0].map(estimate),
+            looks,
+            words: Vec::new(),
+            unknown: Vec::new(),
+            disputed: Vec::new(),
+            n_left_out: 0,
+        }
+    }
+
+    fn looks() -> Looks {
+        Looks { scale: 1.0, ..Looks::default() }
+    }
+
+    #[test]
+    fn a_material_that_is_asked_for_as_it_is_stays_as_it_is() {
+        let like = Looks { like: Some("carpet".to_owned()), ..looks() };
+        let made = imagine("Carpet", &understood(30.0, 90.0, like), &anchors(), SPANS).unwrap();
+        let mut expected = anchors()[1].material.clone();
+        (expected.id, expected.name) = ("imagined".to_owned(), "Carpet".to_owned());
+        assert_eq!(made, expected);
+    }
+
+    #[test]
+    fn what_is_rougher_is_higher_and_what_is_harder_stiffer() {
+        let made = |rs, hs| imagine("x", &understood(rs, hs, looks()), &anchors(), SPANS).unwrap();
+        let (known, rough) = (made(80.0, 5.0), made(60.0, 5.0));
+        // A fifth of the axis: 0.3 decades.
+        assert!((rough.height_rms_m / known.height_rms_m - 10.0_f64.powf(0.3)).abs() < 1e-9);
+        let soft = made(80.0, 25.0);
+        assert!((known.youngs_modulus_pa / soft.youngs_modulus_pa).log10() - 0.2 * 2.6 * 1.5 < 1e-9);
+        assert_eq!(made(31.0, 88.0).pattern.unwrap().kind, PatternKind::Loops, "the nearest");
+        assert_eq!(made(31.0, 88.0).peak_srgb, super::GRAY);
+        assert_eq!(imagine("x", &understood(1.0, 1.0, looks()), &[], SPANS), None);
+    }
+
+    #[test]
+    fn looks_are_those_that_were_asked_for() {
+        let wanted = Looks {
+            like: Some("plain".to_owned()),
+            color_srgb: Some([200, 20, 20]),
+            shade: Shade { lightness: -0.5, saturation: 0.0 },
+            gloss: Some(0.9),
+            mottle: Some(0.4),
+            pattern: Some((PatternKind::Ridges, 3e-3)),
+            scale: 0.5,
+            ..Looks::default()
+        };
+        let made = imagine("x", &understood(80.0, 5.0, wanted), &anchors(), SPANS).unwrap();
+        assert_eq!((made.peak_srgb, made.gloss, made.mottle), ([100, 10, 10], 0.9, 0.4));
+        assert!(made.valley_srgb[0] < 60);
+        let pattern = made.pattern.unwrap();
+        assert_eq!((pattern.kind, pattern.period_m), (PatternKind::Ridges, 1.5e-3));
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_is_asked_for_is_a_material(
+            (rs, hs, bumpy) in (0.0..=100.0_f64, 0.0..=100.0_f64, 0.0..=100.0_f64),
+            (scale, period_m, kind) in (0.1..10.0_f64, 1e-4..2e-2_f64, 0..3_usize),
+            (lightness, saturation) in (-1.0..=1.0_f64, -1.0..=1.0_f64),
+        ) {
+            let kinds = [None, Some((PatternKind::Cells, period_m)), Some((PatternKind::PlainWeave, period_m))];
+            for like in [None, Some("plain".to_owned()), Some("carpet".to_owned())] {
+                let shade = Shade { lightness, saturation };
+                let wanted = Looks { like, scale, pattern: kinds[kind], shade, ..Looks::default() };
+                let mut understood = understood(rs, hs, wanted);
+                understood.attributes[2].mean = bumpy;
+                let made = imagine("x", &understood, &anchors(), SPANS).unwrap();
+                prop_assert!(validate(&made).is_ok(), "{:?}", validate(&made));
+            }
+        }
+    }
+}

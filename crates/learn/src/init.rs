@@ -1,0 +1,25 @@
+//! Numbers that networks begin with, by seed.
+
+use shagreen_core::rng::Random;
+
+/// Draws evenly from ranges around zero.
+#[derive(Clone, Debug)]
+pub(crate) struct Uniform {
+    random: Random,
+}
+
+impl Uniform {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self { random: Random::new(seed) }
+    }
+
+    /// So many numbers from `-limit` to `limit`.
+    pub(crate) fn within(&mut self, limit: f32, n: usize) -> Vec<f32> {
+        (0..n).map(|_| limit * (2.0 * self.random.uniform() - 1.0) as f32).collect()
+    }
+
+    /// Weights from so many inputs to so many outputs, `n` numbers: X. Glorot and Y. Bengio 2010, equation 16.
+    pub(crate) fn glorot(&mut self, n_inputs: usize, n_outputs: usize, n: usize) -> Vec<f32> {
+        self.within((6.0 / (n_inputs + n_outputs) as f32).sqrt(), n)
+    }
+}

@@ -1,0 +1,187 @@
+//! One step of a layer: gates from their sums, and the way back. Vectors are as wide as the machine's, found out while
+//! running by `pulp`.
+
+use pulp::{Arch, Simd, WithSimd};
+
+/// Rows of a matrix that are added at once: each saves a pass over the sums.
+const N_ROWS: usize = 8;
+
+/// Turns the sums of the gates into gates, cells and states.
+pub(super) struct Step<'a> {
+    pub(super) n_units: usize,
+    /// Sums on the way in, gates on the way out (sequences × 4 units).
+    pub(super) gates: &'a mut [f32],
+    /// Cells of the step before; zero where there is none.
+    pub(super) previous: Option<&'a [f32]>,
+    pub(super) cells: &'a mut [f32],
+    pub(super) states: &'a mut [f32],
+}
+
+/// Turns gates into gradients of their sums.
+pub(super) struct StepBack<'a> {
+    pub(super) n_units: usize,
+    /// Gates on the way in, gradients of their sums on the way out.
+    pub(super) gates: &'a mut [f32],
+    pub(super) previous: Option<&'a [f32]>,
+    pub(super) cells: &'a [f32],
+    /// Gradient of the states.
+    pub(super) states: &'a [f32],
+    /// Gradient of the cells from later steps; that for the step before on the way out.
+    pub(super) cell_gradient: &'a mut [f32],
+}
+
+struct AddProduct<'a> {
+    row: &'a [f32],
+    matrix: &'a [f32],
+    sums: &'a mut [f32],
+}
+
+impl Step<'_> {
+    pub(super) fn run(self) {
+        Arch::new().dispatch(self);
+    }
+}
+
+impl StepBack<'_> {
+    pub(super) fn run(self) {
+        Arch::new().dispatch(self);
+    }
+}
+
+/// Adds `row × matrix` to the sums; the matrix has a row for each value of `row`.
+pub(super) fn add_product(row: &[f32], matrix: &[f32], sums: &mut [f32]) {
+    Arch::new().dispatch(AddProduct { row, matrix, sums });
+}
+
+impl WithSimd for Step<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { n_units: n, gates, previous, cells, states } = self;
+        let sequences =
+            gates.chunks_exact_mut(4 * n).zip(cells.chunks_exact_mut(n)).zip(states.chunks_exact_mut(n));
+        for (index, ((gates, cells), states)) in sequences.enumerate() {
+            let (i, rest) = gates.split_at_mut(n);
+            let (f, rest) = rest.split_at_mut(n);
+            let (g, o) = rest.split_at_mut(n);
+            for gate in [&mut *i, &mut *f, &mut *o] {
+                for x in gate.iter_mut() {
+                    *x = sigmoid(*x);
+                }
+            }
+            for x in g.iter_mut() {
+                *x = tanh(*x);
+            }
+            for ((cell, i), g) in cells.iter_mut().zip(&*i).zip(&*g) {
+                *cell = i * g;
+            }
+            if let Some(previous) = previous {
+                for ((cell, f), before) in cells.iter_mut().zip(&*f).zip(&previous[index * n..]) {
+                    *cell += f * before;
+                }
+            }
+            for ((state, o), cell) in states.iter_mut().zip(&*o).zip(&*cells) {
+                *state = o * tanh(*cell);
+            }
+        }
+    }
+}
+
+impl WithSimd for StepBack<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { n_units: n, gates, previous, cells, states, cell_gradient } = self;
+        let zeros = [0.0; 1];
+        for (index, gates) in gates.chunks_exact_mut(4 * n).enumerate() {
+            let of_sequence = index * n..(index + 1) * n;
+            let (cells, states) = (&cells[of_sequence.clone()], &states[of_sequence.clone()]);
+            let cell_gradient = &mut cell_gradient[of_sequence.clone()];
+            let previous = previous.map_or(&zeros[..0], |previous| &previous[of_sequence]);
+            let (i, rest) = gates.split_at_mut(n);
+            let (f, rest) = rest.split_at_mut(n);
+            let (g, o) = rest.split_at_mut(n);
+            for unit in 0..n {
+                let (of_i, of_f, of_g, of_o) = (i[unit], f[unit], g[unit], o[unit]);
+                let cell = tanh(cells[unit]);
+                let before = if previous.is_empty() { 0.0 } else { previous[unit] };
+                let of_cell = cell_gradient[unit] + states[unit] * of_o * (1.0 - cell * cell);
+                i[unit] = of_cell * of_g * of_i * (1.0 - of_i);
+                f[unit] = of_cell * before * of_f * (1.0 - of_f);
+                g[unit] = of_cell * of_i * (1.0 - of_g * of_g);
+                o[unit] = states[unit] * cell * of_o * (1.0 - of_o);
+                cell_gradient[unit] = of_cell * of_f;
+            }
+        }
+    }
+}
+
+impl WithSimd for AddProduct<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { row, matrix, sums } = self;
+        let n = sums.len();
+        let (blocks, rest) = row.as_chunks::<N_ROWS>();
+        for (block, rows) in blocks.iter().zip(matrix.chunks_exact(N_ROWS * n)) {
+            let rows: [&[f32]; N_ROWS] = std::array::from_fn(|r| &rows[r * n..(r + 1) * n]);
+            for (column, sum) in sums.iter_mut().enumerate() {
+                let mut added = 0.0;
+                for (x, row) in block.iter().zip(rows) {
+                    added += x * row[column];
+                }
+                *sum += added;
+            }
+        }
+        let done = row.len() - rest.len();
+        for (x, row) in rest.iter().zip(matrix[done * n..].chunks_exact(n)) {
+            for (sum, weight) in sums.iter_mut().zip(row) {
+                *sum += x * weight;
+            }
+        }
+    }
+}
+
+/// `1 / (1 + e^-x)`, to 2e-7; without branches and calls, so that it runs as wide as the machine.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+pub(super) fn sigmoid(x: f32) -> f32 {
+    1.0 / (1.0 + exp(-x))
+}
+
+/// `tanh x`, to 2e-7.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+pub(super) fn tanh(x: f32) -> f32 {
+    1.0 - 2.0 / (1.0 + exp(2.0 * x))
+}
+
+/// `e^x` for x within ±87, the nearest of them beyond: `2^n` by the exponent of the number, the rest by its series.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+fn exp(x: f32) -> f32 {
+    const LARGEST: f32 = 87.0;
+    // Adding and taking off one and a half times 2^23 rounds to a whole number.
+    const ROUND: f32 = 12_582_912.0;
+    let x = x.clamp(-LARGEST, LARGEST);
+    let scaled = x * std::f32::consts::LOG2_E;
+    let whole = (scaled + ROUND) - ROUND;
+    // ln 2 in two parts, the first with few digits, so that nothing is lost.
+    let rest = x - whole * 0.693_359_4 + whole * 2.121_944_4e-4;
+    let series = 1.0
+        + rest
+            * (1.0
+                + rest
+                    * (0.5
+                        + rest
+                            * (1.0 / 6.0
+                                + rest * (1.0 / 24.0 + rest * (1.0 / 120.0 + rest * (1.0 / 720.0))))));
+    let exponent = (scaled + ROUND).to_bits().wrapping_sub(ROUND.to_bits());
+    series * f32::from_bits(exponent.wrapping_add(127) << 23)
+}

@@ -1,0 +1,71 @@
+use candle_core::{Device, Tensor, Var};
+
+use super::gates::{add_product, sigmoid, tanh};
+use super::{lstm, step_by_step};
+use crate::init::Uniform;
+
+fn noise(shape: &[usize], scale: f32, seed: u64) -> Tensor {
+    let n = shape.iter().product();
+    Tensor::from_vec(Uniform::new(seed).within(scale, n), shape, &Device::Cpu).unwrap()
+}
+
+fn largest_difference(a: &Tensor, b: &Tensor) -> f32 {
+    (a - b).unwrap().abs().unwrap().flatten_all().unwrap().max(0).unwrap().to_scalar().unwrap()
+}
+
+#[test]
+fn curves_are_those_of_the_standard_library() {
+    for step in -4000..=4000_i16 {
+        let x = f32::from(step) * 0.025;
+        let exact = f64::from(x);
+        assert!((f64::from(tanh(x)) - exact.tanh()).abs() < 2e-7, "tanh {x}");
+        assert!((f64::from(sigmoid(x)) - 1.0 / (1.0 + (-exact).exp())).abs() < 2e-7, "sigmoid {x}");
+    }
+    assert!(tanh(f32::NAN).is_nan() && sigmoid(f32::NAN).is_nan());
+    assert_eq!((tanh(f32::INFINITY), sigmoid(f32::NEG_INFINITY) < 1e-30), (1.0, true));
+}
+
+#[test]
+fn a_product_row_by_row_is_its_definition() {
+    for (n_rows, n_columns) in [(1, 1), (7, 3), (8, 16), (19, 40)] {
+        let row = Uniform::new(1).within(1.0, n_rows);
+        let matrix = Uniform::new(2).within(1.0, n_rows * n_columns);
+        let mut sums = Uniform::new(3).within(1.0, n_columns);
+        let expected: Vec<f32> = (0..n_columns)
+            .map(|c| sums[c] + (0..n_rows).map(|r| row[r] * matrix[r * n_columns + c]).sum::<f32>())
+            .collect();
+        add_product(&row, &matrix, &mut sums);
+        for (sum, expected) in sums.iter().zip(&expected) {
+            assert!((sum - expected).abs() < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn one_operation_is_the_same_as_many_there_and_back() {
+    // Both ways of multiplying; one step alone; units that fill no vector.
+    for (n_steps, n_sequences, n_units) in [(6, 5, 8), (9, 2, 5), (1, 3, 4), (4, 1, 17)] {
+        let inputs = Var::from_tensor(&noise(&[n_steps, n_sequences, 4 * n_units], 1.5, 1)).unwrap();
+        let weights = Var::from_tensor(&noise(&[n_units, 4 * n_units], 0.7, 2)).unwrap();
+        let wanted = noise(&[n_steps, n_sequences, n_units], 1.0, 3);
+        let run = |layer: fn(&Tensor, &Tensor) -> candle_core::Result<Tensor>| {
+            let states = layer(&inputs, &weights).unwrap();
+            let gradients = (&states * &wanted).unwrap().sum_all().unwrap().backward().unwrap();
+            let of = |var: &Var| gradients.get(var).cloned();
+            (states, of(&inputs).unwrap(), of(&weights))
+        };
+        let (fused, slow) = (run(lstm), run(step_by_step));
+        assert!(largest_difference(&fused.0, &slow.0) < 1e-6);
+        assert!(largest_difference(&fused.1, &slow.1) < 1e-5);
+        let zero = weights.zeros_like().unwrap();
+        // A single step has no state before it.
+        let [fused, slow] = [fused.2, slow.2].map(|gradient| gradient.unwrap_or(zero.clone()));
+        assert!(largest_difference(&fused, &slow) < 1e-5);
+    }
+}
+
+#[test]
+fn shapes_that_do_not_fit_are_refused() {
+    let error = lstm(&noise(&[3, 2, 16], 1.0, 1), &noise(&[5, 20], 1.0, 2)).unwrap_err();
+    assert!(error.to_string().contains("16"), "{error}");
+}

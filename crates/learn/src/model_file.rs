@@ -1,0 +1,195 @@
+//! Networks as files: safetensors, with a header of ours that says what they are. Nothing else is ever read: no format
+//! that could hold a program.
+
+use std::collections::{BTreeMap, HashMap};
+
+use candle_core::{Device, Tensor};
+use safetensors::SafeTensors;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+
+/// Key of our header among the metadata.
+const KEY: &str = "shagreen";
+/// Format of the header.
+const FORMAT: &str = "shagreen-model";
+/// Version that is written; a file of a later one is refused.
+const VERSION: u32 = 1;
+
+/// Why a file is no network.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelFileError {
+    /// It is no safetensors file, or a damaged one.
+    #[error("it is no safetensors file, or damaged: {0}")]
+    Tensors(#[from] safetensors::SafeTensorError),
+    /// It was not written by this program.
+    #[error("it was not written by Shagreen; make a model by `shagreen train`")]
+    Foreign,
+    /// Its header makes no sense.
+    #[error("its header is damaged: {0}")]
+    Header(#[from] serde_json::Error),
+    /// It is of a later version.
+    #[error("it has version {version}, this program reads up to {VERSION}; get a newer Shagreen")]
+    Version {
+        /// The version.
+        version: u32,
+    },
+    /// It is a model of something else.
+    #[error("it is a model of {found}, one of {expected} is needed")]
+    Kind {
+        /// What it is.
+        found: String,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// Its numbers are not those that were written.
+    #[error("its numbers were changed or cut since it was written; get it again")]
+    Hash,
+    /// Its numbers do not fit what it says it is.
+    #[error("its numbers do not fit: {0}")]
+    Shape(#[from] candle_core::Error),
+}
+
+#[derive(Serialize, Deserialize)]
+struct Header {
+    format: String,
+    version: u32,
+    kind: String,
+    /// Of all numbers, in the order of their names.
+    sha256: String,
+    about: serde_json::Value,
+}
+
+/// Numbers by name.
+pub(crate) type Numbers = BTreeMap<String, Tensor>;
+
+/// The bytes of a file of this kind.
+///
+/// # Errors
+/// Numbers that are not `f32`.
+pub(crate) fn write<T: Serialize>(
+    kind: &str,
+    about: &T,
+    numbers: &Numbers,
+) -> Result<Vec<u8>, ModelFileError> {
+    let data: BTreeMap<&str, (Vec<usize>, Vec<u8>)> = numbers
+        .iter()
+        .map(|(name, tensor)| {
+            let values = tensor.flatten_all()?.to_device(&Device::Cpu)?.to_vec1::<f32>()?;
+            let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+            Ok((name.as_str(), (tensor.dims().to_vec(), bytes)))
+        })
+        .collect::<Result<_, candle_core::Error>>()?;
+    let sha256 = hash(data.iter().map(|(name, (shape, bytes))| (*name, &shape[..], &bytes[..])));
+    let about = serde_json::to_value(about)?;
+    let header = Header { format: FORMAT.to_owned(), version: VERSION, kind: kind.to_owned(), sha256, about };
+    // One key, so that the same model has the same bytes.
+    let metadata = HashMap::from([(KEY.to_owned(), serde_json::to_string(&header)?)]);
+    let views = data
+        .iter()
+        .map(|(name, (shape, bytes))| {
+            let view = safetensors::tensor::TensorView::new(safetensors::Dtype::F32, shape.clone(), bytes)?;
+            Ok((*name, view))
+        })
+        .collect::<Result<Vec<_>, safetensors::SafeTensorError>>()?;
+    Ok(safetensors::serialize(views, Some(metadata))?)
+}
+
+/// What a file of this kind holds.
+///
+/// # Errors
+/// See [`ModelFileError`].
+pub(crate) fn read<T: for<'de> Deserialize<'de>>(
+    kind: &'static str,
+    bytes: &[u8],
+    device: &Device,
+) -> Result<(T, Numbers), ModelFileError> {
+    let (_, metadata) = SafeTensors::read_metadata(bytes)?;
+    let header = metadata.metadata().as_ref().and_then(|metadata| metadata.get(KEY));
+    let header: Header = serde_json::from_str(header.ok_or(ModelFileError::Foreign)?)?;
+    if header.format != FORMAT {
+        return Err(ModelFileError::Foreign);
+    }
+    if header.version > VERSION {
+        return Err(ModelFileError::Version { version: header.version });
+    }
+    if header.kind != kind {
+        return Err(ModelFileError::Kind { found: header.kind, expected: kind });
+    }
+    let tensors = SafeTensors::deserialize(bytes)?;
+    let mut views = tensors.tensors();
+    views.sort_by(|(a, _), (b, _)| a.cmp(b));
+    if hash(views.iter().map(|(name, view)| (name.as_str(), view.shape(), view.data()))) != header.sha256 {
+        return Err(ModelFileError::Hash);
+    }
+    let mut numbers = Numbers::new();
+    for (name, view) in &views {
+        let (values, _) = view.data().as_chunks::<4>();
+        let values: Vec<f32> = values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+        numbers.insert(name.clone(), Tensor::from_vec(values, view.shape(), device)?);
+    }
+    Ok((serde_json::from_value(header.about)?, numbers))
+}
+
+/// SHA-256 of a file, as it is told with every prediction.
+pub fn sha256_of(bytes: &[u8]) -> String {
+    format!("{:x}", Sha256::digest(bytes))
+}
+
+fn hash<'a>(tensors: impl Iterator<Item = (&'a str, &'a [usize], &'a [u8])>) -> String {
+    let mut hasher = Sha256::new();
+    for (name, shape, bytes) in tensors {
+        hasher.update(format!("{name} {shape:?} {}\n", bytes.len()));
+        hasher.update(bytes);
+    }
+    format!("{:x}", hasher.finalize())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ModelFileError, Numbers, read, write};
+    use candle_core::{Device, Tensor};
+
+    fn numbers() -> Numbers {
+        let tensor = |values: &[f32]| Tensor::new(values, &Device::Cpu).unwrap();
+        Numbers::from([("a".to_owned(), tensor(&[1.0, 2.0])), ("b".to_owned(), tensor(&[-3.5]))])
+    }
+
+    fn failure(bytes: &[u8]) -> ModelFileError {
+        read::<u32>("toy", bytes, &Device::Cpu).unwrap_err()
+    }
+
+    #[test]
+    fn what_is_written_is_read_again_and_is_always_the_same() {
+        let bytes = write("toy", &7, &numbers()).unwrap();
+        assert_eq!(bytes, write("toy", &7, &numbers()).unwrap());
+        let (about, read) = read::<u32>("toy", &bytes, &Device::Cpu).unwrap();
+        assert_eq!(about, 7);
+        assert_eq!(read["a"].to_vec1::<f32>().unwrap(), [1.0, 2.0]);
+        assert_eq!(read["b"].to_vec1::<f32>().unwrap(), [-3.5]);
+    }
+
+    #[test]
+    fn what_is_damaged_cut_or_something_else_is_refused() {
+        let bytes = write("toy", &7, &numbers()).unwrap();
+        let mut changed = bytes.clone();
+        *changed.last_mut().unwrap() ^= 1;
+        assert!(matches!(failure(&changed), ModelFileError::Hash));
+        for end in 0..bytes.len() {
+            assert!(matches!(failure(&bytes[..end]), ModelFileError::Tensors(_)), "cut to {end}");
+        }
+        let other = write("other toy", &7, &numbers()).unwrap();
+        assert!(matches!(failure(&other), ModelFileError::Kind { found, .. } if found == "other toy"));
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let later = text.replace(r#"\"version\":1"#, r#"\"version\":2"#);
+        assert_ne!(later, text);
+        // The numbers are no text; only the header counts here.
+        assert!(matches!(
+            failure(later.as_bytes()),
+            ModelFileError::Version { version: 2 } | ModelFileError::Tensors(_)
+        ));
+        let foreign =
+            safetensors::serialize(Vec::<(&str, safetensors::tensor::TensorView<'_>)>::new(), None).unwrap();
+        assert!(matches!(failure(&foreign), ModelFileError::Foreign));
+    }
+}
