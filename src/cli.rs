@@ -40,6 +40,7 @@ mod motion;
 mod near_names;
 mod output;
 mod play;
+mod predict_attributes;
 mod profile_source;
 mod project_gallery;
 mod project_new;
@@ -48,6 +49,7 @@ mod project_source;
 mod quality;
 mod receiver;
 mod recording_answers;
+mod recording_source;
 mod render;
 mod rig;
 mod signal_source;
@@ -63,6 +65,8 @@ mod stroke_args;
 mod target;
 mod texture_path;
 mod texture_psd;
+mod train_attributes;
+mod train_networks;
 mod watch;
 mod window;
 mod words;
@@ -119,6 +123,22 @@ enum Command {
     /// Spatial spectrograms of profiles: what is in each window, and not where.
     #[command(subcommand)]
     Spatial(SpatialCommand),
+    /// What something would feel like, with how unsure that is.
+    #[command(subcommand)]
+    Predict(PredictCommand),
+    /// Learns to predict, and says how well by leaving each texture out.
+    #[command(subcommand)]
+    Train(TrainCommand),
+}
+
+#[derive(clap::Subcommand)]
+enum PredictCommand {
+    Attributes(predict_attributes::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum TrainCommand {
+    Attributes(train_attributes::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -235,6 +255,8 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Spatial(SpatialCommand::Make(args))) => spatial_make::run(args),
         Some(Command::Evaluate(EvaluateCommand::Codec(args))) => evaluate_codec::run(args),
         Some(Command::Calibrate(args)) => calibrate::run(args),
+        Some(Command::Predict(PredictCommand::Attributes(args))) => predict_attributes::run(args),
+        Some(Command::Train(TrainCommand::Attributes(args))) => train_attributes::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -13,7 +13,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("shagreen-device", &["shagreen-synth"]),
     ("shagreen-learn", &["shagreen-core"]),
     ("shagreen-app", &["shagreen-core", "shagreen-formats", "shagreen-device"]),
-    ("shagreen", &["shagreen-app", "shagreen-core", "shagreen-formats", "shagreen-device"]),
+    ("shagreen", &["shagreen-app", "shagreen-core", "shagreen-formats", "shagreen-device", "shagreen-learn"]),
 ];
 
 /// The rules that a manifest breaks; test dependencies may look anywhere below.

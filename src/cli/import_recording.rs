@@ -11,13 +11,13 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::atomic;
 use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report_csv, is_fit_report_svg};
 use shagreen_formats::library::{TextureEntry, name_from_file};
-use shagreen_formats::map_toml::read_map;
-use shagreen_formats::recording::{Ask, ColumnMap, Question, RecordingFileError, read_recording};
+use shagreen_formats::recording::{Ask, ColumnMap};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import::{Destination, Outcome, files_in};
 use crate::cli::output::{self, Progress, file_name};
-use crate::cli::recording_answers::{parse_answer, sidecar};
+use crate::cli::recording_answers::{map_of, parse_answer};
+use crate::cli::recording_source::read_recording_file;
 
 /// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as a table.
 ///
@@ -68,7 +68,7 @@ struct Job<'a> {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let paths = recording_files(&args.files)?;
     let mut outcome = Outcome::new(&args.destination, &paths)?;
-    let map = map(args)?;
+    let map = map_of(args.map.as_deref(), &args.answers)?;
     if let Some(folder) = &args.report {
         std::fs::create_dir_all(folder)
             .context("cannot make the folder of reports; check its name and your rights")
@@ -193,48 +193,20 @@ fn read(
     outcome: &mut Outcome<'_>,
     questions: &mut Vec<Value>,
 ) -> Result<Recording, String> {
-    // The file is named beside it.
-    let bytes = output::read_file(file).map_err(|error| error.root_cause().to_string())?;
-    let sidecar = sidecar(file)?;
-    let mut ask = |list: &[Question]| {
-        questions.extend(list.iter().map(|question| {
-            json!({
-                "file": file.display().to_string(),
-                "key": question.what.key(),
-                "text": question.text,
-                "guess": question.guess,
-                "choices": question.choices,
-            })
-        }));
-    };
-    let read = read_recording(&file_name(file), &bytes, sidecar.as_deref(), map).map_err(|error| {
-        if let RecordingFileError::NeedsAnswers(needed) = &error {
-            ask(&needed.questions);
-            for question in needed.questions.iter().filter(|question| question.guess.is_some()) {
-                outcome.warn(file, &format!("guessed {question}"));
-            }
-            for warning in &needed.warnings {
-                outcome.warn(file, warning);
-            }
-            return format!("{error}; answer by --set KEY=VALUE or --map MAP.toml");
-        }
-        error.to_string()
-    })?;
-    ask(&read.questions);
-    for question in &read.questions {
-        outcome.warn(file, &format!("guessed {question}"));
-    }
+    let read = read_recording_file(file, map);
+    questions.extend(read.questions.iter().map(|question| {
+        json!({
+            "file": file.display().to_string(),
+            "key": question.what.key(),
+            "text": question.text,
+            "guess": question.guess,
+            "choices": question.choices,
+        })
+    }));
     for warning in &read.warnings {
         outcome.warn(file, warning);
     }
-    let (recording, findings) = match Recording::from_raw(read.raw) {
-        Ok((recording, findings)) => (Ok(recording), findings),
-        Err(error) => (Err(error.to_string()), error.findings),
-    };
-    for finding in &findings {
-        outcome.warn(file, &finding.to_string());
-    }
-    recording
+    read.recording
 }
 
 fn figures(files: &[&Path], fitted: &Fitted) -> Value {
@@ -258,29 +230,6 @@ fn figures(files: &[&Path], fitted: &Fitted) -> Value {
             "explained": t.explained,
         })),
     })
-}
-
-/// The map of the arguments.
-fn map(args: &Args) -> anyhow::Result<ColumnMap> {
-    let mut map = match &args.map {
-        None => ColumnMap::default(),
-        Some(path) => read_map(&output::read_file(path)?).with_context(|| output::in_file(path))?,
-    };
-    for (i, (what, answer)) in args.answers.iter().enumerate() {
-        if let Some((_, other)) =
-            args.answers[..i].iter().find(|(earlier, other)| earlier == what && other != answer)
-        {
-            bail!(output::Usage(format!("--set says two things of {}: {other} and {answer}", what.key())));
-        }
-        let before = map.clone();
-        map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
-        for (column, now) in [(before.speed, &map.speed), (before.force, &map.force)] {
-            if let (Some(column), None) = (column, now) {
-                output::note(&format!("--set {}={answer} overrules {column} of the map", what.key()));
-            }
-        }
-    }
-    Ok(map)
 }
 
 fn parse_rate(text: &str) -> Result<f64, String> {

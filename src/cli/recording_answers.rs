@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use shagreen_formats::recording::Ask;
+use anyhow::{Context as _, bail};
+use shagreen_formats::map_toml::read_map;
+use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_formats::wav;
 
-use crate::cli::output::file_name;
+use crate::cli::output::{self, file_name};
 
 /// An answer to a question, as KEY=VALUE.
 pub(crate) fn parse_answer(text: &str) -> Result<(Ask, String), String> {
@@ -15,6 +17,29 @@ pub(crate) fn parse_answer(text: &str) -> Result<(Ask, String), String> {
         format!("there is no question \"{}\"; the keys are {}", key.trim(), keys.join(", "))
     })?;
     Ok((what, value.trim().to_owned()))
+}
+
+/// The map of the arguments.
+pub(crate) fn map_of(path: Option<&Path>, answers: &[(Ask, String)]) -> anyhow::Result<ColumnMap> {
+    let mut map = match path {
+        None => ColumnMap::default(),
+        Some(path) => read_map(&output::read_file(path)?).with_context(|| output::in_file(path))?,
+    };
+    for (i, (what, answer)) in answers.iter().enumerate() {
+        if let Some((_, other)) =
+            answers[..i].iter().find(|(earlier, other)| earlier == what && other != answer)
+        {
+            bail!(output::Usage(format!("--set says two things of {}: {other} and {answer}", what.key())));
+        }
+        let before = map.clone();
+        map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
+        for (column, now) in [(before.speed, &map.speed), (before.force, &map.force)] {
+            if let (Some(column), None) = (column, now) {
+                output::note(&format!("--set {}={answer} overrules {column} of the map", what.key()));
+            }
+        }
+    }
+    Ok(map)
 }
 
 /// The bytes of the file of units beside a WAV file; most have none.

@@ -130,7 +130,7 @@ fn hand() -> String {
 }
 
 /// A table of a recorded stroke: the signal that `render` makes of a texture, with the speed and force it was made at.
-fn table(bench: &Bench, texture: &str) -> String {
+pub(crate) fn table(bench: &Bench, texture: &str) -> String {
     bench.write("hand.csv", hand());
     bench
         .json(&format!("render --texture {texture} --stroke hand.csv --rate 1000 --seed 5 -o {texture}.wav"));

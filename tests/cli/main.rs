@@ -14,6 +14,7 @@ mod devices;
 mod errors;
 mod evaluate;
 mod import;
+mod learn;
 mod library;
 mod play;
 mod project;

@@ -7,6 +7,7 @@
 
 use crate::features::{Physical, physical};
 use crate::gaussian_process::{Estimate, GaussianProcess, GaussianProcessError};
+use crate::least_squares::{LeastSquaresError, least_squares};
 use crate::patterns::paper_patterns;
 use crate::plane::Plane;
 use crate::texture::TextureModel;
@@ -154,6 +155,44 @@ pub fn leave_one_out(known: &[Known]) -> Result<Vec<Vec<Estimate>>, AttributeErr
     (0..known.len()).map(without).collect()
 }
 
+/// The same by a straight line through the quantities, by least squares: what there is to be better than. A quantity that
+/// follows from others is left out.
+///
+/// # Errors
+/// See [`AttributeError`].
+pub fn linear_leave_one_out(known: &[Known]) -> Result<Vec<Vec<f64>>, AttributeError> {
+    let references: Vec<&Known> = known.iter().collect();
+    let (rows, n_attributes) = (shared(&references, None)?, n_attributes(&references)?);
+    let without = |index: usize| -> Vec<f64> {
+        let others: Vec<usize> = (0..rows.len()).filter(|i| *i != index).collect();
+        let mut used = vec![None];
+        used.extend((0..rows[0].len()).map(Some));
+        // A column of ones, and the quantities.
+        let value = |row: usize, column: Option<usize>| column.map_or(1.0, |column| rows[row][column]);
+        let of_attribute = |attribute: usize| {
+            let target: Vec<f64> = others.iter().map(|i| known[*i].attributes[attribute]).collect();
+            let mut used = used.clone();
+            loop {
+                // As many columns as textures follow every noise.
+                used.truncate(others.len());
+                let columns: Vec<Vec<f64>> =
+                    used.iter().map(|column| others.iter().map(|i| value(*i, *column)).collect()).collect();
+                match least_squares(&columns, &target) {
+                    Ok(fit) => {
+                        let parts = fit.coefficients.iter().zip(&used);
+                        let sum: f64 =
+                            parts.map(|(coefficient, column)| coefficient * value(index, *column)).sum();
+                        return sum.clamp(0.0, 100.0);
+                    }
+                    Err(LeastSquaresError::Dependent { column }) => drop(used.remove(column)),
+                }
+            }
+        };
+        (0..n_attributes).map(of_attribute).collect()
+    };
+    Ok((0..known.len()).map(without).collect())
+}
+
 fn predict_by(known: &[&Known], texture: &Quantities) -> Result<Vec<Estimate>, AttributeError> {
     let mut rows = shared(known, Some(texture))?;
     let Some(row) = rows.pop() else { unreachable!("the texture has a row") };
@@ -189,7 +228,7 @@ fn within(estimate: Estimate) -> Estimate {
 
 #[cfg(test)]
 mod tests {
-    use super::{AttributeError, Known, leave_one_out, predict, quantities};
+    use super::{AttributeError, Known, leave_one_out, linear_leave_one_out, predict, quantities};
     use crate::rng::Random;
     use crate::texture::{GrainNode, TextureModel};
     use crate::units::{Hertz, MetersPerSecond, Newtons};
@@ -231,6 +270,19 @@ mod tests {
             errors.sum::<f64>() / 25.0
         };
         assert!(mean_error(0) < 2.0 && mean_error(1) < 5.0, "{} {}", mean_error(0), mean_error(1));
+    }
+
+    #[test]
+    fn a_line_is_found_and_quantities_that_follow_from_others_do_no_harm() {
+        let mut known = known(20, true);
+        for texture in &mut known {
+            // The level in dB is linear in the roughness; its double says nothing new.
+            texture.quantities.0[4] = texture.quantities.0[0].map(|x| 2.0 * x + 1.0);
+        }
+        let predicted = linear_leave_one_out(&known).unwrap();
+        for (known, predicted) in known.iter().zip(&predicted) {
+            assert!((known.attributes[0] - predicted[0]).abs() < 1.0, "{predicted:?}");
+        }
     }
 
     #[test]

@@ -8,6 +8,9 @@ use shagreen_core::touch_words::{Hints, Lexicon, LexiconError, Meaning, Shade};
 
 use crate::materials_toml::PatternKindV1;
 
+/// The text of the program's words.
+pub const LEXICON_TEXT: &str = include_str!("../../../assets/words/lexicon.toml");
+
 /// Why text is no lexicon.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -130,7 +133,7 @@ struct DegreeV1 {
 /// The program is damaged.
 pub fn built_in_lexicon() -> Result<&'static Lexicon, LexiconFileError> {
     static LEXICON: OnceLock<Result<Lexicon, LexiconFileError>> = OnceLock::new();
-    let read = || read_lexicon(include_str!("../../../assets/words/lexicon.toml"));
+    let read = || read_lexicon(LEXICON_TEXT);
     LEXICON.get_or_init(read).as_ref().map_err(Clone::clone)
 }
 

@@ -23,6 +23,7 @@
 pub mod acf;
 pub mod actuator_toml;
 pub mod atomic;
+pub mod attribute_table;
 pub mod built_in;
 pub mod calibration_report;
 pub mod codec_stream;

@@ -1,0 +1,139 @@
+//! The attributes of a library's textures as a table: what there is to learn from.
+
+use shagreen_core::attribute_predictor::{Known, quantities};
+use shagreen_core::space::LabelSource;
+
+use crate::library::{Library, TextureEntry};
+
+/// Textures with attributes that all of them have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttributeTable {
+    /// Names of the attributes: pairs of adjectives, the one at 0 first.
+    pub names: Vec<String>,
+    /// Indices of the textures in their library.
+    pub textures: Vec<usize>,
+    /// Values of each texture, 0..100, in the order of the names.
+    pub values: Vec<Vec<f64>>,
+    /// Where they come from; several where textures differ.
+    pub sources: Vec<LabelSource>,
+}
+
+/// Why there is no table.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AttributeTableError {
+    /// No texture has attributes or a place.
+    #[error(
+        "no texture of the library has attributes or a place; place some by `shagreen space place` or rate them"
+    )]
+    Nothing,
+}
+
+/// The attributes that all textures with any have; where none has any, the axes of their places.
+///
+/// # Errors
+/// See [`AttributeTableError`].
+pub fn attribute_table(library: &Library) -> Result<AttributeTable, AttributeTableError> {
+    let indexed = || library.textures.iter().enumerate();
+    let rated: Vec<(usize, &TextureEntry)> =
+        indexed().filter(|(_, texture)| texture.attributes.is_some()).collect();
+    let names: Vec<String> = match rated.first() {
+        Some((_, first)) => {
+            let of_first = first.attributes.iter().flat_map(|attributes| &attributes.values);
+            let has = |texture: &TextureEntry, name: &str| {
+                texture.attributes.as_ref().is_some_and(|attributes| attributes.get(name).is_some())
+            };
+            let shared =
+                of_first.filter(|attribute| rated.iter().all(|(_, texture)| has(texture, &attribute.name)));
+            shared.map(|attribute| attribute.name.clone()).collect()
+        }
+        None => Vec::new(),
+    };
+    let mut table = AttributeTable { names, textures: Vec::new(), values: Vec::new(), sources: Vec::new() };
+    if table.names.is_empty() {
+        table.names = library.axis_names().map(str::to_owned).to_vec();
+        for (index, texture) in indexed() {
+            let Some(place) = texture.place else { continue };
+            table.add(index, vec![place.at.rough_smooth, place.at.hard_soft], place.source);
+        }
+    } else {
+        for (index, texture) in rated {
+            let Some(attributes) = &texture.attributes else { continue };
+            let values = table.names.iter().filter_map(|name| attributes.get(name)).collect();
+            table.add(index, values, attributes.source);
+        }
+    }
+    if table.textures.is_empty() { Err(AttributeTableError::Nothing) } else { Ok(table) }
+}
+
+impl AttributeTable {
+    fn add(&mut self, index: usize, values: Vec<f64>, source: LabelSource) {
+        self.textures.push(index);
+        self.values.push(values);
+        if !self.sources.contains(&source) {
+            self.sources.push(source);
+        }
+    }
+
+    /// What each texture is known by, with its attributes.
+    ///
+    /// # Panics
+    /// If it is the table of another library.
+    pub fn known(&self, library: &Library) -> Vec<Known> {
+        let of = |(index, values): (&usize, &Vec<f64>)| Known {
+            quantities: quantities(&library.textures[*index].model),
+            attributes: values.clone(),
+        };
+        self.textures.iter().zip(&self.values).map(of).collect()
+    }
+
+    /// Where the values come from, in words.
+    pub fn source_words(&self) -> String {
+        let words: Vec<&str> = self.sources.iter().map(|source| source.label()).collect();
+        words.join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AttributeTableError, attribute_table};
+    use crate::library::Library;
+    use crate::starter::{simulated_library, starter_library};
+    use shagreen_core::attribute_predictor::leave_one_out;
+    use shagreen_core::space::LabelSource;
+
+    #[test]
+    fn ratings_count_before_places_and_only_what_all_have() {
+        let mut library = simulated_library().unwrap();
+        let table = attribute_table(&library).unwrap();
+        let five = ["rough-smooth", "hard-soft", "flat-bumpy", "sticky-slippery", "irritating-pleasant"];
+        assert_eq!((table.names.as_slice(), table.textures.len()), (five.map(str::to_owned).as_slice(), 25));
+        assert_eq!(table.sources, [LabelSource::SimulatedRaters]);
+        assert_eq!(
+            table.values[0][1],
+            library.textures[0].attributes.as_ref().unwrap().get("hard-soft").unwrap()
+        );
+        library.textures[4].attributes.as_mut().unwrap().values.remove(2);
+        library.textures[5].attributes = None;
+        let fewer = attribute_table(&library).unwrap();
+        assert_eq!((fewer.names.len(), fewer.textures.len()), (4, 24));
+
+        let starter = attribute_table(&starter_library().unwrap()).unwrap();
+        assert_eq!((starter.names.len(), starter.sources), (2, vec![LabelSource::PhysicalLabels]));
+        assert_eq!(attribute_table(&Library::default()), Err(AttributeTableError::Nothing));
+    }
+
+    #[test]
+    fn five_attributes_of_the_simulated_library_are_told_to_ten_points() {
+        let library = simulated_library().unwrap();
+        let table = attribute_table(&library).unwrap();
+        let estimates = leave_one_out(&table.known(&library)).unwrap();
+        for (attribute, name) in table.names.iter().enumerate() {
+            let pairs = table.values.iter().zip(&estimates);
+            let errors: Vec<f64> =
+                pairs.map(|(of, told)| (of[attribute] - told[attribute].mean).abs()).collect();
+            let mae = errors.iter().sum::<f64>() / errors.len() as f64;
+            assert!(mae < 10.0, "{name}: {mae}");
+        }
+    }
+}

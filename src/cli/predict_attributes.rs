@@ -1,0 +1,171 @@
+//! `shagreen predict attributes`: what a recording or words would feel like.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use anyhow::{Context as _, bail};
+use serde_json::{Value, json};
+use shagreen_core::attribute_predictor::{predict, quantities};
+use shagreen_core::fit::{self, FitOptions};
+use shagreen_core::gaussian_process::Estimate;
+use shagreen_core::prompt::{Understood, understand};
+use shagreen_core::touch_words::ATTRIBUTES;
+use shagreen_core::words::counted;
+use shagreen_formats::attribute_table::attribute_table;
+use shagreen_formats::built_in::BuiltIn;
+use shagreen_formats::lexicon_toml::{LEXICON_TEXT, built_in_lexicon};
+use shagreen_formats::recording::{Ask, ColumnMap};
+use shagreen_learn::model_file::sha256_of;
+
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::output;
+use crate::cli::recording_answers::{map_of, parse_answer};
+use crate::cli::recording_source::read_recording_file;
+
+/// What a recorded stroke, or words, would feel like: attributes from 0 to 100, each with how unsure it is.
+///
+/// Recordings are compared with the textures of a library whose attributes are known; without --library those of the simulated
+/// one, which nobody rated. Words are understood by a lexicon whose figures are estimates.
+#[derive(clap::Args)]
+#[command(group = clap::ArgGroup::new("what").required(true))]
+pub(crate) struct Args {
+    /// Recordings of strokes over one texture: acceleration, speed and force, as WAV or tables.
+    #[arg(long, value_name = "FILE", num_args = 1.., group = "what")]
+    recording: Vec<PathBuf>,
+    /// Words.
+    #[arg(long, value_name = "TEXT", group = "what")]
+    prompt: Option<String>,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// What the columns of recordings are and in which units, as a TOML file.
+    #[arg(long, value_name = "MAP.toml", requires = "recording")]
+    map: Option<PathBuf>,
+    /// Answers one question of a recording, as in acceleration_unit=g; overrules the map.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer, requires = "recording")]
+    answers: Vec<(Ask, String)>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    match &args.prompt {
+        Some(prompt) => of_prompt(args, prompt),
+        None => of_recording(args),
+    }
+}
+
+fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
+    let understood = understand(prompt, built_in_lexicon()?);
+    let attributes: Vec<(&str, Estimate)> = ATTRIBUTES.into_iter().zip(understood.attributes).collect();
+    let words: Vec<Value> = understood
+        .words
+        .iter()
+        .map(|word| json!({"text": word.text, "taken_for": word.taken_for, "denied": word.is_denied}))
+        .collect();
+    let result = json!({
+        "attributes": as_json(&attributes),
+        "model": "words, by a lexicon of estimates",
+        "model_sha256": sha256_of(LEXICON_TEXT.as_bytes()),
+        "label_source": "estimated",
+        "words": words,
+        "unknown": understood.unknown,
+        "disputed": understood.disputed,
+        "is_about_touch": understood.is_about_touch(),
+    });
+    output::print(args.json, &result, || format!("{}{}", table_text(&attributes), said_of(&understood)));
+    Ok(())
+}
+
+/// What there is to say of how words were understood.
+fn said_of(understood: &Understood) -> String {
+    let mut said = Vec::new();
+    let taken: Vec<String> = understood
+        .words
+        .iter()
+        .map(|word| {
+            let not = if word.is_denied { "not " } else { "" };
+            if word.text == word.taken_for {
+                format!("{not}{}", word.text)
+            } else {
+                format!("{not}{} ({})", word.text, word.taken_for)
+            }
+        })
+        .collect();
+    if understood.is_about_touch() {
+        said.push(format!("understood: {}", taken.join(", ")));
+    } else {
+        said.push("nothing was said that can be felt: any surface is as likely".to_owned());
+    }
+    if !understood.unknown.is_empty() {
+        said.push(format!("not understood: {}", understood.unknown.join(", ")));
+    }
+    if !understood.disputed.is_empty() {
+        said.push(format!("the words disagree about {}", understood.disputed.join(", ")));
+    }
+    if understood.n_left_out > 0 {
+        said.push(format!("{} at the end were left out", counted(understood.n_left_out, "word")));
+    }
+    said.push("estimates of words: nobody rated them".to_owned());
+    format!("\n{}", said.join("\n"))
+}
+
+fn of_recording(args: &Args) -> anyhow::Result<()> {
+    let map: ColumnMap = map_of(args.map.as_deref(), &args.answers)?;
+    let mut recordings = Vec::new();
+    for file in &args.recording {
+        let read = read_recording_file(file, &map);
+        for warning in &read.warnings {
+            output::warn(&format!("{warning}: {}", file.display()));
+        }
+        match read.recording {
+            Ok(recording) => recordings.push(recording),
+            Err(reason) => bail!("{reason}: {}", file.display()),
+        }
+    }
+    let fitted =
+        fit::fit(&recordings, &FitOptions::usual()).with_context(|| output::in_file(&args.recording[0]))?;
+    for note in &fitted.report.notes {
+        output::note(note);
+    }
+    let library = match args.library.path() {
+        Some(_) => load(&args.library)?,
+        None => BuiltIn::Simulated.read()?,
+    };
+    let table = attribute_table(&library)?;
+    let known = table.known(&library);
+    let estimates = predict(&known, &quantities(&fitted.model))?;
+    let attributes: Vec<(&str, Estimate)> = table.names.iter().map(String::as_str).zip(estimates).collect();
+    let what = format!(
+        "a Gaussian process over {} of \"{}\" ({})",
+        counted(known.len(), "texture"),
+        library.name,
+        table.source_words()
+    );
+    // What was learned from says what was learned.
+    let learned = serde_json::to_vec(&json!([table.names, table.values]))?;
+    let result = json!({
+        "attributes": as_json(&attributes),
+        "model": what,
+        "model_sha256": sha256_of(&learned),
+        "label_source": table.sources.iter().map(|source| source.id()).collect::<Vec<_>>(),
+        "segments": fitted.report.segments.len(),
+    });
+    output::print(args.json, &result, || format!("{}\nby {what}", table_text(&attributes)));
+    Ok(())
+}
+
+fn as_json(attributes: &[(&str, Estimate)]) -> BTreeMap<String, Value> {
+    let of = |(name, estimate): &(&str, Estimate)| {
+        ((*name).to_owned(), json!({"value": estimate.mean, "sd": estimate.deviation}))
+    };
+    attributes.iter().map(of).collect()
+}
+
+/// One attribute a line.
+fn table_text(attributes: &[(&str, Estimate)]) -> String {
+    let widest = attributes.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    let line =
+        |(name, of): &(&str, Estimate)| format!("{name:<widest$}  {:5.1} ± {:.1}", of.mean, of.deviation);
+    attributes.iter().map(line).collect::<Vec<_>>().join("\n")
+}

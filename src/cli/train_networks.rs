@@ -1,0 +1,218 @@
+//! The networks of `shagreen train attributes`: each texture left out, kept after every round, resumed after a stop.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, ensure};
+use shagreen_core::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns};
+use shagreen_core::rng::derive_seed;
+use shagreen_formats::atomic;
+use shagreen_formats::attribute_table::AttributeTable;
+use shagreen_formats::library::{Library, id_from_name};
+use shagreen_learn::cnn_lstm::{Architecture, Streams};
+use shagreen_learn::stroke_set::{Stroke, StrokedTexture};
+use shagreen_learn::training::{Training, TrainingConfig};
+
+use crate::cli::guard::refuse_inputs;
+use crate::cli::output::{self, Progress};
+use crate::cli::train_attributes::Judged;
+use crate::cli::words::words;
+
+/// A network that can be trained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Network {
+    Paper320,
+    Literal,
+    Convolutions,
+    Memory,
+}
+
+impl Network {
+    const ALL: [Self; 4] = [Self::Paper320, Self::Literal, Self::Convolutions, Self::Memory];
+
+    fn id(self) -> &'static str {
+        match self {
+            Self::Paper320 => "paper320",
+            Self::Literal => "literal",
+            Self::Convolutions => "convolutions",
+            Self::Memory => "memory",
+        }
+    }
+
+    fn architecture(self, n_outputs: usize) -> Architecture {
+        let paper = Architecture::paper320(n_outputs);
+        match self {
+            Self::Paper320 => paper,
+            Self::Literal => Architecture::literal(n_outputs),
+            Self::Convolutions => Architecture { streams: Streams::Convolutions, ..paper },
+            Self::Memory => Architecture { streams: Streams::Memory, ..paper },
+        }
+    }
+}
+
+#[derive(clap::Args)]
+pub(crate) struct NetworkArgs {
+    /// A network to train too: the paper's with 320 features of convolutions (paper320) or as it is written (literal), its
+    /// convolutions or its long short-term memory alone. May be given several times.
+    #[arg(long = "network", value_name = "NETWORK", value_parser = words(Network::ALL, Network::id))]
+    networks: Vec<Network>,
+    /// Most rounds over all segments.
+    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    epochs: u32,
+    /// Rounds without a better prediction of textures kept aside after which a network stops; 0 never stops and keeps none
+    /// aside.
+    #[arg(long, default_value_t = 10)]
+    patience: u32,
+    /// Share of each second of strokes that is learned from, 0.2 to 1: a quick look.
+    #[arg(long, default_value_t = 1.0, value_parser = share)]
+    share: f64,
+    /// Everything that is drawn.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// File for a network that has learned from all textures, by the first --network.
+    #[arg(long, short, value_name = "MODEL")]
+    out: Option<PathBuf>,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let share: f64 = text.parse().map_err(|_| "it is no number".to_owned())?;
+    if (0.2..=1.0).contains(&share) { Ok(share) } else { Err(format!("{share} is not from 0.2 to 1")) }
+}
+
+/// What the networks came to.
+pub(crate) struct Trained {
+    pub(crate) judged: Vec<Judged>,
+    /// Rounds of all of them together.
+    pub(crate) epochs: usize,
+}
+
+/// Trains the networks that were asked for, once without each texture.
+pub(crate) fn train_networks(
+    args: &NetworkArgs,
+    state: Option<&Path>,
+    library: &Library,
+    table: &AttributeTable,
+) -> anyhow::Result<Trained> {
+    let mut trained = Trained { judged: Vec::new(), epochs: 0 };
+    ensure!(args.out.is_none() || !args.networks.is_empty(), "--out keeps a network; name one by --network");
+    if args.networks.is_empty() {
+        return Ok(trained);
+    }
+    if let Some(folder) = state {
+        std::fs::create_dir_all(folder)
+            .context("cannot make the folder; check its name and your rights")
+            .with_context(|| output::in_file(folder))?;
+    }
+    let textures = strokes(args, library, table)?;
+    for network in &args.networks {
+        let config = TrainingConfig::paper(
+            network.architecture(table.names.len()),
+            args.epochs as usize,
+            (args.patience > 0).then_some(args.patience as usize),
+            args.seed,
+        );
+        let mut predicted = Vec::with_capacity(textures.len());
+        for (index, left_out) in textures.iter().enumerate() {
+            let others: Vec<&StrokedTexture> = textures
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| *i != index)
+                .map(|(_, texture)| texture)
+                .collect();
+            let kept = state
+                .map(|folder| folder.join(format!("{}-without-{}.safetensors", network.id(), left_out.id)));
+            let what =
+                format!("{} without {} ({} of {})", network.id(), left_out.id, index + 1, textures.len());
+            let training = train(&others, config.clone(), kept.as_deref(), &what)?;
+            trained.epochs += training.epochs().len();
+            let of = training.finish()?.predict(&left_out.strokes)?;
+            predicted.push(of.context("the strokes are shorter than a segment")?);
+        }
+        trained.judged.push(Judged { name: format!("network {}", network.id()), predicted });
+    }
+    if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
+        refuse_inputs(&[out.as_path()], &[])?;
+        let config = TrainingConfig::paper(
+            network.architecture(table.names.len()),
+            args.epochs as usize,
+            (args.patience > 0).then_some(args.patience as usize),
+            args.seed,
+        );
+        let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
+        let all: Vec<&StrokedTexture> = textures.iter().collect();
+        let model = train(&all, config, kept.as_deref(), &format!("{} of all", network.id()))?.finish()?;
+        atomic::write(out, &model.to_bytes()?)?;
+    }
+    Ok(trained)
+}
+
+/// Trains until there is nothing more to learn, from where it was stopped.
+fn train(
+    textures: &[&StrokedTexture],
+    config: TrainingConfig,
+    kept: Option<&Path>,
+    what: &str,
+) -> anyhow::Result<Training> {
+    let n_epochs = config.n_epochs;
+    let mut training = match kept.filter(|path| path.exists()) {
+        Some(path) => Training::resume(textures, config, &output::read_file(path)?)
+            .with_context(|| output::in_file(path))?,
+        None => Training::new(textures, config)?,
+    };
+    while !training.is_over() {
+        let progress = Progress::new("thousandths of a round", 1000);
+        let mut done = 0;
+        let epoch = training.run_epoch(|share| {
+            while done < (1000.0 * share) as usize {
+                progress.step();
+                done += 1;
+            }
+            true
+        })?;
+        progress.finish();
+        if let Some(epoch) = epoch {
+            let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", {rmse:.2} aside"));
+            output::note(&format!(
+                "{what}: round {} of {n_epochs}, off by {:.2}{aside}",
+                epoch.number, epoch.learned_rmse
+            ));
+        }
+        if let Some(path) = kept {
+            atomic::write(path, &training.keep()?)?;
+        }
+    }
+    Ok(training)
+}
+
+/// The 25 strokes of the paper over each texture, with noise of its own.
+fn strokes(
+    args: &NetworkArgs,
+    library: &Library,
+    table: &AttributeTable,
+) -> anyhow::Result<Vec<StrokedTexture>> {
+    let contacts = paper_patterns();
+    let of = |(index, attributes): (&usize, &Vec<f64>)| {
+        let texture = &library.textures[*index];
+        let plan = PatternPlan {
+            contacts: &contacts,
+            seconds: PAPER_SECS * args.share,
+            rate: PAPER_RATE,
+            seed: derive_seed(args.seed, &texture.id),
+        };
+        let patterns =
+            render_patterns(&texture.model, &plan).with_context(|| format!("texture \"{}\"", texture.id))?;
+        for warning in &patterns.warnings {
+            output::warn(&format!("{}: {warning}", texture.id));
+        }
+        let strokes = patterns.signals.into_iter().zip(&contacts).map(|(accel_mps2, contact)| Stroke {
+            speed_mps: vec![contact.speed.0; accel_mps2.len()],
+            force_n: vec![contact.force.0; accel_mps2.len()],
+            accel_mps2,
+        });
+        Ok(StrokedTexture {
+            id: id_from_name(&texture.id),
+            strokes: strokes.collect(),
+            attributes: attributes.clone(),
+        })
+    };
+    table.textures.iter().zip(&table.values).map(of).collect()
+}
