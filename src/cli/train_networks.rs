@@ -103,13 +103,15 @@ pub(crate) fn train_networks(
             .with_context(|| output::in_file(folder))?;
     }
     let textures = strokes(args, library, table)?;
-    for network in &args.networks {
-        let config = TrainingConfig::paper(
+    let config = |network: Network| {
+        TrainingConfig::paper(
             network.architecture(table.names.len()),
             args.epochs as usize,
             (args.patience > 0).then_some(args.patience as usize),
             args.seed,
-        );
+        )
+    };
+    for network in &args.networks {
         let mut predicted = Vec::with_capacity(textures.len());
         for (index, left_out) in textures.iter().enumerate() {
             let others: Vec<&StrokedTexture> = textures
@@ -122,7 +124,7 @@ pub(crate) fn train_networks(
                 .map(|folder| folder.join(format!("{}-without-{}.safetensors", network.id(), left_out.id)));
             let what =
                 format!("{} without {} ({} of {})", network.id(), left_out.id, index + 1, textures.len());
-            let training = train(&others, config.clone(), kept.as_deref(), &what)?;
+            let training = train(&others, config(*network), kept.as_deref(), &what)?;
             trained.epochs += training.epochs().len();
             let of = training.finish()?.predict(&left_out.strokes)?;
             predicted.push(of.context("the strokes are shorter than a segment")?);
@@ -131,15 +133,10 @@ pub(crate) fn train_networks(
     }
     if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
         refuse_inputs(&[out.as_path()], &[])?;
-        let config = TrainingConfig::paper(
-            network.architecture(table.names.len()),
-            args.epochs as usize,
-            (args.patience > 0).then_some(args.patience as usize),
-            args.seed,
-        );
         let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
         let all: Vec<&StrokedTexture> = textures.iter().collect();
-        let model = train(&all, config, kept.as_deref(), &format!("{} of all", network.id()))?.finish()?;
+        let model =
+            train(&all, config(*network), kept.as_deref(), &format!("{} of all", network.id()))?.finish()?;
         atomic::write(out, &model.to_bytes()?)?;
     }
     Ok(trained)

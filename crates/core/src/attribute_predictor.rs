@@ -169,26 +169,30 @@ pub fn linear_leave_one_out(known: &[Known]) -> Result<Vec<Vec<f64>>, AttributeE
         used.extend((0..rows[0].len()).map(Some));
         // A column of ones, and the quantities.
         let value = |row: usize, column: Option<usize>| column.map_or(1.0, |column| rows[row][column]);
-        let of_attribute = |attribute: usize| {
-            let target: Vec<f64> = others.iter().map(|i| known[*i].attributes[attribute]).collect();
-            let mut used = used.clone();
-            loop {
-                // As many columns as textures follow every noise.
-                used.truncate(others.len());
-                let columns: Vec<Vec<f64>> =
-                    used.iter().map(|column| others.iter().map(|i| value(*i, *column)).collect()).collect();
-                match least_squares(&columns, &target) {
-                    Ok(fit) => {
-                        let parts = fit.coefficients.iter().zip(&used);
+        let target = |attribute: usize| -> Vec<f64> {
+            others.iter().map(|i| known[*i].attributes[attribute]).collect()
+        };
+        loop {
+            // As many columns as textures follow every noise.
+            used.truncate(others.len());
+            let columns: Vec<Vec<f64>> =
+                used.iter().map(|column| others.iter().map(|i| value(*i, *column)).collect()).collect();
+            let fits: Result<Vec<_>, _> = (0..n_attributes)
+                .map(|attribute| least_squares(&columns, &target(attribute)).map(|fit| fit.coefficients))
+                .collect();
+            match fits {
+                Ok(fits) => {
+                    let predicted = |coefficients: &Vec<f64>| {
+                        let parts = coefficients.iter().zip(&used);
                         let sum: f64 =
                             parts.map(|(coefficient, column)| coefficient * value(index, *column)).sum();
-                        return sum.clamp(0.0, 100.0);
-                    }
-                    Err(LeastSquaresError::Dependent { column }) => drop(used.remove(column)),
+                        sum.clamp(0.0, 100.0)
+                    };
+                    return fits.iter().map(predicted).collect();
                 }
+                Err(LeastSquaresError::Dependent { column }) => drop(used.remove(column)),
             }
-        };
-        (0..n_attributes).map(of_attribute).collect()
+        }
     };
     Ok((0..known.len()).map(without).collect())
 }

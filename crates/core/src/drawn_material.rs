@@ -13,7 +13,7 @@ pub use crate::drawn_material::classes::Class;
 pub use crate::drawn_material::table::CLASSES;
 
 use crate::drawn_material::classes::{Amplitude, PatternClass, ScatterClass};
-use crate::material::{Bumps, Material, Pattern, validate};
+use crate::material::{Bumps, Material, Pattern, cover, validate};
 use crate::rng::{Random, derive_seed};
 
 /// Smallest and largest value of a parameter.
@@ -21,8 +21,6 @@ pub type Range = (f64, f64);
 
 /// The most that scattered bumps cover, as [`validate`] counts it; it refuses a little more.
 const MOST_COVER: f64 = 8.0;
-/// Width of a bump below which it is no less work.
-const POINT_M: f64 = 40e-6;
 
 /// The material of this number, the same for the same seed, and its class.
 pub fn draw(seed: u64, number: u64) -> (Material, &'static Class) {
@@ -96,13 +94,12 @@ impl Draw {
     }
 
     fn pattern(&mut self, class: &PatternClass, period_m: f64, height_rms_m: f64) -> Pattern {
-        let chosen = (self.random.uniform() * class.kinds.len() as f64) as usize;
+        let kind = class.kinds[self.random.below(class.kinds.len())];
         let amplitude_m = match class.amplitude {
             Amplitude::Meters(range) => self.spread(range),
             Amplitude::OfHeight(range) => self.between(range) * height_rms_m,
             Amplitude::OfPeriod(range) => self.between(range) * period_m,
         };
-        let kind = class.kinds[chosen.min(class.kinds.len() - 1)];
         Pattern { kind, period_m, amplitude_m, jitter: self.between(class.jitter) }
     }
 
@@ -113,21 +110,16 @@ impl Draw {
         // Grains of paper are as high as they are wide; everything else goes with the rest of the relief.
         let height_m = if class.is_of_radius { height * radius_m } else { height * height_rms_m };
         let sign = if self.random.uniform() < class.pits_share { -1.0 } else { 1.0 };
-        let most = MOST_COVER / (radius_m * elongation * radius_m.max(POINT_M));
-        Bumps {
-            height_m: sign * height_m,
-            radius_m,
-            elongation,
-            spread_rad: self.between(class.spread_rad),
-            density_per_m2: self.spread(class.densities_per_m2).min(most),
-        }
+        let spread_rad = self.between(class.spread_rad);
+        let one = Bumps { height_m: sign * height_m, radius_m, elongation, spread_rad, density_per_m2: 1.0 };
+        let most = MOST_COVER / cover(&one);
+        Bumps { density_per_m2: self.spread(class.densities_per_m2).min(most), ..one }
     }
 
     /// Colors of valleys and peaks.
     fn colors(&mut self, class: &Class) -> ([u8; 3], [u8; 3]) {
-        let (palette, share) = (class.palettes, self.random.uniform());
-        let chosen = palette[((share * palette.len() as f64) as usize).min(palette.len() - 1)];
-        let peak = chosen.draw(&mut self.random);
+        let palette = class.palettes[self.random.below(class.palettes.len())];
+        let peak = palette.draw(&mut self.random);
         if self.random.uniform() < class.two_colored_share {
             let valley = palette::Palette::Any.draw(&mut self.random);
             return (valley.srgb(), peak.srgb());

@@ -147,7 +147,7 @@ const MOST_COVER: f64 = 10.0;
 /// Share of a surface that a scatter covers, by length and width of one standard deviation.
 ///
 /// The time that a scatter takes grows as this: it is spent on the points under each bump.
-fn cover(bumps: &Bumps) -> f64 {
+pub(crate) fn cover(bumps: &Bumps) -> f64 {
     bumps.density_per_m2 * bumps.radius_m * bumps.elongation * bumps.radius_m.max(POINT_M)
 }
 

@@ -154,7 +154,7 @@ pub fn simulated_sorts(
                 .iter()
                 .map(|l| l.iter().map(|v| v + config.noise_points * random.normal()).collect())
                 .collect();
-            let first = ((random.uniform() * n_textures as f64) as usize).min(n_textures - 1);
+            let first = random.below(n_textures);
             let groups = by_first_appearance(&group(&felt, n_groups, first));
             let place = |(texture, group): (&String, usize)| Grouped {
                 texture: texture.clone(),

@@ -33,6 +33,20 @@ impl Random {
         unit_interval(self.next_u64())
     }
 
+    /// A whole number below `n`, each as likely; 0 where `n` is 0.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((self.uniform() * n as f64) as usize).min(n.saturating_sub(1))
+    }
+
+    /// The numbers below `n` in random order (Fisher and Yates).
+    pub fn shuffled(&mut self, n: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..n).collect();
+        for last in (1..n).rev() {
+            order.swap(last, self.below(last + 1));
+        }
+        order
+    }
+
     /// A normal number of mean 0 and variance 1.
     pub fn normal(&mut self) -> f64 {
         if let Some(normal) = self.spare_normal.take() {
@@ -99,6 +113,7 @@ fn box_muller(u1: f64, u2: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::{Random, derive_seed, lattice_uniform, lcg_noise};
+    use std::collections::BTreeMap;
 
     #[test]
     fn lcg_noise_matches_the_reference_script() {
@@ -138,6 +153,18 @@ mod tests {
         for (k, expected, tolerance) in [(1, 0.0, 0.013), (2, 1.0, 0.018), (3, 0.0, 0.049), (4, 3.0, 0.124)] {
             assert!((moment(k) - expected).abs() < tolerance, "moment {k} is {}", moment(k));
         }
+    }
+
+    #[test]
+    fn each_order_of_three_is_as_likely() {
+        let mut random = Random::new(11);
+        let mut counts = BTreeMap::new();
+        for _ in 0..6000 {
+            *counts.entry(random.shuffled(3)).or_insert(0) += 1;
+        }
+        // Five deviations of a binomial count.
+        assert!(counts.len() == 6 && counts.values().all(|n| (850..1150).contains(n)), "{counts:?}");
+        assert_eq!((random.shuffled(0), random.below(1), random.below(0)), (vec![], 0, 0));
     }
 
     #[test]

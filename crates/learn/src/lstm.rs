@@ -98,7 +98,7 @@ impl CustomOp2 for Lstm {
             let mut previous = None;
             if step > 0 {
                 let state = &before[(step - 1) * of_step..];
-                multiply(state, weights, gates, [n_sequences, n_units, n_gates]);
+                multiply(state, weights, gates, [n_sequences, n_units, n_gates])?;
                 previous = Some(&cells_before[(step - 1) * of_step..]);
             }
             Step { n_units, gates, previous, cells: &mut cells[..of_step], states: &mut now[..of_step] }
@@ -167,23 +167,22 @@ impl CustomOp2 for Lstm {
 }
 
 /// Adds `states × weights` to the gates.
-fn multiply(states: &[f32], weights: &[f32], gates: &mut [f32], [n_sequences, n_units, n_gates]: [usize; 3]) {
+fn multiply(
+    states: &[f32],
+    weights: &[f32],
+    gates: &mut [f32],
+    [n_sequences, n_units, n_gates]: [usize; 3],
+) -> Result<()> {
     if n_sequences < LEAST_BATCH_TO_PACK {
         for (state, gates) in states.chunks_exact(n_units).zip(gates.chunks_exact_mut(n_gates)) {
             add_product(state, weights, gates);
         }
-        return;
+        return Ok(());
     }
-    let views = (
-        ArrayView2::from_shape((n_sequences, n_units), &states[..n_sequences * n_units]),
-        ArrayView2::from_shape((n_units, n_gates), weights),
-        ArrayViewMut2::from_shape((n_sequences, n_gates), gates),
-    );
-    if let (Ok(states), Ok(weights), Ok(mut gates)) = views {
-        general_mat_mul(1.0, &states, &weights, 1.0, &mut gates);
-    } else {
-        unreachable!("shapes were checked before");
-    }
+    let states = view(&states[..n_sequences * n_units], [n_sequences, n_units])?;
+    let weights = view(weights, [n_units, n_gates])?;
+    general_mat_mul(1.0, &states, &weights, 1.0, &mut view_mut(gates, [n_sequences, n_gates])?);
+    Ok(())
 }
 
 fn view(values: &[f32], [rows, columns]: [usize; 2]) -> Result<ArrayView2<'_, f32>> {

@@ -123,9 +123,8 @@ impl Training {
         {
             return Err(TrainingError::Sizes);
         }
-        let mut order: Vec<usize> = (0..textures.len()).collect();
         let n_aside = if config.patience.is_some() { textures.len().div_ceil(10) } else { 0 };
-        shuffle(&mut order, derive_seed(config.seed, "aside"));
+        let order = Random::new(derive_seed(config.seed, "aside")).shuffled(textures.len());
         let (aside, learned) = order.split_at(n_aside.min(textures.len()));
         let of = |indices: &[usize]| {
             let mut indices = indices.to_vec();
@@ -240,8 +239,8 @@ impl Training {
         mut is_wanted: impl FnMut(f64) -> bool,
     ) -> Result<Option<Epoch>, TrainingError> {
         let number = self.state.epochs.len() + 1;
-        let mut order: Vec<usize> = (0..self.segments.len()).collect();
-        shuffle(&mut order, derive_seed(self.state.config.seed, &format!("epoch {number}")));
+        let seed = derive_seed(self.state.config.seed, &format!("epoch {number}"));
+        let order = Random::new(seed).shuffled(self.segments.len());
         let mut sum = 0.0;
         let n_steps = order.len().div_ceil(self.state.config.n_batch);
         for (step, indices) in order.chunks(self.state.config.n_batch).enumerate() {
@@ -357,15 +356,6 @@ impl StrokeModel {
         let mut network = CnnLstm::new(architecture, 0, &device)?;
         network.restore(&numbers).map_err(ModelFileError::Shape)?;
         Ok(Self { network, scale, device })
-    }
-}
-
-/// Fisher and Yates' shuffle.
-fn shuffle(order: &mut [usize], seed: u64) {
-    let mut random = Random::new(seed);
-    for last in (1..order.len()).rev() {
-        let chosen = ((random.uniform() * (last + 1) as f64) as usize).min(last);
-        order.swap(last, chosen);
     }
 }
 

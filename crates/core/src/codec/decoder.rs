@@ -112,7 +112,7 @@ impl Decoder {
             for gain in gains.iter_mut() {
                 *gain *= FADE;
             }
-            let code = self.books.codes[(self.random.uniform() * n_codes as f64) as usize % n_codes];
+            let code = self.books.codes[self.random.below(n_codes)];
             let excitation = mixed(&self.synthesis.lagged(*lag), gains[0].min(FADE), &code, gains[1]);
             self.synthesis.fill(&predictor, &excitation)
         });

@@ -95,8 +95,7 @@ fn spectra(signal: &[f64]) -> Vec<Lsf> {
 
 /// The means of so many clusters (Lloyd), begun with rows by chance.
 fn clusters(rows: &[Vec<f64>], n: usize, random: &mut Random) -> Vec<Vec<f64>> {
-    let by_chance =
-        |random: &mut Random| rows[(random.uniform() * rows.len() as f64) as usize % rows.len()].clone();
+    let by_chance = |random: &mut Random| rows[random.below(rows.len())].clone();
     let mut means: Vec<Vec<f64>> = (0..n).map(|_| by_chance(random)).collect();
     for _ in 0..N_STEPS {
         let mut sums = vec![(vec![0.0; rows[0].len()], 0.0); n];

@@ -3,16 +3,6 @@
 use super::SelectionError;
 use crate::rng::Random;
 
-/// The numbers below `n` in random order.
-pub(super) fn shuffled(n: usize, random: &mut Random) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..n).collect();
-    for last in (1..n).rev() {
-        let other = (random.uniform() * (last + 1) as f64) as usize;
-        order.swap(last, other.min(last));
-    }
-    order
-}
-
 /// The textures of an order, dealt out to the folds one after the other.
 pub(super) fn deal(order: &[usize], n_folds: usize) -> Vec<Vec<usize>> {
     (0..n_folds).map(|fold| order.iter().copied().skip(fold).step_by(n_folds).collect()).collect()
@@ -29,7 +19,7 @@ pub(super) fn repeated(
         return Err(SelectionError::Folds { n, n_folds, n_repeats });
     }
     let n_repeats = if n_folds == n { 1 } else { n_repeats };
-    Ok((0..n_repeats).flat_map(|_| deal(&shuffled(n, random), n_folds)).collect())
+    Ok((0..n_repeats).flat_map(|_| deal(&random.shuffled(n), n_folds)).collect())
 }
 
 /// What is not in a fold, in order.

@@ -6,7 +6,7 @@
 use serde_json::Value;
 
 use super::component::first;
-use super::folds::{deal, shuffled};
+use super::folds::deal;
 use super::forward::{ranked, select};
 use super::parallel::{analyze, group_correlations, random_bests};
 use super::standardized::Standardized;
@@ -149,7 +149,7 @@ fn noise_selected_on_all_textures_seems_to_predict() {
             let train = everything(&table);
             let target = centered(&y);
             let ranking = ranked(&train.columns().map(|c| dot(c, &target)).collect::<Vec<_>>());
-            let order = shuffled(25, &mut random);
+            let order = random.shuffled(25);
             for (k, rs, percents) in &mut found {
                 let predictions = cross_validated(&table, &y, &ranking[..*k], &order);
                 rs.push(correlation(&y, &predictions).unwrap());
@@ -184,7 +184,7 @@ fn the_chain_on_noise_selects_as_in_the_reference() {
                 None => selected,
             };
             if !kept.is_empty() {
-                let predictions = cross_validated(&table, &y, &kept, &shuffled(25, &mut random));
+                let predictions = cross_validated(&table, &y, &kept, &random.shuffled(25));
                 rs.push(correlation(&y, &predictions).unwrap());
             }
         }

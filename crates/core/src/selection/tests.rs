@@ -1,4 +1,3 @@
-use super::folds::shuffled;
 use super::forward::{P_STOP, select};
 use super::parallel::{Thresholds, analyze, group_correlations};
 use super::standardized::Standardized;
@@ -272,7 +271,7 @@ fn the_same_seed_gives_the_same_validation() {
 fn order_of_textures_and_units_of_features_do_not_matter_to_a_fit() {
     let mut random = Random::new(31);
     let (rows, target) = textures(&mut random, 25, 30);
-    let order = shuffled(25, &mut random);
+    let order = random.shuffled(25);
     let scaled = |row: &Vec<f64>| {
         row.iter().enumerate().map(|(f, v)| 3.0 + v * 10.0_f64.powf(f as f64 % 7.0 - 3.0)).collect()
     };

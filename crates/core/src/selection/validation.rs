@@ -1,6 +1,6 @@
 //! What a model of an axis is worth on textures that it has not seen.
 
-use super::folds::{outside, repeated, shuffled};
+use super::folds::{outside, repeated};
 use super::standardized::Standardized;
 use super::{AxisModel, Choice, FeatureMatrix, Method, Prepared, SelectionError, all, error};
 use crate::rng::{Random, derive_seed};
@@ -78,7 +78,7 @@ pub fn validate(
     let mut targets = vec![target.to_vec()];
     targets.extend(
         (0..scheme.n_permutations)
-            .map(|_| shuffled(n, &mut random).iter().map(|i| target[*i]).collect::<Vec<f64>>()),
+            .map(|_| random.shuffled(n).iter().map(|i| target[*i]).collect::<Vec<f64>>()),
     );
     let mut products = vec![FromMeans::default(); targets.len()];
     let (mut nested, mut flat) = (LeftOut::default(), LeftOut::default());

@@ -86,7 +86,7 @@ pub(super) fn stability(
         let mut participants = Vec::new();
         for stratum in strata.values() {
             let n = stratum.len();
-            participants.extend((0..n).map(|_| stratum[((random.uniform() * n as f64) as usize).min(n - 1)]));
+            participants.extend((0..n).map(|_| stratum[random.below(n)]));
         }
         places.extend(places_by(drawn, &participants));
     }

@@ -96,12 +96,11 @@ impl WithSimd for StepBack<'_> {
     #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { n_units: n, gates, previous, cells, states, cell_gradient } = self;
-        let zeros = [0.0; 1];
         for (index, gates) in gates.chunks_exact_mut(4 * n).enumerate() {
             let of_sequence = index * n..(index + 1) * n;
             let (cells, states) = (&cells[of_sequence.clone()], &states[of_sequence.clone()]);
             let cell_gradient = &mut cell_gradient[of_sequence.clone()];
-            let previous = previous.map_or(&zeros[..0], |previous| &previous[of_sequence]);
+            let previous = previous.map_or(&[][..], |previous| &previous[of_sequence]);
             let (i, rest) = gates.split_at_mut(n);
             let (f, rest) = rest.split_at_mut(n);
             let (g, o) = rest.split_at_mut(n);
