@@ -7,6 +7,7 @@ mod actuator_acf;
 mod actuator_list;
 mod actuator_show;
 mod actuator_source;
+mod backbone_source;
 mod blending;
 mod calibrate;
 mod calibrate_doubts;
@@ -18,15 +19,18 @@ mod codec_decode;
 mod codec_encode;
 mod devices;
 mod devices_pens;
+mod drawn_pictures;
 mod evaluate;
 mod evaluate_codec;
 mod export;
 mod figures_folder;
+mod generate;
 mod guard;
 mod hid_files;
 mod import;
 mod import_hatt;
 mod import_recording;
+mod judged;
 mod landings;
 mod latency;
 mod latency_onsets;
@@ -36,6 +40,10 @@ mod library_places;
 mod library_relief;
 mod library_source;
 mod limited;
+mod model_add;
+mod model_fetch;
+mod model_folder;
+mod model_list;
 mod motion;
 mod near_names;
 mod output;
@@ -52,6 +60,7 @@ mod recording_answers;
 mod recording_source;
 mod render;
 mod rig;
+mod said_of_prompt;
 mod signal_source;
 mod space_build;
 mod space_judgments;
@@ -67,6 +76,7 @@ mod texture_path;
 mod texture_psd;
 mod train_attributes;
 mod train_networks;
+mod train_photo;
 mod watch;
 mod window;
 mod words;
@@ -117,6 +127,7 @@ enum Command {
     Actuator(ActuatorCommand),
     Calibrate(Box<calibrate::Args>),
     Quality(quality::Args),
+    Generate(generate::Args),
     /// Signals of textures at 1.75 to 3.15 kbit/s.
     #[command(subcommand)]
     Codec(CodecCommand),
@@ -129,6 +140,9 @@ enum Command {
     /// Learns to predict, and says how well by leaving each texture out.
     #[command(subcommand)]
     Train(TrainCommand),
+    /// Networks of others that this program can use.
+    #[command(subcommand)]
+    Model(ModelCommand),
 }
 
 #[derive(clap::Subcommand)]
@@ -139,6 +153,14 @@ enum PredictCommand {
 #[derive(clap::Subcommand)]
 enum TrainCommand {
     Attributes(train_attributes::Args),
+    Photo(train_photo::Args),
+}
+
+#[derive(clap::Subcommand)]
+enum ModelCommand {
+    Add(model_add::Args),
+    Fetch(model_fetch::Args),
+    List(model_list::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -248,6 +270,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Actuator(ActuatorCommand::Show(args))) => actuator_show::run(args),
         Some(Command::Actuator(ActuatorCommand::Acf(args))) => actuator_acf::run(args),
         Some(Command::Quality(args)) => quality::run(args),
+        Some(Command::Generate(args)) => generate::run(args),
         Some(Command::Codec(CodecCommand::Encode(args))) => codec_encode::run(args),
         Some(Command::Codec(CodecCommand::Decode(args))) => codec_decode::run(args),
         Some(Command::Spatial(SpatialCommand::Analyse(args))) => spatial_analyse::run(args),
@@ -257,6 +280,10 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Calibrate(args)) => calibrate::run(args),
         Some(Command::Predict(PredictCommand::Attributes(args))) => predict_attributes::run(args),
         Some(Command::Train(TrainCommand::Attributes(args))) => train_attributes::run(args),
+        Some(Command::Train(TrainCommand::Photo(args))) => train_photo::run(args),
+        Some(Command::Model(ModelCommand::Add(args))) => model_add::run(args),
+        Some(Command::Model(ModelCommand::Fetch(args))) => model_fetch::run(args),
+        Some(Command::Model(ModelCommand::List(args))) => model_list::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -12,7 +12,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("shagreen-formats", &["shagreen-core"]),
     ("shagreen-device", &["shagreen-synth"]),
     ("shagreen-learn", &["shagreen-core"]),
-    ("shagreen-app", &["shagreen-core", "shagreen-formats", "shagreen-device"]),
+    ("shagreen-app", &["shagreen-core", "shagreen-formats", "shagreen-device", "shagreen-learn"]),
     ("shagreen", &["shagreen-app", "shagreen-core", "shagreen-formats", "shagreen-device", "shagreen-learn"]),
 ];
 

@@ -118,13 +118,7 @@ fn make_textures(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Res
 }
 
 fn entry(material: &Material, made: StarterTexture, place: Place) -> anyhow::Result<TextureEntry> {
-    let side = |pixels: usize| u32::try_from(pixels).unwrap_or(u32::MAX);
-    let rgb = picture::Rgb {
-        width: side(made.picture.width),
-        height: side(made.picture.height),
-        pixels: made.picture.rgb,
-    };
-    let picture = picture::encode_jpeg(&rgb, made.picture.millimeters)
+    let picture = picture::encode_jpeg(&picture::Rgb::from(&made.picture), made.picture.millimeters)
         .with_context(|| format!("the picture of \"{}\" cannot be packed", material.id))?;
     Ok(TextureEntry {
         tags: material.tags.clone(),

@@ -1,40 +1,55 @@
-//! `shagreen predict attributes`: what a recording or words would feel like.
+//! `shagreen predict attributes`: what a recording, a photo or words would feel like.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::attribute_predictor::{predict, quantities};
 use shagreen_core::fit::{self, FitOptions};
 use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::prompt::{Understood, understand};
+use shagreen_core::prompt::understand;
+use shagreen_core::space::LabelSource;
+use shagreen_core::starter::FRAMING;
 use shagreen_core::touch_words::ATTRIBUTES;
 use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::attribute_table;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::{LEXICON_TEXT, built_in_lexicon};
+use shagreen_formats::picture::photo_pixels;
 use shagreen_formats::recording::{Ask, ColumnMap};
+use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
 
+use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
+use crate::cli::said_of_prompt::said_of;
 
-/// What a recorded stroke, or words, would feel like: attributes from 0 to 100, each with how unsure it is.
+/// What a recorded stroke, a photo or words would feel like: attributes from 0 to 100, each with how unsure it is.
 ///
 /// Recordings are compared with the textures of a library whose attributes are known; without --library those of the simulated
-/// one, which nobody rated. Words are understood by a lexicon whose figures are estimates.
+/// one, which nobody rated. Photos are judged by what was learned from pictures of materials whose roughness and hardness are
+/// known; words are understood by a lexicon whose figures are estimates.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true))]
 pub(crate) struct Args {
     /// Recordings of strokes over one texture: acceleration, speed and force, as WAV or tables.
     #[arg(long, value_name = "FILE", num_args = 1.., group = "what")]
     recording: Vec<PathBuf>,
+    /// A photo of a surface, as JPEG or PNG.
+    #[arg(long, value_name = "FILE", group = "what")]
+    photo: Option<PathBuf>,
     /// Words.
     #[arg(long, value_name = "TEXT", group = "what")]
     prompt: Option<String>,
+    /// The model that photos are judged by, from `shagreen train photo`; without it the one of the program.
+    #[arg(long, value_name = "MODEL", requires = "photo")]
+    model: Option<PathBuf>,
+    #[command(flatten)]
+    backbone: BackboneArgs,
     #[command(flatten)]
     library: LibraryArgs,
     /// What the columns of recordings are and in which units, as a TOML file.
@@ -49,10 +64,38 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    match &args.prompt {
-        Some(prompt) => of_prompt(args, prompt),
-        None => of_recording(args),
+    match (&args.prompt, &args.photo) {
+        (Some(prompt), _) => of_prompt(args, prompt),
+        (_, Some(photo)) => of_photo(args, photo),
+        _ => of_recording(args),
     }
+}
+
+fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
+    let backbone = read_backbone(&args.backbone)?;
+    let looker = match &args.model {
+        Some(model) => {
+            Looker::new(&output::read_file(model)?, backbone).with_context(|| output::in_file(model))?
+        }
+        None => Looker::built_in(backbone)?,
+    };
+    let pixels = photo_pixels(&output::read_file(photo)?).with_context(|| output::in_file(photo))?;
+    // Nobody knows how much of a surface a photo shows; nothing that is seen depends on it.
+    let seen =
+        looker.look(&pixels.into_surface(FRAMING.millimeters)).with_context(|| output::in_file(photo))?;
+    let model = looker.model();
+    let attributes: Vec<(&str, Estimate)> = model.attributes().iter().map(String::as_str).zip(seen).collect();
+    let what = format!("{}, learned from {}", model.eyes().name(), model.learned_from());
+    let result = json!({
+        "attributes": as_json(&attributes),
+        "model": what,
+        "model_sha256": looker.sha256(),
+        "label_source": LabelSource::Estimated.id(),
+    });
+    output::print(args.json, &result, || {
+        format!("{}\nby {what}\nan estimate: nobody rated it", table_text(&attributes))
+    });
+    Ok(())
 }
 
 fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
@@ -67,7 +110,7 @@ fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
         "attributes": as_json(&attributes),
         "model": "words, by a lexicon of estimates",
         "model_sha256": sha256_of(LEXICON_TEXT.as_bytes()),
-        "label_source": "estimated",
+        "label_source": LabelSource::Estimated.id(),
         "words": words,
         "unknown": understood.unknown,
         "disputed": understood.disputed,
@@ -75,39 +118,6 @@ fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
     });
     output::print(args.json, &result, || format!("{}{}", table_text(&attributes), said_of(&understood)));
     Ok(())
-}
-
-/// What there is to say of how words were understood.
-fn said_of(understood: &Understood) -> String {
-    let mut said = Vec::new();
-    let taken: Vec<String> = understood
-        .words
-        .iter()
-        .map(|word| {
-            let not = if word.is_denied { "not " } else { "" };
-            if word.text == word.taken_for {
-                format!("{not}{}", word.text)
-            } else {
-                format!("{not}{} ({})", word.text, word.taken_for)
-            }
-        })
-        .collect();
-    if understood.is_about_touch() {
-        said.push(format!("understood: {}", taken.join(", ")));
-    } else {
-        said.push("nothing was said that can be felt: any surface is as likely".to_owned());
-    }
-    if !understood.unknown.is_empty() {
-        said.push(format!("not understood: {}", understood.unknown.join(", ")));
-    }
-    if !understood.disputed.is_empty() {
-        said.push(format!("the words disagree about {}", understood.disputed.join(", ")));
-    }
-    if understood.n_left_out > 0 {
-        said.push(format!("{} at the end were left out", counted(understood.n_left_out, "word")));
-    }
-    said.push("estimates of words: nobody rated them".to_owned());
-    format!("\n{}", said.join("\n"))
 }
 
 fn of_recording(args: &Args) -> anyhow::Result<()> {

@@ -45,7 +45,7 @@ pub(crate) struct Args {
 }
 
 fn parse_source(text: &str) -> Result<LabelSource, String> {
-    LabelSource::from_id(text).ok_or_else(|| "say human, simulated or physical".to_owned())
+    LabelSource::from_id(text).ok_or_else(|| "say human, simulated, physical or estimated".to_owned())
 }
 
 /// The scale that `LOW,HIGH` names.

@@ -1,6 +1,5 @@
 //! `shagreen train attributes`: how well attributes can be told from strokes.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -11,9 +10,10 @@ use shagreen_core::statistics::mean;
 use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::attribute_table;
 
+use crate::cli::judged::{Comparison, Judged};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output;
-use crate::cli::train_networks::{NetworkArgs, train_networks};
+use crate::cli::train_networks::{NetworkArgs, check_out, train_networks};
 
 /// Learns to tell the attributes of textures from strokes, and says how well: each texture is left out, everything is
 /// learned from the others, and it is predicted.
@@ -35,22 +35,9 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// What a way of predicting came to, texture by texture.
-pub(crate) struct Judged {
-    /// What it is called.
-    pub(crate) name: String,
-    /// Predictions of each texture, attribute by attribute.
-    pub(crate) predicted: Vec<Vec<f64>>,
-}
-
-/// Errors of a way of predicting, attribute by attribute, in points of 0..100.
-struct Errors {
-    mae: Vec<f64>,
-    rmse: Vec<f64>,
-}
-
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let started = Instant::now();
+    check_out(&args.networks, args.library.path())?;
     let library = load(&args.library)?;
     let table = attribute_table(&library)?;
     let known = table.known(&library);
@@ -61,19 +48,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         predicted: estimates.iter().map(|of| means(of)).collect(),
     }];
     all.push(Judged { name: "linear regression".to_owned(), predicted: linear_leave_one_out(&known)? });
-    let n = known.len();
-    let without = |index: usize, attribute: usize| {
-        let others = table.values.iter().enumerate().filter(|(i, _)| *i != index);
-        mean(&others.map(|(_, values)| values[attribute]).collect::<Vec<f64>>())
-    };
-    let of_others = |index| (0..table.names.len()).map(|attribute| without(index, attribute)).collect();
-    all.push(Judged { name: "mean of the others".to_owned(), predicted: (0..n).map(of_others).collect() });
+    all.push(Judged::mean_of_others(&table.values));
     let trained = train_networks(&args.networks, args.state.as_deref(), &library, &table)?;
     all.extend(trained.judged);
 
-    let errors: Vec<Errors> = all.iter().map(|judged| errors(&judged.predicted, &table.values)).collect();
-    let total = |errors: &Errors| errors.rmse.iter().sum::<f64>();
-    let chosen = (0..all.len()).min_by(|a, b| total(&errors[*a]).total_cmp(&total(&errors[*b]))).unwrap_or(0);
+    let comparison = Comparison::new(&all, &table.names, &table.values);
     // How far off it is, in its own deviations: about one where it knows how unsure it is.
     let calibration = |attribute: usize| {
         let pairs = estimates.iter().zip(&table.values);
@@ -81,63 +60,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             .map(|(of, values)| ((of[attribute].mean - values[attribute]) / of[attribute].deviation).powi(2));
         mean(&squares.collect::<Vec<f64>>()).sqrt()
     };
-    let by_name = |values: &[f64]| -> BTreeMap<&str, f64> {
-        table.names.iter().map(String::as_str).zip(values.iter().copied()).collect()
-    };
-    let baselines: BTreeMap<&str, Value> = all
-        .iter()
-        .zip(&errors)
-        .map(|(judged, of)| {
-            (judged.name.as_str(), json!({"mae": by_name(&of.mae), "rmse": by_name(&of.rmse)}))
-        })
-        .collect();
     let calibrations: Vec<f64> = (0..table.names.len()).map(calibration).collect();
-    let seconds = started.elapsed().as_secs_f64();
-    let result = json!({
-        "chosen": all[chosen].name,
-        "mae": by_name(&errors[chosen].mae),
-        "rmse": by_name(&errors[chosen].rmse),
-        "error_over_deviation": by_name(&calibrations),
-        "baselines": baselines,
+    let n = known.len();
+    let mut result = comparison.as_json();
+    let more = json!({
+        "error_over_deviation": comparison.by_name(&calibrations),
         "textures": n,
         "label_source": table.sources.iter().map(|source| source.id()).collect::<Vec<_>>(),
         "epochs": trained.epochs,
-        "seconds": seconds,
+        "seconds": started.elapsed().as_secs_f64(),
     });
-    output::print(args.json, &result, || {
-        let widest = all.iter().map(|judged| judged.name.len()).max().unwrap_or(0);
-        let row = |name: &str, values: &[f64]| {
-            let cell = |(value, name): (&f64, &String)| format!("{value:>0$.2}", name.len());
-            let cells: Vec<String> = values.iter().zip(&table.names).map(cell).collect();
-            format!("{name:<widest$}  {}\n", cells.join("  "))
-        };
-        let heading = format!("{:widest$}  {}\n", "", table.names.join("  "));
-        let table_of = |what: &str, pick: fn(&Errors) -> &[f64]| {
-            let rows: String =
-                all.iter().zip(&errors).map(|(judged, errors)| row(&judged.name, pick(errors))).collect();
-            format!("{what}\n{heading}{rows}")
-        };
+    result.extend(more.as_object().cloned().unwrap_or_default());
+    output::print(args.json, &Value::Object(result), || {
         format!(
-            "Each of {} was left out in turn; attributes by {}.\n\n{}\n{}\nBest: {}.",
+            "Each of {} was left out in turn; attributes by {}.\n\n{}",
             counted(n, "texture"),
             table.source_words(),
-            table_of("Mean absolute error, in points of 100", |errors| &errors.mae),
-            table_of("Root mean square error", |errors| &errors.rmse),
-            all[chosen].name
+            comparison.text()
         )
     });
     Ok(())
-}
-
-fn errors(predicted: &[Vec<f64>], values: &[Vec<f64>]) -> Errors {
-    let n_attributes = values.first().map_or(0, Vec::len);
-    let off = |attribute: usize| -> Vec<f64> {
-        predicted.iter().zip(values).map(|(p, v)| (p[attribute] - v[attribute]).abs()).collect()
-    };
-    let square =
-        |errors: &[f64]| mean(&errors.iter().map(|error| error * error).collect::<Vec<f64>>()).sqrt();
-    Errors {
-        mae: (0..n_attributes).map(|attribute| mean(&off(attribute))).collect(),
-        rmse: (0..n_attributes).map(|attribute| square(&off(attribute))).collect(),
-    }
 }

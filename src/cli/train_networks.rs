@@ -9,12 +9,13 @@ use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
 use shagreen_formats::library::{Library, id_from_name};
 use shagreen_learn::cnn_lstm::{Architecture, Streams};
+use shagreen_learn::model_file::is_model;
 use shagreen_learn::stroke_set::{Stroke, StrokedTexture};
 use shagreen_learn::training::{Training, TrainingConfig};
 
-use crate::cli::guard::refuse_inputs;
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
+use crate::cli::judged::Judged;
 use crate::cli::output::{self, Progress};
-use crate::cli::train_attributes::Judged;
 use crate::cli::words::words;
 
 /// A network that can be trained.
@@ -85,6 +86,14 @@ pub(crate) struct Trained {
     pub(crate) epochs: usize,
 }
 
+/// Looks, before hours are spent, whether what is learned can be kept where it is to be.
+pub(crate) fn check_out(args: &NetworkArgs, library: Option<&Path>) -> anyhow::Result<()> {
+    let Some(out) = &args.out else { return Ok(()) };
+    ensure!(!args.networks.is_empty(), "--out keeps a network; name one by --network");
+    refuse_inputs(&[out], &[library])?;
+    refuse_foreign(out, "a model", is_model)
+}
+
 /// Trains the networks that were asked for, once without each texture.
 pub(crate) fn train_networks(
     args: &NetworkArgs,
@@ -93,7 +102,6 @@ pub(crate) fn train_networks(
     table: &AttributeTable,
 ) -> anyhow::Result<Trained> {
     let mut trained = Trained { judged: Vec::new(), epochs: 0 };
-    ensure!(args.out.is_none() || !args.networks.is_empty(), "--out keeps a network; name one by --network");
     if args.networks.is_empty() {
         return Ok(trained);
     }
@@ -132,7 +140,6 @@ pub(crate) fn train_networks(
         trained.judged.push(Judged { name: format!("network {}", network.id()), predicted });
     }
     if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
-        refuse_inputs(&[out.as_path()], &[])?;
         let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
         let all: Vec<&StrokedTexture> = textures.iter().collect();
         let model =

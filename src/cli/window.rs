@@ -14,6 +14,7 @@ use shagreen_app::{Begin, Start, WindowTimes};
 use shagreen_formats::project::{Project, ProjectLibrary};
 
 use crate::cli::library_source::{LibraryArgs, built_in, load};
+use crate::cli::model_folder::model_folder;
 use crate::cli::output;
 
 #[derive(clap::Args)]
@@ -88,6 +89,7 @@ fn keeping() -> Keeping {
     Keeping {
         recovery: Some(state.join("recovery")),
         settings: Some(folders.config_dir().join("settings.json")),
+        models: model_folder().ok().map(|models| models.path().to_owned()),
     }
 }
 

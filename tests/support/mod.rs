@@ -30,8 +30,10 @@ impl Bench {
     }
 
     pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
-        std::fs::write(self.path(name), bytes).unwrap();
-        self.path(name)
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, bytes).unwrap();
+        path
     }
 
     /// Names of the files in the folder, in order.
@@ -47,6 +49,8 @@ impl Bench {
     pub(crate) fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_shagreen"));
         command.args(arguments.split_whitespace()).current_dir(self.folder.path());
+        // What this machine has of its user must not tell.
+        command.env("XDG_DATA_HOME", self.path("data"));
         command
     }
 

@@ -87,7 +87,7 @@ fn own_name(panel: &Panel<'_>, name: &str) -> String {
 }
 
 /// The color that the fewest authored textures have.
-fn next_color(panel: &Panel<'_>) -> u8 {
+pub(crate) fn next_color(panel: &Panel<'_>) -> u8 {
     let n_of = |color: u8| panel.project.authored.iter().filter(|texture| texture.color == color).count();
     // There are colors.
     (0..N_COLORS).min_by_key(|color| n_of(*color)).unwrap_or(0)

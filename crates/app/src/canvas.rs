@@ -32,6 +32,7 @@ use crate::edit::Edit;
 use crate::library_panel::place_in_words;
 use crate::locks::lock_mark;
 use crate::panel::Panel;
+use crate::prompt::Guess;
 use crate::strings::{self, authored};
 use crate::texture_menu::texture_menu;
 use crate::theme::{Tokens, tokens};
@@ -40,6 +41,8 @@ use crate::theme::{Tokens, tokens};
 const SITE_RADIUS: f32 = 13.0;
 /// What the point covers while nothing points at it, in points.
 const POINT_SIZE: Vec2 = vec2(22.0, 22.0);
+/// Points of the outline of an ellipse.
+const ELLIPSE_POINTS: usize = 96;
 /// Up to this many textures, each is shown as its picture; more are dots.
 const MAX_PICTURES: usize = 60;
 /// Step of an arrow key, in points of the axes; Shift makes it [`BIG_STEP`].
@@ -77,6 +80,7 @@ pub fn canvas_ui(
     panel: &Panel<'_>,
     state: &mut CanvasState,
     map: Option<&ShownMap>,
+    guess: Option<&Guess>,
 ) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
@@ -102,6 +106,9 @@ pub fn canvas_ui(
     ui.set_clip_rect(rect.expand(AROUND_VIEW).intersect(seen));
     triangles(ui, axes, panel, t);
     path_line(ui, axes, panel, t);
+    if let Some(guess) = guess {
+        ellipse_ui(ui, axes, guess, t);
+    }
     let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
     if tool.is_on {
         commands.extend(tool.follow(ui, axes, panel, &background));
@@ -126,6 +133,28 @@ pub fn canvas_ui(
     state.bar_height = bar.height;
     foot_ui(ui, axes, panel, t);
     commands
+}
+
+/// Where what was described or seen is taken to lie: one deviation along each axis.
+fn ellipse_ui(ui: &Ui, axes: Axes, guess: &Guess, t: &Tokens) {
+    let [across, up] = guess.axes;
+    let at = |angle: f64| {
+        axes.ui_from_space(SpacePoint {
+            rough_smooth: across.mean + across.deviation * angle.cos(),
+            hard_soft: up.mean + up.deviation * angle.sin(),
+        })
+    };
+    let n = ELLIPSE_POINTS;
+    let mut outline: Vec<Pos2> = (0..n).map(|i| at(std::f64::consts::TAU * i as f64 / n as f64)).collect();
+    let fill = t.accent.gamma_multiply(0.07);
+    ui.painter().add(Shape::convex_polygon(outline.clone(), fill, Stroke::NONE));
+    outline.extend(outline.first().copied());
+    ui.painter().extend(Shape::dashed_line(
+        &outline,
+        Stroke::new(1.4, t.accent.gamma_multiply(0.8)),
+        6.0,
+        4.0,
+    ));
 }
 
 /// Where the main button has dragged the background to: the others move the view.

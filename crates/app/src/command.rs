@@ -6,6 +6,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use crate::import::source::Source;
 use crate::leaving::Leave;
+use crate::prompt::PromptCommand;
 use shagreen_core::heat_map::Quantity;
 use shagreen_formats::gallery::GalleryProject;
 
@@ -78,6 +79,8 @@ pub enum Command {
     OpenImport,
     /// Import these files, in the sheet.
     Import(Vec<Source>),
+    /// The same for files dropped on the canvas: recordings find their places.
+    ImportHere(Vec<Source>),
     /// Read these files as sortings, ratings or votes.
     ReadJudgments(Vec<Source>),
     /// Open the sheet that saves the library.
@@ -98,6 +101,8 @@ pub enum Command {
     BeginTour,
     /// Something about the signals of the bench.
     Signals(SignalsCommand),
+    /// Something about prompts and photos.
+    Prompt(PromptCommand),
     /// Something about recorded strokes.
     Stroke(StrokeCommand),
     /// Something about files.

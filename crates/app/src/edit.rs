@@ -47,6 +47,15 @@ pub enum Edit {
     SetPicture(Option<Arc<Picture>>),
     /// The path is drawn, changed or taken away.
     ChangePath(PathChange, Option<DrawnPath>),
+    /// It becomes what words describe: its place, its picture and what is noted of it.
+    Remake {
+        /// Where it lies.
+        at: SpacePoint,
+        /// What it looks like.
+        picture: Arc<Picture>,
+        /// What is noted.
+        notes: String,
+    },
     /// Another one joins those that are authored, and is selected.
     Author(AuthoredTexture),
     /// The authored texture of this key goes; the last one cannot.
@@ -142,6 +151,7 @@ impl Edit {
             Self::SetTags(_) => strings::tagged(name).into(),
             Self::SetPicture(Some(_)) => strings::pictured(name).into(),
             Self::SetPicture(None) => strings::unpictured(name).into(),
+            Self::Remake { .. } => crate::strings::prompt::remade(name).into(),
             Self::ChangePath(change, _) => change.label().into(),
             Self::Author(texture) => strings::authored(&texture.name).into(),
             Self::Remove(key) => strings::removed(name_of(project, *key)).into(),
@@ -212,6 +222,12 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::SetNotes(notes) => change(&mut project, |texture| texture.notes = notes),
         Edit::SetTags(tags) => change(&mut project, |texture| texture.tags = tags),
         Edit::SetPicture(picture) => change(&mut project, |texture| texture.picture = picture),
+        Edit::Remake { at, picture, notes } => {
+            project.solo = None;
+            change(&mut project, |texture| {
+                (texture.at, texture.picture, texture.notes) = (at, Some(picture), notes);
+            });
+        }
         Edit::ChangePath(_, path) => change(&mut project, |texture| texture.path = path),
         Edit::Author(texture) => {
             let texture = AuthoredTexture { key: project.free_key(), ..texture };

@@ -20,6 +20,8 @@ pub struct Keeping {
     pub recovery: Option<PathBuf>,
     /// The file of the settings.
     pub settings: Option<PathBuf>,
+    /// The folder of networks of others.
+    pub models: Option<PathBuf>,
 }
 
 /// The state of all of them.

@@ -222,6 +222,10 @@ mod tests {
             21 => Edit::OpenLibrary(ProjectLibrary::BuiltIn(built_in)),
             22 => Edit::AddTextures(vec![Arc::clone(joined)]),
             23 => Edit::RemoveTexture((number >> 55) as usize % 4),
+            25 => match joined.picture.clone().map(Arc::new) {
+                Some(picture) => Edit::Remake { at, picture, notes: name },
+                None => Edit::SetNotes(name),
+            },
             24 => Edit::Star { id, name, is_starred: is_on },
             _ => Edit::RenameTexture { id, name },
         }

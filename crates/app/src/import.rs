@@ -6,6 +6,7 @@
 pub mod batch;
 mod draft;
 mod draft_ui;
+mod estimate;
 mod files_ui;
 mod fit_ui;
 mod model_ui;

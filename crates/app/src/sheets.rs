@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Stroke, StrokeKind};
+use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Popup, Stroke, StrokeKind};
 use shagreen_formats::project::EXTENSION;
 
 use crate::command::{Command, FileCommand};
@@ -14,6 +14,7 @@ use crate::import::source::Source;
 use crate::leaving::{Leave, leaving_ui};
 use crate::open_sheet::OpenSheet;
 use crate::panel::Panel;
+use crate::prompt::PromptCommand;
 use crate::recorded_stroke::{StrokeCommand, is_stroke_file};
 use crate::recovered_ui::recovered_ui;
 use crate::recovery::Leftover;
@@ -63,6 +64,14 @@ impl Sheet {
         }
         if let Self::Import(sheet) = self {
             sheet.load(sources);
+        }
+    }
+
+    /// The same, and recordings find their places.
+    pub(crate) fn import_here(&mut self, sources: Vec<Source>, ctx: &Context) {
+        self.import(sources, ctx);
+        if let Self::Import(sheet) = self {
+            sheet.place_recordings();
         }
     }
 
@@ -119,13 +128,22 @@ impl Sheet {
             let sources = dropped.into_iter().map(Source::Dropped).collect();
             commands.push(Command::Signals(SignalsCommand::ReadAll(sources)));
         } else if let Some(photo) = photo.filter(|_| !are_judgments) {
-            commands.push(Command::ReadPhoto(Source::Dropped(photo.clone())));
+            let source = Source::Dropped(photo.clone());
+            // Whoever looks at the details of a texture drops its picture; else it is something to feel.
+            let is_picture = workspace != Workspace::Author || Popup::is_any_open(ctx);
+            commands.push(if is_picture {
+                Command::ReadPhoto(source)
+            } else {
+                Command::Prompt(PromptCommand::Look(source))
+            });
         } else if !dropped.is_empty() {
             let sources = dropped.into_iter().map(Source::Dropped).collect();
             commands.push(if are_judgments {
                 Command::ReadJudgments(sources)
-            } else {
+            } else if is_import {
                 Command::Import(sources)
+            } else {
+                Command::ImportHere(sources)
             });
         }
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {

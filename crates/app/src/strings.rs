@@ -14,6 +14,7 @@ pub mod help;
 pub mod import;
 pub mod map;
 pub mod path;
+pub mod prompt;
 pub mod rig;
 pub mod scope;
 pub mod signal;

@@ -2,6 +2,7 @@
 
 mod commands;
 mod files;
+mod prompts;
 mod rig;
 mod signals;
 mod strokes;
@@ -31,10 +32,14 @@ use crate::history::History;
 use crate::import::sheet::ImportSheet;
 use crate::inspector::inspector_ui;
 use crate::library_panel::{LibraryState, library_ui};
+use crate::models::ModelFolder;
 use crate::pad::{PadState, pad_ui};
 use crate::panel::Panel;
 use crate::photo::{OwnPicture, PhotoReader};
 use crate::pictures::Pictures;
+use crate::prompt::Prompts;
+use crate::prompt::bar_ui::bar_ui;
+use crate::prompt::card_ui::card_ui;
 use crate::recorded_stroke::StrokeReader;
 use crate::scale::Scale;
 use crate::scope::{ScopeState, scope_ui};
@@ -60,6 +65,8 @@ pub struct Window {
     pictures: Pictures,
     photo: PhotoReader,
     own_picture: OwnPicture,
+    prompts: Prompts,
+    guess_picture: OwnPicture,
     strokes: StrokeReader,
     compare: Compare,
     heat: HeatMap,
@@ -104,6 +111,7 @@ impl Window {
         // Nobody is led around who would be led around again next time.
         let can_remember = keeping.settings.is_some();
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
+        let prompts = Prompts::new(keeping.models.clone().map(ModelFolder::new));
         let files = Files::new(&project, path, keeping);
         let is_output_given = output != OutputChoice::SystemDefault;
         open_as_left(&mut session, output, &files, ctx);
@@ -123,6 +131,8 @@ impl Window {
             pictures,
             photo: PhotoReader::new(),
             own_picture: OwnPicture::default(),
+            prompts,
+            guess_picture: OwnPicture::default(),
             strokes: StrokeReader::default(),
             files,
             compare: Compare::by_chance(),
@@ -180,6 +190,11 @@ impl Window {
         &self.build
     }
 
+    /// The prompt box and what came of it.
+    pub fn prompts(&self) -> &Prompts {
+        &self.prompts
+    }
+
     /// The workspace where signals are compared.
     pub fn signals(&self) -> &SignalsPage {
         &self.signals
@@ -212,6 +227,7 @@ impl Window {
         self.signals.collect(&ctx);
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
+        self.collect_prompt(&ctx);
         self.collect_strokes();
         self.remember_output();
         let mut commands = if self.sheet.is_open() {
@@ -294,8 +310,15 @@ impl Window {
         });
         let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
         CentralPanel::default().frame(frame).show(ui, |ui| {
-            self.tour_places[0] = ui.max_rect();
-            commands.extend(canvas_ui(ui, &panel, &mut self.canvas, map.as_ref()));
+            commands.extend(bar_ui(ui, &mut self.prompts, &self.files.settings.prompts));
+            let guess = self.prompts.guess_of(self.project.texture().key);
+            if let Some(guess) = guess {
+                let picture =
+                    self.guess_picture.follow(Some(&guess.picture), ctx).map(|(picture, _)| picture);
+                commands.extend(card_ui(ui, &panel, guess, self.prompts.is_busy(), picture));
+            }
+            self.tour_places[0] = ui.available_rect_before_wrap();
+            commands.extend(canvas_ui(ui, &panel, &mut self.canvas, map.as_ref(), guess));
         });
     }
 

@@ -4,6 +4,7 @@
 use crate::material::{Bumps, Material, Pattern};
 use crate::prompt::Understood;
 use crate::space::SpacePoint;
+use crate::starter::LabelSpan;
 use crate::touch_words::Shade;
 
 /// A material whose place in the space is known.
@@ -13,15 +14,6 @@ pub struct Anchor {
     pub material: Material,
     /// Where it lies by its physical labels.
     pub place: SpacePoint,
-}
-
-/// What the axes of the anchors' space span.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spans {
-    /// From the smoothest to the roughest: decades of acceleration at 100 mm/s and 1 N.
-    pub roughness_decades: f64,
-    /// From the softest to the hardest: decades of stiffness at 1 N.
-    pub hardness_decades: f64,
 }
 
 /// Factors of heights and periods that a surface may be changed by: beyond them it would be another.
@@ -43,8 +35,14 @@ const GRAY: [u8; 3] = [150, 148, 144];
 /// The material that a prompt describes; its name is the prompt's.
 ///
 /// It is made of the anchor that the prompt names, or else of the nearest one; `None` without anchors. Heights are scaled so
-/// that its roughness moves by as much as the prompt asks, the modulus likewise for its hardness.
-pub fn imagine(name: &str, understood: &Understood, anchors: &[Anchor], spans: Spans) -> Option<Material> {
+/// that its roughness moves by as much as the prompt asks, the modulus likewise for its hardness; `span` is what the axes of
+/// the anchors' places span.
+pub fn imagine(
+    name: &str,
+    understood: &Understood,
+    anchors: &[Anchor],
+    span: &LabelSpan,
+) -> Option<Material> {
     let [rough, hard, bumpy, ..] = understood.attributes;
     let looks = &understood.looks;
     let named =
@@ -59,9 +57,9 @@ pub fn imagine(name: &str, understood: &Understood, anchors: &[Anchor], spans: S
     name.clone_into(&mut material.name);
     material.tags.clear();
 
-    let decades = (anchor.place.rough_smooth - rough.mean) / 100.0 * spans.roughness_decades;
+    let decades = (anchor.place.rough_smooth - rough.mean) / 100.0 * span.roughness_decades();
     let higher = 10.0_f64.powf(decades).clamp(HEIGHTS.0, HEIGHTS.1);
-    let decades = (anchor.place.hard_soft - hard.mean) / 100.0 * spans.hardness_decades;
+    let decades = (anchor.place.hard_soft - hard.mean) / 100.0 * span.hardness_decades();
     let stiffer = 10.0_f64.powf(decades * MODULUS_OF_STIFFNESS);
     material.youngs_modulus_pa = (material.youngs_modulus_pa * stiffer).clamp(MODULI_PA.0, MODULI_PA.1);
     material.height_rms_m = (material.height_rms_m * higher).min(HIGHEST_M);
@@ -150,16 +148,20 @@ fn shaded(srgb: [u8; 3], shade: Shade) -> [u8; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::{Anchor, Spans, imagine};
+    use super::{Anchor, imagine};
     use crate::gaussian_process::Estimate;
     use crate::material::tests::plain;
     use crate::material::{Bumps, Material, Pattern, PatternKind, validate};
     use crate::prompt::{Looks, Understood};
     use crate::space::SpacePoint;
+    use crate::starter::{LabelSpan, Labels};
     use crate::touch_words::Shade;
     use proptest::prelude::{prop_assert, proptest};
 
-    const SPANS: Spans = Spans { roughness_decades: 1.5, hardness_decades: 2.6 };
+    const SPAN: LabelSpan = LabelSpan {
+        low: Labels { roughness_log10_mps2: -0.5, hardness_log10_n_per_m: 3.0 },
+        high: Labels { roughness_log10_mps2: 1.0, hardness_log10_n_per_m: 5.6 },
+    };
 
     fn anchors() -> Vec<Anchor> {
         let bumps =
@@ -198,7 +200,7 @@ mod tests {
     #[test]
     fn a_material_that_is_asked_for_as_it_is_stays_as_it_is() {
         let like = Looks { like: Some("carpet".to_owned()), ..looks() };
-        let made = imagine("Carpet", &understood(30.0, 90.0, like), &anchors(), SPANS).unwrap();
+        let made = imagine("Carpet", &understood(30.0, 90.0, like), &anchors(), &SPAN).unwrap();
         let mut expected = anchors()[1].material.clone();
         (expected.id, expected.name) = ("imagined".to_owned(), "Carpet".to_owned());
         assert_eq!(made, expected);
@@ -206,7 +208,7 @@ mod tests {
 
     #[test]
     fn what_is_rougher_is_higher_and_what_is_harder_stiffer() {
-        let made = |rs, hs| imagine("x", &understood(rs, hs, looks()), &anchors(), SPANS).unwrap();
+        let made = |rs, hs| imagine("x", &understood(rs, hs, looks()), &anchors(), &SPAN).unwrap();
         let (known, rough) = (made(80.0, 5.0), made(60.0, 5.0));
         // A fifth of the axis: 0.3 decades.
         assert!((rough.height_rms_m / known.height_rms_m - 10.0_f64.powf(0.3)).abs() < 1e-9);
@@ -214,7 +216,7 @@ mod tests {
         assert!((known.youngs_modulus_pa / soft.youngs_modulus_pa).log10() - 0.2 * 2.6 * 1.5 < 1e-9);
         assert_eq!(made(31.0, 88.0).pattern.unwrap().kind, PatternKind::Loops, "the nearest");
         assert_eq!(made(31.0, 88.0).peak_srgb, super::GRAY);
-        assert_eq!(imagine("x", &understood(1.0, 1.0, looks()), &[], SPANS), None);
+        assert_eq!(imagine("x", &understood(1.0, 1.0, looks()), &[], &SPAN), None);
     }
 
     #[test]
@@ -229,7 +231,7 @@ mod tests {
             scale: 0.5,
             ..Looks::default()
         };
-        let made = imagine("x", &understood(80.0, 5.0, wanted), &anchors(), SPANS).unwrap();
+        let made = imagine("x", &understood(80.0, 5.0, wanted), &anchors(), &SPAN).unwrap();
         assert_eq!((made.peak_srgb, made.gloss, made.mottle), ([100, 10, 10], 0.9, 0.4));
         assert!(made.valley_srgb[0] < 60);
         let pattern = made.pattern.unwrap();
@@ -249,7 +251,7 @@ mod tests {
                 let wanted = Looks { like, scale, pattern: kinds[kind], shade, ..Looks::default() };
                 let mut understood = understood(rs, hs, wanted);
                 understood.attributes[2].mean = bumpy;
-                let made = imagine("x", &understood, &anchors(), SPANS).unwrap();
+                let made = imagine("x", &understood, &anchors(), &SPAN).unwrap();
                 prop_assert!(validate(&made).is_ok(), "{:?}", validate(&made));
             }
         }

@@ -47,6 +47,7 @@ mod field;
 pub mod filter;
 pub mod fit;
 pub mod gaussian_process;
+pub mod generated;
 pub mod heat_map;
 pub mod height_field;
 pub mod imagined;

@@ -61,7 +61,7 @@ impl fmt::Display for SpacePoint {
     }
 }
 
-/// Where the positions of a space come from. The three are never mixed up.
+/// Where the positions of a space come from. They are never mixed up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LabelSource {
     /// People rated the textures.
@@ -70,15 +70,22 @@ pub enum LabelSource {
     SimulatedRaters,
     /// Physical quantities stand in for ratings: no person felt anything.
     PhysicalLabels,
+    /// Words, a picture or a recording were taken for it: no person felt anything.
+    Estimated,
 }
 
 impl LabelSource {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::HumanRatings, Self::SimulatedRaters, Self::PhysicalLabels, Self::Estimated];
+
     /// The words for people.
     pub fn label(self) -> &'static str {
         match self {
             Self::HumanRatings => "human ratings",
             Self::SimulatedRaters => "simulated raters",
             Self::PhysicalLabels => "physical labels",
+            Self::Estimated => "estimates",
         }
     }
 
@@ -88,12 +95,13 @@ impl LabelSource {
             Self::HumanRatings => "human",
             Self::SimulatedRaters => "simulated",
             Self::PhysicalLabels => "physical",
+            Self::Estimated => "estimated",
         }
     }
 
     /// The source that has this [`LabelSource::id`].
     pub fn from_id(id: &str) -> Option<Self> {
-        [Self::HumanRatings, Self::SimulatedRaters, Self::PhysicalLabels].into_iter().find(|s| s.id() == id)
+        Self::ALL.into_iter().find(|source| source.id() == id)
     }
 }
 
@@ -251,7 +259,7 @@ mod tests {
 
     #[test]
     fn sources_round_trip() {
-        for source in [LabelSource::HumanRatings, LabelSource::SimulatedRaters, LabelSource::PhysicalLabels] {
+        for source in LabelSource::ALL {
             assert_eq!(LabelSource::from_id(source.id()), Some(source));
         }
         assert_eq!(LabelSource::from_id("guessed"), None);

@@ -167,24 +167,54 @@ fn fit(strokes: &[Stroked], friction: f64) -> Result<TextureModel, StarterError>
     Ok(TextureModel::new(STROKE_RATE, nodes, Some(friction))?)
 }
 
+/// What the labels of some textures span: the ends of the axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LabelSpan {
+    /// Smallest of each label.
+    pub low: Labels,
+    /// Largest of each label.
+    pub high: Labels,
+}
+
+impl LabelSpan {
+    /// Of these labels.
+    pub fn of(labels: &[Labels]) -> Self {
+        let all = |pick: fn(f64, f64) -> f64, begin: f64| Labels {
+            roughness_log10_mps2: labels.iter().map(|l| l.roughness_log10_mps2).fold(begin, pick),
+            hardness_log10_n_per_m: labels.iter().map(|l| l.hardness_log10_n_per_m).fold(begin, pick),
+        };
+        Self { low: all(f64::min, f64::INFINITY), high: all(f64::max, f64::NEG_INFINITY) }
+    }
+
+    /// Decades from the smoothest to the roughest.
+    pub fn roughness_decades(&self) -> f64 {
+        self.high.roughness_log10_mps2 - self.low.roughness_log10_mps2
+    }
+
+    /// Decades from the softest to the hardest.
+    pub fn hardness_decades(&self) -> f64 {
+        self.high.hardness_log10_n_per_m - self.low.hardness_log10_n_per_m
+    }
+
+    /// Rough to smooth and hard to soft, 0 to 100 for what lies within; not finite where all labels are alike.
+    pub fn axes(&self, labels: &Labels) -> [f64; 2] {
+        let along = |value: fn(&Labels) -> f64| {
+            let (low, high) = (value(&self.low), value(&self.high));
+            100.0 * (high - value(labels)) / (high - low)
+        };
+        [along(|l| l.roughness_log10_mps2), along(|l| l.hardness_log10_n_per_m)]
+    }
+}
+
 /// Positions by labels: the roughest of the textures at 0 and the smoothest at 100, the hardest at 0 and the softest at
 /// 100, the others in proportion. An axis on which all are alike, or have a label that is not finite, is at 50.
 pub fn places(labels: &[Labels]) -> Vec<SpacePoint> {
-    let axis = |value: fn(&Labels) -> f64| {
-        let low = labels.iter().map(value).fold(f64::INFINITY, f64::min);
-        let high = labels.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-        labels
-            .iter()
-            .map(|l| 100.0 * (high - value(l)) / (high - low))
-            .map(|v| if v.is_finite() { v.clamp(0.0, 100.0) } else { 50.0 })
-            .collect::<Vec<f64>>()
-    };
-    let rough_smooth = axis(|l| l.roughness_log10_mps2);
-    let hard_soft = axis(|l| l.hardness_log10_n_per_m);
-    rough_smooth
-        .into_iter()
-        .zip(hard_soft)
-        .map(|(rough_smooth, hard_soft)| SpacePoint { rough_smooth, hard_soft })
+    let span = LabelSpan::of(labels);
+    let within = |v: f64| if v.is_finite() { v.clamp(0.0, 100.0) } else { 50.0 };
+    labels
+        .iter()
+        .map(|labels| span.axes(labels).map(within))
+        .map(|[rough_smooth, hard_soft]| SpacePoint { rough_smooth, hard_soft })
         .collect()
 }
 

@@ -51,6 +51,8 @@
 //! - `"relief": {"step_mm": 0.01, "force_n": 1.0, "mps2": [0.1, -0.2]}`: accelerations in m/s² a step apart, played by
 //!   where the tip is, at the force at which they are as they stand here; back and forth beyond the last one.
 //!
+//! Version 1.6 added the label source `estimated`: a place that words, a picture or a recording were taken for.
+//!
 //! A file says the lowest version that has all it uses.
 //!
 //! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
@@ -70,6 +72,7 @@ pub(crate) mod write;
 
 use serde_json::{Map, Value};
 use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::starter::Labels;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture_path::TexturePath;
 
@@ -90,7 +93,7 @@ pub const FORMAT: &str = "shagreen-library";
 /// Major version that is read and written: files of another one are refused.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written: fields may be added by a higher one.
-pub const VERSION_MINOR: u32 = 5;
+pub const VERSION_MINOR: u32 = 6;
 /// Names of the two axes of a space, where a library names no others.
 pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
@@ -169,6 +172,15 @@ pub struct PhysicalLabels {
     pub roughness_log10_mps2: f64,
     /// log₁₀ of the stiffness of the contact in N/m at 1 N.
     pub hardness_log10_n_per_m: f64,
+}
+
+impl From<PhysicalLabels> for Labels {
+    fn from(physical: PhysicalLabels) -> Self {
+        Self {
+            roughness_log10_mps2: physical.roughness_log10_mps2,
+            hardness_log10_n_per_m: physical.hardness_log10_n_per_m,
+        }
+    }
 }
 
 /// Fields of a library that this version does not know, by the object that they stood in.

@@ -3,8 +3,12 @@
 use std::io::Cursor;
 
 use image::codecs::jpeg::JpegEncoder;
+use image::codecs::png::PngEncoder;
 use image::metadata::Orientation;
-use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageFormat, ImageReader};
+use image::{
+    ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder as _, ImageFormat, ImageReader,
+};
+use shagreen_core::shading::Picture as Surface;
 
 /// Quality of the JPEG pictures in a library, 1..100.
 pub const JPEG_QUALITY: u8 = 85;
@@ -70,6 +74,20 @@ pub struct Rgb {
     pub height: u32,
     /// Three bytes a pixel.
     pub pixels: Vec<u8>,
+}
+
+impl Rgb {
+    /// The same as what is lit and looked at; `millimeters` is the length of surface that the width covers.
+    pub fn into_surface(self, millimeters: f64) -> Surface {
+        Surface { width: self.width as usize, height: self.height as usize, rgb: self.pixels, millimeters }
+    }
+}
+
+impl From<&Surface> for Rgb {
+    fn from(picture: &Surface) -> Self {
+        let side = |pixels: usize| u32::try_from(pixels).unwrap_or(u32::MAX);
+        Self { width: side(picture.width), height: side(picture.height), pixels: picture.rgb.clone() }
+    }
 }
 
 /// Why a picture cannot be packed or unpacked.
@@ -142,6 +160,39 @@ pub fn encode_jpeg(rgb: &Rgb, millimeters: f64) -> Result<Picture, PictureError>
     Ok(Picture { width, height, millimeters, format: PictureFormat::Jpeg, bytes })
 }
 
+/// A PNG of pixels, without loss.
+///
+/// # Errors
+/// As [`encode_jpeg`].
+pub fn encode_png(rgb: &Rgb) -> Result<Vec<u8>, PictureError> {
+    let Rgb { width, height, ref pixels } = *rgb;
+    if pixels.len() != 3 * width as usize * height as usize {
+        return Err(PictureError::Size { width, height, n_bytes: pixels.len() });
+    }
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes).write_image(pixels, width, height, ExtendedColorType::Rgb8)?;
+    Ok(bytes)
+}
+
+/// A square of heights as a PNG of 16 bits: the lowest is 0, the highest 65,535. What that is in meters is told elsewhere.
+///
+/// # Errors
+/// [`PictureError::Size`] where there are not as many rows as columns.
+pub fn encode_heights(heights_m: &[f64], n_columns: usize) -> Result<Vec<u8>, PictureError> {
+    let side = u32::try_from(n_columns).unwrap_or(u32::MAX);
+    if n_columns == 0 || heights_m.len() != n_columns * n_columns {
+        return Err(PictureError::Size { width: side, height: side, n_bytes: heights_m.len() });
+    }
+    let low = heights_m.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let span = if high > low { high - low } else { 1.0 };
+    let level = |height: &f64| (f64::from(u16::MAX) * (height - low) / span).round() as u16;
+    let pixels: Vec<u8> = heights_m.iter().flat_map(|height| level(height).to_ne_bytes()).collect();
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes).write_image(&pixels, side, side, ExtendedColorType::L16)?;
+    Ok(bytes)
+}
+
 /// Unpacks a picture.
 ///
 /// # Errors
@@ -160,12 +211,20 @@ pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
 /// [`PictureError::NoPhoto`] for what is neither JPEG nor PNG, [`PictureError::Codec`] for damaged bytes and for photos of
 /// more than [`MAX_PHOTO_SIDE`] pixels a side.
 pub fn of_photo(bytes: &[u8], millimeters: f64) -> Result<Picture, PictureError> {
+    encode_jpeg(&photo_pixels(bytes)?, millimeters)
+}
+
+/// The pixels of such a picture, before it is packed.
+///
+/// # Errors
+/// As [`of_photo`].
+pub fn photo_pixels(bytes: &[u8]) -> Result<Rgb, PictureError> {
     let mut photo = upright(bytes)?;
     if photo.width().max(photo.height()) > PHOTO_SIDE {
         photo = photo.thumbnail(PHOTO_SIDE, PHOTO_SIDE);
     }
     let rgb = photo.into_rgb8();
-    encode_jpeg(&Rgb { width: rgb.width(), height: rgb.height(), pixels: rgb.into_raw() }, millimeters)
+    Ok(Rgb { width: rgb.width(), height: rgb.height(), pixels: rgb.into_raw() })
 }
 
 /// The brightness along a row of a photo or of a height map, 0 (black) to 1, pixel by pixel: as finely as the file has it,
@@ -261,8 +320,8 @@ fn check_size(picture: &Picture, found: (u32, u32)) -> Result<(), PictureError> 
 #[cfg(test)]
 mod tests {
     use super::{
-        PHOTO_SIDE, PictureError, PictureFormat, Rgb, brightness_row, check, decode, encode_jpeg, is_picture,
-        of_photo,
+        PHOTO_SIDE, PictureError, PictureFormat, Rgb, brightness_row, check, decode, encode_heights,
+        encode_jpeg, encode_png, is_picture, of_photo,
     };
 
     fn gradient() -> Rgb {
@@ -300,6 +359,33 @@ mod tests {
         let error = brightness_row(bytes.get_ref(), Some(5)).unwrap_err();
         assert!(error.to_string().contains("rows 0 to 4"), "{error}");
         assert!(is_picture(bytes.get_ref()) && !is_picture(b"0,1"));
+    }
+
+    #[test]
+    fn heights_and_pixels_come_back_exactly() {
+        let heights: Vec<f64> = (0..64 * 64).map(|i| 1e-6 * f64::from(i % 977)).collect();
+        let bytes = encode_heights(&heights, 64).unwrap();
+        let row = brightness_row(&bytes, Some(20)).unwrap();
+        for (got, height) in row.iter().zip(&heights[20 * 64..]) {
+            // Half a level of 16 bits.
+            assert!((got * 976e-6 - height).abs() < 976e-6 / 65_535.0 / 1.9);
+        }
+        assert!(
+            brightness_row(&encode_heights(&[1.0; 4], 2).unwrap(), None).unwrap().iter().all(|x| *x == 0.0)
+        );
+        assert!(matches!(encode_heights(&heights, 63), Err(PictureError::Size { .. })));
+
+        let rgb = gradient();
+        let bytes = encode_png(&rgb).unwrap();
+        let picture = super::Picture {
+            width: rgb.width,
+            height: rgb.height,
+            millimeters: 20.0,
+            format: PictureFormat::Png,
+            bytes,
+        };
+        assert_eq!(decode(&picture).unwrap(), rgb);
+        assert!(encode_png(&Rgb { width: 3, ..rgb }).is_err());
     }
 
     #[test]

@@ -37,10 +37,7 @@ pub(crate) fn state_origin_of_places(library: &mut Library) {
 /// Whether this is a sentence of [`state_origin_of_places`], and no other follows.
 fn is_ours(sentence: &str) -> bool {
     let labels = sentence.strip_prefix(POSITIONS).and_then(|rest| rest.strip_suffix('.'));
-    let is_label = |label: &str| {
-        let sources = [LabelSource::HumanRatings, LabelSource::SimulatedRaters, LabelSource::PhysicalLabels];
-        sources.iter().any(|source| source.label() == label)
-    };
+    let is_label = |label: &str| LabelSource::ALL.iter().any(|source| source.label() == label);
     labels.is_some_and(|labels| labels.split(" and ").all(is_label))
 }
 

@@ -5,7 +5,7 @@
 //! cork,40.5,71,33,human
 //! ```
 //!
-//! `source` says what the places were derived from: `human`, `simulated` or `physical`; where there is no such column, the
+//! `source` says what the places were derived from: `human`, `simulated`, `physical` or `estimated`; where there is no such column, the
 //! whole table has the one that the caller states. Without `rs` and `hs`, the columns `rough-smooth` and `hard-soft` are
 //! the place. The axes of a space may be other attributes: then the columns of the place are named `x:` and `y:` with the
 //! attribute, as `x:warm-cold`. A table on another [`Scale`] is brought to 0 to 100. Columns that are none of these are not used.
@@ -171,7 +171,7 @@ pub enum PlacesCsvError {
         name: String,
     },
     /// A source is not known.
-    #[error("source in line {line} is \"{found}\"; say human, simulated or physical")]
+    #[error("source in line {line} is \"{found}\"; say human, simulated, physical or estimated")]
     Source {
         /// The line, from one.
         line: u64,
@@ -180,7 +180,7 @@ pub enum PlacesCsvError {
     },
     /// Nothing says what the places were derived from.
     #[error(
-        "nothing says where the places come from; add a column `source` with human, simulated or physical, or state one for the whole table"
+        "nothing says where the places come from; add a column `source` with human, simulated, physical or estimated, or state one for the whole table"
     )]
     NoSource,
 }
@@ -474,7 +474,7 @@ mod tests {
         check("id,rs,hs,warm-cold\na,1,2,-3\n", "warm-cold in line 2 is -3");
         check("id,rs,hs,warm-cold\na,1,2,12:30\n", "warm-cold in line 2 is \"12:30\"");
         check("id,rs,hs,so-so-so\na,1,2,3\n", "line 1: \"so-so-so\" can be parted");
-        check("id,rs,hs,source\na,1,2,me\n", "human, simulated or physical");
+        check("id,rs,hs,source\na,1,2,me\n", "human, simulated, physical or estimated");
         check("id,rs\na,1\n", "\"hs\"");
         let unsaid = read_places_csv(b"id,rs,hs\na,1,2\n", None).unwrap_err();
         assert!(unsaid.to_string().contains("column `source`"));

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::layout;
@@ -14,6 +14,8 @@ const OPEN_DEPTH: usize = 2;
 
 /// Projects that are remembered.
 pub const MAX_RECENT: usize = 12;
+/// Prompts that are remembered.
+pub const MAX_PROMPTS: usize = 24;
 
 /// What is remembered.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -34,9 +36,21 @@ pub struct Settings {
     /// The output, the actuator and the pen; `None` where nobody has chosen any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rig: Option<RigSettings>,
+    /// What was described, newest first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub prompts: Vec<KeptPrompt>,
     /// What another version remembers.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
+}
+
+/// A prompt, and the seed of what was made of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptPrompt {
+    /// The words.
+    pub prompt: String,
+    /// The seed.
+    pub seed: u64,
 }
 
 /// Why the rig of a file of settings is not known: whoever goes on without it drives an actuator without its limits.
@@ -60,6 +74,13 @@ impl Settings {
         self.recent.insert(0, path);
         self.recent.truncate(MAX_RECENT);
     }
+
+    /// Something was described.
+    pub fn note_prompt(&mut self, kept: KeptPrompt) {
+        self.prompts.retain(|other| *other != kept);
+        self.prompts.insert(0, kept);
+        self.prompts.truncate(MAX_PROMPTS);
+    }
 }
 
 /// Settings from the bytes of a file, each on its own: one that cannot be read is as nobody had chosen any. That the rig is
@@ -79,6 +100,7 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
         has_seen_tour: taken(&mut all, "has_seen_tour").unwrap_or_default(),
         scale: taken(&mut all, "scale"),
         template: taken(&mut all, "template"),
+        prompts: taken(&mut all, "prompts").unwrap_or_default(),
         rig,
         unknown: all,
     };
@@ -98,7 +120,9 @@ pub fn write_settings(settings: &Settings) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MAX_RECENT, RigSettings, Settings, SettingsError, read_settings, write_settings};
+    use super::{
+        KeptPrompt, MAX_RECENT, RigSettings, Settings, SettingsError, read_settings, write_settings,
+    };
     use crate::rig_settings::{ActuatorSettings, PressureSettings, ProfileSettings};
     use std::path::Path;
 
@@ -114,6 +138,10 @@ mod tests {
         let mut settings = Settings { is_light: Some(true), ..Settings::default() };
         settings.note_project(Path::new("/a.shagreen"));
         (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
+        for seed in [1, 2, 1] {
+            settings.note_prompt(KeptPrompt { prompt: "rough".to_owned(), seed });
+        }
+        assert_eq!(settings.prompts.iter().map(|kept| kept.seed).collect::<Vec<_>>(), [1, 2]);
         settings.unknown.insert("later".to_owned(), 3.into());
         assert_eq!(read(&write_settings(&settings)), settings);
         assert_eq!(read(b"{}"), Settings::default());

@@ -1,9 +1,15 @@
 //! The libraries that are built into the program.
 
+use shagreen_core::imagined::Anchor;
+use shagreen_core::material::Material;
+use shagreen_core::starter::{LabelSpan, Labels};
+
 use crate::library::{Library, LibraryError, read_library};
+use crate::materials_toml::{MaterialsError, read_materials};
 use crate::places_csv::{PlacesCsvError, Scale, place_textures, read_places};
 
 const BYTES: &[u8] = include_bytes!("../../../assets/starter/starter.json");
+const MATERIALS: &[u8] = include_bytes!("../../../assets/starter/materials.toml");
 const SIMULATED_PLACES: &[u8] = include_bytes!("../../../assets/starter/simulated.csv");
 const SIMULATED_REPORT: &[u8] = include_bytes!("../../../assets/starter/simulated.report.json");
 
@@ -13,6 +19,34 @@ const SIMULATED_REPORT: &[u8] = include_bytes!("../../../assets/starter/simulate
 /// None, as long as the committed file is sound, which a test holds; reading it costs some milliseconds.
 pub fn starter_library() -> Result<Library, LibraryError> {
     read_library(BYTES).map(|imported| imported.value)
+}
+
+/// Why the materials of the starter library cannot be had.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StarterMaterialsError {
+    /// They are damaged.
+    #[error(transparent)]
+    Materials(#[from] MaterialsError),
+    /// The library is damaged.
+    #[error(transparent)]
+    Library(#[from] LibraryError),
+}
+
+/// The materials that the starter library was made of, where they lie in it, and what its axes span.
+///
+/// # Errors
+/// None, as long as the committed files are sound, which a test holds.
+pub fn starter_anchors() -> Result<(Vec<Anchor>, LabelSpan), StarterMaterialsError> {
+    let materials = read_materials(MATERIALS)?.materials;
+    let library = starter_library()?;
+    let labels: Vec<Labels> =
+        library.textures.iter().filter_map(|texture| texture.physical).map(Labels::from).collect();
+    let anchor = |material: Material| {
+        let place = library.textures[library.index_of(&material.id)?].at()?;
+        Some(Anchor { material, place })
+    };
+    Ok((materials.into_iter().filter_map(anchor).collect(), LabelSpan::of(&labels)))
 }
 
 /// Why the second library cannot be had.
@@ -51,7 +85,7 @@ pub fn starter_bytes() -> &'static [u8] {
 
 #[cfg(test)]
 mod tests {
-    use super::{BYTES, simulated_library, starter_library};
+    use super::{BYTES, simulated_library, starter_anchors, starter_library};
     use crate::library::{read_library, write_library};
     use crate::picture::decode;
     use shagreen_core::space::LabelSource;
@@ -65,6 +99,20 @@ mod tests {
         assert!(library.textures.iter().all(|t| t.place.is_some() && t.physical.is_some()));
         for texture in &library.textures {
             decode(texture.picture.as_ref().unwrap()).unwrap();
+        }
+    }
+
+    #[test]
+    fn every_material_of_it_is_an_anchor() {
+        let (anchors, span) = starter_anchors().unwrap();
+        let library = starter_library().unwrap();
+        assert_eq!(anchors.len(), library.textures.len());
+        for (anchor, texture) in anchors.iter().zip(&library.textures) {
+            assert_eq!((&anchor.material.id, anchor.place), (&texture.id, texture.at().unwrap()));
+            let [rough_smooth, hard_soft] = span.axes(&texture.physical.unwrap().into());
+            // The file has three digits behind the point.
+            assert!((rough_smooth - anchor.place.rough_smooth).abs() < 0.1, "{}", texture.id);
+            assert!((hard_soft - anchor.place.hard_soft).abs() < 0.1, "{}", texture.id);
         }
     }
 

@@ -56,7 +56,7 @@ pub struct SidecarV1 {
     pub parents: Vec<ParentV1>,
     /// Name of the library.
     pub library: String,
-    /// What the positions of its textures were derived from: `human`, `simulated` or `physical`.
+    /// What the positions of its textures were derived from: `human`, `simulated`, `physical` or `estimated`.
     pub label_source: Option<String>,
     /// Seed of the noise.
     pub seed: u64,

@@ -19,6 +19,7 @@ const V1_2: &[u8] = include_bytes!("golden/library-1.2.json");
 const V1_3: &[u8] = include_bytes!("golden/library-1.3.json");
 const V1_4: &[u8] = include_bytes!("golden/library-1.4.json");
 const V1_5: &[u8] = include_bytes!("golden/library-1.5.json");
+const V1_6: &[u8] = include_bytes!("golden/library-1.6.json");
 
 /// Reads without a warning.
 fn read(bytes: &[u8]) -> Library {
@@ -177,6 +178,17 @@ fn version_1_5() {
 }
 
 #[test]
+fn version_1_6() {
+    let mut library = read(V1_6);
+    check_head(&library, "1.6");
+    check_cork(&library.textures[0]);
+    assert_eq!(library.textures[0].attributes.as_ref().unwrap().source, LabelSource::Estimated);
+    let place = library.textures[0].place.as_mut().unwrap();
+    place.source = LabelSource::Estimated;
+    assert_eq!(read(&write_library(&library)), library);
+}
+
+#[test]
 fn paths_that_lead_nowhere_are_refused() {
     let edits: [(&str, Value, &str); 5] = [
         ("/textures/0/path/along", json!("mood"), "distance or time"),
@@ -205,7 +217,7 @@ fn axes_are_two_attributes() {
 
 #[test]
 fn what_is_not_known_is_written_back() {
-    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4, V1_5] {
+    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4, V1_5, V1_6] {
         let before: Value = serde_json::from_slice(golden).unwrap();
         let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
         assert_eq!(after, before);

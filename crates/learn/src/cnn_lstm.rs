@@ -20,6 +20,7 @@ pub use self::architecture::{Architecture, Padding, Streams};
 
 use self::architecture::KERNELS;
 use self::normalization::Normalization;
+use crate::dense;
 use crate::init::Uniform;
 use crate::lstm::lstm;
 use crate::parameters::Parameters;
@@ -73,8 +74,7 @@ impl CnnLstm {
         for (name, shape) in
             [("dense0", [n_features, first]), ("dense1", [first, second]), ("output", [second, a.n_outputs])]
         {
-            weights(&mut parameters, name, shape, 1)?;
-            bias(&mut parameters, name, vec![0.0; shape[1]])?;
+            dense::add(&mut parameters, name, shape, &mut uniform, device)?;
         }
         let normalization = Normalization::new("norm", n_features, &mut parameters, device)?;
         Ok(Self { architecture, parameters, normalization })
@@ -158,18 +158,8 @@ impl CnnLstm {
         self.dense(&x, "output")
     }
 
-    /// A product with weights along the last dimension, and a bias.
     fn dense(&self, x: &Tensor, name: &str) -> Result<Tensor> {
-        let weights = self.parameters.get(&format!("{name}.weight"))?;
-        let bias = self.parameters.get(&format!("{name}.bias"))?;
-        let mut shape = x.dims().to_vec();
-        let (n_inputs, n_outputs) = weights.dims2()?;
-        let rows = x.elem_count() / n_inputs;
-        let y = x.reshape((rows, n_inputs))?.matmul(weights)?.broadcast_add(bias)?;
-        if let Some(last) = shape.last_mut() {
-            *last = n_outputs;
-        }
-        y.reshape(shape)
+        dense::apply(&self.parameters, name, x)
     }
 }
 

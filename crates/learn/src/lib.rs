@@ -11,10 +11,15 @@
 
 pub mod backbone;
 pub mod cnn_lstm;
+mod dense;
 mod device;
+pub mod diffusion;
 mod init;
+pub mod looking;
 mod lstm;
 pub mod model_file;
 mod parameters;
+pub mod picture_model;
+pub mod picture_set;
 pub mod stroke_set;
 pub mod training;

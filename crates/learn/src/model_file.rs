@@ -131,6 +131,12 @@ pub(crate) fn read<T: for<'de> Deserialize<'de>>(
     Ok((serde_json::from_value(header.about)?, numbers))
 }
 
+/// Whether a file is a model that this program wrote, of whatever kind and version.
+pub fn is_model(bytes: &[u8]) -> bool {
+    SafeTensors::read_metadata(bytes)
+        .is_ok_and(|(_, metadata)| metadata.metadata().as_ref().is_some_and(|m| m.contains_key(KEY)))
+}
+
 /// SHA-256 of a file, as it is told with every prediction.
 pub fn sha256_of(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
@@ -178,6 +184,7 @@ mod tests {
         for end in 0..bytes.len() {
             assert!(matches!(failure(&bytes[..end]), ModelFileError::Tensors(_)), "cut to {end}");
         }
+        assert!(super::is_model(&bytes) && super::is_model(&changed) && !super::is_model(&bytes[..40]));
         let other = write("other toy", &7, &numbers()).unwrap();
         assert!(matches!(failure(&other), ModelFileError::Kind { found, .. } if found == "other toy"));
         let text = String::from_utf8_lossy(&bytes).into_owned();
@@ -190,6 +197,6 @@ mod tests {
         ));
         let foreign =
             safetensors::serialize(Vec::<(&str, safetensors::tensor::TensorView<'_>)>::new(), None).unwrap();
-        assert!(matches!(failure(&foreign), ModelFileError::Foreign));
+        assert!(matches!(failure(&foreign), ModelFileError::Foreign) && !super::is_model(&foreign));
     }
 }

@@ -7,6 +7,7 @@ use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, na
 use shagreen_formats::recording::Question;
 
 use crate::import::draft::{Draft, FitState};
+use crate::import::estimate::place_by_estimate;
 use crate::import::model_ui::ShownModel;
 use crate::import::recording_state::RecordingState;
 use crate::import::source::Source;
@@ -313,9 +314,15 @@ impl Batch {
         of_files.sum::<usize>() + self.drafts.iter().filter(|draft| draft.fitted().is_some()).count()
     }
 
+    /// Whether there is a recording that was fitted.
+    pub fn has_recordings(&self) -> bool {
+        self.drafts.iter().any(|draft| draft.fitted().is_some())
+    }
+
     /// The textures that would join `library` now. A texture keeps its place where it can be compared with the others:
-    /// where the places come from the same source, and its rate is not above `space_rate_hz`.
-    pub fn entries(&self, library: &Library, space_rate_hz: f64) -> Vec<Arc<TextureEntry>> {
+    /// where the places come from the same source, and its rate is not above `space_rate_hz`. With `are_placed` recordings are
+    /// placed by an estimate.
+    pub fn entries(&self, library: &Library, space_rate_hz: f64, are_placed: bool) -> Vec<Arc<TextureEntry>> {
         let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
         let mut source = library.label_source();
         let has_mixed_places = source.is_none() && !library.label_sources().is_empty();
@@ -340,7 +347,11 @@ impl Batch {
         for draft in &self.drafts {
             let recordings: Vec<&str> = self.drawn_of(draft).map(|(file, _)| file.name.as_str()).collect();
             let id = claim_id(&id_from_name(&draft.name), &mut ids);
-            out.extend(draft.entry(id, &recordings).map(Arc::new));
+            let Some(mut entry) = draft.entry(id, &recordings) else { continue };
+            if are_placed && entry.model.rate().0 <= space_rate_hz {
+                place_by_estimate(&mut entry, library);
+            }
+            out.push(Arc::new(entry));
         }
         out
     }

@@ -27,6 +27,8 @@ pub struct ImportSheet {
     paths: String,
     for_all: bool,
     is_fresh: bool,
+    /// Whether recordings are placed by an estimate.
+    are_placed: bool,
 }
 
 /// What the sheet has to know of the rest.
@@ -41,7 +43,19 @@ pub struct Surroundings<'a> {
 impl ImportSheet {
     /// A sheet without files.
     pub fn new(ctx: &Context) -> Self {
-        Self { batch: Batch::new(ctx), selected: None, paths: String::new(), for_all: true, is_fresh: true }
+        Self {
+            batch: Batch::new(ctx),
+            selected: None,
+            paths: String::new(),
+            for_all: true,
+            is_fresh: true,
+            are_placed: false,
+        }
+    }
+
+    /// Recordings are placed by an estimate, unless somebody wants it otherwise.
+    pub fn place_recordings(&mut self) {
+        self.are_placed = true;
     }
 
     /// Reads more files.
@@ -170,7 +184,7 @@ impl ImportSheet {
         });
     }
 
-    fn foot_ui(&self, ui: &mut Ui, around: Surroundings<'_>) -> Vec<Command> {
+    fn foot_ui(&mut self, ui: &mut Ui, around: Surroundings<'_>) -> Vec<Command> {
         let t = tokens(ui.ctx());
         let mut commands = Vec::new();
         let n_ready = self.batch.n_ready();
@@ -181,12 +195,15 @@ impl ImportSheet {
         }));
         let accept = if n_ready > 0 { accept.fill(t.accent) } else { accept };
         if ui.add_enabled(n_ready > 0, accept).clicked() {
-            let entries = self.batch.entries(around.library, around.space_rate_hz);
+            let entries = self.batch.entries(around.library, around.space_rate_hz, self.are_placed);
             commands.push(Command::Edit(Edit::AddTextures(entries)));
             commands.push(Command::CloseSheet);
         }
         if ui.button(strings::CANCEL).clicked() {
             commands.push(Command::CloseSheet);
+        }
+        if self.batch.has_recordings() {
+            ui.checkbox(&mut self.are_placed, strings::PLACE_THEM).on_hover_text(strings::PLACE_THEM_HELP);
         }
         let is_left_out = |state: State| matches!(state, State::Failed);
         let waits = |state: State, file: u64| {

@@ -34,8 +34,7 @@ pub const COLORS: [&str; 8] = ["amber", "sky", "green", "yellow", "indigo", "ver
 /// Above the picture.
 pub const PICTURE: &str = "Picture";
 /// It has none of its own.
-pub const NO_PICTURE: &str =
-    "Blended from its neighbors. Drop a photo (JPEG, PNG) on the window for one of its own.";
+pub const NO_PICTURE: &str = "Blended from its neighbors. Drop a photo (JPEG, PNG) on the window while this is open for one of its own.";
 /// How much of a surface the picture shows.
 pub const PICTURE_WIDTH: &str = "Width of the picture";
 /// What that does.

@@ -365,3 +365,14 @@ pub fn no_library(reason: &str) -> String {
 pub fn cannot_be_checked(reason: &str) -> String {
     format!("What is at this path cannot be read ({reason}), so it is not replaced. Choose another path.")
 }
+
+/// Recordings get places.
+pub const PLACE_THEM: &str = "Place recordings by an estimate";
+/// What that does.
+pub const PLACE_THEM_HELP: &str = "Each recording lands where a texture that vibrates as it does would lie, by those that have a place. Nobody rated it.";
+
+/// Where a recording was placed, by the names of the axes with their estimates.
+pub fn placed_by_estimate(axes: &[(&str, f64, f64); 2]) -> String {
+    let axis = |(name, mean, deviation): &(&str, f64, f64)| format!("{name} {mean:.0} ± {deviation:.0}");
+    format!("Placed by an estimate: {}, {}; nobody rated it.", axis(&axes[0]), axis(&axes[1]))
+}

@@ -10,6 +10,7 @@ use shagreen_app::strings::{self, import};
 use shagreen_core::blend::Mode;
 use shagreen_core::plane::Plane;
 use shagreen_core::render::{RenderPlan, render};
+use shagreen_core::space::LabelSource;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
@@ -75,6 +76,8 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     click(&mut harness, import::NEXT_SEGMENT);
     assert!(harness.query_by_label_contains("segment 2 of").is_some());
 
+    // What is dropped finds its place, unless that is not wanted.
+    click(&mut harness, import::PLACE_THEM);
     click(&mut harness, &import::add(1));
     // The list scrolls to what is new.
     harness.run_steps(60);
@@ -98,6 +101,23 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);
     assert_eq!(names(&harness).len(), before.len() + 1);
+}
+
+#[test]
+fn a_dropped_recording_lands_near_the_texture_it_was_made_of() {
+    let mut harness = author();
+    let space = window(&harness).session().space().clone();
+    let index = window(&harness).session().textures().iter().position(|t| t.id == "loop-carpet").unwrap();
+    let carpet = space.position(index).unwrap();
+    import_recording(&mut harness, "rug.csv", &recording("loop-carpet", 20.0, Hertz(1000.0)));
+    click(&mut harness, &import::add(1));
+    harness.run_steps(60);
+    let entry = window(&harness).session().textures().last().unwrap().clone();
+    let place = entry.place.expect("it has a place");
+    assert_eq!(place.source, LabelSource::Estimated);
+    assert!(place.at.distance(carpet) < 20.0, "{} for {carpet}", place.at);
+    assert!(entry.description.contains("nobody rated it") && entry.description.contains('±'));
+    assert!(harness.query_by_label("Go to Rug").is_some(), "it is on the canvas");
 }
 
 /// Another rate is another fit, and one that cannot be blended says so; heard alone, the output follows its rate.

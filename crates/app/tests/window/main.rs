@@ -14,6 +14,7 @@ mod import;
 mod libraries;
 mod paths;
 mod projects;
+mod prompts;
 mod rig;
 mod scope;
 mod signals;

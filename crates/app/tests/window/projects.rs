@@ -236,7 +236,11 @@ fn a_project_that_is_dropped_is_opened() {
 }
 
 fn keeping(folder: &Path) -> Keeping {
-    Keeping { recovery: Some(folder.join("recovery")), settings: Some(folder.join("settings.json")) }
+    Keeping {
+        recovery: Some(folder.join("recovery")),
+        settings: Some(folder.join("settings.json")),
+        ..Keeping::default()
+    }
 }
 
 fn files_in(folder: &Path) -> Vec<PathBuf> {

@@ -19,7 +19,7 @@ const SIZE: [f32; 2] = [1280.0, 720.0];
 
 /// What a window opens with that keeps its settings in this folder.
 fn kept(folder: &Path, output: OutputChoice) -> Begin {
-    let keeping = Keeping { recovery: None, settings: Some(folder.join("settings.json")) };
+    let keeping = Keeping { settings: Some(folder.join("settings.json")), ..Keeping::default() };
     Begin { keeping, output, ..begin(new_project()) }
 }
 

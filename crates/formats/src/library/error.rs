@@ -102,7 +102,9 @@ pub enum LibraryError {
         source: SpacePointError,
     },
     /// A position does not say where it comes from in a word that is known.
-    #[error("texture \"{id}\" has the label source \"{found}\"; it must be human, simulated or physical")]
+    #[error(
+        "texture \"{id}\" has the label source \"{found}\"; it must be human, simulated, physical or estimated"
+    )]
     LabelSource {
         /// Identifier of the texture.
         id: String,

@@ -1,4 +1,4 @@
-//! The wire format of a library, versions 1.0 to 1.5.
+//! The wire format of a library, versions 1.0 to 1.6.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

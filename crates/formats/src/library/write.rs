@@ -3,6 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Map;
+use shagreen_core::space::LabelSource;
 use shagreen_core::tap::Tap;
 use shagreen_core::texture::Interpolation;
 use shagreen_core::texture_path::TexturePath;
@@ -40,6 +41,8 @@ pub(crate) const DIGITS: usize = 6;
 /// Significant digits of speeds, forces and rates: takes the dust of unit conversion off, and nothing else.
 pub(crate) const CONVERSION_DIGITS: usize = 12;
 
+/// The minor version that brought estimates.
+const WITH_ESTIMATES: u32 = 6;
 /// The minor version that brought reliefs.
 const WITH_RELIEFS: u32 = 5;
 /// The minor version that brought paths.
@@ -141,6 +144,13 @@ pub(crate) fn picture(picture: &Picture) -> PictureV1 {
 
 /// The lowest minor version that has all that a library uses: older programs read what they can.
 fn minor_version(library: &Library) -> u32 {
+    let is_estimated = |entry: &TextureEntry| {
+        let sources = [entry.place.map(|place| place.source), entry.attributes.as_ref().map(|of| of.source)];
+        sources.contains(&Some(LabelSource::Estimated))
+    };
+    if library.textures.iter().any(is_estimated) {
+        return WITH_ESTIMATES;
+    }
     let has_relief = |entry: &TextureEntry| {
         let keys = entry.path.iter().flat_map(TexturePath::keys);
         keys.map(|key| &key.model).chain([&entry.model]).any(|model| model.relief().is_some())

@@ -1,8 +1,9 @@
 //! EfficientNet-Lite0 up to its eleventh block, its numbers frozen (M. Tan and Q. Le 2019, and the variant for small
 //! devices: no squeezing, no swish, stem and head as they are).
 //!
-//! Later blocks tell things apart, earlier ones textures; what a picture shows of a material is in the middle. A picture is
-//! rows of pixels with their channels beside each other, so that most of the work is products of matrices.
+//! Later blocks tell things apart, earlier ones textures; what a picture shows of a material is in the middle, and on every
+//! scale. A picture is rows of pixels with their channels beside each other, so that most of the work is products of
+//! matrices.
 
 use ndarray::{Array1, Array2};
 use shagreen_core::picture_features::{SIDE, Square};
@@ -19,8 +20,11 @@ const EPSILON: f32 = 1e-3;
 /// Where the rectifiers end.
 const SIX: f32 = 6.0;
 
-/// Means and deviations of the channels of the last block.
-pub(super) const N_FEATURES: usize = 2 * STAGES[STAGES.len() - 1].3;
+/// Stages from which features are taken, after their last block: the first is colors and edges.
+const LOOKED_AT: std::ops::Range<usize> = 1..STAGES.len();
+
+/// Means and deviations of the channels of those stages.
+pub(super) const N_FEATURES: usize = 2 * (STAGES[1].3 + STAGES[2].3 + STAGES[3].3 + STAGES[4].3);
 
 /// The network.
 #[derive(Clone, Debug)]
@@ -90,27 +94,18 @@ impl EfficientNet {
         Ok(Self { stem, blocks })
     }
 
-    /// Means of the channels after the last block, then their deviations.
+    /// For each stage that is looked at the means of its channels, then their deviations.
     pub(super) fn features(&self, square: &Square) -> Vec<f32> {
         let mut map = self.stem(square);
-        for block in &self.blocks {
-            map = block.run(&map);
-        }
-        let n = map.values.nrows() as f32;
-        let mut features = vec![0.0; N_FEATURES];
-        let (means, deviations) = features.split_at_mut(N_FEATURES / 2);
-        for row in map.values.rows() {
-            for (mean, x) in means.iter_mut().zip(row) {
-                *mean += x / n;
+        let mut features = Vec::with_capacity(N_FEATURES);
+        let mut blocks = self.blocks.iter();
+        for (stage, (_, _, _, _, n_blocks)) in STAGES.into_iter().enumerate() {
+            for block in blocks.by_ref().take(n_blocks) {
+                map = block.run(&map);
             }
-        }
-        for row in map.values.rows() {
-            for ((deviation, mean), x) in deviations.iter_mut().zip(&*means).zip(row) {
-                *deviation += (x - mean).powi(2) / (n - 1.0);
+            if LOOKED_AT.contains(&stage) {
+                features.extend(map.means_and_deviations());
             }
-        }
-        for deviation in deviations {
-            *deviation = deviation.sqrt();
         }
         features
     }
@@ -157,6 +152,27 @@ impl Block {
 }
 
 impl Map {
+    /// Means of the channels, then their deviations.
+    fn means_and_deviations(&self) -> Vec<f32> {
+        let (n, n_channels) = (self.values.nrows() as f32, self.values.ncols());
+        let mut features = vec![0.0; 2 * n_channels];
+        let (means, deviations) = features.split_at_mut(n_channels);
+        for row in self.values.rows() {
+            for (mean, x) in means.iter_mut().zip(row) {
+                *mean += x / n;
+            }
+        }
+        for row in self.values.rows() {
+            for ((deviation, mean), x) in deviations.iter_mut().zip(&*means).zip(row) {
+                *deviation += (x - mean).powi(2) / (n - 1.0);
+            }
+        }
+        for deviation in deviations {
+            *deviation = deviation.sqrt();
+        }
+        features
+    }
+
     fn rectify(&mut self) {
         self.values.mapv_inplace(|x| x.clamp(0.0, SIX));
     }

@@ -1,0 +1,194 @@
+//! What is made of words and photos, on a thread of its own.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError};
+
+use anyhow::Context as _;
+use egui::Context;
+use shagreen_core::generated::{GENERATOR, generate};
+use shagreen_core::prompt::{Understood, understand};
+use shagreen_core::shading::Picture as Surface;
+use shagreen_core::starter::FRAMING;
+use shagreen_formats::lexicon_toml::built_in_lexicon;
+use shagreen_formats::picture::{Rgb, encode_jpeg, photo_pixels};
+use shagreen_formats::starter::starter_anchors;
+use shagreen_learn::diffusion::Wish;
+use shagreen_learn::looking::Looker;
+
+use super::Arrived;
+use super::guess::{Guess, Origin, on_axes};
+use crate::background::in_background;
+use crate::import::source::Source;
+use crate::models::{AddedDiffusion, ModelFolder};
+use crate::strings::prompt as strings;
+
+/// Pixels along each side of a picture that is made.
+const SIDE: usize = 512;
+/// Longest name of a texture, in letters.
+const LONGEST_NAME: usize = 40;
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub(super) enum Wanted {
+    Words { prompt: String, seed: u64 },
+    Photo(Source),
+}
+
+/// Who makes pictures and looks at them.
+#[derive(Clone, Debug)]
+pub(super) struct Maker {
+    pub(super) models: Option<ModelFolder>,
+    /// Makes pictures in place of the procedural generator.
+    pub(super) diffusion: Option<AddedDiffusion>,
+}
+
+/// How far it is, and whether it is still wanted.
+#[derive(Debug, Default)]
+struct Course {
+    n_done: AtomicUsize,
+    n_steps: AtomicUsize,
+    is_stopped: AtomicBool,
+}
+
+/// Something that is being made; dropping it stops it.
+pub(super) struct Job {
+    course: Arc<Course>,
+    replaces: Option<u32>,
+    arriving: Receiver<Result<Option<Guess>, String>>,
+}
+
+impl Job {
+    pub(super) fn begin(
+        wanted: Wanted,
+        replaces: Option<u32>,
+        maker: Maker,
+        axes: [String; 2],
+        ctx: &Context,
+    ) -> Self {
+        let course = Arc::new(Course::default());
+        let (on_the_way, screen) = (Arc::clone(&course), ctx.clone());
+        let work = move || {
+            let step = || {
+                on_the_way.n_done.fetch_add(1, Ordering::Relaxed);
+                screen.request_repaint();
+                !on_the_way.is_stopped.load(Ordering::Relaxed)
+            };
+            made(wanted, &maker, &axes, &on_the_way.n_steps, step).map_err(|error| format!("{error:#}"))
+        };
+        Self { course, replaces, arriving: in_background(ctx.clone(), work) }
+    }
+
+    /// How much is done, where it has steps.
+    pub(super) fn progress(&self) -> Option<f32> {
+        let n_steps = self.course.n_steps.load(Ordering::Relaxed);
+        (n_steps > 0).then(|| self.course.n_done.load(Ordering::Relaxed) as f32 / n_steps as f32)
+    }
+
+    /// What came of it, once it is done.
+    pub(super) fn collect(&mut self) -> Option<Result<Arrived, String>> {
+        match self.arriving.try_recv() {
+            Ok(Ok(guess)) => guess.map(|guess| Ok(Arrived { guess, replaces: self.replaces })),
+            Ok(Err(reason)) => Some(Err(reason)),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err(strings::BROKEN_OFF.to_owned())),
+        }
+    }
+}
+
+impl Drop for Job {
+    fn drop(&mut self) {
+        self.course.is_stopped.store(true, Ordering::Relaxed);
+    }
+}
+
+/// The guess; none where it was stopped.
+fn made(
+    wanted: Wanted,
+    maker: &Maker,
+    axes: &[String; 2],
+    n_steps: &AtomicUsize,
+    step: impl Fn() -> bool,
+) -> anyhow::Result<Option<Guess>> {
+    let looker = match &maker.models {
+        Some(models) => models.looker()?,
+        None => Looker::built_in(None)?,
+    };
+    match wanted {
+        Wanted::Words { prompt, seed } => {
+            let understood = understand(&prompt, built_in_lexicon()?);
+            let name = name_of(&prompt);
+            let (made_by, surface) = match &maker.diffusion {
+                None => {
+                    let (anchors, span) = starter_anchors()?;
+                    let made = generate(&name, &understood, &anchors, &span, SIDE, seed);
+                    (GENERATOR.to_owned(), made.context(strings::NO_MATERIALS)?.picture)
+                }
+                Some(added) => {
+                    let models = maker.models.as_ref().context(strings::NO_MATERIALS)?;
+                    let diffusion = models.diffusion(added)?;
+                    let wish = Wish::usual(&prompt, seed);
+                    n_steps.store(wish.n_steps, Ordering::Relaxed);
+                    let Some(picture) = diffusion.picture(&wish, |_| step())? else { return Ok(None) };
+                    (added.name(), picture)
+                }
+            };
+            let (axes, disputed) = told(&looker, Some(&understood), &surface, axes)?;
+            let mut said = strings::said_of_words(&understood);
+            if !disputed.is_empty() {
+                said.insert(0, strings::disputed(&disputed));
+            }
+            said.push(strings::made_by(&made_by, seed));
+            said.push(strings::seen_by(looker.model().eyes().name()));
+            guess(Origin::Words { prompt, seed }, made_by, name, &surface, axes, said, !disputed.is_empty())
+        }
+        Wanted::Photo(source) => {
+            let name = source.name();
+            let bytes = source.bytes().map_err(anyhow::Error::msg)?;
+            let pixels = photo_pixels(&bytes).with_context(|| name.clone())?;
+            let surface = pixels.into_surface(FRAMING.millimeters);
+            let (axes, _) = told(&looker, None, &surface, axes)?;
+            let said = vec![strings::seen_by(looker.model().eyes().name()), strings::NO_SCALE.to_owned()];
+            let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
+            guess(Origin::Photo(name), strings::A_PHOTO.to_owned(), stem, &surface, axes, said, false)
+        }
+    }
+}
+
+type Told = ([shagreen_core::gaussian_process::Estimate; 2], Vec<String>);
+
+/// What words and a picture tell of the axes, and where they disagree.
+fn told(
+    looker: &Looker,
+    words: Option<&Understood>,
+    surface: &Surface,
+    axes: &[String; 2],
+) -> anyhow::Result<Told> {
+    let seen = looker.look(surface)?;
+    let (estimates, disputed) = on_axes(axes, words, &seen);
+    Ok((estimates, disputed.into_iter().map(str::to_owned).collect()))
+}
+
+fn guess(
+    origin: Origin,
+    made_by: String,
+    name: String,
+    surface: &Surface,
+    axes: [shagreen_core::gaussian_process::Estimate; 2],
+    said: Vec<String>,
+    is_disputed: bool,
+) -> anyhow::Result<Option<Guess>> {
+    let picture = Arc::new(encode_jpeg(&Rgb::from(surface), surface.millimeters)?);
+    Ok(Some(Guess { key: None, origin, made_by, picture, name, axes, said, is_disputed }))
+}
+
+/// A name of a prompt: one line of bounded length.
+fn name_of(prompt: &str) -> String {
+    let line: Vec<&str> = prompt.split_whitespace().collect();
+    let letters: Vec<char> = line.join(" ").chars().filter(|c| !c.is_control()).collect();
+    match letters.len() {
+        0 => strings::NOTHING_SAID.to_owned(),
+        n if n <= LONGEST_NAME => letters.into_iter().collect(),
+        _ => letters[..LONGEST_NAME - 1].iter().chain(&['…']).collect(),
+    }
+}

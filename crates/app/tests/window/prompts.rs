@@ -1,0 +1,115 @@
+//! Surfaces that are described, and photos that find their place.
+
+use egui::accesskit::Role;
+use egui::{Key, Shape};
+use egui_kittest::kittest::Queryable as _;
+use shagreen_app::prompt::Origin;
+use shagreen_app::strings;
+use shagreen_app::strings::prompt as words;
+use shagreen_formats::picture::encode_png;
+use shagreen_formats::picture::{Rgb, decode};
+use shagreen_formats::starter::starter_library;
+
+use crate::support::{
+    Author, author, click, drop_files, painted, says, unnamed_controls, wait, window, write_into,
+};
+
+/// Describes a surface, and waits until it was made.
+fn describe(harness: &mut Author, prompt: &str) {
+    let n = window(harness).project().authored.len();
+    write_into(harness, words::FIELD, prompt);
+    harness.key_press(Key::Enter);
+    wait(harness, "it was made", |h| window(h).project().authored.len() > n);
+    harness.run_steps(4);
+}
+
+fn seed(harness: &Author) -> u64 {
+    let key = window(harness).project().texture().key;
+    match &window(harness).prompts().guess_of(key).expect("it was guessed").origin {
+        Origin::Words { seed, .. } => *seed,
+        Origin::Photo(name) => panic!("{name} is a photo"),
+    }
+}
+
+#[test]
+fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
+    let mut harness = author();
+    describe(&mut harness, "a rough, soft carpet-like surface");
+    let texture = window(&harness).project().texture().clone();
+    assert_eq!(texture.name, "a rough, soft carpet-like surface");
+    assert!(texture.at.rough_smooth < 45.0 && texture.at.hard_soft > 60.0, "{}", texture.at);
+    assert!(texture.picture.is_some() && texture.notes.contains("seed 1"));
+    let guess = window(&harness).prompts().guess_of(texture.key).unwrap().clone();
+    assert_eq!(guess.at(), texture.at);
+    for said in ["Understood:", "procedural generator, seed 1", "nobody rated it"] {
+        assert!(says(&harness, said), "{said}");
+    }
+    // The outline is dashes; what it encloses is one shape as wide as twice the deviation.
+    let width = |shape: &Shape| {
+        matches!(shape, Shape::Path(path) if path.points.len() == 96)
+            .then(|| f64::from(shape.visual_bounding_rect().width()))
+    };
+    assert_eq!(painted(&harness, strings::CANVAS).iter().filter_map(width).count(), 1);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+
+    click(&mut harness, words::ANOTHER);
+    wait(&mut harness, "another was made", |h| seed(h) == 2);
+    let other = window(&harness).project().texture().clone();
+    assert_eq!((window(&harness).project().authored.len(), other.key), (2, texture.key), "in its place");
+    assert_ne!(other.picture, texture.picture);
+
+    // The sliders refine it; the ellipse stays where it was taken to lie.
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(60.0);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).project().texture().at.rough_smooth, 60.0);
+    assert!(window(&harness).prompts().guess_of(texture.key).unwrap().at().rough_smooth < 50.0);
+    click(&mut harness, words::DISMISS);
+    assert!(!says(&harness, "Understood:"));
+    for _ in 0..3 {
+        click(&mut harness, strings::UNDO);
+    }
+    assert_eq!(window(&harness).project().authored.len(), 1, "undone");
+}
+
+#[test]
+fn words_that_say_nothing_are_answered_and_earlier_ones_come_back() {
+    let mut harness = author();
+    describe(&mut harness, "the meaning of life");
+    assert!(says(&harness, "any surface is as likely"));
+    describe(&mut harness, "polished steel");
+    let steel = window(&harness).project().texture().clone();
+    click(&mut harness, words::EARLIER);
+    // The menu finds its place.
+    harness.run_steps(6);
+    click(&mut harness, &words::earlier("polished steel", 1));
+    wait(&mut harness, "it was made again", |h| window(h).project().authored.len() == 4);
+    let again = window(&harness).project().texture();
+    assert_eq!((again.at, &again.picture), (steel.at, &steel.picture), "the same words and seed");
+    assert_eq!(again.name, "polished steel 2");
+    // An empty prompt is as likely to be any surface.
+    write_into(&mut harness, words::FIELD, "x");
+    harness.key_press(Key::Backspace);
+    harness.run_steps(2);
+    click(&mut harness, words::MAKE);
+    wait(&mut harness, "something was made", |h| window(h).project().authored.len() == 5);
+    assert!(window(&harness).project().texture().name.starts_with(words::NOTHING_SAID));
+}
+
+#[test]
+fn a_photo_finds_its_place_and_what_is_none_is_told() {
+    let library = starter_library().unwrap();
+    let texture = &library.textures[library.index_of("brick").unwrap()];
+    let Rgb { width, height, pixels } = decode(texture.picture.as_ref().unwrap()).unwrap();
+    let bytes = encode_png(&Rgb { width, height, pixels }).unwrap();
+    let mut harness = author();
+    drop_files(&mut harness, &[("a wall.png", &bytes)]);
+    wait(&mut harness, "it landed", |h| window(h).project().authored.len() == 2);
+    harness.run_steps(4);
+    let landed = window(&harness).project().texture();
+    assert_eq!(landed.name, "a wall");
+    assert!(landed.at.distance(texture.at().unwrap()) < 35.0, "{}", landed.at);
+    assert!(landed.picture.is_some() && says(&harness, "is not known"));
+    drop_files(&mut harness, &[("broken.png", &bytes[..300])]);
+    wait(&mut harness, "it is told", |h| says(h, "broken.png"));
+    assert_eq!(window(&harness).project().authored.len(), 2);
+}

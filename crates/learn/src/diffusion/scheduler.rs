@@ -1,0 +1,89 @@
+//! How noise goes away: denoising diffusion implicit models (J. Song et al. 2021), candle's, as a file of diffusers says.
+
+use candle_transformers::models::stable_diffusion::ddim::DDIMSchedulerConfig;
+use candle_transformers::models::stable_diffusion::schedulers::{
+    BetaSchedule, PredictionType, Scheduler, SchedulerConfig as _, TimestepSpacing,
+};
+use serde::Deserialize;
+
+use super::{DiffusionError, Files, Part};
+
+/// What the file says; it has more, of which nothing matters to this way of stepping.
+#[derive(Debug, Deserialize)]
+struct Wire {
+    beta_start: f64,
+    beta_end: f64,
+    beta_schedule: String,
+    num_train_timesteps: usize,
+    #[serde(default = "epsilon")]
+    prediction_type: String,
+    #[serde(default)]
+    steps_offset: usize,
+    #[serde(default = "leading")]
+    timestep_spacing: String,
+}
+
+fn epsilon() -> String {
+    "epsilon".to_owned()
+}
+
+fn leading() -> String {
+    "leading".to_owned()
+}
+
+/// How noise goes away.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Schedule {
+    config: DDIMSchedulerConfig,
+}
+
+impl Schedule {
+    pub(super) fn read(files: &Files) -> Result<Self, DiffusionError> {
+        let part = Part::Schedule;
+        let wire: Wire = files.json(part)?;
+        let unknown = |what: String| DiffusionError::Unknown { part, what };
+        let is_share = |beta: f64| beta > 0.0 && beta < 1.0;
+        if !is_share(wire.beta_start)
+            || !is_share(wire.beta_end)
+            || !(2..=100_000).contains(&wire.num_train_timesteps)
+            || wire.steps_offset >= wire.num_train_timesteps
+        {
+            return Err(DiffusionError::Damaged { part, reason: "its numbers make no schedule".to_owned() });
+        }
+        let config = DDIMSchedulerConfig {
+            beta_start: wire.beta_start,
+            beta_end: wire.beta_end,
+            beta_schedule: match wire.beta_schedule.as_str() {
+                "scaled_linear" => BetaSchedule::ScaledLinear,
+                "linear" => BetaSchedule::Linear,
+                "squaredcos_cap_v2" => BetaSchedule::SquaredcosCapV2,
+                other => return Err(unknown(format!("the schedule \"{other}\""))),
+            },
+            eta: 0.0,
+            steps_offset: wire.steps_offset,
+            prediction_type: match wire.prediction_type.as_str() {
+                "epsilon" => PredictionType::Epsilon,
+                "v_prediction" => PredictionType::VPrediction,
+                "sample" => PredictionType::Sample,
+                other => return Err(unknown(format!("predictions of \"{other}\""))),
+            },
+            train_timesteps: wire.num_train_timesteps,
+            timestep_spacing: match wire.timestep_spacing.as_str() {
+                "leading" => TimestepSpacing::Leading,
+                "trailing" => TimestepSpacing::Trailing,
+                "linspace" => TimestepSpacing::Linspace,
+                other => return Err(unknown(format!("steps spaced as \"{other}\""))),
+            },
+        };
+        Ok(Self { config })
+    }
+
+    /// More steps than it was taught in there cannot be.
+    pub(super) fn most_steps(&self) -> usize {
+        self.config.train_timesteps - self.config.steps_offset
+    }
+
+    pub(super) fn of_steps(&self, n_steps: usize) -> Result<Box<dyn Scheduler>, candle_core::Error> {
+        self.config.build(n_steps)
+    }
+}

@@ -1,0 +1,122 @@
+//! How well ways of predicting did when each texture was left out.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+use shagreen_core::statistics::mean;
+
+/// What a way of predicting came to, texture by texture.
+pub(crate) struct Judged {
+    /// What it is called.
+    pub(crate) name: String,
+    /// Predictions of each texture, attribute by attribute.
+    pub(crate) predicted: Vec<Vec<f64>>,
+}
+
+impl Judged {
+    /// The simplest way: each texture is taken for the mean of the others.
+    pub(crate) fn mean_of_others(values: &[Vec<f64>]) -> Self {
+        let n_attributes = values.first().map_or(0, Vec::len);
+        let without = |index: usize, attribute: usize| {
+            let others = values.iter().enumerate().filter(|(i, _)| *i != index);
+            mean(&others.map(|(_, values)| values[attribute]).collect::<Vec<f64>>())
+        };
+        let of = |index| (0..n_attributes).map(|attribute| without(index, attribute)).collect();
+        Self { name: "mean of the others".to_owned(), predicted: (0..values.len()).map(of).collect() }
+    }
+}
+
+/// Errors of a way of predicting, attribute by attribute, in points of 0..100.
+struct Errors {
+    mae: Vec<f64>,
+    rmse: Vec<f64>,
+}
+
+/// All ways beside each other.
+pub(crate) struct Comparison<'a> {
+    all: &'a [Judged],
+    names: &'a [String],
+    errors: Vec<Errors>,
+    best: usize,
+}
+
+impl<'a> Comparison<'a> {
+    /// Of at least one way; `values` are the attributes of each texture, by their `names`.
+    pub(crate) fn new(all: &'a [Judged], names: &'a [String], values: &[Vec<f64>]) -> Self {
+        let errors: Vec<Errors> = all.iter().map(|judged| errors(&judged.predicted, values)).collect();
+        let total = |errors: &Errors| errors.rmse.iter().sum::<f64>();
+        let best =
+            (0..all.len()).min_by(|a, b| total(&errors[*a]).total_cmp(&total(&errors[*b]))).unwrap_or(0);
+        Self { all, names, errors, best }
+    }
+
+    /// What the way that predicts best is called.
+    pub(crate) fn chosen(&self) -> &str {
+        &self.all[self.best].name
+    }
+
+    /// The fields of a result.
+    pub(crate) fn as_json(&self) -> serde_json::Map<String, Value> {
+        let baselines: BTreeMap<&str, Value> = self
+            .all
+            .iter()
+            .zip(&self.errors)
+            .map(|(judged, of)| {
+                let of = json!({"mae": self.by_name(&of.mae), "rmse": self.by_name(&of.rmse)});
+                (judged.name.as_str(), of)
+            })
+            .collect();
+        let best = &self.errors[self.best];
+        let fields = [
+            ("chosen", json!(self.chosen())),
+            ("mae", json!(self.by_name(&best.mae))),
+            ("rmse", json!(self.by_name(&best.rmse))),
+            ("baselines", json!(baselines)),
+        ];
+        fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+
+    /// Two tables, one below the other, and which way is best.
+    pub(crate) fn text(&self) -> String {
+        let widest = self.all.iter().map(|judged| judged.name.len()).max().unwrap_or(0);
+        let row = |name: &str, values: &[f64]| {
+            let cell = |(value, name): (&f64, &String)| format!("{value:>0$.2}", name.len());
+            let cells: Vec<String> = values.iter().zip(self.names).map(cell).collect();
+            format!("{name:<widest$}  {}\n", cells.join("  "))
+        };
+        let heading = format!("{:widest$}  {}\n", "", self.names.join("  "));
+        let table_of = |what: &str, pick: fn(&Errors) -> &[f64]| {
+            let rows: String = self
+                .all
+                .iter()
+                .zip(&self.errors)
+                .map(|(judged, errors)| row(&judged.name, pick(errors)))
+                .collect();
+            format!("{what}\n{heading}{rows}")
+        };
+        format!(
+            "{}\n{}\nBest: {}.",
+            table_of("Mean absolute error, in points of 100", |errors| &errors.mae),
+            table_of("Root mean square error", |errors| &errors.rmse),
+            self.chosen()
+        )
+    }
+
+    /// Values by the names of attributes.
+    pub(crate) fn by_name(&self, values: &[f64]) -> BTreeMap<&str, f64> {
+        self.names.iter().map(String::as_str).zip(values.iter().copied()).collect()
+    }
+}
+
+fn errors(predicted: &[Vec<f64>], values: &[Vec<f64>]) -> Errors {
+    let n_attributes = values.first().map_or(0, Vec::len);
+    let off = |attribute: usize| -> Vec<f64> {
+        predicted.iter().zip(values).map(|(p, v)| (p[attribute] - v[attribute]).abs()).collect()
+    };
+    let square =
+        |errors: &[f64]| mean(&errors.iter().map(|error| error * error).collect::<Vec<f64>>()).sqrt();
+    Errors {
+        mae: (0..n_attributes).map(|attribute| mean(&off(attribute))).collect(),
+        rmse: (0..n_attributes).map(|attribute| square(&off(attribute))).collect(),
+    }
+}

@@ -1,0 +1,40 @@
+//! `shagreen model list`: networks of others on this machine.
+
+use serde_json::json;
+
+use crate::cli::model_folder::model_folder;
+use crate::cli::output;
+
+/// Lists the networks of others that this program uses on this machine, and what there is to do where one is missing.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let folder = model_folder()?;
+    let (backbone, added) = (folder.backbone()?, folder.added_diffusion()?);
+    let path = folder.efficientnet_lite0();
+    let result = json!({
+        "pictures_to_attributes": backbone.as_ref().map(|backbone| json!({
+            "model": backbone.kind().name(), "file": path, "sha256": backbone.sha256(), "license": "Apache-2.0",
+        })),
+        "words_to_pictures": added.as_ref().map(|added| json!({
+            "model": added.name(), "folder": added.folder, "sha256": added.sha256,
+        })),
+    });
+    output::print(args.json, &result, || {
+        let seeing = match &backbone {
+            Some(backbone) => format!("{} (Apache-2.0): {}", backbone.kind().name(), path.display()),
+            None => "statistics; `shagreen model fetch` brings a network that is better".to_owned(),
+        };
+        let making = match &added {
+            Some(added) => format!("{}: {}", added.name(), added.folder.display()),
+            None => "the procedural generator; `shagreen model add FOLDER` adds a diffusion model".to_owned(),
+        };
+        format!("looks at pictures: {seeing}\nmakes pictures: {making}")
+    });
+    Ok(())
+}

@@ -1,0 +1,221 @@
+//! `shagreen train photo`: how well roughness and hardness can be told from pictures.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context as _, ensure};
+use serde_json::{Value, json};
+use shagreen_core::picture_features::N_FEATURES;
+use shagreen_core::words::counted;
+use shagreen_formats::library::Library;
+use shagreen_formats::starter::starter_anchors;
+use shagreen_formats::{atomic, picture};
+use shagreen_learn::backbone::Backbone;
+use shagreen_learn::looking::see;
+use shagreen_learn::model_file::is_model;
+use shagreen_learn::picture_model::{Eyes, Lesson, PictureConfig, PictureModel};
+use shagreen_learn::picture_set::Seen;
+
+use crate::cli::backbone_source::{BackboneArgs, read_backbone};
+use crate::cli::drawn_pictures::drawn_pictures;
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
+use crate::cli::judged::{Comparison, Judged};
+use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::output::{self, Progress};
+
+/// Learns to tell roughness and hardness from pictures, and says how well: each texture is left out with all of its pictures,
+/// everything is learned from the others and from pictures of drawn materials, and it is predicted.
+///
+/// Drawn materials are physical surfaces by chance, none of which is in a library; their roughness and hardness are worked
+/// out, nobody rated them. Statistics of the picture need nothing else; a network that others taught to see is better, and is
+/// had by `shagreen model fetch`. Looking at 3,000 pictures takes half an hour on two cores, and learning without each of 25 textures as long.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    library: LibraryArgs,
+    #[command(flatten)]
+    backbone: BackboneArgs,
+    /// How many drawn materials are learned from beside the library.
+    #[arg(long, default_value_t = 3000, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    drawn: u32,
+    /// Most rounds over all pictures.
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    epochs: u32,
+    /// Rounds without a better prediction of pictures kept aside after which a head stops.
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    patience: u32,
+    /// Heads that learn beside each other and predict their mean.
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=16))]
+    heads: u32,
+    /// Everything that is drawn.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Where to keep what was seen in drawn pictures: looking goes on from there, and is not done twice.
+    #[arg(long, value_name = "FOLDER")]
+    state: Option<PathBuf>,
+    /// File for a model that has learned from all pictures: with the network where there is one, else with statistics.
+    #[arg(long, short, value_name = "MODEL")]
+    out: Option<PathBuf>,
+    /// Learn from drawn materials alone, once: no texture of the library is learned from, so that all are left out.
+    #[arg(long)]
+    drawn_only: bool,
+    /// Only make the model: how well it tells is not looked at.
+    #[arg(long, requires = "out")]
+    unjudged: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Attributes that pictures are judged by.
+const ATTRIBUTES: [&str; 2] = ["rough-smooth", "hard-soft"];
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let started = Instant::now();
+    let backbone = read_backbone(&args.backbone)?;
+    if let Some(out) = &args.out {
+        refuse_inputs(&[out], &[args.library.path(), args.backbone.path()])?;
+        refuse_foreign(out, "a model", is_model)?;
+    }
+    if let Some(folder) = &args.state {
+        std::fs::create_dir_all(folder)
+            .context("cannot make the folder; check its name and your rights")
+            .with_context(|| output::in_file(folder))?;
+    }
+    let library = load(&args.library)?;
+    let textures = pictured(&library, backbone.as_ref())?;
+    let kept = args.state.as_ref().map(|folder| folder.join(format!("drawn-{}.safetensors", args.seed)));
+    let drawn = drawn_pictures(
+        args.drawn as usize,
+        args.seed,
+        backbone.as_ref(),
+        &starter_anchors()?.1,
+        kept.as_deref(),
+    )?;
+    let values: Vec<Vec<f64>> = textures.iter().map(|seen| seen.labels.clone()).collect();
+
+    let of_drawn = format!("pictures of {}", counted(drawn.len(), "drawn material"));
+    let learned_from = if args.drawn_only {
+        of_drawn
+    } else {
+        format!("{of_drawn} and of \"{}\" ({})", library.name, counted(textures.len(), "texture"))
+    };
+    let (mut all, mut n_epochs, mut model) = (Vec::new(), 0, None);
+    // Statistics first, then the network; each sees its own part of the features.
+    let network = backbone.as_ref().map(|backbone| Eyes::of(Some(backbone)));
+    for eyes in [Some(Eyes::Statistics), network].into_iter().flatten() {
+        let taught = teach(args, eyes, &learned_from, &drawn, &textures)?;
+        all.push(taught.judged);
+        n_epochs += taught.n_epochs;
+        model = taught.of_all;
+    }
+    all.push(Judged::mean_of_others(&values));
+    if let (Some(out), Some(model)) = (&args.out, &model) {
+        atomic::write(out, &model.to_bytes()?)?;
+    }
+    if args.unjudged {
+        let out = args.out.as_ref().map(|out| out.display().to_string());
+        let result = json!({"out": out, "drawn": drawn.len(), "seconds": started.elapsed().as_secs_f64()});
+        output::print(args.json, &result, || format!("Made: {}", out.clone().unwrap_or_default()));
+        return Ok(());
+    }
+    let names = ATTRIBUTES.map(str::to_owned);
+    let comparison = Comparison::new(&all, &names, &values);
+    let mut result = comparison.as_json();
+    let more = json!({
+        "textures": textures.len(),
+        "drawn": drawn.len(),
+        "label_source": library.label_sources().iter().map(|source| source.id()).collect::<Vec<_>>(),
+        "epochs": n_epochs,
+        "seconds": started.elapsed().as_secs_f64(),
+    });
+    result.extend(more.as_object().cloned().unwrap_or_default());
+    output::print(args.json, &Value::Object(result), || {
+        format!(
+            "{} left out; learned from {learned_from}. Labels of drawn materials were worked out, nobody rated them.\n\n{}",
+            counted(textures.len(), "texture"),
+            comparison.text()
+        )
+    });
+    Ok(())
+}
+
+/// What came of teaching those who see in one way.
+struct Taught {
+    judged: Judged,
+    /// What learned from all pictures, where that is wanted.
+    of_all: Option<PictureModel>,
+    /// Rounds of all that learned.
+    n_epochs: usize,
+}
+
+/// Learns from drawn pictures and those of textures, by what `eyes` saw in them, without each texture in turn.
+fn teach(
+    args: &Args,
+    eyes: Eyes,
+    learned_from: &str,
+    drawn: &[Seen],
+    textures: &[Seen],
+) -> anyhow::Result<Taught> {
+    let part = |seen: &Seen| {
+        let (statistics, network) = seen.features.split_at(N_FEATURES);
+        let features = if eyes == Eyes::Statistics { statistics } else { network };
+        Seen { features: features.to_vec(), labels: seen.labels.clone() }
+    };
+    let drawn: Vec<Seen> = drawn.iter().map(part).collect();
+    let known: Vec<Seen> = textures.iter().map(part).collect();
+    let name = eyes.name().to_owned();
+    let attributes = ATTRIBUTES.map(str::to_owned).to_vec();
+    let lesson = Lesson { eyes, attributes, learned_from: learned_from.to_owned() };
+    let config =
+        PictureConfig::paper(args.epochs as usize, args.patience as usize, args.heads as usize, args.seed);
+    let learned: Vec<&Seen> = if args.drawn_only { Vec::new() } else { known.iter().collect() };
+    let mut n_epochs = 0;
+    let mut learn = |left_out: Option<usize>| {
+        let others = learned.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, seen)| *seen);
+        let pictures: Vec<&Seen> = drawn.iter().chain(others).collect();
+        let before = n_epochs;
+        PictureModel::learn(&pictures, lesson.clone(), &config, |n| {
+            n_epochs = before + n;
+            true
+        })
+    };
+    let of_all = if args.out.is_some() || args.drawn_only { Some(learn(None)?) } else { None };
+    let n_judged = if args.unjudged { 0 } else { known.len() };
+    let progress = Progress::new("textures left out", n_judged);
+    let mut predicted = Vec::with_capacity(n_judged);
+    for (index, left_out) in known.iter().enumerate().take(n_judged) {
+        let estimates = match &of_all {
+            Some(model) if args.drawn_only => model.predict(&left_out.features)?,
+            _ => learn(Some(index))?.predict(&left_out.features)?,
+        };
+        predicted.push(estimates.iter().map(|of| of.mean).collect());
+        progress.step();
+    }
+    progress.finish();
+    Ok(Taught { judged: Judged { name, predicted }, of_all, n_epochs })
+}
+
+/// What is seen in the pictures of the textures that have a place and a picture.
+fn pictured(library: &Library, backbone: Option<&Backbone>) -> anyhow::Result<Vec<Seen>> {
+    let mut textures = Vec::new();
+    for texture in &library.textures {
+        let (Some(place), Some(packed)) = (&texture.place, &texture.picture) else { continue };
+        let pixels = picture::decode(packed).with_context(|| format!("the picture of \"{}\"", texture.id))?;
+        let picture = pixels.into_surface(packed.millimeters);
+        let mut features =
+            see(None, &picture).with_context(|| format!("the picture of \"{}\"", texture.id))?;
+        if backbone.is_some() {
+            features.extend(see(backbone, &picture)?);
+        }
+        let labels = vec![place.at.rough_smooth, place.at.hard_soft];
+        textures.push(Seen { features, labels });
+    }
+    ensure!(
+        textures.len() >= 3,
+        "{} of \"{}\" have a place and a picture; three are the least: add pictures to a library in the window",
+        counted(textures.len(), "texture"),
+        library.name
+    );
+    Ok(textures)
+}
