@@ -14,6 +14,9 @@ use shagreen_learn::picture_set::{PictureSet, Seen};
 
 use crate::cli::output::{self, Progress};
 
+/// Counted up whenever drawn materials, their pictures or what is seen in them change.
+const VERSION: u32 = 1;
+
 /// Pictures after which what was seen is kept.
 const N_AT_ONCE: usize = 40;
 
@@ -26,7 +29,7 @@ pub(crate) fn drawn_pictures(
     span: &LabelSpan,
     kept: Option<&Path>,
 ) -> anyhow::Result<Vec<Seen>> {
-    let seen_by = format!("materials of seed {seed}, seen by statistics");
+    let seen_by = format!("materials of seed {seed}, seen by {N_FEATURES} statistics (version {VERSION})");
     let made_by = backbone.map_or_else(|| seen_by.clone(), |b| format!("{seen_by} and {}", b.sha256()));
     let mut set = PictureSet { made_by, pictures: Vec::new() };
     // Where a network looked too, what statistics saw is a part of it.
@@ -40,6 +43,10 @@ pub(crate) fn drawn_pictures(
             "what was kept is of other materials or another network; name another folder by --state: {}",
             path.display()
         );
+        let n_features = N_FEATURES + if is_part { 0 } else { backbone.map_or(0, |b| b.kind().n_features()) };
+        let fits = |seen: &Seen| seen.features.len() >= n_features && seen.labels.len() == 2;
+        ensure!(before.pictures.iter().all(fits), "what was kept is damaged; delete it: {}", path.display());
+        // What both of them saw is not replaced by what one of them sees.
         if before.made_by != set.made_by {
             kept = None;
         }

@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 use shagreen_core::authoring::Blending;
 use shagreen_core::blend::Mode;
 use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::generated::{Agreed, GENERATOR, generate, place};
+use shagreen_core::generated::{Agreed, GENERATOR, Witness, generate, place};
 use shagreen_core::height_field::HeightField;
-use shagreen_core::prompt::{Understood, understand};
+use shagreen_core::prompt::{Understood, title, understand};
 use shagreen_core::shading::Picture as Pixels;
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::TextureModel;
@@ -21,12 +21,13 @@ use shagreen_formats::library::{Library, Place, TextureEntry, id_from_name, writ
 use shagreen_formats::picture::{Rgb, encode_heights, encode_jpeg, encode_png};
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary, write_project};
 use shagreen_formats::starter::starter_anchors;
-use shagreen_learn::diffusion::Wish;
+use shagreen_learn::diffusion::{LONGEST_SIDE, Wish};
 use shagreen_learn::looking::Looker;
+use shagreen_learn::model_file::sha256_of;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::figures_folder::write_together;
-use crate::cli::guard::{has_format, is_library, refuse_foreign};
+use crate::cli::guard::{has_format, refuse_foreign};
 use crate::cli::model_folder::model_folder;
 use crate::cli::output::{self, Progress};
 use crate::cli::said_of_prompt::said_of;
@@ -81,14 +82,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let project_name = format!("project.{EXTENSION}");
     check_folder(&args.out, &project_name)?;
     let understood = understand(&args.prompt, built_in_lexicon()?);
-    let name = name_of(&args.prompt);
-    let made = if args.diffusion { by_diffusion(args)? } else { by_procedure(args, &name, &understood)? };
+    let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Nothing said".to_owned());
+    // What can fail fails before hours are spent.
     let looker = Looker::built_in(read_backbone(&args.backbone)?)?;
+    let made = if args.diffusion { by_diffusion(args)? } else { by_procedure(args, &name, &understood)? };
     let [rough, hard] = looker.look(&made.picture)?[..] else {
         bail!("the model of pictures has other axes")
     };
     let [of_rough, of_hard, ..] = understood.attributes;
-    let placed = place([of_rough, of_hard], [rough, hard]);
+    let placed = place([of_rough, of_hard], [rough, hard], made.witness());
     let at = placed.at;
 
     let library = BuiltIn::Starter.read()?;
@@ -115,6 +117,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "prompt": args.prompt,
         "image": shown(PICTURE),
         "millimeters": made.picture.millimeters,
+        "millimeters_source": if made.field.is_some() { "made" } else { "assumed" },
         "at": [at.rough_smooth, at.hard_soft],
         "texture": shown(TEXTURE),
         "project": shown(&project_name),
@@ -151,8 +154,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     files.push((file(TEXTURE), write_library(&library_of_one)));
     files.push((file(&project_name), write_project(&project, &args.out, output::CREATED_BY)));
-    files.push((file(DESCRIPTION), serde_json::to_vec_pretty(&result)?));
-    write_together(&files, Some(&args.out))?;
+    write(&args.out, files, &mut result)?;
     output::print(args.json, &result, || {
         let line = |(name, axis): (&str, &Agreed)| {
             format!("{name:<13}  {:5.1} ± {:.1}\n", axis.estimate.mean, axis.estimate.deviation)
@@ -199,6 +201,13 @@ struct Made {
     field: Option<HeightField>,
 }
 
+impl Made {
+    /// Whether the picture knows more than the words.
+    fn witness(&self) -> Witness {
+        if self.field.is_some() { Witness::OfTheWords } else { Witness::OnItsOwn }
+    }
+}
+
 fn by_procedure(args: &Args, name: &str, understood: &Understood) -> anyhow::Result<Made> {
     let (anchors, span) = starter_anchors()?;
     let made = generate(name, understood, &anchors, &span, args.size as usize, args.seed)
@@ -207,6 +216,11 @@ fn by_procedure(args: &Args, name: &str, understood: &Understood) -> anyhow::Res
 }
 
 fn by_diffusion(args: &Args) -> anyhow::Result<Made> {
+    let most = LONGEST_SIDE;
+    ensure!(
+        args.size as usize <= most,
+        "a diffusion model makes pictures of up to {most} pixels a side; give --size up to that"
+    );
     let folder = model_folder()?;
     let added = folder.added_diffusion()?.context(
         "there is no diffusion model on this machine; add one by `shagreen model add FOLDER`, or leave --diffusion out",
@@ -228,6 +242,23 @@ fn by_diffusion(args: &Args) -> anyhow::Result<Made> {
     Ok(Made { by: added.name(), picture, field: None })
 }
 
+/// Writes all files and the description, which gets their hashes.
+fn write(folder: &Path, mut files: Vec<(PathBuf, Vec<u8>)>, result: &mut Value) -> anyhow::Result<()> {
+    let hash = |(path, bytes): &(PathBuf, Vec<u8>)| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        (name, Value::from(sha256_of(bytes)))
+    };
+    result["sha256"] = files.iter().map(hash).collect::<serde_json::Map<String, Value>>().into();
+    files.push((folder.join(DESCRIPTION), serde_json::to_vec_pretty(&result)?));
+    write_together(&files, Some(folder))?;
+    let heights = folder.join(HEIGHTS);
+    if result.get("heights").is_none() && heights.exists() {
+        // The relief of the picture that was there before.
+        std::fs::remove_file(&heights).with_context(|| output::in_file(&heights))?;
+    }
+    Ok(())
+}
+
 /// Nothing of somebody else's may be replaced.
 fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
     ensure!(
@@ -237,16 +268,25 @@ fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
     );
     let description = folder.join(DESCRIPTION);
     refuse_foreign(&description, "the description", |bytes| has_format(bytes, FORMAT))?;
-    refuse_foreign(&folder.join(TEXTURE), "the texture", is_library)?;
-    let taken = [PICTURE, HEIGHTS, project_name].map(|name| folder.join(name));
-    let is_ours = description.is_file();
-    match taken.iter().find(|path| !is_ours && path.exists()) {
-        Some(path) => bail!(
-            "a file of this name is there already and was not generated; name another folder: {}",
-            path.display()
-        ),
-        None => Ok(()),
+    // What was generated and is still as it was may be replaced; what somebody worked on since may not.
+    let before: Option<Value> =
+        std::fs::read(&description).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    let is_ours = |name: &str, bytes: &[u8]| {
+        let hash = before.as_ref().and_then(|before| before["sha256"][name].as_str());
+        hash == Some(&sha256_of(bytes))
+    };
+    for name in [PICTURE, HEIGHTS, TEXTURE, project_name] {
+        let path = folder.join(name);
+        if let Ok(bytes) = std::fs::read(&path)
+            && !is_ours(name, &bytes)
+        {
+            bail!(
+                "this file was there before, or was changed since it was generated; name another folder: {}",
+                path.display()
+            );
+        }
     }
+    Ok(())
 }
 
 /// Attributes with how unsure they are, by name.
@@ -254,18 +294,6 @@ fn described(estimates: &[Estimate]) -> Value {
     let of = |(name, of): (&str, &Estimate)| (name.to_owned(), json!({"value": of.mean, "sd": of.deviation}));
     let by_name: serde_json::Map<String, Value> = ATTRIBUTES.into_iter().zip(estimates).map(of).collect();
     by_name.into()
-}
-
-/// A name of a prompt: one line of bounded length.
-fn name_of(prompt: &str) -> String {
-    let words: Vec<&str> = prompt.split_whitespace().collect();
-    let line = words.join(" ");
-    let letters: Vec<char> = line.chars().filter(|c| !c.is_control()).collect();
-    match letters.len() {
-        0 => "Nothing said".to_owned(),
-        n if n <= LONGEST_NAME => letters.into_iter().collect(),
-        _ => letters[..LONGEST_NAME - 1].iter().chain(&['…']).collect(),
-    }
 }
 
 /// The three nearest textures, nearest first.

@@ -120,3 +120,28 @@ fn errors(predicted: &[Vec<f64>], values: &[Vec<f64>]) -> Errors {
         rmse: (0..n_attributes).map(|attribute| square(&off(attribute))).collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Comparison, Judged};
+
+    #[test]
+    fn errors_are_their_definitions_and_the_best_way_is_named() {
+        let values = vec![vec![10.0, 0.0], vec![20.0, 50.0], vec![60.0, 100.0]];
+        let mean = Judged::mean_of_others(&values);
+        assert_eq!(mean.predicted, [[40.0, 75.0], [35.0, 50.0], [15.0, 25.0]]);
+        let near = Judged {
+            name: "near".to_owned(),
+            predicted: vec![vec![13.0, 0.0], vec![24.0, 50.0], vec![60.0, 95.0]],
+        };
+        let names = ["a".to_owned(), "b".to_owned()];
+        let all = [mean, near];
+        let comparison = Comparison::new(&all, &names, &values);
+        assert_eq!(comparison.chosen(), "near");
+        let told = comparison.as_json();
+        assert!((told["mae"]["a"].as_f64().unwrap() - 7.0 / 3.0).abs() < 1e-12);
+        assert!((told["rmse"]["a"].as_f64().unwrap() - (25.0_f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert_eq!(told["baselines"]["mean of the others"]["mae"]["a"], 30.0);
+        assert!(comparison.text().contains("Best: near."));
+    }
+}

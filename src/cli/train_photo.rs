@@ -6,6 +6,7 @@ use std::time::Instant;
 use anyhow::{Context as _, ensure};
 use serde_json::{Value, json};
 use shagreen_core::picture_features::N_FEATURES;
+use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_anchors;
@@ -83,6 +84,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             .with_context(|| output::in_file(folder))?;
     }
     let library = load(&args.library)?;
+    ensure!(
+        library.axis_names() == ATTRIBUTES,
+        "the axes of \"{}\" are {}; pictures tell rough-smooth and hard-soft, name a library with these",
+        library.name,
+        library.axis_names().join(" and ")
+    );
     let textures = pictured(&library, backbone.as_ref())?;
     let kept = args.state.as_ref().map(|folder| folder.join(format!("drawn-{}.safetensors", args.seed)));
     let drawn = drawn_pictures(
@@ -103,7 +110,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let (mut all, mut n_epochs, mut model) = (Vec::new(), 0, None);
     // Statistics first, then the network; each sees its own part of the features.
     let network = backbone.as_ref().map(|backbone| Eyes::of(Some(backbone)));
-    for eyes in [Some(Eyes::Statistics), network].into_iter().flatten() {
+    // Where nothing is judged, only who is kept learns.
+    let statistics = (!args.unjudged || network.is_none()).then_some(Eyes::Statistics);
+    for eyes in [statistics, network].into_iter().flatten() {
         let taught = teach(args, eyes, &learned_from, &drawn, &textures)?;
         all.push(taught.judged);
         n_epochs += taught.n_epochs;
@@ -201,6 +210,10 @@ fn pictured(library: &Library, backbone: Option<&Backbone>) -> anyhow::Result<Ve
     let mut textures = Vec::new();
     for texture in &library.textures {
         let (Some(place), Some(packed)) = (&texture.place, &texture.picture) else { continue };
+        // An estimate tells what was learned already.
+        if place.source == LabelSource::Estimated {
+            continue;
+        }
         let pixels = picture::decode(packed).with_context(|| format!("the picture of \"{}\"", texture.id))?;
         let picture = pixels.into_surface(packed.millimeters);
         let mut features =

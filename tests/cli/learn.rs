@@ -200,11 +200,18 @@ fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
     generated(&bench, "a rough, soft carpet-like surface", "--out made --size 128 --seed 2");
     assert_ne!(bytes("picture.png"), before);
 
+    // What somebody worked on since is not replaced, nor what was there before.
+    let opened = String::from_utf8(bytes("project.shagreen")).unwrap();
+    bench.write("made/project.shagreen", opened.replace("carpet-like", "rug-like"));
+    bench.fails("generate --out made wood", 1, &["project.shagreen", "another folder"]);
+    bench.write("library/texture.json", std::fs::read(bench.path("made/texture.json")).unwrap());
+    bench.fails("generate --out library wood", 1, &["texture.json", "another folder"]);
     bench.write("mine/picture.png", "mine");
     bench.fails("generate --out mine wood", 1, &["picture.png", "another folder"]);
     bench.fails("generate --out made/picture.png wood", 1, &["is a file"]);
     bench.fails("generate --out more --diffusion wood", 1, &["shagreen model add"]);
     bench.fails("generate --out more --steps 3 wood", 2, &["--diffusion"]);
+    bench.fails("generate --out more --diffusion --size 2000 wood", 1, &["1024", "--size"]);
     assert!(!bench.path("more").exists());
 }
 
@@ -222,7 +229,9 @@ fn prompts_that_say_nothing_are_made_and_say_so() {
         assert_eq!(said["is_about_touch"], is_about_touch, "{prompt}");
         assert!(said["together"]["rough-smooth"]["sd"].as_f64().unwrap() > 3.0);
         if !is_about_touch {
+            // The picture was made of the words, and knows no more.
             assert_eq!(said["by_words"]["rough-smooth"]["sd"], 28.9);
+            assert!(said["together"]["hard-soft"]["sd"].as_f64().unwrap() >= 28.9);
         }
     }
 }

@@ -49,7 +49,7 @@ fn a_table_that_places_nothing_says_why_and_writes_nothing() {
     );
     check("--attributes twice.csv --source human --out l.json", 1, "line 2 and again in line 3");
     check("--attributes good.csv --out l.json", 1, "where the places come from");
-    check("--attributes good.csv --source me --out l.json", 2, "human, simulated or physical");
+    check("--attributes good.csv --source me --out l.json", 2, "human, simulated, physical or estimated");
     check("--attributes good.csv --source human --out notes.json", 1, "notes.json");
     check("--attributes absent.csv --source human --out l.json", 1, "absent.csv");
     assert_eq!(bench.files(), ["good.csv", "notes.json", "twice.csv", "unknown.csv"]);

@@ -195,7 +195,7 @@ mod tests {
         let key = project.authored[(number >> 20) as usize % project.authored.len()].key;
         let (id, name, is_on) = (format!("id{}", number >> 61), format!("{share}"), number & 64 == 0);
         let built_in = BuiltIn::ALL[(number >> 50) as usize % 2];
-        match (number >> 33) % 26 {
+        match (number >> 33) % 27 {
             0..=3 => Edit::MovePoint(at),
             4 => Edit::SetMode(Mode::ALL[(number >> 50) as usize % 5]),
             5 => Edit::Lock { id, name, is_locked: is_on },

@@ -118,8 +118,8 @@ impl ModelFolder {
     /// A file is missing, was changed or cannot be read.
     pub fn diffusion(&self, added: &AddedDiffusion) -> anyhow::Result<Diffusion> {
         let (files, sha256) = read_parts(&added.folder)?;
-        let changed = added.sha256.iter().find(|(name, hash)| sha256.get(*name) != Some(hash));
-        if let Some((name, _)) = changed {
+        let mut names = added.sha256.keys().chain(sha256.keys());
+        if let Some(name) = names.find(|name| added.sha256.get(*name) != sha256.get(*name)) {
             anyhow::bail!(
                 "the file was changed since the model was added; put it back, or add the model again: {}",
                 added.folder.join(name).display()

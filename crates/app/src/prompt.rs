@@ -5,7 +5,11 @@ pub(crate) mod card_ui;
 mod guess;
 mod job;
 
+use std::sync::Arc;
+
 use egui::Context;
+use shagreen_formats::picture::Picture;
+use shagreen_formats::project::AuthoredTexture;
 use shagreen_formats::settings::KeptPrompt;
 
 pub use self::guess::{Guess, Origin};
@@ -51,8 +55,10 @@ pub struct Prompts {
 pub(crate) struct Arrived {
     /// The guess.
     pub(crate) guess: Guess,
-    /// The authored texture that it replaces; `None` makes one.
-    pub(crate) replaces: Option<u32>,
+    /// The authored texture that it replaces, with its picture then; `None` makes one.
+    pub(crate) replaces: Option<(u32, Arc<Picture>)>,
+    /// The axes that it was made for.
+    pub(crate) axes: [String; 2],
 }
 
 impl Prompts {
@@ -63,9 +69,19 @@ impl Prompts {
         Self { text: String::new(), by_diffusion: false, added, models, job: None, guess: None }
     }
 
-    /// What was guessed of the authored texture of this key.
-    pub fn guess_of(&self, key: u32) -> Option<&Guess> {
-        self.guess.as_ref().filter(|guess| guess.key == Some(key))
+    /// What was guessed of an authored texture, as long as it has the picture that was made for it: keys come back after
+    /// undo, and in other projects.
+    pub fn guess_of(&self, texture: &AuthoredTexture) -> Option<&Guess> {
+        let is_its = |guess: &&Guess| {
+            let is_same = |picture: &Arc<Picture>| Arc::ptr_eq(picture, &guess.picture);
+            guess.key == Some(texture.key) && texture.picture.as_ref().is_some_and(is_same)
+        };
+        self.guess.as_ref().filter(is_its)
+    }
+
+    /// Another project is open: what was being made was for the one before.
+    pub(crate) fn forget(&mut self) {
+        (self.job, self.guess) = (None, None);
     }
 
     /// Whether something is being made.
@@ -83,7 +99,8 @@ impl Prompts {
         self.added.as_ref()
     }
 
-    /// Begins what was asked for; returns what is to be remembered of it. Axes are those of the space, each by its two ends.
+    /// Begins what was asked for, unless something is being made; returns what is to be remembered of it. Axes are those of
+    /// the space, each by its two ends.
     pub(crate) fn carry_out(
         &mut self,
         command: PromptCommand,
@@ -95,7 +112,7 @@ impl Prompts {
             PromptCommand::Another => {
                 let guess = self.guess.as_ref()?;
                 let Origin::Words { prompt, seed } = &guess.origin else { return None };
-                (Wanted::Words { prompt: prompt.clone(), seed: seed.wrapping_add(1) }, guess.key)
+                (Wanted::Words { prompt: prompt.clone(), seed: seed.wrapping_add(1) }, guess.replaced())
             }
             PromptCommand::Look(source) => (Wanted::Photo(source), None),
             PromptCommand::Stop => {
@@ -107,13 +124,16 @@ impl Prompts {
                 return None;
             }
         };
+        if self.is_busy() {
+            return None;
+        }
         let kept = match &wanted {
             Wanted::Words { prompt, seed } => Some(KeptPrompt { prompt: prompt.clone(), seed: *seed }),
             Wanted::Photo(_) => None,
         };
         let diffusion = self.added.clone().filter(|_| self.by_diffusion);
         let maker = Maker { models: self.models.clone(), diffusion };
-        let axes = poles.clone().map(|ends| ends.join("-"));
+        let axes = axis_names(poles);
         self.job = Some(Job::begin(wanted, replaces, maker, axes, ctx));
         kept
     }
@@ -129,4 +149,9 @@ impl Prompts {
     pub(crate) fn keep(&mut self, guess: Guess, key: u32) {
         self.guess = Some(Guess { key: Some(key), ..guess });
     }
+}
+
+/// Names of axes of which each has two ends.
+pub(crate) fn axis_names(poles: &[[String; 2]; 2]) -> [String; 2] {
+    poles.clone().map(|ends| ends.join("-"))
 }

@@ -311,7 +311,7 @@ impl Window {
         let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
         CentralPanel::default().frame(frame).show(ui, |ui| {
             commands.extend(bar_ui(ui, &mut self.prompts, &self.files.settings.prompts));
-            let guess = self.prompts.guess_of(self.project.texture().key);
+            let guess = self.prompts.guess_of(self.project.texture());
             if let Some(guess) = guess {
                 let picture =
                     self.guess_picture.follow(Some(&guess.picture), ctx).map(|(picture, _)| picture);

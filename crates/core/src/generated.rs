@@ -57,16 +57,29 @@ pub struct Agreed {
 /// Deviations of their difference beyond which two estimates differ: one pair in twenty by chance.
 const DIFFER: f64 = 2.0;
 
+/// What a picture knows beside the words that it was made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Witness {
+    /// Nothing: it was computed from what the words mean.
+    OfTheWords,
+    /// More: whoever made it knows what such words look like.
+    OnItsOwn,
+}
+
 /// One estimate of two, each counting by its precision.
 ///
-/// A picture is made after the words, so the two are no independent witnesses: together they are as unsure as the surer one,
-/// and where they are further apart than they are unsure, as unsure as they are apart (R. Birge 1932).
-pub fn agree(words: Estimate, picture: Estimate) -> Agreed {
+/// A picture is made after the words, so the two are no independent witnesses. One that was computed from the words makes them
+/// no surer; one that knows more is as sure as it is itself, where that is surer. Where they are further apart than they are
+/// unsure, both together are as much more unsure (R. Birge 1932).
+pub fn agree(words: Estimate, picture: Estimate, witness: Witness) -> Agreed {
     let weights = [words, picture].map(|estimate| estimate.deviation.max(1e-6).powi(-2));
     let mean = (weights[0] * words.mean + weights[1] * picture.mean) / (weights[0] + weights[1]);
     let apart = (words.mean - picture.mean).abs() / words.deviation.hypot(picture.deviation).max(1e-6);
-    let deviation = words.deviation.min(picture.deviation) * apart.max(1.0);
-    Agreed { estimate: Estimate { mean, deviation }, differ: apart > DIFFER }
+    let surest = match witness {
+        Witness::OfTheWords => words.deviation,
+        Witness::OnItsOwn => words.deviation.min(picture.deviation),
+    };
+    Agreed { estimate: Estimate { mean, deviation: surest * apart.max(1.0) }, differ: apart > DIFFER }
 }
 
 /// Where something that was described and pictured lies.
@@ -79,8 +92,8 @@ pub struct Placed {
 }
 
 /// The place of what these words say, and this picture, on the first two of [`ATTRIBUTES`].
-pub fn place(words: [Estimate; 2], picture: [Estimate; 2]) -> Placed {
-    let axes = [agree(words[0], picture[0]), agree(words[1], picture[1])];
+pub fn place(words: [Estimate; 2], picture: [Estimate; 2], witness: Witness) -> Placed {
+    let axes = [0, 1].map(|axis| agree(words[axis], picture[axis], witness));
     let [rough_smooth, hard_soft] = axes.map(|agreed| agreed.estimate.mean.clamp(0.0, 100.0));
     Placed { axes, at: SpacePoint { rough_smooth, hard_soft } }
 }
@@ -94,7 +107,7 @@ impl Placed {
 
 #[cfg(test)]
 mod tests {
-    use super::{GENERATED_TILE, agree, generate, place};
+    use super::{GENERATED_TILE, Witness, agree, generate, place};
     use crate::gaussian_process::Estimate;
     use crate::imagined::Anchor;
     use crate::material::tests::plain;
@@ -131,16 +144,19 @@ mod tests {
     #[test]
     fn the_surer_counts_more_and_a_quarrel_makes_unsure() {
         let of = |mean, deviation| Estimate { mean, deviation };
-        let agreed = agree(of(40.0, 10.0), of(50.0, 5.0));
+        let agreed = agree(of(40.0, 10.0), of(50.0, 5.0), Witness::OnItsOwn);
         assert!((agreed.estimate.mean - 48.0).abs() < 1e-12 && !agreed.differ);
         assert!((agreed.estimate.deviation - 5.0).abs() < 1e-12);
-        let quarrel = agree(of(10.0, 3.0), of(60.0, 4.0));
+        let made_of_words = agree(of(50.0, 28.9), of(70.0, 5.0), Witness::OfTheWords);
+        assert!((made_of_words.estimate.deviation - 28.9).abs() < 1e-12, "it knows no more than was said");
+        let quarrel = agree(of(10.0, 3.0), of(60.0, 4.0), Witness::OfTheWords);
         assert!(quarrel.differ);
         // Ten times as far apart as unsure.
         assert!((quarrel.estimate.deviation - 30.0).abs() < 1e-9, "{quarrel:?}");
-        let placed = place([of(10.0, 3.0), of(80.0, 10.0)], [of(60.0, 4.0), of(90.0, 10.0)]);
+        let placed =
+            place([of(10.0, 3.0), of(80.0, 10.0)], [of(60.0, 4.0), of(90.0, 10.0)], Witness::OnItsOwn);
         assert_eq!(placed.disputed(), ["rough-smooth"]);
         assert!((placed.at.hard_soft - 85.0).abs() < 1e-9);
-        assert_eq!(agree(of(20.0, 0.0), of(20.0, 0.0)).estimate.mean, 20.0);
+        assert_eq!(agree(of(20.0, 0.0), of(20.0, 0.0), Witness::OnItsOwn).estimate.mean, 20.0);
     }
 }

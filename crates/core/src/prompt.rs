@@ -90,6 +90,17 @@ pub struct Looks {
     pub scale: f64,
 }
 
+/// A name for what a prompt describes: one line of at most so many letters (2 or more); `None` of nothing.
+pub fn title(prompt: &str, most: usize) -> Option<String> {
+    let line = prompt.split_whitespace().collect::<Vec<_>>().join(" ");
+    let letters: Vec<char> = line.chars().filter(|c| !c.is_control()).collect();
+    match letters.len() {
+        0 => None,
+        n if n <= most => Some(letters.into_iter().collect()),
+        _ => Some(letters[..most - 1].iter().chain(&['…']).collect()),
+    }
+}
+
 impl Understood {
     /// Whether anything was said that can be felt.
     pub fn is_about_touch(&self) -> bool {

@@ -29,14 +29,15 @@ pub enum AttributeTableError {
     Nothing,
 }
 
-/// The attributes that all textures with any have; where none has any, the axes of their places.
+/// The attributes that all textures with any have; where none has any, the axes of their places. Estimates are left out.
 ///
 /// # Errors
 /// See [`AttributeTableError`].
 pub fn attribute_table(library: &Library) -> Result<AttributeTable, AttributeTableError> {
     let indexed = || library.textures.iter().enumerate();
-    let rated: Vec<(usize, &TextureEntry)> =
-        indexed().filter(|(_, texture)| texture.attributes.is_some()).collect();
+    let rated: Vec<(usize, &TextureEntry)> = indexed()
+        .filter(|(_, texture)| texture.attributes.as_ref().is_some_and(|of| is_known(of.source)))
+        .collect();
     let names: Vec<String> = match rated.first() {
         Some((_, first)) => {
             let of_first = first.attributes.iter().flat_map(|attributes| &attributes.values);
@@ -53,7 +54,7 @@ pub fn attribute_table(library: &Library) -> Result<AttributeTable, AttributeTab
     if table.names.is_empty() {
         table.names = library.axis_names().map(str::to_owned).to_vec();
         for (index, texture) in indexed() {
-            let Some(place) = texture.place else { continue };
+            let Some(place) = texture.place.filter(|place| is_known(place.source)) else { continue };
             table.add(index, vec![place.at.rough_smooth, place.at.hard_soft], place.source);
         }
     } else {
@@ -64,6 +65,11 @@ pub fn attribute_table(library: &Library) -> Result<AttributeTable, AttributeTab
         }
     }
     if table.textures.is_empty() { Err(AttributeTableError::Nothing) } else { Ok(table) }
+}
+
+/// Whether there is something to learn from: an estimate tells what was learned already.
+fn is_known(source: LabelSource) -> bool {
+    source != LabelSource::Estimated
 }
 
 impl AttributeTable {
@@ -120,6 +126,10 @@ mod tests {
 
         let starter = attribute_table(&starter_library().unwrap()).unwrap();
         assert_eq!((starter.names.len(), starter.sources), (2, vec![LabelSource::PhysicalLabels]));
+        let mut estimated = starter_library().unwrap();
+        estimated.textures[3].place.as_mut().unwrap().source = LabelSource::Estimated;
+        let known = attribute_table(&estimated).unwrap();
+        assert!(!known.textures.contains(&3) && known.sources == [LabelSource::PhysicalLabels]);
         assert_eq!(attribute_table(&Library::default()), Err(AttributeTableError::Nothing));
     }
 

@@ -76,6 +76,11 @@ pub enum DiffusionError {
         /// What sides must be multiples of.
         multiple: usize,
     },
+    /// What came of it is no picture.
+    #[error(
+        "the model made numbers that are not finite; its files do not fit one another, or need more than 16 bits"
+    )]
+    NotFinite,
     /// The networks cannot be worked out.
     #[error("the networks could not be worked out: {0}")]
     Tensor(#[from] candle_core::Error),
@@ -118,7 +123,7 @@ pub struct Diffusion {
 }
 
 impl Diffusion {
-    /// The model of these files, which may take twice their size of memory while they are read.
+    /// The model of these files, which may take twice their size of memory while they are read, four times where they are of half precision.
     ///
     /// # Errors
     /// See [`DiffusionError`].
@@ -214,7 +219,11 @@ impl Diffusion {
         let decoded = self.autoencoder.decode(&(latents / self.latents.scaling_factor)?)?;
         let pixels = ((decoded / 2.0)? + 0.5)?.clamp(0.0, 1.0)?;
         let pixels = (pixels * 255.0)?.round()?.squeeze(0)?.permute((1, 2, 0))?.flatten_all()?;
-        let rgb = pixels.to_vec1::<f32>()?.into_iter().map(|x| x as u8).collect();
+        let pixels = pixels.to_vec1::<f32>()?;
+        if pixels.iter().any(|x| !x.is_finite()) {
+            return Err(DiffusionError::NotFinite);
+        }
+        let rgb = pixels.into_iter().map(|x| x as u8).collect();
         Ok(Some(Picture { width: wish.side, height: wish.side, rgb, millimeters: FRAMING.millimeters }))
     }
 
@@ -224,7 +233,7 @@ impl Diffusion {
         if wish.side == 0 || wish.side > LONGEST_SIDE || !wish.side.is_multiple_of(multiple) {
             return wrong(format!("{} pixels a side cannot be", wish.side));
         }
-        if wish.n_steps == 0 || wish.n_steps > MOST_STEPS || wish.n_steps > self.scheduler.most_steps() {
+        if wish.n_steps == 0 || wish.n_steps > MOST_STEPS || !self.scheduler.has_steps(wish.n_steps) {
             return wrong(format!("{} steps cannot be", wish.n_steps));
         }
         if !wish.guidance.is_finite() {

@@ -51,6 +51,14 @@ pub fn see(backbone: Option<&Backbone>, picture: &Picture) -> Result<Vec<f32>, L
     })
 }
 
+/// Eyes by their name, and which of that name.
+fn told(eyes: &Eyes) -> String {
+    match eyes {
+        Eyes::Statistics => eyes.name().to_owned(),
+        Eyes::Network { sha256, .. } => format!("{} ({})", eyes.name(), sha256.get(..12).unwrap_or(sha256)),
+    }
+}
+
 /// Eyes and a head that belong together.
 #[derive(Debug)]
 pub struct Looker {
@@ -71,8 +79,8 @@ impl Looker {
         let eyes = Eyes::of(backbone.as_ref());
         if *model.eyes() != eyes {
             return Err(LookingError::OtherEyes {
-                model: model.eyes().name().to_owned(),
-                found: eyes.name().to_owned(),
+                model: told(model.eyes()),
+                found: told(&eyes),
                 hint: "name the file of the same network, or train another model by `shagreen train photo`",
             });
         }

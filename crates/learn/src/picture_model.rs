@@ -176,7 +176,7 @@ pub struct Lesson {
 const LEAST: usize = 8;
 
 impl PictureModel {
-    /// Learns; labels go from 0 to 100. `epoch` is called with the number of rounds of all heads so far, and stops by false:
+    /// Learns; labels go from 0 to 100, and beyond for what lies beyond. `epoch` is called with the number of rounds of all heads so far, and stops by false:
     /// what is learned until then is the model.
     ///
     /// # Errors
@@ -302,7 +302,10 @@ impl PictureModel {
         let is_possible = about.sizes.iter().all(|n| (1..=MOST_NUMBERS).contains(n))
             && about.sizes.len() <= MOST_LAYERS
             && (1..=MOST_HEADS).contains(&about.n_heads)
-            && [about.attributes.len(), about.aside_rmse.len()] == [n_attributes; 2];
+            && [about.attributes.len(), about.aside_rmse.len()] == [n_attributes; 2]
+            && about.aside_rmse.iter().all(|rmse| rmse.is_finite() && *rmse >= 0.0)
+            && about.usual_unlikeness.is_finite()
+            && about.usual_unlikeness > 0.0;
         if !is_possible {
             return Err(PictureModelError::Settings);
         }
@@ -319,12 +322,26 @@ impl PictureModel {
                 Some((name.strip_prefix(&prefix)?.to_owned(), tensor.clone()))
             };
             let named: Numbers = numbers.iter().filter_map(of).collect();
+            check_shapes(&named, &about.sizes)?;
             let head = fresh(&about.sizes, 0, &device)?;
             head.restore(&named).map_err(ModelFileError::Shape)?;
             heads.push(head);
         }
         Ok(Self { about, scale: [means?, deviations?], heads, device })
     }
+}
+
+/// Looks, before anything is made for it, whether a file has the layers that it says.
+fn check_shapes(numbers: &Numbers, sizes: &[usize]) -> Result<(), ModelFileError> {
+    for (index, pair) in sizes.windows(2).enumerate() {
+        let name = format!("dense{index}.weight");
+        let found = numbers.get(&name).map(Tensor::dims);
+        if found != Some(pair) {
+            let what = format!("\"{name}\" has the shape {found:?}, {pair:?} is expected");
+            return Err(ModelFileError::Shape(candle_core::Error::Msg(what)));
+        }
+    }
+    Ok(())
 }
 
 /// More numbers in a layer, layers and heads are no model of ours, but a file that asks for much memory.

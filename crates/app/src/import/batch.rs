@@ -324,8 +324,11 @@ impl Batch {
     /// placed by an estimate.
     pub fn entries(&self, library: &Library, space_rate_hz: f64, are_placed: bool) -> Vec<Arc<TextureEntry>> {
         let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
-        let mut source = library.label_source();
-        let has_mixed_places = source.is_none() && !library.label_sources().is_empty();
+        // Estimates follow from the other places, and say nothing of what they come from.
+        let mut sources = library.label_sources();
+        sources.retain(|source| *source != LabelSource::Estimated);
+        let mut source = if let [source] = sources[..] { Some(source) } else { None };
+        let has_mixed_places = sources.len() > 1;
         let mut out = Vec::new();
         for file in &self.files {
             let Content::Textures { entries, .. } = &file.content else { continue };
@@ -334,9 +337,7 @@ impl Batch {
                 entry.id = claim_id(&entry.id, &mut ids);
                 let fits = |from: LabelSource| !has_mixed_places && source.is_none_or(|s| s == from);
                 let is_comparable = entry.label_source().is_some_and(fits);
-                if is_comparable
-                    && (library.label_sources().is_empty() || entry.model.rate().0 <= space_rate_hz)
-                {
+                if is_comparable && (sources.is_empty() || entry.model.rate().0 <= space_rate_hz) {
                     source = entry.label_source();
                 } else {
                     entry.place = None;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::generated::agree;
+use shagreen_core::generated::{Witness, agree};
 use shagreen_core::prompt::Understood;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::touch_words::ATTRIBUTES;
@@ -56,6 +56,11 @@ impl Guess {
         SpacePoint { rough_smooth, hard_soft }
     }
 
+    /// The authored texture that was made of it, with its picture.
+    pub(super) fn replaced(&self) -> Option<(u32, Arc<Picture>)> {
+        Some((self.key?, Arc::clone(&self.picture)))
+    }
+
     /// What is noted of the texture that is made of it.
     pub(crate) fn notes(&self) -> String {
         match &self.origin {
@@ -71,6 +76,7 @@ pub(super) fn on_axes<'a>(
     axes: &'a [String; 2],
     words: Option<&Understood>,
     picture: &[Estimate],
+    witness: Witness,
 ) -> ([Estimate; 2], Vec<&'a str>) {
     let mut disputed = Vec::new();
     let estimates = [0, 1].map(|axis| {
@@ -79,7 +85,7 @@ pub(super) fn on_axes<'a>(
         let seen = index.and_then(|index| picture.get(index).copied());
         match (said, seen) {
             (Some(said), Some(seen)) => {
-                let agreed = agree(said, seen);
+                let agreed = agree(said, seen, witness);
                 if agreed.differ {
                     disputed.push(axes[axis].as_str());
                 }
@@ -96,6 +102,7 @@ pub(super) fn on_axes<'a>(
 mod tests {
     use super::{OPEN, on_axes};
     use shagreen_core::gaussian_process::Estimate;
+    use shagreen_core::generated::Witness;
     use shagreen_core::prompt::understand;
     use shagreen_formats::lexicon_toml::built_in_lexicon;
 
@@ -105,14 +112,14 @@ mod tests {
         let picture = [Estimate { mean: 95.0, deviation: 2.0 }, Estimate { mean: 10.0, deviation: 5.0 }];
         let axes = |names: [&str; 2]| names.map(str::to_owned);
         let usual = axes(["rough-smooth", "hard-soft"]);
-        let (both, disputed) = on_axes(&usual, Some(&words), &picture);
+        let (both, disputed) = on_axes(&usual, Some(&words), &picture, Witness::OnItsOwn);
         assert_eq!(disputed, ["rough-smooth"]);
         assert!(both[1].mean < 25.0 && both[0].deviation > 2.0);
         let other = axes(["warm-cold", "flat-bumpy"]);
-        let (open, disputed) = on_axes(&other, Some(&words), &picture);
+        let (open, disputed) = on_axes(&other, Some(&words), &picture, Witness::OnItsOwn);
         assert_eq!((open[0], disputed.len()), (OPEN, 0));
         assert!(open[1].mean > 70.0, "{open:?}");
-        assert_eq!(on_axes(&usual, None, &picture).0, picture);
-        assert_eq!(on_axes(&other, None, &picture).0, [OPEN; 2]);
+        assert_eq!(on_axes(&usual, None, &picture, Witness::OnItsOwn).0, picture);
+        assert_eq!(on_axes(&other, None, &picture, Witness::OnItsOwn).0, [OPEN; 2]);
     }
 }

@@ -6,12 +6,12 @@ use std::sync::mpsc::{Receiver, TryRecvError};
 
 use anyhow::Context as _;
 use egui::Context;
-use shagreen_core::generated::{GENERATOR, generate};
-use shagreen_core::prompt::{Understood, understand};
+use shagreen_core::generated::{GENERATOR, Witness, generate};
+use shagreen_core::prompt::{Understood, title, understand};
 use shagreen_core::shading::Picture as Surface;
 use shagreen_core::starter::FRAMING;
 use shagreen_formats::lexicon_toml::built_in_lexicon;
-use shagreen_formats::picture::{Rgb, encode_jpeg, photo_pixels};
+use shagreen_formats::picture::{Picture, Rgb, encode_jpeg, photo_pixels};
 use shagreen_formats::starter::starter_anchors;
 use shagreen_learn::diffusion::Wish;
 use shagreen_learn::looking::Looker;
@@ -54,19 +54,21 @@ struct Course {
 /// Something that is being made; dropping it stops it.
 pub(super) struct Job {
     course: Arc<Course>,
-    replaces: Option<u32>,
+    replaces: Option<(u32, Arc<Picture>)>,
+    axes: [String; 2],
     arriving: Receiver<Result<Option<Guess>, String>>,
 }
 
 impl Job {
     pub(super) fn begin(
         wanted: Wanted,
-        replaces: Option<u32>,
+        replaces: Option<(u32, Arc<Picture>)>,
         maker: Maker,
         axes: [String; 2],
         ctx: &Context,
     ) -> Self {
         let course = Arc::new(Course::default());
+        let of_space = axes.clone();
         let (on_the_way, screen) = (Arc::clone(&course), ctx.clone());
         let work = move || {
             let step = || {
@@ -74,9 +76,9 @@ impl Job {
                 screen.request_repaint();
                 !on_the_way.is_stopped.load(Ordering::Relaxed)
             };
-            made(wanted, &maker, &axes, &on_the_way.n_steps, step).map_err(|error| format!("{error:#}"))
+            made(wanted, &maker, &of_space, &on_the_way.n_steps, step).map_err(|error| format!("{error:#}"))
         };
-        Self { course, replaces, arriving: in_background(ctx.clone(), work) }
+        Self { course, replaces, axes, arriving: in_background(ctx.clone(), work) }
     }
 
     /// How much is done, where it has steps.
@@ -88,7 +90,8 @@ impl Job {
     /// What came of it, once it is done.
     pub(super) fn collect(&mut self) -> Option<Result<Arrived, String>> {
         match self.arriving.try_recv() {
-            Ok(Ok(guess)) => guess.map(|guess| Ok(Arrived { guess, replaces: self.replaces })),
+            Ok(Ok(guess)) => guess
+                .map(|guess| Ok(Arrived { guess, replaces: self.replaces.clone(), axes: self.axes.clone() })),
             Ok(Err(reason)) => Some(Err(reason)),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => Some(Err(strings::BROKEN_OFF.to_owned())),
@@ -117,7 +120,7 @@ fn made(
     match wanted {
         Wanted::Words { prompt, seed } => {
             let understood = understand(&prompt, built_in_lexicon()?);
-            let name = name_of(&prompt);
+            let name = title(&prompt, LONGEST_NAME).unwrap_or_else(|| strings::NOTHING_SAID.to_owned());
             let (made_by, surface) = match &maker.diffusion {
                 None => {
                     let (anchors, span) = starter_anchors()?;
@@ -125,7 +128,7 @@ fn made(
                     (GENERATOR.to_owned(), made.context(strings::NO_MATERIALS)?.picture)
                 }
                 Some(added) => {
-                    let models = maker.models.as_ref().context(strings::NO_MATERIALS)?;
+                    let models = maker.models.as_ref().context(strings::NO_MODELS)?;
                     let diffusion = models.diffusion(added)?;
                     let wish = Wish::usual(&prompt, seed);
                     n_steps.store(wish.n_steps, Ordering::Relaxed);
@@ -133,12 +136,16 @@ fn made(
                     (added.name(), picture)
                 }
             };
-            let (axes, disputed) = told(&looker, Some(&understood), &surface, axes)?;
+            let witness = if maker.diffusion.is_some() { Witness::OnItsOwn } else { Witness::OfTheWords };
+            let (axes, disputed) = told(&looker, Some(&understood), &surface, axes, witness)?;
             let mut said = strings::said_of_words(&understood);
             if !disputed.is_empty() {
                 said.insert(0, strings::disputed(&disputed));
             }
             said.push(strings::made_by(&made_by, seed));
+            if maker.diffusion.is_some() {
+                said.push(strings::NO_SCALE.to_owned());
+            }
             said.push(strings::seen_by(looker.model().eyes().name()));
             guess(Origin::Words { prompt, seed }, made_by, name, &surface, axes, said, !disputed.is_empty())
         }
@@ -147,7 +154,7 @@ fn made(
             let bytes = source.bytes().map_err(anyhow::Error::msg)?;
             let pixels = photo_pixels(&bytes).with_context(|| name.clone())?;
             let surface = pixels.into_surface(FRAMING.millimeters);
-            let (axes, _) = told(&looker, None, &surface, axes)?;
+            let (axes, _) = told(&looker, None, &surface, axes, Witness::OnItsOwn)?;
             let said = vec![strings::seen_by(looker.model().eyes().name()), strings::NO_SCALE.to_owned()];
             let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
             guess(Origin::Photo(name), strings::A_PHOTO.to_owned(), stem, &surface, axes, said, false)
@@ -163,9 +170,10 @@ fn told(
     words: Option<&Understood>,
     surface: &Surface,
     axes: &[String; 2],
+    witness: Witness,
 ) -> anyhow::Result<Told> {
     let seen = looker.look(surface)?;
-    let (estimates, disputed) = on_axes(axes, words, &seen);
+    let (estimates, disputed) = on_axes(axes, words, &seen, witness);
     Ok((estimates, disputed.into_iter().map(str::to_owned).collect()))
 }
 
@@ -180,15 +188,4 @@ fn guess(
 ) -> anyhow::Result<Option<Guess>> {
     let picture = Arc::new(encode_jpeg(&Rgb::from(surface), surface.millimeters)?);
     Ok(Some(Guess { key: None, origin, made_by, picture, name, axes, said, is_disputed }))
-}
-
-/// A name of a prompt: one line of bounded length.
-fn name_of(prompt: &str) -> String {
-    let line: Vec<&str> = prompt.split_whitespace().collect();
-    let letters: Vec<char> = line.join(" ").chars().filter(|c| !c.is_control()).collect();
-    match letters.len() {
-        0 => strings::NOTHING_SAID.to_owned(),
-        n if n <= LONGEST_NAME => letters.into_iter().collect(),
-        _ => letters[..LONGEST_NAME - 1].iter().chain(&['…']).collect(),
-    }
 }

@@ -22,7 +22,7 @@ pub const ANOTHER_HELP: &str = "Another piece of the same surface, by the next s
 pub const EARLIER: &str = "Earlier";
 /// What they are.
 pub const EARLIER_HELP: &str =
-    "What was described before, with its seed: the same words and seed make the same texture";
+    "What was described before, with its seed: the same words, seed and generator make the same texture";
 /// There are none.
 pub const NO_EARLIER: &str = "Nothing was described yet";
 /// Closes the row.
@@ -37,12 +37,18 @@ pub const GENERATOR_HELP: &str = "Who makes the picture: the generator of the pr
 pub const BROKEN_OFF: &str = "Making it broke off; try other words";
 /// The program is damaged.
 pub const NO_MATERIALS: &str = "the materials of the starter library are missing; get this program again";
+/// There is no folder for networks of others.
+pub const NO_MODELS: &str = "this system has no folder for models; use the procedural generator";
+/// One thing at a time.
+pub const STILL_BUSY: &str = "Something is being made: wait for it, or stop it";
+/// The axes changed while it was made.
+pub const OTHER_AXES: &str = "What was described was made for other axes: make it again";
 /// Name of a texture of an empty prompt.
 pub const NOTHING_SAID: &str = "Nothing said";
 /// What made the picture of a photo.
 pub const A_PHOTO: &str = "photo";
 /// A photo does not say how large what it shows is.
-pub const NO_SCALE: &str = "How much of a surface the photo shows is not known.";
+pub const NO_SCALE: &str = "How much of a surface the picture shows is not known.";
 
 /// Where something lies along an axis.
 pub fn along(ends: &[String; 2], mean: f64, deviation: f64) -> String {

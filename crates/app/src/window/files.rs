@@ -198,6 +198,7 @@ impl Window {
 
     fn show_project(&mut self, project: Project) {
         self.project = project;
+        self.prompts.forget();
         self.history = History::default();
         self.session.play_path(false);
         self.canvas.tool.leave();

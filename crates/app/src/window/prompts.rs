@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use egui::Context;
 use shagreen_formats::library::free_name;
+use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
 
 use super::Window;
@@ -11,12 +12,16 @@ use crate::authored_panel::next_color;
 use crate::command::Command;
 use crate::edit::Edit;
 use crate::panel::Panel;
-use crate::prompt::PromptCommand;
+use crate::prompt::{PromptCommand, axis_names};
+use crate::strings::prompt as words;
 use crate::workspace::Workspace;
 
 impl Window {
     /// Begins what was asked for; what was described is remembered.
     pub(super) fn carry_out_prompt(&mut self, command: PromptCommand, ctx: &Context) {
+        if self.prompts.is_busy() && !matches!(command, PromptCommand::Stop | PromptCommand::Dismiss) {
+            return self.session.say(words::STILL_BUSY.to_owned());
+        }
         if let Some(kept) = self.prompts.carry_out(command, self.session.poles(), ctx) {
             self.files.settings.note_prompt(kept);
         }
@@ -24,14 +29,28 @@ impl Window {
 
     /// What was made becomes an authored texture, or the one that it was made for anew.
     pub(super) fn collect_prompt(&mut self, ctx: &Context) {
+        // Nothing is put under a hand that is dragging, nor below a sheet, nor into a comparison.
+        let is_free = !self.was_holding || ctx.text_edit_focused();
+        if !is_free || self.sheet.is_open() || self.workspace != Workspace::Author || self.compare.is_hidden()
+        {
+            return;
+        }
         let arrived = match self.prompts.collect() {
             Some(Ok(arrived)) => arrived,
             Some(Err(reason)) => return self.session.say(reason),
             None => return,
         };
+        if arrived.axes != axis_names(self.session.poles()) {
+            return self.session.say(words::OTHER_AXES.to_owned());
+        }
         let guess = arrived.guess;
-        let is_there = |key: &u32| self.project.authored.iter().any(|texture| texture.key == *key);
-        let edits = if let Some(key) = arrived.replaces.filter(is_there) {
+        let is_there = |(key, picture): &(u32, Arc<Picture>)| {
+            let is_same = |texture: &AuthoredTexture| {
+                texture.key == *key && texture.picture.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture))
+            };
+            self.project.authored.iter().any(|texture| is_same(texture))
+        };
+        let edits = if let Some((key, _)) = arrived.replaces.filter(is_there) {
             let (at, picture, notes) = (guess.at(), Arc::clone(&guess.picture), guess.notes());
             vec![Edit::Select(key), Edit::Remake { at, picture, notes }]
         } else {
@@ -46,7 +65,6 @@ impl Window {
                 ..AuthoredTexture::new(0, &free_name(&guess.name, is_taken))
             })]
         };
-        self.workspace = Workspace::Author;
         for edit in edits {
             self.carry_out(Command::Edit(edit), ctx);
         }

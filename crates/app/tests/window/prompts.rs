@@ -24,8 +24,8 @@ fn describe(harness: &mut Author, prompt: &str) {
 }
 
 fn seed(harness: &Author) -> u64 {
-    let key = window(harness).project().texture().key;
-    match &window(harness).prompts().guess_of(key).expect("it was guessed").origin {
+    let texture = window(harness).project().texture();
+    match &window(harness).prompts().guess_of(texture).expect("it was guessed").origin {
         Origin::Words { seed, .. } => *seed,
         Origin::Photo(name) => panic!("{name} is a photo"),
     }
@@ -39,7 +39,7 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     assert_eq!(texture.name, "a rough, soft carpet-like surface");
     assert!(texture.at.rough_smooth < 45.0 && texture.at.hard_soft > 60.0, "{}", texture.at);
     assert!(texture.picture.is_some() && texture.notes.contains("seed 1"));
-    let guess = window(&harness).prompts().guess_of(texture.key).unwrap().clone();
+    let guess = window(&harness).prompts().guess_of(&texture).unwrap().clone();
     assert_eq!(guess.at(), texture.at);
     for said in ["Understood:", "procedural generator, seed 1", "nobody rated it"] {
         assert!(says(&harness, said), "{said}");
@@ -53,7 +53,9 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 
     click(&mut harness, words::ANOTHER);
-    wait(&mut harness, "another was made", |h| seed(h) == 2);
+    wait(&mut harness, "another was made", |h| !window(h).prompts().is_busy());
+    harness.run_steps(3);
+    assert_eq!(seed(&harness), 2);
     let other = window(&harness).project().texture().clone();
     assert_eq!((window(&harness).project().authored.len(), other.key), (2, texture.key), "in its place");
     assert_ne!(other.picture, texture.picture);
@@ -62,7 +64,8 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(60.0);
     harness.run_steps(3);
     assert_eq!(window(&harness).project().texture().at.rough_smooth, 60.0);
-    assert!(window(&harness).prompts().guess_of(texture.key).unwrap().at().rough_smooth < 50.0);
+    let moved = window(&harness).project().texture().clone();
+    assert!(window(&harness).prompts().guess_of(&moved).unwrap().at().rough_smooth < 50.0);
     click(&mut harness, words::DISMISS);
     assert!(!says(&harness, "Understood:"));
     for _ in 0..3 {

@@ -8,8 +8,9 @@ use serde::Deserialize;
 
 use super::{DiffusionError, Files, Part};
 
-/// What the file says; it has more, of which nothing matters to this way of stepping.
+/// What the file says of what matters to this way of stepping.
 #[derive(Debug, Deserialize)]
+#[expect(clippy::struct_excessive_bools, reason = "they are those of the file")]
 struct Wire {
     beta_start: f64,
     beta_end: f64,
@@ -21,6 +22,15 @@ struct Wire {
     steps_offset: usize,
     #[serde(default = "leading")]
     timestep_spacing: String,
+    #[serde(default)]
+    set_alpha_to_one: bool,
+    #[serde(default)]
+    clip_sample: bool,
+    #[serde(default)]
+    thresholding: bool,
+    #[serde(default)]
+    rescale_betas_zero_snr: bool,
+    trained_betas: Option<serde_json::Value>,
 }
 
 fn epsilon() -> String {
@@ -50,13 +60,23 @@ impl Schedule {
         {
             return Err(DiffusionError::Damaged { part, reason: "its numbers make no schedule".to_owned() });
         }
+        for (is_asked, what) in [
+            (wire.set_alpha_to_one, "a last step to no noise at all (set_alpha_to_one)"),
+            (wire.clip_sample, "clipped samples (clip_sample)"),
+            (wire.thresholding, "thresholds (thresholding)"),
+            (wire.rescale_betas_zero_snr, "another scale of noise (rescale_betas_zero_snr)"),
+            (wire.trained_betas.is_some(), "a schedule of its own (trained_betas)"),
+        ] {
+            if is_asked {
+                return Err(unknown(what.to_owned()));
+            }
+        }
         let config = DDIMSchedulerConfig {
             beta_start: wire.beta_start,
             beta_end: wire.beta_end,
             beta_schedule: match wire.beta_schedule.as_str() {
                 "scaled_linear" => BetaSchedule::ScaledLinear,
                 "linear" => BetaSchedule::Linear,
-                "squaredcos_cap_v2" => BetaSchedule::SquaredcosCapV2,
                 other => return Err(unknown(format!("the schedule \"{other}\""))),
             },
             eta: 0.0,
@@ -70,7 +90,6 @@ impl Schedule {
             train_timesteps: wire.num_train_timesteps,
             timestep_spacing: match wire.timestep_spacing.as_str() {
                 "leading" => TimestepSpacing::Leading,
-                "trailing" => TimestepSpacing::Trailing,
                 "linspace" => TimestepSpacing::Linspace,
                 other => return Err(unknown(format!("steps spaced as \"{other}\""))),
             },
@@ -78,9 +97,16 @@ impl Schedule {
         Ok(Self { config })
     }
 
-    /// More steps than it was taught in there cannot be.
-    pub(super) fn most_steps(&self) -> usize {
-        self.config.train_timesteps - self.config.steps_offset
+    /// Whether every one of so many steps is one that it was taught.
+    pub(super) fn has_steps(&self, n_steps: usize) -> bool {
+        let n_taught = self.config.train_timesteps;
+        match self.config.timestep_spacing {
+            TimestepSpacing::Leading => {
+                n_steps <= n_taught
+                    && (n_steps - 1) * (n_taught / n_steps) + self.config.steps_offset < n_taught
+            }
+            TimestepSpacing::Trailing | TimestepSpacing::Linspace => n_steps <= n_taught,
+        }
     }
 
     pub(super) fn of_steps(&self, n_steps: usize) -> Result<Box<dyn Scheduler>, candle_core::Error> {

@@ -10,6 +10,12 @@ use super::{DiffusionError, Files, Part};
 /// More in any direction is no model, but a file that asks for much memory.
 const LARGEST: usize = 1 << 17;
 const MOST_LAYERS: usize = 64;
+/// More halvings of a picture leave nothing of it.
+const MOST_BLOCKS: usize = 6;
+/// Longest text, in parts of words.
+const LONGEST_TEXT: usize = 1024;
+/// Most channels of what a picture is made of.
+const MOST_LATENTS: usize = 64;
 
 /// Sizes of the text encoder.
 #[derive(Clone, Debug, Deserialize)]
@@ -113,7 +119,7 @@ impl TextSizes {
         ];
         if numbers.iter().any(|n| !(1..=LARGEST).contains(n))
             || !(1..=MOST_LAYERS).contains(&sizes.num_hidden_layers)
-            || sizes.max_position_embeddings < 3
+            || !(3..=LONGEST_TEXT).contains(&sizes.max_position_embeddings)
             || !sizes.hidden_size.is_multiple_of(sizes.num_attention_heads)
         {
             return Err(damaged(part, "its sizes make no text encoder"));
@@ -139,7 +145,7 @@ impl DenoiserSizes {
         let n = sizes.block_out_channels.len();
         let heads = sizes.heads();
         if n == 0
-            || n > MOST_LAYERS
+            || n > MOST_BLOCKS
             || [sizes.down_block_types.len(), sizes.up_block_types.len(), heads.len()] != [n; 3]
         {
             return Err(damaged(part, "it does not have one size for each block"));
@@ -164,10 +170,13 @@ impl DenoiserSizes {
             (1..=LARGEST).contains(channels)
                 && *heads > 0
                 && channels.is_multiple_of(*heads)
+                && sizes.norm_num_groups > 0
                 && channels.is_multiple_of(sizes.norm_num_groups)
         };
         if numbers.iter().any(|n| !(1..=LARGEST).contains(n))
             || !(1..=MOST_LAYERS).contains(&sizes.layers_per_block)
+            || sizes.downsample_padding > 1
+            || sizes.in_channels.max(sizes.out_channels) > MOST_LATENTS
             || !channels.iter().zip(&heads).all(fits)
         {
             return Err(damaged(part, "its sizes make no network"));
@@ -224,10 +233,10 @@ impl AutoencoderSizes {
         let fits = |n: &usize| (1..=LARGEST).contains(n) && n.is_multiple_of(sizes.norm_num_groups.max(1));
         let channels = &sizes.block_out_channels;
         if channels.is_empty()
-            || channels.len() > 8
+            || channels.len() > MOST_BLOCKS
             || sizes.norm_num_groups == 0
             || !channels.iter().all(fits)
-            || !(1..=LARGEST).contains(&sizes.latent_channels)
+            || !(1..=MOST_LATENTS).contains(&sizes.latent_channels)
             || !(1..=MOST_LAYERS).contains(&sizes.layers_per_block)
             || !sizes.scaling_factor.is_normal()
         {

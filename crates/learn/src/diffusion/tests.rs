@@ -160,6 +160,51 @@ fn sizes_and_steps_that_cannot_be_are_refused() {
 }
 
 #[test]
+fn every_schedule_that_is_taken_makes_a_picture_and_steps_beyond_what_was_taught_are_refused() {
+    let with = |changes: &[(&str, Value)]| {
+        let (mut files, mut value) = (files(), schedule());
+        for (key, to) in changes {
+            value[*key] = to.clone();
+        }
+        files.add(Part::Schedule, value.to_string().into_bytes());
+        Diffusion::new(files).unwrap()
+    };
+    let mut pictures = Vec::new();
+    for betas in ["scaled_linear", "linear"] {
+        for prediction in ["epsilon", "v_prediction", "sample"] {
+            for spacing in ["leading", "linspace"] {
+                let diffusion = with(&[
+                    ("beta_schedule", json!(betas)),
+                    ("prediction_type", json!(prediction)),
+                    ("timestep_spacing", json!(spacing)),
+                ]);
+                pictures.push(diffusion.picture(&wish("rough", 1), |_| true).unwrap().unwrap().rgb);
+            }
+        }
+    }
+    pictures.sort();
+    pictures.dedup();
+    assert!(pictures.len() > 8, "they differ: {}", pictures.len());
+    let late = with(&[("steps_offset", json!(60))]);
+    let far = Wish { n_steps: 30, ..wish("rough", 1) };
+    assert!(matches!(late.picture(&far, |_| true), Err(DiffusionError::Wish { .. })));
+    assert!(late.picture(&wish("rough", 1), |_| true).is_ok());
+}
+
+#[test]
+fn the_text_encoder_of_the_first_version_and_one_number_of_heads_are_taken() {
+    let mut first = files();
+    let mut sizes = text_sizes();
+    sizes["hidden_act"] = json!("quick_gelu");
+    first.add(Part::TextSizes, sizes.to_string().into_bytes());
+    let mut sizes = denoiser_sizes();
+    sizes["attention_head_dim"] = json!(4);
+    first.add(Part::DenoiserSizes, sizes.to_string().into_bytes());
+    let made = |files| Diffusion::new(files).unwrap().picture(&wish("rough", 1), |_| true).unwrap().unwrap();
+    assert_ne!(made(first), made(files()));
+}
+
+#[test]
 fn what_is_missing_damaged_or_of_another_kind_is_named() {
     let failure = |change: &dyn Fn(&mut Files)| {
         let mut files = files();
@@ -197,7 +242,27 @@ fn what_is_missing_damaged_or_of_another_kind_is_named() {
     let decoder = |key, to| with(Part::AutoencoderSizes, &autoencoder_sizes(), key, to);
     assert!(decoder("norm_num_groups", json!(0)).contains("no decoder"));
     assert!(decoder("latent_channels", json!(8)).contains("decoder takes 8 channels"));
+    assert!(denoiser("downsample_padding", json!(1_000_000)).contains("no network"));
+    assert!(denoiser("norm_num_groups", json!(0)).contains("no network"));
+    let many = |of: &str| json!(vec![of; 12]);
+    let deep = {
+        let mut deep = denoiser_sizes();
+        deep["block_out_channels"] = json!(vec![32; 12]);
+        deep["attention_head_dim"] = json!(2);
+        deep["down_block_types"] = many("DownBlock2D");
+        deep["up_block_types"] = many("UpBlock2D");
+        failure(&|files| files.add(Part::DenoiserSizes, deep.to_string().into_bytes()))
+    };
+    assert!(deep.contains("one size for each block"), "{deep}");
+    assert!(text("max_position_embeddings", json!(100_000)).contains("no text encoder"));
+    assert!(decoder("latent_channels", json!(100_000)).contains("no decoder"));
     let schedule = |key, to| with(Part::Schedule, &schedule(), key, to);
+    for key in ["set_alpha_to_one", "clip_sample", "thresholding", "rescale_betas_zero_snr"] {
+        assert!(schedule(key, json!(true)).contains(key));
+    }
+    assert!(schedule("trained_betas", json!([0.1])).contains("trained_betas"));
+    assert!(schedule("beta_schedule", json!("squaredcos_cap_v2")).contains("squaredcos"));
+    assert!(schedule("timestep_spacing", json!("trailing")).contains("trailing"));
     assert!(schedule("beta_schedule", json!("sine")).contains("sine"));
     assert!(schedule("num_train_timesteps", json!(0)).contains("no schedule"));
 }
