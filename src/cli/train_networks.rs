@@ -91,7 +91,8 @@ pub(crate) fn check_out(args: &NetworkArgs, library: Option<&Path>) -> anyhow::R
     let Some(out) = &args.out else { return Ok(()) };
     ensure!(!args.networks.is_empty(), "--out keeps a network; name one by --network");
     refuse_inputs(&[out], &[library])?;
-    refuse_foreign(out, "a model", is_model)
+    refuse_foreign(out, "a model", is_model)?;
+    Ok(atomic::check_all(&[out])?)
 }
 
 /// Trains the networks that were asked for, once without each texture.

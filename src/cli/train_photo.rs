@@ -77,6 +77,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(out) = &args.out {
         refuse_inputs(&[out], &[args.library.path(), args.backbone.path()])?;
         refuse_foreign(out, "a model", is_model)?;
+        atomic::check_all(&[out])?;
     }
     if let Some(folder) = &args.state {
         std::fs::create_dir_all(folder)

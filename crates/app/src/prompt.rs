@@ -128,8 +128,10 @@ impl Prompts {
             return None;
         }
         let kept = match &wanted {
-            Wanted::Words { prompt, seed } => Some(KeptPrompt { prompt: prompt.clone(), seed: *seed }),
-            Wanted::Photo(_) => None,
+            Wanted::Words { prompt, seed } if !prompt.trim().is_empty() => {
+                Some(KeptPrompt { prompt: prompt.clone(), seed: *seed })
+            }
+            Wanted::Words { .. } | Wanted::Photo(_) => None,
         };
         let diffusion = self.added.clone().filter(|_| self.by_diffusion);
         let maker = Maker { models: self.models.clone(), diffusion };

@@ -5,7 +5,7 @@ use crate::gaussian_process::Estimate;
 use crate::height_field::{HeightField, Tile, synthesize};
 use crate::imagined::{Anchor, imagine};
 use crate::material::Material;
-use crate::prompt::Understood;
+use crate::prompt::{OPEN, Understood};
 use crate::shading::{Picture, shade_tile};
 use crate::space::SpacePoint;
 use crate::starter::LabelSpan;
@@ -79,7 +79,8 @@ pub fn agree(words: Estimate, picture: Estimate, witness: Witness) -> Agreed {
         Witness::OfTheWords => words.deviation,
         Witness::OnItsOwn => words.deviation.min(picture.deviation),
     };
-    Agreed { estimate: Estimate { mean, deviation: surest * apart.max(1.0) }, differ: apart > DIFFER }
+    let deviation = (surest * apart.max(1.0)).min(OPEN.deviation);
+    Agreed { estimate: Estimate { mean, deviation }, differ: apart > DIFFER }
 }
 
 /// Where something that was described and pictured lies.
@@ -111,7 +112,7 @@ mod tests {
     use crate::gaussian_process::Estimate;
     use crate::imagined::Anchor;
     use crate::material::tests::plain;
-    use crate::prompt::{Looks, Understood};
+    use crate::prompt::{Looks, OPEN, Understood};
     use crate::space::SpacePoint;
     use crate::starter::{LabelSpan, Labels};
 
@@ -151,8 +152,11 @@ mod tests {
         assert!((made_of_words.estimate.deviation - 28.9).abs() < 1e-12, "it knows no more than was said");
         let quarrel = agree(of(10.0, 3.0), of(60.0, 4.0), Witness::OfTheWords);
         assert!(quarrel.differ);
-        // Ten times as far apart as unsure.
-        assert!((quarrel.estimate.deviation - 30.0).abs() < 1e-9, "{quarrel:?}");
+        // Ten times as far apart as unsure, which is all that there is to be unsure of.
+        assert_eq!(quarrel.estimate.deviation, OPEN.deviation);
+        // Twice as far apart.
+        let apart = agree(of(40.0, 3.0), of(50.0, 4.0), Witness::OfTheWords);
+        assert!((apart.estimate.deviation - 6.0).abs() < 1e-12 && !apart.differ, "{apart:?}");
         let placed =
             place([of(10.0, 3.0), of(80.0, 10.0)], [of(60.0, 4.0), of(90.0, 10.0)], Witness::OnItsOwn);
         assert_eq!(placed.disputed(), ["rough-smooth"]);

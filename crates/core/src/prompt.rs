@@ -12,7 +12,7 @@ use crate::prompt::tokens::{Token, tokens};
 use crate::touch_words::{ATTRIBUTES, Hints, LONGEST_PHRASE, Lexicon, Meaning, Shade};
 
 /// What is known of an attribute of which nothing was said: any value from 0 to 100 is as likely.
-const OPEN: Estimate = Estimate { mean: 50.0, deviation: 28.9 };
+pub const OPEN: Estimate = Estimate { mean: 50.0, deviation: 28.9 };
 /// Words alone are never surer than this, in points.
 const SUREST: f64 = 4.0;
 /// Factor of the deviation of what is denied: "not rough" is not at the other end for sure.
@@ -240,6 +240,8 @@ impl<'a> Reading<'a> {
                 self.note(text, name, Role::Surface, pending.is_denied);
                 // "Not wood" says little of what it is instead.
                 if !pending.is_denied {
+                    // Named again it is still one.
+                    self.surfaces.retain(|before| before != hints);
                     self.surfaces.push(*hints);
                     self.looks.like = Some(like.clone());
                     if self.looks.color_srgb.is_none() {
@@ -276,12 +278,15 @@ impl<'a> Reading<'a> {
     }
 
     fn note(&mut self, text: &str, name: &str, role: Role, is_denied: bool) {
-        self.words.push(Word { text: text.to_owned(), taken_for: name.to_owned(), role, is_denied });
+        let word = Word { text: text.to_owned(), taken_for: name.to_owned(), role, is_denied };
+        if !self.words.contains(&word) {
+            self.words.push(word);
+        }
     }
 
     fn say(&mut self, hints: &Hints, pending: Pending) {
         for (said, hint) in self.said.iter_mut().zip(hints) {
-            said.extend(hint.map(|hint| qualified(hint, pending)));
+            tell(said, hint.map(|hint| qualified(hint, pending)));
         }
     }
 
@@ -290,7 +295,7 @@ impl<'a> Reading<'a> {
         for (index, hints) in self.surfaces.iter().enumerate() {
             let widened = if index == last { 1.0 } else { BEFORE_ANOTHER };
             for (said, hint) in self.said.iter_mut().zip(hints) {
-                said.extend(hint.map(|hint| Estimate { deviation: widened * hint.deviation, ..hint }));
+                tell(said, hint.map(|hint| Estimate { deviation: widened * hint.deviation, ..hint }));
             }
         }
         let mut disputed = Vec::new();
@@ -310,6 +315,11 @@ impl<'a> Reading<'a> {
             n_left_out,
         }
     }
+}
+
+/// Adds what was said, once: a word that is said again says nothing new.
+fn tell(said: &mut Vec<Estimate>, more: Option<Estimate>) {
+    said.extend(more.filter(|estimate| !said.contains(estimate)));
 }
 
 /// An estimate with what goes with it: denied, stronger or weaker.

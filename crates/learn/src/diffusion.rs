@@ -153,13 +153,13 @@ impl Diffusion {
         let weights = |part: Part, files: &mut Files| -> Result<VarBuilder<'static>, DiffusionError> {
             let bytes = files.take(part)?;
             let damaged =
-                |error: candle_core::Error| DiffusionError::Damaged { part, reason: error.to_string() };
+                |error: candle_core::Error| DiffusionError::Damaged { part, reason: first_line(&error) };
             let tensors: HashMap<String, Tensor> =
                 candle_core::safetensors::load_buffer(&bytes, &device).map_err(damaged)?;
             Ok(VarBuilder::from_tensors(tensors, DType::F32, &device))
         };
         let damaged = |part: Part| {
-            move |error: candle_core::Error| DiffusionError::Damaged { part, reason: error.to_string() }
+            move |error: candle_core::Error| DiffusionError::Damaged { part, reason: first_line(&error) }
         };
         let text =
             TextEncoder::new(&weights(Part::Text, &mut files)?, &text_sizes).map_err(damaged(Part::Text))?;
@@ -247,6 +247,11 @@ impl std::fmt::Debug for Diffusion {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Diffusion").field("sizes", &self.sizes).finish_non_exhaustive()
     }
+}
+
+/// What an error says, without where it came from: candle adds a trace of the program where one is asked for.
+fn first_line(error: &candle_core::Error) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_owned()
 }
 
 #[cfg(test)]

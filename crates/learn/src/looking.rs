@@ -81,7 +81,11 @@ impl Looker {
             return Err(LookingError::OtherEyes {
                 model: told(model.eyes()),
                 found: told(&eyes),
-                hint: "name the file of the same network, or train another model by `shagreen train photo`",
+                hint: if eyes.name() == model.eyes().name() {
+                    "the file of the network is another one: fetch it again by `shagreen model fetch`, or train a model with it"
+                } else {
+                    "name the file of the same network, or train another model by `shagreen train photo`"
+                },
             });
         }
         Ok(Self { backbone, model, sha256 })

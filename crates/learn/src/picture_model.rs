@@ -9,6 +9,7 @@
 use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
 use shagreen_core::gaussian_process::Estimate;
+use shagreen_core::prompt::OPEN;
 use shagreen_core::rng::{Random, derive_seed};
 use shagreen_core::statistics::{mean, quantile, standard_deviation};
 
@@ -269,7 +270,8 @@ impl PictureModel {
             let values: Vec<f64> = by_head.iter().map(|head| 100.0 * f64::from(head[attribute])).collect();
             Estimate {
                 mean: mean(&values).clamp(0.0, 100.0),
-                deviation: unlike * rmse.hypot(standard_deviation(&values)),
+                // Nothing is less sure than what nothing is known of.
+                deviation: (unlike * rmse.hypot(standard_deviation(&values))).min(OPEN.deviation),
             }
         };
         Ok(self.about.aside_rmse.iter().enumerate().map(estimate).collect())

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use shagreen_core::gaussian_process::Estimate;
 use shagreen_core::generated::{Witness, agree};
-use shagreen_core::prompt::Understood;
+use shagreen_core::prompt::{OPEN, Understood};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::touch_words::ATTRIBUTES;
 use shagreen_formats::picture::Picture;
@@ -45,9 +45,6 @@ pub enum Origin {
     /// A photo of this name.
     Photo(String),
 }
-
-/// An axis of which nothing is known: any value is as likely.
-const OPEN: Estimate = Estimate { mean: 50.0, deviation: 28.9 };
 
 impl Guess {
     /// The place.
@@ -100,10 +97,10 @@ pub(super) fn on_axes<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::{OPEN, on_axes};
+    use super::on_axes;
     use shagreen_core::gaussian_process::Estimate;
     use shagreen_core::generated::Witness;
-    use shagreen_core::prompt::understand;
+    use shagreen_core::prompt::{OPEN, understand};
     use shagreen_formats::lexicon_toml::built_in_lexicon;
 
     #[test]

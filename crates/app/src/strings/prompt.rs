@@ -109,7 +109,7 @@ pub fn note_of_photo(name: &str) -> String {
 
 /// An earlier prompt in the menu.
 pub fn earlier(prompt: &str, seed: u64) -> String {
-    format!("{prompt} · {seed}")
+    format!("{prompt} · seed {seed}")
 }
 
 /// Accessible name of the row about a guess.

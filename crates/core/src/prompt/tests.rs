@@ -150,3 +150,23 @@ proptest! {
         prop_assert!(understood.unknown.is_empty());
     }
 }
+
+#[test]
+fn a_word_that_is_said_again_says_nothing_new() {
+    let once = of("rough rug");
+    let often = of("rough rough carpet and a rough, rough rug, rough rug");
+    assert_eq!(often.attributes, once.attributes);
+    assert_eq!(often.looks, once.looks);
+    // "Carpet" and "rug" are two words for one thing.
+    assert!(often.words.len() <= 3, "{:?}", often.words);
+    // In two ways it is two things said.
+    assert_ne!(of("rough, very rough").attributes, of("rough").attributes);
+}
+
+#[test]
+fn titles_are_short_and_of_one_line() {
+    assert_eq!(super::title("  a\n rough\tone ", 40).as_deref(), Some("a rough one"));
+    assert_eq!(super::title(" \u{7}\n", 40), None);
+    assert_eq!(super::title("abcdef", 4).as_deref(), Some("abc…"));
+    assert_eq!(super::title("粗い布", 3).as_deref(), Some("粗い布"));
+}
