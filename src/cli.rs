@@ -30,6 +30,7 @@ mod hid_files;
 mod import;
 mod import_hatt;
 mod import_recording;
+mod in_parallel;
 mod judged;
 mod landings;
 mod latency;

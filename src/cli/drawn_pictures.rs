@@ -1,17 +1,18 @@
 //! Pictures of drawn materials, looked at: as much to learn from as anybody wants.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Context as _, ensure};
 use shagreen_core::drawn_material::draw;
 use shagreen_core::picture_features::N_FEATURES;
+use shagreen_core::shading::Picture;
 use shagreen_core::starter::{LabelSpan, Labels, pictured};
 use shagreen_formats::atomic;
 use shagreen_learn::backbone::Backbone;
-use shagreen_learn::looking::see;
+use shagreen_learn::looking::{LookingError, see};
 use shagreen_learn::picture_set::{PictureSet, Seen};
 
+use crate::cli::in_parallel::in_parallel;
 use crate::cli::output::{self, Progress};
 
 /// Counted up whenever drawn materials, their pictures or what is seen in them change.
@@ -43,7 +44,7 @@ pub(crate) fn drawn_pictures(
             "what was kept is of other materials or another network; name another folder by --state: {}",
             path.display()
         );
-        let n_features = N_FEATURES + if is_part { 0 } else { backbone.map_or(0, |b| b.kind().n_features()) };
+        let n_features = N_FEATURES + backbone.map_or(0, |b| b.kind().n_features());
         let fits = |seen: &Seen| seen.features.len() >= n_features && seen.labels.len() == 2;
         ensure!(before.pictures.iter().all(fits), "what was kept is damaged; delete it: {}", path.display());
         // What both of them saw is not replaced by what one of them sees.
@@ -61,7 +62,13 @@ pub(crate) fn drawn_pictures(
     }
     while set.pictures.len() < n {
         let end = (set.pictures.len() + N_AT_ONCE).min(n);
-        set.pictures.extend(look(set.pictures.len()..end, seed, backbone, &|| progress.step())?);
+        let begin = set.pictures.len();
+        let seen = in_parallel(end - begin, |index| {
+            let seen = look_at(begin + index, seed, backbone);
+            progress.step();
+            seen
+        });
+        set.pictures.extend(seen.into_iter().collect::<anyhow::Result<Vec<Seen>>>()?);
         if let Some(path) = kept {
             atomic::write(path, &set.to_bytes()?)?;
         }
@@ -74,42 +81,20 @@ pub(crate) fn drawn_pictures(
     Ok(set.pictures.iter().take(n).map(on_axes).collect())
 }
 
-/// Pictures of these numbers in their order, on all processors.
-fn look(
-    numbers: std::ops::Range<usize>,
-    seed: u64,
-    backbone: Option<&Backbone>,
-    step: &(dyn Fn() + Sync),
-) -> anyhow::Result<Vec<Seen>> {
-    let next = AtomicUsize::new(numbers.start);
-    let work = || {
-        let mut seen = Vec::new();
-        while let Some(number) = Some(next.fetch_add(1, Ordering::Relaxed)).filter(|n| *n < numbers.end) {
-            seen.push((number, look_at(number, seed, backbone)));
-            step();
-        }
-        seen
-    };
-    let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(numbers.len());
-    let mut seen: Vec<(usize, anyhow::Result<Seen>)> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..n_threads).map(|_| scope.spawn(work)).collect();
-        workers
-            .into_iter()
-            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
-    });
-    seen.sort_by_key(|(number, _)| *number);
-    seen.into_iter().map(|(_, seen)| seen).collect()
+/// What statistics see in a picture, and after that what the network does where there is one.
+pub(crate) fn see_all(backbone: Option<&Backbone>, picture: &Picture) -> Result<Vec<f32>, LookingError> {
+    let mut features = see(None, picture)?;
+    if backbone.is_some() {
+        features.extend(see(backbone, picture)?);
+    }
+    Ok(features)
 }
 
 fn look_at(number: usize, seed: u64, backbone: Option<&Backbone>) -> anyhow::Result<Seen> {
     let (material, _) = draw(seed, number as u64);
     let (labels, picture) =
         pictured(&material, seed).with_context(|| format!("{} cannot be pictured", material.name))?;
-    let mut features = see(None, &picture)?;
-    if backbone.is_some() {
-        features.extend(see(backbone, &picture)?);
-    }
+    let features = see_all(backbone, &picture)?;
     // As they are kept, so that a training is the same again after it was stopped.
     let kept = |label: f64| f64::from(label as f32);
     Ok(Seen {

@@ -194,9 +194,7 @@ fn felt_at(library: &Library, at: SpacePoint) -> anyhow::Result<TextureModel> {
     if authored.location.clamped {
         output::note(&format!("{at} lies outside the textures; the nearest point among them is felt"));
     }
-    authoring
-        .model(at, &blending)
-        .with_context(|| format!("the field has no texture at {at}; say more, or something else"))
+    authored.model.with_context(|| format!("the field has no texture at {at}; say more, or something else"))
 }
 
 /// A picture, and what made it.

@@ -1,7 +1,6 @@
 //! `shagreen library make`: a library from the parameters of physical materials.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::Context as _;
 use serde_json::json;
@@ -13,6 +12,7 @@ use shagreen_formats::materials_toml::{Materials, read_materials};
 use shagreen_formats::{atomic, picture};
 
 use crate::cli::guard::refuse_inputs;
+use crate::cli::in_parallel::in_parallel;
 use crate::cli::output::{self, Progress};
 
 /// What the starter library says about itself.
@@ -88,31 +88,15 @@ fn make_library(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Resu
 /// The textures in the order of the materials, on all processors: which thread makes which does not matter.
 fn make_textures(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Result<Vec<StarterTexture>> {
     let list = &materials.materials;
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut made = Vec::new();
-        while let Some((index, material)) = {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            list.get(index).map(|material| (index, material))
-        } {
-            made.push((index, starter::make(material, materials.seed)));
-            step();
-        }
+    let made = in_parallel(list.len(), |index| {
+        let made = starter::make(&list[index], materials.seed);
+        step();
         made
-    };
-    let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(list.len());
-    let mut made: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..n_threads).map(|_| scope.spawn(work)).collect();
-        workers
-            .into_iter()
-            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
     });
-    made.sort_by_key(|(index, _)| *index);
     made.into_iter()
-        .map(|(index, texture)| {
-            texture
-                .with_context(|| format!("the material \"{}\" makes no texture; correct it", list[index].id))
+        .zip(list)
+        .map(|(texture, material)| {
+            texture.with_context(|| format!("the material \"{}\" makes no texture; correct it", material.id))
         })
         .collect()
 }

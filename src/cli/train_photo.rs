@@ -8,17 +8,16 @@ use serde_json::{Value, json};
 use shagreen_core::picture_features::N_FEATURES;
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
-use shagreen_formats::library::Library;
+use shagreen_formats::library::{Library, USUAL_AXES};
 use shagreen_formats::starter::starter_anchors;
 use shagreen_formats::{atomic, picture};
 use shagreen_learn::backbone::Backbone;
-use shagreen_learn::looking::see;
 use shagreen_learn::model_file::is_model;
 use shagreen_learn::picture_model::{Eyes, Lesson, PictureConfig, PictureModel};
 use shagreen_learn::picture_set::Seen;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
-use crate::cli::drawn_pictures::drawn_pictures;
+use crate::cli::drawn_pictures::{drawn_pictures, see_all};
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::judged::{Comparison, Judged};
 use crate::cli::library_source::{LibraryArgs, load};
@@ -68,9 +67,6 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// Attributes that pictures are judged by.
-const ATTRIBUTES: [&str; 2] = ["rough-smooth", "hard-soft"];
-
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let started = Instant::now();
     let backbone = read_backbone(&args.backbone)?;
@@ -86,7 +82,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let library = load(&args.library)?;
     ensure!(
-        library.axis_names() == ATTRIBUTES,
+        library.axis_names() == USUAL_AXES,
         "the axes of \"{}\" are {}; pictures tell rough-smooth and hard-soft, name a library with these",
         library.name,
         library.axis_names().join(" and ")
@@ -129,7 +125,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         output::print(args.json, &result, || format!("Made: {}", out.clone().unwrap_or_default()));
         return Ok(());
     }
-    let names = ATTRIBUTES.map(str::to_owned);
+    let names = USUAL_AXES.map(str::to_owned);
     let comparison = Comparison::new(&all, &names, &values);
     let mut result = comparison.as_json();
     let more = json!({
@@ -175,7 +171,7 @@ fn teach(
     let drawn: Vec<Seen> = drawn.iter().map(part).collect();
     let known: Vec<Seen> = textures.iter().map(part).collect();
     let name = eyes.name().to_owned();
-    let attributes = ATTRIBUTES.map(str::to_owned).to_vec();
+    let attributes = USUAL_AXES.map(str::to_owned).to_vec();
     let lesson = Lesson { eyes, attributes, learned_from: learned_from.to_owned() };
     let config =
         PictureConfig::paper(args.epochs as usize, args.patience as usize, args.heads as usize, args.seed);
@@ -217,11 +213,8 @@ fn pictured(library: &Library, backbone: Option<&Backbone>) -> anyhow::Result<Ve
         }
         let pixels = picture::decode(packed).with_context(|| format!("the picture of \"{}\"", texture.id))?;
         let picture = pixels.into_surface(packed.millimeters);
-        let mut features =
-            see(None, &picture).with_context(|| format!("the picture of \"{}\"", texture.id))?;
-        if backbone.is_some() {
-            features.extend(see(backbone, &picture)?);
-        }
+        let features =
+            see_all(backbone, &picture).with_context(|| format!("the picture of \"{}\"", texture.id))?;
         let labels = vec![place.at.rough_smooth, place.at.hard_soft];
         textures.push(Seen { features, labels });
     }

@@ -72,11 +72,9 @@ impl Prompts {
     /// What was guessed of an authored texture, as long as it has the picture that was made for it: keys come back after
     /// undo, and in other projects.
     pub fn guess_of(&self, texture: &AuthoredTexture) -> Option<&Guess> {
-        let is_its = |guess: &&Guess| {
-            let is_same = |picture: &Arc<Picture>| Arc::ptr_eq(picture, &guess.picture);
-            guess.key == Some(texture.key) && texture.picture.as_ref().is_some_and(is_same)
-        };
-        self.guess.as_ref().filter(is_its)
+        self.guess
+            .as_ref()
+            .filter(|guess| guess.key.is_some_and(|key| has_still(texture, key, &guess.picture)))
     }
 
     /// Another project is open: what was being made was for the one before.
@@ -99,7 +97,7 @@ impl Prompts {
         self.added.as_ref()
     }
 
-    /// Begins what was asked for, unless something is being made; returns what is to be remembered of it. Axes are those of
+    /// Begins what was asked for, in place of what is being made; returns what is to be remembered of it. Axes are those of
     /// the space, each by its two ends.
     pub(crate) fn carry_out(
         &mut self,
@@ -124,9 +122,6 @@ impl Prompts {
                 return None;
             }
         };
-        if self.is_busy() {
-            return None;
-        }
         let kept = match &wanted {
             Wanted::Words { prompt, seed } if !prompt.trim().is_empty() => {
                 Some(KeptPrompt { prompt: prompt.clone(), seed: *seed })
@@ -151,6 +146,11 @@ impl Prompts {
     pub(crate) fn keep(&mut self, guess: Guess, key: u32) {
         self.guess = Some(Guess { key: Some(key), ..guess });
     }
+}
+
+/// Whether a texture has this key and still this very picture.
+pub(crate) fn has_still(texture: &AuthoredTexture, key: u32, picture: &Arc<Picture>) -> bool {
+    texture.key == key && texture.picture.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture))
 }
 
 /// Names of axes of which each has two ends.

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, TryRecvError};
 
 use anyhow::Context as _;
 use egui::Context;
+use shagreen_core::gaussian_process::Estimate;
 use shagreen_core::generated::{GENERATOR, Witness, generate};
 use shagreen_core::prompt::{Understood, title, understand};
 use shagreen_core::shading::Picture as Surface;
@@ -162,7 +163,7 @@ fn made(
     }
 }
 
-type Told = ([shagreen_core::gaussian_process::Estimate; 2], Vec<String>);
+type Told = ([Estimate; 2], Vec<String>);
 
 /// What words and a picture tell of the axes, and where they disagree.
 fn told(
@@ -182,7 +183,7 @@ fn guess(
     made_by: String,
     name: String,
     surface: &Surface,
-    axes: [shagreen_core::gaussian_process::Estimate; 2],
+    axes: [Estimate; 2],
     said: Vec<String>,
     is_disputed: bool,
 ) -> anyhow::Result<Option<Guess>> {

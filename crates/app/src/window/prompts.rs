@@ -12,7 +12,7 @@ use crate::authored_panel::next_color;
 use crate::command::Command;
 use crate::edit::Edit;
 use crate::panel::Panel;
-use crate::prompt::{PromptCommand, axis_names};
+use crate::prompt::{PromptCommand, axis_names, has_still};
 use crate::strings::prompt as words;
 use crate::workspace::Workspace;
 
@@ -45,10 +45,7 @@ impl Window {
         }
         let guess = arrived.guess;
         let is_there = |(key, picture): &(u32, Arc<Picture>)| {
-            let is_same = |texture: &AuthoredTexture| {
-                texture.key == *key && texture.picture.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture))
-            };
-            self.project.authored.iter().any(|texture| is_same(texture))
+            self.project.authored.iter().any(|texture| has_still(texture, *key, picture))
         };
         let edits = if let Some((key, _)) = arrived.replaces.filter(is_there) {
             let (at, picture, notes) = (guess.at(), Arc::clone(&guess.picture), guess.notes());
