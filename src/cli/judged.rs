@@ -24,6 +24,11 @@ impl Judged {
         let of = |index| (0..n_attributes).map(|attribute| without(index, attribute)).collect();
         Self { name: "mean of the others".to_owned(), predicted: (0..values.len()).map(of).collect() }
     }
+
+    /// Root mean square errors, attribute by attribute, in points of 0..100.
+    pub(crate) fn rmse(&self, values: &[Vec<f64>]) -> Vec<f64> {
+        errors(&self.predicted, values).rmse
+    }
 }
 
 /// Errors of a way of predicting, attribute by attribute, in points of 0..100.

@@ -154,7 +154,9 @@ impl Progress {
     /// A bar of `n` steps of `what`.
     pub(crate) fn new(what: &'static str, n: usize) -> Self {
         let bar = ProgressBar::with_draw_target(Some(n as u64), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}, about {eta} left")
+        {
             bar.set_style(style);
         }
         bar.set_message(what);
@@ -163,7 +165,17 @@ impl Progress {
 
     /// One more step is done.
     pub(crate) fn step(&self) {
-        self.0.inc(1);
+        self.steps(1);
+    }
+
+    /// So many more steps are done.
+    pub(crate) fn steps(&self, n: usize) {
+        self.0.inc(n as u64);
+    }
+
+    /// Says something above the bar.
+    pub(crate) fn note(&self, line: &str) {
+        self.0.suspend(|| note(line));
     }
 
     /// So many seconds are played or rendered; [`in_ms`] is the number of steps for a bar of them.

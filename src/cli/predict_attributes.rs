@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::attribute_predictor::{predict, quantities};
-use shagreen_core::fit::{self, FitOptions};
+use shagreen_core::fit::{self, FitOptions, Segment};
 use shagreen_core::gaussian_process::Estimate;
+use shagreen_core::patterns::PAPER_RATE;
 use shagreen_core::prompt::understand;
+use shagreen_core::recording::Recording;
 use shagreen_core::space::LabelSource;
 use shagreen_core::starter::FRAMING;
 use shagreen_core::touch_words::ATTRIBUTES;
@@ -20,10 +22,12 @@ use shagreen_formats::picture::photo_pixels;
 use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
+use shagreen_learn::stroke_model::StrokeModel;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output;
+use crate::cli::recorded_strokes::recorded_strokes;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
 use crate::cli::said_of_prompt::said_of;
@@ -31,22 +35,23 @@ use crate::cli::said_of_prompt::said_of;
 /// What a recorded stroke, a photo or words would feel like: attributes from 0 to 100, each with how unsure it is.
 ///
 /// Recordings are compared with the textures of a library whose attributes are known; without --library those of the simulated
-/// one, which nobody rated. Photos are judged by what was learned from pictures of materials whose roughness and hardness are
+/// one, which nobody rated. With --model a network that learned from strokes tells them. Photos are judged by what was learned from pictures of materials whose roughness and hardness are
 /// known; words are understood by a lexicon whose figures are estimates.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true))]
 pub(crate) struct Args {
     /// Recordings of strokes over one texture: acceleration, speed and force, as WAV or tables.
-    #[arg(long, value_name = "FILE", num_args = 1.., group = "what")]
+    #[arg(long, value_name = "FILE", num_args = 1.., group = "what", conflicts_with = "backbone")]
     recording: Vec<PathBuf>,
     /// A photo of a surface, as JPEG or PNG.
-    #[arg(long, value_name = "FILE", group = "what")]
+    #[arg(long, value_name = "FILE", group = "what", conflicts_with = "library")]
     photo: Option<PathBuf>,
     /// Words.
-    #[arg(long, value_name = "TEXT", group = "what")]
+    #[arg(long, value_name = "TEXT", group = "what", conflicts_with_all = ["backbone", "library", "model"])]
     prompt: Option<String>,
-    /// The model that photos are judged by, from `shagreen train photo`; without it the one of the program.
-    #[arg(long, value_name = "MODEL", requires = "photo")]
+    /// The model that photos are judged by, from `shagreen train photo`, or recordings, from `shagreen train attributes`;
+    /// without it photos are judged by the one of the program, and recordings by the library.
+    #[arg(long, value_name = "MODEL", conflicts_with = "library")]
     model: Option<PathBuf>,
     #[command(flatten)]
     backbone: BackboneArgs,
@@ -138,6 +143,9 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
     for note in &fitted.report.notes {
         output::note(note);
     }
+    if let Some(model) = &args.model {
+        return by_network(args, model, &recordings, &fitted.report.segments);
+    }
     let library = match args.library.path() {
         Some(_) => load(&args.library)?,
         None => BuiltIn::Simulated.read()?,
@@ -160,6 +168,40 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
         "model_sha256": sha256_of(&learned),
         "label_source": table.sources.iter().map(|source| source.id()).collect::<Vec<_>>(),
         "segments": fitted.report.segments.len(),
+    });
+    output::print(args.json, &result, || format!("{}\nby {what}", table_text(&attributes)));
+    Ok(())
+}
+
+/// What a network that learned from strokes takes the recordings for; it is as sure as it was of textures that were left out.
+fn by_network(
+    args: &Args,
+    path: &Path,
+    recordings: &[Recording],
+    segments: &[Segment],
+) -> anyhow::Result<()> {
+    let bytes = output::read_file(path)?;
+    let (network, card) = StrokeModel::from_bytes(&bytes).with_context(|| output::in_file(path))?;
+    let predicted = network.predict(&recorded_strokes(recordings, segments))?.with_context(|| {
+        let least = network.architecture().n_samples as f64 / PAPER_RATE.0;
+        format!(
+            "no stroke lasts the {least} s that the network takes; leave --model out, or record longer ones"
+        )
+    })?;
+    let estimates = predicted.into_iter().zip(&card.left_out_rmse);
+    let attributes: Vec<(&str, Estimate)> = card
+        .attributes
+        .iter()
+        .map(String::as_str)
+        .zip(estimates.map(|(mean, deviation)| Estimate { mean, deviation: *deviation }))
+        .collect();
+    let what = format!("the network {}, learned from {}", card.network, card.learned_from);
+    let result = json!({
+        "attributes": as_json(&attributes),
+        "model": what,
+        "model_sha256": sha256_of(&bytes),
+        "label_source": card.label_sources,
+        "segments": segments.len(),
     });
     output::print(args.json, &result, || format!("{}\nby {what}", table_text(&attributes)));
     Ok(())

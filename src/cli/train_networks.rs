@@ -1,19 +1,24 @@
 //! The networks of `shagreen train attributes`: each texture left out, kept after every round, resumed after a stop.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 use anyhow::{Context as _, ensure};
 use shagreen_core::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns};
 use shagreen_core::rng::derive_seed;
+use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
 use shagreen_formats::library::{Library, id_from_name};
 use shagreen_learn::cnn_lstm::{Architecture, Streams};
 use shagreen_learn::model_file::is_model;
+use shagreen_learn::stroke_model::ModelCard;
 use shagreen_learn::stroke_set::{Stroke, StrokedTexture};
 use shagreen_learn::training::{Training, TrainingConfig};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
+use crate::cli::in_parallel::in_parallel;
 use crate::cli::judged::Judged;
 use crate::cli::output::{self, Progress};
 use crate::cli::words::words;
@@ -95,7 +100,7 @@ pub(crate) fn check_out(args: &NetworkArgs, library: Option<&Path>) -> anyhow::R
     Ok(atomic::check_all(&[out])?)
 }
 
-/// Trains the networks that were asked for, once without each texture.
+/// Trains the networks that were asked for, once without each texture, as many at a time as there are processors.
 pub(crate) fn train_networks(
     args: &NetworkArgs,
     state: Option<&Path>,
@@ -121,71 +126,106 @@ pub(crate) fn train_networks(
         )
     };
     for network in &args.networks {
-        let mut predicted = Vec::with_capacity(textures.len());
-        for (index, left_out) in textures.iter().enumerate() {
-            let others: Vec<&StrokedTexture> = textures
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| *i != index)
-                .map(|(_, texture)| texture)
-                .collect();
+        let progress = Progress::new("thousandths of a round", textures.len() * in_thousandths(args.epochs));
+        let failed = AtomicBool::new(false);
+        let of = in_parallel(textures.len(), |index| {
+            let mut others: Vec<&StrokedTexture> = textures.iter().collect();
+            let left_out = others.remove(index);
             let kept = state
                 .map(|folder| folder.join(format!("{}-without-{}.safetensors", network.id(), left_out.id)));
             let what =
                 format!("{} without {} ({} of {})", network.id(), left_out.id, index + 1, textures.len());
-            let training = train(&others, config(*network), kept.as_deref(), &what)?;
-            trained.epochs += training.epochs().len();
-            let of = training.finish()?.predict(&left_out.strokes)?;
-            predicted.push(of.context("the strokes are shorter than a segment")?);
-        }
+            let without = || {
+                let training = train(&others, config(*network), kept.as_deref(), &what, &progress, &failed)?;
+                let Some(training) = training else { return Ok(None) };
+                let n_epochs = training.epochs().len();
+                let of = training.finish()?.predict(&left_out.strokes)?;
+                anyhow::Ok(Some((n_epochs, of.context("the strokes are shorter than a segment")?)))
+            };
+            // Hours of the others are not waited for.
+            without().inspect_err(|_| failed.store(true, Ordering::Relaxed))
+        });
+        progress.finish();
+        let of = of.into_iter().collect::<anyhow::Result<Vec<Option<(usize, Vec<f64>)>>>>()?;
+        trained.epochs += of.iter().flatten().map(|(n_epochs, _)| n_epochs).sum::<usize>();
+        let predicted = of.into_iter().flatten().map(|(_, predicted)| predicted).collect();
         trained.judged.push(Judged { name: format!("network {}", network.id()), predicted });
     }
+    let rmse_of_first = trained.judged.first().map(|judged| judged.rmse(&table.values)).unwrap_or_default();
     if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
         let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
         let all: Vec<&StrokedTexture> = textures.iter().collect();
-        let model =
-            train(&all, config(*network), kept.as_deref(), &format!("{} of all", network.id()))?.finish()?;
-        atomic::write(out, &model.to_bytes()?)?;
+        let progress = Progress::new("thousandths of a round", in_thousandths(args.epochs));
+        let what = format!("{} of all", network.id());
+        let never = AtomicBool::new(false);
+        let training = train(&all, config(*network), kept.as_deref(), &what, &progress, &never)?;
+        progress.finish();
+        let model = training.context("nothing stopped it")?.finish()?;
+        let card = ModelCard {
+            attributes: table.names.clone(),
+            left_out_rmse: rmse_of_first,
+            network: network.id().to_owned(),
+            learned_from: format!(
+                "{} of \"{}\" ({})",
+                counted(textures.len(), "texture"),
+                library.name,
+                table.source_words()
+            ),
+            label_sources: table.sources.iter().map(|source| source.id().to_owned()).collect(),
+        };
+        atomic::write(out, &model.to_bytes(&card)?)?;
     }
     Ok(trained)
 }
 
-/// Trains until there is nothing more to learn, from where it was stopped.
+/// Steps of a bar for so many rounds.
+fn in_thousandths(n_epochs: u32) -> usize {
+    1000 * n_epochs as usize
+}
+
+/// Trains until there is nothing more to learn, from where it was stopped; `None` once another has failed.
 fn train(
     textures: &[&StrokedTexture],
     config: TrainingConfig,
     kept: Option<&Path>,
     what: &str,
-) -> anyhow::Result<Training> {
+    progress: &Progress,
+    failed: &AtomicBool,
+) -> anyhow::Result<Option<Training>> {
     let n_epochs = config.n_epochs;
     let mut training = match kept.filter(|path| path.exists()) {
         Some(path) => Training::resume(textures, config, &output::read_file(path)?)
             .with_context(|| output::in_file(path))?,
         None => Training::new(textures, config)?,
     };
+    let mut done = 1000 * training.epochs().len().min(n_epochs);
+    progress.steps(done);
     while !training.is_over() {
-        let progress = Progress::new("thousandths of a round", 1000);
-        let mut done = 0;
+        let started = Instant::now();
+        let before = done;
         let epoch = training.run_epoch(|share| {
-            while done < (1000.0 * share) as usize {
-                progress.step();
-                done += 1;
-            }
-            true
+            let now = before + (1000.0 * share) as usize;
+            progress.steps(now - done);
+            done = now;
+            !failed.load(Ordering::Relaxed)
         })?;
-        progress.finish();
-        if let Some(epoch) = epoch {
-            let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", {rmse:.2} aside"));
-            output::note(&format!(
-                "{what}: round {} of {n_epochs}, off by {:.2}{aside}",
-                epoch.number, epoch.learned_rmse
-            ));
-        }
+        let Some(epoch) = epoch else { return Ok(None) };
+        progress.steps(before + 1000 - done);
+        done = before + 1000;
+        let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", {rmse:.2} aside"));
+        progress.note(&format!(
+            "{what}: round {} of {n_epochs}, {:.0} s, off by {:.2}{aside}",
+            epoch.number,
+            started.elapsed().as_secs_f64(),
+            epoch.learned_rmse
+        ));
         if let Some(path) = kept {
             atomic::write(path, &training.keep()?)?;
         }
     }
-    Ok(training)
+    // Rounds that an early stop leaves out.
+    progress.steps((1000 * n_epochs).saturating_sub(done));
+    Ok(Some(training))
 }
 
 /// The 25 strokes of the paper over each texture, with noise of its own.

@@ -56,6 +56,16 @@ fn words_that_say_nothing_leave_everything_open() {
     assert!(attribute(&contradiction, "rough-smooth").1 > 20.0);
     bench.fails("predict attributes", 2, &["--prompt"]);
     bench.fails("predict attributes --prompt rough --recording x.wav", 2, &["--recording"]);
+    // What would say nothing to the answer is not taken in silence.
+    for (line, option) in [
+        ("--prompt rough --library simulated", "--library"),
+        ("--prompt rough --backbone none", "--backbone"),
+        ("--photo x.png --library simulated", "--library"),
+        ("--recording x.wav --backbone none", "--backbone"),
+        ("--recording x.wav --library simulated --model x.safetensors", "--model"),
+    ] {
+        bench.fails(&format!("predict attributes {line}"), 2, &[option]);
+    }
 }
 
 #[test]
@@ -134,6 +144,27 @@ fn a_network_is_trained_kept_resumed_and_the_same_again() {
     // There is nothing left to learn: the same again, at once.
     let again: Value = serde_json::from_str(&train("--epochs 2 --state kept").stdout).unwrap();
     assert_eq!(again["baselines"], said["baselines"]);
+
+    // What has learned from all tells a recording, as sure as it was of those left out.
+    assert_eq!(train("--epochs 2 --state kept -o net.safetensors").code, 0);
+    bench.write("stroke.csv", table(&bench, "brick"));
+    let told = bench.json(
+        "predict attributes --recording stroke.csv --set acceleration_unit=m/s^2 --model net.safetensors",
+    );
+    let rmse = &said["baselines"]["network convolutions"]["rmse"];
+    for name in ["rough-smooth", "hard-soft"] {
+        let (value, sd) = attribute(&told, name);
+        assert!((0.0..=100.0).contains(&value), "{told}");
+        assert!((sd - rmse[name].as_f64().unwrap()).abs() < 1e-9, "{told}");
+    }
+    assert!(told["model"].as_str().unwrap().contains("convolutions, learned from 5 textures"), "{told}");
+    let of_pictures =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/assets/models/pictures-by-statistics.safetensors");
+    bench.fails(
+        &format!("predict attributes --recording stroke.csv --set acceleration_unit=g --model {of_pictures}"),
+        1,
+        &["attributes from pictures", "attributes from strokes", of_pictures],
+    );
 
     let other = train("--epochs 3 --seed 2 --state kept");
     assert_eq!(other.code, 1);

@@ -1,6 +1,8 @@
 //! The list of authored textures, and states of them to come back to.
 
-use egui::{Button, Label, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Button, Id, Label, Rect, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
+};
 use shagreen_core::space::SpacePoint;
 use shagreen_formats::library::free_name;
 use shagreen_formats::project::{AuthoredTexture, N_COLORS};
@@ -42,10 +44,17 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         });
     });
     let height = LIST_HEIGHT.min(LIST_SHARE * ui.available_height());
+    let is_other = selected_another(ui, panel.project.texture().key);
     ScrollArea::vertical().id_salt("authored").max_height(height).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         for (index, texture) in panel.project.authored.iter().enumerate() {
-            commands.extend(row(ui, panel, texture, index == panel.project.selected));
+            let is_selected = index == panel.project.selected;
+            let top = ui.cursor().left_top();
+            commands.extend(row(ui, panel, texture, is_selected));
+            if is_selected && is_other {
+                // It may have been selected elsewhere: on the canvas, by a prompt, by undoing.
+                ui.scroll_to_rect(Rect::from_min_size(top, vec2(0.0, ROW)), None);
+            }
         }
     });
     ui.add_space(2.0);
@@ -53,6 +62,16 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     ui.add_space(2.0);
     commands.extend(compare_ui(ui, panel));
     commands
+}
+
+/// Whether another texture is selected than when the list was last drawn.
+fn selected_another(ui: &Ui, key: u32) -> bool {
+    let id = Id::unique("selected authored texture");
+    ui.data_mut(|data| {
+        let before = data.get_temp(id);
+        data.insert_temp(id, key);
+        before != Some(key)
+    })
 }
 
 /// A texture that is begun at the middle of the space, blended as the selected one.
@@ -107,7 +126,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     let dot = pos2(area.left() + 11.0, area.center().y);
     ui.painter().circle_filled(dot, 6.5, t.background);
     ui.painter().circle_filled(dot, 5.0, t.authored[usize::from(texture.color)]);
-    let mut room = egui::Rect::from_min_max(pos2(area.left() + 24.0, area.top() + 2.0), area.max);
+    let mut room = Rect::from_min_max(pos2(area.left() + 24.0, area.top() + 2.0), area.max);
     if let Some(side) = panel.compare.side_of(texture.key) {
         let corner = pos2(area.right() - 5.0, area.center().y);
         let font = egui::FontId::proportional(11.5);

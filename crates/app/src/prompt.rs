@@ -5,6 +5,7 @@ pub(crate) mod card_ui;
 mod guess;
 mod job;
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use egui::Context;
@@ -30,9 +31,9 @@ pub enum PromptCommand {
     },
     /// Make another piece of what was made last, in its place.
     Another,
-    /// Find the place of a photo, as a texture of its own.
-    Look(Source),
-    /// Stop making.
+    /// Find the places of photos, each as a texture of its own, once what is being made is done.
+    Look(Vec<Source>),
+    /// Stop making, and forget photos that wait.
     Stop,
     /// What was guessed is no longer of interest.
     Dismiss,
@@ -47,6 +48,8 @@ pub struct Prompts {
     added: Option<AddedDiffusion>,
     models: Option<ModelFolder>,
     job: Option<Job>,
+    /// Photos that wait for it.
+    waiting: VecDeque<Source>,
     guess: Option<Guess>,
 }
 
@@ -66,7 +69,15 @@ impl Prompts {
     pub(crate) fn new(models: Option<ModelFolder>) -> Self {
         // A file that is damaged is told where it is used: by the command line, which also mends it.
         let added = models.as_ref().and_then(|models| models.added_diffusion().ok().flatten());
-        Self { text: String::new(), by_diffusion: false, added, models, job: None, guess: None }
+        Self {
+            text: String::new(),
+            by_diffusion: false,
+            added,
+            models,
+            job: None,
+            waiting: VecDeque::new(),
+            guess: None,
+        }
     }
 
     /// What was guessed of an authored texture, as long as it has the picture that was made for it: keys come back after
@@ -80,11 +91,17 @@ impl Prompts {
     /// Another project is open: what was being made was for the one before.
     pub(crate) fn forget(&mut self) {
         (self.job, self.guess) = (None, None);
+        self.waiting.clear();
     }
 
     /// Whether something is being made.
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
+    }
+
+    /// How many photos wait for it.
+    pub(crate) fn n_waiting(&self) -> usize {
+        self.waiting.len()
     }
 
     /// How much of it is done, 0..1, where that can be told.
@@ -105,16 +122,21 @@ impl Prompts {
         poles: &[[String; 2]; 2],
         ctx: &Context,
     ) -> Option<KeptPrompt> {
-        let (wanted, replaces) = match command {
-            PromptCommand::Make { prompt, seed } => (Wanted::Words { prompt, seed }, None),
+        let (prompt, seed, replaces) = match command {
+            PromptCommand::Make { prompt, seed } => (prompt, seed, None),
             PromptCommand::Another => {
                 let guess = self.guess.as_ref()?;
                 let Origin::Words { prompt, seed } = &guess.origin else { return None };
-                (Wanted::Words { prompt: prompt.clone(), seed: seed.wrapping_add(1) }, guess.replaced())
+                (prompt.clone(), seed.wrapping_add(1), guess.replaced())
             }
-            PromptCommand::Look(source) => (Wanted::Photo(source), None),
+            PromptCommand::Look(sources) => {
+                self.waiting.extend(sources);
+                self.look_at_next(poles, ctx);
+                return None;
+            }
             PromptCommand::Stop => {
                 self.job = None;
+                self.waiting.clear();
                 return None;
             }
             PromptCommand::Dismiss => {
@@ -122,17 +144,31 @@ impl Prompts {
                 return None;
             }
         };
-        let kept = match &wanted {
-            Wanted::Words { prompt, seed } if !prompt.trim().is_empty() => {
-                Some(KeptPrompt { prompt: prompt.clone(), seed: *seed })
-            }
-            Wanted::Words { .. } | Wanted::Photo(_) => None,
-        };
+        let is_empty = prompt.trim().is_empty();
+        let kept = (!is_empty).then(|| KeptPrompt { prompt: prompt.clone(), seed });
+        self.begin(Wanted::Words { prompt, seed }, replaces, poles, ctx);
+        kept
+    }
+
+    /// Begins with the first photo that waits, if nothing is being made.
+    pub(crate) fn look_at_next(&mut self, poles: &[[String; 2]; 2], ctx: &Context) {
+        if self.job.is_none()
+            && let Some(photo) = self.waiting.pop_front()
+        {
+            self.begin(Wanted::Photo(photo), None, poles, ctx);
+        }
+    }
+
+    fn begin(
+        &mut self,
+        wanted: Wanted,
+        replaces: Option<(u32, Arc<Picture>)>,
+        poles: &[[String; 2]; 2],
+        ctx: &Context,
+    ) {
         let diffusion = self.added.clone().filter(|_| self.by_diffusion);
         let maker = Maker { models: self.models.clone(), diffusion };
-        let axes = axis_names(poles);
-        self.job = Some(Job::begin(wanted, replaces, maker, axes, ctx));
-        kept
+        self.job = Some(Job::begin(wanted, replaces, maker, axis_names(poles), ctx));
     }
 
     /// What came of what was asked for, once it is done, or why nothing did.

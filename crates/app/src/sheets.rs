@@ -121,30 +121,28 @@ impl Sheet {
             let sources = strokes.into_iter().map(Source::Dropped).collect();
             commands.push(Command::Stroke(StrokeCommand::Read(sources)));
         }
-        let photo = dropped.iter().find(|file| is_photo(file.path()));
+        // Whoever looks at the details of a texture drops its picture; else photos are something to feel.
+        let is_picture = workspace != Workspace::Author || Popup::is_any_open(ctx);
+        let (photos, others): (Vec<_>, Vec<_>) =
+            dropped.iter().cloned().partition(|file| is_photo(file.path()));
+        let sources = |files: Vec<DroppedFileHandle>| files.into_iter().map(Source::Dropped).collect();
         if let Some(project) = dropped.iter().find_map(is_project) {
             commands.push(Command::File(FileCommand::Open(project)));
-        } else if are_signals && !dropped.is_empty() {
-            let sources = dropped.into_iter().map(Source::Dropped).collect();
-            commands.push(Command::Signals(SignalsCommand::ReadAll(sources)));
-        } else if let Some(photo) = photo.filter(|_| !are_judgments) {
-            let source = Source::Dropped(photo.clone());
-            // Whoever looks at the details of a texture drops its picture; else it is something to feel.
-            let is_picture = workspace != Workspace::Author || Popup::is_any_open(ctx);
-            commands.push(if is_picture {
-                Command::ReadPhoto(source)
-            } else {
-                Command::Prompt(PromptCommand::Look(source))
-            });
-        } else if !dropped.is_empty() {
-            let sources = dropped.into_iter().map(Source::Dropped).collect();
-            commands.push(if are_judgments {
-                Command::ReadJudgments(sources)
-            } else if is_import {
-                Command::Import(sources)
-            } else {
-                Command::ImportHere(sources)
-            });
+        } else if dropped.is_empty() {
+        } else if are_signals {
+            commands.push(Command::Signals(SignalsCommand::ReadAll(sources(dropped))));
+        } else if are_judgments {
+            commands.push(Command::ReadJudgments(sources(dropped)));
+        } else if let Some(photo) = photos.first().filter(|_| is_picture) {
+            commands.push(Command::ReadPhoto(Source::Dropped(photo.clone())));
+        } else {
+            if !photos.is_empty() {
+                commands.push(Command::Prompt(PromptCommand::Look(sources(photos))));
+            }
+            if !others.is_empty() {
+                let import = if is_import { Command::Import } else { Command::ImportHere };
+                commands.push(import(sources(others)));
+            }
         }
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
             let (here, kinds) = if are_judgments {

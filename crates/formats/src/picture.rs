@@ -6,7 +6,8 @@ use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::metadata::Orientation;
 use image::{
-    ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder as _, ImageFormat, ImageReader,
+    ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder as _, ImageError, ImageFormat,
+    ImageReader,
 };
 use shagreen_core::shading::Picture as Surface;
 
@@ -139,9 +140,15 @@ pub enum PictureError {
     /// The bytes are neither JPEG nor PNG.
     #[error("this is no photo that can be read; save it as JPEG or PNG")]
     NoPhoto,
+    /// A photo of more than [`MAX_PHOTO_SIDE`] pixels a side, or one that takes too much memory.
+    #[error("the photo is too large; make it smaller than {MAX_PHOTO_SIDE} pixels a side")]
+    LargePhoto,
+    /// A photo that ends before its last row.
+    #[error("the photo is cut off; get it again")]
+    CutOff,
     /// The compressed bytes are damaged.
     #[error("the picture is damaged")]
-    Codec(#[from] image::ImageError),
+    Codec(#[from] ImageError),
 }
 
 /// Packs pixels as JPEG at [`JPEG_QUALITY`]; `millimeters` is the length of surface that the width covers.
@@ -208,8 +215,8 @@ pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
 /// that the width covers.
 ///
 /// # Errors
-/// [`PictureError::NoPhoto`] for what is neither JPEG nor PNG, [`PictureError::Codec`] for damaged bytes and for photos of
-/// more than [`MAX_PHOTO_SIDE`] pixels a side.
+/// [`PictureError::NoPhoto`] for what is neither JPEG nor PNG, [`PictureError::LargePhoto`] for more than
+/// [`MAX_PHOTO_SIDE`] pixels a side, [`PictureError::CutOff`] and [`PictureError::Codec`] for damaged bytes.
 pub fn of_photo(bytes: &[u8], millimeters: f64) -> Result<Picture, PictureError> {
     encode_jpeg(&photo_pixels(bytes)?, millimeters)
 }
@@ -255,16 +262,49 @@ fn photo_format(bytes: &[u8]) -> Option<ImageFormat> {
 /// A photo as it was held.
 fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     let mut reader = ImageReader::new(Cursor::new(bytes));
-    reader.set_format(photo_format(bytes).ok_or(PictureError::NoPhoto)?);
+    let format = photo_format(bytes).ok_or(PictureError::NoPhoto)?;
+    if format == ImageFormat::Jpeg && is_cut_off(bytes) {
+        return Err(PictureError::CutOff);
+    }
+    reader.set_format(format);
     let mut limits = image::Limits::default();
     (limits.max_image_width, limits.max_image_height) = (Some(MAX_PHOTO_SIDE), Some(MAX_PHOTO_SIDE));
     reader.limits(limits);
-    let mut decoder = reader.into_decoder()?;
+    let refused = |error| match error {
+        ImageError::Limits(_) => PictureError::LargePhoto,
+        error => error.into(),
+    };
+    let mut decoder = reader.into_decoder().map_err(refused)?;
     // A photo that does not say how it was held was held upright.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
-    let mut photo = DynamicImage::from_decoder(decoder)?;
+    let mut photo = DynamicImage::from_decoder(decoder).map_err(refused)?;
     photo.apply_orientation(orientation);
     Ok(photo)
+}
+
+/// Whether a JPEG ends before its marker of the end: decoders fill what is missing with gray and say nothing.
+fn is_cut_off(bytes: &[u8]) -> bool {
+    const BEGIN: u8 = 0xD8;
+    const END: u8 = 0xD9;
+    const SCAN: u8 = 0xDA;
+    let mut rest = bytes;
+    loop {
+        match rest {
+            [0xFF, 0xFF, ..] => rest = &rest[1..],
+            [0xFF, BEGIN, ..] => rest = &rest[2..],
+            // Within a scan 0xFF is always followed by something else than this.
+            [0xFF, SCAN, data @ ..] => return !data.windows(2).any(|pair| pair == [0xFF, END]),
+            // What is before the scans says how long it is; it may hold a small picture that has an end of its own.
+            [0xFF, _, high, low, ..] => {
+                let length = usize::from(u16::from_be_bytes([*high, *low]));
+                let Some(after) = rest.get(2 + length..) else { return true };
+                rest = after;
+            }
+            [] | [_] | [0xFF, ..] => return true,
+            // Something else is wrong with it; whoever decodes it says so.
+            _ => return false,
+        }
+    }
 }
 
 /// Looks at the head of a picture, in microseconds: whether it is one, of the size that it should have. Damage further
@@ -320,8 +360,8 @@ fn check_size(picture: &Picture, found: (u32, u32)) -> Result<(), PictureError> 
 #[cfg(test)]
 mod tests {
     use super::{
-        PHOTO_SIDE, PictureError, PictureFormat, Rgb, brightness_row, check, decode, encode_heights,
-        encode_jpeg, encode_png, is_picture, of_photo,
+        MAX_PHOTO_SIDE, PHOTO_SIDE, PictureError, PictureFormat, Rgb, brightness_row, check, decode,
+        encode_heights, encode_jpeg, encode_png, is_picture, of_photo,
     };
 
     fn gradient() -> Rgb {
@@ -344,6 +384,25 @@ mod tests {
         assert!(matches!(of_photo(b"GIF89a", 20.0), Err(PictureError::NoPhoto)));
         assert!(matches!(of_photo(b"", 20.0), Err(PictureError::NoPhoto)));
         assert!(matches!(of_photo(&bytes.get_ref()[..200], 20.0), Err(PictureError::Codec(_))));
+        let wide = image::GrayImage::new(MAX_PHOTO_SIDE + 1, 1);
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        wide.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+        assert!(matches!(of_photo(bytes.get_ref(), 20.0), Err(PictureError::LargePhoto)));
+    }
+
+    #[test]
+    fn a_photo_that_is_cut_off_is_none_wherever_it_is_cut() {
+        let whole = encode_jpeg(&gradient(), 20.0).unwrap().bytes;
+        for end in 3..whole.len() {
+            assert!(matches!(of_photo(&whole[..end], 20.0), Err(PictureError::CutOff)), "cut to {end}");
+        }
+        // A small picture in the head has an end of its own; what follows the end belongs to somebody else.
+        let (begin, rest) = whole.split_at(2);
+        let length = ((whole.len() + 2) as u16).to_be_bytes();
+        let with_small = [begin, &[0xFF, 0xE1], &length, &whole, rest, b"more"].concat();
+        assert_eq!(of_photo(&with_small, 20.0).unwrap().width, 32);
+        let cut = &with_small[..with_small.len() - 20];
+        assert!(matches!(of_photo(cut, 20.0), Err(PictureError::CutOff)));
     }
 
     #[test]

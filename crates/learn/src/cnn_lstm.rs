@@ -22,7 +22,7 @@ use self::architecture::KERNELS;
 use self::normalization::Normalization;
 use crate::dense;
 use crate::init::Uniform;
-use crate::lstm::lstm;
+use crate::lstm::{Exactness, lstm};
 use crate::parameters::Parameters;
 
 /// A network with its numbers.
@@ -86,13 +86,13 @@ impl CnnLstm {
 
     /// One number an attribute for each segment (segments × samples × channels); nothing is learned.
     pub(crate) fn predict(&self, segments: &Tensor) -> Result<Tensor> {
-        let features = self.features(segments)?;
+        let features = self.features(segments, Exactness::Sixteen)?;
         self.attributes(&self.normalization.apply(&features, &self.parameters)?)
     }
 
     /// The same while learning: features are normalized by those of the batch, which the network remembers.
     pub(crate) fn predict_learning(&mut self, segments: &Tensor) -> Result<Tensor> {
-        let features = self.features(segments)?;
+        let features = self.features(segments, Exactness::Full)?;
         let normalized = self.normalization.apply_learning(&features, &self.parameters)?;
         self.attributes(&normalized)
     }
@@ -110,7 +110,7 @@ impl CnnLstm {
         self.normalization.restore(numbers)
     }
 
-    fn features(&self, segments: &Tensor) -> Result<Tensor> {
+    fn features(&self, segments: &Tensor, exactness: Exactness) -> Result<Tensor> {
         let (_, n_samples, n_channels) = segments.dims3()?;
         let a = &self.architecture;
         if (n_samples, n_channels) != (a.n_samples, a.n_channels) {
@@ -122,8 +122,10 @@ impl CnnLstm {
         }
         match a.streams {
             Streams::Convolutions => self.convolved(segments),
-            Streams::Memory => self.remembered(segments),
-            Streams::Both => Tensor::cat(&[self.convolved(segments)?, self.remembered(segments)?], 1),
+            Streams::Memory => self.remembered(segments, exactness),
+            Streams::Both => {
+                Tensor::cat(&[self.convolved(segments)?, self.remembered(segments, exactness)?], 1)
+            }
         }
     }
 
@@ -143,11 +145,11 @@ impl CnnLstm {
     }
 
     /// The states of the last layer after the last sample.
-    fn remembered(&self, segments: &Tensor) -> Result<Tensor> {
+    fn remembered(&self, segments: &Tensor, exactness: Exactness) -> Result<Tensor> {
         let mut x = segments.transpose(0, 1)?.contiguous()?;
         for index in 0..self.architecture.units.len() {
             let gates = self.dense(&x, &format!("lstm{index}.input"))?;
-            x = lstm(&gates, self.parameters.get(&format!("lstm{index}.state.weight"))?)?;
+            x = lstm(&gates, self.parameters.get(&format!("lstm{index}.state.weight"))?, exactness)?;
         }
         x.get(x.dim(0)? - 1)
     }

@@ -21,5 +21,6 @@ pub mod model_file;
 mod parameters;
 pub mod picture_model;
 pub mod picture_set;
+pub mod stroke_model;
 pub mod stroke_set;
 pub mod training;

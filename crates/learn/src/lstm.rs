@@ -7,6 +7,7 @@
 //! one loop, and gates are kept for the way back.
 
 mod gates;
+mod tiles;
 
 use std::sync::{Mutex, PoisonError};
 
@@ -15,24 +16,34 @@ use candle_core::{CpuStorage, CustomOp2, Layout, Result, Shape, Tensor, bail};
 use ndarray::linalg::general_mat_mul;
 use ndarray::{ArrayView2, ArrayViewMut2, Axis};
 
-use crate::lstm::gates::{Step, StepBack, add_product};
+use crate::lstm::gates::{Step, StepBack};
+use crate::lstm::tiles::Tiles;
 
-/// Sequences below which a step's product is worked out row by row: packing the matrix would take longer.
+/// Sequences below which [`Exactness::Sixteen`] works products out row by row: packing the matrix would take longer.
 const LEAST_BATCH_TO_PACK: usize = 4;
+
+/// How exactly the states are multiplied by their weights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exactness {
+    /// As exactly as the numbers are.
+    Full,
+    /// Where there are few sequences, by weights of 16 bits: sooner, with errors of 1e-5.
+    Sixteen,
+}
 
 /// The states `h` of all steps (steps × sequences × units), from what the inputs add to the gates (steps × sequences ×
 /// 4 units) and the weights of the states (units × 4 units). It begins with states and cells of zero.
 ///
 /// # Errors
 /// Shapes that do not fit, or tensors that are not `f32`.
-pub(crate) fn lstm(gate_inputs: &Tensor, state_weights: &Tensor) -> Result<Tensor> {
+pub(crate) fn lstm(gate_inputs: &Tensor, state_weights: &Tensor, exactness: Exactness) -> Result<Tensor> {
     let (n_steps, n_sequences, n_gates) = gate_inputs.dims3()?;
     let (n_units, n_columns) = state_weights.dims2()?;
     if n_gates != 4 * n_units || n_columns != n_gates {
         bail!("gates of {n_gates} and weights of {n_units} x {n_columns} do not fit");
     }
     if gate_inputs.device().is_cpu() {
-        let op = Lstm { n_steps, n_sequences, n_units, kept: Mutex::new(None) };
+        let op = Lstm { n_steps, n_sequences, n_units, exactness, kept: Mutex::new(None) };
         return gate_inputs.contiguous()?.apply_op2(&state_weights.contiguous()?, op);
     }
     step_by_step(gate_inputs, state_weights)
@@ -62,6 +73,7 @@ struct Lstm {
     n_steps: usize,
     n_sequences: usize,
     n_units: usize,
+    exactness: Exactness,
     /// Of the way there, for the way back.
     kept: Mutex<Option<Kept>>,
 }
@@ -89,6 +101,8 @@ impl CustomOp2 for Lstm {
         let mut gates = floats(inputs, inputs_layout)?.to_vec();
         let weights = floats(weights, weights_layout)?;
         let (of_step, n_gates) = (n_sequences * n_units, 4 * n_units);
+        let is_quick = self.exactness == Exactness::Sixteen && n_sequences < LEAST_BATCH_TO_PACK;
+        let mut tiles = is_quick.then(|| Tiles::of(weights, n_gates));
         let mut states = vec![0.0; n_steps * of_step];
         let mut cells = vec![0.0; n_steps * of_step];
         for step in 0..n_steps {
@@ -98,7 +112,15 @@ impl CustomOp2 for Lstm {
             let mut previous = None;
             if step > 0 {
                 let state = &before[(step - 1) * of_step..];
-                multiply(state, weights, gates, [n_sequences, n_units, n_gates])?;
+                match &mut tiles {
+                    Some(tiles) => {
+                        for (state, gates) in state.chunks_exact(n_units).zip(gates.chunks_exact_mut(n_gates))
+                        {
+                            tiles.add_product(state, gates);
+                        }
+                    }
+                    None => multiply(state, weights, gates, [n_sequences, n_units, n_gates])?,
+                }
                 previous = Some(&cells_before[(step - 1) * of_step..]);
             }
             Step { n_units, gates, previous, cells: &mut cells[..of_step], states: &mut now[..of_step] }
@@ -173,12 +195,6 @@ fn multiply(
     gates: &mut [f32],
     [n_sequences, n_units, n_gates]: [usize; 3],
 ) -> Result<()> {
-    if n_sequences < LEAST_BATCH_TO_PACK {
-        for (state, gates) in states.chunks_exact(n_units).zip(gates.chunks_exact_mut(n_gates)) {
-            add_product(state, weights, gates);
-        }
-        return Ok(());
-    }
     let states = view(&states[..n_sequences * n_units], [n_sequences, n_units])?;
     let weights = view(weights, [n_units, n_gates])?;
     general_mat_mul(1.0, &states, &weights, 1.0, &mut view_mut(gates, [n_sequences, n_gates])?);

@@ -45,6 +45,14 @@ pub enum ModelFileError {
     /// Its numbers are not those that were written.
     #[error("its numbers were changed or cut since it was written; get it again")]
     Hash,
+    /// A number of it is none.
+    #[error(
+        "\"{name}\" of it is not finite: its learning went astray; learn anew, by another seed or more textures"
+    )]
+    NotFinite {
+        /// Name of the numbers.
+        name: String,
+    },
     /// Its numbers do not fit what it says it is.
     #[error("its numbers do not fit: {0}")]
     Shape(#[from] candle_core::Error),
@@ -126,6 +134,9 @@ pub(crate) fn read<T: for<'de> Deserialize<'de>>(
     for (name, view) in &views {
         let (values, _) = view.data().as_chunks::<4>();
         let values: Vec<f32> = values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(ModelFileError::NotFinite { name: name.clone() });
+        }
         numbers.insert(name.clone(), Tensor::from_vec(values, view.shape(), device)?);
     }
     Ok((serde_json::from_value(header.about)?, numbers))
@@ -173,6 +184,14 @@ mod tests {
         assert_eq!(about, 7);
         assert_eq!(read["a"].to_vec1::<f32>().unwrap(), [1.0, 2.0]);
         assert_eq!(read["b"].to_vec1::<f32>().unwrap(), [-3.5]);
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_refused() {
+        let mut numbers = numbers();
+        numbers.insert("c".to_owned(), Tensor::new(&[1.0, f32::NAN], &Device::Cpu).unwrap());
+        let error = failure(&write("toy", &7, &numbers).unwrap());
+        assert!(matches!(error, ModelFileError::NotFinite { name } if name == "c"));
     }
 
     #[test]

@@ -8,15 +8,11 @@ use shagreen_core::rng::{Random, derive_seed};
 use crate::cnn_lstm::{Architecture, CnnLstm};
 use crate::model_file::{self, ModelFileError, Numbers};
 use crate::parameters::{Adam, AdamConfig};
-use crate::stroke_set::{N_CHANNELS, Scale, Segments, Stroke, StrokedTexture};
+use crate::stroke_model::{N_AT_ONCE, StrokeModel};
+use crate::stroke_set::{N_CHANNELS, Scale, Segments, StrokedTexture};
 
-/// Kind of a file with a network that has learned.
-const MODEL: &str = "attributes from strokes";
 /// Kind of a file with a network that is learning.
 const STATE: &str = "a training of attributes from strokes";
-
-/// Segments that are predicted at once.
-const N_AT_ONCE: usize = 64;
 
 /// How to learn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,6 +58,12 @@ pub enum TrainingError {
     /// A size is zero or larger than anything could be.
     #[error("the network cannot have these sizes")]
     Sizes,
+    /// What is said of a network is not of this one.
+    #[error("what is said of the network does not fit its {n_outputs} attributes")]
+    Card {
+        /// Attributes of the network.
+        n_outputs: usize,
+    },
     /// What was kept belongs to another training.
     #[error(
         "what was kept belongs to a training with other settings or textures; begin anew in another folder"
@@ -275,7 +277,7 @@ impl Training {
     /// See [`TrainingError`].
     pub fn finish(mut self) -> Result<StrokeModel, TrainingError> {
         self.network.restore(&self.best)?;
-        Ok(StrokeModel { network: self.network, scale: self.state.scale, device: self.device })
+        Ok(StrokeModel::new(self.network, self.state.scale, self.device))
     }
 
     fn aside_rmse(&self) -> Result<f64, TrainingError> {
@@ -287,75 +289,6 @@ impl Training {
             sum += f64::from(error.to_scalar::<f32>()?) * indices.len() as f64;
         }
         Ok(100.0 * (sum / order.len() as f64).sqrt())
-    }
-}
-
-/// A network that has learned.
-#[derive(Clone, Debug)]
-pub struct StrokeModel {
-    network: CnnLstm,
-    scale: Scale,
-    device: Device,
-}
-
-/// What a file of a network says beside its numbers.
-#[derive(Serialize, Deserialize)]
-struct About {
-    architecture: Architecture,
-    scale: Scale,
-}
-
-impl StrokeModel {
-    /// Sizes of the network.
-    pub fn architecture(&self) -> &Architecture {
-        self.network.architecture()
-    }
-
-    /// The attributes of strokes, 0..100: the mean over all whole segments; `None` where there is no whole one.
-    ///
-    /// # Errors
-    /// See [`TrainingError`].
-    pub fn predict(&self, strokes: &[Stroke]) -> Result<Option<Vec<f64>>, TrainingError> {
-        let n_outputs = self.architecture().n_outputs;
-        let texture =
-            StrokedTexture { id: String::new(), strokes: strokes.to_vec(), attributes: vec![0.0; n_outputs] };
-        let segments = Segments::of(&[&texture], self.architecture().n_samples, &self.scale);
-        if segments.len() == 0 {
-            return Ok(None);
-        }
-        let mut sums = vec![0.0; n_outputs];
-        let order: Vec<usize> = (0..segments.len()).collect();
-        for indices in order.chunks(N_AT_ONCE) {
-            let predicted = self.network.predict(&segments.batch(indices, &self.device)?.0)?;
-            for (sum, value) in sums.iter_mut().zip(predicted.sum(0)?.to_vec1::<f32>()?) {
-                *sum += 100.0 * f64::from(value);
-            }
-        }
-        Ok(Some(sums.iter().map(|sum| (sum / segments.len() as f64).clamp(0.0, 100.0)).collect()))
-    }
-
-    /// The bytes of its file.
-    ///
-    /// # Errors
-    /// See [`TrainingError`].
-    pub fn to_bytes(&self) -> Result<Vec<u8>, TrainingError> {
-        let about = About { architecture: self.architecture().clone(), scale: self.scale };
-        Ok(model_file::write(MODEL, &about, &self.network.snapshot()?)?)
-    }
-
-    /// The network of a file.
-    ///
-    /// # Errors
-    /// See [`TrainingError`].
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, TrainingError> {
-        let device = crate::device::best();
-        let (About { architecture, scale }, numbers) = model_file::read(MODEL, bytes, &device)?;
-        if !architecture.is_possible() {
-            return Err(TrainingError::Sizes);
-        }
-        let mut network = CnnLstm::new(architecture, 0, &device)?;
-        network.restore(&numbers).map_err(ModelFileError::Shape)?;
-        Ok(Self { network, scale, device })
     }
 }
 

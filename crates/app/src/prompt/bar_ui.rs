@@ -28,6 +28,9 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
                 Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(90.0).show_percentage())),
                 None => drop(ui.add(Spinner::new().size(16.0))),
             }
+            if prompts.n_waiting() > 0 {
+                ui.label(words::waiting(prompts.n_waiting()));
+            }
         } else if ui.button(words::MAKE).on_hover_text(words::MAKE_HELP).clicked() {
             asked = Some(make(prompts));
         }
@@ -38,7 +41,7 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
             .desired_width(f32::INFINITY);
         let field = ui.add(field).on_hover_text(words::FIELD_HELP);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, words::FIELD));
-        if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) && !prompts.is_busy() {
+        if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
             asked = Some(make(prompts));
         }
     });
@@ -80,5 +83,5 @@ fn earlier_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt]) -> Opt
         }
     });
     menu.response.on_hover_text(words::EARLIER_HELP);
-    asked.filter(|_| !prompts.is_busy())
+    asked
 }

@@ -7,7 +7,7 @@ pub const HINT: &str = "Describe a surface: a rough, soft carpet";
 /// Accessible name of the box.
 pub const FIELD: &str = "Describe a surface";
 /// What the box does.
-pub const FIELD_HELP: &str = "Words become a picture, a place in the space, and a texture to feel. Enter makes it. A photo dropped on the window finds its place, too.";
+pub const FIELD_HELP: &str = "Words become a picture, a place in the space, and a texture to feel. Enter makes it. Photos dropped on the window find their places, too.";
 /// Makes what was described.
 pub const MAKE: &str = "Make";
 /// What making does.
@@ -53,6 +53,11 @@ pub const NO_SCALE: &str = "How much of a surface the picture shows is not known
 /// Where something lies along an axis.
 pub fn along(ends: &[String; 2], mean: f64, deviation: f64) -> String {
     format!("{} to {} {mean:.0} ± {deviation:.0}", ends[0], ends[1])
+}
+
+/// How many photos wait for what is being made.
+pub fn waiting(n: usize) -> String {
+    format!("{n} waiting")
 }
 
 /// The nearest textures.

@@ -19,7 +19,8 @@ use crate::workspace::Workspace;
 impl Window {
     /// Begins what was asked for; what was described is remembered.
     pub(super) fn carry_out_prompt(&mut self, command: PromptCommand, ctx: &Context) {
-        if self.prompts.is_busy() && !matches!(command, PromptCommand::Stop | PromptCommand::Dismiss) {
+        let interrupts = matches!(command, PromptCommand::Make { .. } | PromptCommand::Another);
+        if self.prompts.is_busy() && interrupts {
             return self.session.say(words::STILL_BUSY.to_owned());
         }
         if let Some(kept) = self.prompts.carry_out(command, self.session.poles(), ctx) {
@@ -35,10 +36,11 @@ impl Window {
         {
             return;
         }
-        let arrived = match self.prompts.collect() {
-            Some(Ok(arrived)) => arrived,
-            Some(Err(reason)) => return self.session.say(reason),
-            None => return,
+        let Some(done) = self.prompts.collect() else { return };
+        self.prompts.look_at_next(self.session.poles(), ctx);
+        let arrived = match done {
+            Ok(arrived) => arrived,
+            Err(reason) => return self.session.say(reason),
         };
         if arrived.axes != axis_names(self.session.poles()) {
             return self.session.say(words::OTHER_AXES.to_owned());

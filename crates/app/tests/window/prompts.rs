@@ -116,3 +116,36 @@ fn a_photo_finds_its_place_and_what_is_none_is_told() {
     wait(&mut harness, "it is told", |h| says(h, "broken.png"));
     assert_eq!(window(&harness).project().authored.len(), 2);
 }
+
+#[test]
+fn photos_dropped_together_land_one_after_another_beside_other_files() {
+    let library = starter_library().unwrap();
+    let photo = |id: &str| {
+        let texture = &library.textures[library.index_of(id).unwrap()];
+        let Rgb { width, height, pixels } = decode(texture.picture.as_ref().unwrap()).unwrap();
+        encode_png(&Rgb { width, height, pixels }).unwrap()
+    };
+    let (brick, glass) = (photo("brick"), photo("glass"));
+    let mut harness = author();
+    drop_files(
+        &mut harness,
+        &[("one.png", &brick), ("bad.png", &brick[..300]), ("two.png", &glass), ("three.png", &brick)],
+    );
+    harness.run_steps(2);
+    // What is being made goes on, and says so.
+    write_into(&mut harness, words::FIELD, "steel");
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "one cannot be had twice", |h| says(h, words::STILL_BUSY));
+    wait(&mut harness, "all landed", |h| window(h).project().authored.len() == 4);
+    let names: Vec<&str> =
+        window(&harness).project().authored.iter().skip(1).map(|texture| texture.name.as_str()).collect();
+    assert_eq!(names, ["one", "two", "three"]);
+    assert!(!window(&harness).prompts().is_busy());
+
+    // Nothing waits any more after a stop.
+    drop_files(&mut harness, &[("four.png", &brick), ("five.png", &glass), ("six.png", &brick)]);
+    wait(&mut harness, "it is said how many wait", |h| says(h, &words::waiting(2)));
+    click(&mut harness, words::STOP);
+    assert!(!window(&harness).prompts().is_busy() && !says(&harness, &words::waiting(2)));
+    assert!(window(&harness).project().authored.len() < 7);
+}

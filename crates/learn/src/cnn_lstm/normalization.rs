@@ -9,8 +9,9 @@ use crate::parameters::Parameters;
 
 /// What is added to variances.
 const EPSILON: f64 = 1e-3;
-/// Share of what is remembered that stays when a batch comes; at first it is the mean of all batches.
-const MOMENTUM: f64 = 0.99;
+/// Share of what is remembered that stays when a batch comes; at first it is the mean of all batches. What is remembered of
+/// more than the last ten lags behind a network whose rounds are short: it then learns well and predicts nonsense.
+const MOMENTUM: f64 = 0.9;
 
 /// The normalization of a network's features.
 #[derive(Clone, Debug)]

@@ -3,9 +3,6 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Rows of a matrix that are added at once: each saves a pass over the sums.
-const N_ROWS: usize = 8;
-
 /// Turns the sums of the gates into gates, cells and states.
 pub(super) struct Step<'a> {
     pub(super) n_units: usize,
@@ -30,12 +27,6 @@ pub(super) struct StepBack<'a> {
     pub(super) cell_gradient: &'a mut [f32],
 }
 
-struct AddProduct<'a> {
-    row: &'a [f32],
-    matrix: &'a [f32],
-    sums: &'a mut [f32],
-}
-
 impl Step<'_> {
     pub(super) fn run(self) {
         Arch::new().dispatch(self);
@@ -46,11 +37,6 @@ impl StepBack<'_> {
     pub(super) fn run(self) {
         Arch::new().dispatch(self);
     }
-}
-
-/// Adds `row × matrix` to the sums; the matrix has a row for each value of `row`.
-pub(super) fn add_product(row: &[f32], matrix: &[f32], sums: &mut [f32]) {
-    Arch::new().dispatch(AddProduct { row, matrix, sums });
 }
 
 impl WithSimd for Step<'_> {
@@ -114,34 +100,6 @@ impl WithSimd for StepBack<'_> {
                 g[unit] = of_cell * of_i * (1.0 - of_g * of_g);
                 o[unit] = states[unit] * cell * of_o * (1.0 - of_o);
                 cell_gradient[unit] = of_cell * of_f;
-            }
-        }
-    }
-}
-
-impl WithSimd for AddProduct<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { row, matrix, sums } = self;
-        let n = sums.len();
-        let (blocks, rest) = row.as_chunks::<N_ROWS>();
-        for (block, rows) in blocks.iter().zip(matrix.chunks_exact(N_ROWS * n)) {
-            let rows: [&[f32]; N_ROWS] = std::array::from_fn(|r| &rows[r * n..(r + 1) * n]);
-            for (column, sum) in sums.iter_mut().enumerate() {
-                let mut added = 0.0;
-                for (x, row) in block.iter().zip(rows) {
-                    added += x * row[column];
-                }
-                *sum += added;
-            }
-        }
-        let done = row.len() - rest.len();
-        for (x, row) in rest.iter().zip(matrix[done * n..].chunks_exact(n)) {
-            for (sum, weight) in sums.iter_mut().zip(row) {
-                *sum += x * weight;
             }
         }
     }

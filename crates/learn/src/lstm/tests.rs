@@ -1,7 +1,8 @@
 use candle_core::{Device, Tensor, Var};
 
-use super::gates::{add_product, sigmoid, tanh};
-use super::{lstm, step_by_step};
+use super::gates::{sigmoid, tanh};
+use super::tiles::Tiles;
+use super::{Exactness, lstm, step_by_step};
 use crate::init::Uniform;
 
 fn noise(shape: &[usize], scale: f32, seed: u64) -> Tensor {
@@ -26,24 +27,50 @@ fn curves_are_those_of_the_standard_library() {
 }
 
 #[test]
-fn a_product_row_by_row_is_its_definition() {
-    for (n_rows, n_columns) in [(1, 1), (7, 3), (8, 16), (19, 40)] {
+fn a_product_by_tiles_is_its_definition_to_half_a_unit_of_each_row() {
+    for (n_rows, n_columns) in [(1, 1), (7, 3), (8, 64), (19, 100)] {
         let row = Uniform::new(1).within(1.0, n_rows);
-        let matrix = Uniform::new(2).within(1.0, n_rows * n_columns);
-        let mut sums = Uniform::new(3).within(1.0, n_columns);
-        let expected: Vec<f32> = (0..n_columns)
-            .map(|c| sums[c] + (0..n_rows).map(|r| row[r] * matrix[r * n_columns + c]).sum::<f32>())
-            .collect();
-        add_product(&row, &matrix, &mut sums);
-        for (sum, expected) in sums.iter().zip(&expected) {
-            assert!((sum - expected).abs() < 1e-5);
+        let mut matrix = Uniform::new(2).within(1.0, n_rows * n_columns);
+        // Rows of very different sizes; nothing; almost nothing.
+        for (index, row) in matrix.chunks_exact_mut(n_columns).enumerate() {
+            let factor = [1.0, 1e-6, 1e6, 0.0, 1e-44][index % 5];
+            for x in row {
+                *x *= factor;
+            }
+        }
+        let before = Uniform::new(3).within(1.0, n_columns);
+        let mut sums = before.clone();
+        Tiles::of(&matrix, n_columns).add_product(&row, &mut sums);
+        let largest = |r: usize| {
+            matrix[r * n_columns..][..n_columns]
+                .iter()
+                .fold(0.0, |most, x| f64::max(most, f64::from(x.abs())))
+        };
+        let within: f64 = (0..n_rows).map(|r| f64::from(row[r].abs()) * largest(r) * 1.6e-5).sum();
+        for (c, (sum, before)) in sums.iter().zip(&before).enumerate() {
+            let product = |r: usize| f64::from(row[r]) * f64::from(matrix[r * n_columns + c]);
+            let expected = f64::from(*before) + (0..n_rows).map(product).sum::<f64>();
+            assert!((f64::from(*sum) - expected).abs() <= within + 1e-6, "{sum} {expected} {within}");
         }
     }
 }
 
 #[test]
+fn weights_of_sixteen_bits_change_states_by_little() {
+    for (n_steps, n_sequences, n_units) in [(200, 1, 128), (30, 3, 17), (30, 5, 17)] {
+        let inputs = noise(&[n_steps, n_sequences, 4 * n_units], 1.5, 1);
+        let weights = noise(&[n_units, 4 * n_units], 0.1, 2);
+        let [full, quick] = [Exactness::Full, Exactness::Sixteen]
+            .map(|exactness| lstm(&inputs, &weights, exactness).unwrap());
+        let difference = largest_difference(&full, &quick);
+        assert!(difference < 2e-5, "{difference}");
+        assert_eq!(difference > 0.0, n_sequences < 4, "many sequences are multiplied in full");
+    }
+}
+
+#[test]
 fn one_operation_is_the_same_as_many_there_and_back() {
-    // Both ways of multiplying; one step alone; units that fill no vector.
+    // One step alone; units that fill no vector.
     for (n_steps, n_sequences, n_units) in [(6, 5, 8), (9, 2, 5), (1, 3, 4), (4, 1, 17)] {
         let inputs = Var::from_tensor(&noise(&[n_steps, n_sequences, 4 * n_units], 1.5, 1)).unwrap();
         let weights = Var::from_tensor(&noise(&[n_units, 4 * n_units], 0.7, 2)).unwrap();
@@ -54,7 +81,8 @@ fn one_operation_is_the_same_as_many_there_and_back() {
             let of = |var: &Var| gradients.get(var).cloned();
             (states, of(&inputs).unwrap(), of(&weights))
         };
-        let (fused, slow) = (run(lstm), run(step_by_step));
+        let (fused, slow) =
+            (run(|inputs, weights| lstm(inputs, weights, Exactness::Full)), run(step_by_step));
         assert!(largest_difference(&fused.0, &slow.0) < 1e-6);
         assert!(largest_difference(&fused.1, &slow.1) < 1e-5);
         let zero = weights.zeros_like().unwrap();
@@ -66,6 +94,6 @@ fn one_operation_is_the_same_as_many_there_and_back() {
 
 #[test]
 fn shapes_that_do_not_fit_are_refused() {
-    let error = lstm(&noise(&[3, 2, 16], 1.0, 1), &noise(&[5, 20], 1.0, 2)).unwrap_err();
+    let error = lstm(&noise(&[3, 2, 16], 1.0, 1), &noise(&[5, 20], 1.0, 2), Exactness::Full).unwrap_err();
     assert!(error.to_string().contains("16"), "{error}");
 }

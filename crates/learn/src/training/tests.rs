@@ -1,6 +1,7 @@
-use super::{Epoch, StrokeModel, Training, TrainingConfig, TrainingError};
+use super::{Epoch, Training, TrainingConfig, TrainingError};
 use crate::cnn_lstm::{Architecture, Padding, Streams};
 use crate::model_file::{ModelFileError, sha256_of};
+use crate::stroke_model::{ModelCard, StrokeModel};
 use crate::stroke_set::{Stroke, StrokedTexture};
 use shagreen_core::rng::lcg_noise;
 
@@ -71,11 +72,22 @@ fn it_learns_and_tells_textures_that_it_has_not_seen() {
     assert_eq!(model.predict(&[short]).unwrap(), None);
 }
 
+fn card() -> ModelCard {
+    ModelCard {
+        attributes: ["rough-smooth", "hard-soft"].map(str::to_owned).to_vec(),
+        left_out_rmse: vec![7.5, 12.0],
+        network: "toy".to_owned(),
+        learned_from: "made-up textures".to_owned(),
+        label_sources: vec!["simulated".to_owned()],
+    }
+}
+
 #[test]
 fn the_same_seed_gives_the_same_file_and_another_seed_another() {
     let all = textures(3);
     let learned: Vec<&StrokedTexture> = all.iter().collect();
-    let file = |config: TrainingConfig| run(Training::new(&learned, config).unwrap()).1.to_bytes().unwrap();
+    let file =
+        |config: TrainingConfig| run(Training::new(&learned, config).unwrap()).1.to_bytes(&card()).unwrap();
     let once = file(config(2, None));
     assert_eq!(sha256_of(&once), sha256_of(&file(config(2, None))));
     assert_ne!(once, file(TrainingConfig { seed: 4, ..config(2, None) }));
@@ -96,11 +108,11 @@ fn a_stopped_training_goes_on_as_if_it_had_not_stopped() {
     drop(training);
     let resumed = run(Training::resume(&learned, config(4, Some(3)), &kept).unwrap());
     assert_eq!(resumed.0, whole.0);
-    assert_eq!(resumed.1.to_bytes().unwrap(), whole.1.to_bytes().unwrap());
+    assert_eq!(resumed.1.to_bytes(&card()).unwrap(), whole.1.to_bytes(&card()).unwrap());
 
     let fewer = Training::resume(&learned[1..], config(4, Some(3)), &kept);
     assert!(matches!(fewer.err(), Some(TrainingError::Other)));
-    let model = whole.1.to_bytes().unwrap();
+    let model = whole.1.to_bytes(&card()).unwrap();
     let other = Training::resume(&learned, config(4, Some(3)), &model);
     assert!(matches!(other.err(), Some(TrainingError::File(ModelFileError::Kind { .. }))));
 }
@@ -121,8 +133,9 @@ fn a_file_of_a_model_predicts_the_same_and_a_wrong_one_is_refused() {
     let all = textures(4);
     let learned: Vec<&StrokedTexture> = all.iter().collect();
     let (_, model) = run(Training::new(&learned, config(2, None)).unwrap());
-    let bytes = model.to_bytes().unwrap();
-    let read = StrokeModel::from_bytes(&bytes).unwrap();
+    let bytes = model.to_bytes(&card()).unwrap();
+    let (read, of) = StrokeModel::from_bytes(&bytes).unwrap();
+    assert_eq!(of, card());
     assert_eq!(read.predict(&all[1].strokes).unwrap(), model.predict(&all[1].strokes).unwrap());
     let mut damaged = bytes.clone();
     let last = damaged.len() - 9;
@@ -130,6 +143,12 @@ fn a_file_of_a_model_predicts_the_same_and_a_wrong_one_is_refused() {
     assert!(matches!(StrokeModel::from_bytes(&damaged), Err(TrainingError::File(ModelFileError::Hash))));
     assert!(StrokeModel::from_bytes(&bytes[..bytes.len() / 2]).is_err());
     assert!(StrokeModel::from_bytes(b"\x80\x02}q\x00.").is_err(), "a pickle");
+    for other in [
+        ModelCard { attributes: vec!["rough-smooth".to_owned()], ..card() },
+        ModelCard { left_out_rmse: vec![f64::NAN; 2], ..card() },
+    ] {
+        assert!(matches!(model.to_bytes(&other), Err(TrainingError::Card { n_outputs: 2 })));
+    }
 }
 
 #[test]
