@@ -57,7 +57,6 @@ mod project_show;
 mod project_source;
 mod quality;
 mod receiver;
-mod recorded_strokes;
 mod recording_answers;
 mod recording_source;
 mod render;

@@ -4,6 +4,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What comes of each part below `n`, in their order: which thread does which does not matter.
 pub(crate) fn in_parallel<T: Send>(n: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    in_parallel_by(n_processors(), n, work)
+}
+
+/// As many as work at once on this machine.
+pub(crate) fn n_processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The same with at most so many parts at a time, which is at least one.
+pub(crate) fn in_parallel_by<T: Send>(
+    n_at_once: usize,
+    n: usize,
+    work: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let take = || {
         let mut done = Vec::new();
@@ -12,9 +26,8 @@ pub(crate) fn in_parallel<T: Send>(n: usize, work: impl Fn(usize) -> T + Sync) -
         }
         done
     };
-    let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(n);
     let mut done: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..n_threads).map(|_| scope.spawn(take)).collect();
+        let workers: Vec<_> = (0..n_at_once.min(n)).map(|_| scope.spawn(take)).collect();
         workers
             .into_iter()
             .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
@@ -26,12 +39,14 @@ pub(crate) fn in_parallel<T: Send>(n: usize, work: impl Fn(usize) -> T + Sync) -
 
 #[cfg(test)]
 mod tests {
-    use super::in_parallel;
+    use super::{in_parallel, in_parallel_by};
 
     #[test]
     fn every_part_is_done_once_and_stands_in_its_place() {
         for n in [0, 1, 7, 500] {
-            assert_eq!(in_parallel(n, |part| 3 * part), (0..n).map(|part| 3 * part).collect::<Vec<_>>());
+            let expected: Vec<usize> = (0..n).map(|part| 3 * part).collect();
+            assert_eq!(in_parallel(n, |part| 3 * part), expected);
+            assert_eq!(in_parallel_by(1, n, |part| 3 * part), expected);
         }
     }
 }

@@ -154,13 +154,27 @@ impl Progress {
     /// A bar of `n` steps of `what`.
     pub(crate) fn new(what: &'static str, n: usize) -> Self {
         let bar = ProgressBar::with_draw_target(Some(n as u64), ProgressDrawTarget::stderr());
-        if let Ok(style) =
-            ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}, about {eta} left")
-        {
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}") {
             bar.set_style(style);
         }
         bar.set_message(what);
         Self(bar)
+    }
+
+    /// The same for work of hours, with how long it will still take.
+    pub(crate) fn of_hours(what: &'static str, n: usize) -> Self {
+        let progress = Self::new(what, n);
+        if let Ok(style) =
+            ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}, about {eta} left")
+        {
+            progress.0.set_style(style);
+        }
+        progress
+    }
+
+    /// So many steps need not be done: they say nothing of how long the others take.
+    pub(crate) fn leave_out(&self, n: usize) {
+        self.0.dec_length(n as u64);
     }
 
     /// One more step is done.

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::attribute_predictor::{predict, quantities};
-use shagreen_core::fit::{self, FitOptions, Segment};
+use shagreen_core::fit::{self, FitOptions, Stroking};
 use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::patterns::PAPER_RATE;
+use shagreen_core::patterns::{PAPER_FORCES_N, PAPER_RATE, PAPER_SPEEDS_MM_PER_S};
 use shagreen_core::prompt::understand;
 use shagreen_core::recording::Recording;
 use shagreen_core::space::LabelSource;
@@ -23,11 +23,11 @@ use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::stroke_model::StrokeModel;
+use shagreen_learn::stroke_set::Stroke;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::library_source::{LibraryArgs, load};
 use crate::cli::output;
-use crate::cli::recorded_strokes::recorded_strokes;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
 use crate::cli::said_of_prompt::said_of;
@@ -35,8 +35,9 @@ use crate::cli::said_of_prompt::said_of;
 /// What a recorded stroke, a photo or words would feel like: attributes from 0 to 100, each with how unsure it is.
 ///
 /// Recordings are compared with the textures of a library whose attributes are known; without --library those of the simulated
-/// one, which nobody rated. With --model a network that learned from strokes tells them. Photos are judged by what was learned from pictures of materials whose roughness and hardness are
-/// known; words are understood by a lexicon whose figures are estimates.
+/// one, which nobody rated. With --model a network that learned from strokes tells them. Photos are judged by what was learned
+/// from pictures of materials whose roughness and hardness are known; words are understood by a lexicon whose figures are
+/// estimates.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true))]
 pub(crate) struct Args {
@@ -138,13 +139,13 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
             Err(reason) => bail!("{reason}: {}", file.display()),
         }
     }
+    if let Some(model) = &args.model {
+        return by_network(args, model, &recordings);
+    }
     let fitted =
         fit::fit(&recordings, &FitOptions::usual()).with_context(|| output::in_file(&args.recording[0]))?;
     for note in &fitted.report.notes {
         output::note(note);
-    }
-    if let Some(model) = &args.model {
-        return by_network(args, model, &recordings, &fitted.report.segments);
     }
     let library = match args.library.path() {
         Some(_) => load(&args.library)?,
@@ -174,20 +175,25 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
 }
 
 /// What a network that learned from strokes takes the recordings for; it is as sure as it was of textures that were left out.
-fn by_network(
-    args: &Args,
-    path: &Path,
-    recordings: &[Recording],
-    segments: &[Segment],
-) -> anyhow::Result<()> {
+fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Result<()> {
     let bytes = output::read_file(path)?;
     let (network, card) = StrokeModel::from_bytes(&bytes).with_context(|| output::in_file(path))?;
-    let predicted = network.predict(&recorded_strokes(recordings, segments))?.with_context(|| {
+    let strokes: Vec<Stroke> = fit::strokes(recordings, PAPER_RATE)
+        .with_context(|| output::in_file(&args.recording[0]))?
+        .into_iter()
+        .map(|Stroking { acceleration_mps2, speed_mps, force_n }| Stroke {
+            accel_mps2: acceleration_mps2,
+            speed_mps,
+            force_n,
+        })
+        .collect();
+    let predicted = network.predict(&strokes)?.with_context(|| {
         let least = network.architecture().n_samples as f64 / PAPER_RATE.0;
         format!(
             "no stroke lasts the {least} s that the network takes; leave --model out, or record longer ones"
         )
     })?;
+    warn_of_unknown(recordings, &strokes);
     let estimates = predicted.into_iter().zip(&card.left_out_rmse);
     let attributes: Vec<(&str, Estimate)> = card
         .attributes
@@ -201,10 +207,35 @@ fn by_network(
         "model": what,
         "model_sha256": sha256_of(&bytes),
         "label_source": card.label_sources,
-        "segments": segments.len(),
+        "strokes": strokes.len(),
     });
     output::print(args.json, &result, || format!("{}\nby {what}", table_text(&attributes)));
     Ok(())
+}
+
+/// Says where strokes are unlike those that networks learn from: how sure they are does not show it.
+fn warn_of_unknown(recordings: &[Recording], strokes: &[Stroke]) {
+    let known = |values: &[f64], scale: f64| {
+        let (first, last) = (scale * values[0], scale * values[values.len() - 1]);
+        // The patterns are points of a plane; half of the first and a half more than the last are still near them.
+        move |x: &f64| (0.5 * first..=1.5 * last).contains(x)
+    };
+    let is_speed = known(&PAPER_SPEEDS_MM_PER_S, 1e-3);
+    let is_force = known(&PAPER_FORCES_N, 1.0);
+    let rows = || strokes.iter().flat_map(|stroke| stroke.speed_mps.iter().zip(&stroke.force_n));
+    let n_unknown = rows().filter(|(speed, force)| !is_speed(speed) || !is_force(force)).count();
+    let percent = 100.0 * n_unknown as f64 / rows().count().max(1) as f64;
+    if percent >= 1.0 {
+        output::warn(&format!(
+            "{percent:.0} % of the strokes are slower, faster, lighter or stronger than what the network learned from (50 to 250 mm/s, 0.1 to 0.5 N); it does not know how wrong it is there"
+        ));
+    }
+    if let Some(recording) = recordings.iter().find(|recording| recording.rate.0 < 0.999 * PAPER_RATE.0) {
+        output::warn(&format!(
+            "the network learned from {} Hz and misses what a recording of {:.0} Hz does not have",
+            PAPER_RATE.0, recording.rate.0
+        ));
+    }
 }
 
 fn as_json(attributes: &[(&str, Estimate)]) -> BTreeMap<String, Value> {

@@ -10,7 +10,7 @@ use shagreen_core::rng::derive_seed;
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
-use shagreen_formats::library::{Library, id_from_name};
+use shagreen_formats::library::{Library, free_id, id_from_name};
 use shagreen_learn::cnn_lstm::{Architecture, Streams};
 use shagreen_learn::model_file::is_model;
 use shagreen_learn::stroke_model::ModelCard;
@@ -18,7 +18,7 @@ use shagreen_learn::stroke_set::{Stroke, StrokedTexture};
 use shagreen_learn::training::{Training, TrainingConfig};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::in_parallel::in_parallel;
+use crate::cli::in_parallel::{in_parallel_by, n_processors};
 use crate::cli::judged::Judged;
 use crate::cli::output::{self, Progress};
 use crate::cli::words::words;
@@ -74,9 +74,18 @@ pub(crate) struct NetworkArgs {
     /// Everything that is drawn.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Networks that learn at a time, each in about half a GB; without it as many as there are processors.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
     /// File for a network that has learned from all textures, by the first --network.
     #[arg(long, short, value_name = "MODEL")]
     out: Option<PathBuf>,
+}
+
+impl NetworkArgs {
+    fn n_jobs(&self) -> usize {
+        self.jobs.map_or_else(n_processors, usize::from)
+    }
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -100,7 +109,7 @@ pub(crate) fn check_out(args: &NetworkArgs, library: Option<&Path>) -> anyhow::R
     Ok(atomic::check_all(&[out])?)
 }
 
-/// Trains the networks that were asked for, once without each texture, as many at a time as there are processors.
+/// Trains the networks that were asked for, once without each texture, several at a time.
 pub(crate) fn train_networks(
     args: &NetworkArgs,
     state: Option<&Path>,
@@ -126,9 +135,10 @@ pub(crate) fn train_networks(
         )
     };
     for network in &args.networks {
-        let progress = Progress::new("thousandths of a round", textures.len() * in_thousandths(args.epochs));
+        let progress =
+            Progress::of_hours("thousandths of a round", textures.len() * in_thousandths(args.epochs));
         let failed = AtomicBool::new(false);
-        let of = in_parallel(textures.len(), |index| {
+        let of = in_parallel_by(args.n_jobs(), textures.len(), |index| {
             let mut others: Vec<&StrokedTexture> = textures.iter().collect();
             let left_out = others.remove(index);
             let kept = state
@@ -155,12 +165,13 @@ pub(crate) fn train_networks(
     if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
         let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
         let all: Vec<&StrokedTexture> = textures.iter().collect();
-        let progress = Progress::new("thousandths of a round", in_thousandths(args.epochs));
+        let progress = Progress::of_hours("thousandths of a round", in_thousandths(args.epochs));
         let what = format!("{} of all", network.id());
         let never = AtomicBool::new(false);
         let training = train(&all, config(*network), kept.as_deref(), &what, &progress, &never)?;
         progress.finish();
-        let model = training.context("nothing stopped it")?.finish()?;
+        let Some(training) = training else { unreachable!("there is no other that could fail") };
+        let model = training.finish()?;
         let card = ModelCard {
             attributes: table.names.clone(),
             left_out_rmse: rmse_of_first,
@@ -199,7 +210,7 @@ fn train(
         None => Training::new(textures, config)?,
     };
     let mut done = 1000 * training.epochs().len().min(n_epochs);
-    progress.steps(done);
+    progress.leave_out(done);
     while !training.is_over() {
         let started = Instant::now();
         let before = done;
@@ -224,7 +235,7 @@ fn train(
         }
     }
     // Rounds that an early stop leaves out.
-    progress.steps((1000 * n_epochs).saturating_sub(done));
+    progress.leave_out((1000 * n_epochs).saturating_sub(done));
     Ok(Some(training))
 }
 
@@ -235,6 +246,7 @@ fn strokes(
     table: &AttributeTable,
 ) -> anyhow::Result<Vec<StrokedTexture>> {
     let contacts = paper_patterns();
+    let mut ids: Vec<String> = Vec::new();
     let of = |(index, attributes): (&usize, &Vec<f64>)| {
         let texture = &library.textures[*index];
         let plan = PatternPlan {
@@ -253,11 +265,10 @@ fn strokes(
             force_n: vec![contact.force.0; accel_mps2.len()],
             accel_mps2,
         });
-        Ok(StrokedTexture {
-            id: id_from_name(&texture.id),
-            strokes: strokes.collect(),
-            attributes: attributes.clone(),
-        })
+        // Each is kept in a file of this name.
+        let id = free_id(&id_from_name(&texture.id), |id| ids.iter().any(|taken| taken == id));
+        ids.push(id.clone());
+        Ok(StrokedTexture { id, strokes: strokes.collect(), attributes: attributes.clone() })
     };
     table.textures.iter().zip(&table.values).map(of).collect()
 }

@@ -114,8 +114,8 @@ impl Prompts {
         self.added.as_ref()
     }
 
-    /// Begins what was asked for, in place of what is being made; returns what is to be remembered of it. Axes are those of
-    /// the space, each by its two ends.
+    /// Begins what was asked for, words in place of what is being made, photos after it; returns what is to be remembered of
+    /// it. Axes are those of the space, each by its two ends.
     pub(crate) fn carry_out(
         &mut self,
         command: PromptCommand,
@@ -145,7 +145,11 @@ impl Prompts {
             }
         };
         let is_empty = prompt.trim().is_empty();
-        let kept = (!is_empty).then(|| KeptPrompt { prompt: prompt.clone(), seed });
+        let kept = (!is_empty).then(|| KeptPrompt {
+            prompt: prompt.clone(),
+            seed,
+            by_diffusion: self.by_diffusion && self.added.is_some(),
+        });
         self.begin(Wanted::Words { prompt, seed }, replaces, poles, ctx);
         kept
     }

@@ -76,8 +76,8 @@ impl Sheet {
     }
 
     /// Draws the sheet over the window, and where files would go that hover over it; returns what the user asked for.
-    /// Files dropped on the workspace Build are judgments, on Signals they are signals; elsewhere a stroke is repeated, and
-    /// others are imported.
+    /// Files dropped on the workspace Build are judgments, on Signals they are signals; elsewhere a stroke is repeated,
+    /// photos find their places or become the picture of a texture, and others are imported.
     pub(crate) fn show(
         &mut self,
         ctx: &Context,
@@ -129,6 +129,7 @@ impl Sheet {
         if let Some(project) = dropped.iter().find_map(is_project) {
             commands.push(Command::File(FileCommand::Open(project)));
         } else if dropped.is_empty() {
+            // Nothing was dropped, or only strokes.
         } else if are_signals {
             commands.push(Command::Signals(SignalsCommand::ReadAll(sources(dropped))));
         } else if are_judgments {

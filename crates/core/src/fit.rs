@@ -4,10 +4,12 @@ mod error;
 mod heldout;
 mod pieces;
 mod smear;
+mod strokes;
 mod surface;
 
 pub use crate::fit::error::FitError;
 pub use crate::fit::pieces::{MODEL_RATES_HZ, highest_order};
+pub use crate::fit::strokes::{Stroking, strokes};
 
 use crate::recording::Recording;
 use crate::spectrum::median;

@@ -19,6 +19,8 @@ pub const MAX_SIDE: u32 = 4096;
 
 /// Longest side of a photo that is made a picture of, in pixels.
 pub const MAX_PHOTO_SIDE: u32 = 16_384;
+/// Bytes of a photo that is unpacked, at most.
+const MAX_PHOTO_BYTES: u64 = 1 << 30;
 /// Longest side of the picture that is made of a photo, in pixels.
 pub const PHOTO_SIDE: u32 = 768;
 
@@ -140,8 +142,8 @@ pub enum PictureError {
     /// The bytes are neither JPEG nor PNG.
     #[error("this is no photo that can be read; save it as JPEG or PNG")]
     NoPhoto,
-    /// A photo of more than [`MAX_PHOTO_SIDE`] pixels a side, or one that takes too much memory.
-    #[error("the photo is too large; make it smaller than {MAX_PHOTO_SIDE} pixels a side")]
+    /// A photo of more than [`MAX_PHOTO_SIDE`] pixels a side, or of more than 1 GiB once it is unpacked.
+    #[error("the photo is too large; make it at most {MAX_PHOTO_SIDE} pixels a side, with 8 bits a color")]
     LargePhoto,
     /// A photo that ends before its last row.
     #[error("the photo is cut off; get it again")]
@@ -269,12 +271,14 @@ fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     reader.set_format(format);
     let mut limits = image::Limits::default();
     (limits.max_image_width, limits.max_image_height) = (Some(MAX_PHOTO_SIDE), Some(MAX_PHOTO_SIDE));
-    reader.limits(limits);
+    limits.max_alloc = Some(MAX_PHOTO_BYTES);
+    reader.limits(limits.clone());
     let refused = |error| match error {
         ImageError::Limits(_) => PictureError::LargePhoto,
         error => error.into(),
     };
     let mut decoder = reader.into_decoder().map_err(refused)?;
+    limits.reserve(decoder.total_bytes()).map_err(refused)?;
     // A photo that does not say how it was held was held upright.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut photo = DynamicImage::from_decoder(decoder).map_err(refused)?;
@@ -282,7 +286,8 @@ fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     Ok(photo)
 }
 
-/// Whether a JPEG ends before its marker of the end: decoders fill what is missing with gray and say nothing.
+/// Whether a JPEG ends before its marker of the end: decoders fill what is missing with gray and say nothing. A whole one
+/// whose writer left the marker out cannot be told from one that lost its last row.
 fn is_cut_off(bytes: &[u8]) -> bool {
     const BEGIN: u8 = 0xD8;
     const END: u8 = 0xD9;
@@ -295,12 +300,12 @@ fn is_cut_off(bytes: &[u8]) -> bool {
             // Within a scan 0xFF is always followed by something else than this.
             [0xFF, SCAN, data @ ..] => return !data.windows(2).any(|pair| pair == [0xFF, END]),
             // What is before the scans says how long it is; it may hold a small picture that has an end of its own.
-            [0xFF, _, high, low, ..] => {
+            [0xFF, 0xC0..=0xFE, high, low, ..] => {
                 let length = usize::from(u16::from_be_bytes([*high, *low]));
                 let Some(after) = rest.get(2 + length..) else { return true };
                 rest = after;
             }
-            [] | [_] | [0xFF, ..] => return true,
+            [] | [0xFF] | [0xFF, 0xC0..=0xFE, ..] => return true,
             // Something else is wrong with it; whoever decodes it says so.
             _ => return false,
         }

@@ -44,13 +44,16 @@ pub struct Settings {
     pub unknown: Map<String, Value>,
 }
 
-/// A prompt, and the seed of what was made of it.
+/// A prompt, and how a picture was made of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeptPrompt {
     /// The words.
     pub prompt: String,
     /// The seed.
     pub seed: u64,
+    /// Whether the diffusion model of the user made it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub by_diffusion: bool,
 }
 
 /// Why the rig of a file of settings is not known: whoever goes on without it drives an actuator without its limits.
@@ -139,9 +142,12 @@ mod tests {
         settings.note_project(Path::new("/a.shagreen"));
         (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
         for seed in [1, 2, 1] {
-            settings.note_prompt(KeptPrompt { prompt: "rough".to_owned(), seed });
+            settings.note_prompt(KeptPrompt { prompt: "rough".to_owned(), seed, by_diffusion: false });
         }
-        assert_eq!(settings.prompts.iter().map(|kept| kept.seed).collect::<Vec<_>>(), [1, 2]);
+        settings.note_prompt(KeptPrompt { prompt: "rough".to_owned(), seed: 1, by_diffusion: true });
+        assert_eq!(settings.prompts.iter().map(|kept| kept.seed).collect::<Vec<_>>(), [1, 1, 2]);
+        let before = br#"{"prompts": [{"prompt": "rough", "seed": 2}]}"#;
+        assert_eq!(read(before).prompts, settings.prompts[2..], "files from before generators were kept");
         settings.unknown.insert("later".to_owned(), 3.into());
         assert_eq!(read(&write_settings(&settings)), settings);
         assert_eq!(read(b"{}"), Settings::default());

@@ -27,7 +27,7 @@ const LEAST_BATCH_TO_PACK: usize = 4;
 pub(crate) enum Exactness {
     /// As exactly as the numbers are.
     Full,
-    /// Where there are few sequences, by weights of 16 bits: sooner, with errors of 1e-5.
+    /// Where there are few sequences, by weights of 16 bits: sooner, with errors of 1e-5 of the largest weight of each unit.
     Sixteen,
 }
 

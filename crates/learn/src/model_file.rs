@@ -46,9 +46,7 @@ pub enum ModelFileError {
     #[error("its numbers were changed or cut since it was written; get it again")]
     Hash,
     /// A number of it is none.
-    #[error(
-        "\"{name}\" of it is not finite: its learning went astray; learn anew, by another seed or more textures"
-    )]
+    #[error("\"{name}\" of it is not finite; learn anew by another seed, in another folder")]
     NotFinite {
         /// Name of the numbers.
         name: String,
@@ -74,7 +72,7 @@ pub(crate) type Numbers = BTreeMap<String, Tensor>;
 /// The bytes of a file of this kind.
 ///
 /// # Errors
-/// Numbers that are not `f32`.
+/// [`ModelFileError::NotFinite`], and numbers that are not `f32`.
 pub(crate) fn write<T: Serialize>(
     kind: &str,
     about: &T,
@@ -84,10 +82,11 @@ pub(crate) fn write<T: Serialize>(
         .iter()
         .map(|(name, tensor)| {
             let values = tensor.flatten_all()?.to_device(&Device::Cpu)?.to_vec1::<f32>()?;
+            check_finite(name, &values)?;
             let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
             Ok((name.as_str(), (tensor.dims().to_vec(), bytes)))
         })
-        .collect::<Result<_, candle_core::Error>>()?;
+        .collect::<Result<_, ModelFileError>>()?;
     let sha256 = hash(data.iter().map(|(name, (shape, bytes))| (*name, &shape[..], &bytes[..])));
     let about = serde_json::to_value(about)?;
     let header = Header { format: FORMAT.to_owned(), version: VERSION, kind: kind.to_owned(), sha256, about };
@@ -134,12 +133,18 @@ pub(crate) fn read<T: for<'de> Deserialize<'de>>(
     for (name, view) in &views {
         let (values, _) = view.data().as_chunks::<4>();
         let values: Vec<f32> = values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
-        if values.iter().any(|value| !value.is_finite()) {
-            return Err(ModelFileError::NotFinite { name: name.clone() });
-        }
+        check_finite(name, &values)?;
         numbers.insert(name.clone(), Tensor::from_vec(values, view.shape(), device)?);
     }
     Ok((serde_json::from_value(header.about)?, numbers))
+}
+
+fn check_finite(name: &str, values: &[f32]) -> Result<(), ModelFileError> {
+    if values.iter().all(|value| value.is_finite()) {
+        Ok(())
+    } else {
+        Err(ModelFileError::NotFinite { name: name.to_owned() })
+    }
 }
 
 /// Whether a file is a model that this program wrote, of whatever kind and version.
@@ -164,8 +169,9 @@ fn hash<'a>(tensors: impl Iterator<Item = (&'a str, &'a [usize], &'a [u8])>) -> 
 
 #[cfg(test)]
 mod tests {
-    use super::{ModelFileError, Numbers, read, write};
+    use super::{ModelFileError, Numbers, hash, read, write};
     use candle_core::{Device, Tensor};
+    use safetensors::SafeTensors;
 
     fn numbers() -> Numbers {
         let tensor = |values: &[f32]| Tensor::new(values, &Device::Cpu).unwrap();
@@ -187,11 +193,30 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_none_are_refused() {
-        let mut numbers = numbers();
-        numbers.insert("c".to_owned(), Tensor::new(&[1.0, f32::NAN], &Device::Cpu).unwrap());
-        let error = failure(&write("toy", &7, &numbers).unwrap());
-        assert!(matches!(error, ModelFileError::NotFinite { name } if name == "c"));
+    fn numbers_that_are_none_are_neither_written_nor_read() {
+        let with = |value: f32| {
+            let mut numbers = numbers();
+            numbers.insert("c".to_owned(), Tensor::new(&[1.0, value], &Device::Cpu).unwrap());
+            numbers
+        };
+        let is_refused =
+            |error: ModelFileError| matches!(error, ModelFileError::NotFinite { name } if name == "c");
+        assert!(is_refused(write("toy", &7, &with(f32::NAN)).unwrap_err()));
+        // A file of somebody else's, whose hash is right.
+        let bytes_of = |value: f32| [1.0, value].map(f32::to_le_bytes).concat();
+        let bytes = write("toy", &7, &with(3.5)).unwrap();
+        let at = bytes.windows(8).position(|window| window == bytes_of(3.5)).unwrap();
+        let mut changed = bytes.clone();
+        changed[at..at + 8].copy_from_slice(&bytes_of(f32::INFINITY));
+        let [before, after] = [&bytes, &changed].map(|bytes| {
+            let tensors = SafeTensors::deserialize(bytes).unwrap();
+            let mut views = tensors.tensors();
+            views.sort_by(|(a, _), (b, _)| a.cmp(b));
+            hash(views.iter().map(|(name, view)| (name.as_str(), view.shape(), view.data())))
+        });
+        let at = changed.windows(64).position(|window| window == before.as_bytes()).unwrap();
+        changed[at..at + 64].copy_from_slice(after.as_bytes());
+        assert!(is_refused(failure(&changed)));
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! How the network learns from strokes: Adam, root mean square error, early stop; it can be stopped at any epoch and goes
 //! on as if it had not been.
 
+use std::ops::Range;
+
 use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
 use shagreen_core::rng::{Random, derive_seed};
@@ -14,6 +16,9 @@ use crate::stroke_set::{N_CHANNELS, Scale, Segments, StrokedTexture};
 /// Kind of a file with a network that is learning.
 const STATE: &str = "a training of attributes from strokes";
 
+/// Version of everything below that a training would not go on with as it began.
+const WAY: u32 = 1;
+
 /// How to learn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingConfig {
@@ -21,7 +26,7 @@ pub struct TrainingConfig {
     pub architecture: Architecture,
     /// Most rounds over all segments.
     pub n_epochs: usize,
-    /// Segments a step.
+    /// Segments a step, at most.
     pub n_batch: usize,
     /// Adam's rate.
     pub learning_rate: f64,
@@ -58,6 +63,12 @@ pub enum TrainingError {
     /// A size is zero or larger than anything could be.
     #[error("the network cannot have these sizes")]
     Sizes,
+    /// What it has learned is no number any more.
+    #[error("the learning went astray in round {round}; begin anew by another seed, in another folder")]
+    Astray {
+        /// Number of the round, from 1.
+        round: usize,
+    },
     /// What is said of a network is not of this one.
     #[error("what is said of the network does not fit its {n_outputs} attributes")]
     Card {
@@ -91,6 +102,9 @@ pub struct Epoch {
 /// What a file of a training says beside its numbers.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct State {
+    /// The [`WAY`] that it has learned by.
+    #[serde(default)]
+    way: u32,
     config: TrainingConfig,
     scale: Scale,
     textures: Vec<String>,
@@ -151,6 +165,7 @@ impl Training {
             aside: Segments::of(&aside, n_samples, &scale),
             best: network.snapshot()?,
             state: State {
+                way: WAY,
                 config,
                 scale,
                 textures: names(&learned),
@@ -178,8 +193,8 @@ impl Training {
         let (mut state, numbers) = model_file::read::<State>(STATE, kept, &training.device)?;
         state.config.n_epochs = training.state.config.n_epochs;
         let fresh = &training.state;
-        if (&state.config, &state.scale, &state.textures, &state.aside)
-            != (&fresh.config, &fresh.scale, &fresh.textures, &fresh.aside)
+        if (state.way, &state.config, &state.scale, &state.textures, &state.aside)
+            != (fresh.way, &fresh.config, &fresh.scale, &fresh.textures, &fresh.aside)
         {
             return Err(TrainingError::Other);
         }
@@ -245,7 +260,8 @@ impl Training {
         let order = Random::new(seed).shuffled(self.segments.len());
         let mut sum = 0.0;
         let n_steps = order.len().div_ceil(self.state.config.n_batch);
-        for (step, indices) in order.chunks(self.state.config.n_batch).enumerate() {
+        for step in 0..n_steps {
+            let indices = &order[part(order.len(), n_steps, step)];
             if !is_wanted(step as f64 / n_steps as f64) {
                 return Ok(None);
             }
@@ -259,6 +275,9 @@ impl Training {
         }
         self.state.n_adam_steps = self.adam.n_steps;
         let learned_rmse = 100.0 * (sum / order.len() as f64).sqrt();
+        if !learned_rmse.is_finite() {
+            return Err(TrainingError::Astray { round: number });
+        }
         let aside_rmse = if self.aside.len() > 0 { Some(self.aside_rmse()?) } else { None };
         let epoch = Epoch { number, learned_rmse, aside_rmse };
         let best =
@@ -290,6 +309,12 @@ impl Training {
         }
         Ok(100.0 * (sum / order.len() as f64).sqrt())
     }
+}
+
+/// The segments of a step, where all steps of a round have as many but for one: a batch of a few has no mean to speak of,
+/// and of a single one nothing is left once it is normalized.
+fn part(n_segments: usize, n_steps: usize, step: usize) -> Range<usize> {
+    n_segments * step / n_steps..n_segments * (step + 1) / n_steps
 }
 
 #[cfg(test)]

@@ -73,10 +73,12 @@ fn earlier_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt]) -> Opt
         if earlier.is_empty() {
             ui.label(words::NO_EARLIER);
         }
-        for KeptPrompt { prompt, seed } in earlier {
-            let entry = Button::new(words::earlier(prompt, *seed)).truncate();
-            if ui.add(entry).clicked() {
+        for KeptPrompt { prompt, seed, by_diffusion } in earlier {
+            let entry = Button::new(words::earlier(prompt, *seed, *by_diffusion)).truncate();
+            let can_make = !by_diffusion || prompts.added().is_some();
+            if ui.add_enabled(can_make, entry).on_disabled_hover_text(words::NO_DIFFUSION).clicked() {
                 prompts.text.clone_from(prompt);
+                prompts.by_diffusion = *by_diffusion;
                 asked = Some(PromptCommand::Make { prompt: prompt.clone(), seed: *seed });
                 ui.close();
             }

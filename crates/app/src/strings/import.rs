@@ -6,9 +6,9 @@ use shagreen_core::units::Contact;
 /// Heading of the sheet.
 pub const TITLE: &str = "Import";
 /// Shown while files hover over the window.
-pub const DROP_HERE: &str = "Drop recordings, models or a library";
+pub const DROP_HERE: &str = "Drop recordings, photos, models or a library";
 /// What can be dropped.
-pub const DROP_KINDS: &str = "CSV, TXT, TSV or WAV recordings · HaTT XML models · a Shagreen library (JSON) · a map.toml for columns · a folder of them";
+pub const DROP_KINDS: &str = "CSV, TXT, TSV or WAV recordings · JPEG or PNG photos · HaTT XML models · a Shagreen library (JSON) · a map.toml for columns · a folder of them";
 /// Accessible name of the field for paths.
 pub const PATHS: &str = "Paths of files or folders";
 /// Hint in the field for paths.

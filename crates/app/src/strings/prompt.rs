@@ -21,8 +21,7 @@ pub const ANOTHER_HELP: &str = "Another piece of the same surface, by the next s
 /// Opens the earlier prompts.
 pub const EARLIER: &str = "Earlier";
 /// What they are.
-pub const EARLIER_HELP: &str =
-    "What was described before, with its seed: the same words, seed and generator make the same texture";
+pub const EARLIER_HELP: &str = "What was described before, with its seed: made again, it is the same texture";
 /// There are none.
 pub const NO_EARLIER: &str = "Nothing was described yet";
 /// Closes the row.
@@ -33,6 +32,9 @@ pub const PROCEDURAL: &str = "Procedural";
 pub const DIFFUSION: &str = "Diffusion";
 /// What they are.
 pub const GENERATOR_HELP: &str = "Who makes the picture: the generator of the program in a second, or the diffusion model that was added, which takes minutes to hours on a processor";
+/// Why a prompt of before cannot be made again.
+pub const NO_DIFFUSION: &str =
+    "A diffusion model made it, and none is on this machine any more: shagreen model add";
 /// The thread ended.
 pub const BROKEN_OFF: &str = "Making it broke off; try other words";
 /// The program is damaged.
@@ -113,8 +115,9 @@ pub fn note_of_photo(name: &str) -> String {
 }
 
 /// An earlier prompt in the menu.
-pub fn earlier(prompt: &str, seed: u64) -> String {
-    format!("{prompt} · seed {seed}")
+pub fn earlier(prompt: &str, seed: u64, by_diffusion: bool) -> String {
+    let by = if by_diffusion { " · diffusion" } else { "" };
+    format!("{prompt} · seed {seed}{by}")
 }
 
 /// Accessible name of the row about a guess.

@@ -5,7 +5,7 @@ use egui::{Key, Shape};
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::prompt::Origin;
 use shagreen_app::strings;
-use shagreen_app::strings::prompt as words;
+use shagreen_app::strings::{import, prompt as words};
 use shagreen_formats::picture::encode_png;
 use shagreen_formats::picture::{Rgb, decode};
 use shagreen_formats::starter::starter_library;
@@ -84,7 +84,7 @@ fn words_that_say_nothing_are_answered_and_earlier_ones_come_back() {
     click(&mut harness, words::EARLIER);
     // The menu finds its place.
     harness.run_steps(6);
-    click(&mut harness, &words::earlier("polished steel", 1));
+    click(&mut harness, &words::earlier("polished steel", 1, false));
     wait(&mut harness, "it was made again", |h| window(h).project().authored.len() == 4);
     let again = window(&harness).project().texture();
     assert_eq!((again.at, &again.picture), (steel.at, &steel.picture), "the same words and seed");
@@ -142,10 +142,18 @@ fn photos_dropped_together_land_one_after_another_beside_other_files() {
     assert_eq!(names, ["one", "two", "three"]);
     assert!(!window(&harness).prompts().is_busy());
 
-    // Nothing waits any more after a stop.
+    // After a stop nothing waits any more: what is dropped next is all that lands, beside what is imported.
     drop_files(&mut harness, &[("four.png", &brick), ("five.png", &glass), ("six.png", &brick)]);
     wait(&mut harness, "it is said how many wait", |h| says(h, &words::waiting(2)));
     click(&mut harness, words::STOP);
     assert!(!window(&harness).prompts().is_busy() && !says(&harness, &words::waiting(2)));
-    assert!(window(&harness).project().authored.len() < 7);
+    let n = window(&harness).project().authored.len();
+    drop_files(&mut harness, &[("seven.png", &glass), ("a recording.wav", b"none")]);
+    wait(&mut harness, "the recording is looked at", |h| says(h, "a recording.wav"));
+    click(&mut harness, import::CANCEL);
+    wait(&mut harness, "it landed", |h| window(h).project().authored.len() > n);
+    harness.run_steps(20);
+    assert!(!window(&harness).prompts().is_busy());
+    assert_eq!(window(&harness).project().authored.len(), n + 1);
+    assert_eq!(window(&harness).project().texture().name, "seven");
 }

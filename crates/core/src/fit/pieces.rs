@@ -54,11 +54,11 @@ pub(super) struct Cut {
 }
 
 /// A recording without what is below [`HIGH_PASS`], and its stretches.
-struct Stroked<'a> {
-    recording: &'a Recording,
+pub(super) struct Stroked<'a> {
+    pub(super) recording: &'a Recording,
     /// The usable stretches, filtered, at the recording's rate.
-    signals: Vec<(Range<usize>, Vec<f64>)>,
-    segmentation: Segmentation,
+    pub(super) signals: Vec<(Range<usize>, Vec<f64>)>,
+    pub(super) segmentation: Segmentation,
 }
 
 /// Pieces of all recordings, at `rate` or at the one that their bandwidth asks for.
@@ -132,7 +132,7 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
 }
 
 /// Refuses columns that are not what a recording promises.
-fn check(recording: usize, r: &Recording) -> Result<(), FitError> {
+pub(super) fn check(recording: usize, r: &Recording) -> Result<(), FitError> {
     let n = r.acceleration_mps2.len();
     let columns = [&r.acceleration_mps2, &r.speed_mps, &r.force_n];
     let ascending = r.usable.windows(2).all(|w| w[0].end <= w[1].start);
@@ -154,7 +154,7 @@ fn check(recording: usize, r: &Recording) -> Result<(), FitError> {
 
 /// High-passes every usable stretch, forward once: a spectrum does not see the phase, and above twice the cut-off the
 /// delay is a few milliseconds.
-fn filtered(recording: &Recording) -> Stroked<'_> {
+pub(super) fn filtered(recording: &Recording) -> Stroked<'_> {
     let sections = butterworth_high_pass(4, HIGH_PASS, recording.rate);
     let n_settle = (SETTLE_SECS * recording.rate.0) as usize;
     let mut settled = recording.clone();
@@ -173,7 +173,7 @@ fn filtered(recording: &Recording) -> Stroked<'_> {
 
 /// The rate of a model where a recording has it but for the error of its clock: a frequency that is off by so little is
 /// neither heard nor felt.
-fn nominal(rate: Hertz) -> Hertz {
+pub(super) fn nominal(rate: Hertz) -> Hertz {
     const CLOCK_ERROR: f64 = 1e-3;
     let is_near = |model_hz: &f64| (rate.0 / model_hz - 1.0).abs() < CLOCK_ERROR;
     MODEL_RATES_HZ.into_iter().find(is_near).map_or(rate, Hertz)
@@ -213,7 +213,7 @@ fn rate_by_bandwidth(stroked: &[Stroked<'_>], lowest_hz: f64) -> Hertz {
 }
 
 /// Why there is no stretch to fit.
-fn nothing(stroked: &[Stroked<'_>]) -> FitError {
+pub(super) fn nothing(stroked: &[Stroked<'_>]) -> FitError {
     let most =
         |value: fn(&Segmentation) -> f64| stroked.iter().map(|s| value(&s.segmentation)).fold(0.0, f64::max);
     let usable_secs: f64 = stroked.iter().map(|s| s.recording.usable_seconds()).sum();

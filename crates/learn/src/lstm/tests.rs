@@ -39,19 +39,41 @@ fn a_product_by_tiles_is_its_definition_to_half_a_unit_of_each_row() {
             }
         }
         let before = Uniform::new(3).within(1.0, n_columns);
-        let mut sums = before.clone();
-        Tiles::of(&matrix, n_columns).add_product(&row, &mut sums);
+        let mut tiles = Tiles::of(&matrix, n_columns);
         let largest = |r: usize| {
             matrix[r * n_columns..][..n_columns]
                 .iter()
                 .fold(0.0, |most, x| f64::max(most, f64::from(x.abs())))
         };
+        // Each row by itself, to half of its own unit.
+        for r in 0..n_rows {
+            let mut one = vec![0.0; n_rows];
+            one[r] = 1.0;
+            let mut sums = vec![0.0; n_columns];
+            tiles.add_product(&one, &mut sums);
+            for (sum, weight) in sums.iter().zip(&matrix[r * n_columns..]) {
+                assert!((f64::from(*sum) - f64::from(*weight)).abs() <= 1.6e-5 * largest(r) + 1e-40);
+            }
+        }
+        let mut sums = before.clone();
+        tiles.add_product(&row, &mut sums);
         let within: f64 = (0..n_rows).map(|r| f64::from(row[r].abs()) * largest(r) * 1.6e-5).sum();
         for (c, (sum, before)) in sums.iter().zip(&before).enumerate() {
             let product = |r: usize| f64::from(row[r]) * f64::from(matrix[r * n_columns + c]);
             let expected = f64::from(*before) + (0..n_rows).map(product).sum::<f64>();
             assert!((f64::from(*sum) - expected).abs() <= within + 1e-6, "{sum} {expected} {within}");
         }
+    }
+}
+
+#[test]
+fn what_is_no_number_stays_none() {
+    for none in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut sums = vec![0.0; 70];
+        let mut matrix = vec![0.5; 3 * 70];
+        matrix[100] = none;
+        Tiles::of(&matrix, 70).add_product(&[0.1, 0.2, 0.3], &mut sums);
+        assert!(sums.iter().all(|sum| !sum.is_finite()), "{none}");
     }
 }
 

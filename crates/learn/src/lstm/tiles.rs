@@ -22,7 +22,7 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    /// Those of a matrix (rows × columns) of finite numbers.
+    /// Those of a matrix (rows × columns). A row with something that is no finite number makes every product none.
     pub(super) fn of(matrix: &[f32], n_columns: usize) -> Self {
         let n_rows = matrix.len() / n_columns;
         let mut values = vec![[0; WIDTH]; n_rows * n_columns.div_ceil(WIDTH)];
@@ -61,15 +61,9 @@ impl WithSimd for Cut<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let n_rows = self.units.len();
         for (index, (row, unit)) in self.matrix.chunks_exact(self.n_columns).zip(self.units).enumerate() {
-            let mut largest = [0.0_f32; 8];
-            let (eights, rest) = row.as_chunks::<8>();
-            for eight in eights {
-                for (largest, x) in largest.iter_mut().zip(eight) {
-                    *largest = if x.abs() > *largest { x.abs() } else { *largest };
-                }
-            }
-            let largest = largest.iter().chain(rest).fold(0.0_f32, |largest, x| largest.max(x.abs()));
-            *unit = largest / LARGEST;
+            // As whole numbers their bits are in their order, and what is no number lies above all: it stays one.
+            let largest = row.iter().map(|x| x.abs().to_bits()).max().unwrap_or(0);
+            *unit = f32::from_bits(largest) / LARGEST;
             // Nothing is left of a row of zeros, nor of one too small to have a unit.
             let in_units = Some(unit.recip()).filter(|x| x.is_finite()).unwrap_or(0.0);
             let tiles = self.values.iter_mut().skip(index).step_by(n_rows);

@@ -118,6 +118,34 @@ fn a_stopped_training_goes_on_as_if_it_had_not_stopped() {
 }
 
 #[test]
+fn steps_share_the_segments_of_a_round_evenly() {
+    for (n_segments, n_batch) in [(2625, 32), (525, 32), (32, 32), (5, 32), (33, 32)] {
+        let n_steps = usize::div_ceil(n_segments, n_batch);
+        let parts: Vec<_> = (0..n_steps).map(|step| super::part(n_segments, n_steps, step)).collect();
+        assert_eq!((parts[0].start, parts[n_steps - 1].end), (0, n_segments));
+        assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
+        let sizes = parts.iter().map(ExactSizeIterator::len);
+        let (least, most) = (sizes.clone().min().unwrap(), sizes.max().unwrap());
+        assert!(most <= n_batch && most - least <= 1, "{least} {most}");
+    }
+}
+
+#[test]
+fn learning_that_goes_astray_is_told_and_not_kept() {
+    let all = textures(4);
+    let learned: Vec<&StrokedTexture> = all.iter().collect();
+    let wild = TrainingConfig { learning_rate: 1e30, ..config(60, None) };
+    let mut training = Training::new(&learned, wild).unwrap();
+    let error = loop {
+        match training.run_epoch(|_| true) {
+            Ok(_) => assert!(!training.is_over(), "it never goes astray"),
+            Err(error) => break error,
+        }
+    };
+    assert!(matches!(error, TrainingError::Astray { .. }), "{error}");
+}
+
+#[test]
 fn it_stops_early_and_keeps_the_best() {
     let all = textures(12);
     let learned: Vec<&StrokedTexture> = all.iter().collect();
