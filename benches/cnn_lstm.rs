@@ -13,9 +13,10 @@ mod measure;
 use std::hint::black_box;
 
 use measure::bench;
+use shagreen_core::fit::Stroke;
 use shagreen_core::rng::lcg_noise;
 use shagreen_learn::cnn_lstm::Architecture;
-use shagreen_learn::stroke_set::{Stroke, StrokedTexture};
+use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
 const N_SEGMENTS: usize = 32;

@@ -153,23 +153,21 @@ pub(crate) struct Progress(ProgressBar);
 impl Progress {
     /// A bar of `n` steps of `what`.
     pub(crate) fn new(what: &'static str, n: usize) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(n as u64), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}") {
-            bar.set_style(style);
-        }
-        bar.set_message(what);
-        Self(bar)
+        Self::styled("{bar:30} {pos}/{len} {msg} {elapsed}", what, n)
     }
 
     /// The same for work of hours, with how long it will still take.
     pub(crate) fn of_hours(what: &'static str, n: usize) -> Self {
-        let progress = Self::new(what, n);
-        if let Ok(style) =
-            ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}, about {eta} left")
-        {
-            progress.0.set_style(style);
+        Self::styled("{bar:30} {pos}/{len} {msg} {elapsed}, about {eta} left", what, n)
+    }
+
+    fn styled(template: &str, what: &'static str, n: usize) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(n as u64), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
         }
-        progress
+        bar.set_message(what);
+        Self(bar)
     }
 
     /// So many steps need not be done: they say nothing of how long the others take.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::attribute_predictor::{predict, quantities};
-use shagreen_core::fit::{self, FitOptions, Stroking};
+use shagreen_core::fit::{self, FitOptions, Stroke};
 use shagreen_core::gaussian_process::Estimate;
 use shagreen_core::patterns::{PAPER_FORCES_N, PAPER_RATE, PAPER_SPEEDS_MM_PER_S};
 use shagreen_core::prompt::understand;
@@ -14,7 +14,6 @@ use shagreen_core::recording::Recording;
 use shagreen_core::space::LabelSource;
 use shagreen_core::starter::FRAMING;
 use shagreen_core::touch_words::ATTRIBUTES;
-use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::attribute_table;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::{LEXICON_TEXT, built_in_lexicon};
@@ -23,7 +22,6 @@ use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::stroke_model::StrokeModel;
-use shagreen_learn::stroke_set::Stroke;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::library_source::{LibraryArgs, load};
@@ -155,19 +153,14 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
     let known = table.known(&library);
     let estimates = predict(&known, &quantities(&fitted.model))?;
     let attributes: Vec<(&str, Estimate)> = table.names.iter().map(String::as_str).zip(estimates).collect();
-    let what = format!(
-        "a Gaussian process over {} of \"{}\" ({})",
-        counted(known.len(), "texture"),
-        library.name,
-        table.source_words()
-    );
+    let what = format!("a Gaussian process over {}", table.of_library(&library.name));
     // What was learned from says what was learned.
     let learned = serde_json::to_vec(&json!([table.names, table.values]))?;
     let result = json!({
         "attributes": as_json(&attributes),
         "model": what,
         "model_sha256": sha256_of(&learned),
-        "label_source": table.sources.iter().map(|source| source.id()).collect::<Vec<_>>(),
+        "label_source": table.source_ids().collect::<Vec<_>>(),
         "segments": fitted.report.segments.len(),
     });
     output::print(args.json, &result, || format!("{}\nby {what}", table_text(&attributes)));
@@ -178,15 +171,8 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
 fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Result<()> {
     let bytes = output::read_file(path)?;
     let (network, card) = StrokeModel::from_bytes(&bytes).with_context(|| output::in_file(path))?;
-    let strokes: Vec<Stroke> = fit::strokes(recordings, PAPER_RATE)
-        .with_context(|| output::in_file(&args.recording[0]))?
-        .into_iter()
-        .map(|Stroking { acceleration_mps2, speed_mps, force_n }| Stroke {
-            accel_mps2: acceleration_mps2,
-            speed_mps,
-            force_n,
-        })
-        .collect();
+    let strokes =
+        fit::strokes(recordings, PAPER_RATE).with_context(|| output::in_file(&args.recording[0]))?;
     let predicted = network.predict(&strokes)?.with_context(|| {
         let least = network.architecture().n_samples as f64 / PAPER_RATE.0;
         format!(

@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let more = json!({
         "error_over_deviation": comparison.by_name(&calibrations),
         "textures": n,
-        "label_source": table.sources.iter().map(|source| source.id()).collect::<Vec<_>>(),
+        "label_source": table.source_ids().collect::<Vec<_>>(),
         "epochs": trained.epochs,
         "seconds": started.elapsed().as_secs_f64(),
     });

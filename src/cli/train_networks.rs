@@ -5,16 +5,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context as _, ensure};
+use shagreen_core::fit::Stroke;
 use shagreen_core::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns};
 use shagreen_core::rng::derive_seed;
-use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
 use shagreen_formats::library::{Library, free_id, id_from_name};
 use shagreen_learn::cnn_lstm::{Architecture, Streams};
 use shagreen_learn::model_file::is_model;
 use shagreen_learn::stroke_model::ModelCard;
-use shagreen_learn::stroke_set::{Stroke, StrokedTexture};
+use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
 use crate::cli::guard::{refuse_foreign, refuse_inputs};
@@ -176,13 +176,8 @@ pub(crate) fn train_networks(
             attributes: table.names.clone(),
             left_out_rmse: rmse_of_first,
             network: network.id().to_owned(),
-            learned_from: format!(
-                "{} of \"{}\" ({})",
-                counted(textures.len(), "texture"),
-                library.name,
-                table.source_words()
-            ),
-            label_sources: table.sources.iter().map(|source| source.id().to_owned()).collect(),
+            learned_from: table.of_library(&library.name),
+            label_sources: table.source_ids().map(str::to_owned).collect(),
         };
         atomic::write(out, &model.to_bytes(&card)?)?;
     }

@@ -114,6 +114,11 @@ impl Prompts {
         self.added.as_ref()
     }
 
+    /// The diffusion model, where it is to make pictures.
+    fn chosen_diffusion(&self) -> Option<&AddedDiffusion> {
+        self.added().filter(|_| self.by_diffusion)
+    }
+
     /// Begins what was asked for, words in place of what is being made, photos after it; returns what is to be remembered of
     /// it. Axes are those of the space, each by its two ends.
     pub(crate) fn carry_out(
@@ -148,7 +153,7 @@ impl Prompts {
         let kept = (!is_empty).then(|| KeptPrompt {
             prompt: prompt.clone(),
             seed,
-            by_diffusion: self.by_diffusion && self.added.is_some(),
+            by_diffusion: self.chosen_diffusion().is_some(),
         });
         self.begin(Wanted::Words { prompt, seed }, replaces, poles, ctx);
         kept
@@ -170,8 +175,7 @@ impl Prompts {
         poles: &[[String; 2]; 2],
         ctx: &Context,
     ) {
-        let diffusion = self.added.clone().filter(|_| self.by_diffusion);
-        let maker = Maker { models: self.models.clone(), diffusion };
+        let maker = Maker { models: self.models.clone(), diffusion: self.chosen_diffusion().cloned() };
         self.job = Some(Job::begin(wanted, replaces, maker, axis_names(poles), ctx));
     }
 

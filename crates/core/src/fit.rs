@@ -9,7 +9,7 @@ mod surface;
 
 pub use crate::fit::error::FitError;
 pub use crate::fit::pieces::{MODEL_RATES_HZ, highest_order};
-pub use crate::fit::strokes::{Stroking, strokes};
+pub use crate::fit::strokes::{Stroke, strokes};
 
 use crate::recording::Recording;
 use crate::spectrum::median;

@@ -2,6 +2,7 @@
 
 use shagreen_core::attribute_predictor::{Known, quantities};
 use shagreen_core::space::LabelSource;
+use shagreen_core::words::counted;
 
 use crate::library::{Library, TextureEntry};
 
@@ -91,6 +92,17 @@ impl AttributeTable {
             attributes: values.clone(),
         };
         self.textures.iter().zip(&self.values).map(of).collect()
+    }
+
+    /// What there is to learn from, in words: how many textures of the library of this name, and where their values come
+    /// from.
+    pub fn of_library(&self, name: &str) -> String {
+        format!("{} of \"{name}\" ({})", counted(self.textures.len(), "texture"), self.source_words())
+    }
+
+    /// Where the values come from: identifiers as files of libraries have them.
+    pub fn source_ids(&self) -> impl Iterator<Item = &'static str> {
+        self.sources.iter().map(|source| source.id())
     }
 
     /// Where the values come from, in words.

@@ -2,10 +2,11 @@
 
 use candle_core::Device;
 use serde::{Deserialize, Serialize};
+use shagreen_core::fit::Stroke;
 
 use crate::cnn_lstm::{Architecture, CnnLstm};
 use crate::model_file::{self, ModelFileError};
-use crate::stroke_set::{Scale, Segments, Stroke, StrokedTexture};
+use crate::stroke_set::{Scale, Segments, StrokedTexture};
 use crate::training::TrainingError;
 
 /// Kind of its file.

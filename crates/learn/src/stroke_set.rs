@@ -1,17 +1,7 @@
 //! Strokes over textures that people rated, cut into segments for a network.
 
 use candle_core::{Device, Result, Tensor};
-
-/// One stroke, of one speed and force or of changing ones.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stroke {
-    /// Acceleration of each sample, in m/s².
-    pub accel_mps2: Vec<f64>,
-    /// Speed at each sample, in m/s.
-    pub speed_mps: Vec<f64>,
-    /// Force at each sample, in N.
-    pub force_n: Vec<f64>,
-}
+use shagreen_core::fit::Stroke;
 
 /// The strokes over one texture, and what people say of it.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,23 +8,24 @@ use crate::fit::pieces::{check, filtered, nominal, nothing};
 use crate::recording::Recording;
 use crate::units::Hertz;
 
-/// A stretch of a recording in which the tip was on the surface and moved. All columns have one length.
+/// One stroke, of one speed and force or of changing ones; of a recording, a stretch in which the tip was on the surface and
+/// moved. All columns have one length.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stroking {
-    /// Acceleration without gravity and the motion of the hand, in m/s².
-    pub acceleration_mps2: Vec<f64>,
-    /// Speed of the tip, in m/s.
+pub struct Stroke {
+    /// Acceleration of each sample without gravity and the motion of the hand, in m/s².
+    pub accel_mps2: Vec<f64>,
+    /// Speed of the tip at each sample, in m/s.
     pub speed_mps: Vec<f64>,
-    /// Normal force, in N.
+    /// Normal force at each sample, in N.
     pub force_n: Vec<f64>,
 }
 
-/// The stroking of all recordings at this rate: the same stretches that [`fit`](crate::fit::fit) looks at, high-passed as
+/// The strokes of all recordings at this rate: the same stretches that [`fit`](crate::fit::fit) looks at, high-passed as
 /// there, and in one piece where one stretch follows the other.
 ///
 /// # Errors
 /// [`FitError`] for columns that are not what a recording promises, and where there is no stroking.
-pub fn strokes(recordings: &[Recording], rate: Hertz) -> Result<Vec<Stroking>, FitError> {
+pub fn strokes(recordings: &[Recording], rate: Hertz) -> Result<Vec<Stroke>, FitError> {
     for (index, recording) in recordings.iter().enumerate() {
         check(index, recording)?;
     }
@@ -41,8 +42,8 @@ pub fn strokes(recordings: &[Recording], rate: Hertz) -> Result<Vec<Stroking>, F
             let at = |i: usize| ((i - usable.start) as f64 * rate.0 / from.0).round() as usize;
             for stretch in joined.iter().filter(|stretch| usable.contains(&stretch.start)) {
                 let part = at(stretch.start)..at(stretch.end).min(accel.len());
-                strokes.push(Stroking {
-                    acceleration_mps2: accel[part.clone()].to_vec(),
+                strokes.push(Stroke {
+                    accel_mps2: accel[part.clone()].to_vec(),
                     speed_mps: speed[part.clone()].to_vec(),
                     force_n: force[part].to_vec(),
                 });
@@ -98,10 +99,10 @@ mod tests {
             let all = strokes(&[recording(rate_hz, 0.0)], Hertz(1000.0)).unwrap();
             assert_eq!(all.len(), 2, "{rate_hz}");
             for (stroke, speed) in all.iter().zip([0.05, 0.1]) {
-                let n = stroke.acceleration_mps2.len();
+                let n = stroke.accel_mps2.len();
                 assert!((2000..=2600).contains(&n), "{n}");
                 assert_eq!([stroke.speed_mps.len(), stroke.force_n.len()], [n; 2]);
-                let middle = &stroke.acceleration_mps2[500..1500];
+                let middle = &stroke.accel_mps2[500..1500];
                 let rms = (middle.iter().map(|x| x * x).sum::<f64>() / 1000.0).sqrt();
                 assert!((rms - 0.5_f64.sqrt()).abs() < 0.01, "{rms}");
                 // Of a wave of 0.5 mm a second has as many crossings upward as the speed has half millimeters.
@@ -117,7 +118,7 @@ mod tests {
         let [without, with] =
             [0.0, 9.81].map(|gravity| strokes(&[recording(2000.0, gravity)], Hertz(1000.0)).unwrap());
         for (without, with) in without.iter().zip(&with) {
-            let rows = without.acceleration_mps2.iter().zip(&with.acceleration_mps2).skip(200);
+            let rows = without.accel_mps2.iter().zip(&with.accel_mps2).skip(200);
             assert!(rows.into_iter().all(|(a, b)| (a - b).abs() < 0.02));
         }
     }

@@ -2,7 +2,8 @@ use super::{Epoch, Training, TrainingConfig, TrainingError};
 use crate::cnn_lstm::{Architecture, Padding, Streams};
 use crate::model_file::{ModelFileError, sha256_of};
 use crate::stroke_model::{ModelCard, StrokeModel};
-use crate::stroke_set::{Stroke, StrokedTexture};
+use crate::stroke_set::StrokedTexture;
+use shagreen_core::fit::Stroke;
 use shagreen_core::rng::lcg_noise;
 
 const N_SAMPLES: usize = 1200;
