@@ -1,8 +1,9 @@
-//! Blending: what a drag costs, mode by mode, in spaces of 25 and 1,000 textures, up to what the renderer takes.
+//! Benchmark of texture interpolation: cost of one drag step per mode, with 25 and 1,000 textures, up to a renderable
+//! texture.
 #![allow(
     clippy::expect_used,
     clippy::print_stdout,
-    reason = "a benchmark stops at what it did not expect, and prints"
+    reason = "a benchmark panics on errors and prints results"
 )]
 
 #[path = "common/measure.rs"]
@@ -12,12 +13,12 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use measure::bench;
-use shagreen_core::authoring::{Authored, Authoring, Blending, Layers, Models, Outside, Weights};
-use shagreen_core::blend::Mode;
-use shagreen_core::lsf::repair;
-use shagreen_core::plane::Plane;
-use shagreen_core::rng::Random;
+use shagreen_core::dsp::lsf::repair;
+use shagreen_core::maths::rng::Random;
+use shagreen_core::space::authoring::{Authored, Authoring, Blending, Layers, Models, Outside, Weights};
 use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::{GrainNode, TextureModel};
 use shagreen_formats::starter::starter_library;
 
@@ -39,9 +40,9 @@ fn main() {
                 }
             });
         }
-        bench(&format!("re-blend to what the renderer takes, {n} textures, field"), 100.0, "drag", || {
+        bench(&format!("re-blend and prepare for rendering, {n} textures, field"), 100.0, "drag", || {
             for i in 0..100 {
-                let authored = authoring.author(dragged(i), &Blending::default()).expect("a texture");
+                let authored = authoring.author(dragged(i), &Blending::default()).expect("no texture");
                 black_box(Plane::new(model(&authored)).prepare());
             }
         });
@@ -49,18 +50,18 @@ fn main() {
 }
 
 fn model(authored: &Authored) -> &TextureModel {
-    authored.model.as_ref().expect("a texture that was made")
+    authored.model.as_ref().expect("no model")
 }
 
-/// A point on its way through the whole square, corners and all.
+/// A point on a path through the whole square, corners included.
 fn dragged(i: u32) -> SpacePoint {
     let t = f64::from(i) * 1e-2;
     SpacePoint { rough_smooth: 50.0 + 49.0 * (1.9 * t).sin(), hard_soft: 50.0 + 49.0 * (3.0 * t).cos() }
 }
 
-/// The starter library, or changed copies of its textures at random places: no two are alike.
+/// The starter library, followed by modified copies of its textures at random positions, all different.
 fn authoring(n: usize) -> Authoring {
-    let library = starter_library().expect("the starter library");
+    let library = starter_library().expect("no starter library");
     let mut random = Random::new(7);
     let models: Vec<TextureModel> = (0..n)
         .map(|i| {
@@ -72,14 +73,14 @@ fn authoring(n: usize) -> Authoring {
         Some(texture) => texture.at(),
         None => SpacePoint::new(100.0 * random.uniform(), 100.0 * random.uniform()).ok(),
     };
-    let space = Space::new(&(0..n).map(place).collect::<Vec<_>>()).expect("a space");
+    let space = Space::new(&(0..n).map(place).collect::<Vec<_>>()).expect("no space");
     let planes: Vec<Plane> = models.iter().map(Plane::new).collect();
     let layers = models.iter().zip(&planes).map(|(model, plane)| Some(Layers::of(model, plane)));
-    let models = Models::new(&space, &layers.collect::<Vec<_>>()).expect("textures of one rate");
+    let models = Models::new(&space, &layers.collect::<Vec<_>>()).expect("textures differ in rate");
     Authoring::new(space).with_models(Arc::new(models))
 }
 
-/// The same texture with its frequencies bent and its levels changed, alike at all speeds and forces.
+/// A copy with shifted line spectral frequencies and changed levels, by the same amounts at all speeds and forces.
 fn changed(model: &TextureModel, random: &mut Random) -> TextureModel {
     let order = model.nodes()[0].lsf.len();
     let bends: Vec<f64> = (0..order).map(|_| 0.03 * random.normal()).collect();
@@ -90,5 +91,5 @@ fn changed(model: &TextureModel, random: &mut Random) -> TextureModel {
         ..node.clone()
     });
     let friction = model.friction().map(|friction| friction * (0.2 * random.normal()).exp());
-    TextureModel::new(model.rate(), nodes.collect(), friction).expect("a texture").with_tap(model.tap())
+    TextureModel::new(model.rate(), nodes.collect(), friction).expect("no model").with_tap(model.tap())
 }

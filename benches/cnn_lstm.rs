@@ -1,11 +1,13 @@
-//! How fast the network of strokes answers and learns, on one core: one segment of 200 samples, and a step over 32 of them;
-//! one JSON line a measurement, in the form that the peers' scripts print too (`benches/run` puts all into one rotation).
+//! Benchmark of the stroke network on one core: inference of one segment of 200 samples, and a training step on 32
+//! segments.
 //!
-//! `SHAGREEN_BENCH_INPUTS` names a folder with `cnnlstm_batch_32x200x5.f32`, 32 segments of five channels, of which the first
-//! three are taken; without it they are made up. The network is `literal`, as the peers build it. What is timed holds cutting
-//! strokes into segments, which the peers do not do.
-#![allow(clippy::expect_used, reason = "a benchmark stops at what is wrong")]
-#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
+//! Prints one JSON line per measurement, in the format of the peer scripts; `benches/run` runs all in alternation.
+//!
+//! `SHAGREEN_BENCH_INPUTS` names a folder with `cnnlstm_batch_32x200x5.f32`, 32 segments of five channels, of which the
+//! first three are used; otherwise segments are generated. The network is `literal`, as in the peers. The times here
+//! include splitting strokes into segments, which the peers do not do.
+#![allow(clippy::expect_used, reason = "a benchmark panics on errors")]
+#![allow(clippy::print_stdout, reason = "a benchmark prints results")]
 
 #[path = "common/measure.rs"]
 mod measure;
@@ -13,15 +15,15 @@ mod measure;
 use std::hint::black_box;
 
 use measure::bench;
-use shagreen_core::fit::Stroke;
-use shagreen_core::rng::lcg_noise;
+use shagreen_core::maths::rng::lcg_noise;
+use shagreen_core::recording::fit::Stroke;
 use shagreen_learn::cnn_lstm::Architecture;
 use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
 const N_SEGMENTS: usize = 32;
 const N_SAMPLES: usize = 200;
-/// Channels of a sample in the file.
+/// Channels per sample in the file.
 const N_IN_FILE: usize = 5;
 const N_OUTPUTS: usize = 5;
 
@@ -52,15 +54,15 @@ fn main() {
     };
     let textures = [texture(0), texture(1)];
     let references: Vec<&StrokedTexture> = textures.iter().collect();
-    // All segments are one step, and nothing is kept aside.
+    // All segments form one batch, and there is no validation set.
     let config = TrainingConfig::paper(Architecture::literal(N_OUTPUTS), 1_000_000, None, 1);
-    let mut training = Training::new(&references, config).expect("a training");
+    let mut training = Training::new(&references, config).expect("cannot start training");
     bench("CNN-LSTM, training step of 32 segments", N_SEGMENTS as f64, "segment", || {
-        black_box(training.run_epoch(|_| true).expect("a step"));
+        black_box(training.run_epoch(|_| true).expect("training step failed"));
     });
-    let model = training.finish().expect("a network");
+    let model = training.finish().expect("no network");
     let one = [stroke(0..1)];
     bench("CNN-LSTM, inference of one segment", 1.0, "segment", || {
-        black_box(model.predict(&one).expect("attributes"));
+        black_box(model.predict(&one).expect("inference failed"));
     });
 }

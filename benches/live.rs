@@ -1,12 +1,14 @@
-//! How fast textures render and re-blend: one JSON line a measurement, CPU time per call, in the form that the peers'
-//! scripts print too (`benches/run` puts all into one rotation).
+//! Benchmark of rendering and re-blending.
 //!
-//! `SHAGREEN_BENCH_INPUTS` names a folder with `model_ar20.txt` and `traj_60s_1kHz.f32`, the inputs of the peers; without
-//! it a texture of the starter library and a made-up stroke stand in.
+//! Prints one JSON line per measurement with CPU time per call, in the format of the peer scripts; `benches/run` runs
+//! all in alternation.
+//!
+//! `SHAGREEN_BENCH_INPUTS` names a folder with `model_ar20.txt` and `traj_60s_1kHz.f32`, the inputs of the peers;
+//! otherwise a starter library texture and a generated stroke are used.
 #![allow(
     clippy::print_stdout,
     clippy::expect_used,
-    reason = "a benchmark prints its figures and stops at what is wrong"
+    reason = "a benchmark prints results and panics on errors"
 )]
 
 #[path = "common/measure.rs"]
@@ -17,12 +19,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use measure::bench;
-use shagreen_core::ar::power_gain;
-use shagreen_core::authoring::{Authoring, Layers, Models};
-use shagreen_core::blend::Mode;
-use shagreen_core::lsf::ar_from_lsf;
-use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::dsp::ar::power_gain;
+use shagreen_core::dsp::lsf::ar_from_lsf;
+use shagreen_core::space::authoring::{Authoring, Layers, Models};
 use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::{Plane, Prepared};
 use shagreen_core::texture::{GrainNode, TextureModel};
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 use shagreen_device::controls::Input;
@@ -49,7 +51,7 @@ impl Textures for Table {
     }
 }
 
-/// A stroke sampled at 1 kHz.
+/// A stroke trajectory sampled at 1 kHz.
 struct Trajectory(Vec<Contact>);
 
 impl ContactSource for Trajectory {
@@ -70,7 +72,7 @@ fn trajectory(inputs: Option<&Path>) -> Trajectory {
     Trajectory(match inputs {
         None => (0..60_000).map(made_up).collect(),
         Some(folder) => {
-            let bytes = std::fs::read(folder.join("traj_60s_1kHz.f32")).expect("the trajectory of the peers");
+            let bytes = std::fs::read(folder.join("traj_60s_1kHz.f32")).expect("no traj_60s_1kHz.f32");
             let float = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
             let contact = |b: &[u8]| Contact { speed_mps: 1e-3 * float(&b[..4]), force_n: float(&b[4..]) };
             bytes.chunks_exact(8).map(contact).collect()
@@ -78,13 +80,13 @@ fn trajectory(inputs: Option<&Path>) -> Trajectory {
     })
 }
 
-/// The peers' texture of order 20: its measured models; the boundary is ours.
+/// The peers' texture of order 20: their measured models, with our boundary models.
 fn peers_texture(folder: &Path) -> Prepared {
-    let text = std::fs::read_to_string(folder.join("model_ar20.txt")).expect("the model of the peers");
+    let text = std::fs::read_to_string(folder.join("model_ar20.txt")).expect("cannot read model_ar20.txt");
     let numbers =
-        |line: &str| -> Vec<f64> { line.split_whitespace().map(|w| w.parse().expect("a number")).collect() };
+        |line: &str| -> Vec<f64> { line.split_whitespace().map(|w| w.parse().expect("no number")).collect() };
     let mut lines = text.lines();
-    let head = numbers(lines.next().expect("a first line"));
+    let head = numbers(lines.next().expect("model_ar20.txt is empty"));
     let models = lines.skip(head[1] as usize).map(numbers).filter(|m| m[0] > 0.0 && m[1] > 0.0 && m[2] > 0.0);
     let node = |m: Vec<f64>| GrainNode {
         speed: MetersPerSecond::from_mm_per_s(m[0]),
@@ -92,13 +94,13 @@ fn peers_texture(folder: &Path) -> Prepared {
         level_mps2: (m[2] * power_gain(&ar_from_lsf(&m[4..]))).sqrt(),
         lsf: m[4..].to_vec(),
     };
-    Plane::new(&TextureModel::new(Hertz(1000.0), models.map(node).collect(), None).expect("a texture"))
+    Plane::new(&TextureModel::new(Hertz(1000.0), models.map(node).collect(), None).expect("no texture model"))
         .prepare()
 }
 
 fn main() {
     let folder = std::env::var_os("SHAGREEN_BENCH_INPUTS").map(std::path::PathBuf::from);
-    let library = starter_library().expect("the starter library");
+    let library = starter_library().expect("no starter library");
     let planes: Vec<Plane> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
     let first = folder.as_deref().map_or_else(|| planes[0].prepare(), peers_texture);
     let mut strokes = trajectory(folder.as_deref());
@@ -164,17 +166,17 @@ fn main() {
     reblending(&library, &planes);
 }
 
-/// What a device's callback costs: one texture of the field, an equalized actuator with its budget, and the limiter.
+/// Cost of the audio callback: one field texture, an actuator with equalizer and thermal budget, and the limiter.
 fn callback(library: &Library) {
-    let space = Space::new(&library.positions()).expect("the starter space");
+    let space = Space::new(&library.positions()).expect("no starter space");
     let planes: Vec<Plane> = library.textures.iter().map(|t| Plane::new(&t.model)).collect();
     let layers: Vec<Option<Layers<'_>>> =
         library.textures.iter().zip(&planes).map(|(t, plane)| Some(Layers::of(&t.model, plane))).collect();
-    let models = Models::new(&space, &layers).expect("textures of one rate");
+    let models = Models::new(&space, &layers).expect("textures differ in rate");
     let authoring = Authoring::new(space).with_models(Arc::new(models));
     let point = SpacePoint { rough_smooth: 40.0, hard_soft: 60.0 };
-    let authored = authoring.author(point, &Mode::Field.into()).expect("a texture");
-    let texture = Plane::new(&authored.model.expect("a texture of its own")).prepare();
+    let authored = authoring.author(point, &Mode::Field.into()).expect("no texture");
+    let texture = Plane::new(&authored.model.expect("no model")).prepare();
     let (mut handle, mut engine) = engine::new(EngineConfig {
         model_rate_hz: texture.parts().rate_hz,
         device_rate_hz: 48_000.0,
@@ -182,9 +184,9 @@ fn callback(library: &Library) {
         drive: MARK_II,
         channels: ChannelMask::FIRST_TWO,
     })
-    .expect("an engine");
-    let id = handle.load(OwnedTexture::new(texture.parts()).expect("a texture")).expect("a slot");
-    handle.set_mix(Mix::solo(id)).expect("a loaded texture");
+    .expect("no engine");
+    let id = handle.load(OwnedTexture::new(texture.parts()).expect("invalid texture")).expect("no free slot");
+    handle.set_mix(Mix::solo(id)).expect("texture not loaded");
     handle.set_input(Input::Hand(Hand {
         path: HandPath::Line,
         speed_mps: 0.1,
@@ -204,10 +206,10 @@ fn callback(library: &Library) {
             }
         },
     );
-    assert!(handle.status().level_mps2 > 0.0 && handle.status().peak > 0.0, "it was not silence");
+    assert!(handle.status().level_mps2 > 0.0 && handle.status().peak > 0.0, "the output is silent");
 }
 
-/// Haptuator Mark II on 100 g, on an amplifier of 5 V.
+/// Haptuator Mark II on a 100 g load, with a 5 V amplifier.
 const MARK_II: DriveConfig = DriveConfig {
     inverse: Some(Inverse {
         resonance: Resonance { frequency_hz: 65.0, q: 4.086, gain_mps2_per_volt: 2.134 },
@@ -219,9 +221,9 @@ const MARK_II: DriveConfig = DriveConfig {
     budget: Some(Budget { rms: 0.282, time_secs: 10.0 }),
 };
 
-/// What a drag costs on the window's thread.
+/// Cost of a drag step on the window's thread.
 fn reblending(library: &Library, planes: &[Plane]) {
-    let authoring = Authoring::new(Space::new(&library.positions()).expect("the starter space"));
+    let authoring = Authoring::new(Space::new(&library.positions()).expect("no starter space"));
     let n_drags = 10_000;
     bench("re-blend after a drag: parents, weights, mix", f64::from(n_drags), "drag", || {
         for i in 0..n_drags {
@@ -230,7 +232,7 @@ fn reblending(library: &Library, planes: &[Plane]) {
                 rough_smooth: 50.0 + 45.0 * (1.9 * t).sin(),
                 hard_soft: 50.0 + 45.0 * (3.0 * t).cos(),
             };
-            let authored = authoring.author(point, &Mode::Shared.into()).expect("a texture");
+            let authored = authoring.author(point, &Mode::Shared.into()).expect("no texture");
             let mut mix = Mix::silent(Blend::Power);
             for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents) {
                 *parent = Parent { id: *texture as TextureId, weight: *weight as f32 };
@@ -238,11 +240,11 @@ fn reblending(library: &Library, planes: &[Plane]) {
             black_box(mix);
         }
     });
-    // The worst drag: into a triangle of three textures that no output has heard yet.
+    // Worst case: a drag into a triangle of three textures that no output has loaded yet.
     let prepared: Vec<Prepared> = planes.iter().map(Plane::prepare).collect();
     let n_textures = planes.len();
     bench(
-        "re-blend into three unheard textures, prepared ahead as the window does",
+        "re-blend into three new textures, prepared in advance as in the window",
         n_textures as f64 / 3.0,
         "drag",
         || {
@@ -253,19 +255,19 @@ fn reblending(library: &Library, planes: &[Plane]) {
                 drive: DriveConfig::proportional(20.0, 0.9),
                 channels: ChannelMask::FIRST_TWO,
             })
-            .expect("an engine");
+            .expect("no engine");
             for three in prepared.chunks(3) {
                 let mut mix = Mix::solo(0);
                 for (texture, parent) in three.iter().zip(&mut mix.parents) {
                     let id =
-                        handle.load(OwnedTexture::new(texture.parts()).expect("a texture")).expect("a slot");
+                        handle.load(OwnedTexture::new(texture.parts()).expect("no texture")).expect("full");
                     *parent = Parent { id, weight: 1.0 / 3.0 };
                 }
-                handle.set_mix(mix).expect("loaded textures");
+                handle.set_mix(mix).expect("textures not loaded");
             }
         },
     );
-    bench("preparing a texture that was not yet heard", planes.len() as f64, "texture", || {
+    bench("preparing a new texture", planes.len() as f64, "texture", || {
         for plane in planes {
             black_box(plane.prepare());
         }

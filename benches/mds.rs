@@ -1,35 +1,36 @@
-//! How fast items are placed by nonmetric multidimensional scaling: one JSON line a measurement, CPU time per call, in
-//! the form that the peers' scripts print too (`benches/run` puts all into one rotation). The note is the stress that was
-//! reached, without which a time says nothing.
+//! Benchmark of nonmetric multidimensional scaling (MDS).
 //!
-//! `SHAGREEN_BENCH_INPUTS` names a folder with `nmds_25.f32`, the dissimilarities of 25 items, and `nmds_init_25.f32`,
-//! points to start from, and so on; without it they are made up.
+//! Prints one JSON line per measurement with CPU time per call, in the format of the peer scripts; `benches/run` runs
+//! all in alternation. The note states the final stress, so that times are comparable.
+//!
+//! `SHAGREEN_BENCH_INPUTS` names a folder with dissimilarities and start configurations, such as `nmds_25.f32` and
+//! `nmds_init_25.f32` for 25 items; otherwise they are generated.
 #![allow(
     clippy::print_stdout,
     clippy::expect_used,
-    reason = "a benchmark prints its figures and stops at what is wrong"
+    reason = "a benchmark prints results and panics on errors"
 )]
 
 #[path = "common/measure.rs"]
-#[expect(dead_code, reason = "here every figure has its note; elsewhere none has")]
+#[expect(dead_code, reason = "here every result has a note; elsewhere none has")]
 mod measure;
 
 use std::path::Path;
 
 use measure::bench_noted;
-use shagreen_core::dissimilarities::Dissimilarities;
-use shagreen_core::mds::{MdsOptions, nonmetric_from};
-use shagreen_core::rng::lcg_noise;
+use shagreen_core::maths::rng::lcg_noise;
+use shagreen_core::people::dissimilarities::Dissimilarities;
+use shagreen_core::people::mds::{MdsOptions, nonmetric_from};
 
-/// Share of stress that a step may still gain when the descent stops: peers come no lower in the digits of the note.
+/// Relative stress decrease at which the descent stops; the peers reach no lower stress within the digits of the note.
 const TOLERANCE: f64 = 1e-8;
 
 fn floats(path: &Path) -> Vec<f64> {
-    let bytes = std::fs::read(path).expect("an input of the peers");
+    let bytes = std::fs::read(path).expect("cannot read a benchmark input");
     bytes.chunks_exact(4).map(|b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))).collect()
 }
 
-/// Dissimilarities, pair by pair, and points to start from, two coordinates each.
+/// Returns dissimilarities, pair by pair, and a start configuration with two coordinates per item.
 fn inputs(n_items: usize) -> (Vec<f64>, Vec<f64>) {
     if let Some(folder) = std::env::var_os("SHAGREEN_BENCH_INPUTS") {
         let folder = Path::new(&folder);
@@ -54,12 +55,12 @@ fn main() {
     for n_items in [25, 100, 500] {
         let (condensed, start) = inputs(n_items);
         let condensed = condensed.into_iter().map(Some).collect();
-        let dissimilarities = Dissimilarities::from_condensed(n_items, condensed).expect("dissimilarities");
+        let dissimilarities = Dissimilarities::from_condensed(n_items, condensed).expect("bad input");
         let start: Vec<Vec<f64>> = start.chunks_exact(2).map(<[f64]>::to_vec).collect();
         let options = MdsOptions { tolerance: TOLERANCE, ..MdsOptions::usual(1) };
         bench_noted(&format!("nonmetric MDS of {n_items} items, one start"), 1.0, "fit", || {
-            let found = nonmetric_from(&dissimilarities, &start, &options).expect("points");
-            assert!(found.converged, "{n_items} items after {} steps", found.n_steps);
+            let found = nonmetric_from(&dissimilarities, &start, &options).expect("MDS failed");
+            assert!(found.converged, "{n_items} items: not converged after {} steps", found.n_steps);
             format!("stress {:.7}", found.stress)
         });
     }

@@ -1,11 +1,13 @@
-//! How fast cepstral coefficients are taken: one JSON line a measurement, CPU time per call, in the form that the peers'
-//! scripts print too (`benches/run` puts all into one rotation).
+//! Benchmark of mel-frequency cepstral coefficients (MFCC).
 //!
-//! `SHAGREEN_BENCH_INPUTS` names a folder with `mfcc_25x25s_1kHz.f32`, 25 signals of 25 s at 1 kHz; without it signals are
-//! made up. All take 13 coefficients of 26 mel filters from 10 to 500 Hz, from frames of 25 ms under Hamming's window every
-//! 10 ms, by a transform of 256 samples.
-#![allow(clippy::expect_used, reason = "a benchmark stops at what is wrong")]
-#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
+//! Prints one JSON line per measurement with CPU time per call, in the format of the peer scripts; `benches/run` runs
+//! all in alternation.
+//!
+//! `SHAGREEN_BENCH_INPUTS` names a folder with `mfcc_25x25s_1kHz.f32`, 25 signals of 25 s at 1 kHz; otherwise signals
+//! are generated. Settings: 13 coefficients, 26 mel filters from 10 to 500 Hz, Hamming frames of 25 ms every 10 ms, FFT
+//! of 256 samples.
+#![allow(clippy::expect_used, reason = "a benchmark panics on errors")]
+#![allow(clippy::print_stdout, reason = "a benchmark prints results")]
 
 #[path = "common/measure.rs"]
 mod measure;
@@ -13,8 +15,8 @@ mod measure;
 use std::hint::black_box;
 
 use measure::bench;
-use shagreen_core::mfcc::{Logarithm, MfccOptions, MfccPlan, Spectrum, TransformLength, recommended};
-use shagreen_core::rng::lcg_noise;
+use shagreen_core::dsp::mfcc::{Logarithm, MfccOptions, MfccPlan, Spectrum, TransformLength, recommended};
+use shagreen_core::maths::rng::lcg_noise;
 use shagreen_core::units::Hertz;
 
 const N_SIGNALS: usize = 25;
@@ -26,7 +28,7 @@ fn signals() -> Vec<Vec<f64>> {
         None => lcg_noise(N_SIGNALS * N_SAMPLES, 1),
         Some(folder) => {
             let path = std::path::Path::new(&folder).join("mfcc_25x25s_1kHz.f32");
-            let bytes = std::fs::read(path).expect("the signals of the peers");
+            let bytes = std::fs::read(path).expect("cannot read mfcc_25x25s_1kHz.f32");
             let float = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
             bytes.chunks_exact(4).map(float).collect()
         }
@@ -47,15 +49,15 @@ fn options() -> MfccOptions {
 
 fn main() {
     let signals = signals();
-    let plan = MfccPlan::new(&options(), RATE).expect("a plan");
+    let plan = MfccPlan::new(&options(), RATE).expect("no plan");
     bench("MFCC, 25 signals of 25 s at 1 kHz", signals.len() as f64, "signal", || {
         for signal in &signals {
-            black_box(plan.coefficients(signal).expect("coefficients"));
+            black_box(plan.coefficients(signal).expect("MFCC failed"));
         }
     });
-    // The libraries among the peers make their filters anew for every signal.
+    // The peer libraries build their filter bank again for every signal.
     bench("MFCC, 1 signal of 25 s at 1 kHz", 1.0, "signal", || {
-        let plan = MfccPlan::new(&options(), RATE).expect("a plan");
-        black_box(plan.coefficients(&signals[0]).expect("coefficients"));
+        let plan = MfccPlan::new(&options(), RATE).expect("no plan");
+        black_box(plan.coefficients(&signals[0]).expect("MFCC failed"));
     });
 }

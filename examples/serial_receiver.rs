@@ -1,10 +1,10 @@
-//! What a microcontroller does, on a computer: plays what arrives on a serial port, by the computer's clock.
+//! A computer in place of a microcontroller: plays the samples of a serial port at the rate of the computer's clock.
 //!
-//! `cargo run --example serial_receiver -- --pty --wav out.wav` makes a pseudo terminal and says its name; then
-//! `shagreen play --at 30,70 --serial NAME` plays to it. With a port's name instead of `--pty` it plays what arrives there.
-//! Options: `--seconds N` ends it (else it ends when the other side has been there and gone), `--wav FILE` keeps what was
-//! played (else levels are printed).
-#![allow(clippy::print_stdout, reason = "an example shows what it does")]
+//! `cargo run --example serial_receiver -- --pty --wav out.wav` creates a pseudo terminal and prints its name. Then
+//! `shagreen play --at 30,70 --serial NAME` plays to it. Give the name of a serial port instead of `--pty` to play what
+//! arrives there. Options: `--seconds N` sets the duration (default: until the sender disconnects), `--wav FILE` saves
+//! the played samples (default: print levels).
+#![allow(clippy::print_stdout, reason = "an example prints its results")]
 
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,7 @@ use shagreen_device::serial::frame::MAX_WIRE;
 use shagreen_device::serial::receiver::{About, Receiver};
 
 const ABOUT: About = About { name: "Example receiver", ..About::STREAM };
-/// A clock that is further behind than this stood still.
+/// A clock that lags more than this was suspended.
 const SUSPENDED: Duration = Duration::from_millis(100);
 
 type Error = Box<dyn std::error::Error>;
@@ -46,7 +46,7 @@ fn main() -> Result<(), Error> {
         let mut writer = hound::WavWriter::create(&file, spec)?;
         played.samples.iter().try_for_each(|&sample| writer.write_sample(sample))?;
         writer.finalize()?;
-        println!("{file} holds them");
+        println!("saved as {file}");
     }
     Ok(())
 }
@@ -54,25 +54,27 @@ fn main() -> Result<(), Error> {
 #[cfg(unix)]
 fn pseudo_terminal() -> Result<Box<dyn SerialPort>, Error> {
     let (master, slave) = serialport::TTYPort::pair()?;
-    println!("{}", slave.name().ok_or("the pseudo terminal has no name")?);
+    println!("{}", slave.name().ok_or("the pseudo terminal has no name; name a serial port instead")?);
     Ok(Box::new(master))
 }
 
 #[cfg(not(unix))]
 fn pseudo_terminal() -> Result<Box<dyn SerialPort>, Error> {
-    Err("this system has no pseudo terminals; name a serial port".into())
+    Err("this system has no pseudo terminals; give the name of a serial port".into())
 }
 
 fn open(arguments: &[String]) -> Result<Box<dyn SerialPort>, Error> {
     if arguments.iter().any(|a| a == "--pty") {
         return pseudo_terminal();
     }
-    let port =
-        arguments.first().filter(|a| !a.starts_with("--")).ok_or("name a serial port, or say --pty")?;
+    let port = arguments
+        .first()
+        .filter(|a| !a.starts_with("--"))
+        .ok_or("give the name of a serial port, or --pty")?;
     Ok(serialport::new(port, USUAL_BAUD).open()?)
 }
 
-/// What was played.
+/// Played samples and their rate.
 struct Played {
     rate_hz: u16,
     samples: Vec<i16>,
@@ -86,14 +88,14 @@ fn play(
 ) -> Result<Played, Error> {
     let begun = Instant::now();
     let mut played = Played { rate_hz: 4000, samples: Vec::new() };
-    // When the clock of this configuration began, and its ticks since.
+    // Start of the clock for this configuration, and the ticks since.
     let mut clock: Option<(Instant, u64)> = None;
     let (mut wire, mut bytes) = ([0; MAX_WIRE], [0; 1024]);
     loop {
         let n = match port.read(&mut bytes) {
             Ok(n) => n,
             Err(error) if error.kind() == std::io::ErrorKind::TimedOut => 0,
-            // Nobody has the other end open: nobody yet, or nobody any more.
+            // The other end is closed: not yet open, or closed again.
             Err(_) if seconds.is_none() && !played.samples.is_empty() => return Ok(played),
             Err(_) => {
                 std::thread::sleep(Duration::from_millis(1));
@@ -122,7 +124,7 @@ fn play(
         }
         loop {
             let len = receiver.transmit(&mut wire);
-            // What cannot be sent is not sent: the next status says more.
+            // Unsent frames are dropped; the next status frame reports the current state.
             if len == 0 || port.write_all(&wire[..len]).is_err() {
                 break;
             }
@@ -133,7 +135,7 @@ fn play(
     }
 }
 
-/// The level of the last quarter of a second.
+/// Prints the RMS level of the last quarter of a second.
 fn show_level(played: &Played) {
     let n = usize::from(played.rate_hz / 4).max(1);
     let last = &played.samples[played.samples.len().saturating_sub(n)..];

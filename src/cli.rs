@@ -1,7 +1,7 @@
-//! The command line: what a hand can do in the window, without it.
+//! The command line: the functions of the program without its window.
 //!
-//! Results go to standard output, as text or as one JSON object; progress, notes, warnings and errors go to standard
-//! error. Exit status 0 is done, 1 could not, 2 wrong usage.
+//! Results go to standard output, as text or as one JSON object. Progress, notes, warnings and errors go to standard
+//! error. The exit status is 0 for success, 1 for failure and 2 for wrong usage.
 
 mod actuator_acf;
 mod actuator_list;
@@ -10,6 +10,7 @@ mod actuator_source;
 mod backbone_source;
 mod blending;
 mod calibrate;
+mod calibrate_args;
 mod calibrate_doubts;
 mod calibrate_live;
 mod calibrate_recording;
@@ -23,30 +24,26 @@ mod drawn_pictures;
 mod evaluate;
 mod evaluate_codec;
 mod export;
-mod figures_folder;
 mod generate;
-mod guard;
+mod guide;
 mod hid_files;
 mod import;
 mod import_hatt;
 mod import_recording;
-mod in_parallel;
 mod judged;
-mod landings;
 mod latency;
 mod latency_onsets;
+mod library_args;
 mod library_list;
 mod library_make;
 mod library_places;
 mod library_relief;
-mod library_source;
 mod limited;
 mod model_add;
 mod model_fetch;
 mod model_folder;
 mod model_list;
 mod motion;
-mod near_names;
 mod output;
 mod play;
 mod predict_attributes;
@@ -54,8 +51,8 @@ mod profile_source;
 mod project_gallery;
 mod project_new;
 mod project_show;
-mod project_source;
 mod quality;
+mod quantity;
 mod receiver;
 mod recording_answers;
 mod recording_source;
@@ -79,13 +76,15 @@ mod train_attributes;
 mod train_networks;
 mod train_photo;
 mod watch;
-mod window;
+pub(crate) mod window;
 mod words;
 
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::{CommandFactory as _, FromArgMatches as _};
+
+use crate::cli::window::OpenWindow;
 
 /// An authoring tool for haptic textures. Without a command it opens the window.
 #[derive(clap::Parser)]
@@ -99,49 +98,50 @@ struct Cli {
 
 #[derive(clap::Subcommand)]
 enum Command {
-    /// Libraries of textures.
+    /// Lists, simulates and edits texture libraries.
     #[command(subcommand)]
     Library(LibraryCommand),
-    /// Projects: what somebody authored.
+    /// Creates and shows projects, and lists the example projects.
     #[command(subcommand)]
     Project(ProjectCommand),
-    /// Brings models and recordings of other programs into a library.
+    /// Imports texture models and recordings from other programs into a library.
     #[command(subcommand)]
     Import(ImportCommand),
     Render(render::Args),
-    /// One texture: its spectrum, or a path of textures through the space.
+    /// Computes the power spectral density of a texture, or makes a texture that follows a path through the space.
     #[command(subcommand)]
     Texture(TextureCommand),
     Export(export::Args),
-    /// Spaces of textures: made from what people felt, or placed by a table.
+    /// Builds a texture space from sorts and ratings, simulates raters, or places textures from a table.
     #[command(subcommand)]
     Space(SpaceCommand),
-    /// Measures on signals how well authoring works.
+    /// Evaluates interpolation and codec on signals, without participants.
     #[command(subcommand)]
     Evaluate(EvaluateCommand),
     Devices(devices::Args),
     /// Drives an actuator with a texture.
     Play(play::Args),
     Latency(latency::Args),
-    /// Profiles of actuators.
+    /// Lists, shows and exports actuator profiles.
     #[command(subcommand)]
     Actuator(ActuatorCommand),
-    Calibrate(Box<calibrate::Args>),
+    Calibrate(Box<calibrate_args::Args>),
     Quality(quality::Args),
     Generate(generate::Args),
-    /// Signals of textures at 1.75 to 3.15 kbit/s.
+    Guide(guide::Args),
+    /// Encodes and decodes texture signals at 1.75 to 3.15 kbit/s.
     #[command(subcommand)]
     Codec(CodecCommand),
-    /// Spatial spectrograms of profiles: what is in each window, and not where.
+    /// Analyzes spatial spectrograms of profiles: they keep the spectrum of each window, not positions within it.
     #[command(subcommand)]
     Spatial(SpatialCommand),
-    /// What something would feel like, with how unsure that is.
+    /// Predicts attributes of a recording, a photo or a prompt, with standard deviations.
     #[command(subcommand)]
     Predict(PredictCommand),
-    /// Learns to predict, and says how well by leaving each texture out.
+    /// Trains attribute predictors and reports their leave-one-texture-out error.
     #[command(subcommand)]
     Train(TrainCommand),
-    /// Networks of others that this program can use.
+    /// Registers, downloads and lists third-party networks.
     #[command(subcommand)]
     Model(ModelCommand),
 }
@@ -221,13 +221,13 @@ enum EvaluateCommand {
 
 #[derive(clap::Subcommand)]
 enum TextureCommand {
-    /// The power spectral density of a texture's model.
+    /// Computes the power spectral density of a texture's model.
     Psd(texture_psd::Args),
     Path(Box<texture_path::Args>),
 }
 
-/// A command whose options take a number below zero for their value and not for another option, so that what is wrong with
-/// it is told.
+/// Returns the command with options that accept negative numbers as values. A wrong negative value is then reported as
+/// such, not as an unknown option.
 fn with_negative_numbers(command: clap::Command) -> clap::Command {
     command
         .mut_args(|arg| {
@@ -237,8 +237,8 @@ fn with_negative_numbers(command: clap::Command) -> clap::Command {
         .mut_subcommands(with_negative_numbers)
 }
 
-/// Does what the arguments of the program say.
-pub(crate) fn run() -> ExitCode {
+/// Runs the command that the program's arguments specify and returns the exit status.
+pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
     let started = Instant::now();
     let matches = with_negative_numbers(Cli::command()).try_get_matches();
     let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
@@ -246,7 +246,7 @@ pub(crate) fn run() -> ExitCode {
         Err(error) => return output::usage(&error),
     };
     let done = match &cli.command {
-        None => window::run(&cli.window, started),
+        None => window::run(&cli.window, started, open_window),
         Some(Command::Library(LibraryCommand::List(args))) => library_list::run(args),
         Some(Command::Library(LibraryCommand::Make(args))) => library_make::run(args),
         Some(Command::Library(LibraryCommand::Places(args))) => library_places::run(args),
@@ -272,6 +272,7 @@ pub(crate) fn run() -> ExitCode {
         Some(Command::Actuator(ActuatorCommand::Acf(args))) => actuator_acf::run(args),
         Some(Command::Quality(args)) => quality::run(args),
         Some(Command::Generate(args)) => generate::run(args),
+        Some(Command::Guide(args)) => guide::run(args),
         Some(Command::Codec(CodecCommand::Encode(args))) => codec_encode::run(args),
         Some(Command::Codec(CodecCommand::Decode(args))) => codec_decode::run(args),
         Some(Command::Spatial(SpatialCommand::Analyse(args))) => spatial_analyse::run(args),

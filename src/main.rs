@@ -2,11 +2,12 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(
     test,
-    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic on an unexpected result")
 )]
 
 mod cli;
+mod window;
 
 fn main() -> std::process::ExitCode {
-    cli::run()
+    cli::run(window::open)
 }

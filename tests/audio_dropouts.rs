@@ -1,15 +1,15 @@
-//! No dropout of ours: a buffer of 5 ms on a sound server, with a texture swapped every 20 ms, a full ring of touches, and a
-//! thread that is as busy as a window. `SHAGREEN_DROPOUT_SECS` says how long; ten minutes are the measure.
+//! Dropout test: a 5 ms buffer on a sound server, with a texture swapped every 20 ms, a full ring of touches, and a
+//! busy thread like that of a window. `SHAGREEN_DROPOUT_SECS` sets the duration; the standard is ten minutes.
 //!
-//! A machine that is shared stalls everybody now and then. So every processor has a witness that only wakes, before all
-//! others: a gap while none of them was late is ours. The server's own player plays a tone beside it, on a sink of its own
-//! with the same latency, to compare.
+//! A shared machine sometimes stalls every process. Each processor therefore has a witness thread of the highest
+//! priority that only wakes up: a gap without a late witness is caused by this program. For comparison, the server's
+//! own player plays a tone at the same time, on a separate sink with the same latency.
 #![cfg(target_os = "linux")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::print_stdout,
-    reason = "a test may stop and speak"
+    reason = "a test may panic, and prints its results"
 )]
 
 #[path = "support/guard.rs"]
@@ -29,10 +29,10 @@ use std::time::{Duration, Instant};
 
 use guard::{Guard, have};
 use rustix::process::{Pid, Signal, kill_process};
-use shagreen_core::authoring::{Authoring, Layers, Models};
-use shagreen_core::blend::Mode;
-use shagreen_core::plane::Plane;
+use shagreen_core::space::authoring::{Authoring, Layers, Models};
 use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::Plane;
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{ChannelMask, Handle};
 use shagreen_device::hand::{Hand, Path};
@@ -48,24 +48,24 @@ use shagreen_formats::starter::starter_library;
 use sound::{RATE_HZ, Recording, SoundServer};
 use witness::{Stall, Witness};
 
-/// Names the program of its own that plays, and says for how many seconds.
+/// Environment variable that turns a separate test process into the player; its value is the duration in seconds.
 const ROLE: &str = "SHAGREEN_DROPOUT_ROLE";
-/// Says which program is the window.
+/// Environment variable with the path of the program whose window is tested.
 const WINDOW: &str = "SHAGREEN_DROPOUT_WINDOW";
 /// Frames of the buffer: 5 ms.
 const BUFFER: u32 = 240;
 const CEILING: f32 = 0.9;
-/// How often the program is stopped in the control.
+/// Number of times that the control test stops the player.
 const STALLS: usize = 20;
-/// How much later than it should be a processor runs where that is a stall.
+/// Delay of a witness from which it counts as a stall.
 const LATE: Duration = Duration::from_micros(500);
-/// What stalls around a gap must take together to be what caused it: one buffer.
+/// Total delay of the stalls around a gap from which they count as its cause: one buffer.
 const TAKEN_SECS: f64 = 0.005;
-/// What the server holds ahead, and what the way there may be late: so long after a stall a gap may begin.
+/// Longest time from a stall to the start of its gap, in s: audio buffered in the server, and its latency.
 const AFTER_SECS: f64 = 0.06;
-/// How far ahead of its time a sink may render: so long before a stall its gap may be recorded.
+/// Longest time from the start of a gap to its stall, in s: a sink may render ahead.
 const BEFORE_SECS: f64 = 0.03;
-/// Length of a usual gap.
+/// Length of a typical gap, in s.
 const GAP_SECS: f64 = 0.01;
 
 fn seconds() -> f64 {
@@ -100,7 +100,7 @@ fn nothing_of_ours_drops_out() {
     assert_eq!(told["leaked"], 0, "{told}");
 }
 
-/// The same with a program that is stopped now and then while the machine runs: that is found.
+/// Negative control: gaps of a player that is stopped at intervals while the machine runs are detected.
 #[test]
 fn a_stall_of_ours_is_seen() {
     if !have(&["pulseaudio", "pactl", "parec"]) {
@@ -122,12 +122,12 @@ fn a_stall_of_ours_is_seen() {
     });
     let lost = Lost::of(&recorded, &witness.stalls());
     println!("stopped {STALLS} times: {lost}");
-    // Most of them may fall on stalls of the machine, where that has a bad time: one is enough for the gate.
+    // Most stops can coincide with stalls of the machine; one detected gap is sufficient.
     assert!(!lost.unseen.is_empty(), "{lost}");
 }
 
-/// The window itself, for as long as it takes: `SHAGREEN_DROPOUT_WINDOW` is the program. A pointer drags the point round the
-/// space, which makes another texture in every frame.
+/// Tests the window itself, if `SHAGREEN_DROPOUT_WINDOW` is the path of the program. A pointer drags the point around
+/// the space, which creates a new texture in every frame.
 #[test]
 fn the_window_drops_nothing_out() {
     let Ok(program) = std::env::var(WINDOW) else { return };
@@ -145,7 +145,7 @@ fn the_window_drops_nothing_out() {
     lost.assert_seen();
 }
 
-/// Plays in a program of its own while something is done to it, and returns what it said.
+/// Runs the player in a separate process, calls `during` meanwhile, and returns the player's output.
 fn play(server: &SoundServer, secs: f64, during: impl FnOnce(&Child)) -> String {
     let mut player = server
         .command(std::env::current_exe().unwrap().to_str().unwrap())
@@ -161,7 +161,7 @@ fn play(server: &SoundServer, secs: f64, during: impl FnOnce(&Child)) -> String 
     said
 }
 
-/// The server's own player, with a tone on the other sink at the latency that we ask for.
+/// Starts the server's own player, with a tone on the other sink at the latency that the program requests.
 fn control(server: &SoundServer) -> Child {
     let mut player = server
         .command("pacat")
@@ -182,20 +182,20 @@ fn control(server: &SoundServer) -> Child {
         // Never exactly zero.
         let tone = |n: i32| (0.3 + 0.1 * (f64::from(n) / 480.0 * std::f64::consts::TAU).sin()) as f32;
         let block: Vec<u8> = (0..480).flat_map(|n| [tone(n).to_le_bytes(); 2].concat()).collect();
-        // The pipe is full as long as the player has enough; it ends with the player.
+        // Writing blocks while the player has enough data, and fails once it ends.
         while input.write_all(&block).is_ok() {}
     });
     player
 }
 
-/// What a recording lost between its first and its last sound.
+/// Gaps of a recording between its first and its last non-zero sample.
 struct Lost {
     secs: f64,
-    /// Each silence, from and to seconds after the recording began.
+    /// Start and end of each gap, in seconds after the start of the recording.
     gaps: Vec<(f64, f64)>,
-    /// Those in which no processor was seen to stall.
+    /// Gaps during which no processor stalled.
     unseen: Vec<(f64, f64)>,
-    /// Share of the time that a gap anywhere would be put down to the machine.
+    /// Fraction of times at which a gap would be attributed to the machine.
     chance: f64,
 }
 
@@ -203,14 +203,14 @@ impl Lost {
     fn of(recording: &Recording, stalls: &[Stall]) -> Self {
         let sounds = |f: &[f64; 2]| f[0] != 0.0;
         let frames = &recording.frames;
-        let first = frames.iter().position(sounds).expect("something sounds");
-        let last = frames.iter().rposition(sounds).expect("something sounds");
+        let first = frames.iter().position(sounds).expect("the recording is not silent");
+        let last = frames.iter().rposition(sounds).expect("the recording is not silent");
         let at = |frame: usize| frame as f64 / RATE_HZ;
         let gaps: Vec<_> = gaps(&frames[first..=last])
             .into_iter()
             .map(|gap| (at(first + gap.start), at(first + gap.end)))
             .collect();
-        // A gap begins when what was ahead has been played, and ends once the server has asked and got.
+        // A gap starts once the buffered audio has been played, and ends once the server has received more.
         let seen: Vec<_> = stalls
             .iter()
             .map(|stall| {
@@ -236,12 +236,12 @@ impl Lost {
 }
 
 impl Lost {
-    /// Whatever was lost, the machine lost.
+    /// Asserts that every gap has a stall of the machine as its cause.
     fn assert_seen(&self) {
         let first = &self.unseen[..self.unseen.len().min(5)];
         assert!(
             first.is_empty(),
-            "silent while the machine ran, the first from and to seconds: {first:.3?}; {self}"
+            "gaps without a stall of the machine, first start and end times in s: {first:.3?}; {self}"
         );
     }
 }
@@ -251,8 +251,8 @@ impl Display for Lost {
         let length_ms = |gap: &(f64, f64)| 1e3 * (gap.1 - gap.0);
         write!(
             f,
-            "{} gaps in {:.1} s, {:.1} ms in all, the longest {:.1} ms; {} while no stall of the machine was seen, \
-             {:.0} % would be by chance",
+            "{} gaps in {:.1} s, {:.1} ms in total, the longest {:.1} ms; {} without a stall of the machine, \
+             {:.0} % expected by chance",
             self.gaps.len(),
             self.secs,
             self.gaps.iter().map(length_ms).sum::<f64>() + 0.0,
@@ -263,12 +263,13 @@ impl Display for Lost {
     }
 }
 
-/// Seconds from one instant to another, of which either may be the first.
+/// Returns the seconds from one instant to another, negative if the second is earlier.
 fn since(from: Instant, to: Instant) -> f64 {
     to.duration_since(from).as_secs_f64() - from.duration_since(to).as_secs_f64()
 }
 
-/// Stretches of silence to the last bit, longer than a tenth of a millisecond: a texture is noise and never that.
+/// Returns the stretches of exact silence that are longer than 0.1 ms: a texture is noise and never exactly zero for
+/// that long.
 fn gaps(recorded: &[[f64; 2]]) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut n_silent = 0;
@@ -293,7 +294,7 @@ fn gaps_are_found() {
     assert_eq!(gaps(&recorded), vec![100..340]);
 }
 
-/// Does nothing in the test run itself.
+/// The player process; without its environment variable this test does nothing.
 #[test]
 fn the_one_who_plays() {
     let Some(secs) = std::env::var(ROLE).ok().and_then(|secs| secs.parse().ok()) else { return };
@@ -339,8 +340,8 @@ fn the_one_who_plays() {
     );
 }
 
-/// Authors a texture every 20 ms along a circle, lets it sound and the one before go, under an automatic hand, while touches
-/// fill their ring; says how often.
+/// Authors a texture every 20 ms along a circle and replaces the previous one, with an automatic stroke and a full ring
+/// of touches. Returns the number of swaps.
 fn swap_textures(handle: &mut Handle, secs: f64) -> u64 {
     let library = starter_library().unwrap();
     let space = Space::new(&library.positions()).unwrap();

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Peers of benches/arfit.rs: predictors of the same 100 segments.
+"""Peers of benches/arfit.rs: AR models fitted to the same 100 segments.
 
-Usage: arfit.py INPUTS        prints one JSON line a measurement
-       arfit.py --make INPUTS writes made-up segments where none are at hand
+Usage: arfit.py INPUTS        prints one JSON line per measurement
+       arfit.py --make INPUTS writes generated segments
 Input: `arfit_100x2000.f32`, 100 segments of 2,000 samples.
 """
 import sys
@@ -16,7 +16,7 @@ ORDER, SEGMENTS, SAMPLES = 20, 100, 2000
 
 
 def make(folder):
-    """Noise with two resonances that move from segment to segment."""
+    """Noise with two resonances whose frequencies change from segment to segment."""
     from scipy.signal import lfilter
 
     rng = np.random.default_rng(7)

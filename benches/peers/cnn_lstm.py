@@ -1,7 +1,11 @@
-"""The network of strokes in PyTorch and onnxruntime, on one core: cnn_lstm.py [--make] FOLDER.
+"""Peer of benches/cnn_lstm.rs: the CNN-LSTM stroke network in PyTorch and onnxruntime, on one core.
 
-Six convolutions with two poolings and four layers of long short-term memory side by side, normalized together, and two dense
-layers to five attributes: as `literal` of crates/learn. Weights do not matter to the time and are PyTorch's own.
+Usage: cnn_lstm.py INPUTS        prints one JSON line per measurement
+       cnn_lstm.py --make INPUTS writes generated segments
+
+The architecture is `literal` of crates/learn. A stream of six convolutions with two pooling layers and a stream of four
+LSTM layers are concatenated and batch-normalized. Two dense layers lead to five attributes. The weights are PyTorch's
+initial ones, as they do not affect the time.
 """
 import os
 import sys

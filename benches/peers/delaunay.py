@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Peers of benches/delaunay.rs: the same points, triangulated and interpolated by scipy (Qhull).
 
-Usage: delaunay.py INPUTS        prints one JSON line a measurement
-       delaunay.py --make INPUTS writes points where none are at hand
-Inputs: `delaunay_25.f64`, points of the unit square, and for 1,000, 10,000 and 100,000; `delaunay_drag.f64` and
-`delaunay_random.f64`, points to locate. All are rows of two numbers.
+Usage: delaunay.py INPUTS        prints one JSON line per measurement
+       delaunay.py --make INPUTS writes generated points
+Inputs: `delaunay_25.f64`, points of the unit square, likewise for 1,000, 10,000 and 100,000; `delaunay_drag.f64` and
+`delaunay_random.f64`, query points. Each row is two numbers.
 """
 import sys
 from pathlib import Path
@@ -17,7 +17,7 @@ POINTS = (25, 1000, 10_000, 100_000)
 
 
 def make(folder):
-    """Points anywhere in the square, and a curve that fills it, a point every thousandth of a second, once through."""
+    """Uniform random points, and one period of a curve that fills the square, sampled every millisecond."""
     for n in POINTS:
         np.random.default_rng(900 + n).random((n, 2)).astype("<f8").tofile(folder / f"delaunay_{n}.f64")
     t = 1e-3 * np.arange(100_000)
@@ -47,9 +47,9 @@ def main(folder):
         built = Delaunay(sites)
         between = LinearNDInterpolator(built, np.sin(6 * sites[:, 0]) + np.cos(5 * sites[:, 1]))
         for kind, at in (("along a drag", drag), ("at random", anywhere)):
-            case = f"value among {n} points {kind}"
+            case = f"interpolation among {n} points {kind}"
             bench(case, "scipy LinearNDInterpolator", len(at), "value", lambda: between(at), said)
-            bench(case, "scipy find_simplex alone", len(at), "value", lambda: built.find_simplex(at),
+            bench(case, "scipy find_simplex only", len(at), "value", lambda: built.find_simplex(at),
                   lambda found: f"{100 * (found >= 0).mean():.3f} % inside")
 
 

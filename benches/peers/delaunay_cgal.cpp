@@ -1,9 +1,9 @@
 // Peer of benches/delaunay.rs in C++: the same points, triangulated and interpolated by CGAL.
 //
 // Build: c++ -std=c++17 -O3 -DNDEBUG delaunay_cgal.cpp -lgmp -lmpfr
-// Usage: PROGRAM INPUTS   prints one JSON line a measurement
-// Inputs as for delaunay.py. Along a drag each walk begins at the face that the last one found; for points anywhere
-// CGAL has its hierarchy of triangulations.
+// Usage: PROGRAM INPUTS   prints one JSON line per measurement
+// Inputs as for delaunay.py. Along a drag, each point location starts at the face of the previous point. For random
+// points, CGAL uses its triangulation hierarchy.
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_hierarchy_2.h>
@@ -33,7 +33,7 @@ static double seconds(clockid_t clock) {
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-// As in measure.py: `work` says what it came to.
+// As in measure.py; `work` returns the note.
 template <class Work>
 static void bench(const std::string& name, const char* peer, size_t units, const char* unit, Work work) {
     const std::string note = work();
@@ -57,7 +57,7 @@ static void bench(const std::string& name, const char* peer, size_t units, const
 static std::vector<Point> points_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        std::fprintf(stderr, "%s cannot be read\n", path.c_str());
+        std::fprintf(stderr, "cannot read %s; create the inputs with delaunay.py --make\n", path.c_str());
         std::exit(1);
     }
     std::vector<Point> points;
@@ -66,7 +66,7 @@ static std::vector<Point> points_of(const std::string& path) {
     return points;
 }
 
-// The value at a point of a face, by the areas that the point makes with its edges.
+// Returns the value at a point of a face, by barycentric interpolation.
 template <class Face>
 static double value_in(const Face& face, const Point& at) {
     const Point &a = face->vertex(0)->point(), &b = face->vertex(1)->point(), &c = face->vertex(2)->point();
@@ -101,7 +101,7 @@ int main(int n_arguments, char** arguments) {
         std::vector<std::pair<Point, double>> sites;
         for (const Point& at : points_of(folder + name + ".f64"))
             sites.emplace_back(at, std::sin(6 * at.x()) + std::cos(5 * at.y()));
-        const std::string among = std::string("value among ") + name + " points ";
+        const std::string among = std::string("interpolation among ") + name + " points ";
         Flat flat;
         bench(std::string("Delaunay of ") + name + " points", "CGAL", sites.size(), "point", [&] {
             flat.clear();

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Peers of benches/live.rs: the same texture along the same stroke, in scipy and in numba.
 
-Usage: live.py INPUTS        prints one JSON line a measurement
-       live.py --make INPUTS writes a made-up texture and stroke where none are at hand
-Inputs: `model_ar20.txt` (counts; triangles; then speed mm/s, force N, variance, gain and 20 line spectral frequencies a
-line) and `traj_60s_1kHz.f32` (speed mm/s, force N, 1 kHz).
+Usage: live.py INPUTS        prints one JSON line per measurement
+       live.py --make INPUTS writes a generated texture and stroke
+Inputs: `model_ar20.txt` (counts; triangles; then per line speed in mm/s, force in N, variance, gain and 20 line
+spectral frequencies) and `traj_60s_1kHz.f32` (speed in mm/s, force in N, at 1 kHz).
 """
 import sys
 from pathlib import Path
@@ -17,7 +17,7 @@ ORDER, TICK = 20, 5
 
 
 def make(folder):
-    """A texture of order 20 at 5 speeds x 5 forces, and 60 s of strokes."""
+    """A texture of order 20 at 5 speeds x 5 forces, plus zero speed and zero force, and 60 s of strokes."""
     from scipy.spatial import Delaunay
 
     rng = np.random.default_rng(20)

@@ -1,13 +1,13 @@
-# Peer of benches/mds.rs in R: the same items from the same start, by monoMDS of vegan (Kruskal's own method, in Fortran).
+# Peer of benches/mds.rs in R: the same items from the same start, by monoMDS of vegan (Kruskal's method, in Fortran).
 #
-# Usage: Rscript --vanilla mds.R INPUTS        prints one JSON line a measurement
+# Usage: Rscript --vanilla mds.R INPUTS        prints one JSON line per measurement
 # Inputs as for mds.py.
 suppressMessages(library(vegan))
 
 folder <- commandArgs(TRUE)[1]
 floats <- function(name, n) readBin(file.path(folder, name), "numeric", n, size = 4, endian = "little")
 
-# Stress-1 of points, worked out here for every peer.
+# Stress-1 of a configuration, computed the same way for every peer.
 stress <- function(dissimilarities, points) {
   distances <- as.vector(dist(points))[order(dissimilarities)]
   sqrt(sum((distances - isoreg(distances)$yf)^2) / sum(distances^2))
@@ -16,7 +16,7 @@ stress <- function(dissimilarities, points) {
 for (n in c(25, 100, 500)) {
   d <- floats(sprintf("nmds_%d.f32", n), n * (n - 1) / 2)
   start <- matrix(floats(sprintf("nmds_init_%d.f32", n), 2 * n), n, 2, byrow = TRUE)
-  # The pairs of `dist` go down columns below the diagonal, which is along rows above it.
+  # `dist` stores the lower triangle by columns, which equals the upper triangle by rows.
   items <- structure(d, Size = n, class = "dist", Diag = FALSE, Upper = FALSE)
   fit <- function() monoMDS(items, y = start, k = 2, model = "global", maxit = 1000, sfgrmin = 1e-7, sratmax = 0.999999)
   found <- fit()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Peers of benches/mds.rs: the same items from the same start, by SMACOF of scikit-learn.
 
-Usage: mds.py INPUTS        prints one JSON line a measurement
-       mds.py --make INPUTS writes made-up dissimilarities where none are at hand
+Usage: mds.py INPUTS        prints one JSON line per measurement
+       mds.py --make INPUTS writes generated dissimilarities
 Inputs, for 25, 100 and 500 items: `nmds_25.f32`, dissimilarities row by row above the diagonal, and
 `nmds_init_25.f32`, the points of classical scaling in two dimensions.
 """
@@ -18,7 +18,7 @@ ITEMS = (25, 100, 500)
 
 
 def make(folder):
-    """Distances in four dimensions, two of which matter more, bent and with log-normal noise."""
+    """Distances in four dimensions, two of them dominant, with a power transform and log-normal noise."""
     from scipy.spatial.distance import pdist, squareform
 
     for n in ITEMS:
@@ -33,7 +33,7 @@ def make(folder):
 
 
 def stress(dissimilarities, points):
-    """Stress-1 of points, worked out here for every peer."""
+    """Stress-1 of a configuration, computed the same way for every peer."""
     from scipy.spatial.distance import pdist
     from sklearn.isotonic import isotonic_regression
 

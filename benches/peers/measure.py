@@ -1,9 +1,9 @@
-"""Measuring a piece of work, for all peers."""
+"""Timing of peer benchmarks."""
 import json, os, time
 
 
 def bench(case, peer, units, unit, work, note=lambda result: ""):
-    """One JSON line a repetition; `note` says something of what `work` came to, beside the figures."""
+    """Prints one JSON line per repetition; `note` describes the result of `work`."""
     said = note(work())
     start = time.perf_counter()
     work()

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Peers of benches/mfcc.rs: cepstral coefficients of the same 25 signals.
+"""Peers of benches/mfcc.rs: MFCCs of the same 25 signals.
 
-Usage: mfcc.py INPUTS        prints one JSON line a measurement
-       mfcc.py --make INPUTS writes made-up signals where none are at hand
+Usage: mfcc.py INPUTS        prints one JSON line per measurement
+       mfcc.py --make INPUTS writes generated signals
 Input: `mfcc_25x25s_1kHz.f32`, 25 signals of 25 s at 1 kHz.
 
-All: frames of 25 samples under Hamming's window every 10 ms, transform of 256, 26 mel filters from 10 to 500 Hz, 13
-coefficients. Filters and logarithm are each library's own: neither offers another's.
+Settings of all peers: Hamming frames of 25 samples every 10 ms, FFT of 256 samples, 26 mel filters from 10 to 500 Hz,
+13 coefficients. Filters and logarithm are those of each library, as none offers those of another.
 """
 import sys
 from pathlib import Path
@@ -20,7 +20,7 @@ FRAME, HOP, TRANSFORM, FILTERS, COEFFICIENTS = 25, 10, 256, 26, 13
 
 
 def make(folder):
-    """Noise with two resonances that move from signal to signal."""
+    """Noise with two resonances whose frequencies change from signal to signal."""
     from scipy.signal import lfilter
 
     rng = np.random.default_rng(11)
@@ -34,7 +34,7 @@ def make(folder):
 
 
 def filters():
-    """Triangles on HTK's scale, bins by filters."""
+    """Triangular filters on the HTK mel scale, as a bins x filters matrix."""
     def mel(hz):
         return 2595 * np.log10(1 + hz / 700)
 
@@ -61,7 +61,7 @@ def main(folder):
                                            nfilt=FILTERS, nfft=TRANSFORM, lowfreq=10, highfreq=500, preemph=0,
                                            ceplifter=0, appendEnergy=False, winfunc=np.hamming)
 
-    # Single precision, as fast as numpy gets.
+    # Single precision: the fastest numpy variant.
     bank, window = filters().astype("f4"), np.hamming(FRAME).astype("f4")
     cosines = dct(np.eye(FILTERS), axis=0, norm="ortho")[:COEFFICIENTS].T.astype("f4")
     angles = 2 * np.pi * np.outer(np.arange(FRAME), np.arange(TRANSFORM // 2 + 1)) / TRANSFORM
@@ -89,7 +89,7 @@ def main(folder):
     each("librosa.feature.mfcc", by_librosa)
     bench("MFCC, 25 signals of 25 s at 1 kHz", "librosa, all at once", SIGNALS, "signal", lambda: by_librosa(signals))
     each("python_speech_features", by_psf)
-    each("numpy, transform", by_transform)
+    each("numpy, FFT", by_transform)
     each("numpy, matrix product", by_matrix)
 
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Peers of benches/quality.rs: features of pairs of signals, in numpy.
 
-Usage: quality.py INPUTS        prints one JSON line a measurement
-       quality.py --make INPUTS writes made-up pairs where none are at hand
+Usage: quality.py INPUTS        prints one JSON line per measurement
+       quality.py --make INPUTS writes generated pairs
 Input: `quality_32pairs_2240.f32`, 32 pairs of 0.8 s at 2.8 kHz.
 
-Center and power of the spectrum, autocorrelation, skewness, 100 channels of the skin, and the correlation of envelopes.
-"plain" filters each channel in time, as it is published; "lean" takes its energy from the spectrum (Parseval), and keeps
-every transform that is needed twice.
+Features: spectral centroid, power, autocorrelation, skewness, 100 frequency channels of the skin, envelope correlation.
+"plain" filters each channel in the time domain, as published. "lean" computes its energy from the spectrum (Parseval)
+and reuses transforms.
 """
 import sys
 from pathlib import Path
@@ -25,7 +25,7 @@ WINDOW = np.hanning(SAMPLES)
 
 
 def make(folder):
-    """Noise of a resonance, and the same with some noise added."""
+    """Noise with one resonance, and the same signal with added noise."""
     from scipy.signal import lfilter
 
     rng = np.random.default_rng(3)
@@ -38,7 +38,7 @@ def make(folder):
 
 
 def compared(a, b):
-    """Distances of features that are told in this order: center, power, autocorrelation, skewness, channels."""
+    """Feature distances, in this order: centroid, power, autocorrelation, skewness, channels."""
     return np.array([a[0] - b[0], a[1] - b[1], np.abs(a[2] - b[2]).mean(), a[3] - b[3],
                      np.abs(np.log(a[4] / b[4])).mean()])
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Peers of benches/spatial.rs: windowed transforms of one profile, back, and Griffin-Lim.
+"""Peers of benches/spatial.rs: STFT of one profile, its inverse, and Griffin-Lim.
 
-Usage: spatial.py INPUTS        prints one JSON line a measurement
-       spatial.py --make INPUTS writes a made-up profile where none is at hand
+Usage: spatial.py INPUTS        prints one JSON line per measurement
+       spatial.py --make INPUTS writes a generated profile
 Input: `profile_100mm_1um.f32`, 100 mm in steps of 1 micrometer.
 
-Windows of 20 to 0.2 mm, steps of a quarter, periodic Hann. "transforms alone" is one real transform a window without
-windowing, cutting or adding: no peer, but what any of them has to do at least.
+Periodic Hann windows of 20 to 0.2 mm with a hop of a quarter window. "FFT only" is one real FFT per window without
+windowing, framing or overlap-add: not a peer, but a lower bound for all of them.
 """
 import sys
 from pathlib import Path
@@ -21,7 +21,7 @@ REFINED, STEPS = 2_000, 32
 
 
 def make(folder):
-    """Bumps, a weave and noise."""
+    """Two sines (13 mm and 0.4 mm) and noise."""
     rng = np.random.default_rng(5)
     x = np.arange(SAMPLES) * 1e-3
     y = 0.5 + 0.2 * np.sin(2 * np.pi * x / 13) + 0.1 * np.sin(2 * np.pi * x / 0.4) + 0.05 * rng.standard_normal(SAMPLES)
@@ -40,7 +40,7 @@ def main(folder):
 
     single = np.fromfile(folder / "profile_100mm_1um.f32", "<f4")
     double = single.astype("f8")
-    there, back = "spatial spectrogram of 100 mm, 7 windows", "the same turned back"
+    there, back = "spatial spectrogram of 100 mm, 7 windows", "inverse spatial spectrogram of 100 mm, 7 windows"
 
     for profile in (double, single):
         name = f"scipy ShortTimeFFT, {profile.dtype}"
@@ -61,7 +61,7 @@ def main(folder):
         bench(back, name, 1, "profile", turned, note=lambda back: min(decibels(profile, y) for y in back))
 
     for profile in (double, single):
-        name = f"scipy.fft, transforms alone, {profile.dtype}"
+        name = f"scipy.fft, FFT only, {profile.dtype}"
         cuts = [np.ascontiguousarray(np.lib.stride_tricks.sliding_window_view(np.pad(profile, w // 2), w)[:: w // 4])
                 for w in WINDOWS]
         bench(there, name, 1, "profile", lambda: [scipy.fft.rfft(c, axis=1) for c in cuts])
@@ -75,7 +75,7 @@ def main(folder):
                                   random_state=0)
 
     reached = np.abs(librosa.stft(refined(), n_fft=REFINED, hop_length=REFINED // 4))
-    bench("Griffin-Lim, 32 steps, windows of 2 mm", "librosa.griffinlim", 1, "profile", refined,
+    bench("Griffin-Lim, 32 iterations, windows of 2 mm", "librosa.griffinlim", 1, "profile", refined,
           note=lambda _: decibels(magnitudes, reached))
 
 

@@ -1,8 +1,9 @@
-/* The receiver on a computer, to try firmware's logic without a board.
+/* The receiver on a computer, to test firmware logic without a board.
  *
- *   receiver PORT OUT.raw SECONDS   plays what arrives on a serial port by the computer's clock, into 16-bit samples
- *   receiver < STEPS > PLAYED       plays by steps: a byte n, n bytes from the line, a byte of ticks; out come, for each
- *                                   step, the samples of its ticks, then each frame to send after its length, then a 0
+ *   receiver PORT OUT.raw SECONDS   plays a serial port at the rate of the computer's clock, and saves 16-bit samples
+ *   receiver < STEPS > PLAYED       runs steps from stdin: a byte n, n bytes from the line, a byte with the number of
+ *                                   ticks. Output per step: the samples of its ticks, each frame to send preceded by
+ *                                   its length, and a 0
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -62,7 +63,7 @@ static int open_port(const char *name)
     }
     t.c_iflag = t.c_oflag = t.c_lflag = 0;
     t.c_cflag = CS8 | CREAD | CLOCAL;
-    /* The highest rate that every POSIX system has; a pseudo terminal does not care. */
+    /* The highest baud rate that POSIX guarantees; pseudo terminals ignore it. */
     cfsetispeed(&t, B38400);
     cfsetospeed(&t, B38400);
     return tcsetattr(port, TCSANOW, &t) == 0 ? port : -1;
@@ -73,7 +74,7 @@ static int play_port(const char *name, const char *file, double secs)
     int port = open_port(name);
     FILE *out = fopen(file, "wb");
     if (port < 0 || out == NULL) {
-        fprintf(stderr, "receiver: cannot open %s\n", port < 0 ? name : file);
+        fprintf(stderr, "receiver: cannot open %s; check the path and your rights\n", port < 0 ? name : file);
         return 1;
     }
     const double begun = now_secs();
@@ -87,7 +88,7 @@ static int play_port(const char *name, const char *file, double secs)
             shagreen_receive(&receiver, bytes[i]);
         }
         const double now = now_secs();
-        if (now - next > 0.1) { /* the computer slept */
+        if (now - next > 0.1) { /* the computer was suspended */
             next = now;
             shagreen_skip(&receiver);
         }
@@ -100,7 +101,7 @@ static int play_port(const char *name, const char *file, double secs)
         size_t len;
         while ((len = shagreen_transmit(&receiver, wire)) > 0) {
             if (write(port, wire, len) < 0) {
-                break; /* no room: the next status says more */
+                break; /* no room; the next status frame reports the current state */
             }
         }
     }

@@ -1,4 +1,4 @@
-/* See shagreen_serial.h. The same, line by line, as crates/device/src/serial/receiver.rs. */
+/* See shagreen_serial.h. Mirrors crates/device/src/serial/receiver.rs line by line. */
 #include "shagreen_serial.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 enum { HELLO = 0x01, CONFIGURE = 0x02, SAMPLES = 0x03, CONTROL = 0x04, STOP = 0x05, PING = 0x06 };
 enum { HELLO_REPLY = 0x81, STATUS = 0x82, SENSOR = 0x83, FAULT = 0x84 };
 enum { HEADER = 3, CHECKSUM = 2, MAX_NAME = 32, MAX_FAULT = 64 };
-/* What comes next from the queue. */
+/* Next item of the queue. */
 enum { SAMPLE, HOLE, EMPTY };
 
 static uint16_t least(uint32_t a, uint32_t b) { return (uint16_t)(a < b ? a : b); }
@@ -21,14 +21,14 @@ static int16_t get_sample(const uint8_t *bytes)
     return (int16_t)(x < 0x8000 ? (int32_t)x : (int32_t)x - 0x10000);
 }
 
-/* The distance from b to a, where half of all numbers lie behind. */
+/* Returns the signed distance from b to a, modulo 2^16. */
 static int32_t ahead(uint16_t a, uint16_t b)
 {
     uint16_t distance = (uint16_t)(a - b);
     return distance < 0x8000 ? (int32_t)distance : (int32_t)distance - 0x10000;
 }
 
-/* CRC-16/CCITT-FALSE. A table or the chip's own unit is faster. */
+/* CRC-16/CCITT-FALSE. A lookup table or a hardware CRC unit is faster. */
 static uint16_t checksum(const uint8_t *bytes, size_t n)
 {
     uint16_t crc = 0xFFFF;
@@ -41,7 +41,7 @@ static uint16_t checksum(const uint8_t *bytes, size_t n)
     return crc;
 }
 
-/* A frame in the making, before it is stuffed. */
+/* A frame under construction, before byte stuffing (COBS). */
 typedef struct {
     uint8_t bytes[HEADER + SHAGREEN_MAX_PAYLOAD + CHECKSUM];
     size_t len;
@@ -68,7 +68,7 @@ static void begin(plain *p, uint8_t kind, uint16_t seq)
     put16(p, seq);
 }
 
-/* Checksum, stuffing, zero. */
+/* Appends the checksum, applies byte stuffing, and ends the frame with a zero. */
 static size_t finish(plain *p, uint8_t *wire)
 {
     put16(p, checksum(p->bytes, p->len));
@@ -86,7 +86,7 @@ static size_t finish(plain *p, uint8_t *wire)
     return len;
 }
 
-/* Unstuffs in place; the length, or 0 where the bytes are no frame. */
+/* Removes byte stuffing in place; returns the length, or 0 if the bytes are not a valid frame. */
 static size_t unstuff(uint8_t *bytes, size_t len)
 {
     size_t from = 0, to = 0;
@@ -150,7 +150,7 @@ static int take_sample(shagreen_receiver *r, int16_t *sample)
     return r->is_there[place] ? SAMPLE : HOLE;
 }
 
-/* Drops what is queued and fades out. What is on its way carries the number of the old run and will not be played. */
+/* Drops the queue and fades out. Samples in transit carry the number of the old run and are not played. */
 static void end_run(shagreen_receiver *r)
 {
     r->run++;
@@ -241,7 +241,7 @@ static bool take_control(shagreen_receiver *r, uint16_t seq, const uint8_t *p, s
     return true;
 }
 
-/* Does what a message says; whether its payload was what its type should be. */
+/* Executes a message; returns whether its payload is valid for its type. */
 static bool obey(shagreen_receiver *r, uint8_t kind, uint16_t seq, const uint8_t *p, size_t len)
 {
     switch (kind) {
@@ -266,7 +266,7 @@ static bool obey(shagreen_receiver *r, uint8_t kind, uint16_t seq, const uint8_t
         r->ping = seq;
         r->is_status_due = true;
         return true;
-    default: /* of a later version */
+    default: /* message of a later protocol version */
         return true;
     }
 }
@@ -295,7 +295,7 @@ void shagreen_receive(shagreen_receiver *r, uint8_t byte)
     r->frame_len = 0;
     r->is_overlong = false;
     if (len == 0 && !is_overlong) {
-        return; /* zeros between frames are no frames */
+        return; /* repeated zeros between frames are ignored */
     }
     len = is_overlong ? 0 : unstuff(r->frame, len);
     if (len < HEADER + CHECKSUM || len > HEADER + SHAGREEN_MAX_PAYLOAD + CHECKSUM

@@ -1,4 +1,4 @@
-//! `shagreen actuator acf`: a profile for players of `.haptic` clips.
+//! `shagreen actuator acf`: exports an actuator profile for players of `.haptic` clips.
 
 use std::path::PathBuf;
 
@@ -10,25 +10,25 @@ use shagreen_formats::acf::{AcfV1, acf, write_acf};
 use shagreen_formats::atomic;
 
 use crate::cli::actuator_source::{grams, load_actuator, volts};
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::output;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Writes a profile as an actuator configuration (ACF) for players of .haptic clips.
+/// Exports an actuator profile as an actuator configuration (ACF) for players of .haptic clips.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A built-in actuator by its id, or a profile.
+    /// Built-in actuator, by id, or a profile file.
     #[arg(value_name = "ID_OR_FILE")]
     actuator: String,
-    /// Mass of what it is fixed to, in g, without the actuator; without it, the load it was measured on.
+    /// Mass attached to the actuator, in g, without the actuator itself. Default: the load of the measurement.
     #[arg(long, value_name = "G", value_parser = grams)]
     load_g: Option<f64>,
-    /// Voltage at the actuator for a digital full scale of the player.
+    /// Voltage at the actuator when the player outputs digital full scale, in V.
     #[arg(long, value_name = "V", default_value = "1", value_parser = volts)]
     full_scale_volts: f64,
     /// File to write.
     #[arg(short, long, value_name = "OUT.acf")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let actuator = load_actuator(&args.actuator, args.load_g)?;
     if args.out.as_os_str().is_empty() {
-        bail!(output::Usage("--out needs the name of a file".to_owned()));
+        bail!(output::Usage("--out needs a file name".to_owned()));
     }
     refuse_inputs(&[&args.out], &[Some(args.actuator.as_ref())])?;
     refuse_foreign(&args.out, "the configuration", |bytes| serde_json::from_slice::<AcfV1>(bytes).is_ok())?;
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "Wrote {} from {} to {} Hz at a gain of {:.3}\n{out}",
+                "Wrote the configuration of {}: {} to {} Hz, gain {:.3}\n{out}",
                 actuator.name, continuous.frequency_min, continuous.frequency_max, continuous.gain
             )
         },

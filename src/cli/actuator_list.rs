@@ -1,4 +1,4 @@
-//! `shagreen actuator list`: the built-in profiles.
+//! `shagreen actuator list`: lists the built-in profiles.
 
 use serde_json::{Value, json};
 use shagreen_formats::actuator_toml::built_in_actuators;
@@ -6,10 +6,10 @@ use shagreen_formats::actuator_toml::built_in_actuators;
 use crate::cli::actuator_source::actuator_json;
 use crate::cli::output;
 
-/// Lists the profiles that are built into the program.
+/// Lists the built-in actuator profiles.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 r.q(),
                 r.gain_mps2_per_v()
             ),
-            Err(_) => format!("{:20} {}: no response is known, calibrate it", actuator.id, actuator.name),
+            Err(_) => format!("{:20} {}: response unknown; calibrate it", actuator.id, actuator.name),
         };
         actuators.iter().map(line).collect::<Vec<_>>().join("\n")
     });

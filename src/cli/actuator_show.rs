@@ -1,4 +1,4 @@
-//! `shagreen actuator show`: what is known of an actuator, and what follows from it.
+//! `shagreen actuator show`: shows a profile and the quantities derived from it.
 
 use serde_json::json;
 use shagreen_core::actuator::{inverse, inverse_gain_bound};
@@ -7,24 +7,25 @@ use shagreen_core::units::{Hertz, Kilograms};
 use crate::cli::actuator_source::{actuator_json, grams, load_actuator};
 use crate::cli::output;
 
-/// The band of a texture that headroom is told for, in Hz.
+/// Frequency band for which the headroom is computed, in Hz.
 const TEXTURE_HZ: [f64; 2] = [20.0, 400.0];
-/// Share of its rate up to which a filter does what it was made after.
+/// Fraction of the sample rate up to which the digital filter matches its analog prototype.
 const FAITHFUL_SHARE: f64 = 0.1;
 
-/// Shows a profile: its response on a load, what it bears, its headroom and the filter that makes up for it.
+/// Shows an actuator profile: response on a load, electrical limits, headroom, and the inverse filter that flattens the
+/// response.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A built-in actuator by its id, or a profile.
+    /// Built-in actuator, by id, or a profile file.
     #[arg(value_name = "ID_OR_FILE")]
     actuator: String,
-    /// Mass of what it is fixed to, in g, without the actuator; without it, the load it was measured on.
+    /// Mass attached to the actuator, in g, without the actuator itself. Default: the load of the measurement.
     #[arg(long, value_name = "G", value_parser = grams)]
     load_g: Option<f64>,
-    /// Rate of the output that the filter is for, in Hz.
+    /// Sample rate of the inverse filter, in Hz.
     #[arg(long, value_name = "HZ", default_value_t = 48_000, value_parser = clap::value_parser!(u32).range(1..))]
     rate: u32,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -39,7 +40,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let filter = inverse(&response, actuator.lowest, Hertz(rate_hz))?;
             (Some(filter), Some(inverse_gain_bound(&response, actuator.lowest)))
         }
-        Err(_) => (None, None), // Told as such.
+        Err(_) => (None, None), // Reported as unknown.
     };
     let band_hz = [actuator.lowest.0, FAITHFUL_SHARE * rate_hz];
     let mut result = actuator_json(&actuator);
@@ -74,12 +75,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     output::print(args.json, &result, || {
         let mut lines = vec![format!("{} ({})", actuator.name, actuator.id)];
         lines.push(match actuator.response() {
-            Err(_) => "No response is known: calibrate it.".to_owned(),
+            Err(_) => "Response unknown: calibrate the actuator.".to_owned(),
             Ok(response) => {
                 let load = actuator.measured.and_then(|m| m.load);
                 let load = load.map_or("an unknown load".to_owned(), |load| format!("{:.3} g", load.g()));
                 format!(
-                    "On {load}: resonance {:.2} Hz, Q {:.3}, {:.4} (m/s²)/V far above it",
+                    "On {load}: resonance {:.2} Hz, Q {:.3}, gain {:.4} (m/s²)/V far above resonance",
                     response.resonance().0,
                     response.q(),
                     response.gain_mps2_per_v()
@@ -88,17 +89,17 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         });
         if let Some(headroom) = headroom {
             let rated =
-                headroom.rated_mps2.map_or(String::new(), |r| format!("; it bears {r:.2} m/s² rms for ever"));
+                headroom.rated_mps2.map_or(String::new(), |r| format!("; continuous rating {r:.2} m/s² rms"));
             let [low, high] = TEXTURE_HZ;
             lines.push(format!(
-                "A flat texture of {low} to {high} Hz takes {:.3} V rms for 1 m/s² rms{rated}",
+                "A flat spectrum from {low} to {high} Hz needs {:.3} V rms for 1 m/s² rms{rated}",
                 headroom.volts_per_mps2
             ));
         }
         if let Some(gain_bound) = gain_bound {
             let [low, high] = band_hz;
             lines.push(format!(
-                "Equalizer at {rate_hz} Hz: with it flat from {low} Hz, where it is 3 dB down, to {high} Hz; never more than {gain_bound:.3} V for 1 m/s²"
+                "Equalizer at {rate_hz} Hz: flat response from {low} Hz (3 dB down) to {high} Hz; gain at most {gain_bound:.3} V per m/s²"
             ));
         }
         lines.push(actuator.source.clone());

@@ -1,4 +1,4 @@
-//! Actuators that a command line names: built-in profiles, or files.
+//! Actuators named on the command line: built-in profiles or profile files.
 
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -9,19 +9,19 @@ use shagreen_core::actuator::Actuator;
 use shagreen_core::units::Kilograms;
 use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator};
 
-use crate::cli::output;
+use shagreen_studio::file;
 
-/// The profile of a built-in actuator, or in a file, on another load where one is given.
+/// Returns the profile of a built-in actuator or of a file, converted to another load if one is given.
 pub(crate) fn load_actuator(name: &str, load_g: Option<f64>) -> anyhow::Result<Actuator> {
     let built_in = built_in_actuators()?;
     let actuator = if let Some(found) = built_in.iter().find(|actuator| actuator.id == name) {
         found.clone()
     } else if Path::new(name).exists() {
         let path = Path::new(name);
-        read_actuator(&output::read_file(path)?).with_context(|| output::in_file(path))?
+        read_actuator(&file::read_file(path)?).with_context(|| file::in_file(path))?
     } else {
         let ids: Vec<&str> = built_in.iter().map(|actuator| actuator.id.as_str()).collect();
-        bail!("there is no actuator and no file \"{name}\"; the actuators are {}", ids.join(", "));
+        bail!("there is no actuator and no file \"{name}\"; the built-in actuators are {}", ids.join(", "));
     };
     match load_g {
         None => Ok(actuator),
@@ -29,7 +29,7 @@ pub(crate) fn load_actuator(name: &str, load_g: Option<f64>) -> anyhow::Result<A
     }
 }
 
-/// What lists and pages say of an actuator.
+/// Returns the JSON description of an actuator.
 pub(crate) fn actuator_json(actuator: &Actuator) -> Value {
     let response = actuator.response().ok();
     json!({
@@ -47,22 +47,22 @@ pub(crate) fn actuator_json(actuator: &Actuator) -> Value {
     })
 }
 
-/// Loads that can hang on an actuator, in g.
+/// Valid loads of an actuator, in g.
 const LOADS_G: RangeInclusive<f64> = 0.01..=100_000.0;
 
-/// A load in g on the command line.
+/// Parses a load in g.
 pub(crate) fn grams(text: &str) -> Result<f64, String> {
     let (least, most) = (LOADS_G.start(), LOADS_G.end());
-    let load_g = text.parse().ok().filter(|load_g| LOADS_G.contains(load_g)); // Anything else is said below.
+    let load_g = text.parse().ok().filter(|load_g| LOADS_G.contains(load_g)); // Other values are rejected below.
     load_g.ok_or_else(|| format!("needs a mass in g from {least} to {most}"))
 }
 
-/// A voltage in V on the command line.
+/// Parses a voltage in V, above zero.
 pub(crate) fn volts(text: &str) -> Result<f64, String> {
     positive(text, "a voltage in V")
 }
 
-/// A number above zero on the command line.
+/// Parses a finite number above zero; `what` names it in the error.
 pub(crate) fn positive(text: &str, what: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| format!("needs {what} above 0"))

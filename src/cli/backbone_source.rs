@@ -1,4 +1,4 @@
-//! Which network looks at pictures: a file of the user's, the one that was fetched, or none.
+//! The image backbone that extracts features from pictures: a file of the user, the downloaded network, or none.
 
 use std::path::{Path, PathBuf};
 
@@ -6,18 +6,18 @@ use anyhow::Context as _;
 use shagreen_learn::backbone::Backbone;
 
 use crate::cli::model_folder::model_folder;
-use crate::cli::output;
+use shagreen_studio::file;
 
 #[derive(clap::Args)]
 pub(crate) struct BackboneArgs {
-    /// The network that looks at pictures, as safetensors: EfficientNet-Lite0, or ResNet-50 by the names of torchvision;
-    /// "none" looks by statistics alone. Without it the one that `shagreen model fetch` brought, or none.
+    /// Image backbone network, as safetensors: EfficientNet-Lite0, or ResNet-50 with torchvision's tensor names. "none"
+    /// uses texture statistics only. Default: the network that `shagreen model fetch` downloaded, otherwise none.
     #[arg(long, value_name = "FILE")]
     backbone: Option<PathBuf>,
 }
 
 impl BackboneArgs {
-    /// The file that was named.
+    /// Returns the file that was named.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.backbone.as_deref().filter(|path| !is_none(path))
     }
@@ -27,15 +27,15 @@ fn is_none(path: &Path) -> bool {
     path == Path::new("none")
 }
 
-/// The network that the arguments name.
+/// Reads the network that the arguments specify.
 pub(crate) fn read_backbone(args: &BackboneArgs) -> anyhow::Result<Option<Backbone>> {
     match &args.backbone {
         Some(path) if is_none(path) => Ok(None),
         Some(path) => {
-            let backbone = Backbone::from_bytes(&output::read_file(path)?);
-            backbone.map(Some).with_context(|| output::in_file(path))
+            let backbone = Backbone::from_bytes(&file::read_file(path)?);
+            backbone.map(Some).with_context(|| file::in_file(path))
         }
-        // A system without a folder for networks has none.
+        // Without a folder for user files there is no downloaded network.
         None => model_folder().map_or(Ok(None), |folder| folder.backbone()),
     }
 }

@@ -1,40 +1,42 @@
-//! How a point becomes a texture: modes, weights, locks.
+//! Interpolation options: mode, weights, pinned textures.
 
 use anyhow::{Context as _, bail};
-use shagreen_core::authoring::{Blending, Outside, Weights};
-use shagreen_core::blend::Mode;
+use shagreen_core::space::authoring::{Blending, Outside, Weights};
+use shagreen_core::texture::blend::Mode;
 use shagreen_formats::library::Library;
 
-use crate::cli::near_names::unknown_texture;
 use crate::cli::output;
 use crate::cli::words::words;
+use shagreen_studio::near_names::unknown_texture;
 
-/// How a point becomes a texture.
+/// Options of the interpolation.
 #[derive(clap::Args)]
 pub(crate) struct BlendArgs {
-    /// How the textures around a point become one: field is a smooth field over all of them, parametric the mean of those
-    /// around; shared, power and paper mix their signals (one excitation; independent, at the mean of the levels; as
-    /// published).
+    /// Interpolation mode. field: a smooth field over all textures. parametric: the mean parameters of the surrounding
+    /// textures. shared, power and paper mix the signals of the surrounding textures: with one shared excitation; as
+    /// independent signals at the mean level; as published.
     #[arg(long, value_name = "MODE", value_parser = words(Mode::ALL, Mode::id), default_value = Mode::default().id())]
     blend: Mode,
-    /// Take natural-neighbor weights instead of those of the triangle; with --blend parametric.
+    /// Use natural-neighbor weights instead of barycentric weights; with --blend parametric.
     #[arg(long)]
     natural: bool,
-    /// Outside the textures, go on as far as the field supports instead of taking the nearest point among them.
+    /// Extrapolate outside the convex hull of the textures, as far as the field supports, instead of using the nearest
+    /// point of the hull.
     #[arg(long)]
     extrapolate: bool,
-    /// Meet this texture exactly at its own place, where the field would smooth it; may be given several times.
+    /// Pin this texture: the field passes through it at its position instead of smoothing it. Can be given several
+    /// times.
     #[arg(long, value_name = "ID")]
     lock: Vec<String>,
 }
 
 impl BlendArgs {
-    /// What the arguments ask for.
+    /// Returns the interpolation options that the arguments specify.
     pub(crate) fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
         let index = |id: &String| {
             let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
             if library.textures[index].place.is_none() {
-                bail!("\"{id}\" has no place in the space, so there is nothing to lock; place it first");
+                bail!("\"{id}\" has no position in the space and cannot be pinned; place it first");
             }
             Ok(index)
         };
@@ -50,7 +52,7 @@ impl BlendArgs {
     }
 }
 
-/// Of locked textures at one place only the first is met.
+/// Warns of pinned textures that share a position: the field passes only through the first.
 fn warn_of_hidden_locks(library: &Library, locked: &[usize]) {
     for (i, later) in locked.iter().enumerate() {
         let at = library.textures[*later].at();
@@ -59,7 +61,7 @@ fn warn_of_hidden_locks(library: &Library, locked: &[usize]) {
         if let Some(first) = first {
             let [first, later] = [first, later].map(|texture| library.textures[*texture].id.as_str());
             output::warn(&format!(
-                "\"{first}\" and \"{later}\" lie at one place: only \"{first}\" is met there"
+                "\"{first}\" and \"{later}\" have the same position: the field passes only through \"{first}\""
             ));
         }
     }

@@ -1,18 +1,18 @@
-//! What lets one doubt that a recording is that of one whole sweep.
+//! Checks whether a recording contains exactly one complete sweep.
 
 use anyhow::anyhow;
-use shagreen_core::calibration::{CalibrationError, Sweep};
+use shagreen_core::actuator::calibration::{CalibrationError, Sweep};
 
 use crate::cli::calibrate_recording::Recorded;
 
-/// How long an actuator rings at the ends of a sweep, in seconds.
+/// Duration of an actuator's ringing at the ends of a sweep, in s.
 const RINGING_SECS: f64 = 0.5;
-/// Share of the sweep's highest acceleration that counts as loud.
+/// Fraction of the sweep's peak acceleration above which other vibration is reported.
 const AS_LOUD: f64 = 0.5;
-/// Lengths of the sweep in a recording that may hold more than one.
+/// Length of a recording, in sweep durations, above which several sweeps are suspected.
 const SEVERAL_SWEEPS: f64 = 1.8;
 
-/// What is to be said where something else than the sweep, such as another one, is in the recording.
+/// Returns a warning if the recording contains strong vibration besides the sweep, such as a second sweep.
 pub(crate) fn other_sound(recorded: &Recorded, begins_secs: f64, sweep: &Sweep) -> Option<String> {
     let rate_hz = recorded.rate.0;
     let signal = &recorded.acceleration_mps2;
@@ -26,25 +26,25 @@ pub(crate) fn other_sound(recorded: &Recorded, begins_secs: f64, sweep: &Sweep) 
     let ((_, sweep_peak), (at, peak)) = loudest(true).zip(loudest(false))?;
     (peak > AS_LOUD * sweep_peak).then(|| {
         format!(
-            "something else as loud as the sweep is in the recording, at {:.1} s, while the sweep was found from {begins_secs:.1} s on: where there are two sweeps or knocks, cut it to one sweep with the silence around it",
+            "the recording contains other vibration more than half as strong as the sweep, at {:.1} s; the sweep was found from {begins_secs:.1} s on. If it contains two sweeps or knocks, cut it to one sweep with the silence around it",
             at as f64 / rate_hz
         )
     })
 }
 
-/// What is wrong with a recording, and what its length lets one suspect.
+/// Returns a calibration error with the advice that follows from the length of the recording.
 pub(crate) fn advised(error: &CalibrationError, recorded: &Recorded, sweep: &Sweep) -> anyhow::Error {
     let recorded_secs = recorded.acceleration_mps2.len() as f64 / recorded.rate.0;
     let is_unclear = matches!(error, CalibrationError::NoSweep { .. } | CalibrationError::Noisy { .. });
     if is_unclear && recorded_secs > SEVERAL_SWEEPS * sweep.seconds {
         return anyhow!(
-            "{error}; the recording of {recorded_secs:.1} s has room for several sweeps of {} s: cut it to one, with the silence around it",
+            "{error}; the recording of {recorded_secs:.1} s is long enough for several sweeps of {} s: cut it to one, with the silence around it",
             sweep.seconds
         );
     }
     if is_unclear && recorded_secs < sweep.seconds {
         return anyhow!(
-            "{error}; the recording has {recorded_secs:.1} s, less than the sweep of {} s: record from before its beginning to after its end",
+            "{error}; the recording of {recorded_secs:.1} s is shorter than the sweep of {} s: record from before its start to after its end",
             sweep.seconds
         );
     }

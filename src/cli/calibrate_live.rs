@@ -1,8 +1,8 @@
-//! A sweep that is played on an output while a sensor listens.
+//! Plays a sweep on an output and records it with a sensor.
 
 use anyhow::Context as _;
+use shagreen_core::actuator::calibration::Sweep;
 use shagreen_core::actuator::{Actuator, Drive, Limits, limited_drive};
-use shagreen_core::calibration::Sweep;
 use shagreen_core::units::Hertz;
 use shagreen_device::engine::ChannelMask;
 use shagreen_device::measure::{Listener, SILENCE_SECS, measure};
@@ -11,8 +11,8 @@ use crate::cli::calibrate_recording::Recorded;
 use crate::cli::calibrate_sweep::by_option;
 use crate::cli::output::{self, Progress};
 
-/// Plays the sweep on these channels of output `id` and records what the sensor hears. The limits of an actuator that is
-/// known hold.
+/// Plays the sweep on these channels of output `id` and returns the acceleration that the sensor measures. The limits
+/// of a known actuator apply.
 pub(crate) fn record_live(
     (id, channels): (&str, ChannelMask),
     listener: &Listener,
@@ -32,11 +32,11 @@ pub(crate) fn record_live(
     progress.finish();
     let heard = heard.context("cannot calibrate")?;
     if heard.was_limited() {
-        output::warn("the limits of the actuator turned the sweep down: measure with a lower --amplitude");
+        output::warn("the actuator's limits attenuated the sweep: measure with a lower --amplitude");
     }
     if heard.status.underruns > 0 {
         output::warn(&format!(
-            "the output dropped out {} times while it was measured: close other programs and measure again",
+            "the output had {} dropouts during the measurement: close other programs and measure again",
             heard.status.underruns
         ));
     }

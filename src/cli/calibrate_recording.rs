@@ -1,38 +1,39 @@
-//! The acceleration in a recorded file, of one axis on a regular clock.
+//! The acceleration of one axis in a recorded file, on a regular clock.
 
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
+use shagreen_core::maths::statistics::standard_deviation;
 use shagreen_core::recording::{RawClock, RawMotion, RawRecording, RawTrack, Recording, check_clock};
-use shagreen_core::statistics::standard_deviation;
 use shagreen_core::units::Hertz;
 use shagreen_formats::recording::{AccelerationUnit, Ask, Channel, ColumnMap, read_recording};
 
-use crate::cli::output::{self, file_name};
+use crate::cli::output;
 use crate::cli::recording_answers::sidecar;
+use shagreen_studio::file::{self, file_name};
 
-/// What was recorded of a sweep.
+/// Recorded response to a sweep.
 pub(crate) struct Recorded {
-    /// Acceleration in m/s².
+    /// Recorded acceleration, in m/s².
     pub(crate) acceleration_mps2: Vec<f64>,
-    /// Samples a second.
+    /// Sample rate.
     pub(crate) rate: Hertz,
-    /// The axis, from 1.
+    /// Recorded axis, from 1.
     pub(crate) channel: usize,
 }
 
-/// Reads a WAV file or a table. What a WAV sample of 1.0 is, is `sensitivity`, or in its sidecar.
+/// Reads a WAV file or a table. `sensitivity_mps2` or the sidecar states the acceleration of a WAV sample of 1.0.
 pub(crate) fn recorded_file(
     path: &Path,
     sensitivity_mps2: Option<f64>,
     channel: Option<usize>,
     answers: &[(Ask, String)],
 ) -> anyhow::Result<Recorded> {
-    let of_file = || output::in_file(path);
-    let bytes = output::read_file(path)?;
+    let of_file = || file::in_file(path);
+    let bytes = file::read_file(path)?;
     let sidecar = sidecar(path).map_err(anyhow::Error::msg).with_context(of_file)?;
     let mut map = ColumnMap::default();
-    // Nothing is stroked here, and the reader of strokes need not ask.
+    // A sweep is no stroke: these placeholders keep the reader from asking for speed and force.
     let nothing = [(Ask::Speed, "100 mm/s".to_owned()), (Ask::Force, "1 N".to_owned())];
     for (what, answer) in nothing.iter().chain(answers) {
         map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
@@ -41,16 +42,18 @@ pub(crate) fn recorded_file(
     if let Some(sensitivity) = sensitivity_mps2 {
         let is_named_wav = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav"));
         if n_channels.is_none() && !is_named_wav {
-            let table = "a table says its unit, or --set acceleration_unit=g";
+            let table = "for a table, state the unit in its header or with --set acceleration_unit=g";
             bail!(output::Usage(format!("--sensitivity is for WAV files and inputs; {table}")));
         }
         if map.full_scale.is_some_and(|full_scale| full_scale != sensitivity) {
-            bail!(output::Usage("--sensitivity and --set full_scale say two things".to_owned()));
+            bail!(output::Usage(
+                "--sensitivity and --set full_scale contradict each other; give one of them".to_owned()
+            ));
         }
         map.full_scale = Some(sensitivity);
         map.acceleration_unit = Some(AccelerationUnit::MetersPerSecondSquared);
     }
-    // Of more channels than a direction has, the one that is asked for is the only one that is read.
+    // Of more than three channels, only the requested one is read.
     let mut picked = None;
     if map.channels.is_none() {
         map.channels = n_channels.map(|n| vec![Channel::Acceleration; n]).filter(|all| all.len() <= 3);
@@ -65,7 +68,7 @@ pub(crate) fn recorded_file(
     }
     let read = read_recording(&file_name(path), &bytes, sidecar.as_deref(), &map);
     let read = read
-        .map_err(|error| anyhow::anyhow!("{error}; answer by --sensitivity, --channel or --set KEY=VALUE"))
+        .map_err(|error| anyhow::anyhow!("{error}; give --sensitivity, --channel or --set KEY=VALUE"))
         .with_context(of_file)?;
     for question in &read.questions {
         output::warn(&format!("guessed {question}"));
@@ -78,12 +81,15 @@ pub(crate) fn recorded_file(
 }
 
 fn no_channel(channel: usize, n: usize) -> anyhow::Error {
-    let there =
-        if n == 1 { "is 1, so leave --channel out".to_owned() } else { format!("are {n}, choose one") };
-    anyhow::anyhow!("there is no channel {channel} of acceleration; there {there}")
+    let there = if n == 1 {
+        "the recording has one; leave --channel out".to_owned()
+    } else {
+        format!("the recording has {n}; choose one of them")
+    };
+    anyhow::anyhow!("there is no channel {channel} of acceleration: {there}")
 }
 
-/// The channels that a WAV file states, as far as it is one.
+/// Returns the number of channels that a WAV file states; `None` for other files.
 fn wav_channels(bytes: &[u8]) -> Option<usize> {
     let at = bytes.windows(4).take(4096).position(|four| four == b"fmt ")?;
     let count = bytes.get(at + 10..at + 12)?.try_into().ok()?;
@@ -104,7 +110,7 @@ fn one_axis(raw: RawRecording, channel: Option<usize>) -> anyhow::Result<Recorde
             let most = (0..n_axes).max_by(|a, b| moves(a).total_cmp(&moves(b))).unwrap_or(0);
             if n_axes > 1 {
                 output::note(&format!(
-                    "channel {} of {n_axes} moves most and was taken; --channel takes another",
+                    "channel {} of {n_axes} varies most and is used; --channel selects another",
                     most + 1
                 ));
             }
@@ -127,7 +133,8 @@ fn one_axis(raw: RawRecording, channel: Option<usize>) -> anyhow::Result<Recorde
     let (recording, findings) = Recording::from_raw(raw).map_err(|error| anyhow::anyhow!("{error}"))?;
     let rate = recording.rate;
     if odd.is_empty() {
-        // Rows are samples, and what would be left out of a stroke, as a sensor at rest, is the silence here.
+        // Rows are samples. The import of strokes drops stretches with the sensor at rest, which here are the silence
+        // around the sweep.
         return Ok(Recorded { acceleration_mps2: axis, rate, channel });
     }
     for finding in &findings {
@@ -136,7 +143,7 @@ fn one_axis(raw: RawRecording, channel: Option<usize>) -> anyhow::Result<Recorde
     Ok(Recorded { acceleration_mps2: held(recording.acceleration_mps2), rate, channel })
 }
 
-/// A signal whose missing samples are the last one before, or the first one behind, that is there.
+/// Returns a signal with each missing sample replaced by the one before it, or at the start by the first available one.
 fn held(mut signal: Vec<f64>) -> Vec<f64> {
     let mut last = signal.iter().copied().find(|sample| sample.is_finite()).unwrap_or(0.0);
     for sample in &mut signal {

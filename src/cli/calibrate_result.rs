@@ -1,16 +1,16 @@
-//! What came of a calibration: the profile, and what is said of it.
+//! Result of a calibration: the profile and its summary.
 
 use serde_json::json;
+use shagreen_core::actuator::calibration::{Calibration, Fit};
 use shagreen_core::actuator::{Actuator, Drive};
-use shagreen_core::calibration::{Calibration, Fit};
 use shagreen_core::units::Kilograms;
 use shagreen_formats::measured_profile::{HowMeasured, measured_profile};
 
-use crate::cli::calibrate::Args;
+use crate::cli::calibrate_args::Args;
 use crate::cli::calibrate_recording::Recorded;
 use crate::cli::output;
 
-/// The profile of what was measured, on top of one that was known.
+/// Returns the measured profile, with the data of an existing profile if one is given.
 pub(crate) fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit, drive: Drive) -> Actuator {
     let name = args
         .name
@@ -27,7 +27,7 @@ pub(crate) fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit
     measured_profile(base, fit, how)
 }
 
-/// Says what was measured.
+/// Prints the result of a calibration.
 pub(crate) fn print(
     args: &Args,
     recorded: &Recorded,
@@ -67,12 +67,12 @@ pub(crate) fn print(
         }),
         || {
             let mut lines = vec![format!(
-                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, {gain:.4} ± {:.4} (m/s²)/V; the fit is off by {:.2} dB rms",
+                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, gain {gain:.4} ± {:.4} (m/s²)/V; fit error {:.2} dB rms",
                 fit.resonance_error_hz, fit.q_error, fit.gain_error_mps2_per_v, fit.error_db
             )];
             if let Some(worst) = &worst {
                 let (percent, at) = (100.0 * worst.share, worst.frequency.0);
-                lines.push(format!("Harmonics up to {percent:.1} % (at {at:.0} Hz)"));
+                lines.push(format!("Harmonic distortion up to {percent:.1} % (at {at:.0} Hz)"));
             }
             lines.extend(args.out.iter().map(|out| out.display().to_string()));
             lines.extend_from_slice(figures);

@@ -1,41 +1,41 @@
-//! The sweep of a calibration: how it is asked for, and the file to play it from.
+//! The sweep of a calibration: its options and its WAV file.
 
 use std::path::Path;
 
 use anyhow::anyhow;
 use serde_json::json;
-use shagreen_core::calibration::{Sweep, SweepError};
+use shagreen_core::actuator::calibration::{Sweep, SweepError};
 use shagreen_core::units::Hertz;
 use shagreen_formats::wav;
 
-use crate::cli::guard::refuse_foreign;
 use crate::cli::output;
+use shagreen_studio::replace::refuse_foreign;
 
-/// The sweep that is written, or was played.
+/// Sweep to write, or the one that was played.
 #[derive(clap::Args)]
 pub(crate) struct SweepArgs {
-    /// Frequency at which the sweep begins, in Hz.
+    /// Start frequency of the sweep, in Hz.
     #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.low.0)]
     low: f64,
-    /// Frequency at which it ends, in Hz.
+    /// End frequency of the sweep, in Hz.
     #[arg(long, value_name = "HZ", default_value_t = Sweep::USUAL.high.0)]
     high: f64,
-    /// How long it takes, in s.
+    /// Duration of the sweep, in s.
     #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.seconds)]
     seconds: f64,
-    /// Its peak as a share of digital full scale.
+    /// Peak amplitude of the sweep, as a fraction of digital full scale.
     #[arg(long, value_name = "SHARE", default_value_t = Sweep::USUAL.amplitude)]
     amplitude: f64,
-    /// Silence before and behind it, in s.
+    /// Silence before and after the sweep, in s.
     #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.silence_secs)]
     silence: f64,
 }
 
 impl SweepArgs {
-    /// The sweep that is asked for.
+    /// Returns the sweep that the options specify.
     ///
     /// # Errors
-    /// A number of it has no meaning, which is wrong usage.
+    /// A value is out of range, which is wrong usage.
     pub(crate) fn sweep(&self) -> anyhow::Result<Sweep> {
         let sweep = Sweep {
             low: Hertz(self.low),
@@ -49,7 +49,7 @@ impl SweepArgs {
     }
 }
 
-/// What is wrong with a sweep, by the option that says it.
+/// Returns the error message of a sweep, preceded by the option that caused it.
 pub(crate) fn by_option(error: &SweepError) -> String {
     let option = match error {
         SweepError::Number { what: "the beginning in Hz", .. } => "--low",
@@ -62,7 +62,7 @@ pub(crate) fn by_option(error: &SweepError) -> String {
     format!("{option}: {error}")
 }
 
-/// Writes the sweep, to be played by whatever.
+/// Writes the sweep to a WAV file, for any player.
 pub(crate) fn write_sweep(sweep: &Sweep, rate_hz: u32, out: &Path, as_json: bool) -> anyhow::Result<()> {
     refuse_foreign(out, "the sweep", |bytes| bytes.starts_with(b"RIFF"))?;
     let samples = sweep.drive_samples(f64::from(rate_hz)).map_err(|error| anyhow!(by_option(&error)))?;
@@ -81,7 +81,7 @@ pub(crate) fn write_sweep(sweep: &Sweep, rate_hz: u32, out: &Path, as_json: bool
         }),
         || {
             format!(
-                "Wrote a sweep of {} s from {} to {} Hz, {seconds} s with the silence around it, to play at once and record\n{}",
+                "Wrote a sweep of {} s from {} to {} Hz, {seconds} s with silence; play it without a pause and record it\n{}",
                 sweep.seconds,
                 sweep.low.0,
                 sweep.high.0,

@@ -1,33 +1,35 @@
-//! `shagreen codec decode`: a stream becomes a signal.
+//! `shagreen codec decode`: decodes a codec stream to a signal.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::{Context as _, anyhow};
 use serde_json::json;
-use shagreen_core::codec::CODEC_RATE;
-use shagreen_core::spectrum::rms;
+use shagreen_core::dsp::spectrum::rms;
+use shagreen_core::signals::codec::CODEC_RATE;
 use shagreen_core::words::counted;
 use shagreen_formats::codec_stream::read_stream;
 use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::wav::{SidecarV1, sidecar_path, write_wav};
 
-use crate::cli::guard::{is_sidecar, refuse_foreign, refuse_inputs};
 use crate::cli::output;
+use shagreen_studio::file;
+use shagreen_studio::replace::{is_sidecar, refuse_foreign, refuse_inputs};
 
-/// Decodes a stream of `codec encode` to a float WAV in m/s² at 2000 Hz, with a sidecar. How near it is to the signal that was
-/// encoded, `quality` tells.
+/// Decodes a stream of `codec encode` to a float WAV in m/s² at 2000 Hz, with a sidecar. `quality` compares it with the
+/// original signal.
 ///
-/// What is damaged or was lost is filled in, and said; nothing gets louder than the stream says that its signal was.
+/// Damaged and missing frames are concealed and reported. The output never exceeds the peak that the stream states for
+/// the original.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The stream.
+    /// Codec stream to decode.
     #[arg(value_name = "IN.shgc")]
     stream: PathBuf,
-    /// Signal to write; its units go into OUT.json.
+    /// WAV file to write; OUT.json states its units.
     #[arg(short, long, value_name = "OUT.wav")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -36,15 +38,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let beside = sidecar_path(&args.out);
     refuse_inputs(&[&args.out, &beside], &[Some(&args.stream)])?;
     refuse_foreign(&beside, "the sidecar", is_sidecar)?;
-    let bytes = output::read_file(&args.stream)?;
-    let read = read_stream(&bytes).with_context(|| output::in_file(&args.stream))?;
+    let bytes = file::read_file(&args.stream)?;
+    let read = read_stream(&bytes).with_context(|| file::in_file(&args.stream))?;
     for warning in &read.warnings {
-        output::warn(&format!("{}: {warning}", output::file_name(&args.stream)));
+        output::warn(&format!("{}: {warning}", file::file_name(&args.stream)));
     }
     let coded = read.value;
     if coded.n_samples == 0 {
-        return Err(anyhow!("nothing of the signal is there; get the stream anew"))
-            .with_context(|| output::in_file(&args.stream));
+        return Err(anyhow!("the stream contains no samples; get the stream again"))
+            .with_context(|| file::in_file(&args.stream));
     }
     let samples: Vec<f32> =
         coded.decode(&Arc::new(built_in_codebooks()?)).into_iter().map(|x| x as f32).collect();
@@ -71,7 +73,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "{seconds:.2} s of {} at {kbps} kbit/s, {n_lost} of them filled in: {}",
+                "Decoded {seconds:.2} s from {} at {kbps} kbit/s, {n_lost} of them concealed: {}",
                 counted(frames, "frame"),
                 args.out.display()
             )

@@ -1,49 +1,50 @@
-//! `shagreen codec encode`: a signal becomes a stream.
+//! `shagreen codec encode`: encodes a signal to a codec stream.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::Context as _;
 use serde_json::json;
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::codec::{CODEC_RATE, DELAY_SAMPLES};
-use shagreen_core::quality::snr_db;
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::coded::Coded;
+use shagreen_core::signals::codec::{CODEC_RATE, DELAY_SAMPLES};
+use shagreen_core::signals::quality::snr_db;
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::codec_stream::{is_stream, write_stream};
 use shagreen_formats::codec_tables::built_in_codebooks;
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::output;
 use crate::cli::signal_source::SignalArgs;
+use shagreen_studio::file;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Encodes a signal of a texture at 1.75 to 3.15 kbit/s: 16 bits at 2000 Hz are 32.
+/// Encodes a texture signal at 1.75 to 3.15 kbit/s; 16-bit samples at 2000 Hz need 32 kbit/s.
 ///
-/// The signal is a WAV file in m/s²; what lies above 1000 Hz, which nobody feels, is dropped. The codec itself is 35 ms late,
-/// frame by frame; the file has a checksum for every 160 ms.
+/// The signal is a WAV file in m/s². Frequencies above 1000 Hz, which are not perceptible, are removed. The codec has a
+/// delay of 35 ms and works frame by frame; the file has a checksum every 160 ms.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The signal.
+    /// Signal to encode.
     #[arg(value_name = "IN.wav")]
     signal: PathBuf,
     /// Stream to write.
     #[arg(short, long, value_name = "OUT.shgc")]
     out: PathBuf,
-    /// Bits a second, in thousands: 3.15, 2.75, 2.45, 2.15 or 1.75.
+    /// Bit rate in kbit/s: 3.15, 2.75, 2.45, 2.15 or 1.75.
     #[arg(long, value_name = "KBPS", value_parser = kbps, default_value = "3.15")]
     kbps: Bitrate,
     #[command(flatten)]
     signals: SignalArgs,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// Signal to noise in dB below which little is left of a signal.
+/// Signal-to-noise ratio in dB below which a warning is printed.
 const LEAST_SNR_DB: f64 = 2.0;
 
-/// One of the rates by its kbit/s.
+/// Parses one of the bit rates, in kbit/s.
 pub(crate) fn kbps(text: &str) -> Result<Bitrate, String> {
     let found = text
         .trim()
@@ -52,7 +53,7 @@ pub(crate) fn kbps(text: &str) -> Result<Bitrate, String> {
         .and_then(|kbps| Bitrate::ALL.into_iter().find(|rate| (rate.kbps() - kbps).abs() < 1e-9));
     found.ok_or_else(|| {
         let all = Bitrate::ALL.map(|rate| rate.kbps().to_string());
-        format!("the rates are {} kbit/s", all.join(", "))
+        format!("the bit rates are {} kbit/s", all.join(", "))
     })
 }
 
@@ -61,12 +62,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "the stream", is_stream)?;
     let signal = args.signals.load_at(&args.signal, CODEC_RATE)?;
     let books = Arc::new(built_in_codebooks()?);
-    let coded = Coded::encode(&signal, args.kbps, &books).with_context(|| output::in_file(&args.signal))?;
-    let bytes = write_stream(&coded).with_context(|| output::in_file(&args.signal))?;
+    let coded = Coded::encode(&signal, args.kbps, &books).with_context(|| file::in_file(&args.signal))?;
+    let bytes = write_stream(&coded).with_context(|| file::in_file(&args.signal))?;
     let snr = snr_db(&signal, &coded.decode(&books));
     if snr < LEAST_SNR_DB {
         output::warn(
-            "the codec does not follow this signal: it is made for what vibrates all along, and not for single knocks",
+            "the codec represents this signal poorly: it is made for continuous vibration, not for single impacts",
         );
     }
     atomic::write(&args.out, &bytes)?;
@@ -80,7 +81,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "kbps": kbps,
             "frames": frames,
             "bits": bits,
-            // Nothing is left of a signal that is matched.
+            // Infinite for identical signals.
             "snr_db": snr.is_finite().then_some(snr),
             "bytes": bytes.len(),
             "seconds": seconds,
@@ -88,10 +89,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "{seconds:.2} s in {} of {kbps} kbit/s, {bits} bits ({} bytes with head and checksums); signal to noise {}: {}",
+                "Encoded {seconds:.2} s in {} at {kbps} kbit/s, {bits} bits ({} bytes with header and checksums); signal-to-noise ratio {}: {}",
                 counted(frames, "frame"),
                 bytes.len(),
-                if snr.is_finite() { format!("{snr:.1} dB") } else { "without end".to_owned() },
+                if snr.is_finite() { format!("{snr:.1} dB") } else { "infinite".to_owned() },
                 args.out.display()
             )
         },

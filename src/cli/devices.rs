@@ -1,4 +1,4 @@
-//! `shagreen devices`: what there is to hold and to drive.
+//! `shagreen devices`: lists input and output devices, and decodes pen descriptors and reports.
 
 use std::path::PathBuf;
 
@@ -12,28 +12,30 @@ use crate::cli::devices_pens::{decode, list_descriptors};
 use crate::cli::hid_files::{meters, size_mm};
 use crate::cli::output;
 
-/// Lists styluses, outputs, inputs and serial ports, opening none; or tells what descriptors and reports of pens hold.
+/// Lists styluses, audio outputs, audio inputs and serial ports without opening them; or decodes HID descriptors and
+/// reports of pens.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Tell what HID report descriptors declare: raw bytes, the same in hexadecimal, or recordings of hid-recorder or
-    /// usbhid-dump.
+    /// Show what HID report descriptors declare. The files contain raw bytes, the same bytes in hexadecimal, or
+    /// recordings of hid-recorder or usbhid-dump.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["decode", "size_mm", "out"])]
     descriptor: Vec<PathBuf>,
-    /// Decode the reports of a pen (a recording of hid-recorder or usbhid-dump) by a report descriptor, which may be
-    /// left out where the recording holds it.
+    /// Decode the reports of a pen (a recording of hid-recorder or usbhid-dump) with a report descriptor. The
+    /// descriptor can be omitted if the recording contains it.
     ///
-    /// --json prints and --out writes the same samples: those with the pen in range, of several at one time the last. t
-    /// is in seconds from the first sample, x_mm and y_mm in mm to the right of and below the upper left corner of the pen's area.
+    /// --json prints and --out writes the same samples: those with the pen in range, and of samples with the same time
+    /// only the last. t is in seconds from the first sample. x_mm and y_mm are in mm, rightward and downward from the
+    /// upper left corner of the pen's area.
     #[arg(long, value_names = ["DESCRIPTOR", "REPORTS"], num_args = 1..=2)]
     decode: Vec<PathBuf>,
-    /// Width and height of the pen's area in mm, such as 216x135, where the pen declares none or wrong ones.
+    /// Width and height of the pen's area in mm, such as 216x135, if the pen declares none or wrong ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm, requires = "decode", allow_hyphen_values = true)]
     size_mm: Option<[f64; 2]>,
-    /// Write the decoded stroke as a table (.csv) with the columns t_s, x_mm, y_mm, force_n in N (or pressure, 0 to 1,
-    /// where the pen declares no force) and touching, 0 or 1.
+    /// Write the decoded stroke to a table (.csv) with the columns t_s, x_mm, y_mm, force_n in N and touching (0 or 1).
+    /// If the pen declares no force, pressure (0 to 1) replaces force_n.
     #[arg(short, long, value_name = "OUT.csv", requires = "decode")]
     out: Option<PathBuf>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }

@@ -1,4 +1,4 @@
-//! `shagreen devices --descriptor` and `--decode`: what raw HID descriptors declare, and what reports say by them.
+//! `shagreen devices --descriptor` and `--decode`: shows raw HID report descriptors, and decodes pen reports with them.
 
 use std::path::{Path, PathBuf};
 
@@ -12,14 +12,15 @@ use shagreen_formats::atomic;
 use shagreen_formats::stroke::{PenSample, PressUnit};
 use shagreen_formats::stroke_csv::{read_stroke_csv, stroke_csv};
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::hid_files::{DeclaredDevice, PenRecording, read_descriptors, read_pen_recording};
 use crate::cli::output;
+use shagreen_studio::file;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Lists what the files declare. Every file is listed, a broken one with what is wrong with it.
+/// Lists what the files declare. A file that cannot be read is listed with its error.
 ///
 /// # Errors
-/// A file, or one of the descriptors in it, could not be read; all are listed nevertheless.
+/// A file, or a descriptor in it, cannot be read; all files are listed nevertheless.
 pub(crate) fn list_descriptors(files: &[PathBuf], as_json: bool) -> anyhow::Result<()> {
     let mut entries: Vec<Value> = Vec::new();
     for file in files {
@@ -38,14 +39,14 @@ pub(crate) fn list_descriptors(files: &[PathBuf], as_json: bool) -> anyhow::Resu
     });
     match entries.iter().filter(|entry| !entry["error"].is_null()).count() {
         0 => Ok(()),
-        n => bail!("{n} of {} could not be read; what is wrong stands beside each", entries.len()),
+        n => bail!("{n} of {} could not be read; the list states the reason for each", entries.len()),
     }
 }
 
 fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
-    // The file is named beside it.
+    // The file name is a separate field.
     let causes: Vec<String> =
-        error.chain().map(ToString::to_string).filter(|c| *c != output::in_file(file)).collect();
+        error.chain().map(ToString::to_string).filter(|c| *c != file::in_file(file)).collect();
     json!({
         "file": file.display().to_string(), "name": null, "pen": false, "report_id": null, "x": null, "y": null,
         "pressure": null, "tilt": false, "reports": [], "warnings": [], "error": causes.join(": "),
@@ -122,7 +123,7 @@ fn in_words(entry: &Value) -> String {
     format!("{file}: pen, {id}, {size}, {levels}{tilt}")
 }
 
-/// Decodes the reports of a file, by the descriptor of another or by its own. `files` is one or two.
+/// Decodes the reports of a file with the descriptor of another file or its own. `files` has one or two elements.
 pub(crate) fn decode(
     files: &[PathBuf],
     size_m: Option<[f64; 2]>,
@@ -138,23 +139,25 @@ pub(crate) fn decode(
         refuse_inputs(&[out], &[declared.map(PathBuf::as_path), Some(reports)])?;
         refuse_foreign(out, "the stroke", |bytes| read_stroke_csv(bytes).is_ok())?;
     }
-    let declared = declared.map(|file| first_pen(file).map_err(|error| error.context(output::in_file(file))));
-    let bytes = output::read_file(reports);
+    let declared = declared.map(|file| first_pen(file).map_err(|error| error.context(file::in_file(file))));
+    let bytes = file::read_file(reports);
     if let (Some(Err(first)), Err(_)) = (&declared, &bytes) {
-        // Both are told, so that both are mended at once.
-        output::warn(&output::one_line(first));
+        // Both errors are reported, so that the user can correct both at once.
+        output::warn(&file::one_line(first));
     }
     let bytes = bytes?;
     let declared = declared.transpose()?;
     let recording = read_pen_recording(&bytes, declared.as_ref(), size_m)
-        .map_err(|error| error.context(output::in_file(reports)))?;
+        .map_err(|error| error.context(file::in_file(reports)))?;
     let size_m = recording.decoder.best().size_m();
     if size_m.is_none() {
-        output::warn("the pen declares no size, so that there are no mm; state it with --size-mm 216x135");
+        output::warn(
+            "the pen declares no size, so positions in mm are unknown; state the size with --size-mm, such as 216x135",
+        );
     }
     if recording.decoder.best().is_size_doubtful {
         output::warn(
-            "the size that the pen declares is doubtful; state the right one with --size-mm 216x135",
+            "the size that the pen declares is doubtful; state the right one with --size-mm, such as 216x135",
         );
     }
     let Decoded { rows, start_secs, n_ignored, n_out_of_range, n_same_time } = decoded(&recording);
@@ -177,7 +180,7 @@ pub(crate) fn decode(
     output::print(as_json, &result, || {
         let seconds = rows.last().map_or(0.0, |(secs, _)| *secs);
         format!(
-            "{} samples of a pen in {seconds:.3} s, {} of them touching, at up to {:.0} mm/s; left out: {n_out_of_range} out of range, {n_same_time} at the time of the next, {n_ignored} reports of something else",
+            "Decoded {} pen samples in {seconds:.3} s, {} of them in contact, at up to {:.0} mm/s; omitted: {n_out_of_range} out of range, {n_same_time} with the time of the next sample, {n_ignored} other reports",
             rows.len(),
             touching.count(),
             1e3 * speed_max,
@@ -186,24 +189,24 @@ pub(crate) fn decode(
     Ok(())
 }
 
-/// The device of a file that has a pen, else the first: what it is may be known from the recording.
+/// Returns the first device in a file that has a pen, otherwise the first device: the recording may identify it.
 fn first_pen(file: &Path) -> anyhow::Result<DeclaredDevice> {
     let mut devices = read_descriptors(file)?.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
     let index = devices.iter().position(|device| device.pen().is_some()).unwrap_or(0);
     Ok(devices.swap_remove(index))
 }
 
-/// What the pen did, as it is printed and written alike.
+/// Decoded pen samples, as printed and written.
 struct Decoded {
-    /// Each moment in range, with the seconds since the first; of moments at one time the last.
+    /// Samples with the pen in range, with the seconds since the first; of samples with the same time only the last.
     rows: Vec<(f64, PenMoment)>,
-    /// Time of the first in the recording, in seconds; none without a row.
+    /// Time of the first sample in the recording, in seconds; `None` without samples.
     start_secs: Option<f64>,
-    /// Reports of something else.
+    /// Number of reports that are not from the pen.
     n_ignored: usize,
-    /// Moments in which the pen was too far to have a place.
+    /// Number of samples with the pen out of range, which have no position.
     n_out_of_range: usize,
-    /// Moments at the time of the next one.
+    /// Number of samples with the time of the next one.
     n_same_time: usize,
 }
 
@@ -253,7 +256,7 @@ fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
     })
 }
 
-/// Writes the stroke as a table: in newtons where the pen declares them, else as a share of full pressure.
+/// Writes the stroke as a table: force in N if the pen declares it, otherwise pressure as a fraction of full pressure.
 fn write_stroke(rows: &[(f64, PenMoment)], out: &Path) -> anyhow::Result<()> {
     let is_in_newtons = rows.iter().all(|(_, moment)| moment.report.force_n.is_some());
     let sample = |(time_secs, moment): &(f64, PenMoment)| {
@@ -263,17 +266,19 @@ fn write_stroke(rows: &[(f64, PenMoment)], out: &Path) -> anyhow::Result<()> {
         Some(PenSample { time_secs: *time_secs, x_m, y_m, press: press.unwrap_or(0.0), touching })
     };
     if rows.is_empty() {
-        bail!("there is no stroke to write: no report has the pen in range");
+        bail!(
+            "there is no stroke to write: no report has the pen in range; record again with the pen on its surface"
+        );
     }
     let samples: Option<Vec<PenSample>> = rows.iter().map(sample).collect();
     let Some(samples) = samples else {
-        bail!("there is no stroke in mm to write; state the size of the pen's area with --size-mm");
+        bail!("the stroke has no positions in mm; state the size of the pen's area with --size-mm");
     };
     let unit = if is_in_newtons { PressUnit::Newtons } else { PressUnit::FullScale };
     Ok(atomic::write(out, stroke_csv(&samples, unit).as_bytes())?)
 }
 
-/// Rounded to a millionth: finer than any pen.
+/// Rounds to a millionth, which is finer than any pen's resolution.
 fn short(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }

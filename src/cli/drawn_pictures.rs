@@ -1,28 +1,29 @@
-//! Pictures of drawn materials, looked at: as much to learn from as anybody wants.
+//! Training features from pictures of drawn materials: simulated surfaces with random parameters, in any number.
 
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use shagreen_core::drawn_material::draw;
-use shagreen_core::picture_features::N_FEATURES;
-use shagreen_core::shading::Picture;
-use shagreen_core::starter::{LabelSpan, Labels, pictured};
+use shagreen_core::surfaces::drawn_material::draw;
+use shagreen_core::surfaces::picture_features::N_FEATURES;
+use shagreen_core::surfaces::shading::Picture;
+use shagreen_core::surfaces::starter::{LabelSpan, Labels, pictured};
 use shagreen_formats::atomic;
 use shagreen_learn::backbone::Backbone;
 use shagreen_learn::looking::{LookingError, see};
 use shagreen_learn::picture_set::{PictureSet, Seen};
 
-use crate::cli::in_parallel::in_parallel;
-use crate::cli::output::{self, Progress};
+use crate::cli::output::Progress;
+use shagreen_studio::file;
+use shagreen_studio::parallel::in_parallel;
 
-/// Counted up whenever drawn materials, their pictures or what is seen in them change.
+/// Version of the features. Increase it when drawn materials, their pictures or the extracted features change.
 const VERSION: u32 = 1;
 
-/// Pictures after which what was seen is kept.
+/// Number of pictures after which the extracted features are saved.
 const N_AT_ONCE: usize = 40;
 
-/// What was seen in each picture by statistics, and after that by the network where there is one; labels are places on the
-/// axes of `span`, beyond 0..100 where a material lies beyond.
+/// Returns the features of each picture: texture statistics, followed by backbone features if there is a backbone.
+/// Labels are positions on the axes of `span`; they can lie outside 0..100.
 pub(crate) fn drawn_pictures(
     n: usize,
     seed: u64,
@@ -33,21 +34,24 @@ pub(crate) fn drawn_pictures(
     let seen_by = format!("materials of seed {seed}, seen by {N_FEATURES} statistics (version {VERSION})");
     let made_by = backbone.map_or_else(|| seen_by.clone(), |b| format!("{seen_by} and {}", b.sha256()));
     let mut set = PictureSet { made_by, pictures: Vec::new() };
-    // Where a network looked too, what statistics saw is a part of it.
+    // A file with backbone features also contains the statistics.
     let mut kept = kept;
     if let Some(path) = kept.filter(|path| path.exists()) {
-        let before =
-            PictureSet::from_bytes(&output::read_file(path)?).with_context(|| output::in_file(path))?;
+        let before = PictureSet::from_bytes(&file::read_file(path)?).with_context(|| file::in_file(path))?;
         let is_part = backbone.is_none() && before.made_by.starts_with(&seen_by);
         ensure!(
             before.made_by == set.made_by || is_part,
-            "what was kept is of other materials or another network; name another folder by --state: {}",
+            "the saved features are of other materials or another network; choose another folder with --state: {}",
             path.display()
         );
         let n_features = N_FEATURES + backbone.map_or(0, |b| b.kind().n_features());
         let fits = |seen: &Seen| seen.features.len() >= n_features && seen.labels.len() == 2;
-        ensure!(before.pictures.iter().all(fits), "what was kept is damaged; delete it: {}", path.display());
-        // What both of them saw is not replaced by what one of them sees.
+        ensure!(
+            before.pictures.iter().all(fits),
+            "the file of saved features is damaged; delete it: {}",
+            path.display()
+        );
+        // A file with both kinds of features is not replaced by one with statistics only.
         if before.made_by != set.made_by {
             kept = None;
         }
@@ -81,7 +85,7 @@ pub(crate) fn drawn_pictures(
     Ok(set.pictures.iter().take(n).map(on_axes).collect())
 }
 
-/// What statistics see in a picture, and after that what the network does where there is one.
+/// Returns the texture statistics of a picture, followed by backbone features if there is a backbone.
 pub(crate) fn see_all(backbone: Option<&Backbone>, picture: &Picture) -> Result<Vec<f32>, LookingError> {
     let mut features = see(None, picture)?;
     if backbone.is_some() {
@@ -92,10 +96,10 @@ pub(crate) fn see_all(backbone: Option<&Backbone>, picture: &Picture) -> Result<
 
 fn look_at(number: usize, seed: u64, backbone: Option<&Backbone>) -> anyhow::Result<Seen> {
     let (material, _) = draw(seed, number as u64);
-    let (labels, picture) =
-        pictured(&material, seed).with_context(|| format!("{} cannot be pictured", material.name))?;
+    let (labels, picture) = pictured(&material, seed)
+        .with_context(|| format!("no picture of {} can be rendered", material.name))?;
     let features = see_all(backbone, &picture)?;
-    // As they are kept, so that a training is the same again after it was stopped.
+    // Rounded as in the file, so that a resumed training gives the same result.
     let kept = |label: f64| f64::from(label as f32);
     Ok(Seen {
         features,

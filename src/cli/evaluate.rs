@@ -1,59 +1,60 @@
-//! `shagreen evaluate leave-one-out`: how well authoring works, measured on signals.
+//! `shagreen evaluate leave-one-out`: leave-one-out errors of the interpolation, measured on signals.
 
 use std::path::{Path, PathBuf};
 
-use shagreen_core::authoring::Blending;
-use shagreen_core::blend::Mode;
-use shagreen_core::leave_one_out::{
+use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::Blending;
+use shagreen_core::space::leave_one_out::{
     LeaveOneOut, LeaveOneOutError, Method, Plan, SignalPlan, Summary, leave_one_out,
 };
-use shagreen_core::space::SpacePoint;
 use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::blend::Mode;
 use shagreen_core::words::counted;
 use shagreen_formats::evaluation_report::{
     TABLE, best, evaluation_figures, evaluation_report, evaluation_source, figure_name, method_id,
 };
 use shagreen_formats::library::Library;
 
-use crate::cli::figures_folder::{check_figures, figure_files, write_together};
-use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::motion::within;
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Progress};
+use crate::cli::quantity::within;
+use shagreen_studio::figure_files::{check_figures, figure_files, write_together};
+use shagreen_studio::file;
 
-/// Takes each texture out, authors one at its place from the rest, and compares the two on signals.
+/// Leaves out each texture, interpolates one at its position from the others, and compares the two on signals.
 ///
-/// Only textures strictly between others are taken out. Spectra at nine speeds and forces are compared in 40 channels;
-/// a copy of the nearest texture is compared as well, since what is authored should be nearer. No person felt anything:
-/// these are no human ratings.
+/// Only textures strictly inside the convex hull of the others are left out. Spectra at nine combinations of speed and
+/// force are compared in 40 channels. The baseline is a copy of the nearest texture, which an interpolated one should
+/// improve on. No person felt anything: these are no human ratings.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// How textures are authored; all compares the modes.
+    /// Interpolation mode; all compares the modes.
     #[arg(long, value_name = "MODE", value_parser = modes_parser(), default_value = Mode::default().id())]
     blend: Modes,
-    /// Of how many textures the renderer's signals are compared as well; without it all of them.
+    /// Number of textures for which rendered signals are compared too. Default: all.
     #[arg(long, value_name = "N")]
     signals: Option<usize>,
-    /// Length of each signal, in seconds.
+    /// Duration of each signal, in seconds.
     #[arg(long, value_name = "S", value_parser = signal_secs, default_value = "16")]
     seconds: f64,
-    /// Folder for a table of the methods and a map of the errors of each, as SVG and CSV.
+    /// Folder for figures, as SVG and CSV: a table of the methods, and a map of the errors of each.
     #[arg(long, value_name = "FOLDER")]
     figures: Option<PathBuf>,
-    /// Makes the noise of all signals repeat exactly.
+    /// Random seed of the noise; the same seed repeats all signals exactly.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// One mode or all.
+/// One mode or all modes.
 #[derive(Clone, Debug)]
 struct Modes(Vec<Mode>);
 
-/// The word for all modes.
+/// Word for all modes.
 const ALL: &str = "all";
 
 fn modes_parser() -> impl clap::builder::TypedValueParser<Value = Modes> {
@@ -62,7 +63,7 @@ fn modes_parser() -> impl clap::builder::TypedValueParser<Value = Modes> {
         .map(|id| Modes(Mode::from_id(&id).map_or_else(|| Mode::ALL.to_vec(), |mode| vec![mode])))
 }
 
-/// Shortest and longest signal: three of the windows that its spectrum is taken over, and what is still quick.
+/// Shortest and longest signal, in s: three windows of its spectrum, and a limit on computing time.
 const SIGNAL_SECS: std::ops::RangeInclusive<f64> = 4.0..=600.0;
 
 fn signal_secs(text: &str) -> Result<f64, String> {
@@ -76,7 +77,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let names: Vec<String> = methods.map(|m| figure_name(&m)).chain([TABLE.to_owned()]).collect();
         check_figures(folder, &names, &[args.library.path()])?;
     }
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let n_textures = args.signals.unwrap_or(usize::MAX);
     let signals = SignalPlan { n_textures, seconds: args.seconds, seed: args.seed };
     let plan = Plan { blendings, signals: (n_textures > 0).then_some(signals) };
@@ -84,7 +85,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let beyond = measured.textures.iter().filter(|left| !left.is_within_measured).count();
     if beyond > 0 {
         output::warn(&format!(
-            "{} of {} textures were not measured at all speeds and forces of the comparison; the nearest are taken for them",
+            "{} of {} textures were not measured at all speeds and forces of the comparison; the nearest measured ones are used",
             beyond,
             measured.textures.len()
         ));
@@ -117,15 +118,15 @@ fn measure(library: &Library, plan: &Plan) -> Result<LeaveOneOut, LeaveOneOutErr
     measured
 }
 
-/// The error with the texture's id and the file, where one texture or a file is to blame.
+/// Returns the error with the texture's id and the file, if one of them is the cause.
 fn explained(error: LeaveOneOutError, library: &Library, args: &LibraryArgs) -> anyhow::Error {
     let id = error.texture().map(|texture| library.textures[texture].id.clone());
     let mut error = anyhow::Error::from(error);
     if let Some(id) = id {
-        error = error.context(format!("nothing was measured, because of the texture \"{id}\""));
+        error = error.context(format!("the evaluation failed because of the texture \"{id}\""));
     }
     match args.path() {
-        Some(path) => error.context(output::in_file(path)),
+        Some(path) => error.context(file::in_file(path)),
         None => error,
     }
 }
@@ -134,7 +135,7 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     let n = measured.textures.len();
     let mut lines = vec![
         format!(
-            "{}: {} left out one by one, of {} that have a place ({}; the errors are no human rating)",
+            "{}: leave-one-out over {}, of {} with a position ({}; the errors are no human ratings)",
             library.name,
             counted(n, "texture"),
             n + measured.on_hull.len(),
@@ -148,14 +149,14 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     let best = best(measured).map(|summary| &summary.method);
     lines.extend(measured.methods.iter().map(|summary| row(summary, best == Some(&summary.method))));
     lines.push(
-        "* the least error: root mean square difference of channel levels from the original, over 9 contacts and 40 channels"
+        "* smallest error: root mean square difference of channel levels from the original, over 9 contacts and 40 channels"
             .to_owned(),
     );
     let checks = measured.methods.iter().filter_map(|summary| summary.signals);
     if let Some(largest) = checks.clone().map(|c| c.mean_difference_db).max_by(f64::total_cmp) {
         let rendered = checks.map(|check| check.n).max().unwrap_or(0);
         lines.push(format!(
-            "signals: the same error between rendered signals of {}; on average at most {largest:.2} dB from the models'",
+            "signals: the same error between rendered signals of {}; on average within {largest:.2} dB of that between the models",
             counted(rendered, "texture")
         ));
     }

@@ -1,17 +1,17 @@
-//! `shagreen evaluate codec`: how much of textures is lost at each rate of the codec.
+//! `shagreen evaluate codec`: measures the loss of textures at each rate of the codec.
 
 use std::borrow::Borrow;
 use std::sync::Arc;
 
 use anyhow::{Context as _, ensure};
 use serde_json::json;
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::books::Codebooks;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::codec::corpus::{is_held_out, signal};
-use shagreen_core::quality::{PAPER_RATE, QualityMeter, QualityModel, snr_db};
-use shagreen_core::spectrum::rms;
-use shagreen_core::statistics::mean;
+use shagreen_core::dsp::spectrum::rms;
+use shagreen_core::maths::statistics::mean;
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::books::Codebooks;
+use shagreen_core::signals::codec::coded::Coded;
+use shagreen_core::signals::codec::corpus::{is_held_out, signal};
+use shagreen_core::signals::quality::{PAPER_RATE, QualityMeter, QualityModel, snr_db};
 use shagreen_core::units::Contact;
 use shagreen_core::words::counted;
 use shagreen_formats::codec_tables::built_in_codebooks;
@@ -19,47 +19,47 @@ use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
 
-use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::motion::{positive, within};
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Progress};
+use crate::cli::quantity::{positive, within};
 
-/// Takes every texture of a library through the codec at its five rates, and measures what is lost: signal to noise, and the
-/// d' that a model predicts.
+/// Encodes every texture of a library at the codec's five rates and measures the loss: signal-to-noise ratio, and d' as
+/// a model predicts it.
 ///
-/// Of the starter library the tables of the codec were learnt on two thirds of the textures; the others are told apart. No
-/// person felt anything: these are no human ratings.
+/// The codec's codebooks were trained on two thirds of the starter library's textures; the others are marked as held
+/// out. No person felt the signals: these are no human ratings.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// Speed of the tip, in mm/s.
+    /// Tip speed, in mm/s.
     #[arg(long, value_name = "V", value_parser = positive, default_value = "100")]
     speed: f64,
-    /// Normal force of the tip, in N.
+    /// Normal force, in N.
     #[arg(long, value_name = "F", value_parser = positive, default_value = "1")]
     force: f64,
-    /// Length of each signal, in seconds: 0.8 or more.
+    /// Duration of each signal, in seconds: 0.8 or more.
     #[arg(long, value_name = "S", value_parser = seconds, default_value = "4")]
     seconds: f64,
-    /// Makes the noise of all signals repeat exactly.
+    /// Random seed of the noise; the same seed repeats all signals exactly.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// Shortest and longest signal: a piece that is compared, and what is still quick.
+/// Shortest and longest signal, in s: one compared segment, and a limit on computing time.
 const SIGNAL_SECS: std::ops::RangeInclusive<f64> = 0.8..=60.0;
 
 fn seconds(text: &str) -> Result<f64, String> {
     within(text, &SIGNAL_SECS, "seconds")
 }
 
-/// What became of a texture at each rate, in the order of [`Bitrate::ALL`].
+/// Results of a texture at each rate, in the order of [`Bitrate::ALL`].
 struct Row<'a> {
     texture: &'a TextureEntry,
-    /// `None` in a library that the codec knows nothing of.
+    /// `None` for libraries other than the starter library.
     is_held_out: Option<bool>,
     snr_db: [f64; 5],
     d_prime: [f64; 5],
@@ -72,7 +72,7 @@ struct Bench {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let bench = Bench {
         books: Arc::new(built_in_codebooks()?),
         meter: QualityMeter::new(PAPER_RATE, &ThresholdKind::default().read()?)?,
@@ -129,7 +129,7 @@ impl Bench {
         let contact = Contact::from_mm_per_s_and_n(args.speed, args.force);
         let seed = args.seed.wrapping_mul(1000).wrapping_add(index as u64);
         let felt = signal(&texture.model, contact, args.seconds, seed)?;
-        ensure!(rms(&felt) > 0.0, "it is silent at this speed and force; give others");
+        ensure!(rms(&felt) > 0.0, "it is silent at this speed and force; choose other values");
         let mut row = Row { texture, is_held_out, snr_db: [0.0; 5], d_prime: [0.0; 5] };
         for (i, rate) in Bitrate::ALL.into_iter().enumerate() {
             let decoded = Coded::encode(&felt, rate, &self.books)?.decode(&self.books);
@@ -140,7 +140,7 @@ impl Bench {
     }
 }
 
-/// The mean at each rate.
+/// Returns the mean at each rate.
 fn means<'a, R: Borrow<Row<'a>>>(rows: &[R], of: impl Fn(&Row<'a>) -> [f64; 5]) -> [f64; 5] {
     std::array::from_fn(|i| mean(&rows.iter().map(|row| of(row.borrow())[i]).collect::<Vec<f64>>()))
 }
@@ -153,7 +153,7 @@ fn table(library: &Library, rows: &[Row<'_>]) -> String {
     let rates = five(&Bitrate::ALL.map(Bitrate::kbps));
     let mut lines = vec![
         format!(
-            "{}: {} through the codec, measured on signals (signal to noise in dB, then predicted d'; no human rating)",
+            "{}: {} encoded and decoded, measured on signals (signal-to-noise ratio in dB, then predicted d'; no human ratings)",
             library.name,
             counted(rows.len(), "texture")
         ),
@@ -168,7 +168,7 @@ fn table(library: &Library, rows: &[Row<'_>]) -> String {
     let marked: Vec<&Row<'_>> = rows.iter().filter(is_marked).collect();
     if !marked.is_empty() {
         lines.push(line("mean of *", &means(&marked, |row| row.snr_db), &means(&marked, |row| row.d_prime)));
-        lines.push("* the tables of the codec were not learnt on these".to_owned());
+        lines.push("* held out: the codec's codebooks were not trained on these".to_owned());
     }
     lines.join("\n")
 }

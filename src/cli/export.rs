@@ -1,66 +1,62 @@
-//! `shagreen export`: a texture for other programs.
+//! `shagreen export`: exports a texture for other programs.
 
 use std::path::PathBuf;
 
 use anyhow::bail;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use serde_json::json;
-use shagreen_formats::atomic;
-use shagreen_formats::hatt::{lost_in_hatt, write_hatt};
-use shagreen_formats::library::Provenance;
+use shagreen_studio::export::{self, ExportFormat, ExportOutcome};
+use shagreen_studio::near_names::unknown_texture;
+use shagreen_studio::replace::refuse_inputs;
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::near_names::unknown_texture;
-use crate::cli::output;
+use crate::cli::library_args::LibraryArgs;
+use crate::cli::output::{self, Printed};
 
-/// Writes a texture in the format of another program, and says what that format cannot hold.
+/// Exports a texture in the format of another program, and reports what that format cannot store.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Texture of the library, by its id.
+    /// Texture of the library, by id.
     #[arg(long, value_name = "ID")]
     texture: String,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Format: hatt is the XML of the Penn Haptic Texture Toolkit.
-    #[arg(long, value_parser = ["hatt"])]
-    format: String,
+    /// File format.
+    #[arg(long, value_parser = parser())]
+    format: Format,
     /// File to write.
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[args.library.path()])?;
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let Some(index) = library.index_of(&args.texture) else {
         bail!(unknown_texture(&library, &args.texture))
     };
     let texture = &library.textures[index];
-    let restricted = (texture.provenance == Provenance::Restricted).then_some(texture.name.as_str());
-    let warning = Provenance::warning(&restricted.into_iter().collect::<Vec<_>>());
-    if let Some(warning) = &warning {
-        output::warn(warning);
-    }
-    refuse_foreign(&args.out, "a HaTT model", |bytes| contains(bytes, b"<modelSet"))?;
-    let bytes = write_hatt(texture, output::CREATED_BY)?;
-    atomic::write(&args.out, &bytes)?;
-    let lost = lost_in_hatt(texture);
-    for lost in &lost {
-        output::note(&format!("not in the file: {lost}"));
-    }
-    let file = args.out.display().to_string();
+    let out = (args.out.as_path(), output::CREATED_BY);
+    let ExportOutcome { files, lost, license, warnings } =
+        export::export(&library, texture, args.format.0, out, &Printed)?;
+    let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
     output::print(
         args.json,
-        &json!({"files": [file], "lost": lost, "warnings": warning.into_iter().collect::<Vec<_>>(), "licence": library.license_of(texture)}),
-        || format!("Wrote \"{}\" as {}: {file}", texture.name, args.format),
+        &json!({"files": files, "lost": lost, "warnings": warnings, "licence": license}),
+        || format!("Wrote \"{}\" as {}: {}", texture.name, args.format.0.id(), files.join(", ")),
     );
     Ok(())
 }
 
-/// Whether `bytes` hold `part`.
-fn contains(bytes: &[u8], part: &[u8]) -> bool {
-    bytes.windows(part.len()).any(|window| window == part)
+/// Format selected from [`export::FORMATS`].
+#[derive(Clone, Copy)]
+struct Format(&'static dyn ExportFormat);
+
+/// Parses the id of a format; the help lists all of them.
+fn parser() -> impl TypedValueParser<Value = Format> {
+    let ids = export::FORMATS.map(|format| PossibleValue::new(format.id()).help(format.help()));
+    PossibleValuesParser::new(ids)
+        .try_map(|id| export::format(&id).map(Format).ok_or_else(|| format!("{id} is not a format")))
 }

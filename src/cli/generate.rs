@@ -1,83 +1,80 @@
-//! `shagreen generate`: a prompt becomes a picture, a point of the space, a texture and a project.
+//! `shagreen generate`: generates a picture, a point of the space, a texture and a project from a prompt.
 
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context as _, bail, ensure};
 use serde_json::{Value, json};
-use shagreen_core::authoring::Blending;
-use shagreen_core::blend::Mode;
-use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::generated::{Agreed, GENERATOR, Witness, generate, place};
-use shagreen_core::height_field::HeightField;
-use shagreen_core::material::Material;
-use shagreen_core::prompt::{Understood, title, understand};
-use shagreen_core::shading::{Picture as Pixels, shade_tile};
+use shagreen_core::maths::gaussian_process::Estimate;
+use shagreen_core::space::authoring::Blending;
 use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::surfaces::generated::{Agreed, place};
+use shagreen_core::surfaces::prompt::{title, understand};
+use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::TextureModel;
-use shagreen_core::touch_words::ATTRIBUTES;
+use shagreen_core::texture::blend::Mode;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::built_in_lexicon;
 use shagreen_formats::library::{Library, Place, TextureEntry, id_from_name, write_library};
 use shagreen_formats::picture::{Rgb, encode_heights, encode_jpeg, encode_png};
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary, write_project};
-use shagreen_formats::starter::starter_anchors;
 use shagreen_learn::diffusion::{LONGEST_SIDE, Wish};
 use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
-use crate::cli::figures_folder::{check_together, write_together};
-use crate::cli::guard::{has_format, refuse_foreign};
 use crate::cli::model_folder::model_folder;
-use crate::cli::output::{self, Progress};
+use crate::cli::output::{self, Printed, Progress};
 use crate::cli::said_of_prompt::said_of;
-use crate::cli::target::authoring;
+use shagreen_studio::authoring::authoring;
+use shagreen_studio::figure_files::{check_together, write_together};
+use shagreen_studio::file;
+use shagreen_studio::generate::{GeneratedPicture, generate_by_diffusion, generate_procedurally, nearest};
+use shagreen_studio::replace::{has_format, refuse_foreign};
 
-/// What the field `format` of the description holds.
+/// Value of the field `format` of the description.
 const FORMAT: &str = "shagreen-generated";
-/// Files of a folder.
+/// Names of the files in the folder.
 const PICTURE: &str = "picture.png";
 const HEIGHTS: &str = "heights.png";
 const TEXTURE: &str = "texture.json";
 const DESCRIPTION: &str = "generated.json";
-/// Pixels along each side of the picture that is judged.
-const JUDGED_SIDE: usize = 512;
-/// Longest name of a texture, in letters.
+/// Longest name of a texture, in characters.
 const LONGEST_NAME: usize = 60;
 
-/// Makes a picture of what a prompt describes, finds its place in the space, and writes the texture that is felt there.
+/// Generates a picture from a prompt, estimates the position in the space from both, and writes the texture at this
+/// position.
 ///
-/// The picture can be laid beside itself without a seam, and comes with the heights that it shows. It works without any
-/// network: a lexicon understands materials, patterns, colors, sizes and adjectives. Where the words and the picture disagree on
-/// what it feels like, that is said.
+/// The picture tiles without a seam and comes with the heights that it shows. No network is needed: a lexicon
+/// interprets materials, patterns, colors, sizes and adjectives. If prompt and picture predict different attributes,
+/// this is reported.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// What it is to be, as in "a rough, soft carpet-like surface".
+    /// Description of the surface, such as "a rough, soft carpet-like surface".
     #[arg(value_name = "PROMPT")]
     prompt: String,
     /// Folder for the picture, the heights, the texture, the project and a description of them.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Another seed makes another piece of the same surface.
+    /// Random seed; another seed gives another piece of the same surface.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Pixels along each side of the picture.
     #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(64..=2048))]
     size: u32,
-    /// Let the diffusion model that was added by `shagreen model add` make the picture: minutes to hours on a processor.
+    /// Generate the picture with the diffusion model that `shagreen model add` registered; this takes minutes to hours
+    /// on a CPU.
     #[arg(long)]
     diffusion: bool,
-    /// Steps from noise to picture.
+    /// Number of denoising steps.
     #[arg(long, default_value_t = 30, requires = "diffusion", value_parser = clap::value_parser!(u32).range(1..=500))]
     steps: u32,
-    /// What the picture is not to show.
+    /// Negative prompt: content that the picture must not show.
     #[arg(long, default_value = "", hide_default_value = true, requires = "diffusion")]
     negative: String,
     #[command(flatten)]
     backbone: BackboneArgs,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -88,12 +85,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let all = [PICTURE, HEIGHTS, TEXTURE, &project_name, DESCRIPTION].map(|name| args.out.join(name));
     check_together::<&str>(&all.each_ref().map(PathBuf::as_path), Some(&args.out), &[])?;
     let understood = understand(&args.prompt, built_in_lexicon()?);
-    let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Nothing said".to_owned());
-    // What can fail fails before hours are spent.
+    let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Empty prompt".to_owned());
+    // Whatever can fail is checked before hours of computing.
     let looker = Looker::built_in(read_backbone(&args.backbone)?)?;
-    let made = if args.diffusion { by_diffusion(args)? } else { by_procedure(args, &name, &understood)? };
-    let [rough, hard] = looker.look(&made.judged())?[..] else {
-        bail!("the model of pictures has other axes")
+    let made = if args.diffusion {
+        by_diffusion(args)?
+    } else {
+        generate_procedurally(&name, &understood, args.size as usize, args.seed)?
+    };
+    let [rough, hard] = looker.look(&made.for_prediction())?[..] else {
+        bail!("the picture model does not predict rough-smooth and hard-soft; reinstall Shagreen")
     };
     let [of_rough, of_hard, ..] = understood.attributes;
     let placed = place([of_rough, of_hard], [rough, hard], made.witness());
@@ -105,7 +106,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let picture = encode_jpeg(&rgb, made.picture.millimeters)?;
     let neighbors = neighbors(&library, at);
     let entry = TextureEntry {
-        description: format!("Made of the words \"{name}\": nobody rated it."),
+        description: format!("Generated from the prompt \"{name}\"; nobody rated it."),
         place: Some(Place { at, source: LabelSource::Estimated }),
         picture: Some(picture.clone()),
         ..TextureEntry::new(id_from_name(&name), &name, model)
@@ -114,7 +115,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(texture) = project.authored.first_mut().map(Arc::make_mut) {
         texture.at = at;
         texture.picture = Some(Arc::new(picture));
-        texture.notes = format!("Made of a prompt by the {}, seed {}: {}", made.by, args.seed, args.prompt);
+        texture.notes =
+            format!("Generated from a prompt by the {}, seed {}: {}", made.by, args.seed, args.prompt);
     }
     let file = |name: &str| args.out.join(name);
     let shown = |name: &str| file(name).display().to_string();
@@ -149,15 +151,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         result["heights_um"] = json!([1e6 * low, 1e6 * high]);
         files.push((file(HEIGHTS), encode_heights(heights, field.tile().n_cells)?));
     }
-    let library_of_one = Library {
-        name: name.clone(),
-        origin: format!("Made of a prompt by the {} of Shagreen; blended of the starter library.", made.by),
-        license: library.license.clone(),
-        created_by: output::CREATED_BY.to_owned(),
-        seed: Some(args.seed),
-        textures: vec![entry],
-        ..Library::default()
-    };
+    let library_of_one = library_of_one(args, &name, &made.by, &library, entry);
     files.push((file(TEXTURE), write_library(&library_of_one)));
     files.push((file(&project_name), write_project(&project, &args.out, output::CREATED_BY)));
     write(&args.out, files, &mut result)?;
@@ -170,11 +164,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let quarrel = if disputed.is_empty() {
             String::new()
         } else {
-            format!("\nthe words and the picture disagree about {}", disputed.join(" and "))
+            format!("\nthe words and the picture differ in {}", disputed.join(" and "))
         };
         let near: Vec<&str> = neighbors.iter().filter_map(|near| near["name"].as_str()).collect();
         format!(
-            "{lines}near {}{quarrel}{}\npicture by the {}: {}\ntexture: {}\nproject: {}",
+            "{lines}nearest textures: {}{quarrel}{}\npicture by the {}: {}\ntexture: {}\nproject: {}",
             near.join(", "),
             said_of(&understood),
             made.by,
@@ -186,84 +180,71 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The texture of a place; that another one is felt where nothing lies around is said.
+/// Returns a library of the generated texture alone.
+fn library_of_one(args: &Args, name: &str, by: &str, library: &Library, entry: TextureEntry) -> Library {
+    Library {
+        name: name.to_owned(),
+        origin: format!(
+            "Generated from a prompt by the {by} of Shagreen; interpolated from the starter library."
+        ),
+        license: library.license.clone(),
+        created_by: output::CREATED_BY.to_owned(),
+        seed: Some(args.seed),
+        textures: vec![entry],
+        ..Library::default()
+    }
+}
+
+/// Returns the texture at a position; a note reports a position outside the hull.
 fn felt_at(library: &Library, at: SpacePoint) -> anyhow::Result<TextureModel> {
-    let authoring = authoring(library, Mode::Field)?;
+    let authoring = authoring(library, Mode::Field, &Printed)?;
     let blending = Blending::default();
-    let authored = authoring.author(at, &blending).context("the starter library has no places")?;
+    let authored = authoring
+        .author(at, &blending)
+        .context("the starter library has no positions; reinstall Shagreen")?;
     if authored.location.clamped {
-        output::note(&format!("{at} lies outside the textures; the nearest point among them is felt"));
+        output::note(&format!(
+            "{at} lies outside the convex hull of the textures; the nearest point of the hull is used"
+        ));
     }
-    authored.model.with_context(|| format!("the field has no texture at {at}; say more, or something else"))
+    authored.model.with_context(|| {
+        format!("the field has no texture at {at}; use a more specific prompt, or another one")
+    })
 }
 
-/// A picture, and what made it.
-struct Made {
-    by: String,
-    picture: Pixels,
-    /// The relief that it shows and its material, where they are known.
-    relief: Option<(HeightField, Material)>,
-}
-
-impl Made {
-    /// The picture that is judged: what it feels like does not hang on how many pixels somebody wants.
-    fn judged(&self) -> Cow<'_, Pixels> {
-        match &self.relief {
-            Some((field, material)) if self.picture.width != JUDGED_SIDE => {
-                Cow::Owned(shade_tile(field, material, JUDGED_SIDE))
-            }
-            _ => Cow::Borrowed(&self.picture),
-        }
-    }
-
-    /// Whether the picture knows more than the words.
-    fn witness(&self) -> Witness {
-        if self.relief.is_some() { Witness::OfTheWords } else { Witness::OnItsOwn }
-    }
-}
-
-fn by_procedure(args: &Args, name: &str, understood: &Understood) -> anyhow::Result<Made> {
-    let (anchors, span) = starter_anchors()?;
-    let made = generate(name, understood, &anchors, &span, args.size as usize, args.seed)
-        .context("the starter library has no materials; get this program again")?;
-    Ok(Made { by: GENERATOR.to_owned(), picture: made.picture, relief: Some((made.field, made.material)) })
-}
-
-fn by_diffusion(args: &Args) -> anyhow::Result<Made> {
+fn by_diffusion(args: &Args) -> anyhow::Result<GeneratedPicture> {
     let most = LONGEST_SIDE;
     ensure!(
         args.size as usize <= most,
-        "a diffusion model makes pictures of up to {most} pixels a side; give --size up to that"
+        "a diffusion model generates pictures of at most {most} pixels per side; give a smaller --size"
     );
     let folder = model_folder()?;
     let added = folder.added_diffusion()?.context(
-        "there is no diffusion model on this machine; add one by `shagreen model add FOLDER`, or leave --diffusion out",
+        "there is no diffusion model on this machine; add one with `shagreen model add FOLDER`, or leave --diffusion out",
     )?;
-    let diffusion = folder.diffusion(&added)?;
     let wish = Wish {
         negative: &args.negative,
         side: args.size as usize,
         n_steps: args.steps as usize,
         ..Wish::usual(&args.prompt, args.seed)
     };
-    let progress = Progress::new("steps from noise", wish.n_steps);
-    let picture = diffusion.picture(&wish, |_| {
+    let progress = Progress::new("denoising steps", wish.n_steps);
+    let made = generate_by_diffusion(&folder, &added, &wish, || {
         progress.step();
         true
     })?;
     progress.finish();
-    let picture = picture.context("it was stopped")?;
-    Ok(Made { by: added.name(), picture, relief: None })
+    made.context("the generation was stopped")
 }
 
-/// Writes all files and the description, which gets their hashes.
+/// Writes all files and the description, which contains their hashes.
 fn write(folder: &Path, mut files: Vec<(PathBuf, Vec<u8>)>, result: &mut Value) -> anyhow::Result<()> {
     let hash = |(path, bytes): &(PathBuf, Vec<u8>)| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         (name, Value::from(sha256_of(bytes)))
     };
     result["sha256"] = files.iter().map(hash).collect::<serde_json::Map<String, Value>>().into();
-    // The folder may go elsewhere: in it, files are told by their names.
+    // The folder may be moved: the description names files without their folder.
     let mut kept = result.clone();
     for field in ["image", "heights", "texture", "project"] {
         let name = kept[field].as_str().map(Path::new).and_then(Path::file_name);
@@ -275,22 +256,22 @@ fn write(folder: &Path, mut files: Vec<(PathBuf, Vec<u8>)>, result: &mut Value) 
     write_together(&files, Some(folder))?;
     let heights = folder.join(HEIGHTS);
     if result.get("heights").is_none() && heights.exists() {
-        // The relief of the picture that was there before.
-        std::fs::remove_file(&heights).with_context(|| output::in_file(&heights))?;
+        // The heights of an earlier picture.
+        std::fs::remove_file(&heights).with_context(|| file::in_file(&heights))?;
     }
     Ok(())
 }
 
-/// Nothing of somebody else's may be replaced.
+/// Returns an error if a file that must not be replaced is in the folder.
 fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
     ensure!(
         !folder.exists() || folder.is_dir(),
-        "what is generated goes into a folder, and this is a file; name another: {}",
+        "the result is written to a folder, but this is a file; choose another folder: {}",
         folder.display()
     );
     let description = folder.join(DESCRIPTION);
     refuse_foreign(&description, "the description", |bytes| has_format(bytes, FORMAT))?;
-    // What was generated and is still as it was may be replaced; what somebody worked on since may not.
+    // A generated file that is unchanged may be replaced; a file that was edited since may not.
     let before: Option<Value> =
         std::fs::read(&description).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
     let is_ours = |name: &str, bytes: &[u8]| {
@@ -303,7 +284,7 @@ fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
             && !is_ours(name, &bytes)
         {
             bail!(
-                "this file was there before, or was changed since it was generated; name another folder: {}",
+                "this file was not generated, or was changed since; choose another folder: {}",
                 path.display()
             );
         }
@@ -311,20 +292,17 @@ fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Attributes with how unsure they are, by name.
+/// Returns attributes with their standard deviations, by name.
 fn described(estimates: &[Estimate]) -> Value {
     let of = |(name, of): (&str, &Estimate)| (name.to_owned(), json!({"value": of.mean, "sd": of.deviation}));
     let by_name: serde_json::Map<String, Value> = ATTRIBUTES.into_iter().zip(estimates).map(of).collect();
     by_name.into()
 }
 
-/// The three nearest textures, nearest first.
+/// Returns the three nearest textures as they stand in results.
 fn neighbors(library: &Library, at: SpacePoint) -> Vec<Value> {
-    let mut near: Vec<(f64, &TextureEntry)> =
-        library.textures.iter().filter_map(|texture| Some((texture.at()?.distance(at), texture))).collect();
-    near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    near.iter()
-        .take(3)
-        .map(|(distance, texture)| json!({"id": texture.id, "name": texture.name, "distance": distance}))
+    nearest(library, at, 3)
+        .into_iter()
+        .map(|(texture, distance)| json!({"id": texture.id, "name": texture.name, "distance": distance}))
         .collect()
 }

@@ -1,4 +1,4 @@
-//! Report descriptors and recorded reports of pens, from files.
+//! HID report descriptors and recorded pen reports from files.
 
 use std::path::Path;
 
@@ -8,27 +8,29 @@ use shagreen_device::hid::pen::{PenDecoder, PenFormat};
 use shagreen_formats::hid_text::{HidRecording, TimedReport, bytes_of_hex_file, is_hid_text, read_hid_text};
 
 use crate::cli::output;
+use shagreen_studio::file;
 
-/// A descriptor of a file.
+/// Device that a report descriptor in a file describes.
 pub(crate) struct DeclaredDevice {
-    /// The device's name, where the file tells it.
+    /// Name of the device, if the file states it.
     pub(crate) name: Option<String>,
-    /// Its vendor and product, where the file tells them.
+    /// Vendor and product identifiers, if the file states them.
     pub(crate) identity: Option<(u16, u16)>,
-    /// What it declares.
+    /// Parsed report descriptor.
     pub(crate) descriptor: Descriptor,
 }
 
 impl DeclaredDevice {
-    /// Its pen: what it declares, else what is known of it.
+    /// Returns the decoder of the device's pen: as declared, otherwise as known for this product.
     pub(crate) fn pen(&self) -> Option<PenDecoder> {
         PenDecoder::of_device(&self.descriptor, self.identity)
     }
 }
 
-/// The descriptors of a file: raw bytes, the same in hexadecimal, or a recording of `hid-recorder` or `usbhid-dump`.
+/// Reads the report descriptors of a file: raw bytes, the same bytes in hexadecimal, or a recording of `hid-recorder`
+/// or `usbhid-dump`.
 pub(crate) fn read_descriptors(path: &Path) -> anyhow::Result<Vec<anyhow::Result<DeclaredDevice>>> {
-    let bytes = output::read_file(path)?;
+    let bytes = file::read_file(path)?;
     let declared = |name: Option<String>, identity, bytes: &[u8]| {
         let descriptor = descriptor::parse(bytes)?;
         Ok(DeclaredDevice { name, identity, descriptor })
@@ -45,7 +47,7 @@ pub(crate) fn read_descriptors(path: &Path) -> anyhow::Result<Vec<anyhow::Result
             })
             .collect();
         if found.is_empty() {
-            bail!("the recording holds no report descriptor; record again with one");
+            bail!("the recording contains no report descriptor; record again with one");
         }
         return Ok(found);
     }
@@ -53,17 +55,17 @@ pub(crate) fn read_descriptors(path: &Path) -> anyhow::Result<Vec<anyhow::Result
     Ok(vec![declared(None, None, hex.as_deref().unwrap_or(&bytes))])
 }
 
-/// The reports of one pen and what they say.
+/// Reports of one pen, and their decoder.
 pub(crate) struct PenRecording {
-    /// How they are read.
+    /// Decoder of the reports.
     pub(crate) decoder: PenDecoder,
-    /// In the order of time.
+    /// Reports in the order of time.
     pub(crate) reports: Vec<TimedReport>,
 }
 
-/// The pen of a recording: of several devices the one with the most reports of a pen. `declared` is what another file
-/// declares; without it the recording must hold the descriptor, or be of a known device. `size_m` is the size
-/// that the person gives.
+/// Returns the pen of a recording; of several devices, the one with the most decodable pen reports. `declared` is a
+/// descriptor from another file; without it the recording must contain the descriptor, or be of a known device.
+/// `size_m` is the size that the user states, in m.
 pub(crate) fn read_pen_recording(
     bytes: &[u8],
     declared: Option<&DeclaredDevice>,
@@ -87,15 +89,15 @@ pub(crate) fn read_pen_recording(
     }
     if n_pens == 0 {
         bail!(
-            "no pen is declared; give the report descriptor of the pen, or a recording that holds it (lines R: or DESCRIPTOR)"
+            "no pen is declared; give the report descriptor of the pen, or a recording that contains it (lines R: or DESCRIPTOR)"
         );
     }
     let Some((decoder, reports)) = best else {
         let Some((report, first)) = unlike else {
-            bail!("the recording holds no report of the pen; record again and move the pen");
+            bail!("the recording contains no report of the pen; record again and move the pen");
         };
         bail!(
-            "none of the {n_reports} reports is one of the pen: it declares {report}, and the first that came has {} bytes and begins with {:02x}; record again and move the pen, or give the descriptor of the pen that was moved",
+            "none of the {n_reports} reports is from the pen: its descriptor declares {report}, but the first report has {} bytes and begins with {:02x}; record again and move the pen, or give the descriptor of the recorded pen",
             first.len(),
             first.first().copied().unwrap_or(0)
         );
@@ -103,7 +105,7 @@ pub(crate) fn read_pen_recording(
     Ok(PenRecording { decoder: decoder.with_size_m(size_m), reports })
 }
 
-/// What a report of a pen is like, in words.
+/// Describes the format of a pen's reports, for an error message.
 fn report_of(format: &PenFormat) -> String {
     let id = format.report_id.map_or("without id".to_owned(), |id| format!("that begin with {id:02x}"));
     format!("reports of {} bytes {id}", format.n_bytes)
@@ -127,9 +129,9 @@ fn decoder_of(
     }
 }
 
-/// Width and height in mm, as `216x135`.
+/// Parses width and height in mm, such as `216x135`.
 pub(crate) fn size_mm(text: &str) -> Result<[f64; 2], String> {
-    let sides: Vec<f64> = text.split(['x', 'X']).filter_map(|side| side.trim().parse().ok()).collect(); // Others are missed below.
+    let sides: Vec<f64> = text.split(['x', 'X']).filter_map(|side| side.trim().parse().ok()).collect(); // Other text changes the count and is rejected below.
     match sides[..] {
         [width, height] if [width, height].iter().all(|side| (1.0..=10_000.0).contains(side)) => {
             Ok([width, height])
@@ -138,7 +140,7 @@ pub(crate) fn size_mm(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// In m.
+/// Converts mm to m.
 pub(crate) fn meters(size_mm: Option<[f64; 2]>) -> Option<[f64; 2]> {
     size_mm.map(|sides| sides.map(|side| 1e-3 * side))
 }

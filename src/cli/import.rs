@@ -1,4 +1,4 @@
-//! `shagreen import`: models and recordings of other programs, into a library.
+//! `shagreen import`: imports models and recordings of other programs into a library.
 
 use std::path::{Path, PathBuf};
 
@@ -7,28 +7,29 @@ use serde_json::{Value, json};
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, read_library, write_library};
 
-use crate::cli::guard::refuse_inputs;
 use crate::cli::output;
+use shagreen_studio::file;
+use shagreen_studio::replace::refuse_inputs;
 
-/// Where imported textures go.
+/// Library that textures are imported into.
 #[derive(clap::Args)]
 pub(crate) struct Destination {
-    /// Library file to write; where it exists, the textures are added to it.
+    /// Library file to write; textures are added to an existing library.
     #[arg(long, value_name = "L")]
     out: PathBuf,
-    /// Textures of the same id in the library are replaced.
+    /// Replace textures of the library that have the same id.
     #[arg(long)]
     replace: bool,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// What became of the files.
+/// Result of an import.
 pub(crate) struct Outcome<'a> {
     destination: &'a Destination,
     library: Library,
-    /// Identifiers that textures of this import have.
+    /// Identifiers of the textures of this import.
     claimed: Vec<String>,
     imported: Vec<(TextureEntry, Value)>,
     failed: Vec<(PathBuf, String)>,
@@ -36,17 +37,17 @@ pub(crate) struct Outcome<'a> {
 }
 
 impl<'a> Outcome<'a> {
-    /// Nothing yet, beside what the library already holds.
+    /// Creates an empty result, and reads the library if it exists.
     ///
     /// # Errors
-    /// The library would be written over one of the inputs, or the file is there and no library.
+    /// The library would overwrite an input, or the file exists and is not a library.
     pub(crate) fn new(destination: &'a Destination, inputs: &[PathBuf]) -> anyhow::Result<Self> {
         let inputs: Vec<Option<&Path>> = inputs.iter().map(|path| Some(path.as_path())).collect();
         refuse_inputs(&[&destination.out], &inputs)?;
         if destination.out.is_dir() {
             let example = destination.out.join("mine.json");
             bail!(output::Usage(format!(
-                "--out is a folder and has to be a file in it, such as {}: {}",
+                "--out is a folder; give a file in it, such as {}: {}",
                 example.display(),
                 destination.out.display()
             )));
@@ -56,45 +57,45 @@ impl<'a> Outcome<'a> {
         Ok(Self { destination, library, claimed, imported, failed, warnings })
     }
 
-    /// The identifier of a texture with this name: one that is free, or that of the texture which it replaces.
+    /// Returns an identifier for a texture with this name: a free one, or that of the texture to replace.
     pub(crate) fn claim_id(&mut self, name: &str) -> String {
         let wanted = id_from_name(name);
         let is_claimed = |id: &str| self.claimed.iter().any(|claimed| claimed == id);
         let is_kept = |id: &str| self.library.index_of(id).is_some() && !self.destination.replace;
         let id = free_id(&wanted, |id| is_claimed(id) || is_kept(id));
         if id != wanted {
-            let hint = if is_kept(&wanted) { "; --replace puts it in its place" } else { "" };
+            let hint = if is_kept(&wanted) { "; --replace replaces the existing one" } else { "" };
             self.warn_of_all(format!(
-                "there is already a texture \"{wanted}\": this one became \"{id}\"{hint}"
+                "a texture \"{wanted}\" already exists: this one gets the id \"{id}\"{hint}"
             ));
         }
         self.claimed.push(id.clone());
         id
     }
 
-    /// A texture came of a file, under an identifier that was claimed; `figures` are shown beside it.
+    /// Adds a texture whose identifier was claimed; `figures` are its fields in the result.
     pub(crate) fn imported(&mut self, texture: TextureEntry, figures: Value) {
         self.imported.push((texture, figures));
     }
 
-    /// A file is of no use.
+    /// Records a file that cannot be imported.
     pub(crate) fn failed(&mut self, file: &Path, reason: String) {
         output::warn(&format!("not imported: {reason}: {}", file.display()));
         self.failed.push((file.to_owned(), reason));
     }
 
-    /// Something about a file is odd but usable.
+    /// Records a warning about a file.
     pub(crate) fn warn(&mut self, file: &Path, message: &str) {
         self.warn_of_all(format!("{}: {message}", file.display()));
     }
 
-    /// Something is to be known that concerns no single file.
+    /// Records a warning that concerns no single file.
     pub(crate) fn warn_of_all(&mut self, message: String) {
         output::warn(&message);
         self.warnings.push(message);
     }
 
-    /// Writes the library with the textures and says what was done.
+    /// Writes the library with the imported textures and prints the result.
     ///
     /// # Errors
     /// Nothing was imported, or the library cannot be written.
@@ -127,7 +128,7 @@ impl<'a> Outcome<'a> {
         if let (Some(result), Value::Object(more)) = (result.as_object_mut(), more) {
             result.extend(more);
         }
-        // A script reads what failed and what was asked; a person has read it already.
+        // A script needs the failures and questions; a person has already read them.
         if destination.json || n_imported > 0 {
             output::print(destination.json, &result, || {
                 let ids: Vec<&str> = textures.iter().filter_map(|texture| texture["id"].as_str()).collect();
@@ -140,17 +141,17 @@ impl<'a> Outcome<'a> {
             });
         }
         if n_imported == 0 {
-            bail!("nothing was imported; the reasons stand above");
+            bail!("nothing was imported; the warnings above give the reasons");
         }
         Ok(())
     }
 }
 
-/// The files in a folder with one of these endings, in the order of their names.
+/// Returns the files in a folder with one of these endings, sorted by name.
 pub(crate) fn files_in(folder: &Path, endings: &[&str]) -> anyhow::Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder)
-        .context("cannot list the folder; check its name and your rights")
-        .with_context(|| output::in_file(folder))?;
+        .context("cannot list the folder; check its name and your permissions")
+        .with_context(|| file::in_file(folder))?;
     let is_wanted = |path: &PathBuf| {
         path.extension().is_some_and(|ending| endings.iter().any(|e| ending.eq_ignore_ascii_case(e)))
             && !path.is_dir()
@@ -160,12 +161,12 @@ pub(crate) fn files_in(folder: &Path, endings: &[&str]) -> anyhow::Result<Vec<Pa
     Ok(found)
 }
 
-/// The library at `path`, or a new one.
+/// Reads the library at `path`, or creates a new one.
 fn existing(path: &Path) -> anyhow::Result<Library> {
     if !path.exists() {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            bail!("there is no such folder to write to; make it, or choose another: {}", folder.display());
+            bail!("there is no such folder to write to; create it, or choose another: {}", folder.display());
         }
         return Ok(Library {
             name: path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
@@ -173,8 +174,8 @@ fn existing(path: &Path) -> anyhow::Result<Library> {
             ..Library::default()
         });
     }
-    let bytes = output::read_file(path)?;
-    let read = read_library(&bytes).with_context(|| output::in_file(path))?;
+    let bytes = file::read_file(path)?;
+    let read = read_library(&bytes).with_context(|| file::in_file(path))?;
     Ok(read.value)
 }
 

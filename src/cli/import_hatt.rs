@@ -1,4 +1,4 @@
-//! `shagreen import hatt`: models in the XML of the Penn Haptic Texture Toolkit.
+//! `shagreen import hatt`: imports models in the XML of the Penn Haptic Texture Toolkit.
 
 use std::path::PathBuf;
 
@@ -8,12 +8,13 @@ use shagreen_formats::hatt::read_hatt;
 use shagreen_formats::library::{Provenance, name_from_file};
 
 use crate::cli::import::{Destination, Outcome, files_in};
-use crate::cli::output::{self, Progress, file_name};
+use crate::cli::output::Progress;
+use shagreen_studio::file::{self, file_name};
 
 /// Imports texture models in the XML of the Penn Haptic Texture Toolkit (HaTT).
 ///
-/// The published models are for non-profit research and may not be passed on: their textures are marked as restricted,
-/// and exporting or packing them warns.
+/// The published models are for non-profit research and must not be redistributed: their textures are marked as
+/// restricted, and exporting or packing them prints a warning.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Model files, or folders of them.
@@ -29,7 +30,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut restricted = Vec::new();
     let progress = Progress::new("models", files.len());
     for file in &files {
-        let read = output::read_file(file).map_err(|error| format!("{error:#}"));
+        let read = file::read_file(file).map_err(|error| format!("{error:#}"));
         match read.and_then(|bytes| read_hatt(&bytes).map_err(|error| error.to_string())) {
             Err(reason) => outcome.failed(file, reason),
             Ok(read) => {
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     outcome.finish(json!({}))
 }
 
-/// The files named, and the `.xml` files of the folders named, in the order of their names.
+/// Returns the named files, and the `.xml` files of the named folders, sorted by name.
 fn model_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for path in paths {
@@ -79,7 +80,7 @@ fn model_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
         }
         let found = files_in(path, &["xml"])?;
         if found.is_empty() {
-            bail!("the folder holds no .xml file; name the folder of the models: {}", path.display());
+            bail!("the folder contains no .xml file; choose the folder of the models: {}", path.display());
         }
         files.extend(found);
     }

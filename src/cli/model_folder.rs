@@ -1,12 +1,12 @@
-//! Where this system keeps the files of a user.
+//! Folder of the user's networks.
 
 use anyhow::Context as _;
 use directories::ProjectDirs;
-use shagreen_app::models::ModelFolder;
+use shagreen_studio::models::ModelFolder;
 
-/// The folder with networks of others.
+/// Returns the folder of third-party networks.
 pub(crate) fn model_folder() -> anyhow::Result<ModelFolder> {
     let folders =
-        ProjectDirs::from("", "", "shagreen").context("this system has no folder for the files of a user")?;
+        ProjectDirs::from("", "", "shagreen").context("this system has no folder for user files")?;
     Ok(ModelFolder::new(folders.data_local_dir().join("models")))
 }

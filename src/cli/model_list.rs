@@ -1,14 +1,14 @@
-//! `shagreen model list`: networks of others on this machine.
+//! `shagreen model list`: lists third-party networks on this machine.
 
 use serde_json::json;
 
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
 
-/// Lists the networks of others that this program uses on this machine, and what there is to do where one is missing.
+/// Lists the third-party networks that this program uses on this machine, and how to get a missing one.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -28,13 +28,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     output::print(args.json, &result, || {
         let seeing = match &backbone {
             Some(backbone) => format!("{} (Apache-2.0): {}", backbone.kind().name(), path.display()),
-            None => "statistics; `shagreen model fetch` brings a network that is better".to_owned(),
+            None => "texture statistics; `shagreen model fetch` downloads a more accurate network".to_owned(),
         };
         let making = match &added {
             Some(added) => format!("{}: {}", added.name(), added.folder.display()),
             None => "the procedural generator; `shagreen model add FOLDER` adds a diffusion model".to_owned(),
         };
-        format!("looks at pictures: {seeing}\nmakes pictures: {making}")
+        format!("attributes from pictures: {seeing}\npictures from text: {making}")
     });
     Ok(())
 }

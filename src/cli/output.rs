@@ -1,41 +1,44 @@
-//! What the command line prints and reads: one JSON object or some lines on standard output, all else on standard error.
+//! Output of the command line: one JSON object or lines of text on standard output, everything else on standard error.
 
 use std::fmt::Display;
 use std::io::{self, Write as _};
-use std::path::Path;
 use std::process::ExitCode;
 
-use anyhow::Context as _;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
 use shagreen_formats::library::{Library, Provenance};
+use shagreen_studio::file::one_line;
+use shagreen_studio::report::Reporter;
 
-/// The program and its version, for the files that it writes.
+/// Name and version of the program, for the files that it writes.
 pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION"));
 
-/// Prints the result: as JSON for a script, else as text for a person.
+/// Prints the result: JSON for a script, otherwise text.
 pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String) {
     let text = if as_json { result.to_string() } else { printable(&text()) };
     let mut stdout = io::stdout().lock();
     if let Err(error) = writeln!(stdout, "{text}").and_then(|()| stdout.flush())
         && error.kind() != io::ErrorKind::BrokenPipe
     {
-        // Whoever closed the pipe has read enough; a full disk has lost what was asked for.
-        say(format!("error: the answer cannot be written: {error}; make room, or write it elsewhere"));
+        // A reader that closes the pipe has read enough; any other error, such as a full disk, loses the result.
+        say(format!(
+            "error: the result cannot be written: {error}; free some disk space, or write it elsewhere"
+        ));
         std::process::exit(1);
     }
 }
 
-/// A line on standard error.
+/// Prints one line to standard error.
 fn say(line: impl Display) {
     let line = printable(&line.to_string()).replace('\n', " ");
-    // Whoever closed it does not want to know.
+    // If standard error is closed, nobody reads the message.
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// Text without what a terminal would obey: names come from files and from devices, which may say anything.
+/// Returns the text with control characters escaped: names come from files and devices and could contain terminal
+/// commands.
 fn printable(text: &str) -> String {
-    // Marks that turn the order of letters around are no control characters, and hide as much.
+    // Bidirectional formatting characters are not control characters, but can also disguise text.
     let turns = |c: char| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let mut printable = String::with_capacity(text.len());
     for c in text.chars() {
@@ -48,17 +51,17 @@ fn printable(text: &str) -> String {
     printable
 }
 
-/// Says what is not quite as asked.
+/// Prints a warning: something is not quite as requested.
 pub(crate) fn warn(message: &str) {
     say(format_args!("warning: {message}"));
 }
 
-/// Says what the person would like to know.
+/// Prints a note: something that the user would like to know.
 pub(crate) fn note(message: &str) {
     say(format_args!("note: {message}"));
 }
 
-/// Says which textures of a library that is written may not be passed on.
+/// Warns of textures in a library to be written that must not be redistributed.
 pub(crate) fn warn_of_restricted(library: &Library) {
     let restricted: Vec<&str> = library.restricted().map(|texture| texture.name.as_str()).collect();
     if let Some(warning) = Provenance::warning(&restricted) {
@@ -66,7 +69,7 @@ pub(crate) fn warn_of_restricted(library: &Library) {
     }
 }
 
-/// That the arguments do not fit together: wrong usage, not a failure.
+/// Arguments that contradict each other: wrong usage, not a failure.
 #[derive(Debug)]
 pub(crate) struct Usage(pub(crate) String);
 
@@ -78,16 +81,16 @@ impl Display for Usage {
 
 impl std::error::Error for Usage {}
 
-/// Says why the command could not be done, on one line, with all its causes.
+/// Prints why the command failed, on one line with all causes, and returns the exit status.
 pub(crate) fn failure(error: &anyhow::Error) -> ExitCode {
     say(format_args!("error: {}", one_line(error)));
     if error.is::<Usage>() { ExitCode::from(WRONG_USAGE) } else { ExitCode::FAILURE }
 }
 
-/// Says what is wrong with the arguments, on one line; help and version, which come the same way, are printed whole.
+/// Prints an error of the argument parser on one line, and help and version in full. Returns the exit status.
 pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        // As with results.
+        // A closed pipe is no error, as in [`print`].
         let _ = write!(io::stdout(), "{error}");
         return ExitCode::SUCCESS;
     }
@@ -95,7 +98,7 @@ pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     ExitCode::from(WRONG_USAGE)
 }
 
-/// The sentences of a message of the argument parser, without the usage that follows them.
+/// Returns the sentences of a message of the argument parser, without the usage that follows them.
 fn usage_line(message: &str) -> String {
     let is_closing = |line: &&str| !line.starts_with("Usage:") && !line.starts_with("For more information");
     let lines = message.lines().map(str::trim).take_while(is_closing).filter(|line| !line.is_empty());
@@ -105,58 +108,29 @@ fn usage_line(message: &str) -> String {
 /// Exit status for wrong usage.
 const WRONG_USAGE: u8 = 2;
 
-/// The chain of causes, the path last: contexts that only name a file are moved to the end.
-pub(crate) fn one_line(error: &anyhow::Error) -> String {
-    let (files, causes): (Vec<_>, Vec<_>) =
-        error.chain().map(ToString::to_string).partition(|cause| cause.starts_with(IN_FILE));
-    let mut parts: Vec<String> = Vec::new();
-    for cause in causes {
-        // Some errors repeat their source in their own words.
-        if !parts.iter().any(|part| part.contains(&cause)) {
-            parts.push(cause);
-        }
+/// Prints the warnings and notes of studio functions.
+pub(crate) struct Printed;
+
+impl Reporter for Printed {
+    fn warn(&self, message: &str) {
+        warn(message);
     }
-    let paths = files.iter().map(|file| file.trim_start_matches(IN_FILE).to_owned());
-    let line: Vec<String> = parts.into_iter().chain(paths).collect();
-    line.join(": ").replace(['\n', '\r'], " ")
+
+    fn note(&self, message: &str) {
+        note(message);
+    }
 }
 
-/// Marks a context that only names a file.
-const IN_FILE: &str = "file ";
-
-/// The context for an error inside a file: [`failure`] shows it last.
-pub(crate) fn in_file(path: &Path) -> String {
-    format!("{IN_FILE}{}", path.display())
-}
-
-/// The name of a file, for people.
-pub(crate) fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
-/// The bytes of a file.
-pub(crate) fn read_file(path: &Path) -> anyhow::Result<Vec<u8>> {
-    let reason = |error: &io::Error| match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder; give a file in it".to_owned(),
-        io::ErrorKind::PermissionDenied => "you may not read it; ask for the right, or copy it".to_owned(),
-        _ => format!("{error}; check its name and your rights"),
-    };
-    std::fs::read(path)
-        .map_err(|error| anyhow::anyhow!("cannot read the file: {}", reason(&error)))
-        .with_context(|| in_file(path))
-}
-
-/// A bar on standard error, where that is a terminal.
+/// Progress bar on standard error, shown only on a terminal.
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
-    /// A bar of `n` steps of `what`.
+    /// Creates a bar of `n` steps; `what` names them.
     pub(crate) fn new(what: &'static str, n: usize) -> Self {
         Self::styled("{bar:30} {pos}/{len} {msg} {elapsed}", what, n)
     }
 
-    /// The same for work of hours, with how long it will still take.
+    /// Creates a bar for work of hours, with the estimated time left.
     pub(crate) fn of_hours(what: &'static str, n: usize) -> Self {
         Self::styled("{bar:30} {pos}/{len} {msg} {elapsed}, about {eta} left", what, n)
     }
@@ -170,55 +144,45 @@ impl Progress {
         Self(bar)
     }
 
-    /// So many steps need not be done: they say nothing of how long the others take.
+    /// Removes `n` steps that need not be done, so that they do not affect the estimated time.
     pub(crate) fn leave_out(&self, n: usize) {
         self.0.dec_length(n as u64);
     }
 
-    /// One more step is done.
+    /// Counts one more step as done.
     pub(crate) fn step(&self) {
         self.steps(1);
     }
 
-    /// So many more steps are done.
+    /// Counts `n` more steps as done.
     pub(crate) fn steps(&self, n: usize) {
         self.0.inc(n as u64);
     }
 
-    /// Says something above the bar.
+    /// Prints a note above the bar.
     pub(crate) fn note(&self, line: &str) {
         self.0.suspend(|| note(line));
     }
 
-    /// So many seconds are played or rendered; [`in_ms`] is the number of steps for a bar of them.
+    /// Sets the rendered or played time in seconds; a bar of time has [`in_ms`] steps.
     pub(crate) fn set_secs(&self, secs: f64) {
         self.0.set_position(in_ms(secs) as u64);
     }
 
-    /// Takes the bar away, which dropping it does too.
+    /// Removes the bar; dropping it does the same.
     pub(crate) fn finish(&self) {
         self.0.finish_and_clear();
     }
 }
 
-/// Whole milliseconds.
+/// Converts seconds to whole milliseconds.
 pub(crate) fn in_ms(secs: f64) -> usize {
     (1e3 * secs) as usize
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{in_file, one_line, printable, usage_line};
-
-    use std::path::Path;
-
-    #[test]
-    fn the_path_comes_last_on_one_line() {
-        let error = anyhow::anyhow!("line 3 is\nshort")
-            .context("the stroke is damaged")
-            .context(in_file(Path::new("a/b.svc")));
-        assert_eq!(one_line(&error), "the stroke is damaged: line 3 is short: a/b.svc");
-    }
+    use super::{printable, usage_line};
 
     #[test]
     fn a_terminal_obeys_no_name() {

@@ -4,9 +4,10 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
 use serde_json::json;
-use shagreen_core::plane::Plane;
-use shagreen_core::render::{path_mix, synth_blend};
-use shagreen_core::texture_path::{TexturePath, TraveledAhead};
+use shagreen_core::space::texture_path::path_mix;
+use shagreen_core::space::texture_path::{TexturePath, TraveledAhead};
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::render::synth_blend;
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
@@ -18,20 +19,21 @@ use shagreen_formats::library::Library;
 
 use crate::cli::limited::Limited;
 use crate::cli::motion::{Motion, MotionArgs, motion};
-use crate::cli::output::{self, Progress};
+use crate::cli::output::{self, Printed, Progress};
 use crate::cli::rig::{Rig, RigArgs};
-use crate::cli::target::{Chosen, SoundArgs};
+use crate::cli::target::SoundArgs;
 use crate::cli::watch::Watch;
+use shagreen_studio::sound::Sound;
 
-/// Drives an actuator with a texture, in real time: a steady contact, or a recorded stroke.
+/// Drives an actuator with a texture in real time: with a steady contact or a recorded stroke.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     sound: SoundArgs,
-    /// Seed of the noise.
+    /// Random seed of the noise.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -40,15 +42,15 @@ pub(crate) struct Args {
     motion: MotionArgs,
 }
 
-/// Speed in mm/s, force in N and length in seconds where none are given.
+/// Default speed in mm/s, force in N and duration in seconds.
 const DEFAULT_MOTION: (f64, f64, f64) = (100.0, 1.0, 3.0);
-/// Width of the path of a steady contact: it says nothing about what is felt.
+/// Width of the circle of a steady contact, in m; it does not affect the texture.
 const EXTENT_M: f32 = 0.06;
-/// How often the output is asked how it is doing.
+/// Interval at which the status of the output is read.
 const POLL: Duration = Duration::from_millis(20);
-/// How often until it has begun.
+/// The same interval until playback has begun.
 const FIRST_POLL: Duration = Duration::from_millis(1);
-/// How much longer than the stroke playing may take.
+/// Time that playback may take beyond the duration of the stroke.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -56,7 +58,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let (library, chosen) = args.sound.load()?;
     let Rig { mut handle, running, mut watch } =
         args.rig.open(chosen.rate(&library)?.0 as f32, args.seed).context("cannot play")?;
-    chosen.note_limits(&library, &motion);
+    chosen.note_limits(&library, &motion.trace(), &Printed);
     load_textures(&mut handle, &library, &chosen)?;
     let seconds = motion.seconds();
     let mut follow = chosen.path.as_ref().map(|path| Follow::new(path, &motion));
@@ -67,7 +69,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(follow) => follow.go(handle, secs),
         None => Ok(()),
     })?;
-    // What does not end in time is cut off: the device has stopped.
+    // A fade that does not end in time is cut off: the device has stopped.
     running.drain(PATIENCE);
     let limited = Limited::new(&status, n_frames_before, watch.heat_gain(), args.rig.has_actuator());
     limited.warnings().iter().for_each(|warning| output::warn(warning));
@@ -109,31 +111,31 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check(&status)
 }
 
-/// Whether all of it was played: where the limiter has tripped, the rest was silence.
+/// Returns an error if the limiter tripped: the rest of the output was then silent.
 fn check(status: &Status) -> anyhow::Result<()> {
     if status.tripped {
         bail!(
-            "a sample was not a finite number, and the output was silenced: not all was played; \
-             try another --full-scale or texture, and report it"
+            "a sample was not a finite number, so the output was silenced and playback is incomplete; \
+             try another --full-scale or texture, and report the error"
         );
     }
     Ok(())
 }
 
-fn load_textures(handle: &mut Handle, library: &Library, chosen: &Chosen) -> anyhow::Result<()> {
+fn load_textures(handle: &mut Handle, library: &Library, chosen: &Sound) -> anyhow::Result<()> {
     if let Some(path) = &chosen.path {
-        // Slots are given out in order, so that a key's number is its texture's.
+        // Slots are assigned in order, so the number of a key is that of its texture.
         for key in path.keys() {
             let texture = OwnedTexture::new(Plane::new(&key.model).prepare().parts())?;
-            handle.load(texture).context("the output takes no texture; try again")?;
+            handle.load(texture).context("the output accepts no texture; try again")?;
         }
         handle.set_mix(path_mix(path, 0.0))?;
         return Ok(());
     }
     let mut mix = Mix::silent(synth_blend(chosen.mixing));
-    for (parent, (plane, weight)) in mix.parents.iter_mut().zip(chosen.planes(library)?) {
+    for (parent, (plane, weight)) in mix.parents.iter_mut().zip(chosen.planes(library, &Printed)?) {
         let texture = OwnedTexture::new(plane.prepare().parts())?;
-        let id = handle.load(texture).context("the output takes no texture; try again")?;
+        let id = handle.load(texture).context("the output accepts no texture; try again")?;
         *parent = Parent { id, weight: weight as f32 };
     }
     handle.set_mix(mix)?;
@@ -143,7 +145,7 @@ fn load_textures(handle: &mut Handle, library: &Library, chosen: &Chosen) -> any
 fn start(handle: &mut Handle, motion: Motion) -> anyhow::Result<()> {
     match motion {
         Motion::Steady { contact, .. } => handle.set_input(Input::Hand(Hand {
-            // Only a circle keeps its speed all the way.
+            // Only a circle has constant speed.
             path: Path::Circle,
             speed_mps: contact.speed.0 as f32,
             force_n: contact.force.0 as f32,
@@ -151,20 +153,20 @@ fn start(handle: &mut Handle, motion: Motion) -> anyhow::Result<()> {
         })),
         Motion::Stroke { contacts, .. } => {
             if handle.play_track(contacts.into_track()?).is_err() {
-                bail!("the output takes no stroke; try again");
+                bail!("the output accepts no stroke; try again");
             }
         }
     }
     Ok(())
 }
 
-/// Follows a path while a motion is played.
+/// Follows a texture path during playback.
 struct Follow<'a> {
     path: &'a TexturePath,
     ahead: TraveledAhead,
 }
 
-/// Steps in which what is traveled is summed up, in seconds.
+/// Integration step of the traveled distance, in seconds.
 const FOLLOW_STEP_SECS: f64 = 0.005;
 
 impl<'a> Follow<'a> {
@@ -174,13 +176,14 @@ impl<'a> Follow<'a> {
         Self { path, ahead }
     }
 
-    /// Sets the mix of the place that is reached at a time of the motion.
+    /// Sets the mix for the position reached `secs` after the start.
     fn go(&mut self, handle: &mut Handle, secs: f64) -> anyhow::Result<()> {
         Ok(handle.set_mix(path_mix(self.path, self.ahead.at(secs)))?)
     }
 }
 
-/// Waits until so much has been played, then lifts the tip and lets it fade; `at` is told how far the motion is.
+/// Waits until `seconds` have been played, then lifts the tip and waits for the fade. `at` is called with the elapsed
+/// time of the motion.
 fn wait(
     handle: &mut Handle,
     watch: &mut Watch,
@@ -196,7 +199,7 @@ fn wait(
         handle.collect();
         let status = watch.look(handle)?;
         beginning.note(status.frames_played);
-        // Before it has begun, the input's clock is that of the tip in the air.
+        // Before the motion has begun, the input's clock is that of the tip in the air.
         if beginning.is_over() {
             progress.set_secs(status.input_secs.min(seconds));
             at(handle, status.input_secs)?;
@@ -205,7 +208,7 @@ fn wait(
             }
         }
         if started.elapsed() > deadline {
-            bail!("{} does not ask for samples; choose another with `shagreen devices`", watch.what());
+            bail!("{} does not request samples; choose another output with `shagreen devices`", watch.what());
         }
     }
     handle.set_input(Input::Lifted);
@@ -214,16 +217,16 @@ fn wait(
     watch.look(handle)
 }
 
-/// Whether the output has surely begun with the input that it was given before this was made.
+/// Detects that the output has begun to play the input that was set before this was created.
 ///
-/// The block that was being rendered then may still be of the input before; the next one is not.
+/// The block being rendered at that time may still use the previous input; the next one does not.
 struct Beginning {
     frames_played: u64,
     n_changes: u32,
 }
 
 impl Beginning {
-    /// Takes what the output says now.
+    /// Records the number of frames that the output has played.
     fn note(&mut self, frames_played: u64) {
         if frames_played != self.frames_played {
             self.frames_played = frames_played;
@@ -254,7 +257,7 @@ mod tests {
         }
     }
 
-    /// A device that has played a second of a tip in the air, and asks for its next block late.
+    /// A device that has played one second with the tip in the air and requests its next block late.
     #[test]
     fn the_time_before_the_input_does_not_count() {
         let (mut handle, mut engine) = engine::new(EngineConfig {
@@ -280,7 +283,7 @@ mod tests {
             }
         });
         let status = wait(&mut handle, &mut Watch::new("x", None), 0.15, &mut |_, _| Ok(())).unwrap();
-        // Two blocks of a tenth of a second at the least.
+        // At least two blocks of 0.1 s.
         assert!(status.frames_played >= 48_000 + 2 * 4800, "{status:?}");
         drop(handle);
         device.join().unwrap();

@@ -1,19 +1,19 @@
-//! `shagreen predict attributes`: what a recording, a photo or words would feel like.
+//! `shagreen predict attributes`: predicts the attributes of a recording, a photo or a prompt.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::attribute_predictor::{predict, quantities};
-use shagreen_core::fit::{self, FitOptions, Stroke};
-use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::patterns::{PAPER_FORCES_N, PAPER_RATE, PAPER_SPEEDS_MM_PER_S};
-use shagreen_core::prompt::understand;
+use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::recording::Recording;
+use shagreen_core::recording::fit::{self, FitOptions, Stroke};
 use shagreen_core::space::LabelSource;
-use shagreen_core::starter::FRAMING;
-use shagreen_core::touch_words::ATTRIBUTES;
+use shagreen_core::space::attribute_predictor::{predict, quantities};
+use shagreen_core::surfaces::prompt::understand;
+use shagreen_core::surfaces::starter::FRAMING;
+use shagreen_core::surfaces::touch_words::ATTRIBUTES;
+use shagreen_core::texture::patterns::{PAPER_FORCES_N, PAPER_RATE, PAPER_SPEEDS_MM_PER_S};
 use shagreen_formats::attribute_table::attribute_table;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::{LEXICON_TEXT, built_in_lexicon};
@@ -24,45 +24,46 @@ use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::stroke_model::StrokeModel;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
 use crate::cli::said_of_prompt::said_of;
+use shagreen_studio::file;
 
-/// What a recorded stroke, a photo or words would feel like: attributes from 0 to 100, each with how unsure it is.
+/// Predicts the attributes of a recorded stroke, a photo or a prompt: 0 to 100, each with its standard deviation.
 ///
-/// Recordings are compared with the textures of a library whose attributes are known; without --library those of the simulated
-/// one, which nobody rated. With --model a network that learned from strokes tells them. Photos are judged by what was learned
-/// from pictures of materials whose roughness and hardness are known; words are understood by a lexicon whose figures are
+/// Recordings are compared with a library of textures with known attributes. Default: the simulated library, which
+/// nobody rated. With --model, a network trained on strokes predicts them instead. Photos are judged by a model trained
+/// on pictures of materials with known roughness and hardness. Prompts are read with a lexicon, whose values are
 /// estimates.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true))]
 pub(crate) struct Args {
-    /// Recordings of strokes over one texture: acceleration, speed and force, as WAV or tables.
+    /// Recordings of strokes on one texture: acceleration, speed and force, as WAV or tables.
     #[arg(long, value_name = "FILE", num_args = 1.., group = "what", conflicts_with = "backbone")]
     recording: Vec<PathBuf>,
-    /// A photo of a surface, as JPEG or PNG.
+    /// Photo of a surface, as JPEG or PNG.
     #[arg(long, value_name = "FILE", group = "what", conflicts_with = "library")]
     photo: Option<PathBuf>,
-    /// Words.
+    /// Description of a surface in words.
     #[arg(long, value_name = "TEXT", group = "what", conflicts_with_all = ["backbone", "library", "model"])]
     prompt: Option<String>,
-    /// The model that photos are judged by, from `shagreen train photo`, or recordings, from `shagreen train attributes`;
-    /// without it photos are judged by the one of the program, and recordings by the library.
+    /// Model for photos, from `shagreen train photo`, or for recordings, from `shagreen train attributes`. Default: the
+    /// built-in model for photos, the library for recordings.
     #[arg(long, value_name = "MODEL", conflicts_with = "library")]
     model: Option<PathBuf>,
     #[command(flatten)]
     backbone: BackboneArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    /// What the columns of recordings are and in which units, as a TOML file.
+    /// TOML file that states the columns of recordings and their units.
     #[arg(long, value_name = "MAP.toml", requires = "recording")]
     map: Option<PathBuf>,
-    /// Answers one question of a recording, as in acceleration_unit=g; overrules the map.
+    /// Answer a question about a recording, for example acceleration_unit=g; overrides the map.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer, requires = "recording")]
     answers: Vec<(Ask, String)>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -79,17 +80,17 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
     let backbone = read_backbone(&args.backbone)?;
     let looker = match &args.model {
         Some(model) => {
-            Looker::new(&output::read_file(model)?, backbone).with_context(|| output::in_file(model))?
+            Looker::new(&file::read_file(model)?, backbone).with_context(|| file::in_file(model))?
         }
         None => Looker::built_in(backbone)?,
     };
-    let pixels = photo_pixels(&output::read_file(photo)?).with_context(|| output::in_file(photo))?;
-    // Nobody knows how much of a surface a photo shows; nothing that is seen depends on it.
+    let pixels = photo_pixels(&file::read_file(photo)?).with_context(|| file::in_file(photo))?;
+    // The size of the surface in a photo is unknown; no feature depends on it.
     let seen =
-        looker.look(&pixels.into_surface(FRAMING.millimeters)).with_context(|| output::in_file(photo))?;
+        looker.look(&pixels.into_surface(FRAMING.millimeters)).with_context(|| file::in_file(photo))?;
     let model = looker.model();
     let attributes: Vec<(&str, Estimate)> = model.attributes().iter().map(String::as_str).zip(seen).collect();
-    let what = format!("{}, learned from {}", model.eyes().name(), model.learned_from());
+    let what = format!("{}, trained on {}", model.eyes().name(), model.learned_from());
     let result = json!({
         "attributes": as_json(&attributes),
         "model": what,
@@ -97,7 +98,7 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
         "label_source": LabelSource::Estimated.id(),
     });
     output::print(args.json, &result, || {
-        format!("{}\nby {what}\nan estimate: nobody rated it", table_text(&attributes))
+        format!("{}\npredicted by {what}\nan estimate: nobody rated it", table_text(&attributes))
     });
     Ok(())
 }
@@ -112,7 +113,7 @@ fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
         .collect();
     let result = json!({
         "attributes": as_json(&attributes),
-        "model": "words, by a lexicon of estimates",
+        "model": "lexicon of estimated attributes",
         "model_sha256": sha256_of(LEXICON_TEXT.as_bytes()),
         "label_source": LabelSource::Estimated.id(),
         "words": words,
@@ -141,12 +142,12 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
         return by_network(args, model, &recordings);
     }
     let fitted =
-        fit::fit(&recordings, &FitOptions::usual()).with_context(|| output::in_file(&args.recording[0]))?;
+        fit::fit(&recordings, &FitOptions::usual()).with_context(|| file::in_file(&args.recording[0]))?;
     for note in &fitted.report.notes {
         output::note(note);
     }
     let library = match args.library.path() {
-        Some(_) => load(&args.library)?,
+        Some(_) => args.library.load()?,
         None => BuiltIn::Simulated.read()?,
     };
     let table = attribute_table(&library)?;
@@ -154,7 +155,7 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
     let estimates = predict(&known, &quantities(&fitted.model))?;
     let attributes: Vec<(&str, Estimate)> = table.names.iter().map(String::as_str).zip(estimates).collect();
     let what = format!("a Gaussian process over {}", table.of_library(&library.name));
-    // What was learned from says what was learned.
+    // The training data identify the model.
     let learned = serde_json::to_vec(&json!([table.names, table.values]))?;
     let result = json!({
         "attributes": as_json(&attributes),
@@ -163,20 +164,20 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
         "label_source": table.source_ids().collect::<Vec<_>>(),
         "segments": fitted.report.segments.len(),
     });
-    output::print(args.json, &result, || format!("{}\nby {what}", table_text(&attributes)));
+    output::print(args.json, &result, || format!("{}\npredicted by {what}", table_text(&attributes)));
     Ok(())
 }
 
-/// What a network that learned from strokes takes the recordings for; it is as sure as it was of textures that were left out.
+/// Predicts the attributes of the recordings with a network trained on strokes. The standard deviations are its
+/// leave-one-texture-out RMSE.
 fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Result<()> {
-    let bytes = output::read_file(path)?;
-    let (network, card) = StrokeModel::from_bytes(&bytes).with_context(|| output::in_file(path))?;
-    let strokes =
-        fit::strokes(recordings, PAPER_RATE).with_context(|| output::in_file(&args.recording[0]))?;
+    let bytes = file::read_file(path)?;
+    let (network, card) = StrokeModel::from_bytes(&bytes).with_context(|| file::in_file(path))?;
+    let strokes = fit::strokes(recordings, PAPER_RATE).with_context(|| file::in_file(&args.recording[0]))?;
     let predicted = network.predict(&strokes)?.with_context(|| {
         let least = network.architecture().n_samples as f64 / PAPER_RATE.0;
         format!(
-            "no stroke lasts the {least} s that the network takes; leave --model out, or record longer ones"
+            "no stroke lasts {least} s, the input length of the network; leave --model out, or record longer strokes"
         )
     })?;
     warn_of_unknown(recordings, &strokes);
@@ -187,7 +188,7 @@ fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Res
         .map(String::as_str)
         .zip(estimates.map(|(mean, deviation)| Estimate { mean, deviation: *deviation }))
         .collect();
-    let what = format!("the network {}, learned from {}", card.network, card.learned_from);
+    let what = format!("the network {}, trained on {}", card.network, card.learned_from);
     let result = json!({
         "attributes": as_json(&attributes),
         "model": what,
@@ -195,15 +196,16 @@ fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Res
         "label_source": card.label_sources,
         "strokes": strokes.len(),
     });
-    output::print(args.json, &result, || format!("{}\nby {what}", table_text(&attributes)));
+    output::print(args.json, &result, || format!("{}\npredicted by {what}", table_text(&attributes)));
     Ok(())
 }
 
-/// Says where strokes are unlike those that networks learn from: how sure they are does not show it.
+/// Warns of strokes outside the training range of the networks: the standard deviations do not show it.
 fn warn_of_unknown(recordings: &[Recording], strokes: &[Stroke]) {
     let known = |values: &[f64], scale: f64| {
         let (first, last) = (scale * values[0], scale * values[values.len() - 1]);
-        // The patterns are points of a plane; half of the first and a half more than the last are still near them.
+        // The training strokes are points in the speed-force plane. Values from half the lowest to 1.5 times the
+        // highest count as near them.
         move |x: &f64| (0.5 * first..=1.5 * last).contains(x)
     };
     let is_speed = known(&PAPER_SPEEDS_MM_PER_S, 1e-3);
@@ -213,12 +215,12 @@ fn warn_of_unknown(recordings: &[Recording], strokes: &[Stroke]) {
     let percent = 100.0 * n_unknown as f64 / rows().count().max(1) as f64;
     if percent >= 1.0 {
         output::warn(&format!(
-            "{percent:.0} % of the strokes are slower, faster, lighter or stronger than what the network learned from (50 to 250 mm/s, 0.1 to 0.5 N); it does not know how wrong it is there"
+            "{percent:.0} % of the strokes lie outside the network's training range (50 to 250 mm/s, 0.1 to 0.5 N); its standard deviations do not hold there"
         ));
     }
     if let Some(recording) = recordings.iter().find(|recording| recording.rate.0 < 0.999 * PAPER_RATE.0) {
         output::warn(&format!(
-            "the network learned from {} Hz and misses what a recording of {:.0} Hz does not have",
+            "the network was trained at {} Hz; a recording of {:.0} Hz lacks the highest frequencies of its input",
             PAPER_RATE.0, recording.rate.0
         ));
     }
@@ -231,7 +233,7 @@ fn as_json(attributes: &[(&str, Estimate)]) -> BTreeMap<String, Value> {
     attributes.iter().map(of).collect()
 }
 
-/// One attribute a line.
+/// Returns one line per attribute.
 fn table_text(attributes: &[(&str, Estimate)]) -> String {
     let widest = attributes.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     let line =

@@ -1,32 +1,33 @@
-//! Profiles that a command takes: tables over position, or signals of a stroke of known speed.
+//! Profiles given to a command: tables over position, signals of a stroke at known speed, or rows of pictures.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
-use shagreen_core::profile::Profile;
-use shagreen_core::relief::felt_profile;
-use shagreen_core::spatial_spectrogram::Framing;
+use shagreen_core::signals::spatial_spectrogram::Framing;
+use shagreen_core::texture::profile::Profile;
+use shagreen_core::texture::relief::felt_profile;
 use shagreen_core::units::{Hertz, MetersPerSecond};
 use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
 
-use crate::cli::motion::positive;
-use crate::cli::output::{self, Usage};
+use crate::cli::output::Usage;
+use crate::cli::quantity::positive;
 use crate::cli::signal_source::SignalArgs;
+use shagreen_studio::file;
 
 #[derive(clap::Args)]
 pub(crate) struct ProfileArgs {
-    /// The profile: a table of positions in mm and values (.csv), a signal (.wav) with --speed, or a row of a photo or height
-    /// map (.png, .jpg) with --width.
+    /// Profile: a table of positions in mm and values (.csv), a signal (.wav) with --speed, or a row of a photo or
+    /// height map (.png, .jpg) with --width.
     #[arg(value_name = "PROFILE")]
     path: PathBuf,
-    /// Of a signal: how fast it was recorded, in mm/s, which makes its times positions.
+    /// Tip speed at which a signal was recorded, in mm/s; it converts times to positions.
     #[arg(long, value_name = "V", value_parser = positive)]
     speed: Option<f64>,
-    /// Of a picture: how much surface its width shows, in mm.
+    /// Width of the surface that a picture shows, in mm.
     #[arg(long, value_name = "MM", value_parser = positive)]
     width: Option<f64>,
-    /// Of a picture: which row, from 0 at its upper edge; without it the one in the middle.
+    /// Row of a picture, from 0 at its upper edge. Default: the row in the middle.
     #[arg(long, value_name = "ROW", requires = "width")]
     row: Option<u32>,
     #[command(flatten)]
@@ -34,14 +35,14 @@ pub(crate) struct ProfileArgs {
 }
 
 impl ProfileArgs {
-    /// Windows of a width in mm on the profile: no wider than it, and four steps at least.
+    /// Returns windows of a width in mm: at least four steps, at most the length of the profile.
     pub(crate) fn framing(&self, profile: &Profile, window_mm: f64) -> anyhow::Result<Framing> {
         let window_m = 1e-3 * window_mm;
         let (narrowest_m, widest_m) = (4.0 * profile.step_m(), profile.length_m());
-        // Lengths come from products of steps.
+        // The tolerance covers rounding: lengths are products of steps.
         if !(0.999 * narrowest_m..=1.001 * widest_m).contains(&window_m) {
             bail!(
-                "a window of {window_mm} mm does not fit a profile of {:.4} mm in steps of {:.4} mm; give {:.4} to {:.4} mm: {}",
+                "a window of {window_mm} mm does not fit a profile of {:.4} mm in steps of {:.4} mm; choose {:.4} to {:.4} mm: {}",
                 1e3 * widest_m,
                 1e3 * profile.step_m(),
                 1e3 * narrowest_m,
@@ -52,12 +53,12 @@ impl ProfileArgs {
         Ok(Framing::of_length(window_m, profile.step_m()))
     }
 
-    /// The file.
+    /// Returns the file.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// A row of the picture in it.
+    /// Loads a row of the picture.
     fn load_row(&self, width_mm: f64) -> anyhow::Result<Profile> {
         if self.speed.is_some() || self.signals.is_given() {
             return Err(Usage(
@@ -66,28 +67,30 @@ impl ProfileArgs {
             )
             .into());
         }
-        let bytes = output::read_file(&self.path)?;
-        let values = brightness_row(&bytes, self.row).with_context(|| output::in_file(&self.path))?;
+        let bytes = file::read_file(&self.path)?;
+        let values = brightness_row(&bytes, self.row).with_context(|| file::in_file(&self.path))?;
         let step_m = 1e-3 * width_mm / values.len() as f64;
         Profile::new(step_m, values)
-            .with_context(|| format!("over {width_mm} mm the row is no profile; check --width"))
-            .with_context(|| output::in_file(&self.path))
+            .with_context(|| {
+                format!("with a width of {width_mm} mm the row is not a valid profile; check --width")
+            })
+            .with_context(|| file::in_file(&self.path))
     }
 
-    /// Whether the values are accelerations: those of a signal.
+    /// Returns whether the values are accelerations, as in a signal.
     pub(crate) fn is_signal(&self) -> bool {
         self.speed.is_some()
     }
 
-    /// The profile in it as it is felt: of a recording without what comes too fast.
+    /// Loads the profile for playback: a recording without imperceptible frequencies.
     pub(crate) fn load_felt(&self) -> anyhow::Result<Profile> {
         let profile = self.load()?;
         let Some(speed) = self.speed.map(MetersPerSecond::from_mm_per_s) else { return Ok(profile) };
         let rate = Hertz(speed.0 / profile.step_m());
-        felt_profile(profile.values(), rate, speed).with_context(|| output::in_file(&self.path))
+        felt_profile(profile.values(), rate, speed).with_context(|| file::in_file(&self.path))
     }
 
-    /// The profile in it.
+    /// Loads the profile.
     pub(crate) fn load(&self) -> anyhow::Result<Profile> {
         if let Some(width_mm) = self.width {
             return self.load_row(width_mm);
@@ -98,23 +101,23 @@ impl ProfileArgs {
                 let signal = self.signals.load(&self.path)?;
                 let step_m = 1e-3 * speed / signal.rate.0;
                 Profile::new(step_m, signal.samples_mps2)
-                    .with_context(|| format!("at {speed} mm/s the signal is no profile; check --speed"))
-                    .with_context(|| output::in_file(&self.path))
+                    .with_context(|| format!("at {speed} mm/s the signal is not a valid profile; check --speed"))
+                    .with_context(|| file::in_file(&self.path))
             }
             None if is_signal => {
-                Err(Usage("a signal becomes a profile by its speed; give --speed in mm/s".to_owned()).into())
+                Err(Usage("a signal needs its tip speed to become a profile; give --speed in mm/s".to_owned()).into())
             }
             speed if speed.is_some() || self.signals.is_given() => Err(Usage(
-                "a table has positions and values already; --speed, --full-scale and --channel are for signals (.wav)"
+                "a table already has positions and values; --speed, --full-scale and --channel are for signals (.wav)"
                     .to_owned(),
             )
             .into()),
             _ => {
-                let bytes = output::read_file(&self.path)?;
+                let bytes = file::read_file(&self.path)?;
                 if is_picture(&bytes) {
-                    return Err(Usage("a picture becomes a profile by its size; give --width in mm".to_owned()).into());
+                    return Err(Usage("a picture needs its width to become a profile; give --width in mm".to_owned()).into());
                 }
-                read_profile_csv(&bytes).with_context(|| output::in_file(&self.path))
+                read_profile_csv(&bytes).with_context(|| file::in_file(&self.path))
             }
         }
     }

@@ -1,4 +1,4 @@
-//! `shagreen project gallery`: the projects that come with the program.
+//! `shagreen project gallery`: lists the example projects of the program.
 
 use serde_json::json;
 use shagreen_formats::gallery::{GALLERY, GalleryProject};
@@ -6,10 +6,10 @@ use shagreen_formats::project::Project;
 
 use crate::cli::output;
 
-/// Lists the projects that come with the program, to begin from.
+/// Lists the example projects that come with the program.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }

@@ -1,35 +1,35 @@
-//! `shagreen project show`: what somebody authored.
+//! `shagreen project show`: shows the contents of a project.
 
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use shagreen_app::libraries;
-use shagreen_core::authoring::{Outside, Weights};
+use shagreen_core::space::authoring::{Outside, Weights};
 use shagreen_formats::project::{AuthoredTexture, ProjectLibrary};
+use shagreen_studio::library_names;
 
-use crate::cli::output;
-use crate::cli::project_source::{load_project, textures_of};
+use crate::cli::output::{self, Printed};
+use shagreen_studio::project::{load_project, textures_of};
 
-/// Shows what a project holds.
+/// Shows the contents of a project.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The project.
+    /// Project file.
     #[arg(value_name = "PROJECT")]
     file: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let project = load_project(&args.file)?;
+    let project = load_project(&args.file, &Printed)?;
     let textures = textures_of(&project)?;
     let kept = match &project.library {
         ProjectLibrary::BuiltIn(built_in) => json!({"built_in": built_in.id()}),
         ProjectLibrary::File(file) => json!({"file": file.path, "sha256": file.sha256}),
         ProjectLibrary::Inside(_) => json!({"inside": true}),
     };
-    let name = libraries::name(&project.library);
+    let name = library_names::name(&project.library);
     let authored: Vec<Value> = project.authored.iter().map(|texture| describe(texture)).collect();
     let result = json!({
         "library": name,

@@ -1,10 +1,10 @@
-//! `shagreen quality`: how different two signals feel.
+//! `shagreen quality`: predicts how well two signals can be told apart.
 
 use std::path::PathBuf;
 
 use anyhow::{Context as _, ensure};
 use serde_json::{Value, json};
-use shagreen_core::quality::{
+use shagreen_core::signals::quality::{
     Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, snr_db, spqi, st_sim,
 };
 use shagreen_formats::quality_model::built_in_quality_model;
@@ -13,29 +13,31 @@ use shagreen_formats::thresholds::ThresholdKind;
 use crate::cli::output;
 use crate::cli::signal_source::SignalArgs;
 use crate::cli::words::words;
+use shagreen_studio::file;
 
-/// Compares a signal with a reference by what is felt of both, and predicts how well people tell them apart.
+/// Compares a signal with a reference by perceptual features and predicts their discriminability d'.
 ///
-/// Both are WAV files in m/s², compared sample beside sample at 2000 Hz in pieces of 0.8 s. The predicted d' is the distance in
-/// standard deviations: at 1 about two of three answers are right. It is made for a signal and what became of it: two strokes on
-/// one texture are far apart by it. Nobody felt these signals: a model of published weights predicts it, with distances scaled
-/// by a corpus of simulated textures.
+/// Both are WAV files in m/s², compared sample by sample at 2000 Hz in segments of 0.8 s. The predicted d' is the
+/// distance in standard deviations: at d' = 1 about two of three answers are correct. It is meant for a signal and a
+/// degraded version of it; two different strokes on one texture have a large d'. Nobody felt these signals: a model
+/// with published weights predicts d', with distances scaled on a corpus of simulated textures.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The signal as it should be.
+    /// Reference signal.
     #[arg(value_name = "REF.wav")]
     reference: PathBuf,
-    /// The signal that is compared with it.
+    /// Signal to compare with the reference.
     #[arg(value_name = "TEST.wav")]
     test: PathBuf,
     #[command(flatten)]
     signals: SignalArgs,
-    /// What is felt at least: by a hand that holds a tool, or by skin on a large contactor. Approximate curves; the two of the skin
-    /// differ below 40 Hz only, which the channels of d' do not reach.
+    /// Detection threshold: held-tool for a hand that holds a tool, pacinian or composite for bare skin on a large
+    /// contactor. The curves are approximate. pacinian and composite differ only below 40 Hz, outside the channels of
+    /// d'.
     #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id),
         default_value = ThresholdKind::default().id())]
     threshold: ThresholdKind,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -56,18 +58,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     test.truncate(n_samples);
     let threshold = args.threshold.read()?;
     let meter = QualityMeter::new(rate, &threshold)?;
-    let distances = meter.distances(&reference, &test).with_context(|| output::in_file(&args.test))?;
+    let distances = meter.distances(&reference, &test).with_context(|| file::in_file(&args.test))?;
     let (a, b) = (meter.features(&reference)?, meter.features(&test)?);
     let d_prime = built_in_quality_model()?.d_prime(&distances);
     ensure!(
         d_prime.is_finite(),
-        "the signals are too far from any touch to be compared; correct their units"
+        "d' is not finite: the signals are far outside the range of touch; check their units"
     );
     let seconds = (n_samples / meter.n_segment()) as f64 * SEGMENT_SECS;
     if n_samples % meter.n_segment() > 0 {
         let whole = n_samples as f64 / rate.0;
         output::note(&format!(
-            "{seconds:.1} s of {whole:.2} s are compared: whole pieces of {SEGMENT_SECS} s"
+            "{seconds:.1} s of {whole:.2} s are compared: whole segments of {SEGMENT_SECS} s"
         ));
     }
     let similarities =
@@ -80,7 +82,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "dprime": d_prime,
         "st_sim": similarities[0],
         "spqi": similarities[1],
-        // Equal signals have none.
+        // Infinite for identical signals.
         "snr_db": snr.is_finite().then_some(snr),
         "rate_hz": rate.0,
         "seconds": seconds,
@@ -99,7 +101,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A feature of one signal; activations and envelopes are only compared.
+/// Returns a feature of one signal; activations and envelopes exist only as distances.
 fn own(features: &Features, feature: Feature) -> Option<f64> {
     match feature {
         Feature::Roughness => Some(features.roughness),
@@ -124,12 +126,12 @@ fn text(answer: &Value) -> String {
         lines.push(line.trim_end().to_owned());
     }
     lines.push(format!(
-        "predicted d' {:.2} (by a model, over {} s; nobody was asked)",
+        "predicted d' {:.2} (by a model, over {} s; nobody felt the signals)",
         answer["dprime"].as_f64().unwrap_or(0.0),
         answer["seconds"]
     ));
     lines.push(format!(
-        "ST-SIM {}, SPQI {}, signal to noise {} dB",
+        "ST-SIM {}, SPQI {}, signal-to-noise ratio {} dB",
         number(&answer["st_sim"]),
         number(&answer["spqi"]),
         number(&answer["snr_db"])

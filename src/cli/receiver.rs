@@ -1,29 +1,29 @@
-//! A receiver on a serial port: what it is called, and what it says beside the stream.
+//! A receiver on a serial port: its name and its warnings.
 
 use shagreen_device::serial::Heard;
 
 use crate::cli::output;
 
-/// A receiver that is played on.
+/// Receiver that plays the output.
 pub(crate) struct Receiver {
     name: String,
     port: String,
-    /// What it has said and nobody has heard yet.
+    /// Returns the next unread message of the receiver.
     next: Box<dyn FnMut() -> Option<Heard>>,
-    /// Warnings that were passed on.
+    /// Warnings that were printed.
     told: Vec<String>,
 }
 
-/// Most different warnings of a receiver that are passed on: firmware may count in them.
+/// Largest number of different warnings that are printed: firmware may put counters into them.
 const MOST_WARNINGS: usize = 20;
 
 impl Receiver {
-    /// A receiver by its own name, which may be empty, on the port of an output, and what it says.
+    /// Creates a receiver from its own name, which may be empty, the port of the output, and its messages.
     pub(crate) fn new(name: String, port: String, next: Box<dyn FnMut() -> Option<Heard>>) -> Self {
         Self { name, port, next, told: Vec::new() }
     }
 
-    /// What to call it.
+    /// Returns the name of the receiver for messages.
     pub(crate) fn in_words(&self) -> String {
         if self.name.is_empty() {
             format!("the receiver on `{}`", self.port)
@@ -32,7 +32,7 @@ impl Receiver {
         }
     }
 
-    /// Says what it has warned of since, each thing once.
+    /// Prints the new warnings of the receiver, each text once.
     pub(crate) fn tell_warnings(&mut self) {
         while let Some(heard) = (self.next)() {
             if let Some(warning) = self.new_warning(heard) {
@@ -41,14 +41,14 @@ impl Receiver {
         }
     }
 
-    /// The sentence for a warning, where it is one that has not been told.
+    /// Returns the message for a warning, unless it was printed before.
     fn new_warning(&mut self, heard: Heard) -> Option<String> {
         let Heard::Warning(text) = heard else { return None };
         if self.told.len() > MOST_WARNINGS || self.told.contains(&text) {
             return None;
         }
         self.told.push(text.clone());
-        let what = if self.told.len() > MOST_WARNINGS { "more, which is not shown" } else { &text };
+        let what = if self.told.len() > MOST_WARNINGS { "more warnings, which are not shown" } else { &text };
         Some(format!("{} warns: {what}", self.in_words()))
     }
 }
@@ -71,7 +71,7 @@ mod tests {
         for i in 1..MOST_WARNINGS {
             assert!(warn(&format!("hot {i}")).is_some_and(|told| told.ends_with(&i.to_string())));
         }
-        assert!(warn("hotter").is_some_and(|told| told.ends_with("more, which is not shown")));
+        assert!(warn("hotter").is_some_and(|told| told.ends_with("more warnings, which are not shown")));
         assert_eq!(warn("hottest"), None);
         let block = SensorBlock { seq: 0, rate_hz: 1000, time_us: 0, scale_mps2: 1.0, counts: vec![1] };
         assert_eq!(receiver.new_warning(Heard::Sensor(block)), None);

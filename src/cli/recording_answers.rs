@@ -1,4 +1,4 @@
-//! What is said of a recording beside it: answers on the command line, and the file of units.
+//! Information about a recording outside its file: answers on the command line, and the sidecar with units.
 
 use std::path::Path;
 
@@ -7,42 +7,46 @@ use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_formats::wav;
 
-use crate::cli::output::{self, file_name};
+use crate::cli::output;
+use shagreen_studio::file::{self, file_name};
 
-/// An answer to a question, as KEY=VALUE.
+/// Parses an answer to a question, as KEY=VALUE.
 pub(crate) fn parse_answer(text: &str) -> Result<(Ask, String), String> {
     let (key, value) = text.split_once('=').ok_or("write KEY=VALUE as in acceleration_unit=g")?;
     let what = Ask::from_key(key.trim()).ok_or_else(|| {
         let keys: Vec<&str> = Ask::ALL.iter().map(|ask| ask.key()).collect();
-        format!("there is no question \"{}\"; the keys are {}", key.trim(), keys.join(", "))
+        format!("there is no key \"{}\"; the keys are {}", key.trim(), keys.join(", "))
     })?;
     Ok((what, value.trim().to_owned()))
 }
 
-/// The map of the arguments.
+/// Returns the column map that the arguments specify.
 pub(crate) fn map_of(path: Option<&Path>, answers: &[(Ask, String)]) -> anyhow::Result<ColumnMap> {
     let mut map = match path {
         None => ColumnMap::default(),
-        Some(path) => read_map(&output::read_file(path)?).with_context(|| output::in_file(path))?,
+        Some(path) => read_map(&file::read_file(path)?).with_context(|| file::in_file(path))?,
     };
     for (i, (what, answer)) in answers.iter().enumerate() {
         if let Some((_, other)) =
             answers[..i].iter().find(|(earlier, other)| earlier == what && other != answer)
         {
-            bail!(output::Usage(format!("--set says two things of {}: {other} and {answer}", what.key())));
+            bail!(output::Usage(format!(
+                "--set gives two values for {}: {other} and {answer}; give one",
+                what.key()
+            )));
         }
         let before = map.clone();
         map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
         for (column, now) in [(before.speed, &map.speed), (before.force, &map.force)] {
             if let (Some(column), None) = (column, now) {
-                output::note(&format!("--set {}={answer} overrules {column} of the map", what.key()));
+                output::note(&format!("--set {}={answer} overrides {column} of the map", what.key()));
             }
         }
     }
     Ok(map)
 }
 
-/// The bytes of the file of units beside a WAV file; most have none.
+/// Returns the bytes of a WAV file's sidecar with units; `None` if there is none.
 pub(crate) fn sidecar(file: &Path) -> Result<Option<Vec<u8>>, String> {
     if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wav")) {
         return Ok(None);
@@ -52,7 +56,7 @@ pub(crate) fn sidecar(file: &Path) -> Result<Option<Vec<u8>>, String> {
             Ok(bytes) => return Ok(Some(bytes)),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
             Err(error) => {
-                return Err(format!("the sidecar {name} cannot be read ({error}); check your rights"));
+                return Err(format!("the sidecar {name} cannot be read ({error}); check your permissions"));
             }
         }
     }

@@ -1,32 +1,32 @@
-//! Recorded strokes from a file, with what there is to say of them.
+//! Recorded strokes from files, with questions and warnings.
 
 use std::path::Path;
 
 use shagreen_core::recording::Recording;
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
 
-use crate::cli::output::{self, file_name};
 use crate::cli::recording_answers::sidecar;
+use shagreen_studio::file::{self, file_name};
 
-/// What became of a file.
+/// Result of reading a recording.
 pub(crate) struct RecordingRead {
-    /// The recording, or why there is none.
+    /// The recording, or the reason why it cannot be used.
     pub(crate) recording: Result<Recording, String>,
-    /// What the file did not say: with a guess where there is one.
+    /// Properties that the file does not state, each with a guess if there is one.
     pub(crate) questions: Vec<Question>,
-    /// Sentences, the guesses among them.
+    /// Warnings, including the guesses.
     pub(crate) warnings: Vec<String>,
 }
 
-/// Reads a recording, with its file of units if there is one.
+/// Reads a recording, and its sidecar with units if there is one.
 pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead {
     let failed = |reason: String| RecordingRead {
         recording: Err(reason),
         questions: Vec::new(),
         warnings: Vec::new(),
     };
-    // The file is named beside it.
-    let bytes = match output::read_file(file) {
+    // The caller adds the name of the file.
+    let bytes = match file::read_file(file) {
         Ok(bytes) => bytes,
         Err(error) => return failed(error.root_cause().to_string()),
     };
@@ -52,7 +52,7 @@ pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead
         Err(RecordingFileError::NeedsAnswers(needed)) => {
             let mut warnings = guessed(&needed.questions);
             warnings.extend(needed.warnings.iter().cloned());
-            let reason = format!("{needed}; answer by --set KEY=VALUE or --map MAP.toml");
+            let reason = format!("{needed}; answer with --set KEY=VALUE or --map MAP.toml");
             RecordingRead { recording: Err(reason), questions: needed.questions, warnings }
         }
         Err(error) => failed(error.to_string()),

@@ -1,39 +1,41 @@
-//! `shagreen render`: a texture, as a stylus would feel it.
+//! `shagreen render`: renders a texture to a WAV file.
 
 use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use serde_json::json;
-use shagreen_core::plane::{Plane, Prepared};
-use shagreen_core::render::{Hand, PathPlan, RenderPlan, render, render_path};
 use shagreen_core::space::LabelSource;
+use shagreen_core::texture::render::Hand;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav};
+use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
 
-use crate::cli::guard::{is_sidecar, refuse_foreign, refuse_inputs};
-use crate::cli::landings::add_landings;
 use crate::cli::motion::{Motion, MotionArgs, motion};
-use crate::cli::output::{self, Progress};
-use crate::cli::target::{Chosen, SoundArgs};
+use crate::cli::output::{self, Printed, Progress};
+use crate::cli::target::SoundArgs;
+use shagreen_studio::landings::add_landings;
+use shagreen_studio::replace::{is_sidecar, refuse_foreign, refuse_inputs};
+use shagreen_studio::sound::Sound;
 
-/// Renders a texture as a stylus would feel it: mono float WAV in m/s², with a sidecar that says what it is.
+/// Renders the acceleration of a texture as felt with a stylus: mono float WAV in m/s², with a sidecar that describes
+/// it.
 ///
-/// Landings in a stroke sound where the texture knows how, as they do when it is played.
+/// Contacts in a stroke add tap transients if the texture has them, as in playback.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     sound: SoundArgs,
-    /// Rate of the output, in Hz; without it that of the texture's model.
+    /// Sample rate of the output, in Hz. Default: the rate of the texture's model.
     #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..))]
     rate: Option<u32>,
-    /// Seed of the noise: the same gives the same samples.
+    /// Random seed of the noise; the same seed gives the same samples.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// WAV file to write; its sidecar has the same name with .json.
     #[arg(short, long, value_name = "OUT.wav")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -51,10 +53,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out, &beside], &[motion.stroke_path(), args.sound.library_path()])?;
     refuse_foreign(&beside, "the signal's sidecar", is_sidecar)?;
     wav::check_length((motion.seconds() * f64::from(rate_hz)).round() as u64)?;
-    chosen.note_limits(&library, &motion);
+    chosen.note_limits(&library, &motion.trace(), &Printed);
     let mut samples = samples(args, &library, &chosen, &motion, rate_hz)?;
     if samples.is_empty() {
-        bail!("{} s at {rate_hz} Hz are no sample; make it longer", motion.seconds());
+        bail!("{} s at {rate_hz} Hz contain no sample; choose a longer duration", motion.seconds());
     }
     let sidecar = sidecar(args, &library, &chosen, &motion, rate_hz);
     let seconds = samples.len() as f64 / f64::from(rate_hz);
@@ -62,7 +64,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let model_rate_hz = chosen.rate(&library)?.0;
         add_landings(&mut samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
     }
-    // Summed here, since a copy of an hour in f64 would take gigabytes.
+    // Accumulated here: a copy of one hour in `f64` would need gigabytes.
     let wide = samples.iter().map(|sample| f64::from(*sample));
     let peak = wide.clone().fold(0.0, |peak: f64, sample| peak.max(sample.abs()));
     let rms = (wide.map(|sample| sample * sample).sum::<f64>() / samples.len().max(1) as f64).sqrt();
@@ -95,7 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A rate as WAV files have it.
+/// Returns a rate as a whole number, as WAV files need it.
 fn whole(rate: Hertz) -> anyhow::Result<u32> {
     if rate.0.fract() == 0.0 {
         Ok(rate.0 as u32)
@@ -104,7 +106,7 @@ fn whole(rate: Hertz) -> anyhow::Result<u32> {
     }
 }
 
-/// A motion that tells how far it is.
+/// Motion that shows its progress.
 struct Watched<'a> {
     motion: &'a Motion,
     progress: Progress,
@@ -124,27 +126,23 @@ impl Hand for Watched<'_> {
 fn samples(
     args: &Args,
     library: &Library,
-    chosen: &Chosen,
+    chosen: &Sound,
     motion: &Motion,
     rate_hz: u32,
 ) -> anyhow::Result<Vec<f32>> {
     let mut hand =
         Watched { motion, progress: Progress::new("ms rendered", output::in_ms(motion.seconds())) };
-    let (rate, seconds, seed) = (Hertz(f64::from(rate_hz)), motion.seconds(), args.seed);
+    let format = SampleFormat { rate: Hertz(f64::from(rate_hz)), seconds: motion.seconds(), seed: args.seed };
     if let Some(path) = &chosen.path {
-        let prepared: Vec<Prepared> =
-            path.keys().iter().map(|key| Plane::new(&key.model).prepare()).collect();
-        let plan = PathPlan { path, prepared: &prepared, rate, seconds, seed };
-        return render_path(&plan, &mut hand).context("the path cannot be rendered like that");
+        return render_along(path, format, &mut hand)
+            .context("the path cannot be rendered with these options");
     }
-    let prepared: Vec<(Prepared, f64)> =
-        chosen.planes(library)?.iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect();
-    let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
-    let plan = RenderPlan { parents: &parents, mode: chosen.mixing, rate, seconds, seed };
-    render(&plan, &mut hand).context("the texture cannot be rendered like that")
+    let voices = chosen.planes(library, &Printed)?;
+    render_mixture(&voices, chosen.mixing, format, &mut hand)
+        .context("the texture cannot be rendered with these options")
 }
 
-fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rate_hz: u32) -> SidecarV1 {
+fn sidecar(args: &Args, library: &Library, chosen: &Sound, motion: &Motion, rate_hz: u32) -> SidecarV1 {
     let parent = |(index, weight): &(usize, f64)| ParentV1::new(library, *index, *weight);
     SidecarV1 {
         texture: chosen.texture.clone(),
@@ -155,7 +153,7 @@ fn sidecar(args: &Args, library: &Library, chosen: &Chosen, motion: &Motion, rat
         parents: chosen.parents.iter().map(parent).collect(),
         library: library.name.clone(),
         label_source: library.label_source().map(|source| LabelSource::id(source).to_owned()),
-        // Its name only: a file that is passed on need not tell how someone's folders are called.
+        // The file name only: a redistributed file must not reveal the names of folders.
         stroke: motion
             .stroke_path()
             .and_then(|path| path.file_name())

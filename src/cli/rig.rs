@@ -1,4 +1,4 @@
-//! What is driven: an output, the actuator on it, and how much of it that stands.
+//! Device setup: an output, the actuator on it, and its limits.
 
 use anyhow::{Context as _, bail};
 use shagreen_core::actuator::{Drive, drive_config};
@@ -12,27 +12,27 @@ use shagreen_device::serial::{self, Connection, SerialOptions, USUAL_BAUD};
 use shagreen_device::synth::drive::DriveConfig;
 
 use crate::cli::actuator_source::{grams, load_actuator, volts};
-use crate::cli::motion::quantity;
 use crate::cli::output;
+use crate::cli::quantity::quantity;
 use crate::cli::receiver::Receiver;
 use crate::cli::watch::Watch;
 
 #[derive(clap::Args)]
-#[command(next_help_heading = "What is driven")]
+#[command(next_help_heading = "Output and actuator")]
 pub(crate) struct RigArgs {
-    /// Output to play on, by its id; `shagreen devices` lists them. Without it the silent one: no output is ever
-    /// guessed, since actuator drive does not belong in someone's headphones.
+    /// Output to play on, by id; `shagreen devices` lists them. Default: the silent output. No output is ever guessed,
+    /// since an actuator's drive signal must not reach someone's headphones.
     #[arg(long, value_name = "ID", default_value = NULL_ID)]
     output: String,
-    /// Receiver on a serial port to play on, by the port's id or name: a microcontroller that speaks the protocol of
+    /// Receiver on a serial port to play on, by the port's id or name: a microcontroller with the protocol of
     /// docs/serial-protocol.md.
     #[arg(long, value_name = "PORT", conflicts_with = "output")]
     serial: Option<String>,
-    /// Baud rate of the serial port, on both sides; USB has none and does not care.
+    /// Baud rate of the serial port, the same on both sides; USB ignores it.
     #[arg(long, value_name = "N", requires = "serial", conflicts_with = "output", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
-    /// Who renders: `stream` sends samples to the serial port, `control` speed, force and texture for firmware that renders
-    /// by itself.
+    /// Renderer for the serial port: `stream` sends samples; `control` sends speed, force and texture to firmware that
+    /// renders itself.
     #[arg(
         long,
         value_name = "MODE",
@@ -41,53 +41,54 @@ pub(crate) struct RigArgs {
         default_value = "stream"
     )]
     serial_mode: SerialMode,
-    /// The only channel to drive, from 1; without it the first two.
+    /// Drive only this channel, from 1. Default: the first two channels.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     channel: Option<u16>,
-    /// Frames a block to ask the output for: fewer are faster and harder to keep up with.
+    /// Buffer size to request from the output, in frames: small buffers reduce latency and increase the risk of
+    /// dropouts.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65_536))]
     buffer: Option<u32>,
-    /// The actuator, by its id or its profile: its response is undone, and it is kept within what it stands.
+    /// Actuator, by id or profile file: its response is equalized and its electrical limits are enforced.
     #[arg(long, value_name = "ID_OR_FILE", conflicts_with = "full_scale", requires = "full_scale_volts")]
     actuator: Option<String>,
-    /// Mass that the actuator shakes, in g, where it is another than that of its profile.
+    /// Mass attached to the actuator, in g, if it differs from that of its profile.
     #[arg(long, value_name = "G", requires = "actuator", value_parser = grams)]
     load_g: Option<f64>,
-    /// Peak voltage at the actuator when the output is at full scale: every limit rests on it.
+    /// Peak voltage at the actuator when the output is at full scale, in V; all limits depend on it.
     #[arg(long, value_name = "V", requires = "actuator", value_parser = volts)]
     full_scale_volts: Option<f64>,
-    /// Leave the actuator's response as it is, and keep only its limits.
+    /// Do not equalize the actuator's response; enforce only its limits.
     #[arg(long, requires = "actuator")]
     no_equalizer: bool,
-    /// Acceleration at which the output is at full scale, in m/s², where no actuator is known.
+    /// Acceleration at which the output is at full scale, in m/s², if no actuator is given.
     #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2), conflicts_with_all = ["full_scale_volts", "load_g", "no_equalizer"])]
     full_scale: f64,
 }
 
-/// An open output.
+/// Open output.
 pub(crate) struct Rig {
-    /// By which it is told what to do.
+    /// Controls the output.
     pub(crate) handle: Handle,
     /// Plays until it is dropped.
     pub(crate) running: Running,
-    /// What is said of it meanwhile.
+    /// Monitors the output.
     pub(crate) watch: Watch,
 }
 
-/// Who renders for a serial port.
+/// Renderer for a serial port.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum SerialMode {
     Stream,
     Control,
 }
 
-/// The channels that are driven: the first two, or the one of this number from 1.
+/// Returns the driven channels: the first two, or only the one with this number, from 1.
 pub(crate) fn channels(only: Option<u16>) -> ChannelMask {
     only.map_or(ChannelMask::FIRST_TWO, |channel| ChannelMask::only(usize::from(channel).saturating_sub(1)))
 }
 
 impl RigArgs {
-    /// Opens the output for textures of a rate, with noise of a seed.
+    /// Opens the output for textures of this rate, with this random seed of the noise.
     pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<Rig> {
         let options = OpenOptions {
             model_rate_hz,
@@ -125,14 +126,14 @@ impl RigArgs {
         if !receiver.name.is_empty() {
             output::note(&format!("the receiver is `{}`", receiver.name));
         }
-        // Nothing waits: it is asked again.
+        // An empty queue is polled again later.
         let next = Box::new(move || heard.pop().ok());
         let receiver = Receiver::new(receiver.name, running.id().to_owned(), next);
         let watch = Watch::new(running.id(), Some(receiver));
         Ok(Rig { handle, running, watch })
     }
 
-    /// Whether an actuator is known, by whose limits the output is driven.
+    /// Returns whether an actuator is given, whose limits apply to the output.
     pub(crate) fn has_actuator(&self) -> bool {
         self.actuator.is_some()
     }
@@ -148,7 +149,7 @@ impl RigArgs {
             output::warn(&warning.to_string());
         } else if config.budget.is_none() {
             output::warn(&format!(
-                "nobody has stated what the actuator `{name}` stands for long: it is not kept from getting too warm"
+                "the profile of the actuator `{name}` states no continuous rating: the actuator is not protected from overheating"
             ));
         }
         Ok(config)

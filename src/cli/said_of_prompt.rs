@@ -1,9 +1,9 @@
-//! What there is to say of how a prompt was understood.
+//! Summary of how a prompt was understood.
 
-use shagreen_core::prompt::Understood;
+use shagreen_core::surfaces::prompt::Understood;
 use shagreen_core::words::counted;
 
-/// What there is to say of how words were understood.
+/// Returns a summary of how a prompt was understood.
 pub(crate) fn said_of(understood: &Understood) -> String {
     let mut said = Vec::new();
     let taken: Vec<String> = understood
@@ -21,17 +21,17 @@ pub(crate) fn said_of(understood: &Understood) -> String {
     if understood.is_about_touch() {
         said.push(format!("understood: {}", taken.join(", ")));
     } else {
-        said.push("nothing was said that can be felt: any surface is as likely".to_owned());
+        said.push("the prompt says nothing about touch: every surface is equally likely".to_owned());
     }
     if !understood.unknown.is_empty() {
         said.push(format!("not understood: {}", understood.unknown.join(", ")));
     }
     if !understood.disputed.is_empty() {
-        said.push(format!("the words disagree about {}", understood.disputed.join(", ")));
+        said.push(format!("the words contradict each other about {}", understood.disputed.join(", ")));
     }
     if understood.n_left_out > 0 {
-        said.push(format!("{} at the end were left out", counted(understood.n_left_out, "word")));
+        said.push(format!("{} at the end were ignored", counted(understood.n_left_out, "word")));
     }
-    said.push("estimates of words: nobody rated them".to_owned());
+    said.push("estimates from words: nobody rated them".to_owned());
     format!("\n{}", said.join("\n"))
 }

@@ -1,35 +1,35 @@
-//! `shagreen space build`: an authoring space from sortings and ratings.
+//! `shagreen space build`: builds an authoring space from sorts and ratings.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use anyhow::bail;
-use shagreen_core::features::NamedTexture;
-use shagreen_core::mds::{MAX_DIMS, Ties};
-use shagreen_core::mfcc::{MfccOptions, htk, paper, recommended};
-use shagreen_core::ratings::{AdjectivePair, OUTLIER_LIMIT};
-use shagreen_core::selection::Method;
-use shagreen_core::sorting::Finding;
-use shagreen_core::space_build::{
-    FeatureKind, PlacedBy, SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict,
-};
+use shagreen_core::dsp::mfcc::{MfccOptions, htk, paper, recommended};
+use shagreen_core::people::mds::{MAX_DIMS, Ties};
+use shagreen_core::people::ratings::{AdjectivePair, OUTLIER_LIMIT};
+use shagreen_core::people::sorting::Finding;
+use shagreen_core::space::features::NamedTexture;
+use shagreen_core::space::selection::Method;
+use shagreen_core::space::space_build::{FeatureKind, PlacedBy, SpaceBuild, SpaceData, SpaceOptions, Step};
 use shagreen_core::words::counted;
 use shagreen_formats::figure::page_svg;
 use shagreen_formats::library::write_library;
-use shagreen_formats::placed_space::PlacedSpace;
-use shagreen_formats::space_report::{FIGURES, FORMAT, space_figures, space_report, space_subtitle};
+use shagreen_formats::space_report::{FIGURES, FORMAT, space_report, space_subtitle};
 
-use crate::cli::figures_folder::{check_figures, figure_files, write_together};
-use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
 use crate::cli::space_judgments::{JudgmentArgs, Judgments};
 use crate::cli::words::words;
+use shagreen_studio::figure_files::{check_figures, figure_files, write_together};
+use shagreen_studio::replace::{has_format, is_library, refuse_foreign, refuse_inputs};
+use shagreen_studio::space::{self, BuiltSpace};
 
-/// Builds an authoring space from what people felt and what was measured.
+/// Builds an authoring space from judgments of textures and features of their vibrations.
 ///
-/// Sortings make a perceptual space, ratings point into it, and textures fall onto the lines of two adjective pairs.
-/// Features of the textures' vibrations predict these axes; what that is worth is reported with nested cross-validation
-/// and a null distribution. Beside the library, a report (L2.report.json) and a page of plots (L2.report.svg) are written.
+/// Multidimensional scaling of the sorts gives a perceptual space. The ratings give the direction of each adjective
+/// pair in it, and textures are projected onto the lines of two pairs, the axes. Features of the vibrations predict the
+/// axes; nested cross-validation and a null distribution show the quality of the prediction. A report (L2.report.json)
+/// and a page of plots (L2.report.svg) are written next to the library.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -39,47 +39,47 @@ pub(crate) struct Args {
     /// Library file to write.
     #[arg(long, value_name = "L2")]
     out: PathBuf,
-    /// The two pairs that become the axes; without it rough-smooth and hard-soft, or the pair that correlates best with
-    /// each dimension.
+    /// Adjective pairs of the two axes. Default: rough-smooth and hard-soft, or the pair that correlates best with each
+    /// dimension.
     #[arg(long, value_name = "A,B", value_parser = parse_axes)]
     axes: Option<Axes>,
-    /// Dimensions of the perceptual space.
+    /// Number of dimensions of the perceptual space.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=MAX_DIMS as i64))]
     dimensions: u8,
-    /// What becomes of equal dissimilarities: primary may part them, secondary keeps them equal.
+    /// Treatment of tied dissimilarities: primary allows different disparities, secondary keeps them equal.
     #[arg(long, default_value = "primary", value_parser = ["primary", "secondary"])]
     ties: String,
-    /// Turn the second axis at right angles to the first.
+    /// Rotate the second axis to a right angle with the first.
     #[arg(long)]
     orthogonal: bool,
-    /// What is taken from the vibrations.
+    /// Features of the vibrations.
     #[arg(long, default_value = "mfcc", value_parser = words(FeatureKind::ALL, FeatureKind::id))]
     features: FeatureKind,
-    /// How coefficients are taken, where features are made of them [default: recommended].
+    /// Parameters of the mel-frequency cepstral coefficients, if they are among the features [default: recommended].
     #[arg(long, value_parser = ["recommended", "paper", "htk"])]
     mfcc: Option<String>,
-    /// How an axis is predicted from features: as in the paper, or better.
+    /// Method that predicts an axis from features: as in the paper, or practical, which predicts better.
     #[arg(long, default_value = "practical", value_parser = words(Method::ALL, Method::id))]
     selection: Method,
-    /// Where textures are put: where they were felt, or where their features predict, as in the paper; auto takes, axis by
-    /// axis, what is likely nearer to what people feel.
+    /// Positions of the textures: felt, from the judgments; predicted, from the features as in the paper; auto selects
+    /// for each axis the one that is probably closer to perception.
     #[arg(long, default_value = "auto", value_parser = words(Placement::ALL, Placement::id))]
     placement: Placement,
-    /// Permutations of the null distribution.
+    /// Number of permutations for the null distribution.
     #[arg(long, default_value_t = 1000, value_name = "N")]
     permutations: usize,
     /// Folder for each figure as SVG and CSV.
     #[arg(long, value_name = "FOLDER")]
     figures: Option<PathBuf>,
-    /// Makes everything that is random repeat exactly.
+    /// Random seed; the same seed repeats the result exactly.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Print one JSON object: the report.
+    /// Print the report as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// Where textures are put; nothing where that is found out.
+/// Kind of positions; `None` selects it for each axis.
 #[derive(Clone, Copy, Debug)]
 struct Placement(Option<PlacedBy>);
 
@@ -91,18 +91,20 @@ impl Placement {
     }
 }
 
-/// Two adjective pairs.
+/// Adjective pairs of the two axes.
 #[derive(Clone, Debug)]
 struct Axes([AdjectivePair; 2]);
 
 fn parse_axes(text: &str) -> Result<Axes, String> {
     let pairs: Vec<AdjectivePair> = text
         .split(',')
-        .map(|name| name.parse().map_err(|error: shagreen_core::ratings::PairNameError| error.to_string()))
+        .map(|name| {
+            name.parse().map_err(|error: shagreen_core::people::ratings::PairNameError| error.to_string())
+        })
         .collect::<Result<_, String>>()?;
     <[AdjectivePair; 2]>::try_from(pairs)
         .map(Axes)
-        .map_err(|_| "give two pairs, as rough-smooth,hard-soft".to_owned())
+        .map_err(|_| "give two pairs, such as rough-smooth,hard-soft".to_owned())
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -118,32 +120,32 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(folder) = &args.figures {
         check_figures(folder, &FIGURES, &inputs)?;
     }
-    // Before minutes of work, not after them.
+    // Checked before minutes of computing.
     if let Some(folder) = [&args.out, &report_json, &report_svg].into_iter().find(|path| path.is_dir()) {
-        bail!("this is a folder; name a file to write: {}", folder.display());
+        bail!("this is a folder; choose the name of a file to write: {}", folder.display());
     }
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let Judgments { sorts, ratings, votes, source, warnings } = args.judgments.read()?;
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
     let progress = Progress::new("steps", Step::COUNT);
     let mut n_done = 0;
-    let built = build_space(&data, &options, &mut |step| {
-        while n_done < step.index() {
-            progress.step();
-            n_done += 1;
-        }
-        true
-    })
-    .map_err(|error| args.judgments.in_files(error, &library, &args.library))?;
+    let BuiltSpace { build: built, placed, figures, validation } =
+        space::build(&data, &options, &mut |step| {
+            while n_done < step.index() {
+                progress.step();
+                n_done += 1;
+            }
+            true
+        })
+        .map_err(|error| args.judgments.in_files(error, &library, &args.library))?;
     progress.finish();
     let mut report = space_report(&built);
     for finding in &built.findings {
         output::warn(finding);
     }
     report["warnings"] = warnings.into_iter().chain(built.findings.iter().cloned()).collect();
-    let figures = space_figures(&built);
-    let mut placed = PlacedSpace::of(&built).place(&library);
+    let mut placed = placed.place(&library);
     output::CREATED_BY.clone_into(&mut placed.created_by);
     warn_of_restricted(&placed);
     let mut text = serde_json::to_string_pretty(&report)?;
@@ -152,13 +154,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(folder) = &args.figures {
         files.extend(figures.iter().flat_map(|(name, figure)| figure_files(folder, name, figure)));
     }
-    let on_page: Vec<_> = figures.into_iter().map(|(_, figure)| figure).collect();
+    let on_page: Vec<_> = figures.into_iter().map(|(_, figure)| Arc::unwrap_or_clone(figure)).collect();
     let page = page_svg("Authoring space", &space_subtitle(&built), &on_page);
     files.push((report_json, text.into_bytes()));
     files.push((report_svg, page.into_bytes()));
     files.push((args.out.clone(), write_library(&placed)));
     write_together(&files, args.figures.as_deref())?;
-    output::print(args.json, &report, || in_words(args, &built));
+    output::print(args.json, &report, || in_words(args, &built, validation));
     Ok(())
 }
 
@@ -166,7 +168,7 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
     let usual = SpaceOptions::usual(args.seed);
     if let (Some(mfcc), FeatureKind::Physical) = (&args.mfcc, args.features) {
         let text = format!(
-            "--mfcc {mfcc} changes nothing where --features is physical: leave it out, or say --features mfcc+physical"
+            "--mfcc {mfcc} has no effect with --features physical: leave it out, or give --features mfcc+physical"
         );
         return Err(Usage(text).into());
     }
@@ -194,7 +196,7 @@ fn mfcc(name: Option<&str>) -> MfccOptions {
     }
 }
 
-fn in_words(args: &Args, built: &SpaceBuild) -> String {
+fn in_words(args: &Args, built: &SpaceBuild, validation: Vec<String>) -> String {
     let pairs: Vec<String> = built.adjectives.iter().map(|adjective| adjective.pair.name()).collect();
     let mut lines = vec![
         format!(
@@ -205,19 +207,19 @@ fn in_words(args: &Args, built: &SpaceBuild) -> String {
         ),
         format!("Rated on {}: {}.", counted(pairs.len(), "adjective pair"), pairs.join(", ")),
     ];
-    lines.extend(verdict(built));
+    lines.extend(validation);
     lines.extend(outliers_explained(built));
     lines.join("\n")
 }
 
-/// What it means that somebody judged unlike the others, where somebody did.
+/// Returns an explanation if a participant's judgments are outliers.
 fn outliers_explained(built: &SpaceBuild) -> Option<String> {
     let is_rater = built.raters.iter().any(|(_, fit)| fit.outlying);
     let is_sorter =
         built.similarity.findings.iter().any(|finding| matches!(finding, Finding::Outlying { .. }));
     (is_rater || is_sorter).then(|| {
         format!(
-            "To judge unlike the others is to correlate with their mean far less than they do (ratings: by less than {OUTLIER_LIMIT}). Nobody is left out for it: look for swapped poles or mixed-up names, and build again without them to see what they change."
+            "An outlier correlates far less with the mean of the other participants than they do (ratings: r below {OUTLIER_LIMIT}). Nobody is excluded for it: check for swapped poles or confused names, and build again without the outlier to see its influence."
         )
     })
 }

@@ -1,13 +1,13 @@
-//! The tables of judgments that a space is built from, and who made them.
+//! Tables of judgments for a space, and the source of the judgments.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
-use shagreen_core::panel::is_simulated;
-use shagreen_core::ratings::{Rating, RelevanceVote};
-use shagreen_core::sorting::Sort;
+use shagreen_core::people::panel::is_simulated;
+use shagreen_core::people::ratings::{Rating, RelevanceVote};
+use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::LabelSource;
-use shagreen_core::space_build::SpaceBuildError;
+use shagreen_core::space::space_build::SpaceBuildError;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
 use shagreen_formats::look_alikes::look_alikes;
@@ -15,49 +15,52 @@ use shagreen_formats::places_csv::Scale;
 use shagreen_formats::ratings_csv::{read_ratings, read_relevance_csv};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
-use crate::cli::library_source::LibraryArgs;
-use crate::cli::near_names::meant;
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use crate::cli::space_place::parse_scale;
+use shagreen_studio::file;
+use shagreen_studio::near_names::meant;
 
 #[derive(clap::Args)]
 pub(crate) struct JudgmentArgs {
-    /// CSV with a line for each texture of each sort (participant, trial, groups, texture, group), or a column for each
-    /// texture.
+    /// CSV file of sorts, with a row for each texture of each sort (participant, trial, groups, texture, group), or a
+    /// column for each texture.
     #[arg(long, value_name = "S.csv")]
     sorting: PathBuf,
-    /// CSV with a line for each rating (participant, texture, adjective, value), or a column for each adjective pair.
+    /// CSV file of ratings, with a row for each rating (participant, texture, adjective, value), or a column for each
+    /// adjective pair.
     #[arg(long, value_name = "R.csv")]
     ratings: PathBuf,
-    /// CSV of votes on which adjectives are relevant (participant, adjective, relevant): pairs below half are left out.
+    /// CSV file of votes on the relevance of adjectives (participant, adjective, relevant): pairs with less than half
+    /// of the votes are left out.
     #[arg(long, value_name = "V.csv")]
     relevance: Option<PathBuf>,
-    /// The scale of all ratings, where it is not 0,100: as 1,7.
+    /// Scale of all ratings, if it is not 0,100; for example 1,7.
     #[arg(long, value_name = "LOW,HIGH", value_parser = parse_scale, allow_hyphen_values = true)]
     scale: Option<Scale>,
-    /// Who judged, where names of participants do not say it: human or simulated.
+    /// Source of the judgments, if the names of participants do not state it: human or simulated.
     #[arg(long, value_name = "SOURCE", value_parser = ["human", "simulated"])]
     source: Option<String>,
 }
 
-/// What the tables hold.
+/// Contents of the tables.
 pub(crate) struct Judgments {
     pub(crate) sorts: Vec<Sort>,
     pub(crate) ratings: Vec<Rating>,
     pub(crate) votes: Vec<RelevanceVote>,
-    /// Who judged.
+    /// Source of the judgments.
     pub(crate) source: LabelSource,
-    /// What was odd but usable, in sentences.
+    /// Warnings of irregularities that do not prevent use.
     pub(crate) warnings: Vec<String>,
 }
 
 impl JudgmentArgs {
-    /// The files.
+    /// Returns the files.
     pub(crate) fn paths(&self) -> [Option<&Path>; 3] {
         [Some(&self.sorting), Some(&self.ratings), self.relevance.as_deref()]
     }
 
-    /// Reads the tables; what is odd about them is said.
+    /// Reads the tables and prints their warnings.
     pub(crate) fn read(&self) -> anyhow::Result<Judgments> {
         let mut warnings = Vec::new();
         let sorts = read(&self.sorting, &mut warnings, |bytes| {
@@ -88,24 +91,24 @@ impl JudgmentArgs {
         Ok(Judgments { sorts, ratings, votes, source, warnings })
     }
 
-    /// A rating from 0 to 100, where it was given on another scale.
+    /// Converts a rating on another scale to 0..100.
     fn rescaled(&self, rating: Rating) -> anyhow::Result<Rating> {
         let (Some(scale), Some(value)) = (self.scale, rating.value) else { return Ok(rating) };
         if !scale.contains(value) {
             let Rating { participant, texture, pair, .. } = rating;
             bail!(
-                "{participant} rated {texture} {value} on {pair}, which is not on the scale of --scale; correct one of them"
+                "{participant} rated {texture} {value} on {pair}, which is not on the scale of --scale; correct the rating or the scale"
             )
         }
         Ok(Rating { value: Some(scale.to_space(value)), ..rating })
     }
 
-    /// Who judged. What calls itself simulated is never taken for people.
+    /// Returns the source of the judgments. Participants with names of simulated raters are never taken for people.
     fn source(&self, names: &[&str]) -> anyhow::Result<LabelSource> {
         let (simulated, others): (Vec<&str>, Vec<&str>) = names.iter().partition(|name| is_simulated(name));
         if let ([one, ..], [other, ..]) = (&simulated[..], &others[..]) {
             bail!(
-                "there are both simulated participants and others (\"{one}\" and \"{other}\"): a space of both means nothing; leave one kind out"
+                "there are both simulated participants and others (\"{one}\" and \"{other}\"): a space of both is meaningless; leave one kind out"
             )
         }
         let simulated = simulated.first();
@@ -118,7 +121,7 @@ impl JudgmentArgs {
             (Some("simulated"), _) | (None, Some(_)) => Ok(LabelSource::SimulatedRaters),
             (None, None) => {
                 output::note(
-                    "the participants are taken for people; if they are not, say --source simulated",
+                    "the participants are assumed to be people; if they are not, give --source simulated",
                 );
                 Ok(LabelSource::HumanRatings)
             }
@@ -126,7 +129,7 @@ impl JudgmentArgs {
         }
     }
 
-    /// Why judgments make no space, with the files in which that is to be mended.
+    /// Returns the reason why judgments form no space, with the files in which to correct it.
     pub(crate) fn in_files(
         &self,
         error: SpaceBuildError,
@@ -156,28 +159,28 @@ impl JudgmentArgs {
         let error = match &error {
             SpaceBuildError::UnknownTexture { texture, .. } => {
                 let hint = meant(library, texture);
-                anyhow!("{error}, or remove the column where it names something else; {hint}")
+                anyhow!("{error}, or remove the column if it is not a texture; {hint}")
             }
             _ => error.into(),
         };
         // The last context is shown first.
-        files.into_iter().rev().flatten().fold(error, |error, path| error.context(output::in_file(path)))
+        files.into_iter().rev().flatten().fold(error, |error, path| error.context(file::in_file(path)))
     }
 }
 
-/// Reads a file of judgments; what was odd in it is added to `warnings`.
+/// Reads a file of judgments and adds its warnings to `warnings`.
 fn read<T>(
     path: &Path,
     warnings: &mut Vec<String>,
     reader: impl FnOnce(&[u8]) -> anyhow::Result<Imported<T>>,
 ) -> anyhow::Result<T> {
-    let bytes = output::read_file(path)?;
-    let imported = reader(&bytes).with_context(|| output::in_file(path))?;
+    let bytes = file::read_file(path)?;
+    let imported = reader(&bytes).with_context(|| file::in_file(path))?;
     warnings.extend(imported.warnings.iter().map(|warning| format!("{warning}: {}", path.display())));
     Ok(imported.value)
 }
 
-/// Names of all who sorted, rated or voted, as often as they did.
+/// Returns the participant of every sort, rating and vote, with repetitions.
 fn participants<'a>(sorts: &'a [Sort], ratings: &'a [Rating], votes: &'a [RelevanceVote]) -> Vec<&'a str> {
     let sorted = sorts.iter().map(|sort| &*sort.participant);
     let rated = ratings.iter().map(|rating| &*rating.participant);

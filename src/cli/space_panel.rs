@@ -1,11 +1,13 @@
-//! `shagreen space panel`: sortings and ratings of simulated participants.
+//! `shagreen space panel`: simulates participants who sort and rate textures.
 
 use std::path::PathBuf;
 
 use anyhow::bail;
 use serde_json::json;
-use shagreen_core::panel::{PanelConfig, USUAL_GROUPS, is_simulated, simulated_ratings, simulated_sorts};
-use shagreen_core::ratings::AdjectivePair;
+use shagreen_core::people::panel::{
+    PanelConfig, USUAL_GROUPS, is_simulated, simulated_ratings, simulated_sorts,
+};
+use shagreen_core::people::ratings::AdjectivePair;
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
@@ -13,62 +15,62 @@ use shagreen_formats::panel_labels::{PanelLabels, panel_labels};
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv};
 use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// What a panel is like where nobody says otherwise.
+/// Default parameters of a panel.
 const USUAL: PanelConfig = PanelConfig::usual(1);
 
 /// Simulates participants who sort and rate the textures of a library, to try `space build` without people.
 ///
-/// They perceive the places and attributes that the library has, with noise, and use the scale each in an own way. They
-/// are called `simulated-01` and so on, and every space made of them says so.
+/// They perceive the library's positions and attributes with noise, and each uses the rating scale differently. They
+/// are named `simulated-01` and so on, and every space built from them states that it is simulated.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// Sortings to write.
+    /// CSV file to write with the sorts.
     #[arg(long, value_name = "S.csv")]
     sorting: PathBuf,
-    /// Ratings to write.
+    /// CSV file to write with the ratings.
     #[arg(long, value_name = "R.csv")]
     ratings: PathBuf,
-    /// How many participants.
+    /// Number of participants.
     #[arg(long, default_value_t = USUAL.n_participants, value_name = "N")]
     participants: usize,
-    /// Groups that are to be made, a trial each.
+    /// Numbers of groups to sort into, one trial each.
     #[arg(long, default_values_t = USUAL_GROUPS, value_delimiter = ',')]
     groups: Vec<usize>,
-    /// Standard deviation of what is perceived of a texture, in points of an axis.
+    /// Standard deviation of the noise in each perception of a texture, in points of an axis (0 to 100).
     #[arg(long, default_value_t = USUAL.noise_points, value_name = "POINTS")]
     noise: f64,
-    /// Standard deviation of each participant's constant error on a pair, in points.
+    /// Standard deviation over participants of the constant bias on an adjective pair, in points.
     #[arg(long, default_value_t = USUAL.bias_points, value_name = "POINTS")]
     bias: f64,
-    /// Standard deviation of the logarithm of the share of the scale that a participant uses.
+    /// Standard deviation over participants of the logarithm of the fraction of the scale that they use.
     #[arg(long, default_value_t = USUAL.scale_log_spread, value_name = "SHARE")]
     scale: f64,
-    /// Makes the same panel again.
+    /// Random seed; the same seed gives the same panel.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.sorting, &args.ratings], &[args.library.path()])?;
-    refuse_foreign(&args.sorting, "simulated sortings", |bytes| {
+    refuse_foreign(&args.sorting, "the simulated sorts", |bytes| {
         read_sorting_csv(bytes).is_ok_and(|table| table.sorts.iter().all(|s| is_simulated(&s.participant)))
     })?;
-    refuse_foreign(&args.ratings, "simulated ratings", |bytes| {
+    refuse_foreign(&args.ratings, "the simulated ratings", |bytes| {
         read_ratings_csv(bytes).is_ok_and(|ratings| ratings.iter().all(|r| is_simulated(&r.participant)))
     })?;
     if args.sorting == args.ratings {
-        bail!("sortings and ratings cannot be one file; name two: {}", args.sorting.display());
+        bail!("sorts and ratings cannot be written to one file; name two files: {}", args.sorting.display());
     }
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let PanelLabels { pairs, ids, labels } = panel_labels(&library)?;
     let config = PanelConfig {
         n_participants: args.participants,

@@ -1,4 +1,4 @@
-//! `shagreen space place`: textures are put where a table says.
+//! `shagreen space place`: places textures from a table.
 
 use std::path::{Path, PathBuf};
 
@@ -11,44 +11,45 @@ use shagreen_formats::library::write_library;
 use shagreen_formats::places_csv::{PlacesCsvError, Scale, looks_rescaled, place_textures, read_places};
 use shagreen_formats::space_report::FORMAT;
 
-use crate::cli::guard::{has_format, is_library, refuse_foreign, refuse_inputs};
-use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::near_names::unknown_texture;
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, warn_of_restricted};
+use shagreen_studio::file;
+use shagreen_studio::near_names::unknown_texture;
+use shagreen_studio::replace::{has_format, is_library, refuse_foreign, refuse_inputs};
 
-/// Places textures where a table says.
+/// Places textures at the positions in a table.
 ///
-/// The table has the columns `id`, `rs` and `hs` (0 to 100, 0 = roughest, 0 = hardest) and may have further attributes,
-/// each named by its two poles, as `flat-bumpy`. Where the axes are other attributes, the columns of the place are named
-/// by them, as `x:warm-cold` and `y:flat-bumpy`. `--scale` says where values run otherwise than from 0 to 100. A column
-/// `source` says what the places were derived from; without it `--source` says so for all of them. Textures that the
-/// table does not name lose their place: a space of two origins means little.
+/// The table has the columns `id`, `rs` and `hs` (0 to 100, 0 = roughest, 0 = hardest). It can have further attributes,
+/// each named by its two poles, such as `flat-bumpy`. For other axes, name the columns of the position after them, such
+/// as `x:warm-cold` and `y:flat-bumpy`. `--scale` states a scale other than 0 to 100. A column `source` states the
+/// source of each position; otherwise `--source` states one for all. Textures that the table does not contain lose
+/// their position, because positions from different sources cannot be compared.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// CSV with the columns id, rs, hs.
+    /// CSV file with the columns id, rs, hs.
     #[arg(long, value_name = "A.csv")]
     attributes: PathBuf,
     /// Library file to write.
     #[arg(long, value_name = "L2")]
     out: PathBuf,
-    /// What the places were derived from, where the table does not say it.
+    /// Source of the positions, if the table does not state it: human, simulated, physical or estimated.
     #[arg(long, value_name = "SOURCE", value_parser = parse_source)]
     source: Option<LabelSource>,
-    /// The scale of all values of the table, where it is not 0,100: as 1,7.
+    /// Scale of all values in the table, if it is not 0,100; for example 1,7.
     #[arg(long, value_name = "LOW,HIGH", value_parser = parse_scale, allow_hyphen_values = true)]
     scale: Option<Scale>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
 fn parse_source(text: &str) -> Result<LabelSource, String> {
-    LabelSource::from_id(text).ok_or_else(|| "say human, simulated, physical or estimated".to_owned())
+    LabelSource::from_id(text).ok_or_else(|| "choose human, simulated, physical or estimated".to_owned())
 }
 
-/// The scale that `LOW,HIGH` names.
+/// Parses a scale, given as `LOW,HIGH`.
 pub(crate) fn parse_scale(text: &str) -> Result<Scale, String> {
     let number = |part: &str| part.trim().parse::<f64>().map_err(|_| "write LOW,HIGH as in 1,7".to_owned());
     let (low, high) = text.split_once(',').ok_or("write LOW,HIGH as in 1,7")?;
@@ -58,36 +59,37 @@ pub(crate) fn parse_scale(text: &str) -> Result<Scale, String> {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(&args.attributes), args.library.path()])?;
     refuse_foreign(&args.out, "a library", is_library)?;
-    let mut library = load(&args.library)?;
-    let bytes = output::read_file(&args.attributes)?;
+    let mut library = args.library.load()?;
+    let bytes = file::read_file(&args.attributes)?;
     let read = read_places(&bytes, args.source, args.scale.unwrap_or(Scale::OF_SPACE))
         .map_err(|error| match error {
-            PlacesCsvError::Range { .. } => anyhow!("{error} by --scale LOW,HIGH"),
+            PlacesCsvError::Range { .. } => anyhow!("{error} with --scale LOW,HIGH"),
             error => error.into(),
         })
-        .with_context(|| output::in_file(&args.attributes))?;
+        .with_context(|| file::in_file(&args.attributes))?;
     let (places, mut warnings) = (read.value, read.warnings);
     let placements = &places.placements;
     if let Some(unknown) = placements.iter().find(|p| library.index_of(&p.id).is_none()) {
         return Err(anyhow!(unknown_texture(&library, &unknown.id)))
-            .with_context(|| output::in_file(&args.attributes));
+            .with_context(|| file::in_file(&args.attributes));
     }
     if let Some((low, high)) = looks_rescaled(placements).filter(|_| args.scale.is_none()) {
         warnings.push(format!(
-            "the scale is 0 to 100, and all positions lie between {low} and {high}, in one corner; if people answered on another scale, say so, as --scale 1,7"
+            "the scale is 0 to 100, but all positions lie between {low} and {high}; if people answered on another scale, state it, for example --scale 1,7"
         ));
     }
     let missing = place_textures(&mut library, &places);
-    // The report was on other places.
+    // The report describes other positions.
     library.space_report = None;
     output::CREATED_BY.clone_into(&mut library.created_by);
     if !missing.is_empty() {
-        warnings.push(format!("not in the table, and so without a place: {}", missing.join(", ")));
+        warnings.push(format!("not in the table and therefore without a position: {}", missing.join(", ")));
     }
     let sources = library.label_sources();
     if sources.len() > 1 {
-        warnings
-            .push("the places come from different sources; what lies between them means little".to_owned());
+        warnings.push(
+            "the positions come from different sources; interpolation between them means little".to_owned(),
+        );
     }
     warnings.extend(old_report(&args.out));
     for warning in &warnings {
@@ -115,14 +117,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// That a report beside the library is of other places. It stays: building it took minutes, and this command writes none.
+/// Returns a warning if a report next to the library describes other positions. The report is kept: building it took
+/// minutes, and this command writes none.
 fn old_report(out: &Path) -> Option<String> {
     let report = out.with_extension("report.json");
-    // What cannot be read is not ours to speak of.
+    // A file that cannot be read is no report of this program.
     let bytes = std::fs::read(&report).ok()?;
     has_format(&bytes, FORMAT).then(|| {
         format!(
-            "the report beside the library is of a space that was built before, not of these places; move or remove it: {}",
+            "the report next to the library describes a space that was built before, not these positions; move or remove it: {}",
             report.display()
         )
     })

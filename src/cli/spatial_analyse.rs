@@ -1,35 +1,37 @@
-//! `shagreen spatial analyse`: how much of a profile its spatial spectrogram keeps, by the width of the windows.
+//! `shagreen spatial analyse`: measures how much of a profile its spatial spectrogram preserves, by window width.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use anyhow::bail;
 use serde_json::{Value, json};
-use shagreen_core::spatial_spectrogram::{
+use shagreen_core::maths::statistics::is_constant;
+use shagreen_core::signals::spatial_spectrogram::{
     Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window,
 };
-use shagreen_core::statistics::is_constant;
 use shagreen_formats::atomic;
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::motion::positive;
 use crate::cli::output::{self, Usage};
 use crate::cli::profile_source::ProfileArgs;
+use crate::cli::quantity::positive;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Makes a profile anew from its spatial spectrogram alone, with windows of several widths, and says how near it comes.
+/// Reconstructs a profile from its spatial spectrogram alone, for several window widths, and reports the reconstruction
+/// errors.
 ///
-/// A spectrogram keeps what is in each window and not where: the narrower the windows, the more stays in its place.
+/// A spectrogram keeps the spectrum of each window but not positions within it: narrower windows preserve more of the
+/// positions.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     profile: ProfileArgs,
-    /// Width of the windows in mm; several may be given. Without it those of the paper that fit: 20 to 0.2.
+    /// Window width in mm; can be given several times. Default: the widths of the paper that fit, 20 to 0.2.
     #[arg(long = "window", value_name = "MM", value_parser = positive)]
     windows_mm: Vec<f64>,
-    /// Table to write with the spectrogram of one width: position in mm, frequency in 1/mm, power.
+    /// Table to write with the spectrogram for one window width: position in mm, frequency in 1/mm, power.
     #[arg(short, long, value_name = "OUT.csv")]
     out: Option<PathBuf>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -39,7 +41,10 @@ const HEADER: &str = "x_mm,per_mm,power\n";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if args.out.is_some() && args.windows_mm.len() != 1 {
-        return Err(Usage("a table holds the spectrogram of one width; give one --window".to_owned()).into());
+        return Err(Usage(
+            "a table holds the spectrogram for one window width; give --window once".to_owned(),
+        )
+        .into());
     }
     if let Some(out) = &args.out {
         refuse_inputs(&[out], &[Some(args.profile.path())])?;
@@ -50,21 +55,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let fits = |m: &f64| args.profile.framing(&profile, 1e3 * m).ok();
         let framings: Vec<Framing> = PAPER_WINDOWS_M.iter().filter_map(fits).collect();
         if framings.len() < PAPER_WINDOWS_M.len() {
-            output::note("windows that do not fit the profile or its steps were left out");
+            output::note("window widths that do not fit the profile's length or step were skipped");
         }
         framings
     } else {
         args.windows_mm.iter().map(|mm| args.profile.framing(&profile, *mm)).collect::<Result<_, _>>()?
     };
     if framings.is_empty() {
-        bail!("none of the windows of the paper fits the profile; give one with --window");
+        bail!("none of the paper's window widths fits the profile; give one with --window");
     }
     let (values, step_m) = (profile.values(), profile.step_m());
     if is_constant(values) {
-        bail!(
-            "the profile is the same everywhere; there is nothing to lose: {}",
-            args.profile.path().display()
-        );
+        bail!("the profile is constant, so there is nothing to analyze: {}", args.profile.path().display());
     }
     let found = fidelity_by_window(values, step_m, &framings)?;
     if let (Some(out), [framing]) = (&args.out, framings.as_slice()) {
@@ -80,7 +82,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     });
     output::print(args.json, &answer, || {
         let mut lines = vec![format!(
-            "{:.4} mm in {} steps; what is left of it, by the width of the windows:",
+            "{:.4} mm in {} steps; fidelity of the reconstruction by window width:",
             1e3 * profile.length_m(),
             values.len()
         )];
@@ -91,7 +93,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What became of a profile, for scripts.
+/// Returns the fidelity for one window width as JSON.
 pub(super) fn row(found: &ProfileFidelity) -> Value {
     json!({
         "window_mm": 1e3 * found.window_m,
@@ -101,10 +103,10 @@ pub(super) fn row(found: &ProfileFidelity) -> Value {
     })
 }
 
-/// The same for people.
+/// Returns the fidelity for one window width as text.
 pub(super) fn line(found: &ProfileFidelity) -> String {
     format!(
-        "{:8.4} mm: waveform {:5.2}, envelope {:5.2}, spectrogram off by {:.2}",
+        "{:8.4} mm: waveform r {:5.2}, envelope r {:5.2}, spectral convergence {:.2}",
         1e3 * found.window_m,
         found.correlation,
         found.envelope_correlation,
@@ -112,7 +114,7 @@ pub(super) fn line(found: &ProfileFidelity) -> String {
     )
 }
 
-/// The spectrogram with windows of one width.
+/// Returns the spectrogram for one window width as a table.
 fn table(values: &[f64], step_m: f64, framing: Framing) -> anyhow::Result<String> {
     let spectrogram = SpatialSpectrogram::of(values, &Transform::new(framing))?;
     let per_mm = 1e-3 / (framing.window() as f64 * step_m);

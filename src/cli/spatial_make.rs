@@ -1,39 +1,40 @@
-//! `shagreen spatial make`: the profiles that people felt to find out how narrow windows must be.
+//! `shagreen spatial make`: writes the test profiles of the experiments on window width.
 
 use std::path::PathBuf;
 
 use serde_json::json;
-use shagreen_core::profile::Profile;
-use shagreen_core::profile_stimuli::{GapPair, PaperTexture, STEP_M, gap_pair};
+use shagreen_core::signals::profile_stimuli::{GapPair, PaperTexture, STEP_M, gap_pair};
+use shagreen_core::texture::profile::Profile;
 use shagreen_formats::atomic;
 use shagreen_formats::profile_csv::{is_profile_csv, profile_csv};
 
-use crate::cli::guard::refuse_foreign;
-use crate::cli::motion::within;
 use crate::cli::output::{self, Usage};
+use crate::cli::quantity::within;
 use crate::cli::words::words;
+use shagreen_studio::replace::refuse_foreign;
 
-/// Makes a profile of the experiments with spatial spectrograms, 0 to 1 as a display of friction can show it, in steps of
-/// 0.01 mm.
+/// Makes a test profile of the experiments with spatial spectrograms: values of 0 to 1, the range of a
+/// variable-friction display, in steps of 0.01 mm.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A: noise that swells and fades every 13 mm; B: a square wave of 13 mm; C: bumps with noise; D: a square wave of 0.4 mm that
-    /// comes and goes every 6 mm; gaps: noise with gaps in it; distractor: noise with the same spectrum and no gaps.
+    /// A: 1/f noise, amplitude modulated every 13 mm; B: square wave of 13 mm; C: bumps with 1/f noise; D: square wave
+    /// of 0.4 mm, amplitude modulated every 6 mm; gaps: noise with gaps; distractor: noise with the same spectrum and
+    /// no gaps.
     #[arg(value_name = "WHAT", value_parser = words(Stimulus::ALL, Stimulus::id))]
     what: Stimulus,
-    /// Length in mm.
+    /// Length of the profile, in mm.
     #[arg(long, value_name = "MM", value_parser = length, default_value = "80")]
     length: f64,
-    /// Width of the gaps in mm; without it 5. For gaps and their distractor.
+    /// Width of the gaps in mm, for gaps and distractor. Default: 5.
     #[arg(long, value_name = "MM", value_parser = gap)]
     gap: Option<f64>,
-    /// Which noise the gaps are in; without it 1. The textures have one each.
+    /// Random seed of the noise, for gaps and distractor; the textures A to D have a fixed noise. Default: 1.
     #[arg(long)]
     seed: Option<u64>,
-    /// Table of positions in mm and values to write.
+    /// Table to write, with positions in mm and values.
     #[arg(short, long, value_name = "OUT.csv")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -64,10 +65,10 @@ impl Stimulus {
     }
 }
 
-/// Shortest and longest profile in mm: a window of the paper, and what is still quick.
+/// Shortest and longest profile in mm: one window of the paper, and a limit on computing time.
 const LENGTHS_MM: std::ops::RangeInclusive<f64> = 1.0..=2000.0;
 
-/// Narrowest and widest gap in mm: some steps, and half the longest profile; and the usual one.
+/// Narrowest and widest gap in mm (a few steps, and half the longest profile), and the default gap.
 const GAPS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 const USUAL_GAP_MM: f64 = 5.0;
 
@@ -84,14 +85,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let n_samples = (1e-3 * args.length / STEP_M).round() as usize;
     if matches!(args.what, Stimulus::Texture(_)) && (args.gap.is_some() || args.seed.is_some()) {
         return Err(Usage(
-            "the textures A to D have no gaps and one noise; leave out --gap and --seed".to_owned(),
+            "the textures A to D have no gaps and a fixed noise; leave out --gap and --seed".to_owned(),
         )
         .into());
     }
     let gap_mm = args.gap.unwrap_or(USUAL_GAP_MM);
     if !matches!(args.what, Stimulus::Texture(_)) && 2.0 * gap_mm > args.length {
         return Err(Usage(format!(
-            "{} mm hold no gap of {gap_mm} mm and what lies beside it; give a narrower --gap",
+            "a profile of {} mm is too short for a gap of {gap_mm} mm; give a narrower --gap or a longer --length",
             args.length
         ))
         .into());

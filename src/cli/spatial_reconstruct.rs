@@ -1,35 +1,38 @@
-//! `shagreen spatial reconstruct`: a profile made anew from its spatial spectrogram.
+//! `shagreen spatial reconstruct`: reconstructs a profile from its spatial spectrogram.
 
 use std::path::PathBuf;
 
 use serde_json::json;
-use shagreen_core::profile::Profile;
-use shagreen_core::spatial_spectrogram::{SpatialSpectrogram, Transform, fidelity, profile_of, refine};
+use shagreen_core::signals::spatial_spectrogram::{
+    SpatialSpectrogram, Transform, fidelity, profile_of, refine,
+};
+use shagreen_core::texture::profile::Profile;
 use shagreen_formats::atomic;
 use shagreen_formats::profile_csv::{is_profile_csv, profile_csv};
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::motion::positive;
 use crate::cli::output;
 use crate::cli::profile_source::ProfileArgs;
+use crate::cli::quantity::positive;
 use crate::cli::spatial_analyse::{line, row};
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Throws away where things are within windows of a profile, and makes a profile of what is left: by the phase rule of the
-/// paper, and where that is asked for by steps that bring its spectrogram nearer.
+/// Reconstructs a profile from its spatial spectrogram, which does not keep positions within a window. The phases
+/// follow the rule of the paper; --refine improves them iteratively.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     profile: ProfileArgs,
-    /// Width of the windows in mm.
+    /// Window width in mm.
     #[arg(long, value_name = "MM", value_parser = positive)]
     window: f64,
-    /// Steps of the fast Griffin-Lim algorithm; the spectrogram gets nearer, the places of things not always.
+    /// Iterations of the fast Griffin-Lim algorithm. They reduce the error of the spectrogram, but not always that of
+    /// positions.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1000))]
     refine: u16,
-    /// Table of positions in mm and values to write.
+    /// Table to write, with positions in mm and values.
     #[arg(short, long, value_name = "OUT.csv")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }

@@ -1,4 +1,4 @@
-//! A recorded stroke as speed and force over time.
+//! Recorded strokes as speed and force over time.
 
 use std::path::Path;
 
@@ -16,26 +16,27 @@ use shagreen_formats::svc::{PenMapping, pen_samples, read_svc};
 use crate::cli::hid_files::{meters, read_pen_recording};
 use crate::cli::output;
 use crate::cli::stroke_args::{OF_HID, OF_PRESSURE, OF_SVC, StrokeArgs};
+use shagreen_studio::file;
 
 /// Speed and force over time, for at most [`MAX_TRACK_SECS`].
 pub(crate) enum StrokeContacts {
-    /// Estimated from where a pen was.
+    /// Estimated from the positions of a pen.
     Track(Track),
-    /// As they were given, in straight lines between.
+    /// As given, with linear interpolation.
     Given(Vec<TimedContact>),
 }
 
-/// What to do about a stroke that makes no track.
-const CORRECT: &str = "the stroke cannot be replayed; correct it, or how it is read";
+/// Advice for a stroke that cannot be replayed.
+const CORRECT: &str = "the stroke cannot be replayed; correct it, or the options that describe it";
 
-/// Reads the stroke of a file; what was assumed is said.
+/// Reads the stroke of a file; assumptions are printed.
 pub(crate) fn load(path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
     let PressureMap { activation_n: low, full_n: high, .. } = args.pressure_map();
     if high <= low {
         return Err(output::Usage(format!("--force-max {high} must be above --force-min {low}")).into());
     }
-    let bytes = output::read_file(path)?;
-    contacts(&bytes, path, args).with_context(|| output::in_file(path))
+    let bytes = file::read_file(path)?;
+    contacts(&bytes, path, args).with_context(|| file::in_file(path))
 }
 
 fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
@@ -80,17 +81,17 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
 
 fn track_of(samples: &[TrackSample]) -> anyhow::Result<Track> {
     if !samples.iter().any(|sample| sample.touching) {
-        output::warn("the tip never touches in this stroke: it is silent");
+        output::warn("the tip never touches the surface in this stroke: the output is silent");
     }
     let track = Track::new(samples).context(CORRECT)?;
     let n_equal = track.warnings.n_equal_timestamps;
     if n_equal > 0 {
-        output::warn(&format!("{n_equal} samples have the time of the next one and were left out"));
+        output::warn(&format!("{n_equal} samples have the same time as the next one and were omitted"));
     }
     Ok(track)
 }
 
-/// Reads the reports of a pen: its own force where it declares one, else by the map.
+/// Reads the reports of a pen: force as the pen declares it, otherwise from pressure.
 fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>> {
     let recording = read_pen_recording(bytes, None, meters(args.size_mm))?;
     if recording.decoder.best().pressure.is_some_and(|pressure| pressure.full_n.is_some()) {
@@ -98,7 +99,9 @@ fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>>
     }
     args.refuse_but(&[&[OF_HID][..], &OF_PRESSURE[..]].concat(), "a recorded HID pen")?;
     let Some(size_m) = recording.decoder.best().size_m() else {
-        bail!("the pen declares no size, without which there is no speed; state it with --size-mm 216x135");
+        bail!(
+            "the pen declares no size, so its speed is unknown; state the size with --size-mm, such as 216x135"
+        );
     };
     output::note(&format!("the pen's area is {:.1} by {:.1} mm", 1e3 * size_m[0], 1e3 * size_m[1]));
     let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: args.pressure_map() };
@@ -108,7 +111,7 @@ fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>>
     Ok(stroke_samples(&moments.collect::<Vec<_>>()))
 }
 
-/// Whether bytes are a pen recording: by the name of the file, or by a first line that is nothing but a count.
+/// Returns whether bytes are a .svc pen recording: by the file ending, or by a first line that is only a count.
 fn is_svc(bytes: &[u8], path: &Path) -> bool {
     let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
     let is_count = !first.trim_ascii().is_empty() && first.trim_ascii().iter().all(u8::is_ascii_digit);
@@ -127,7 +130,7 @@ fn read_pen(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<PenSample>> {
     };
     let options = "--mm-per-count, --ms-per-tick and --pressure-max";
     output::note(&format!(
-        "the recording states no units; it holds {}, taken for {mapping} (change that with {options})",
+        "the recording states no units; it contains {}, interpreted as {mapping} (change this with {options})",
         recording.flavor
     ));
     let samples = pen_samples(&recording, &mapping).with_context(|| format!("see {options}"))?;
@@ -136,7 +139,7 @@ fn read_pen(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<PenSample>> {
 }
 
 impl StrokeContacts {
-    /// Speed and force as they were given; what is longer than a [`Track`] may be is refused as it refuses it.
+    /// Returns speed and force as given. A stroke longer than a [`Track`] may be is an error, as it is for the track.
     fn given(contacts: Vec<TimedContact>) -> anyhow::Result<Self> {
         let given = Self::Given(contacts);
         let duration_secs = given.duration_secs();
@@ -146,7 +149,7 @@ impl StrokeContacts {
         Ok(given)
     }
 
-    /// From the first sample to the last, in seconds.
+    /// Returns the time from the first sample to the last, in seconds.
     pub(crate) fn duration_secs(&self) -> f64 {
         match self {
             Self::Track(track) => track.duration_secs(),
@@ -154,21 +157,15 @@ impl StrokeContacts {
         }
     }
 
-    /// Speed and force `time_secs` after the start; lifted outside.
+    /// Returns speed and force `time_secs` after the start; zero outside the stroke.
     pub(crate) fn contact_at(&self, time_secs: f64) -> Contact {
         match self {
-            Self::Track(track) => {
-                let contact = track.touch_at(time_secs).contact;
-                Contact {
-                    speed: MetersPerSecond(f64::from(contact.speed_mps)),
-                    force: Newtons(f64::from(contact.force_n)),
-                }
-            }
+            Self::Track(track) => track.touch_at(time_secs).contact.into(),
             Self::Given(contacts) => given_at(contacts, time_secs),
         }
     }
 
-    /// The stroke for an output, which replays positions: given speeds are walked along a line.
+    /// Returns the stroke for an output, which replays positions: given speeds are integrated along a line.
     pub(crate) fn into_track(self) -> anyhow::Result<Track> {
         let duration_secs = self.duration_secs();
         match self {
@@ -193,10 +190,10 @@ impl StrokeContacts {
     }
 }
 
-/// Distance of the points at which given speeds are walked, in seconds.
+/// Integration step of given speeds, in seconds.
 const WALK_STEP_SECS: f64 = 0.002;
 
-/// Speed and force between given ones, in straight lines.
+/// Interpolates given speed and force linearly; zero outside the stroke.
 fn given_at(contacts: &[TimedContact], time_secs: f64) -> Contact {
     let after = contacts.partition_point(|contact| contact.time_secs <= time_secs);
     let contact = |c: &TimedContact| (c.speed_mps, c.force_n);
@@ -257,7 +254,7 @@ mod tests {
         for i in 10..140 {
             let time_secs = f64::from(i) * 0.01;
             let played = f64::from(track.touch_at(time_secs).contact.speed_mps);
-            // The filter follows a ramp of 0.6 m/s² a few milliseconds late.
+            // The speed filter lags a ramp of 0.6 m/s² by a few milliseconds.
             assert!((played - given_at(&given(), time_secs).speed.0).abs() < 0.005, "{time_secs}: {played}");
         }
     }

@@ -1,51 +1,52 @@
-//! How a recorded stroke is read, as far as its file does not say it.
+//! Options for reading a recorded stroke, where its file does not state them.
 
 use anyhow::bail;
 use shagreen_device::pressure::PressureMap;
 
 use crate::cli::hid_files::size_mm;
-use crate::cli::motion::quantity;
 use crate::cli::output;
+use crate::cli::quantity::quantity;
 
 #[derive(clap::Args)]
-#[command(next_help_heading = "How a stroke is read")]
+#[command(next_help_heading = "Options for recorded strokes")]
 pub(crate) struct StrokeArgs {
-    /// Length of one unit of x and y of a .svc file, in mm. The file does not state it: 0.005 (5080 lines an inch) is
-    /// assumed for whole numbers, 1 for fractions.
+    /// Length of one unit of x and y in a .svc file, in mm. The file does not state it. Default: 0.005 (5080 lines per
+    /// inch) for whole numbers, 1 for fractions.
     #[arg(long, value_name = "MM", value_parser = quantity)]
     pub(crate) mm_per_count: Option<f64>,
-    /// Length of one unit of time of a .svc file, in ms. The file does not state it: 1 is assumed for whole numbers,
-    /// 1000 for fractions.
+    /// Length of one unit of time in a .svc file, in ms. The file does not state it. Default: 1 for whole numbers, 1000
+    /// for fractions.
     #[arg(long, value_name = "MS", value_parser = quantity)]
     pub(crate) ms_per_tick: Option<f64>,
-    /// The number that stands for full pressure in a .svc file. The file does not state it: 32767 (15 bits) is assumed
-    /// for whole numbers, 1 for fractions.
+    /// Number that means full pressure in a .svc file. The file does not state it. Default: 32767 (15 bits) for whole
+    /// numbers, 1 for fractions.
     #[arg(long, value_name = "P", value_parser = quantity)]
     pub(crate) pressure_max: Option<f64>,
-    /// Width and height of the area of a recorded HID pen in mm, such as 216x135, where it declares none
-    /// or wrong ones.
+    /// Width and height of the area of a recorded HID pen in mm, such as 216x135, if the pen declares none or wrong
+    /// ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm)]
     pub(crate) size_mm: Option<[f64; 2]>,
-    /// Force at the lowest pressure, in N, where the pen tells none; without it 0.03.
+    /// Force at the lowest pressure, in N, if the pen declares no force. Default: 0.03.
     #[arg(long, value_name = "N", value_parser = quantity)]
     force_min: Option<f64>,
-    /// Force at full pressure, in N, where the pen tells none; without it 4.
+    /// Force at full pressure, in N, if the pen declares no force. Default: 4.
     #[arg(long, value_name = "N", value_parser = quantity)]
     force_max: Option<f64>,
-    /// Bend of the curve from pressure to force: 0 is a straight line, more is steeper towards full pressure; without it 2.
+    /// Curvature of the map from pressure to force: 0 is a straight line, higher values are steeper towards full
+    /// pressure. Default: 2.
     #[arg(long, value_name = "C", value_parser = bend)]
     pressure_curve: Option<f64>,
 }
 
-/// Options that say something about a `.svc` file.
+/// Options for a `.svc` file.
 pub(crate) const OF_SVC: [&str; 3] = ["--mm-per-count", "--ms-per-tick", "--pressure-max"];
-/// The one that says something about a pen that was recorded by HID.
+/// Option for a recorded HID pen.
 pub(crate) const OF_HID: &str = "--size-mm";
-/// Those that make forces of pressure.
+/// Options of the map from pressure to force.
 pub(crate) const OF_PRESSURE: [&str; 3] = ["--force-min", "--force-max", "--pressure-curve"];
 
 impl StrokeArgs {
-    /// From pressure to force.
+    /// Returns the map from pressure to force.
     pub(crate) fn pressure_map(&self) -> PressureMap {
         let usual = PressureMap::USUAL;
         PressureMap {
@@ -55,7 +56,7 @@ impl StrokeArgs {
         }
     }
 
-    /// Names of the options that were given.
+    /// Returns the names of the options that were given.
     pub(crate) fn given(&self) -> impl Iterator<Item = &'static str> {
         let [mm_per_count, ms_per_tick, pressure_max] = OF_SVC;
         let [force_min, force_max, pressure_curve] = OF_PRESSURE;
@@ -71,10 +72,10 @@ impl StrokeArgs {
         options.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name)
     }
 
-    /// Refuses what would be ignored: of the options that were given, those which say nothing about `what`.
+    /// Returns an error if an option was given that is not among `known` and would be ignored. `what` names the stroke.
     pub(crate) fn refuse_but(&self, known: &[&str], what: &str) -> anyhow::Result<()> {
         match self.given().find(|option| !known.contains(option)) {
-            Some(option) => bail!(output::Usage(format!("{option} says nothing about {what}; leave it out"))),
+            Some(option) => bail!(output::Usage(format!("{option} does not apply to {what}; leave it out"))),
             None => Ok(()),
         }
     }
@@ -95,13 +96,13 @@ mod tests {
     #[test]
     fn the_help_says_the_usual_forces() {
         let help = StrokeArgs::augment_args(Command::new("stroke")).render_long_help().to_string();
-        // However its lines are broken.
+        // Independent of line breaks.
         let help = help.split_whitespace().chain([""]).collect::<Vec<_>>().join(" ");
         let usual = PressureMap::USUAL;
         for words in [
-            format!("the pen tells none; without it {} ", usual.activation_n),
-            format!("the pen tells none; without it {} ", usual.full_n),
-            format!("towards full pressure; without it {} ", usual.bend),
+            format!("lowest pressure, in N, if the pen declares no force. Default: {} ", usual.activation_n),
+            format!("full pressure, in N, if the pen declares no force. Default: {} ", usual.full_n),
+            format!("towards full pressure. Default: {} ", usual.bend),
         ] {
             assert!(help.contains(&words), "{words} is not in {help}");
         }

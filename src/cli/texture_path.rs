@@ -1,34 +1,35 @@
-//! `shagreen texture path`: a texture that changes along a stroke.
+//! `shagreen texture path`: makes a texture that changes along a stroke.
 
 use std::path::PathBuf;
 
 use serde_json::json;
-use shagreen_core::authoring::{Authoring, Blending};
 use shagreen_core::space::SpacePoint;
-use shagreen_core::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePath};
+use shagreen_core::space::authoring::{Authoring, Blending};
+use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePath};
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 
 use crate::cli::blending::BlendArgs;
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::library_source::{LibraryArgs, load};
-use crate::cli::motion::quantity;
-use crate::cli::output;
-use crate::cli::target::{authoring, parse_point};
+use crate::cli::library_args::LibraryArgs;
+use crate::cli::output::{self, Printed};
+use crate::cli::quantity::quantity;
+use crate::cli::target::parse_point;
 use crate::cli::words::words;
+use shagreen_studio::authoring::authoring;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Makes a texture that changes along a stroke, from stop to stop through the space, and writes it as a library of its own:
-/// `render`, `play` and the window take it as any other texture.
+/// Makes a texture that changes along a stroke, from stop to stop through the space, and writes it as a library of its
+/// own. `render`, `play` and the window use it like any other texture.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A point of the space, and where along the stroke it is reached, in mm (or s, with --along time): 30,70@0. At least
-    /// two, the first at 0.
+    /// Point of the space, and the position along the stroke at which it is reached, in mm (or in s with --along time):
+    /// 30,70@0. Give at least two, the first at 0.
     #[arg(long = "stop", value_name = "RS,HS@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
     stops: Vec<(SpacePoint, f64)>,
-    /// What counts along the stroke: the distance that the tip has traveled, or the time that it has touched.
+    /// Quantity along the stroke: the distance that the tip has traveled, or the time in contact.
     #[arg(long, value_name = "WHAT", value_parser = words(Along::ALL, Along::id), default_value = Along::default().id())]
     along: Along,
-    /// What happens at the end: the last texture stays, it goes back, or it begins again.
+    /// Behavior at the end: hold the last texture, turn back, or repeat from the beginning.
     #[arg(long, value_name = "WHAT", value_parser = words(AtEnd::ALL, AtEnd::id), default_value = AtEnd::default().id())]
     at_end: AtEnd,
     #[command(flatten)]
@@ -41,12 +42,12 @@ pub(crate) struct Args {
     /// Library file to write.
     #[arg(short, long, value_name = "OUT.json")]
     out: PathBuf,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// Distance of neighboring textures of a path from which it is called coarse, in points of the axes.
+/// Distance of neighboring textures of a path above which a warning is printed, in points of the axes.
 const COARSE: f64 = 8.0;
 
 fn parse_stop(text: &str) -> Result<(SpacePoint, f64), String> {
@@ -57,12 +58,12 @@ fn parse_stop(text: &str) -> Result<(SpacePoint, f64), String> {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[args.library.path()])?;
     refuse_foreign(&args.out, "a path", is_path)?;
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let blending = args.blending.blending(&library)?;
     let (scale, unit) = args.along.unit();
     let stops = args.stops.iter().map(|(at, x)| Stop { at: *at, along: scale * x }).collect();
     let route = Route::new(args.along, args.at_end, stops)?;
-    let authoring = authoring(&library, blending.mode)?;
+    let authoring = authoring(&library, blending.mode, &Printed)?;
     let path = TexturePath::of_route(&authoring, &route, &blending)?;
     let outside = OutsideKeys::of(&authoring, &path, &blending);
     let (n_keys, length) = (path.keys().len(), path.length() / scale);
@@ -88,16 +89,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "clamped": outside.n_clamped, "extrapolated": outside.n_extrapolated,
             "warnings": warnings,
         }),
-        || format!("Wrote \"{id}\", {length} {unit} long, {n_keys} textures along it: {file}"),
+        || format!("Wrote \"{id}\", {length} {unit} long, {n_keys} textures along the path: {file}"),
     );
     Ok(())
 }
 
-/// How many keys lie outside the textures.
+/// Number of textures on a path that lie outside the convex hull.
 struct OutsideKeys {
-    /// Those that were moved to where there is a texture.
+    /// Textures that were moved to the nearest supported point.
     n_clamped: usize,
-    /// Those that were extrapolated.
+    /// Textures that were extrapolated.
     n_extrapolated: usize,
 }
 
@@ -115,7 +116,7 @@ impl OutsideKeys {
         let of_all =
             |n: usize, what: &str| (n > 0).then(|| format!("{n} of {n_keys} textures along the path {what}"));
         let clamped =
-            "lie outside the textures of the library; the nearest points that they support are used";
+            "lie outside the convex hull of the library's textures; the nearest supported points are used";
         let extrapolated = "are extrapolated: nothing was measured there";
         [of_all(self.n_clamped, clamped), of_all(self.n_extrapolated, extrapolated)]
             .into_iter()
@@ -124,24 +125,24 @@ impl OutsideKeys {
     }
 }
 
-/// What is to be known of a path whose textures lie far apart.
+/// Returns a warning if neighboring textures of a path lie far apart.
 fn coarse(path: Option<&TexturePath>) -> Option<String> {
     let step = path?.widest_step();
     (step > COARSE).then(|| {
         format!(
-            "some textures along the path lie {step:.0} points of the space apart, and between them is only their mixture: \
-             a path has {MAX_KEYS} textures at most; take fewer stops, or a shorter way"
+            "some neighboring textures of the path lie {step:.0} points of the space apart, and are only mixed in between: \
+             a path has at most {MAX_KEYS} textures; use fewer stops, or a shorter path"
         )
     })
 }
 
-/// Whether a file is a library of one path, which a newer one may replace.
+/// Returns whether a file is a library with a single path, which a newer one may replace.
 fn is_path(bytes: &[u8]) -> bool {
     let Ok(library) = read_library(bytes) else { return false };
     matches!(&library.value.textures[..], [only] if only.path.is_some())
 }
 
-/// A library of the path alone.
+/// Returns a library with only the path.
 fn alone(library: &Library, entry: TextureEntry) -> Library {
     Library {
         name: entry.name.clone(),

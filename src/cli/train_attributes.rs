@@ -1,53 +1,53 @@
-//! `shagreen train attributes`: how well attributes can be told from strokes.
+//! `shagreen train attributes`: trains predictors of attributes from strokes and evaluates them.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::ensure;
 use serde_json::{Value, json};
-use shagreen_core::attribute_predictor::{leave_one_out, linear_leave_one_out};
-use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::statistics::mean;
+use shagreen_core::maths::gaussian_process::Estimate;
+use shagreen_core::maths::statistics::mean;
+use shagreen_core::space::attribute_predictor::{leave_one_out, linear_leave_one_out};
 use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::attribute_table;
 
 use crate::cli::judged::{Comparison, Judged};
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use crate::cli::train_networks::{NetworkArgs, check_out, train_networks};
 
-/// Learns to tell the attributes of textures from strokes, and says how well: each texture is left out, everything is
-/// learned from the others, and it is predicted.
+/// Trains predictors of texture attributes from strokes and reports their leave-one-texture-out errors: each texture is
+/// predicted from a training on all others.
 ///
-/// A Gaussian process over a few quantities of the vibration learns in milliseconds; with --network the networks of the paper
-/// learn beside it, which takes hours. What predicts better is named. Attributes are the ratings that the library has, or
-/// else the axes of its places; --library simulated has five.
+/// A Gaussian process over a few vibration features trains in milliseconds. With --network the networks of the paper
+/// are trained too, which takes hours. The better predictor is named. Attributes are the ratings of the library, or
+/// else the axes of its positions; --library simulated has five.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
     networks: NetworkArgs,
-    /// Where to keep the trainings of networks: one that was stopped goes on from there.
+    /// Folder for the state of trainings of networks; an interrupted training resumes from it.
     #[arg(long, value_name = "FOLDER")]
     state: Option<PathBuf>,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// Fewer textures cannot do without one and still tell it.
+/// Smallest number of textures for a leave-one-out evaluation.
 const LEAST_KNOWN: usize = 5;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let started = Instant::now();
     check_out(&args.networks, args.library.path())?;
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     let table = attribute_table(&library)?;
     let known = table.known(&library);
     ensure!(
         known.len() >= LEAST_KNOWN,
-        "{} of \"{}\" can be learned from; {LEAST_KNOWN} with ratings or places are the least",
+        "only {} of \"{}\" with ratings or positions; training needs at least {LEAST_KNOWN}",
         counted(known.len(), "texture"),
         library.name
     );
@@ -63,7 +63,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     all.extend(trained.judged);
 
     let comparison = Comparison::new(&all, &table.names, &table.values);
-    // How far off it is, in its own deviations: about one where it knows how unsure it is.
+    // RMS of error over predicted standard deviation: about one for calibrated uncertainties.
     let calibration = |attribute: usize| {
         let pairs = estimates.iter().zip(&table.values);
         let squares = pairs
@@ -83,7 +83,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     result.extend(more.as_object().cloned().unwrap_or_default());
     output::print(args.json, &Value::Object(result), || {
         format!(
-            "Each of {} was left out in turn; attributes by {}.\n\n{}",
+            "Leave-one-texture-out over {}; attributes from {}.\n\n{}",
             counted(n, "texture"),
             table.source_words(),
             comparison.text()

@@ -1,13 +1,16 @@
-//! The networks of `shagreen train attributes`: each texture left out, kept after every round, resumed after a stop.
+//! Training of the networks of `shagreen train attributes`: once without each texture, saved after every epoch,
+//! resumable.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context as _, ensure};
-use shagreen_core::fit::Stroke;
-use shagreen_core::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns};
-use shagreen_core::rng::derive_seed;
+use shagreen_core::maths::rng::derive_seed;
+use shagreen_core::recording::fit::Stroke;
+use shagreen_core::texture::patterns::{
+    PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns,
+};
 use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
 use shagreen_formats::library::{Library, free_id, id_from_name};
@@ -17,13 +20,14 @@ use shagreen_learn::stroke_model::ModelCard;
 use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
-use crate::cli::in_parallel::{in_parallel_by, n_processors};
 use crate::cli::judged::Judged;
 use crate::cli::output::{self, Progress};
 use crate::cli::words::words;
+use shagreen_studio::file;
+use shagreen_studio::parallel::{in_parallel_by, n_processors};
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// A network that can be trained.
+/// Network that can be trained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Network {
     Paper320,
@@ -57,27 +61,27 @@ impl Network {
 
 #[derive(clap::Args)]
 pub(crate) struct NetworkArgs {
-    /// A network to train too: the paper's with 320 features of convolutions (paper320) or as it is written (literal), its
-    /// convolutions or its long short-term memory alone. May be given several times.
+    /// Network to train too: that of the paper with 320 convolutional features (paper320) or as printed (literal), or
+    /// only its convolutional (convolutions) or LSTM part (memory). Can be given several times.
     #[arg(long = "network", value_name = "NETWORK", value_parser = words(Network::ALL, Network::id))]
     networks: Vec<Network>,
-    /// Most rounds over all segments.
+    /// Largest number of epochs.
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     epochs: u32,
-    /// Rounds without a better prediction of textures kept aside after which a network stops; 0 never stops and keeps none
-    /// aside.
+    /// Number of epochs without a better prediction of the validation textures after which training stops; 0 never
+    /// stops early and uses no validation textures.
     #[arg(long, default_value_t = 10)]
     patience: u32,
-    /// Share of each second of strokes that is learned from, 0.2 to 1: a quick look.
+    /// Fraction of each second of strokes to train on, 0.2 to 1; a small one gives a quick test.
     #[arg(long, default_value_t = 1.0, value_parser = share)]
     share: f64,
-    /// Everything that is drawn.
+    /// Random seed of the training.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Networks that learn at a time, each in about half a GB; without it as many as there are processors.
+    /// Number of networks trained in parallel, each with about 0.5 GB of memory. Default: the number of processors.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// File for a network that has learned from all textures, by the first --network.
+    /// File for a network trained on all textures, of the kind of the first --network.
     #[arg(long, short, value_name = "MODEL")]
     out: Option<PathBuf>,
 }
@@ -89,27 +93,27 @@ impl NetworkArgs {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    let share: f64 = text.parse().map_err(|_| "it is no number".to_owned())?;
-    if (0.2..=1.0).contains(&share) { Ok(share) } else { Err(format!("{share} is not from 0.2 to 1")) }
+    let share: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
+    if (0.2..=1.0).contains(&share) { Ok(share) } else { Err(format!("{share} is not between 0.2 and 1")) }
 }
 
-/// What the networks came to.
+/// Results of the networks.
 pub(crate) struct Trained {
     pub(crate) judged: Vec<Judged>,
-    /// Rounds of all of them together.
+    /// Number of epochs of all networks together.
     pub(crate) epochs: usize,
 }
 
-/// Looks, before hours are spent, whether what is learned can be kept where it is to be.
+/// Checks before hours of training that the trained network can be written.
 pub(crate) fn check_out(args: &NetworkArgs, library: Option<&Path>) -> anyhow::Result<()> {
     let Some(out) = &args.out else { return Ok(()) };
-    ensure!(!args.networks.is_empty(), "--out keeps a network; name one by --network");
+    ensure!(!args.networks.is_empty(), "--out writes a network; choose one with --network");
     refuse_inputs(&[out], &[library])?;
     refuse_foreign(out, "a model", is_model)?;
     Ok(atomic::check_all(&[out])?)
 }
 
-/// Trains the networks that were asked for, once without each texture, several at a time.
+/// Trains each requested network once without each texture, several in parallel.
 pub(crate) fn train_networks(
     args: &NetworkArgs,
     state: Option<&Path>,
@@ -122,8 +126,8 @@ pub(crate) fn train_networks(
     }
     if let Some(folder) = state {
         std::fs::create_dir_all(folder)
-            .context("cannot make the folder; check its name and your rights")
-            .with_context(|| output::in_file(folder))?;
+            .context("cannot create the folder; check its name and your permissions")
+            .with_context(|| file::in_file(folder))?;
     }
     let textures = strokes(args, library, table)?;
     let config = |network: Network| {
@@ -136,7 +140,7 @@ pub(crate) fn train_networks(
     };
     for network in &args.networks {
         let progress =
-            Progress::of_hours("thousandths of a round", textures.len() * in_thousandths(args.epochs));
+            Progress::of_hours("thousandths of an epoch", textures.len() * in_thousandths(args.epochs));
         let failed = AtomicBool::new(false);
         let of = in_parallel_by(args.n_jobs(), textures.len(), |index| {
             let mut others: Vec<&StrokedTexture> = textures.iter().collect();
@@ -152,7 +156,7 @@ pub(crate) fn train_networks(
                 let of = training.finish()?.predict(&left_out.strokes)?;
                 anyhow::Ok(Some((n_epochs, of.context("the strokes are shorter than a segment")?)))
             };
-            // Hours of the others are not waited for.
+            // Stops the other trainings, which would take hours.
             without().inspect_err(|_| failed.store(true, Ordering::Relaxed))
         });
         progress.finish();
@@ -165,12 +169,12 @@ pub(crate) fn train_networks(
     if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
         let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
         let all: Vec<&StrokedTexture> = textures.iter().collect();
-        let progress = Progress::of_hours("thousandths of a round", in_thousandths(args.epochs));
+        let progress = Progress::of_hours("thousandths of an epoch", in_thousandths(args.epochs));
         let what = format!("{} of all", network.id());
         let never = AtomicBool::new(false);
         let training = train(&all, config(*network), kept.as_deref(), &what, &progress, &never)?;
         progress.finish();
-        let Some(training) = training else { unreachable!("there is no other that could fail") };
+        let Some(training) = training else { unreachable!("no other training can fail") };
         let model = training.finish()?;
         let card = ModelCard {
             attributes: table.names.clone(),
@@ -184,12 +188,12 @@ pub(crate) fn train_networks(
     Ok(trained)
 }
 
-/// Steps of a bar for so many rounds.
+/// Returns the number of steps of a progress bar for this number of epochs.
 fn in_thousandths(n_epochs: u32) -> usize {
     1000 * n_epochs as usize
 }
 
-/// Trains until there is nothing more to learn, from where it was stopped; `None` once another has failed.
+/// Trains to the end, from the saved state if there is one; `None` if another training has failed.
 fn train(
     textures: &[&StrokedTexture],
     config: TrainingConfig,
@@ -200,8 +204,8 @@ fn train(
 ) -> anyhow::Result<Option<Training>> {
     let n_epochs = config.n_epochs;
     let mut training = match kept.filter(|path| path.exists()) {
-        Some(path) => Training::resume(textures, config, &output::read_file(path)?)
-            .with_context(|| output::in_file(path))?,
+        Some(path) => Training::resume(textures, config, &file::read_file(path)?)
+            .with_context(|| file::in_file(path))?,
         None => Training::new(textures, config)?,
     };
     let mut done = 1000 * training.epochs().len().min(n_epochs);
@@ -218,9 +222,9 @@ fn train(
         let Some(epoch) = epoch else { return Ok(None) };
         progress.steps(before + 1000 - done);
         done = before + 1000;
-        let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", {rmse:.2} aside"));
+        let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", validation RMSE {rmse:.2}"));
         progress.note(&format!(
-            "{what}: round {} of {n_epochs}, {:.0} s, off by {:.2}{aside}",
+            "{what}: epoch {} of {n_epochs}, {:.0} s, training RMSE {:.2}{aside}",
             epoch.number,
             started.elapsed().as_secs_f64(),
             epoch.learned_rmse
@@ -229,12 +233,12 @@ fn train(
             atomic::write(path, &training.keep()?)?;
         }
     }
-    // Rounds that an early stop leaves out.
+    // Epochs that an early stop skips.
     progress.leave_out((1000 * n_epochs).saturating_sub(done));
     Ok(Some(training))
 }
 
-/// The 25 strokes of the paper over each texture, with noise of its own.
+/// Returns the 25 strokes of the paper on each texture, each texture with its own noise.
 fn strokes(
     args: &NetworkArgs,
     library: &Library,
@@ -260,7 +264,7 @@ fn strokes(
             force_n: vec![contact.force.0; accel_mps2.len()],
             accel_mps2,
         });
-        // Each is kept in a file of this name.
+        // The state of each texture is saved in a file of this name.
         let id = free_id(&id_from_name(&texture.id), |id| ids.iter().any(|taken| taken == id));
         ids.push(id.clone());
         Ok(StrokedTexture { id, strokes: strokes.collect(), attributes: attributes.clone() })

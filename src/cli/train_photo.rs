@@ -1,12 +1,12 @@
-//! `shagreen train photo`: how well roughness and hardness can be told from pictures.
+//! `shagreen train photo`: trains predictors of roughness and hardness from pictures and evaluates them.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context as _, ensure};
 use serde_json::{Value, json};
-use shagreen_core::picture_features::N_FEATURES;
 use shagreen_core::space::LabelSource;
+use shagreen_core::surfaces::picture_features::N_FEATURES;
 use shagreen_core::words::counted;
 use shagreen_formats::library::{Library, USUAL_AXES};
 use shagreen_formats::starter::starter_anchors;
@@ -18,51 +18,53 @@ use shagreen_learn::picture_set::Seen;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::drawn_pictures::{drawn_pictures, see_all};
-use crate::cli::guard::{refuse_foreign, refuse_inputs};
 use crate::cli::judged::{Comparison, Judged};
-use crate::cli::library_source::{LibraryArgs, load};
+use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Progress};
+use shagreen_studio::file;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Learns to tell roughness and hardness from pictures, and says how well: each texture is left out with all of its pictures,
-/// everything is learned from the others and from pictures of drawn materials, and it is predicted.
+/// Trains predictors of roughness and hardness from pictures and reports their leave-one-texture-out errors: each
+/// texture, with all its pictures, is predicted from a training on the others and on pictures of drawn materials.
 ///
-/// Drawn materials are physical surfaces by chance, none of which is in a library; their roughness and hardness are worked
-/// out, nobody rated them. Statistics of the picture need nothing else; a network that others taught to see is better, and is
-/// had by `shagreen model fetch`. Looking at 3,000 pictures takes half an hour on two cores, and learning without each of 25 textures as long.
+/// Drawn materials are simulated surfaces with random parameters, none of which is in a library; their roughness and
+/// hardness are computed, and nobody rated them. Texture statistics of the picture need no other file; a pretrained
+/// network is more accurate and can be downloaded with `shagreen model fetch`. On two cores, extracting features from
+/// 3,000 pictures takes half an hour, and training without each of 25 textures takes as long.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
     backbone: BackboneArgs,
-    /// How many drawn materials are learned from beside the library.
+    /// Number of drawn materials to train on, in addition to the library.
     #[arg(long, default_value_t = 3000, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     drawn: u32,
-    /// Most rounds over all pictures.
+    /// Largest number of epochs.
     #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     epochs: u32,
-    /// Rounds without a better prediction of pictures kept aside after which a head stops.
+    /// Number of epochs without a better prediction of the validation pictures after which a head stops.
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     patience: u32,
-    /// Heads that learn beside each other and predict their mean.
+    /// Number of heads, which are trained independently and predict their mean.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=16))]
     heads: u32,
-    /// Everything that is drawn.
+    /// Random seed of the training and of the drawn materials.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Where to keep what was seen in drawn pictures: looking goes on from there, and is not done twice.
+    /// Folder for the features of drawn pictures; extraction resumes from it and is not repeated.
     #[arg(long, value_name = "FOLDER")]
     state: Option<PathBuf>,
-    /// File for a model that has learned from all pictures: with the network where there is one, else with statistics.
+    /// File for a model trained on all pictures: with the network if there is one, otherwise with statistics.
     #[arg(long, short, value_name = "MODEL")]
     out: Option<PathBuf>,
-    /// Learn from drawn materials alone, once: no texture of the library is learned from, so that all are left out.
+    /// Train on drawn materials alone, once: no texture of the library is used for training, so all are left out.
     #[arg(long)]
     drawn_only: bool,
-    /// Only make the model: how well it tells is not looked at.
+    /// Only train the model, without evaluating it.
     #[arg(long, requires = "out")]
     unjudged: bool,
-    /// Print one JSON object.
+    /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
@@ -77,13 +79,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     if let Some(folder) = &args.state {
         std::fs::create_dir_all(folder)
-            .context("cannot make the folder; check its name and your rights")
-            .with_context(|| output::in_file(folder))?;
+            .context("cannot create the folder; check its name and your permissions")
+            .with_context(|| file::in_file(folder))?;
     }
-    let library = load(&args.library)?;
+    let library = args.library.load()?;
     ensure!(
         library.axis_names() == USUAL_AXES,
-        "the axes of \"{}\" are {}; pictures tell rough-smooth and hard-soft, name a library with these",
+        "the axes of \"{}\" are {}; pictures predict rough-smooth and hard-soft, so choose a library with these axes",
         library.name,
         library.axis_names().join(" and ")
     );
@@ -105,9 +107,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         format!("{of_drawn} and of \"{}\" ({})", library.name, counted(textures.len(), "texture"))
     };
     let (mut all, mut n_epochs, mut model) = (Vec::new(), 0, None);
-    // Statistics first, then the network; each sees its own part of the features.
+    // Statistics first, then the network; each uses its own part of the features.
     let network = backbone.as_ref().map(|backbone| Eyes::of(Some(backbone)));
-    // Where nothing is judged, only who is kept learns.
+    // Without an evaluation, only the model to write is trained.
     let statistics = (!args.unjudged || network.is_none()).then_some(Eyes::Statistics);
     for eyes in [statistics, network].into_iter().flatten() {
         let taught = teach(args, eyes, &learned_from, &drawn, &textures)?;
@@ -122,7 +124,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if args.unjudged {
         let out = args.out.as_ref().map(|out| out.display().to_string());
         let result = json!({"out": out, "drawn": drawn.len(), "seconds": started.elapsed().as_secs_f64()});
-        output::print(args.json, &result, || format!("Made: {}", out.clone().unwrap_or_default()));
+        output::print(args.json, &result, || format!("Wrote the model: {}", out.clone().unwrap_or_default()));
         return Ok(());
     }
     let names = USUAL_AXES.map(str::to_owned);
@@ -138,7 +140,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     result.extend(more.as_object().cloned().unwrap_or_default());
     output::print(args.json, &Value::Object(result), || {
         format!(
-            "{} left out; learned from {learned_from}. Labels of drawn materials were worked out, nobody rated them.\n\n{}",
+            "Leave-one-texture-out over {}; trained on {learned_from}. Labels of drawn materials are computed; nobody rated them.\n\n{}",
             counted(textures.len(), "texture"),
             comparison.text()
         )
@@ -146,16 +148,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What came of teaching those who see in one way.
+/// Result of training on one kind of features.
 struct Taught {
     judged: Judged,
-    /// What learned from all pictures, where that is wanted.
+    /// Model trained on all pictures, if it is requested.
     of_all: Option<PictureModel>,
-    /// Rounds of all that learned.
+    /// Number of epochs of all trainings.
     n_epochs: usize,
 }
 
-/// Learns from drawn pictures and those of textures, by what `eyes` saw in them, without each texture in turn.
+/// Trains on drawn pictures and those of textures, with the features of `eyes`, without each texture in turn.
 fn teach(
     args: &Args,
     eyes: Eyes,
@@ -202,12 +204,12 @@ fn teach(
     Ok(Taught { judged: Judged { name, predicted }, of_all, n_epochs })
 }
 
-/// What is seen in the pictures of the textures that have a place and a picture.
+/// Returns the features of all textures that have a position and a picture.
 fn pictured(library: &Library, backbone: Option<&Backbone>) -> anyhow::Result<Vec<Seen>> {
     let mut textures = Vec::new();
     for texture in &library.textures {
         let (Some(place), Some(packed)) = (&texture.place, &texture.picture) else { continue };
-        // An estimate tells what was learned already.
+        // An estimated position is itself a prediction.
         if place.source == LabelSource::Estimated {
             continue;
         }
@@ -220,7 +222,7 @@ fn pictured(library: &Library, backbone: Option<&Backbone>) -> anyhow::Result<Ve
     }
     ensure!(
         textures.len() >= 3,
-        "{} of \"{}\" have a place and a picture; three are the least: add pictures to a library in the window",
+        "only {} of \"{}\" with a position and a picture, but at least three are needed; add pictures to the library in the window",
         counted(textures.len(), "texture"),
         library.name
     );

@@ -1,4 +1,4 @@
-//! What is watched of an output while it plays: that it is there, that it asks for samples, and what its limits do.
+//! Monitoring of an output during playback: connection, requests for samples, limits.
 
 use std::time::{Duration, Instant};
 
@@ -9,41 +9,41 @@ use shagreen_device::status::{LinkState, Status};
 use crate::cli::output;
 use crate::cli::receiver::Receiver;
 
-/// How long an output that was called stalled may go on so: a receiver that was reset plays again much sooner.
+/// Longest stall: a receiver that was reset resumes much sooner.
 const STALL_PATIENCE: Duration = Duration::from_secs(4);
 
-/// An output that plays.
+/// Monitor of an output during playback.
 pub(crate) struct Watch {
-    /// What to call it.
+    /// Name of the output for messages.
     what: String,
     receiver: Option<Receiver>,
     stalled_since: Option<Instant>,
     has_told_stall: bool,
-    /// Lowest gain that kept the coil cool.
+    /// Lowest gain of the thermal limiter.
     heat_gain: f32,
 }
 
 impl Watch {
-    /// Watches output `id`, and the receiver on it where there is one.
+    /// Monitors output `id`, and its receiver if there is one.
     pub(crate) fn new(id: &str, receiver: Option<Receiver>) -> Self {
         let what = receiver.as_ref().map_or_else(|| format!("the output `{id}`"), Receiver::in_words);
         Self { what, receiver, stalled_since: None, has_told_stall: false, heat_gain: 1.0 }
     }
 
-    /// What to call the output.
+    /// Returns the name of the output for messages.
     pub(crate) fn what(&self) -> &str {
         &self.what
     }
 
-    /// Lowest gain by which the drive was turned down to keep the coil cool, 0..1.
+    /// Returns the lowest gain of the thermal limiter, 0..1.
     pub(crate) fn heat_gain(&self) -> f32 {
         self.heat_gain
     }
 
-    /// How the output is doing; says what its receiver warns of, and once that it has stalled.
+    /// Returns the status of the output. Prints new warnings of its receiver, and once that it has stalled.
     ///
     /// # Errors
-    /// It is lost, or has asked for nothing for too long.
+    /// The output is lost, or has requested no samples for too long.
     pub(crate) fn look(&mut self, handle: &mut Handle) -> anyhow::Result<Status> {
         let status = handle.status();
         if let Some(receiver) = &mut self.receiver {
@@ -52,7 +52,7 @@ impl Watch {
         if status.state == LinkState::Lost {
             return Err(match handle.loss() {
                 Some(loss) => anyhow::Error::new(loss.clone()).context(format!("{} was lost", self.what)),
-                None => anyhow::anyhow!("{} was lost; look for it with `shagreen devices`", self.what),
+                None => anyhow::anyhow!("{} was lost; find it with `shagreen devices`", self.what),
             });
         }
         if let Some(warning) = self.note(&status, Instant::now())? {
@@ -61,7 +61,7 @@ impl Watch {
         Ok(status)
     }
 
-    /// What there is to say now.
+    /// Returns the warning to print now, if any.
     fn note(&mut self, status: &Status, now: Instant) -> anyhow::Result<Option<String>> {
         if status.frames_played > 0 {
             self.heat_gain = self.heat_gain.min(status.heat_gain);
@@ -73,17 +73,17 @@ impl Watch {
         let since = *self.stalled_since.get_or_insert(now);
         if now.saturating_duration_since(since) > STALL_PATIENCE {
             let advice = if self.receiver.is_some() {
-                "look at its power, its cable and its firmware"
+                "check its power, its cable and its firmware"
             } else {
-                "look at it, or choose another with `shagreen devices`"
+                "check it, or choose another output with `shagreen devices`"
             };
             let secs = STALL_SECS + STALL_PATIENCE.as_secs_f64();
-            bail!("{} has asked for no samples for {secs:.0} s; {advice}", self.what);
+            bail!("{} has requested no samples for {secs:.0} s; {advice}", self.what);
         }
         if std::mem::replace(&mut self.has_told_stall, true) {
             return Ok(None);
         }
-        Ok(Some(format!("{} asks for no samples; it is waited for", self.what)))
+        Ok(Some(format!("{} requests no samples; waiting for it", self.what)))
     }
 }
 
@@ -98,15 +98,15 @@ mod tests {
         let status = |state| Status { state, frames_played: 10, heat_gain: 0.5, ..Status::default() };
         let mut note = |state, secs| watch.note(&status(state), begun + Duration::from_secs_f64(secs));
         assert_eq!(note(LinkState::Running, 0.0).unwrap(), None);
-        assert!(note(LinkState::Stalled, 1.0).unwrap().unwrap().contains("`x` asks for no samples"));
+        assert!(note(LinkState::Stalled, 1.0).unwrap().unwrap().contains("`x` requests no samples"));
         assert_eq!(note(LinkState::Stalled, 2.0).unwrap(), None);
-        // One that comes back has its time anew, and is not told again.
+        // An output that recovers gets the full time again, without a second warning.
         assert_eq!(note(LinkState::Running, 3.0).unwrap(), None);
         let patience_secs = STALL_PATIENCE.as_secs_f64();
         assert_eq!(note(LinkState::Stalled, 4.0).unwrap(), None);
         assert_eq!(note(LinkState::Stalled, 3.9 + patience_secs).unwrap(), None);
         let error = note(LinkState::Stalled, 4.1 + patience_secs).unwrap_err().to_string();
-        assert!(error.contains("`x` has asked for no samples for 5 s"), "{error}");
+        assert!(error.contains("`x` has requested no samples for 5 s"), "{error}");
         assert_eq!(watch.heat_gain(), 0.5);
     }
 }

@@ -1,4 +1,4 @@
-//! No subcommand: the window.
+//! The program without a subcommand: opens the window.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -6,33 +6,71 @@ use std::time::Instant;
 use anyhow::bail;
 use directories::ProjectDirs;
 use serde_json::json;
-use shagreen_app::document::{Read, read_file};
-use shagreen_app::files::Keeping;
-use shagreen_app::session::OutputChoice;
-use shagreen_app::window::new_project;
-use shagreen_app::{Begin, Start, WindowTimes};
 use shagreen_formats::project::{Project, ProjectLibrary};
+use shagreen_studio::open::{Opened, open};
+use shagreen_studio::project::new_project;
 
-use crate::cli::library_source::{LibraryArgs, built_in, load};
 use crate::cli::model_folder::model_folder;
-use crate::cli::output;
+use crate::cli::output::{self, Printed};
+use shagreen_studio::library::{built_in, load};
+
+/// Function that opens the window and returns its frame times once it is closed.
+pub(crate) type OpenWindow = fn(WindowRequest) -> anyhow::Result<FrameTimes>;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Project to open, or a library (a file, or a folder of them) to begin one with; without it a new project on the
-    /// starter library.
+    /// Project to open, or a library (a file or a folder of files) to start a project with. Default: a new project with
+    /// the starter library.
     file: Option<PathBuf>,
-    /// Output to open, by its id; `shagreen devices` lists them. Without it the one that was chosen last in the window, and
-    /// before any was, the system's default of the moment.
+    /// Output to open, by id; `shagreen devices` lists them. Default: the output that was last selected in the window,
+    /// or else the system's default output.
     #[arg(long, value_name = "ID")]
     output: Option<String>,
-    /// Draw this many frames with the hand stroking, print how long they took, and close.
+    /// Draw this many frames with the automatic stroke, print their times, and close.
     #[arg(long, value_name = "N", hide = true)]
     measure_frames: Option<usize>,
 }
 
-/// Opens the window; `started` is when the program did.
-pub(crate) fn run(args: &Args, started: Instant) -> anyhow::Result<()> {
+/// Request to open the window.
+pub(crate) struct WindowRequest {
+    /// Project to show.
+    pub(crate) project: Project,
+    /// File of the project; `None` for a new one.
+    pub(crate) path: Option<PathBuf>,
+    /// Id of the output to open; `None` for the default.
+    pub(crate) output: Option<String>,
+    /// Folders and files of the user.
+    pub(crate) folders: UserFolders,
+    /// Number of frames to measure before closing; `None` keeps the window open.
+    pub(crate) measured_frames: Option<usize>,
+    /// Start time of the program.
+    pub(crate) started: Instant,
+}
+
+/// Folders and files of the user; `None` stores nothing.
+#[derive(Default)]
+pub(crate) struct UserFolders {
+    /// Folder of recovery files.
+    pub(crate) recovery: Option<PathBuf>,
+    /// File of the settings.
+    pub(crate) settings: Option<PathBuf>,
+    /// Folder of downloaded networks.
+    pub(crate) models: Option<PathBuf>,
+}
+
+/// Measured times of a window, in seconds.
+#[expect(clippy::struct_field_names, reason = "the ending is the unit")]
+pub(crate) struct FrameTimes {
+    /// Time from the start of the program to the first frame.
+    pub(crate) first_frame_secs: f64,
+    /// Layout time of each later frame.
+    pub(crate) frame_secs: Vec<f64>,
+    /// Time from each later frame to the next.
+    pub(crate) interval_secs: Vec<f64>,
+}
+
+/// Opens the window with `open_window`; `started` is the start time of the program.
+pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> anyhow::Result<()> {
     let is_unset = |name: &str| std::env::var_os(name).is_none_or(|value| value.is_empty());
     if cfg!(target_os = "linux") && is_unset("DISPLAY") && is_unset("WAYLAND_DISPLAY") {
         bail!(
@@ -41,18 +79,23 @@ pub(crate) fn run(args: &Args, started: Instant) -> anyhow::Result<()> {
         );
     }
     let (project, path) = project(args.file.as_deref())?;
-    let output = args.output.clone().map_or(OutputChoice::SystemDefault, OutputChoice::Id);
-    // A measurement leaves nothing behind.
-    let keeping = if args.measure_frames.is_some() { Keeping::default() } else { keeping() };
-    let begin = Begin { project, path, output, keeping };
-    let times = shagreen_app::run(Start { begin, measured_frames: args.measure_frames, started })?;
+    // A measurement writes no user files.
+    let folders = if args.measure_frames.is_some() { UserFolders::default() } else { user_folders() };
+    let times = open_window(WindowRequest {
+        project,
+        path,
+        output: args.output.clone(),
+        folders,
+        measured_frames: args.measure_frames,
+        started,
+    })?;
     if args.measure_frames.is_some() {
         report(&times);
     }
     Ok(())
 }
 
-/// The project of a file, or a new one on the library of a file; what is odd about it is said.
+/// Returns the project of a file, or a new project with the library of a file; warnings are printed.
 fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<PathBuf>)> {
     let on = |library: ProjectLibrary| Project { library, ..new_project() };
     let Some(path) = file else { return Ok((new_project(), None)) };
@@ -60,16 +103,16 @@ fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<PathBuf>)> {
         return Ok((on(ProjectLibrary::BuiltIn(built_in)), None));
     }
     if path.is_dir() {
-        let merged = load(&LibraryArgs::at(Some(path.to_owned())))?;
+        let merged = load(Some(path), &Printed)?;
         return Ok((on(ProjectLibrary::Inside(merged.into())), None));
     }
-    match read_file(path)? {
-        Read::Project(imported) => {
+    match open(path)? {
+        Opened::Project(imported) => {
             warn_of(&imported.warnings, path);
-            // Remembered so that it is found from every folder.
+            // An absolute path is valid from every working directory.
             Ok((imported.value, Some(std::path::absolute(path)?)))
         }
-        Read::Library(imported) => {
+        Opened::Library(imported) => {
             warn_of(&imported.warnings, path);
             Ok((on(ProjectLibrary::File(imported.value.into())), None))
         }
@@ -82,18 +125,17 @@ fn warn_of(warnings: &[String], path: &Path) {
     }
 }
 
-/// Where the system keeps settings and unsaved work; nothing is kept where it has no such places.
-fn keeping() -> Keeping {
-    let Some(folders) = ProjectDirs::from("", "", "shagreen") else { return Keeping::default() };
+fn user_folders() -> UserFolders {
+    let Some(folders) = ProjectDirs::from("", "", "shagreen") else { return UserFolders::default() };
     let state = folders.state_dir().unwrap_or_else(|| folders.data_local_dir());
-    Keeping {
+    UserFolders {
         recovery: Some(state.join("recovery")),
         settings: Some(folders.config_dir().join("settings.json")),
         models: model_folder().ok().map(|models| models.path().to_owned()),
     }
 }
 
-fn report(times: &WindowTimes) {
+fn report(times: &FrameTimes) {
     let quantile = |secs: &[f64], share: f64| {
         let mut sorted = secs.to_vec();
         sorted.sort_by(f64::total_cmp);

@@ -1,14 +1,14 @@
-//! Choices that have a word each.
+//! Options whose values are words.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-/// What takes one of these by its word.
+/// Returns a parser that maps words to values.
 pub(crate) fn words<T: Copy + Send + Sync + 'static, const N: usize>(
     all: [T; N],
     id: fn(T) -> &'static str,
 ) -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(all.map(id)).try_map(move |word| {
         let found = all.into_iter().find(|each| id(*each) == word);
-        found.ok_or_else(|| format!("{word} is not known"))
+        found.ok_or_else(|| format!("{word} is unknown"))
     })
 }

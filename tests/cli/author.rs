@@ -1,4 +1,4 @@
-//! Authoring from the command line: modes, locks, what lies outside, and paths.
+//! Authoring from the command line: modes, pinned textures, points outside the hull, and paths.
 
 use crate::support::{Bench, rms};
 use serde_json::Value;
@@ -12,7 +12,7 @@ fn parents(value: &Value) -> Vec<(String, f64)> {
     value["parents"].as_array().unwrap().iter().map(parent).collect()
 }
 
-/// Largest difference of two spectra, in dB.
+/// Returns the largest difference of two spectra, in dB.
 fn difference_db(a: &Value, b: &Value) -> f64 {
     let numbers = |v: &Value| -> Vec<f64> {
         v["psd"].as_array().unwrap().iter().map(|p| 10.0 * p.as_f64().unwrap().log10()).collect()
@@ -25,7 +25,7 @@ fn every_mode_authors_and_the_field_is_the_one_that_is_taken() {
     let bench = Bench::new();
     let usual = psd(&bench, "--at 45,40");
     assert_eq!(usual["blend"], "field");
-    assert_eq!(parents(&usual).len(), 25, "the whole space has a say");
+    assert_eq!(parents(&usual).len(), 25, "every texture contributes");
     for mode in ["field", "parametric", "shared", "power", "paper"] {
         let authored = psd(&bench, &format!("--at 45,40 --blend {mode}"));
         let weights = parents(&authored);
@@ -67,13 +67,13 @@ fn outside_it_is_clamped_or_extrapolated_and_said() {
     bench.fails(
         "texture psd --at 0,100 --extrapolate --blend shared --speed 1 --force 1",
         1,
-        &["only the mode field"],
+        &["extrapolation outside the convex hull is available only in mode field"],
     );
     bench.fails("texture psd --at 0,100 --natural --speed 1 --force 1", 1, &["parametric"]);
     bench.fails(
         "texture psd --at 50,50 --lock denim --blend power --speed 1 --force 1",
         1,
-        &["only the mode field"],
+        &["textures can be pinned only in mode field"],
     );
 }
 
@@ -102,7 +102,7 @@ fn a_path_is_one_texture_that_changes_along_the_stroke() {
     assert_eq!(list["textures"].as_array().unwrap().len(), 1);
     bench.json("play --library way.json --texture way --speed 100 --force 1 --seconds 0.3");
 
-    // What was a path may be replaced by another one; what was not may not.
+    // A library of a path may be replaced by another path; other libraries may not.
     bench.json("texture path --stop 20,40@0 --stop 75,35@50 --name Way -o way.json");
     bench.json("library places --out places.csv");
     bench.json("space place --attributes places.csv --source physical --out mine.json");

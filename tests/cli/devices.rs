@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::support::{Bench, shared_data};
 use serde_json::json;
 
-/// A pen of 209.66 by 157.25 mm with 4.016 N at a pressure of 4095, report 26.
+/// Descriptor of a pen with an area of 209.66 by 157.25 mm and 4.016 N at a pressure of 4095, report 26.
 const PEN: &str = "05 0d 09 02 a1 01 85 1a 09 20 a1 00 15 00 25 01 75 01 95 06 09 42 09 44 09 45 09 3c 09 5a 09 32 \
     81 02 95 02 81 03 05 01 a4 75 10 95 01 65 11 55 0d 09 30 26 e6 51 46 e6 51 81 02 09 31 26 6d 3d 46 6d 3d 81 02 \
     b4 05 0d 75 10 95 01 67 11 e1 00 00 55 02 26 ff 0f 46 b0 0f 09 30 81 02 65 14 55 0e 16 d8 dc 26 28 23 36 d8 dc \
@@ -16,7 +16,7 @@ fn bytes(hex: &str) -> Vec<u8> {
     hex.split_whitespace().map(|pair| u8::from_str_radix(pair, 16).unwrap()).collect()
 }
 
-/// A stroke to the right at 100 mm/s and half of full pressure: 1 mm each 10 ms, lines of hid-recorder.
+/// Returns a stroke to the right at 100 mm/s and half of full pressure, as hid-recorder lines: 1 mm every 10 ms.
 fn events() -> String {
     let mut text = String::new();
     for i in 0..100_u16 {
@@ -124,15 +124,15 @@ fn a_decoded_stroke_is_a_table_that_renders_the_same() {
     }
     let ((a, _), (b, _)) = (bench.wav("pen.rec.wav"), bench.wav("stroke.csv.wav"));
     assert_eq!(a.len(), b.len());
-    // The table holds the same places and forces to the last digits.
+    // The table has the same positions and forces up to its last digits.
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-4));
 }
 
-/// The object and the table have the same rows, from the same corner, since the same time.
+/// The JSON object and the table have the same rows, with the same origin of positions and time.
 #[test]
 fn the_table_says_what_the_object_says() {
     let bench = Bench::new();
-    // A clock that began long ago, two reports at one time, and a pen that leaves for a while.
+    // A clock with an offset, two reports at the same time, and a pen that is temporarily out of range.
     let mut events = events().replace("E: 0.", "E: 1234.").replace("E: 1234.310000", "E: 1234.300000");
     for i in 40..50 {
         events = events.replace(&format!("E: 1234.{i}0000 12 1a 21"), &format!("E: 1234.{i}0000 12 1a 00"));
@@ -151,7 +151,7 @@ fn the_table_says_what_the_object_says() {
     assert_eq!(rows.len(), samples.len());
     for (row, sample) in rows.iter().zip(samples) {
         for (value, name) in row.iter().zip(["t", "x_mm", "y_mm", "force_n"]) {
-            // Written to a millionth.
+            // The table has a resolution of one millionth.
             assert!((value - sample[name].as_f64().unwrap()).abs() < 1e-6, "{name}: {value} in {sample}");
         }
         assert_eq!(row[4] == 1.0, sample["tip"] == true);
@@ -186,24 +186,24 @@ fn what_cannot_be_decoded_says_why() {
         ["none of the 1 reports", "12 bytes that begin with 1a", "3 bytes and begins with 01", "other.txt"];
     bench.fails("devices --decode pen.bin other.txt", 1, &unlike);
     bench.write("torn.txt", "E: 0.0 12 1a 20 88\nE: 0.1 nonsense\nR: 3 05 0d\n");
-    bench.fails("devices --decode pen.bin torn.txt", 1, &["no recording", "torn.txt"]);
-    bench.fails("devices --decode pen.bin notes.txt", 1, &["no recording", "notes.txt"]);
+    bench.fails("devices --decode pen.bin torn.txt", 1, &["not a recording", "torn.txt"]);
+    bench.fails("devices --decode pen.bin notes.txt", 1, &["not a recording", "notes.txt"]);
     bench.fails("devices --decode pen.bin missing.txt", 1, &["missing.txt"]);
     bench.fails("devices --decode missing.bin events.txt", 1, &["missing.bin"]);
-    bench.fails("devices --decode pen.bin events.txt -o events.txt", 1, &["write over"]);
+    bench.fails("devices --decode pen.bin events.txt -o events.txt", 1, &["overwrite an input file"]);
     bench.fails("devices --decode pen.bin events.txt --size-mm 12", 2, &["width and height"]);
     bench.fails("devices --descriptor pen.bin --decode pen.bin events.txt", 2, &[]);
     bench.fails("devices --size-mm 216x135", 2, &["--decode"]);
     bench.fails("devices --descriptor pen.bin --size-mm 216x135", 2, &["cannot be used with"]);
     bench.fails("devices -o stroke.csv", 2, &["--decode"]);
     bench.fails("devices --descriptor pen.bin -o stroke.csv", 2, &["cannot be used with"]);
-    // Both files are told.
+    // Both files are named.
     let said = bench.run("devices --decode missing.bin missing.txt");
     assert_eq!((said.code, said.stderr.lines().count()), (1, 2), "{}", said.stderr);
     assert!(said.stderr.contains("missing.bin") && said.stderr.contains("missing.txt"), "{}", said.stderr);
 }
 
-/// As a shell writes that puts everything into UTF-16.
+/// UTF-16, as some shells write redirected output.
 #[test]
 fn recordings_in_utf_16_are_read() {
     let bench = Bench::new();
@@ -238,7 +238,7 @@ fn descriptors_of_real_devices() {
     }
 }
 
-/// A real stroke on a pen whose descriptor declares no pen: where and how fast it may be, and no faster.
+/// A real stroke on a pen whose descriptor declares no pen: positions and speeds are plausible.
 #[test]
 fn a_recorded_pen_partner_draws_a_plausible_stroke() {
     let Some(file) = shared_data("hid-descriptors/penpartner-hid-recorder.txt") else { return };
@@ -252,7 +252,7 @@ fn a_recorded_pen_partner_draws_a_plausible_stroke() {
     for sample in touching {
         assert!(sample["pressure"].as_f64().unwrap() > 0.2);
         assert!((0.0..=81.25).contains(&sample["x_mm"].as_f64().unwrap()));
-        // A hand that signs its name.
+        // The speed limit of handwriting.
         assert!(sample["speed"].as_f64().unwrap() < 1000.0);
     }
     bench.json(&format!("render --texture cork --stroke {} --seed 1 -o a.wav", file.display()));

@@ -1,4 +1,4 @@
-//! What cannot be done is said in one line, with the right status, and leaves nothing behind.
+//! Failures print one line, return the right exit status and leave no files.
 
 use crate::support::{Bench, strokes};
 
@@ -32,7 +32,7 @@ fn wrong_usage_is_two() {
         ("play --texture cork --full-scale 3 --load-g 40", &["cannot be used with", "--full-scale"]),
         ("play --texture cork --full-scale 3 --full-scale-volts 4", &["cannot be used with", "--full-scale"]),
         ("play --texture cork --full-scale 3 --no-equalizer", &["cannot be used with", "--full-scale"]),
-        // A number below zero is a wrong value and not another option.
+        // A negative number is a wrong value, not another option.
         ("calibrate --recording r.wav --sensitivity -5", &["--sensitivity", "above 0"]),
         ("calibrate --recording r.wav --load-g -5", &["--load-g", "from 0.01 to 100000"]),
         ("calibrate --make-sweep s.wav --low -5", &["--low", "needs 0.1 to"]),
@@ -59,11 +59,14 @@ fn what_cannot_be_done_is_one() {
             &["no texture \"crok\"", "did you mean cork"][..],
         ),
         (format!("render --texture xyzzy {STEADY} -o o.wav"), &["xyzzy", "library list"]),
-        (format!("render --texture cork {STEADY} -o none/o.wav"), &["none/o.wav", "its folder is not there"]),
+        (
+            format!("render --texture cork {STEADY} -o none/o.wav"),
+            &["none/o.wav", "its folder does not exist"],
+        ),
         ("library list --library none/l.json".to_owned(), &["there is no such file", "none/l.json"]),
         (
             "export --texture cork --format hatt -o none/o.xml".to_owned(),
-            &["its folder is not there", "none/o.xml"],
+            &["its folder does not exist", "none/o.xml"],
         ),
         (format!("render --texture cork {STEADY} -o o.json"), &["o.json", ".wav"]),
         (format!("render --texture cork {STEADY} --rate 500 -o o.wav"), &["1000 Hz", "500"]),
@@ -71,7 +74,7 @@ fn what_cannot_be_done_is_one() {
         ("play --texture cork --speed 1 --force 1 --seconds 1e20".to_owned(), &["3600"]),
         (
             "render --texture cork --speed 1 --force 1 --seconds 3600 --rate 768000 -o o.wav".to_owned(),
-            &["at most 1073741806 samples", "lower its rate"],
+            &["at most 1073741806 samples", "lower its sample rate"],
         ),
         ("render --texture cork --stroke none.svc -o o.wav".to_owned(), &["cannot read", "none.svc"]),
         ("library list --library none.json".to_owned(), &["cannot read", "none.json"]),
@@ -93,13 +96,13 @@ fn damaged_strokes_are_named_with_their_line() {
     let whole = strokes::synthetic();
     let lines: Vec<&str> = whole.lines().collect();
     let cases: [(&str, String, &[&str]); 8] = [
-        ("cut.svc", lines[..200].join("\n"), &["damaged", "199 are there"]),
+        ("cut.svc", lines[..200].join("\n"), &["damaged", "the file has 199"]),
         ("torn.svc", whole[..whole.len() - 9].to_owned(), &["line", "values"]),
         ("nan.svc", whole.replacen(" 1190 ", " NaN ", 1), &["azimuth in line 2", "NaN"]),
         (
             "back.svc",
             whole.replacen("354642407", "354642399", 1).replacen("354642408", "354642399", 1),
-            &["time goes back in line 3"],
+            &["time decreases in line 3"],
         ),
         ("empty.svc", String::new(), &["first line"]),
         ("text.csv", "hello, world\n".to_owned(), &["hello"]),
@@ -126,7 +129,7 @@ fn a_stroke_of_ages_is_refused() {
     bench.fails("render --texture cork --stroke ages.csv -o out.wav", 1, &words);
 }
 
-/// A reader that has gone, as `head` does, is no reason to panic.
+/// A reader that closes the pipe, as `head` does, causes no panic.
 #[test]
 fn closed_pipes_are_no_failure() {
     let bench = Bench::new();
@@ -159,7 +162,7 @@ fn pressures_beyond_the_full_scale_are_refused() {
     bench.fails("render --at 30,70 --stroke stroke.svc --mm-per-count 0 -o out.wav", 1, &["mm", "positive"]);
 }
 
-/// Options that say nothing about the stroke at hand are not passed over.
+/// Options that do not apply to the given stroke are rejected.
 #[test]
 fn how_a_stroke_is_read_is_asked_of_what_can_tell() {
     let bench = Bench::new();
@@ -247,7 +250,7 @@ fn what_is_read_is_not_written_over() {
         &["mine.json"],
     );
     assert_eq!(std::fs::read(bench.path("mine.json")).unwrap(), starter);
-    // Nor is somebody's file beside the signal a sidecar.
+    // An unrelated file next to the signal is not a sidecar.
     bench.write("notes.json", "{\"mine\": true}");
     bench.fails(&format!("render --texture cork {STEADY} -o notes.wav"), 1, &["would replace", "notes.json"]);
     assert!(!bench.path("notes.wav").exists());

@@ -10,8 +10,8 @@ fn number(report: &Value, method: &str, field: &str) -> f64 {
     summary[field].as_f64().unwrap()
 }
 
-/// What is authored is nearer to what was left out than a copy of the nearest texture, by a quarter; the published mixing
-/// is not. Signals say what models say.
+/// The interpolated texture is closer to the one left out than a copy of the nearest texture, by a quarter; the
+/// published mixing is not. Signals confirm the result of the models.
 fn check(library: &str, source: &str) -> Value {
     let bench = Bench::new();
     let report = bench
@@ -21,9 +21,12 @@ fn check(library: &str, source: &str) -> Value {
         (&"measured on signals".into(), &source.into())
     );
     let error = |method: &str| number(&report, method, "error_db_mean");
-    // With two dozen textures a hundredth of the error is a matter of chance: parametric comes as near on one library.
+    // With two dozen textures a difference of 1 % is within chance: parametric comes that close on one library.
     for method in MODES {
-        assert!(error("field") < 1.02 * error(method), "{method} is nearer than the default: {report}");
+        assert!(
+            error("field") < 1.02 * error(method),
+            "{method} has a lower error than the default: {report}"
+        );
     }
     let best = MODES.into_iter().min_by(|a, b| error(a).total_cmp(&error(b)));
     assert_eq!(report["best"].as_str(), best);
@@ -44,7 +47,7 @@ fn check(library: &str, source: &str) -> Value {
         let summary = if method == "nearest" { &report["nearest"] } else { &report["modes"][method] };
         let signals = |field: &str| summary["signals"][field].as_f64().unwrap();
         assert!(signals("n") >= 3.0 && signals("mean_difference_db") < 0.5, "{method}: {summary}");
-        // What is rendered has the spectrum of its model: chance makes three tenths of a decibel of eight seconds.
+        // Rendered signals have the spectrum of their model; over eight seconds chance accounts for 0.3 dB.
         assert!(signals("from_model_db") < 0.8, "{method}: {summary}");
         let map = std::fs::read_to_string(bench.path(&format!("f/error-{method}.svg"))).unwrap();
         assert!(map.contains("measured on signals"), "{method}");
@@ -58,7 +61,7 @@ fn check(library: &str, source: &str) -> Value {
 fn the_field_evaluates_best_on_the_starter_library() {
     let report = check("", "physical");
     let error = |method: &str| number(&report, method, "error_db_mean");
-    // 43 % less when this was written.
+    // 43 % lower when this test was written.
     assert!(error("field") < 0.6 * error("paper"), "{report}");
 }
 
@@ -74,7 +77,7 @@ fn a_table_says_what_was_measured_and_which_is_best() {
     assert_eq!(said.code, 0, "{said:?}");
     assert!(
         said.stdout
-            .contains("measured on signals, places from physical labels; the errors are no human rating"),
+            .contains("measured on signals, positions from physical labels; the errors are no human ratings"),
         "{said:?}"
     );
     let lines: Vec<&str> = said.stdout.lines().collect();

@@ -56,7 +56,7 @@ fn words_that_say_nothing_leave_everything_open() {
     assert!(attribute(&contradiction, "rough-smooth").1 > 20.0);
     bench.fails("predict attributes", 2, &["--prompt"]);
     bench.fails("predict attributes --prompt rough --recording x.wav", 2, &["--recording"]);
-    // What would say nothing to the answer is not taken in silence.
+    // Options that do not apply are rejected.
     for (line, option) in [
         ("--prompt rough --library simulated", "--library"),
         ("--prompt rough --backbone none", "--backbone"),
@@ -73,7 +73,7 @@ fn a_recording_has_the_attributes_of_the_texture_it_was_made_of() {
     let bench = Bench::new();
     bench.write("stroke.csv", table(&bench, "loop-carpet"));
     let said = bench.json("predict attributes --recording stroke.csv --set acceleration_unit=m/s^2");
-    // As a simulated panel rated the carpet: rough, soft, bumpy. Friction is not in the recording.
+    // Ratings of the carpet by the simulated panel: rough, soft, bumpy. Friction is not in the recording.
     for (name, rated, within) in
         [("rough-smooth", 25.2, 15.0), ("hard-soft", 90.9, 20.0), ("flat-bumpy", 69.3, 25.0)]
     {
@@ -85,7 +85,7 @@ fn a_recording_has_the_attributes_of_the_texture_it_was_made_of() {
         bench.json("predict attributes --recording stroke.csv --set acceleration_unit=g --library simulated");
     assert!(
         attribute(&starter, "rough-smooth").0 < attribute(&said, "rough-smooth").0 + 1.0,
-        "ten times as strong"
+        "a signal ten times as strong is rougher"
     );
     bench.fails(
         "predict attributes --recording stroke.csv",
@@ -107,7 +107,7 @@ fn five_attributes_are_told_to_ten_points_and_better_than_by_a_line() {
         assert!((0.5..2.0).contains(&ratio), "{name}: {ratio}");
         assert!(said["baselines"]["mean of the others"]["mae"][name].as_f64().unwrap() > mae);
     }
-    // The starter library has places alone.
+    // The starter library has only positions.
     let places = bench.json("train attributes");
     assert_eq!(places["mae"].as_object().unwrap().len(), 2);
     assert_eq!(places["label_source"][0], "physical");
@@ -116,7 +116,7 @@ fn five_attributes_are_told_to_ten_points_and_better_than_by_a_line() {
 #[test]
 fn a_network_is_trained_kept_resumed_and_the_same_again() {
     let bench = Bench::new();
-    // Each is told by the four others.
+    // Each texture is predicted from the four others.
     let starter = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/starter/starter.json")).unwrap();
     let mut library: Value = serde_json::from_slice(&starter).unwrap();
     library["textures"].as_array_mut().unwrap().truncate(5);
@@ -130,22 +130,22 @@ fn a_network_is_trained_kept_resumed_and_the_same_again() {
     assert_eq!(begun.code, 0, "{}", begun.stderr);
     assert!(bench.path("kept/convolutions-without-glass.safetensors").exists());
 
-    // Gone on with: the first round is not learned again.
+    // Resumed: the first epoch is not trained again.
     let resumed = train("--epochs 2 --state kept");
     assert_eq!(resumed.code, 0, "{}", resumed.stderr);
     assert!(
-        !resumed.stderr.contains("round 1 of 2") && resumed.stderr.contains("round 2 of 2"),
+        !resumed.stderr.contains("epoch 1 of 2") && resumed.stderr.contains("epoch 2 of 2"),
         "{}",
         resumed.stderr
     );
     let said: Value = serde_json::from_str(&resumed.stdout).unwrap();
     assert_eq!(said["epochs"], 10);
     assert!(said["baselines"]["network convolutions"]["rmse"]["hard-soft"].as_f64().unwrap() > 0.0);
-    // There is nothing left to learn: the same again, at once.
+    // Nothing is left to train: the same result, immediately.
     let again: Value = serde_json::from_str(&train("--epochs 2 --state kept").stdout).unwrap();
     assert_eq!(again["baselines"], said["baselines"]);
 
-    // What has learned from all tells a recording, as sure as it was of those left out.
+    // The network trained on all textures predicts a recording, with the leave-one-out RMSE as standard deviation.
     assert_eq!(train("--epochs 2 --state kept -o net.safetensors").code, 0);
     bench.write("stroke.csv", table(&bench, "brick"));
     let told = bench.json(
@@ -157,7 +157,7 @@ fn a_network_is_trained_kept_resumed_and_the_same_again() {
         assert!((0.0..=100.0).contains(&value), "{told}");
         assert!((sd - rmse[name].as_f64().unwrap()).abs() < 1e-9, "{told}");
     }
-    assert!(told["model"].as_str().unwrap().contains("convolutions, learned from 5 textures"), "{told}");
+    assert!(told["model"].as_str().unwrap().contains("convolutions, trained on 5 textures"), "{told}");
     let of_pictures =
         concat!(env!("CARGO_MANIFEST_DIR"), "/assets/models/pictures-by-statistics.safetensors");
     bench.fails(
@@ -173,7 +173,7 @@ fn a_network_is_trained_kept_resumed_and_the_same_again() {
         "{}",
         other.stderr
     );
-    // What was kept is damaged.
+    // The saved state is damaged.
     let path = bench.path("kept/convolutions-without-glass.safetensors");
     let mut bytes = std::fs::read(&path).unwrap();
     let middle = bytes.len() / 2;
@@ -187,15 +187,15 @@ fn a_network_is_trained_kept_resumed_and_the_same_again() {
         damaged.stderr
     );
     bench.fails("train attributes -o x.safetensors", 1, &["--network"]);
-    // Nothing is trained for hours to be lost at the end.
+    // An unusable output path is reported before hours of training.
     bench.write("notes.txt", "mine");
-    for (out, words) in [("notes.txt", "something else"), ("five.json", "five.json")] {
+    for (out, words) in [("notes.txt", "a file of another kind"), ("five.json", "five.json")] {
         let line = format!("train attributes --library five.json --network paper320 -o {out}");
         bench.fails(&line, 1, &[words]);
     }
 }
 
-/// The same, in four words and more: what was made, and where.
+/// Runs `generate` with a prompt and further options, and returns the JSON result.
 fn generated(bench: &Bench, prompt: &str, more: &str) -> Value {
     let output = bench.command(&format!("generate --json {more}")).arg("--").arg(prompt).output().unwrap();
     assert!(output.status.success(), "{prompt}: {}", String::from_utf8_lossy(&output.stderr));
@@ -215,7 +215,7 @@ fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
     let heights = image::open(bench.path("made/heights.png")).unwrap();
     assert!(heights.color() == image::ColorType::L16 && heights.width() == 512);
     assert!(said["heights_um"][1].as_f64().unwrap() > 1.0);
-    // The texture is felt where it was placed, and the project opens there.
+    // The texture can be rendered, and the project has it.
     let listed = bench.json("library list --library made/texture.json");
     assert_eq!(listed["textures"].as_array().unwrap().len(), 1);
     bench.json("render --library made/texture.json --texture a-rough-soft-carpet-like-surface --speed 100 --force 1 --seconds 0.2 -o felt.wav");
@@ -223,7 +223,7 @@ fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
     assert_eq!(project["authored"][0]["name"], "a rough, soft carpet-like surface");
     assert!(said["neighbors"].as_array().unwrap().len() == 3);
 
-    // The same again, over what was generated; another seed is another piece.
+    // The same seed gives the same files, over the earlier ones; another seed gives another result.
     let bytes = |name: &str| std::fs::read(bench.path(&format!("made/{name}"))).unwrap();
     let (before, texture) = (bytes("picture.png"), bytes("texture.json"));
     generated(&bench, "a rough, soft carpet-like surface", "--out made --size 128");
@@ -231,7 +231,7 @@ fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
     generated(&bench, "a rough, soft carpet-like surface", "--out made --size 128 --seed 2");
     assert_ne!(bytes("picture.png"), before);
 
-    // What somebody worked on since is not replaced, nor what was there before.
+    // Files that were edited since are not replaced, nor files that existed before.
     let opened = String::from_utf8(bytes("project.shagreen")).unwrap();
     bench.write("made/project.shagreen", opened.replace("carpet-like", "rug-like"));
     bench.fails("generate --out made wood", 1, &["project.shagreen", "another folder"]);
@@ -260,7 +260,7 @@ fn prompts_that_say_nothing_are_made_and_say_so() {
         assert_eq!(said["is_about_touch"], is_about_touch, "{prompt}");
         assert!(said["together"]["rough-smooth"]["sd"].as_f64().unwrap() > 3.0);
         if !is_about_touch {
-            // The picture was made of the words, and knows no more.
+            // The picture was generated from the words and adds no information.
             assert_eq!(said["by_words"]["rough-smooth"]["sd"], 28.9);
             assert!(said["together"]["hard-soft"]["sd"].as_f64().unwrap() >= 28.9);
         }
@@ -278,7 +278,7 @@ fn a_photo_has_attributes_and_what_is_none_is_refused() {
     }
     assert!(attribute(&said, "rough-smooth").0 < 50.0 && attribute(&said, "hard-soft").0 < 50.0);
     assert!(said["model"].as_str().unwrap().contains("drawn materials"), "{said}");
-    // A photo unlike all that was learned from is told less surely.
+    // A photo unlike all training pictures has a larger standard deviation.
     let odd =
         image::RgbImage::from_fn(64, 64, |x, y| image::Rgb([255 * ((x / 8 + y / 8) % 2) as u8, 0, 255]));
     odd.save(bench.path("odd.png")).unwrap();
@@ -303,7 +303,7 @@ fn a_model_of_pictures_is_trained_kept_and_used() {
     assert!(said["baselines"]["mean of the others"]["mae"]["hard-soft"].as_f64().unwrap() > 20.0);
     assert!(said["baselines"]["statistics of the picture"]["rmse"]["rough-smooth"].as_f64().unwrap() > 0.0);
     let kept = std::fs::read(bench.path("kept/drawn-1.safetensors")).unwrap();
-    // What was seen is not looked at again, and more is added to it.
+    // Saved features are reused, and more are added to them.
     let again = bench.json(&format!("{train} --drawn 6"));
     assert_eq!(again["baselines"], said["baselines"], "the same seed");
     assert_eq!(std::fs::read(bench.path("kept/drawn-1.safetensors")).unwrap(), kept);
@@ -316,7 +316,7 @@ fn a_model_of_pictures_is_trained_kept_and_used() {
     std::fs::copy(bench.path("kept/drawn-1.safetensors"), bench.path("kept/drawn-2.safetensors")).unwrap();
     bench.fails(&format!("{train} --drawn 6 --seed 2"), 1, &["other materials", "--state"]);
     bench.write("notes.txt", "mine");
-    bench.fails(&format!("{train} -o notes.txt"), 1, &["something else", "notes.txt"]);
+    bench.fails(&format!("{train} -o notes.txt"), 1, &["a file of another kind", "notes.txt"]);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use serde_json::Value;
 const STARTER: &str = include_str!("../../assets/starter/starter.json");
 const MATERIALS: &str = include_str!("../../assets/starter/materials.toml");
 
-/// A library of one texture of the starter.
+/// Returns a library with one texture of the starter library.
 fn only(index: usize) -> String {
     let mut library: Value = serde_json::from_str(STARTER).unwrap();
     let texture = library["textures"][index].clone();
@@ -34,11 +34,11 @@ fn every_texture_is_itself_at_its_own_place() {
     let bench = Bench::new();
     for texture in bench.json("library list")["textures"].as_array().unwrap() {
         let at = format!("{},{}", texture["at"][0], texture["at"][1]);
-        // The field smooths; what mixes neighbors does not.
+        // The field smooths; mixtures of neighbors do not.
         let psd = bench.json(&format!("texture psd --at {at} --blend shared --speed 100 --force 1 --bins 2"));
         assert_eq!(psd["clamped"], false, "{texture}");
         assert_eq!(psd["parents"][0]["id"], texture["id"]);
-        // Places are written to six decimals.
+        // Positions are written with six decimals.
         assert!(psd["parents"][0]["weight"].as_f64().unwrap() > 1.0 - 1e-4, "{psd}");
     }
 }
@@ -51,7 +51,7 @@ fn a_folder_is_one_library_and_clashes_are_named() {
     bench.write("lib/b.json", only(1));
     bench.write("lib/signal.json", "{\"format\": \"shagreen-signal\"}");
     bench.write("lib/notes.txt", "not a library");
-    // JSON of other programs need not even be an object.
+    // JSON of other programs need not be an object.
     bench.write("lib/numbers.json", "[1, 2, 3]");
     bench.write("lib/text.json", "\"text\"");
     bench.write("lib/none.json", "{}");
@@ -113,7 +113,7 @@ fn textures_without_a_place_are_listed_and_rendered_by_name() {
     );
     bench.json("render --library l.json --texture glass --speed 90 --force 1 --seconds 0.1 -o o.wav");
     let at = "render --library l.json --at 30,70 --speed 90 --force 1 --seconds 0.1 -o p.wav";
-    bench.fails(at, 1, &["no texture of the library has a place"]);
+    bench.fails(at, 1, &["no texture of the library has a position"]);
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn a_library_is_made_of_materials_and_is_the_same_again() {
     bench.fails("library make bad.toml --out c.json", 1, &["hearst", "bad.toml"]);
 }
 
-/// The head of the starter's materials with the first of them.
+/// Returns the head of the starter library's materials with only the first material.
 fn one_material() -> String {
     let first = MATERIALS.find("[[material]]").unwrap();
     let second = first + 1 + MATERIALS[first + 1..].find("[[material]]").unwrap();

@@ -1,9 +1,9 @@
-//! The command line from outside: the real program, in folders of its own. One program of tests, which is linked once.
+//! Tests of the command line: the real program in temporary folders. They form one test program, which is linked once.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::print_stdout,
-    reason = "a test may stop at what it did not expect, and says what it skips"
+    reason = "a test may panic on an unexpected result, and prints what it skips"
 )]
 
 #[path = "../support/mod.rs"]

@@ -30,7 +30,7 @@ fn a_steady_contact_and_a_stroke_are_played_in_real_time() {
     }
 }
 
-/// The negative control of `limited`: a full scale far too small for the texture.
+/// Negative control of `limited`: a full scale far too small for the texture.
 #[test]
 fn what_is_limited_is_counted() {
     let played =
@@ -38,7 +38,7 @@ fn what_is_limited_is_counted() {
     assert!(played["limited"].as_u64().unwrap() > 1000, "{played}");
 }
 
-/// A known actuator has two limiters in a row; a sample that both turn down is one.
+/// A known actuator has two limiters in series; a sample that both attenuate counts once.
 #[test]
 fn no_more_is_limited_than_was_played_and_the_limit_is_named() {
     let bench = Bench::new();
@@ -47,9 +47,9 @@ fn no_more_is_limited_than_was_played_and_the_limit_is_named() {
     for (limits, words) in [
         (
             "--full-scale 0.0001".to_owned(),
-            &["met the ceiling of the output's full scale", "--full-scale"][..],
+            &["exceeded the limit of the output's full scale", "--full-scale"][..],
         ),
-        (format!("{coil} 0.001"), &["met the ceiling of what the actuator", "--speed"]),
+        (format!("{coil} 0.001"), &["exceeded the limit of the actuator", "--speed"]),
     ] {
         let said = bench.run(&format!("{steady} {limits} --json"));
         assert_eq!(said.code, 0, "{}", said.stderr);
@@ -58,7 +58,7 @@ fn no_more_is_limited_than_was_played_and_the_limit_is_named() {
         assert!(share > 0.5 && share <= 1.0, "{share}");
         assert!(words.iter().all(|word| said.stderr.contains(word)), "{}", said.stderr);
     }
-    // Nothing to say where nothing was turned down.
+    // No warning without limiting.
     let said = bench.run("play --texture glass --speed 50 --force 0.2 --seconds 0.3");
     assert!(said.stdout.contains("samples limited: none") && said.stderr.is_empty(), "{said:?}");
 }

@@ -1,4 +1,4 @@
-//! Projects on the command line: made, shown, and what was authored in them rendered.
+//! Projects on the command line: created, shown, and their authored textures rendered.
 
 use crate::support::Bench;
 use serde_json::json;
@@ -20,10 +20,10 @@ fn the_gallery_is_listed_and_begun_from() {
     }
     bench.fails("project new --from none -o x.shagreen", 1, &["no project \"none\"", "couch-fabrics"]);
     bench.fails("project new -o journeys.shagreen", 1, &["already", "journeys.shagreen"]);
-    bench.fails("project new -o notes.txt", 1, &["ends with .shagreen"]);
+    bench.fails("project new -o notes.txt", 1, &["must end with .shagreen"]);
 }
 
-/// What was authored in a project sounds as the same point with the same blend does.
+/// An authored texture of a project renders as the same point with the same interpolation does.
 #[test]
 fn what_was_authored_is_rendered() {
     let bench = Bench::new();

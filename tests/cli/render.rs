@@ -1,11 +1,12 @@
-//! `shagreen render` and `shagreen texture psd`: what comes out is what a stylus would feel.
+//! `shagreen render` and `shagreen texture psd`: the output is the acceleration that a stylus would have.
 
 use crate::support::strokes::{self, Sample, rank_correlation, windows};
 use crate::support::{Bench, rms, shared_data};
-use shagreen_core::spectrum::welch;
+use shagreen_core::dsp::spectrum::welch;
 use shagreen_core::units::Hertz;
 
-/// Sound while the tip moves on the surface, silence while it is lifted, and louder the faster it moves.
+/// Checks that there is a signal while the tip moves on the surface and none while it is lifted, and that its level
+/// rises with speed.
 fn check_stroke(bench: &Bench, samples: &[Sample], least_correlation: f64) {
     let (signal, rate_hz) = bench.wav("out.wav");
     assert_eq!(rate_hz, 1000.0);
@@ -17,7 +18,7 @@ fn check_stroke(bench: &Bench, samples: &[Sample], least_correlation: f64) {
     assert!(moving.len() > 5 && !up.is_empty(), "{} windows down, {} up", moving.len(), up.len());
     assert!(moving.iter().all(|rms| *rms > 0.02), "{moving:?}");
     for window in &up {
-        // The last tick before the lift rings on for some hundredths of a second at most.
+        // The last tick before the lift decays within some hundredths of a second.
         assert!(window.rms < 0.01 * rms(&moving), "{window:?} against {}", rms(&moving));
     }
     let correlation = rank_correlation(&down);
@@ -36,8 +37,8 @@ fn a_made_up_stroke_sounds_where_it_touches_and_rises_with_speed() {
     bench.write("stroke.svc", &text);
     let result = bench.json("render --at 30,70 --stroke stroke.svc -o out.wav");
     assert_eq!(bench.files(), ["out.json", "out.wav", "stroke.svc"]);
-    // Force is steady here, so speed alone decides: 0.99 was measured. What is missing to 1 are windows of 0.1 s, whose
-    // level scatters by a tenth or two, among speeds that differ by less.
+    // Force is constant here, so the level depends on speed alone: 0.99 was measured. It is below 1 because the level
+    // in windows of 0.1 s scatters by a tenth or two, while some speeds differ by less.
     check_stroke(&bench, &strokes::read(&text, 0.005, 0.001), 0.9);
     let (signal, _) = bench.wav("out.wav");
     assert!((result["rms"].as_f64().unwrap() - rms(&signal)).abs() < 1e-9);
@@ -54,8 +55,8 @@ fn real_strokes_sound_where_they_touch_and_rise_with_speed() {
         let Some(path) = shared_data(&format!("pen-strokes/stroke-{name}.svc")) else { return };
         bench.json(&format!("render --at 30,70 --stroke {} -o out.wav", path.display()));
         let text = std::fs::read_to_string(path).unwrap();
-        // A writing hand presses harder and softer as it likes, which also counts: 0.91 and 0.94 were measured. Level
-        // and speed that have nothing to do with one another stay below 0.5 in 999 of 1000 draws of 34 windows.
+        // In handwriting the force varies too: 0.91 and 0.94 were measured. For unrelated level and speed, 999 of 1000
+        // draws of 34 windows stay below 0.5.
         check_stroke(&bench, &strokes::read(&text, mm_per_unit, secs_per_unit), 0.5);
     }
 }
@@ -99,7 +100,8 @@ fn the_mapping_of_a_stroke_can_be_changed() {
             .unwrap()
     };
     let usual = level("");
-    // Half the size in the same time is half the speed; twice as long per tick too, and lasts twice as long.
+    // Half the size in the same time is half the speed. Ticks of twice the duration also halve the speed, and double
+    // the duration.
     assert!(level("--mm-per-count 0.0025") < 0.8 * usual);
     assert!(level("--ms-per-tick 2") < 0.8 * usual);
     let seconds =
@@ -122,12 +124,12 @@ fn strokes_can_be_tables() {
     let steady =
         bench.json("render --texture cork --speed 100 --force 1 --seconds 4 -o out.wav")["rms"].clone();
     assert_eq!(level("steady.csv"), steady);
-    // 1 mm every 10 ms is 100 mm/s, but for the start.
+    // 1 mm every 10 ms is 100 mm/s, except at the start.
     let ratio = level("pen.csv").as_f64().unwrap() / steady.as_f64().unwrap();
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 }
 
-/// A library whose cork knows how it sounds when a tip lands on it.
+/// Writes a library whose cork has a tap transient.
 fn write_tapped_cork(bench: &Bench) {
     let starter = include_str!("../../assets/starter/starter.json");
     let tap = "\"tap\": {\"frequency_hz\": 180, \"decay_per_s\": 90, \"amplitude_mps2\": 6}, ";
@@ -137,7 +139,7 @@ fn write_tapped_cork(bench: &Bench) {
     bench.write("tapped.json", tapped);
 }
 
-/// As it is played live, a stroke taps where the tip lands, and a steady contact does not.
+/// As in playback, a stroke has a tap transient at each contact, and a steady contact has none.
 #[test]
 fn landings_in_a_stroke_are_rendered() {
     let bench = Bench::new();
@@ -160,7 +162,7 @@ fn landings_in_a_stroke_are_rendered() {
             part.iter().fold(0.0, |peak: f64, x| peak.max(x.abs()))
         };
         for landing in [0.5, 1.6] {
-            // The first half wave of the equation, 1.4 ms behind its beginning, is 6 e^(-90 t) sin(2π 180 t) high: 5.3.
+            // The first peak of the equation, 1.4 ms after its start, is 6 e^(-90 t) sin(2π 180 t): 5.3 m/s².
             let first = peak(landing - 0.002, landing + 0.010);
             assert!((4.5..6.0).contains(&first), "{first} m/s² at {landing} s");
             assert!(peak(landing + 0.2, landing + 0.3) < 1e-5);
@@ -186,7 +188,7 @@ fn the_same_seed_gives_the_same_file() {
     assert_eq!(bench.wav("a.wav").0.len(), 16_000);
 }
 
-/// The rendered signal has the spectrum and the level that the model's density says, which integrates to its level.
+/// The rendered signal has the spectrum and level of the model's PSD, which integrates to its level.
 #[test]
 fn render_agrees_with_psd_and_psd_with_its_level() {
     let bench = Bench::new();
@@ -203,7 +205,7 @@ fn render_agrees_with_psd_and_psd_with_its_level() {
         let (hz, density, level) = (column("hz"), column("psd"), psd["rms"].as_f64().unwrap());
         assert_eq!((hz.len(), hz[0]), (1024, 5.0));
         let power: f64 = density.iter().sum::<f64>() * (hz[1] - hz[0]);
-        // Below 5 Hz, where the grid begins, there is next to nothing.
+        // Below 5 Hz, where the grid begins, there is almost no power.
         assert!((power.sqrt() / level - 1.0).abs() < 0.02, "{target}: {} for {level}", power.sqrt());
         bench.json(&format!("render {target} --speed 110 --force 0.9 --seconds 120 -o out.wav"));
         let (signal, rate_hz) = bench.wav("out.wav");

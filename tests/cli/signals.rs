@@ -1,4 +1,4 @@
-//! `shagreen quality`, `codec`, `evaluate codec` and `spatial`: what is told of signals, and what becomes of them.
+//! `shagreen quality`, `codec`, `evaluate codec` and `spatial`.
 
 use crate::support::{Bench, rms};
 
@@ -14,7 +14,7 @@ fn a_signal_goes_through_the_codec_at_every_rate() {
         let coded = bench.json(&format!("codec encode cork.wav -o cork.shgc --kbps {rate}"));
         let kbps: f64 = rate.parse().unwrap();
         assert_eq!((coded["kbps"].as_f64(), coded["frames"].as_u64()), (Some(kbps), Some(80)));
-        assert_eq!(coded["bits"].as_f64(), Some((1600.0 * kbps).round()), "1.6 s of it, to the bit");
+        assert_eq!(coded["bits"].as_f64(), Some((1600.0 * kbps).round()), "exactly the bits of 1.6 s");
         let decoded = bench.json("codec decode cork.shgc -o back.wav");
         assert_eq!((&decoded["frames"], &decoded["lost_frames"]), (&80.into(), &0.into()));
         assert!(decoded["peak"].as_f64().unwrap() <= decoded["limit"].as_f64().unwrap());
@@ -23,13 +23,13 @@ fn a_signal_goes_through_the_codec_at_every_rate() {
         assert!((rms(&back) / level - 1.0).abs() < 0.3);
         let quality = bench.json("quality cork.wav back.wav");
         let snr_db = coded["snr_db"].as_f64().unwrap();
-        // The limits of what is written to a file: singles.
+        // The file has single precision.
         assert!((quality["snr_db"].as_f64().unwrap() - snr_db).abs() < 0.01);
         snrs.push(snr_db);
         d_primes.push(quality["dprime"].as_f64().unwrap());
     }
     assert!(snrs.is_sorted() && snrs[0] > 5.0 && snrs[4] > 13.0, "{snrs:?}");
-    // Of one signal a few tenths are chance, whatever the search; over a library the means fall (see below).
+    // For one signal a few tenths are chance; over a library the means decrease (see below).
     assert!(d_primes.is_sorted_by(|a, b| a + 0.5 > *b) && d_primes[0] > 2.0 * d_primes[4], "{d_primes:?}");
 }
 
@@ -53,9 +53,9 @@ fn quality_names_every_feature_and_equal_signals_do_not_differ() {
         assert!(other[key].as_f64().unwrap() > 1.0, "{key}");
     }
     assert_eq!((&same["st_sim"], &same["spqi"]), (&1.0.into(), &1.0.into()));
-    assert_eq!(other["seconds"], 0.8, "whole pieces of one second");
+    assert_eq!(other["seconds"], 0.8, "whole segments of one second");
     let text = bench.run("quality felt.wav brick.wav").stdout;
-    assert!(text.contains("nobody was asked"), "{text}");
+    assert!(text.contains("nobody felt the signals"), "{text}");
     bench.fails("quality felt.wav felt.json", 1, &["felt.json"]);
 }
 
@@ -76,13 +76,13 @@ fn damaged_streams_are_filled_in_or_refused() {
         bench.write(name, bytes);
         bench.fails(&format!("codec decode {name} -o back.wav"), 1, &[name]);
     }
-    // Neither the signal nor somebody's file is written over.
-    bench.fails("codec encode cork.wav -o cork.wav", 1, &["write over"]);
-    bench.fails("codec encode cork.wav -o cork.json", 1, &["something else"]);
+    // Neither the signal nor an unrelated file is replaced.
+    bench.fails("codec encode cork.wav -o cork.wav", 1, &["overwrite an input file"]);
+    bench.fails("codec encode cork.wav -o cork.json", 1, &["a file of another kind"]);
     bench.fails("codec encode cork.wav -o x.shgc --kbps 2", 2, &["1.75, 2.15"]);
-    // Nor is a signal replaced by nothing.
+    // A signal is not replaced by an empty one either.
     bench.write("empty.shgc", &bytes[..24]);
-    bench.fails("codec decode empty.shgc -o back.wav", 1, &["nothing of the signal", "empty.shgc"]);
+    bench.fails("codec decode empty.shgc -o back.wav", 1, &["contains no samples", "empty.shgc"]);
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn profiles_are_made_analysed_and_made_anew() {
     bench.json("spatial analyse D1.csv --window 2 -o spectrogram.csv");
     let table = std::fs::read_to_string(bench.path("spectrogram.csv")).unwrap();
     assert!(table.starts_with("x_mm,per_mm,power\n"));
-    // D is a square wave of 0.4 mm: at 13 mm, where it is there, the strongest frequency is 2.5 in a mm.
+    // D is a square wave of 0.4 mm: at 13 mm, where its amplitude is not zero, the strongest frequency is 2.5 per mm.
     let rows = table
         .lines()
         .skip(1)
@@ -131,7 +131,7 @@ fn profiles_are_made_analysed_and_made_anew() {
     assert_eq!(strongest[1], 2.5, "{strongest:?}");
     bench.fails("spatial analyse D1.csv --window 50", 1, &["does not fit", "D1.csv"]);
     bench.fails("spatial make A --gap 3 -o x.csv", 2, &["--gap"]);
-    // A signal of a stroke is a profile once its speed is known.
+    // A signal of a stroke becomes a profile with its speed.
     bench.json("render --texture cork --speed 100 --force 1 --seconds 0.5 --rate 2000 -o cork.wav");
     let stroke = bench.json("spatial analyse cork.wav --speed 100 --window 1");
     assert_eq!((&stroke["samples"], &stroke["step_mm"]), (&1000.into(), &0.05.into()));
@@ -140,14 +140,14 @@ fn profiles_are_made_analysed_and_made_anew() {
     bench.fails("spatial analyse uneven.csv", 1, &["line 3", "uneven.csv"]);
 }
 
-/// The part of a signal at a frequency, as an amplitude.
+/// Returns the amplitude of a signal's component at a frequency.
 fn amplitude(signal: &[f64], rate_hz: f64, hz: f64) -> f64 {
     let turn = |i: usize| std::f64::consts::TAU * hz * i as f64 / rate_hz;
     let part = |of: fn(f64) -> f64| -> f64 { signal.iter().enumerate().map(|(i, x)| of(turn(i)) * x).sum() };
     2.0 * part(f64::cos).hypot(part(f64::sin)) / signal.len() as f64
 }
 
-/// A height map of 16 bits: steps of one in 65535 from pixel to pixel in its row 1, nothing in the others.
+/// A 16-bit height map: in row 1 the heights differ by a few steps of 1/65535 between pixels; the other rows are flat.
 #[test]
 fn a_row_of_a_height_map_is_a_profile_and_a_relief() {
     let bench = Bench::new();
@@ -162,10 +162,10 @@ fn a_row_of_a_height_map_is_a_profile_and_a_relief() {
     assert!((made["length_mm"].as_f64().unwrap() - 40.0).abs() < 1e-9);
     let analysed = bench.json("spatial analyse map.png --width 40 --row 1 --window 2");
     assert_eq!((&analysed["samples"], &analysed["step_mm"]), (&400.into(), &0.1.into()));
-    // The row in the middle is another one, and flat.
+    // The middle row is another one, and flat.
     let flat = "library relief map.png --width 40 --level 1 --texture cork -o no.json";
-    bench.fails(flat, 1, &["map.png", "nothing to feel"]);
-    bench.fails("spatial analyse map.png --width 40", 1, &["map.png", "the same everywhere"]);
+    bench.fails(flat, 1, &["map.png", "the profile is constant"]);
+    bench.fails("spatial analyse map.png --width 40", 1, &["map.png", "the profile is constant"]);
     bench.fails("spatial analyse map.png --width 40 --row 4", 1, &["rows 0 to 3"]);
     bench.fails("spatial analyse map.png", 2, &["--width"]);
 }
@@ -173,7 +173,7 @@ fn a_row_of_a_height_map_is_a_profile_and_a_relief() {
 #[test]
 fn a_relief_lies_at_its_places() {
     let bench = Bench::new();
-    // A wave of 1 mm: at 100 mm/s it sounds at 100 Hz. It goes on where it turns.
+    // A wave of 1 mm: at 100 mm/s its frequency is 100 Hz. Its mirrored continuation has no jump.
     let wave = |mm: f64| (mm * std::f64::consts::TAU).cos();
     let row = |i: u32| format!("{},{}\n", f64::from(i) / 50.0, wave((f64::from(i) + 0.5) / 50.0));
     bench.write("wave.csv", (0..500).map(row).collect::<String>());
@@ -192,7 +192,7 @@ fn a_relief_lies_at_its_places() {
         let found = wavy(speed, force) / std::f64::consts::SQRT_2;
         assert!((found / wanted - 1.0).abs() < 0.1, "{found} at {speed} mm/s and {force} N");
     }
-    // A stroke that comes back feels the same backwards.
+    // A stroke back plays the relief in reverse.
     let x_mm = |i: u32| 2.0 + 0.2 * (250.0 - (f64::from(i) - 250.0).abs());
     let report = |i: u32| format!("{},{},0,1\n", 0.002 * f64::from(i), x_mm(i));
     let reports: String = (0..=500).map(report).collect();
@@ -206,12 +206,12 @@ fn a_relief_lies_at_its_places() {
         (100..480).map(|i| (relief[i], relief[relief.len() - 2 - i])).unzip();
     let same: f64 = forth.iter().zip(&back).map(|(a, b)| a * b).sum();
     assert!(same > 0.8 * rms(&forth) * rms(&back) * forth.len() as f64, "{same}");
-    // A row of a picture, and a recording at its speed, become reliefs too.
+    // A recording with its speed becomes a relief too.
     bench.json("render --texture brick --speed 100 --force 1 --seconds 1 -o brick.wav");
     let brick =
         bench.json("library relief brick.wav --speed 100 --texture felt --library wavy.json -o both.json");
     assert!((brick["length_mm"].as_f64().unwrap() - 100.0).abs() < 1e-6);
-    // However fast it was recorded: what is felt of three seconds at 48 kHz fits.
+    // Any sample rate works: the perceptible part of three seconds at 48 kHz fits.
     bench.json("render --texture brick --speed 100 --force 1 --seconds 3 --rate 48000 -o fast.wav");
     let fast = bench.json("library relief fast.wav --speed 100 --texture felt -o fast_felt.json");
     assert_eq!((&fast["values"], &fast["step_mm"]), (&12_000.into(), &0.025.into()));
@@ -227,6 +227,6 @@ fn a_relief_lies_at_its_places() {
     bench.fails(
         "library relief flat.csv --texture cork --level 1 -o no.json",
         1,
-        &["flat.csv", "nothing to feel"],
+        &["flat.csv", "the profile is constant"],
     );
 }

@@ -23,11 +23,11 @@ fn a_table_places_textures_and_says_who_is_missing() {
     assert_eq!(of("glass")["at"], json!(null));
     let attributes: Value = serde_json::from_slice(&std::fs::read(bench.path("l.json")).unwrap()).unwrap();
     assert_eq!(attributes["version"], "1.2");
-    // What it wrote, it may write over; what it reads, it may not.
+    // A library of the program may be replaced; an input may not.
     bench.json("space place --library l.json --attributes a.csv --source human --out l2.json");
     bench.json("space place --attributes a.csv --source human --out l2.json");
     let said = bench.run("space place --library l.json --attributes a.csv --source human --out l.json");
-    assert!(said.code == 1 && said.stderr.contains("write over"), "{said:?}");
+    assert!(said.code == 1 && said.stderr.contains("overwrite an input file"), "{said:?}");
 }
 
 #[test]
@@ -48,14 +48,14 @@ fn a_table_that_places_nothing_says_why_and_writes_nothing() {
         "no texture \"corkk\"; did you mean cork?",
     );
     check("--attributes twice.csv --source human --out l.json", 1, "line 2 and again in line 3");
-    check("--attributes good.csv --out l.json", 1, "where the places come from");
+    check("--attributes good.csv --out l.json", 1, "the source of the positions is not stated");
     check("--attributes good.csv --source me --out l.json", 2, "human, simulated, physical or estimated");
     check("--attributes good.csv --source human --out notes.json", 1, "notes.json");
     check("--attributes absent.csv --source human --out l.json", 1, "absent.csv");
     assert_eq!(bench.files(), ["good.csv", "notes.json", "twice.csv", "unknown.csv"]);
 }
 
-/// A simulated panel sorts and rates the starter library, and the whole pipeline is run on it.
+/// A simulated panel sorts and rates the starter library, and the whole pipeline runs on it.
 #[test]
 fn a_space_is_built_from_a_simulated_panel() {
     let bench = Bench::new();
@@ -84,7 +84,7 @@ fn a_space_is_built_from_a_simulated_panel() {
     }
     let positions = report["positions"].as_array().unwrap();
     assert_eq!(positions.len(), 25);
-    // Both axes are predicted well; what is asked for is done all the same.
+    // Both axes are predicted well; an explicit placement is used nevertheless.
     let felt =
         "space build --sorting s.csv --ratings r.csv --out felt.json --permutations 0 --placement felt";
     for (report, placed_by) in [(&report, "predicted"), (&bench.json(felt), "felt")] {
@@ -93,7 +93,7 @@ fn a_space_is_built_from_a_simulated_panel() {
         let mut positions = report["positions"].as_array().unwrap().iter();
         assert!(positions.all(|position| position["at"] == position[placed_by]));
     }
-    // Everything says that nobody felt anything.
+    // Every output states that the ratings are simulated.
     let on_disk: Value =
         serde_json::from_slice(&std::fs::read(bench.path("l2.report.json")).unwrap()).unwrap();
     assert_eq!(
@@ -101,9 +101,13 @@ fn a_space_is_built_from_a_simulated_panel() {
         (&json!("simulated"), &report["positions"])
     );
     let page = std::fs::read_to_string(bench.path("l2.report.svg")).unwrap();
-    assert!(page.contains("simulated raters") && page.contains("nested r") && page.contains("Shepard"));
+    assert!(
+        page.contains("simulated raters")
+            && page.contains("nested cross-validation r")
+            && page.contains("Shepard")
+    );
     assert_eq!(std::fs::read_dir(bench.path("figures")).unwrap().count(), 16);
-    // It is what the second library of the program was made by.
+    // The second built-in library was made this way.
     bench.json("library places --library l2.json --out places.csv");
     let built_in = include_str!("../../assets/starter/simulated.csv");
     assert_eq!(std::fs::read_to_string(bench.path("places.csv")).unwrap(), built_in);
@@ -156,12 +160,12 @@ fn judgments_that_make_no_space_say_why_and_write_nothing() {
         assert!(has_all && said.stderr.lines().count() == 1, "{words:?}: {said:?}");
         assert_eq!(bench.files(), files);
     };
-    // Whatever is wrong, the file that is to be mended is named.
+    // Every error names the file to correct.
     let unknown = ["\"corkk\" was sorted", "did you mean cork", "s-unknown.csv"];
     check("--sorting s-unknown.csv --ratings r.csv", 1, &unknown);
     check("--sorting s.csv --ratings r-unknown.csv", 1, &["\"corkk\" was rated", "r-unknown.csv"]);
-    check("--sorting s-twice.csv --ratings r.csv", 1, &["a texture goes into one group", "s-twice.csv"]);
-    check("--sorting s.csv --ratings r-same.csv", 1, &["no two poles", "r-same.csv"]);
+    check("--sorting s-twice.csv --ratings r.csv", 1, &["assign each texture to one group", "s-twice.csv"]);
+    check("--sorting s.csv --ratings r-same.csv", 1, &["not have two poles", "r-same.csv"]);
     check("--sorting s.csv --ratings r-again.csv", 1, &["the same adjectives", "r-again.csv"]);
     check("--sorting s.csv --ratings r-twice.csv", 1, &["twice on rough", "r-twice.csv"]);
     check("--sorting s.csv --ratings r-one.csv", 1, &["two are needed", "r-one.csv"]);
@@ -190,7 +194,7 @@ fn judgments_that_make_no_space_say_why_and_write_nothing() {
     );
 }
 
-/// Tables as spreadsheets write them, with what people's tables have beside their ratings.
+/// Tables as spreadsheets write them, with columns besides the ratings.
 #[test]
 fn a_space_is_built_from_the_tables_of_spreadsheets() {
     let bench = Bench::new();
@@ -209,14 +213,16 @@ fn a_space_is_built_from_the_tables_of_spreadsheets() {
     let build = "space build --features physical --permutations 5 --sorting";
     let said = bench.run(&format!("{build} unicode.txt --ratings excel.csv --out human.json"));
     assert_eq!(said.code, 0, "{said:?}");
-    for words in
-        ["participants \"P1\", \"p1\" look alike", "columns age, start-time are not used", "taken for people"]
-    {
+    for words in [
+        "participants \"P1\", \"p1\" look alike",
+        "columns age, start-time are not used",
+        "assumed to be people",
+    ] {
         assert!(said.stderr.contains(words), "{words}: {said:?}");
     }
     assert!(said.stdout.contains("Rated on 5 adjective pairs: rough-smooth, hard-soft"), "{said:?}");
     let json = |name: &str| serde_json::from_str::<Value>(&text(name)).unwrap();
-    // They say what the plain tables say.
+    // They contain the same data as the plain tables.
     let report = bench.json(&format!("{build} s.csv --ratings r.csv --out plain.json"));
     let of_tables: Vec<Value> = json("human.report.json")["warnings"].as_array().unwrap()[..2].to_vec();
     assert!(of_tables.iter().all(|warning| !report["warnings"].as_array().unwrap().contains(warning)));
@@ -225,7 +231,7 @@ fn a_space_is_built_from_the_tables_of_spreadsheets() {
         report["warnings"].as_array().unwrap()[..]
     );
     assert_eq!(json("human.report.json")["stress"], report["stress"]);
-    // Nothing says any more that nobody rated.
+    // The text that nobody rated the textures is removed.
     let (human, plain) = (json("human.json"), json("plain.json"));
     let origin = human["origin"].as_str().unwrap();
     assert!(origin.ends_with("Positions come from human ratings.") && !origin.contains("nobody"), "{origin}");
@@ -235,7 +241,7 @@ fn a_space_is_built_from_the_tables_of_spreadsheets() {
             .unwrap()
             .ends_with("nobody rated one. Positions come from simulated raters.")
     );
-    assert!(!text("human.json").contains("look alike"), "names stay with those who asked");
+    assert!(!text("human.json").contains("look alike"), "participants' names are not published");
 }
 
 #[test]
@@ -253,7 +259,7 @@ fn all_files_are_written_or_none() {
     #[cfg(unix)]
     {
         bench.json("space panel --sorting s.csv --ratings r.csv --participants 6");
-        // The library comes last, and cannot be written: its folder is not there, which shows on writing alone.
+        // The library is written last and cannot be written: its folder does not exist, which shows only on writing.
         std::os::unix::fs::symlink("none/l.json", bench.path("l.json")).unwrap();
         let build =
             "space build --sorting s.csv --ratings r.csv --features physical --permutations 0 --out l.json";
@@ -296,7 +302,8 @@ fn places_on_another_scale_are_noticed_and_taken() {
     bench.json("space place --attributes b.csv --source human --out m.json --scale -3,3");
 }
 
-/// A report of a space that was built is not removed by a command that writes none, and not taken for one of these places.
+/// An old report of another space is neither removed by a command that writes none, nor taken for a report of these
+/// positions.
 #[test]
 fn a_report_of_other_places_is_named_and_stays() {
     let bench = Bench::new();
@@ -306,18 +313,18 @@ fn a_report_of_other_places_is_named_and_stays() {
     bench.write("m.report.json", "{}");
     let place = |out: &str| bench.json(&format!("space place --attributes a.csv --source human --out {out}"));
     let warnings = place("l.json")["warnings"].to_string();
-    assert!(warnings.contains("not of these places") && warnings.contains("l.report.json"), "{warnings}");
+    assert!(warnings.contains("not these positions") && warnings.contains("l.report.json"), "{warnings}");
     assert_eq!(std::fs::read_to_string(bench.path("l.report.json")).unwrap(), report);
     assert!(!place("m.json")["warnings"].to_string().contains("report"));
 }
 
-/// Axes other than rough-smooth and hard-soft go by their names through every command.
+/// Axes other than rough-smooth and hard-soft keep their names in every command.
 #[test]
 fn other_axes_keep_their_names() {
     let bench = Bench::new();
     bench.json("space panel --sorting s.csv --ratings r.csv --seed 1");
     let build = "space build --sorting s.csv --ratings r.csv --permutations 0 --features physical";
-    // The first is rated as flat-bumpy: its poles are exchanged.
+    // The first axis is rated as flat-bumpy: its poles are exchanged.
     bench.json(&format!("{build} --axes bumpy-flat,hard-soft --out l.json"));
     let list = bench.json("library list --library l.json");
     assert_eq!(list["axes"], json!(["bumpy-flat", "hard-soft"]));
@@ -330,7 +337,7 @@ fn other_axes_keep_their_names() {
         .map(|value| value["name"].as_str().unwrap())
         .collect();
     assert!(names.contains(&"bumpy-flat") && !names.contains(&"flat-bumpy"), "{names:?}");
-    // A table of its places makes the same library, and a panel can rate it.
+    // A table of its positions gives the same library, and a panel can rate it.
     bench.json("library places --library l.json --out p.csv");
     assert!(text(&bench, "p.csv").starts_with("id,x:bumpy-flat,y:hard-soft,source,"));
     bench.json("space place --attributes p.csv --out l2.json");
@@ -341,7 +348,7 @@ fn other_axes_keep_their_names() {
     assert!((across(&again) - across(&list)).abs() < 1e-3);
     bench.json("space panel --library l2.json --sorting s2.csv --ratings r2.csv");
     bench.json("space build --library l2.json --sorting s2.csv --ratings r2.csv --permutations 0 --features physical --out l3.json");
-    // What was written before libraries named their axes has them in its report.
+    // Files written before libraries named their axes have the names in their report.
     let mut older = written;
     older.as_object_mut().unwrap().remove("axes");
     older["version"] = json!("1.2");
@@ -358,7 +365,7 @@ fn few_textures_and_few_participants_are_said() {
     );
     assert_eq!(report["stability"], json!(null));
     let said = report["warnings"].to_string();
-    assert!(said.contains("2 sorted and 2 rated, 3 of each are the least"), "{said}");
+    assert!(said.contains("2 sorted and 2 rated, but at least 3 of each are needed"), "{said}");
     let keep: Vec<&str> = ["participant", "cork", "felt", "brick", "glass", "leather"].into();
     let five = |text: &str, n: usize| -> String {
         let kept = text.lines().filter(|line| keep[..=n].iter().any(|word| line.contains(word)));
@@ -382,7 +389,7 @@ fn few_textures_and_few_participants_are_said() {
             assert!(
                 report["warnings"]
                     .to_string()
-                    .contains("5 textures are too few to say what predicts an axis")
+                    .contains("5 textures are too few to predict an axis from features")
             );
         }
     }

@@ -1,9 +1,10 @@
-//! The committed starter library: made from the committed materials, and like real surfaces as far as statistics go.
+//! The committed starter library: it is made from the committed materials, and its statistics are those of real
+//! surfaces.
 
-use shagreen_core::plane::Plane;
-use shagreen_core::spectrum::centroid;
-use shagreen_core::starter;
+use shagreen_core::dsp::spectrum::centroid;
+use shagreen_core::surfaces::starter;
 use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::Library;
 use shagreen_formats::materials_toml::read_materials;
@@ -28,7 +29,7 @@ fn it_has_every_material_in_order() {
     assert_eq!(library().seed, Some(materials.seed));
 }
 
-/// Remade from the TOML, a texture is the committed one: whoever changes a material makes the library anew
+/// A texture remade from the TOML file is the committed one. After a change of a material, make the library again
 /// (`shagreen library make assets/starter/materials.toml --out assets/starter/starter.json --licence "…"`).
 #[test]
 fn a_material_made_again_is_the_committed_texture() {
@@ -41,8 +42,8 @@ fn a_material_made_again_is_the_committed_texture() {
     assert_eq!(made.model.friction(), committed.model.friction());
     for (made, committed) in made.model.nodes().iter().zip(committed.model.nodes()) {
         assert!((made.speed.0 - committed.speed.0).abs() < 1e-9 && made.force == committed.force);
-        // Rounded to six digits and six decimals in the file; another platform's sine may differ in its last bit, which
-        // a chaotic bounce can amplify.
+        // The file has six digits and six decimals. Another platform's sine may differ in its last bit, which a chaotic
+        // bounce can amplify.
         assert!((made.level_mps2 / committed.level_mps2 - 1.0).abs() < 1e-3);
         for (made, committed) in made.lsf.iter().zip(&committed.lsf) {
             assert!((made - committed).abs() < 1e-3, "{made} for {committed}");
@@ -72,7 +73,7 @@ fn positions_are_the_labels_spread_over_the_axes() {
     }
 }
 
-/// `ln level = c + α ln speed + β ln force` by least squares over the nodes, as (α, β).
+/// Fits `ln level = c + α ln speed + β ln force` by least squares over the nodes and returns (α, β).
 fn exponents(model: &TextureModel) -> (f64, f64) {
     let rows: Vec<[f64; 3]> =
         model.nodes().iter().map(|n| [n.speed.0.ln(), n.force.0.ln(), n.level_mps2.ln()]).collect();
@@ -98,8 +99,8 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// Ranges of 100 measured surfaces (aggregates only): level and spectral centroid at 100 mm/s and 1 N, and how the
-/// level grows with speed and force.
+/// Ranges over 100 measured surfaces (aggregates only): level and spectral centroid at 100 mm/s and 1 N, and the
+/// exponents of the level in speed and force.
 #[test]
 fn its_statistics_lie_within_those_of_real_surfaces() {
     let contact = Contact::from_mm_per_s_and_n(100.0, 1.0);

@@ -1,20 +1,20 @@
-//! Helpers of the end-to-end tests: child processes that do not outlive their test, and tools that may be absent.
+//! Helpers of the end-to-end tests: child processes that end with their test, and tools that may be missing.
 
 use std::process::{Child, Command, Stdio};
 
-/// A child process, ended when the test is.
+/// Child process that is killed when dropped.
 pub(crate) struct Guard(pub Child);
 
 impl Drop for Guard {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // The process may already have ended.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
 }
 
-/// Whether every tool is there. On a machine that lacks one the test says so and skips, but for `./test`, which has
-/// installed them and sets `SHAGREEN_TEST_ALL`.
+/// Returns whether every tool is installed. If one is missing, the test prints this and is skipped. `./test` installs
+/// the tools and sets `SHAGREEN_TEST_ALL`; a missing tool is then a failure.
 pub(crate) fn have(tools: &[&str]) -> bool {
     let is_there = |tool: &&&str| {
         Command::new("sh")
@@ -29,7 +29,7 @@ pub(crate) fn have(tools: &[&str]) -> bool {
     }
     assert!(
         std::env::var_os("SHAGREEN_TEST_ALL").is_none(),
-        "missing: {missing:?}; scripts/linux-packages test"
+        "missing: {missing:?}; install with `scripts/linux-packages test`"
     );
     println!("skipped: {missing:?} not found");
     false

@@ -1,18 +1,18 @@
-//! Running the real program from outside, in a folder of its own.
-#![allow(dead_code, reason = "each test program uses its own part of this")]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
+//! Runs the real program in a temporary folder.
+#![allow(dead_code, reason = "each test program uses a part of this module")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic, and prints what it skips")]
 
 pub(crate) mod strokes;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A folder that goes away with the test.
+/// Temporary folder of a test.
 pub(crate) struct Bench {
     folder: tempfile::TempDir,
 }
 
-/// What the program said.
+/// Exit code and output of the program.
 #[derive(Debug)]
 pub(crate) struct Said {
     pub(crate) code: i32,
@@ -36,7 +36,7 @@ impl Bench {
         path
     }
 
-    /// Names of the files in the folder, in order.
+    /// Returns the names of the files in the folder, sorted.
     pub(crate) fn files(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.folder.path()).unwrap();
         let mut names: Vec<String> =
@@ -45,16 +45,16 @@ impl Bench {
         names
     }
 
-    /// The program, to be run in the folder, with arguments parted by spaces.
+    /// Returns the command that runs the program in the folder, with arguments separated by spaces.
     pub(crate) fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_shagreen"));
         command.args(arguments.split_whitespace()).current_dir(self.folder.path());
-        // What this machine has of its user must not tell.
+        // The result must not depend on the user's files on this machine.
         command.env("XDG_DATA_HOME", self.path("data"));
         command
     }
 
-    /// Runs the program in the folder, with arguments parted by spaces.
+    /// Runs the program in the folder, with arguments separated by spaces.
     pub(crate) fn run(&self, arguments: &str) -> Said {
         let output = self.command(arguments).output().unwrap();
         Said {
@@ -64,7 +64,7 @@ impl Bench {
         }
     }
 
-    /// Runs the program with `--json`, which must succeed and print one object and nothing else on standard output.
+    /// Runs the program with `--json`. It must succeed and print one JSON object, and nothing else, on standard output.
     pub(crate) fn json(&self, arguments: &str) -> serde_json::Value {
         let said = self.run(&format!("{arguments} --json"));
         assert_eq!(said.code, 0, "{arguments}: {}", said.stderr);
@@ -73,8 +73,8 @@ impl Bench {
         value
     }
 
-    /// Runs the program, which must fail with this status and one line that holds all the words, and leave the folder
-    /// as it was.
+    /// Runs the program. It must fail with this exit code and one error line that contains all the words, and leave the
+    /// folder unchanged.
     #[track_caller]
     pub(crate) fn fails(&self, arguments: &str, code: i32, words: &[&str]) {
         let before = self.files();
@@ -83,7 +83,7 @@ impl Bench {
         assert_eq!(said.stdout, "", "{arguments}");
         let errors: Vec<&str> = said.stderr.lines().filter(|line| line.starts_with("error: ")).collect();
         assert_eq!(errors.len(), 1, "{arguments}: {}", said.stderr);
-        // Beside the error there may be warnings and notes, and nothing without a label.
+        // Other lines must be warnings or notes; every line has a label.
         let is_labeled =
             |line: &str| ["error: ", "warning: ", "note: "].iter().any(|label| line.starts_with(label));
         assert!(said.stderr.lines().all(is_labeled), "{}", said.stderr);
@@ -93,7 +93,7 @@ impl Bench {
         assert_eq!(self.files(), before, "{arguments}");
     }
 
-    /// Samples of a mono float WAV file, and its rate.
+    /// Returns the samples of a mono float WAV file, and its sample rate.
     pub(crate) fn wav(&self, name: &str) -> (Vec<f64>, f64) {
         read_wav(&self.path(name))
     }
@@ -109,17 +109,17 @@ fn read_wav(path: &Path) -> (Vec<f64>, f64) {
     (reader.samples::<f32>().map(|sample| f64::from(sample.unwrap())).collect(), f64::from(spec.sample_rate))
 }
 
-/// Root mean square.
+/// Returns the root mean square.
 pub(crate) fn rms(signal: &[f64]) -> f64 {
     (signal.iter().map(|v| v * v).sum::<f64>() / signal.len().max(1) as f64).sqrt()
 }
 
-/// A file of the data that may lie beside the checkout; says that the test is skipped where it does not.
+/// Returns the path of a shared data file; if it does not exist, prints that the test is skipped.
 pub(crate) fn shared_data(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     if path.exists() {
         return Some(path);
     }
-    println!("skipped: {} is not there", path.display());
+    println!("skipped: {} does not exist", path.display());
     None
 }

@@ -1,6 +1,6 @@
-//! A sound server of a test's own, with null sinks that are recorded.
+//! A sound server for one test, with null sinks that are recorded.
 
-#![allow(dead_code, reason = "each test uses some of it")]
+#![allow(dead_code, reason = "each test uses a part of this module")]
 
 use std::io::Read as _;
 use std::path::Path;
@@ -9,12 +9,12 @@ use std::time::{Duration, Instant};
 
 use crate::guard::Guard;
 
-/// What the sinks run at, in Hz.
+/// Sample rate of the sinks, in Hz.
 pub(crate) const RATE_HZ: f64 = 48_000.0;
-/// Bytes of a frame that is recorded.
+/// Number of bytes per recorded frame.
 const FRAME_BYTES: usize = 8;
 
-/// The server, with a null sink `ci`, its default, and another, `other`.
+/// Sound server with two null sinks: `ci`, the default, and `other`.
 pub(crate) struct SoundServer {
     folder: tempfile::TempDir,
     daemon: Guard,
@@ -73,12 +73,12 @@ impl SoundServer {
         with_server(Command::new(program), self.folder.path())
     }
 
-    /// Both channels of what sink `ci` gets while `during` runs, as the device's samples, -1..1.
+    /// Records both channels of sink `ci` while `during` runs. Samples are those of the device, -1..1.
     pub(crate) fn record(&self, during: impl FnOnce(&Self)) -> Vec<[f64; 2]> {
         self.record_of("ci", during).frames
     }
 
-    /// The same of any sink, with its time. A recording ends where its sink goes.
+    /// Records any sink, with its start time. The recording ends if its sink is removed.
     pub(crate) fn record_of(&self, sink: &str, during: impl FnOnce(&Self)) -> Recording {
         let mut recorder = self
             .command("parec")
@@ -103,7 +103,7 @@ impl SoundServer {
                 && n > 0
             {
                 bytes.extend_from_slice(&part[..n]);
-                // What came soonest tells best when the first frame was.
+                // The data with the shortest delay give the best estimate of the start.
                 let frames_secs = (bytes.len() / FRAME_BYTES) as f64 / RATE_HZ;
                 let first = Instant::now().checked_sub(Duration::from_secs_f64(frames_secs)).unwrap();
                 begun = Some(begun.map_or(first, |begun| begun.min(first)));
@@ -121,19 +121,19 @@ impl SoundServer {
     }
 }
 
-/// What a sink got.
+/// Recorded signal of a sink.
 pub(crate) struct Recording {
-    /// Both channels as the device's samples, -1..1.
+    /// Both channels, as samples of the device, -1..1.
     pub(crate) frames: Vec<[f64; 2]>,
-    /// When the first of them was there, some milliseconds late at most.
+    /// Time of the first frame, at most some milliseconds late.
     pub(crate) begun: Instant,
 }
 
-/// Lets a process run before all that have no deadline, where the system allows it: a sound server does on any desktop, and
-/// tests beside it must not make it late.
+/// Gives a process real-time priority, where the system allows it: a desktop's sound server has it too, and other tests
+/// must not delay it.
 fn put_first(process: &Child) {
     let first = ["--all-tasks", "--rr", "--pid", "20"];
-    // Where there is no such program, or it may not, the server waits in line.
+    // Without `chrt`, or without the permission, the server runs at normal priority.
     Command::new("chrt").args(first).arg(process.id().to_string()).stderr(Stdio::null()).status().ok();
 }
 

@@ -1,8 +1,8 @@
-//! Pen recordings: made up, and read back for comparison.
+//! Pen recordings: synthetic ones, and reading of recordings for comparison.
 
 use std::fmt::Write as _;
 
-/// One sample in mm and s.
+/// One sample, in mm and s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
     pub(crate) time_secs: f64,
@@ -11,7 +11,7 @@ pub(crate) struct Sample {
     pub(crate) touching: bool,
 }
 
-/// Samples of a .svc file, with this many mm and seconds to a unit.
+/// Returns the samples of a .svc file, with this length in mm and time in s of one unit.
 pub(crate) fn read(text: &str, mm_per_unit: f64, secs_per_unit: f64) -> Vec<Sample> {
     let rows: Vec<Vec<f64>> = text
         .lines()
@@ -28,13 +28,13 @@ pub(crate) fn read(text: &str, mm_per_unit: f64, secs_per_unit: f64) -> Vec<Samp
     rows.iter().map(sample).collect()
 }
 
-/// Length of [`synthetic`], in seconds.
+/// Duration of [`synthetic`], in seconds.
 pub(crate) const SYNTHETIC_SECS: f64 = 9.0;
-/// When the tip of [`synthetic`] is lifted, in seconds.
+/// Time during which the tip of [`synthetic`] is lifted, in seconds.
 pub(crate) const SYNTHETIC_LIFT_SECS: std::ops::Range<f64> = 4.0..5.0;
 
-/// A recording in raw counts at about 130 Hz: circles at 20 to 220 mm/s, steady pressure, lifted in the middle while
-/// the hand moves on.
+/// Returns a recording in raw counts at about 130 Hz: circles at 20 to 220 mm/s and constant pressure, with the tip
+/// lifted in the middle while the motion continues.
 pub(crate) fn synthetic() -> String {
     let mut rows = Vec::new();
     let (mut time_ms, mut walked_mm) = (0_u32, 0.0);
@@ -58,14 +58,15 @@ pub(crate) fn synthetic() -> String {
     text
 }
 
-/// A window of a stroke and of the signal rendered from it.
+/// Window of a stroke and of the signal rendered from it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
     pub(crate) speed_mm_per_s: f64,
     pub(crate) rms: f64,
 }
 
-/// Windows of `secs` in which the tip touches all the time (`touching`), or is off and has been for `secs` before.
+/// Returns the windows of `secs` during which the tip always touches (`touching`), or is lifted and was lifted for
+/// `secs` before.
 pub(crate) fn windows(
     samples: &[Sample],
     signal: &[f64],
@@ -103,7 +104,7 @@ pub(crate) fn windows(
     windows
 }
 
-/// Spearman's correlation of the ranks of speed and level.
+/// Returns Spearman's rank correlation of speed and level.
 pub(crate) fn rank_correlation(windows: &[Window]) -> f64 {
     let ranks = |value: fn(&Window) -> f64| {
         let mut order: Vec<usize> = (0..windows.len()).collect();

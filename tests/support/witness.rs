@@ -1,4 +1,4 @@
-//! Who watches the machine: threads that do nothing but wake, one to a processor, and note when the machine let them not.
+//! Witness threads, one per processor, that only wake up and record when the machine delayed them.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,28 +11,28 @@ use thread_priority::unix::{
 };
 use thread_priority::{ThreadPriority, ThreadPriorityValue};
 
-/// How often a witness wakes.
+/// Interval between wake-ups.
 const PERIOD: Duration = Duration::from_millis(1);
-/// Above every thread that plays.
+/// Priority above that of every audio thread.
 const PRIORITY: u8 = 60;
 
-/// A time in which a processor ran nothing that should have run.
+/// Interval during which a processor did not run the witness on time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stall {
     pub(crate) from: Instant,
     pub(crate) to: Instant,
-    /// How much of it the processor was away.
+    /// Part of the interval by which the witness was late.
     pub(crate) late: Duration,
 }
 
-/// Watches every processor until it is asked what it saw.
+/// Monitors every processor until [`Witness::stalls`] is called.
 pub(crate) struct Witness {
     ends: Arc<AtomicBool>,
     threads: Vec<JoinHandle<Vec<Stall>>>,
 }
 
 impl Witness {
-    /// Notes each time that a processor came later than this.
+    /// Starts to record each wake-up that is later than `late`.
     pub(crate) fn new(late: Duration) -> Self {
         let ends = Arc::new(AtomicBool::new(false));
         let allowed = sched_getaffinity(None).unwrap();
@@ -46,7 +46,7 @@ impl Witness {
         Self { ends, threads }
     }
 
-    /// The stalls so far.
+    /// Stops and returns the recorded stalls.
     pub(crate) fn stalls(self) -> Vec<Stall> {
         self.ends.store(true, Ordering::Relaxed);
         self.threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
@@ -57,7 +57,8 @@ fn watch(cpu: usize, late: Duration, ends: &AtomicBool) -> Vec<Stall> {
     let mut here = CpuSet::new();
     here.set(cpu);
     sched_setaffinity(None, &here).unwrap();
-    // Where it may not be first, it waits in line as those do that it watches for.
+    // Without the permission for real-time priority, the witness runs at normal priority, like the threads that it
+    // watches for.
     let first = ThreadPriority::Crossplatform(ThreadPriorityValue::try_from(PRIORITY).unwrap());
     let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
     set_thread_priority_and_policy(thread_native_id(), first, policy).ok();

@@ -1,11 +1,11 @@
-//! How long a frame of the window takes with many textures while the scope runs, without drawing it.
+//! Frame time of the window with many textures and a running scope, without drawing on the screen.
 //!
-//! `cargo run --release -p shagreen-app --example frame_time -- 1000` prints the median and the 95th percentile over two
-//! hundred frames: of the frame itself, and of making triangles of it; while a hand strokes, while the pointer passes over
-//! the canvas as well, and while it drags the point. What a graphics card, or a program in its place, does with these is not
-//! in it.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "an example may stop at what it did not expect")]
-#![allow(clippy::print_stdout, reason = "it is run to be read")]
+//! `cargo run --release -p shagreen-app --example frame_time -- 1000` prints the median and the 95th percentile over
+//! two hundred frames, for the layout and for the tessellation into triangles. Three cases are measured: an automatic
+//! stroke, the same with the pointer moving over the canvas, and the same with the point being dragged. Rasterization
+//! of the triangles by a graphics card or by software is not included.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "an example panics on errors")]
+#![allow(clippy::print_stdout, reason = "an example prints its results")]
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -16,21 +16,22 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2,
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::Begin;
-use shagreen_app::files::Keeping;
 use shagreen_app::session::OutputChoice;
+use shagreen_app::state::files::Keeping;
 use shagreen_app::strings;
-use shagreen_app::window::{Window, new_project};
-use shagreen_core::rng::Random;
+use shagreen_app::window::Window;
+use shagreen_core::maths::rng::Random;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_library;
+use shagreen_studio::project::new_project;
 
-/// Frames that are measured.
+/// Number of measured frames.
 const N_FRAMES: usize = 200;
-/// The window, in points.
+/// Size of the window, in points.
 const SIZE: Vec2 = vec2(1280.0, 720.0);
 
-/// The window, made in the first frame.
+/// Window, created in the first frame.
 type Shared = Rc<RefCell<Option<Window>>>;
 
 fn main() {
@@ -61,7 +62,8 @@ fn main() {
     std::thread::sleep(Duration::from_secs(1));
     let canvas = harness.get_by_role_and_label(Role::Canvas, strings::CANVAS).rect();
 
-    // From here on as on a machine without a screen reader, whose tree the harness always asks for.
+    // The harness always requests the accessibility tree. It is disabled from here on, as on a machine without a screen
+    // reader.
     let ctx = harness.ctx.clone();
     ctx.disable_accesskit();
     let button = |pos: Pos2, pressed: bool| Event::PointerButton {
@@ -83,11 +85,11 @@ fn main() {
     measure("dragged", &ctx, &window, moved);
 }
 
-/// Prints how long frames take in which these things happen.
+/// Prints the frame times with the given input events.
 fn measure(what: &str, ctx: &Context, window: &Shared, events: impl Fn(usize) -> Vec<Event>) {
     let times: Vec<(Duration, Duration)> = (0..N_FRAMES)
         .map(|i| {
-            // The scope gets something to show between frames.
+            // Time for new samples in the scope.
             std::thread::sleep(Duration::from_millis(8));
             frame(ctx, window, events(i))
         })
@@ -99,7 +101,7 @@ fn measure(what: &str, ctx: &Context, window: &Shared, events: impl Fn(usize) ->
     );
 }
 
-/// One frame, and its triangles: how long each took.
+/// Duration of the layout of one frame, and of its tessellation.
 fn frame(ctx: &Context, window: &Shared, events: Vec<Event>) -> (Duration, Duration) {
     let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, SIZE));
     let input = RawInput { screen_rect, events, ..RawInput::default() };
@@ -112,7 +114,7 @@ fn frame(ctx: &Context, window: &Shared, events: Vec<Event>) -> (Duration, Durat
     (made, start.elapsed())
 }
 
-/// The starter library over and over, at places by chance.
+/// Copies of the textures of the starter library, at random positions.
 fn crowded(n_textures: usize) -> Library {
     let mut library = starter_library().expect("the program is whole");
     let mut random = Random::new(1);

@@ -1,7 +1,8 @@
-//! The workspace Build: what people sorted and rated becomes a space.
+//! The Build workspace: builds a space from sorting and rating data.
 //!
-//! On the left what the space is made of and how, in the middle the figures that papers print, on the right how far it
-//! can be believed, and the button that puts it to use. Building runs in a thread of its own; the window goes on.
+//! The left column holds the data and options, the middle the figures printed in papers. The right column holds the
+//! validation summary and the button that uses the space. A background thread builds the space, so that the window
+//! stays responsive.
 
 mod figures_ui;
 mod input_ui;
@@ -9,5 +10,4 @@ mod job;
 pub mod judgments;
 mod options_ui;
 pub mod page;
-mod panel_truth;
 mod verdict_ui;

@@ -1,240 +1,288 @@
-//! What a user can ask for, and the keys that ask for it.
+//! Commands of the user and their keyboard shortcuts.
+
+pub mod prompt;
+pub mod signals;
+pub mod stroke;
 
 use std::path::PathBuf;
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use crate::import::source::Source;
-use crate::leaving::Leave;
-use crate::prompt::PromptCommand;
-use shagreen_core::heat_map::Quantity;
+use crate::command::prompt::PromptCommand;
+use crate::state::leave::Leave;
+use crate::state::source::Source;
+use shagreen_core::space::heat_map::Quantity;
 use shagreen_formats::gallery::GalleryProject;
 
-use crate::compare::{CompareCommand, Side};
-use crate::edit::Edit;
-use crate::recorded_stroke::StrokeCommand;
-use crate::rig::Rig;
-use crate::save::FigureFile;
-use crate::signals::SignalsCommand;
-use crate::strings::commands as strings;
+use crate::command::signals::SignalsCommand;
+use crate::command::stroke::StrokeCommand;
+use crate::state::compare::{CompareCommand, Side};
+use crate::state::edit::Edit;
+use crate::state::figure_file::FigureFile;
+use crate::state::rig::Rig;
 use crate::workspace::Workspace;
 
-/// A request of the user, carried out after the frame.
+/// Command of the user, executed after the frame.
 #[derive(Clone, Debug)]
 pub enum Command {
-    /// Change the project.
+    /// Changes the project.
     Edit(Edit),
-    /// Take the last change back.
+    /// Undoes the last edit.
     Undo,
-    /// Make it again.
+    /// Redoes the last undone edit.
     Redo,
-    /// Show a workspace.
+    /// Shows a workspace.
     Show(Workspace),
-    /// Draw paths on the canvas, or leave that.
+    /// Turns the path tool of the canvas on or off.
     TogglePathTool,
-    /// Let the texture follow the path, or the point again.
+    /// Makes the texture follow the path, or return to the point.
     PlayPath(bool),
-    /// Make a texture of the list of the path.
+    /// Adds the path as a texture to the list.
     KeepPath,
-    /// Start or stop the automatic hand.
+    /// Starts or stops the automatic stroke.
     ToggleHand,
-    /// Hold what the scope shows, or show what is played again.
+    /// Freezes or resumes the scope.
     ToggleFreeze,
-    /// Silence the output, or sound again.
+    /// Mutes or unmutes the output.
     ToggleMute,
-    /// Change between the dark and the light theme.
+    /// Switches between the dark and the light theme.
     ToggleTheme,
-    /// The message at the foot was read.
+    /// Removes the message from the status bar.
     DismissMessage,
-    /// Look for outputs again.
+    /// Lists the outputs again.
     ListOutputs,
-    /// Open the output with this identity.
+    /// Opens the output with this id.
     OpenOutput(String),
-    /// Open the sheet of devices.
+    /// Opens the devices sheet.
     OpenDevices,
-    /// Show what is known of the texture of the list with this identifier.
+    /// Shows the details of the texture with this id.
     OpenTexture(String),
-    /// The same, with the keyboard in its name.
+    /// Shows the details of the texture with this id, with the keyboard focus on its name.
     RenameTexture(String),
-    /// Take over another rig.
+    /// Changes the device setup.
     SetRig(Box<Rig>),
-    /// Play a tone in the place of the texture: frequency in Hz, amplitude in m/s².
+    /// Plays a test tone instead of the texture.
     PlayTone {
-        /// In Hz.
+        /// Frequency in Hz.
         frequency_hz: f64,
-        /// In m/s².
+        /// Amplitude in m/s².
         amplitude_mps2: f64,
     },
-    /// End the tone.
+    /// Stops the test tone.
     StopTone,
-    /// Close the output, so that something else can have it.
+    /// Closes the output, so that another program or the calibration can use the device.
     LetGoOfOutput,
-    /// Open the output again that was let go of.
+    /// Reopens the output that was closed by [`Command::LetGoOfOutput`].
     TakeOutputBack,
-    /// Look for pens again.
+    /// Lists the pens again.
     ListPens,
-    /// End the latched silence of the limiter.
+    /// Resets the limiter, which silences the output after a fault.
     ResetLimiter,
-    /// Open the sheet that imports files.
+    /// Opens the import sheet.
     OpenImport,
-    /// Import these files, in the sheet.
+    /// Opens these files in the import sheet.
     Import(Vec<Source>),
-    /// The same for files dropped on the canvas: recordings find their places.
+    /// Opens these files in the import sheet and predicts positions for the recordings.
     ImportHere(Vec<Source>),
-    /// Read these files as sortings, ratings or votes.
+    /// Reads these files as sortings, ratings or relevance votes.
     ReadJudgments(Vec<Source>),
-    /// Open the sheet that saves the library.
+    /// Opens the sheet that saves the library.
     OpenSave,
-    /// Open the sheet that saves a figure.
+    /// Opens the sheet that saves a figure.
     SaveFigure(FigureFile),
-    /// Close the sheet that is open.
+    /// Closes the open sheet.
     CloseSheet,
-    /// Make a photo the picture of the selected texture.
+    /// Sets a photo as the picture of the selected texture.
     ReadPhoto(Source),
-    /// Show a map behind the canvas, or none.
+    /// Shows a heat map behind the canvas, or none.
     ShowMap(Option<Quantity>),
-    /// Compare authored textures.
+    /// Compares authored textures.
     Compare(CompareCommand),
-    /// Show the keys.
+    /// Shows the keyboard shortcuts.
     OpenShortcuts,
-    /// Begin the tour.
+    /// Opens the command palette.
+    OpenPalette,
+    /// Opens the guide.
+    OpenGuide,
+    /// Starts the tour.
     BeginTour,
-    /// Something about the signals of the bench.
+    /// Command of the Signals workspace.
     Signals(SignalsCommand),
-    /// Something about prompts and photos.
+    /// Command about prompts and photos.
     Prompt(PromptCommand),
-    /// Something about recorded strokes.
+    /// Command about stroke recordings.
     Stroke(StrokeCommand),
-    /// Something about files.
+    /// Command about files.
     File(FileCommand),
 }
 
-/// What can be asked about files.
+/// Command about files.
 #[derive(Clone, Debug)]
 pub enum FileCommand {
-    /// Begin a new project.
+    /// Creates a project.
     New,
-    /// Open the gallery.
+    /// Opens the gallery.
     OpenGallery,
-    /// Begin with a project of the gallery.
+    /// Creates a project from one of the gallery.
     BeginFromGallery(GalleryProject),
-    /// Open the sheet that opens files.
+    /// Opens the sheet that opens files.
     AskWhatToOpen,
-    /// Open a project or a library.
+    /// Opens a project or a library.
     Open(PathBuf),
-    /// Write the project to its file.
+    /// Saves the project to its file.
     Save,
-    /// New projects begin like this file, or as usual.
+    /// Sets the template of new projects; `None` removes it.
     SetTemplate(Option<PathBuf>),
-    /// Ask where to write the project.
+    /// Asks for a path and saves the project there.
     SaveAs,
-    /// Write the project to this file from now on.
+    /// Saves the project to this file, which becomes its file.
     SaveTo(PathBuf),
-    /// Save what is heard as a signal.
+    /// Exports the audible texture as a WAV file.
     ExportSignal,
-    /// Make the library a part of the project.
+    /// Exports the audible texture in the format with this id.
+    ExportTexture(&'static str),
+    /// Embeds the library in the project.
     KeepLibraryInside,
-    /// Close the program.
+    /// Closes the program.
     Quit,
-    /// Save, and then leave the project.
+    /// Saves the project and then leaves it.
     SaveAndLeave(Leave),
-    /// Leave the project as its file has it.
+    /// Leaves the project without saving its changes.
     LeaveUnsaved(Leave),
-    /// Open what a program left behind, by its place in the list.
+    /// Opens a recovered project, by its index in the list.
     Recover(usize),
-    /// Take away what a program left behind, by its place in the list.
+    /// Deletes a recovered project, by its index in the list.
     Discard(usize),
 }
 
-/// The commands that have a key.
-pub const WITH_KEYS: [Command; 20] = [
+/// Label and shortcut of a command.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Short description of the command.
+    pub label: &'static str,
+    /// Keyboard shortcut.
+    pub shortcut: Option<KeyboardShortcut>,
+}
+
+impl Entry {
+    const fn new(label: &'static str) -> Self {
+        Self { label, shortcut: None }
+    }
+
+    const fn keys(self, modifiers: Modifiers, key: Key) -> Self {
+        Self { shortcut: Some(KeyboardShortcut::new(modifiers, key)), ..self }
+    }
+
+    const fn key(self, key: Key) -> Self {
+        self.keys(Modifiers::NONE, key)
+    }
+
+    const fn command(self, key: Key) -> Self {
+        self.keys(Modifiers::COMMAND, key)
+    }
+
+    const fn command_shift(self, key: Key) -> Self {
+        self.keys(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
+    }
+}
+
+/// Commands of the palette and of the list of shortcuts, in this order. Each has an [`Entry`].
+pub const LISTED: [Command; 32] = [
     Command::File(FileCommand::New),
     Command::File(FileCommand::AskWhatToOpen),
+    Command::File(FileCommand::OpenGallery),
     Command::File(FileCommand::Save),
     Command::File(FileCommand::SaveAs),
+    Command::File(FileCommand::ExportSignal),
+    Command::File(FileCommand::KeepLibraryInside),
     Command::File(FileCommand::Quit),
+    Command::OpenImport,
+    Command::OpenSave,
     Command::Undo,
     Command::Redo,
     Command::Show(Workspace::Author),
     Command::Show(Workspace::Build),
     Command::Show(Workspace::Signals),
+    Command::OpenPalette,
     Command::TogglePathTool,
+    Command::KeepPath,
     Command::Compare(CompareCommand::Hear(Side::A)),
     Command::Compare(CompareCommand::Hear(Side::B)),
     Command::Compare(CompareCommand::Hear(Side::X)),
     Command::ToggleHand,
+    Command::Stroke(StrokeCommand::AskWhatToOpen),
+    Command::Stroke(StrokeCommand::Save),
     Command::ToggleFreeze,
     Command::ToggleMute,
+    Command::ResetLimiter,
     Command::ToggleTheme,
     Command::OpenDevices,
+    Command::OpenGuide,
     Command::OpenShortcuts,
+    Command::BeginTour,
 ];
 
 impl Command {
-    /// The keys that ask for it.
-    pub fn shortcut(&self) -> Option<KeyboardShortcut> {
-        let (modifiers, key) = match self {
-            Self::File(FileCommand::New) => (Modifiers::COMMAND, Key::N),
-            Self::File(FileCommand::AskWhatToOpen) => (Modifiers::COMMAND, Key::O),
-            Self::File(FileCommand::Save) => (Modifiers::COMMAND, Key::S),
-            Self::File(FileCommand::SaveAs) => (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::S),
-            Self::File(FileCommand::Quit) => (Modifiers::COMMAND, Key::Q),
-            Self::Undo => (Modifiers::COMMAND, Key::Z),
-            Self::Redo => (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z),
-            Self::Show(Workspace::Author) => (Modifiers::COMMAND, Key::Num1),
-            Self::Show(Workspace::Build) => (Modifiers::COMMAND, Key::Num2),
-            Self::Show(Workspace::Signals) => (Modifiers::COMMAND, Key::Num3),
-            Self::TogglePathTool => (Modifiers::NONE, Key::P),
-            Self::Compare(CompareCommand::Hear(Side::A)) => (Modifiers::NONE, Key::Num1),
-            Self::Compare(CompareCommand::Hear(Side::B)) => (Modifiers::NONE, Key::Num2),
-            Self::Compare(CompareCommand::Hear(Side::X)) => (Modifiers::NONE, Key::Num3),
-            Self::ToggleHand => (Modifiers::NONE, Key::Space),
-            Self::ToggleFreeze => (Modifiers::NONE, Key::F),
-            Self::ToggleMute => (Modifiers::NONE, Key::M),
-            Self::ToggleTheme => (Modifiers::COMMAND, Key::T),
-            Self::OpenDevices => (Modifiers::COMMAND, Key::D),
-            Self::OpenShortcuts => (Modifiers::NONE, Key::F1),
-            _ => return None,
-        };
-        Some(KeyboardShortcut::new(modifiers, key))
-    }
-
-    /// What those with keys do, in a few words.
-    pub fn label(&self) -> Option<&'static str> {
+    /// Label and shortcut of a command in [`LISTED`].
+    pub fn entry(&self) -> Option<Entry> {
         Some(match self {
-            Self::File(FileCommand::New) => strings::NEW_PROJECT,
-            Self::File(FileCommand::AskWhatToOpen) => strings::OPEN,
-            Self::File(FileCommand::Save) => strings::SAVE,
-            Self::File(FileCommand::SaveAs) => strings::SAVE_AS,
-            Self::File(FileCommand::Quit) => strings::QUIT,
-            Self::Undo => strings::UNDO,
-            Self::Redo => strings::REDO,
-            Self::Show(Workspace::Author) => strings::SHOW_AUTHOR,
-            Self::Show(Workspace::Build) => strings::SHOW_BUILD,
-            Self::Show(Workspace::Signals) => strings::SHOW_SIGNALS,
-            Self::TogglePathTool => strings::DRAW_PATHS,
-            Self::Compare(CompareCommand::Hear(Side::A)) => strings::HEAR_A,
-            Self::Compare(CompareCommand::Hear(Side::B)) => strings::HEAR_B,
-            Self::Compare(CompareCommand::Hear(Side::X)) => strings::HEAR_X,
-            Self::ToggleHand => strings::STROKE,
-            Self::ToggleFreeze => strings::FREEZE,
-            Self::ToggleMute => strings::MUTE,
-            Self::ToggleTheme => strings::THEME,
-            Self::OpenDevices => strings::DEVICES,
-            Self::OpenShortcuts => strings::SHORTCUTS,
+            Self::File(FileCommand::New) => Entry::new("New project").command(Key::N),
+            Self::File(FileCommand::AskWhatToOpen) => Entry::new("Open a project or library").command(Key::O),
+            Self::File(FileCommand::OpenGallery) => Entry::new("Open the gallery"),
+            Self::File(FileCommand::Save) => Entry::new("Save the project").command(Key::S),
+            Self::File(FileCommand::SaveAs) => {
+                Entry::new("Save the project under another name").command_shift(Key::S)
+            }
+            Self::File(FileCommand::ExportSignal) => Entry::new("Export the texture as WAV"),
+            Self::File(FileCommand::KeepLibraryInside) => Entry::new("Embed the library in the project"),
+            Self::File(FileCommand::Quit) => Entry::new("Quit").command(Key::Q),
+            Self::OpenImport => Entry::new("Import recordings and models"),
+            Self::OpenSave => Entry::new("Save the library"),
+            Self::Undo => Entry::new("Undo").command(Key::Z),
+            Self::Redo => Entry::new("Redo").command_shift(Key::Z),
+            Self::Show(workspace) => Entry::new(workspace.info().show).command(workspace.info().key),
+            Self::OpenPalette => Entry::new("Find a command").command_shift(Key::P),
+            Self::TogglePathTool => Entry::new("Turn the path tool on or off").key(Key::P),
+            Self::KeepPath => Entry::new("Add the path as a texture"),
+            Self::Compare(CompareCommand::Hear(Side::A)) => {
+                Entry::new("Play A or the selected texture; feel signal A").key(Key::Num1)
+            }
+            Self::Compare(CompareCommand::Hear(Side::B)) => {
+                Entry::new("Play B or the selected texture; feel signal B").key(Key::Num2)
+            }
+            Self::Compare(CompareCommand::Hear(Side::X)) => {
+                Entry::new("Play X, which is A or B").key(Key::Num3)
+            }
+            Self::ToggleHand => Entry::new("Start or stop the automatic stroke").key(Key::Space),
+            Self::Stroke(StrokeCommand::AskWhatToOpen) => Entry::new("Open a stroke recording"),
+            Self::Stroke(StrokeCommand::Save) => Entry::new("Save the stroke recording"),
+            Self::ToggleFreeze => Entry::new("Freeze or resume the scope").key(Key::F),
+            Self::ToggleMute => Entry::new("Mute or unmute").key(Key::M),
+            Self::ResetLimiter => Entry::new("Reset the limiter after a fault"),
+            Self::ToggleTheme => Entry::new("Switch between dark and light theme").command(Key::T),
+            Self::OpenDevices => Entry::new("Devices").command(Key::D),
+            Self::OpenGuide => Entry::new("Open the guide"),
+            Self::OpenShortcuts => Entry::new("Keyboard shortcuts").key(Key::F1),
+            Self::BeginTour => Entry::new("Start the tour"),
             _ => return None,
         })
     }
+
+    /// Keyboard shortcut.
+    pub fn shortcut(&self) -> Option<KeyboardShortcut> {
+        self.entry()?.shortcut
+    }
 }
 
-/// The commands whose keys were pressed in this frame. Plain keys count while nothing has the keyboard, or `canvas` has:
-/// on a button they are the button's own, in a text field they are text.
+/// Commands whose shortcuts were pressed in this frame. Shortcuts without modifiers apply only if nothing or `canvas`
+/// has the keyboard focus, because buttons and text fields use those keys themselves.
 pub fn pressed(ctx: &egui::Context, canvas: egui::Id) -> Vec<Command> {
     let focused = ctx.memory(egui::Memory::focused);
     let plain_keys_are_ours = focused.is_none_or(|f| f == canvas);
-    // Redo holds undo's keys and one more, as saving elsewhere does those of saving: they are asked first.
+    // The shortcut of redo contains that of undo, and that of "save as" contains that of "save". Longer ones come
+    // first.
     let has_shift = |c: &Command| c.shortcut().is_some_and(|s| s.modifiers.shift);
-    let mut commands = WITH_KEYS.to_vec();
+    let mut commands = LISTED.to_vec();
     commands.sort_by_key(|c| !has_shift(c));
     commands.retain(|command| {
         let Some(shortcut) = command.shortcut() else { return false };

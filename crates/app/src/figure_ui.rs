@@ -1,31 +1,31 @@
-//! A figure in the window: the same data that is saved as SVG or CSV.
+//! Draws a figure in the window, from the same data that is saved as SVG or CSV.
 
 use std::sync::Arc;
 
 use egui::{Align, Grid, Label, Layout, RichText, ScrollArea, Ui};
 use shagreen_formats::figure::{Figure, Table};
 
-use crate::chart_ui::chart_ui;
 use crate::command::Command;
-use crate::map_plot::{color_key_ui, labeled_map_plot};
-use crate::save::{FigureFile, FigureFormat};
+use crate::look::chart_ui::chart_ui;
+use crate::look::map_plot::{color_key_ui, labeled_map_plot};
+use crate::look::theme::{GROUP_GAP, tokens};
+use crate::state::figure_file::{FigureFile, FigureFormat};
 use crate::strings::build as strings;
-use crate::theme::{GROUP_GAP, tokens};
 
-/// Draws any figure into the space that there is; `name` tells it from the others.
+/// Draws a figure into the available space; `name` is its id.
 pub(crate) fn figure_ui(ui: &mut Ui, name: &str, figure: &Figure) {
     ui.add(Label::new(RichText::new(figure.title()).strong()).wrap());
     content_ui(ui, name, figure);
 }
 
-/// Draws a figure with its title and the menu that saves it in one line; returns what the user asked of it.
+/// Draws a figure below a row with its title and save menu; returns the requested command.
 pub(crate) fn framed_figure_ui(ui: &mut Ui, name: &str, figure: &Arc<Figure>, stem: &str) -> Option<Command> {
     let asked = figure_head_ui(ui, figure, stem);
     content_ui(ui, name, figure);
     asked
 }
 
-/// The title of a figure and the menu that saves it, as files that begin with `stem`.
+/// Draws the title of a figure and the menu that saves it; the file names begin with `stem`.
 pub(crate) fn figure_head_ui(ui: &mut Ui, figure: &Arc<Figure>, stem: &str) -> Option<Command> {
     let title = figure.title();
     let mut asked = None;

@@ -1,27 +1,27 @@
-//! What a panel may look at: read-only. Panels ask for changes by commands.
+//! Read-only state that panels draw. Panels request changes through commands.
 
 use shagreen_formats::project::Project;
 
-use crate::compare::Compare;
-use crate::pictures::Pictures;
 use crate::session::Session;
+use crate::state::compare::Compare;
+use crate::state::pictures::Pictures;
 use crate::strings;
 
-/// The state that panels draw.
+/// References to the state that panels draw.
 #[derive(Clone, Copy)]
 pub struct Panel<'a> {
-    /// What the user makes.
+    /// Project that the user edits.
     pub project: &'a Project,
-    /// Textures, space, and what sounds.
+    /// Textures, space, and audio output.
     pub session: &'a Session,
-    /// What is compared.
+    /// State of the A/B comparison.
     pub compare: &'a Compare,
     /// Pictures of the textures.
     pub pictures: &'a Pictures,
 }
 
 impl<'a> Panel<'a> {
-    /// The state of these parts.
+    /// Bundles references to the state.
     pub fn new(
         project: &'a Project,
         session: &'a Session,
@@ -31,7 +31,7 @@ impl<'a> Panel<'a> {
         Self { project, session, compare, pictures }
     }
 
-    /// The name of what is heard, where it may be known.
+    /// Name of the audible texture or signal; a placeholder while a blind comparison hides it.
     pub fn heard_name(&self) -> String {
         if self.session.is_hidden() {
             return strings::compare::HIDDEN.to_owned();
@@ -47,23 +47,23 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Whether the field meets a texture of the list exactly at its own place.
+    /// Whether a texture of the list is pinned: the field passes through it exactly at its position.
     pub fn is_locked(&self, texture: usize) -> bool {
         self.project.texture().blend.is_locked(&self.session.textures()[texture].id)
     }
 
-    /// Whether a texture of the list has a star.
+    /// Whether a texture of the list is starred.
     pub fn is_starred(&self, texture: usize) -> bool {
         self.project.starred.contains(&self.session.textures()[texture].id)
     }
 
-    /// The place of a texture among those that joined the project; `None` where it is a part of the library.
+    /// Index of a texture among those added to the project; `None` for a texture of the library.
     pub fn joined_index(&self, texture: usize) -> Option<usize> {
         let n_of_library = self.session.textures().len().saturating_sub(self.project.joined.len());
         texture.checked_sub(n_of_library)
     }
 
-    /// The texture that is heard alone, by its place in the list.
+    /// Index in the list of the texture that plays alone.
     pub fn solo(&self) -> Option<usize> {
         self.session.solo(self.project)
     }

@@ -1,55 +1,84 @@
-//! What lies over the window: the sheet that is open, and where dropped files go.
+//! Modal sheets (dialogs) over the window, and the target of dropped files.
+
+pub mod devices;
+pub(crate) mod gallery_sheet;
+pub(crate) mod guide_sheet;
+pub mod import;
+pub(crate) mod leaving;
+pub(crate) mod open_sheet;
+pub(crate) mod palette;
+pub(crate) mod recovered_ui;
+pub mod save;
+pub(crate) mod shortcuts_ui;
 
 use std::path::Path;
 
 use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Popup, Stroke, StrokeKind};
 use shagreen_formats::project::EXTENSION;
 
+use crate::author::texture_sheet::TextureSheet;
+use crate::command::prompt::PromptCommand;
+use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
-use crate::devices::DevicesSheet;
-use crate::document::Document;
-use crate::gallery_sheet::GallerySheet;
-use crate::import::sheet::{ImportSheet, Surroundings};
-use crate::import::source::Source;
-use crate::leaving::{Leave, leaving_ui};
-use crate::open_sheet::OpenSheet;
+use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
-use crate::prompt::PromptCommand;
-use crate::recorded_stroke::{StrokeCommand, is_stroke_file};
-use crate::recovered_ui::recovered_ui;
-use crate::recovery::Leftover;
-use crate::save::SaveSheet;
-use crate::shortcuts_ui::shortcuts_ui;
-use crate::signals::SignalsCommand;
+use crate::sheets::devices::DevicesSheet;
+use crate::sheets::gallery_sheet::GallerySheet;
+use crate::sheets::guide_sheet::GuideSheet;
+use crate::sheets::import::sheet::ImportSheet;
+use crate::sheets::import::surroundings::Surroundings;
+use crate::sheets::leaving::leaving_ui;
+use crate::sheets::open_sheet::OpenSheet;
+use crate::sheets::palette::PaletteSheet;
+use crate::sheets::recovered_ui::recovered_ui;
+use crate::sheets::save::SaveSheet;
+use crate::sheets::shortcuts_ui::shortcuts_ui;
+use crate::state::document::Document;
+use crate::state::leave::Leave;
+use crate::state::recorded_stroke::is_stroke_file;
+use crate::state::recovery::Leftover;
+use crate::state::source::Source;
 use crate::strings;
-use crate::texture_sheet::TextureSheet;
-use crate::theme::{RADIUS, tokens};
 use crate::workspace::Workspace;
 
-/// The sheet that is open, if one is.
+/// Sheet that is open, if any.
 #[derive(Default)]
 pub(crate) enum Sheet {
-    /// None.
     #[default]
     Closed,
-    /// Files become textures.
+    /// Imports files as textures.
     Import(Box<ImportSheet>),
-    /// The library or a figure goes into a file.
+    /// Saves a library, figure, stroke, signal, texture or project.
     Save(SaveSheet),
-    /// The output, its actuator and the pen.
+    /// Settings of the output, its actuator and the pen.
     Devices(Box<DevicesSheet>),
-    /// A project or a library is looked for.
+    /// Opens a project, library, stroke or signal.
     Open(OpenSheet),
-    /// A project of the gallery is looked for.
+    /// Opens an example project.
     Gallery(GallerySheet),
-    /// What is known of a texture is shown.
+    /// Details of a texture.
     Texture(Box<TextureSheet>),
-    /// The keys are shown.
+    /// Keyboard shortcuts.
     Shortcuts,
-    /// Something would be lost.
+    Guide(Box<GuideSheet>),
+    /// Searches for a command.
+    Palette(PaletteSheet),
+    /// Asks before unsaved work would be lost.
     Leaving(Leave),
-    /// What a program left behind is offered.
+    /// Offers projects that a crashed program left behind.
     Recovered(Vec<Leftover>),
+}
+
+/// Target of files dropped on a workspace with file types of its own.
+#[derive(Clone, Copy)]
+pub(crate) struct DropTarget {
+    pub(crate) command: fn(Vec<Source>) -> Command,
+    /// Whether stroke recordings are still accepted as strokes.
+    pub(crate) takes_strokes: bool,
+    /// Text that says what dropping does.
+    pub(crate) here: &'static str,
+    /// Text that says which files are accepted.
+    pub(crate) kinds: &'static str,
 }
 
 impl Sheet {
@@ -57,7 +86,7 @@ impl Sheet {
         !matches!(self, Self::Closed)
     }
 
-    /// Opens the import sheet, or adds to the one that is open.
+    /// Opens the import sheet, or adds the files to the one that is open.
     pub(crate) fn import(&mut self, sources: Vec<Source>, ctx: &Context) {
         if !matches!(self, Self::Import(_)) {
             *self = Self::Import(Box::new(ImportSheet::new(ctx)));
@@ -67,7 +96,7 @@ impl Sheet {
         }
     }
 
-    /// The same, and recordings find their places.
+    /// Same as [`Sheet::import`], but also estimates positions for recordings.
     pub(crate) fn import_here(&mut self, sources: Vec<Source>, ctx: &Context) {
         self.import(sources, ctx);
         if let Self::Import(sheet) = self {
@@ -75,15 +104,17 @@ impl Sheet {
         }
     }
 
-    /// Draws the sheet over the window, and where files would go that hover over it; returns what the user asked for.
-    /// Files dropped on the workspace Build are judgments, on Signals they are signals; elsewhere a stroke is repeated,
-    /// photos find their places or become the picture of a texture, and others are imported.
+    /// Draws the sheet over the window, and the target of files that hover over it. Returns the requested commands.
+    /// Dropped files are judgments in the Build workspace and signals in the Signals workspace. Elsewhere a stroke
+    /// recording is repeated, and a project is opened. A photo becomes a prompt or the picture of a texture. Other
+    /// files are imported.
     pub(crate) fn show(
         &mut self,
         ctx: &Context,
         panel: &Panel<'_>,
         document: &Document,
         workspace: Workspace,
+        target: Option<DropTarget>,
     ) -> Vec<Command> {
         let session = panel.session;
         let mut commands = match self {
@@ -99,29 +130,30 @@ impl Sheet {
             Self::Gallery(sheet) => sheet.show(ctx),
             Self::Texture(sheet) => sheet.show(ctx, panel),
             Self::Shortcuts => shortcuts_ui(ctx).into_iter().collect(),
+            Self::Guide(sheet) => sheet.show(ctx),
+            Self::Palette(sheet) => sheet.show(ctx),
             Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name()),
             Self::Recovered(leftovers) => recovered_ui(ctx, leftovers),
         };
         if matches!(self, Self::Save(sheet) if sheet.is_saving()) {
-            // It stays until its outcome has been shown.
+            // The sheet stays until the outcome has been shown.
             return commands;
         }
         let is_import = matches!(self, Self::Import(_));
-        let are_judgments = workspace == Workspace::Build && !is_import;
+        let target = target.filter(|_| !is_import);
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         let is_project = |file: &DroppedFileHandle| {
             let path = file.path();
             (path.extension()? == EXTENSION).then(|| path.to_owned())
         };
-        let are_signals = workspace == Workspace::Signals && !is_import;
-        let are_strokes = !are_judgments && !is_import;
+        let are_strokes = !is_import && target.is_none_or(|target| target.takes_strokes);
         let (strokes, dropped): (Vec<_>, Vec<_>) =
             dropped.into_iter().partition(|file| are_strokes && is_stroke_file(file));
         if !strokes.is_empty() {
             let sources = strokes.into_iter().map(Source::Dropped).collect();
             commands.push(Command::Stroke(StrokeCommand::Read(sources)));
         }
-        // Whoever looks at the details of a texture drops its picture; else photos are something to feel.
+        // With the details of a texture open, a photo becomes its picture; otherwise the photo is a prompt.
         let is_picture = workspace != Workspace::Author || Popup::is_any_open(ctx);
         let (photos, others): (Vec<_>, Vec<_>) =
             dropped.iter().cloned().partition(|file| is_photo(file.path()));
@@ -129,11 +161,9 @@ impl Sheet {
         if let Some(project) = dropped.iter().find_map(is_project) {
             commands.push(Command::File(FileCommand::Open(project)));
         } else if dropped.is_empty() {
-            // Nothing was dropped, or only strokes.
-        } else if are_signals {
-            commands.push(Command::Signals(SignalsCommand::ReadAll(sources(dropped))));
-        } else if are_judgments {
-            commands.push(Command::ReadJudgments(sources(dropped)));
+            // Nothing was dropped, or strokes only.
+        } else if let Some(target) = target {
+            commands.push((target.command)(sources(dropped)));
         } else if let Some(photo) = photos.first().filter(|_| is_picture) {
             commands.push(Command::ReadPhoto(Source::Dropped(photo.clone())));
         } else {
@@ -146,26 +176,23 @@ impl Sheet {
             }
         }
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
-            let (here, kinds) = if are_judgments {
-                (strings::build::DROP_HERE, strings::build::DROP_KINDS)
-            } else if are_signals {
-                (strings::signals::DROP_HERE, strings::signals::DROP_KINDS)
-            } else {
-                (strings::import::DROP_HERE, strings::import::DROP_KINDS)
-            };
+            let (here, kinds) = target
+                .map_or((strings::import::DROP_HERE, strings::import::DROP_KINDS), |target| {
+                    (target.here, target.kinds)
+                });
             drop_here(ctx, here, kinds);
         }
         commands
     }
 }
 
-/// Whether a file is a photo by its name.
+/// Whether a file is a photo, from the ending of its name.
 fn is_photo(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     ending.is_some_and(|ending| ["jpg", "jpeg", "png"].contains(&ending.as_str()))
 }
 
-/// Says over the whole window what may be dropped.
+/// Draws over the whole window which files may be dropped.
 fn drop_here(ctx: &Context, here: &str, kinds: &str) {
     let t = tokens(ctx);
     let painter = ctx.layer_painter(LayerId::new(Order::Tooltip, Id::unique("drop here")));

@@ -1,7 +1,6 @@
-//! The workspace Signals: two signals side by side, what is felt of them, and what may be thrown away.
+//! The Signals workspace: two signals side by side, their predicted perceptual difference, compression and editing.
 
 pub mod analysis;
-pub mod bench_signal;
 pub mod editor;
 mod editor_ui;
 mod features_ui;
@@ -16,49 +15,13 @@ mod slot;
 mod slot_ui;
 mod spatial_ui;
 
-use shagreen_core::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::bitrate::Bitrate;
 
-use crate::import::source::Source;
-
-pub use self::slot::Slot;
-
-/// What can be asked of the bench.
-#[derive(Clone, Debug)]
-pub enum SignalsCommand {
-    /// Look for a file.
-    AskWhatToOpen(Slot),
-    /// Read a file.
-    Read(Slot, Source),
-    /// Read files that were dropped, into the places that are free.
-    ReadAll(Vec<Source>),
-    /// Take what is heard in the workspace Author, at the speed and force of the hand.
-    TakeHeard(Slot),
-    /// Let the pen feel a signal, or what is authored again.
-    Feel(Option<Slot>),
-    /// Play a signal as it was recorded.
-    Play(Slot),
-    /// Make B of A.
-    MakeB(FromA),
-    /// Make a texture of a signal.
-    Keep(Slot),
-}
-
-/// How B is made of A.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FromA {
-    /// It is the same.
-    Copy,
-    /// It is what the codec leaves.
-    Codec,
-    /// It is made of the spatial spectrogram alone.
-    Spectrogram,
-}
-
-/// What is set for making B of A.
+/// Settings for making signal B from A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Remaking {
-    /// Bits a second of the codec.
+    /// Bit rate of the codec.
     pub(crate) rate: Bitrate,
-    /// Steps of refinement of a spectrogram.
+    /// Griffin-Lim iterations that refine a signal made from a spectrogram.
     pub(crate) n_steps: usize,
 }

@@ -1,14 +1,17 @@
-//! The window itself: lays out the panels, carries out commands, keeps the frame going.
+//! The window: lays out the panels, executes commands and requests frames.
 
 mod commands;
+pub(crate) mod file_menu;
 mod files;
+mod pages;
 mod prompts;
 mod rig;
 mod signals;
+pub mod status_bar;
+pub(crate) mod stopwatch;
 mod strokes;
 mod title_bar;
-
-pub use self::files::new_project;
+pub mod tour;
 
 use self::rig::open_as_left;
 
@@ -16,47 +19,48 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{CentralPanel, Frame, Margin, Panel as Side, Ui};
-use shagreen_core::heat_map::Quantity;
+use shagreen_core::space::heat_map::Quantity;
 use shagreen_formats::project::{AuthoredTexture, Project};
+use shagreen_studio::models::ModelFolder;
 
 use crate::Begin;
+use crate::author::canvas::{CanvasState, ShownMap, canvas_ui, point_id};
+use crate::author::inspector::inspector_ui;
+use crate::author::library_panel::{LibraryState, library_ui};
+use crate::author::pad::{PadState, pad_ui};
+use crate::author::prompt::Prompts;
+use crate::author::prompt::bar_ui::bar_ui;
+use crate::author::prompt::card_ui::card_ui;
+use crate::author::scope::{ScopeState, scope_ui};
 use crate::build::page::BuildPage;
-use crate::canvas::{CanvasState, ShownMap, canvas_ui, point_id};
 use crate::command::{Command, pressed};
-use crate::compare::Compare;
-use crate::document::Document;
-use crate::edit::Edit;
-use crate::files::Files;
-use crate::heat_map::{Grid, HeatMap, Wanted};
-use crate::history::History;
-use crate::import::sheet::ImportSheet;
-use crate::inspector::inspector_ui;
-use crate::library_panel::{LibraryState, library_ui};
-use crate::models::ModelFolder;
-use crate::pad::{PadState, pad_ui};
-use crate::panel::Panel;
-use crate::photo::{OwnPicture, PhotoReader};
-use crate::pictures::Pictures;
-use crate::prompt::Prompts;
-use crate::prompt::bar_ui::bar_ui;
-use crate::prompt::card_ui::card_ui;
-use crate::recorded_stroke::StrokeReader;
-use crate::scale::Scale;
-use crate::scope::{ScopeState, scope_ui};
-use crate::session::{OutputChoice, Session};
-use crate::sheets::Sheet;
-use crate::signals::page::SignalsPage;
-use crate::status_bar::status_ui;
-use crate::theme::{
+use crate::look::scale::Scale;
+use crate::look::theme::{
     INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHTS, STAGE_SHARE, install, map_color, tokens,
 };
-use crate::tour::{Places, Tour};
+use crate::panel::Panel;
+use crate::session::{OutputChoice, Session};
+use crate::sheets::Sheet;
+use crate::sheets::import::sheet::ImportSheet;
+use crate::signals::page::SignalsPage;
+use crate::state::compare::Compare;
+use crate::state::document::Document;
+use crate::state::edit::Edit;
+use crate::state::files::Files;
+use crate::state::heat_map::{Grid, HeatMap, Wanted};
+use crate::state::history::History;
+use crate::state::photo::{OwnPicture, PhotoReader};
+use crate::state::pictures::Pictures;
+use crate::state::recorded_stroke::StrokeReader;
+use crate::window::pages::Pages;
+use crate::window::status_bar::status_ui;
+use crate::window::tour::{Places, Tour};
 use crate::workspace::Workspace;
 
-/// Pictures that are blended into that of a field: more take longer and show nothing more.
+/// Maximum number of pictures that are blended for the pad. More take longer without a visible difference.
 const MAX_PICTURED: usize = 6;
 
-/// The program with its window.
+/// The program window.
 pub struct Window {
     project: Project,
     history: History,
@@ -76,39 +80,37 @@ pub struct Window {
     scale: Scale,
     canvas: CanvasState,
     library: LibraryState,
-    /// Whether there was a frame already.
     has_been_shown: bool,
     gesture: u64,
     was_holding: bool,
-    /// What had the keyboard in the last frame.
+    /// Widget with the keyboard focus in the last frame.
     writing: Option<egui::Id>,
     sheet: Sheet,
     tour: Tour,
-    /// Where the places of the tour were in the last frame.
+    /// Rectangles of the tour's steps in the last frame.
     tour_places: Places,
     workspace: Workspace,
-    build: BuildPage,
-    signals: SignalsPage,
-    /// Where figures, strokes and signals are saved unless another path is chosen.
+    pages: Pages,
+    /// Default folder for saved figures, strokes and signals.
     exports_folder: PathBuf,
-    /// The output that was chosen in this window, until it is open.
+    /// Output that the user selected in this window, until it is open.
     asked_output: Option<String>,
-    /// Whether the output was named by whoever started the program, and none was chosen since.
+    /// Whether the output was given at program start and no other has been selected since.
     is_output_given: bool,
 }
 
 impl Window {
-    /// The window on a project; the output is opened in the background.
+    /// Opens a window on a project; the output is opened in the background.
     ///
     /// # Errors
-    /// The library's positions make no space.
+    /// The library cannot be read, or its positions do not form a space.
     pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
         install(ctx);
         let Begin { project, path, output, keeping } = begin;
         let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
         let leftovers = Files::leftovers(&keeping);
-        // Nobody is led around who would be led around again next time.
+        // Without a settings file the tour would start at every program start, so it is not shown.
         let can_remember = keeping.settings.is_some();
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
         let prompts = Prompts::new(keeping.models.clone().map(ModelFolder::new));
@@ -151,56 +153,55 @@ impl Window {
             tour,
             tour_places: [egui::Rect::NOTHING; 4],
             workspace: Workspace::default(),
-            build: BuildPage::default(),
-            signals: SignalsPage::default(),
-            // Where there is none, the path is one to be completed.
+            pages: Pages::default(),
+            // Without a current folder, the user completes the path.
             exports_folder: std::env::current_dir().unwrap_or_default(),
             asked_output: None,
             is_output_given,
         })
     }
 
-    /// What the user makes.
+    /// Open project.
     pub fn project(&self) -> &Project {
         &self.project
     }
 
-    /// The file of the project.
+    /// File of the project.
     pub fn document(&self) -> &Document {
         &self.files.document
     }
 
-    /// What is open and what sounds.
+    /// Session with the library and the output.
     pub fn session(&self) -> &Session {
         &self.session
     }
 
-    /// Pictures of the textures, as far as they are there.
+    /// Pictures of the textures; they load in the background.
     pub fn pictures(&self) -> &Pictures {
         &self.pictures
     }
 
-    /// The workspace that is shown.
+    /// Visible workspace.
     pub fn workspace(&self) -> Workspace {
         self.workspace
     }
 
-    /// The workspace where spaces are built.
+    /// Build workspace.
     pub fn build(&self) -> &BuildPage {
-        &self.build
+        &self.pages.build
     }
 
-    /// The prompt box and what came of it.
+    /// Prompt box and its results.
     pub fn prompts(&self) -> &Prompts {
         &self.prompts
     }
 
-    /// The workspace where signals are compared.
+    /// Signals workspace.
     pub fn signals(&self) -> &SignalsPage {
-        &self.signals
+        &self.pages.signals
     }
 
-    /// The import sheet, where it is open.
+    /// Import sheet, if open.
     pub fn import(&self) -> Option<&ImportSheet> {
         match &self.sheet {
             Sheet::Import(sheet) => Some(sheet),
@@ -208,11 +209,11 @@ impl Window {
         }
     }
 
-    /// One frame.
+    /// Runs one frame: updates all state, draws the window and executes commands.
     pub fn frame_ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         let t = tokens(&ctx);
-        // The first frame has the processor to itself.
+        // Workers start after the first frame, which would otherwise be delayed.
         if self.has_been_shown {
             self.session.begin_work(&ctx);
             self.pictures.begin_work(&ctx);
@@ -223,8 +224,7 @@ impl Window {
         self.pictures.collect(&ctx);
         self.next_gesture(&ctx);
         self.session.update(self.pad.contact(&self.session));
-        self.build.collect();
-        self.signals.collect(&ctx);
+        self.pages.collect(&ctx);
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
         self.collect_prompt(&ctx);
@@ -235,15 +235,17 @@ impl Window {
         } else {
             pressed(&ctx, point_id(self.project.texture().key))
         };
-        if self.workspace == Workspace::Build && !self.session.hand_is_running() {
-            // Where nothing shows the hand it can be stopped, but does not start unseen.
+        let is_author = self.workspace == Workspace::Author;
+        let has_stage = is_author || self.pages.page(self.workspace).is_some_and(|page| page.has_stage());
+        if !has_stage && !self.session.hand_is_running() {
+            // The automatic stroke may be stopped where it is not visible, but not started.
             commands.retain(|command| !matches!(command, Command::ToggleHand));
         }
-        if self.workspace != Workspace::Author {
+        if !is_author {
             commands.retain(|command| !matches!(command, Command::TogglePathTool));
         }
-        if self.workspace == Workspace::Signals {
-            commands = commands.into_iter().filter_map(Self::of_signals).collect();
+        if let Some(page) = self.pages.page(self.workspace) {
+            commands = commands.into_iter().filter_map(|command| page.accept(command)).collect();
         }
         if self.workspace == Workspace::Author
             && self.canvas.tool.is_on
@@ -260,25 +262,25 @@ impl Window {
             .exact_size(32.0)
             .frame(bar(2))
             .show(ui, |ui| commands.extend(status_ui(ui, &panel)));
-        match self.workspace {
-            Workspace::Author => self.author_ui(ui, &ctx, &mut commands),
-            Workspace::Build => {
-                let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-                commands.extend(self.build.show(ui, &panel));
-            }
-            Workspace::Signals => {
+        if is_author {
+            self.author_ui(ui, &ctx, &mut commands);
+        } else {
+            if has_stage {
                 self.stage_ui(ui, &ctx, &mut commands);
-                let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-                commands.extend(self.signals.show(ui, &panel));
+            }
+            let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+            if let Some(page) = self.pages.page(self.workspace) {
+                commands.extend(page.show(ui, &panel));
             }
         }
 
         if self.sheet.is_open() {
-            // What lies below a sheet goes on as it was.
+            // Everything under an open sheet stays unchanged.
             commands.clear();
         }
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-        commands.extend(self.sheet.show(&ctx, &panel, &self.files.document, self.workspace));
+        let target = self.pages.page(self.workspace).and_then(|page| page.drop_target());
+        commands.extend(self.sheet.show(&ctx, &panel, &self.files.document, self.workspace, target));
         if self.workspace == Workspace::Author
             && !self.sheet.is_open()
             && self.tour.show(&ctx, self.tour_places)
@@ -295,7 +297,7 @@ impl Window {
         self.keep_going(&ctx);
     }
 
-    /// The workspace Author.
+    /// Draws the Author workspace.
     fn author_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
         let map = self.follow_map(ctx);
         self.stage_ui(ui, ctx, commands);
@@ -322,7 +324,7 @@ impl Window {
         });
     }
 
-    /// The map behind the canvas, as far as it is worked out.
+    /// Heat map behind the canvas, as far as it is computed.
     fn follow_map(&mut self, ctx: &egui::Context) -> Option<ShownMap> {
         let session = &self.session;
         let contact = self.pad.contact(session);
@@ -342,7 +344,7 @@ impl Window {
         })
     }
 
-    /// The row at the foot: pad and scope.
+    /// Draws the lower row with pad and scope.
     fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
         let parents = self.session.authored().map_or(&[][..], |authored| &authored.parents);
         let parents = pictured(parents);
@@ -382,22 +384,22 @@ impl Window {
         }
     }
 
-    /// The authored texture that is heard because it is compared.
+    /// Authored texture that a comparison makes audible.
     fn compared_texture(&self) -> Option<Arc<AuthoredTexture>> {
         let compared = self.compare.heard_key()?;
         self.project.authored.iter().find(|texture| texture.key == compared).map(Arc::clone)
     }
 
-    /// The authored texture that is heard; none while one of the list is heard alone.
+    /// Audible authored texture, or `None` while a texture of the list is soloed.
     fn heard_texture(&self) -> Option<Arc<AuthoredTexture>> {
         let selected = || Arc::clone(&self.project.authored[self.project.selected]);
         self.compared_texture().or_else(|| self.project.solo.is_none().then(selected))
     }
 
-    /// A photo that was read becomes the picture of the texture that it was dropped for.
+    /// Sets a loaded photo as the picture of the texture on which it was dropped.
     fn collect_photo(&mut self, ctx: &egui::Context) {
         match self.photo.collect() {
-            // It may have been taken away meanwhile.
+            // The texture may have been deleted in the meantime.
             Some((key, Ok(_))) if !self.project.authored.iter().any(|texture| texture.key == key) => {}
             Some((key, Ok(picture))) => {
                 for edit in [Edit::Select(key), Edit::SetPicture(Some(Arc::new(picture)))] {
@@ -409,19 +411,20 @@ impl Window {
         }
     }
 
-    /// What is heard follows the project, or what is compared.
+    /// Updates the session to the project, the comparison and the selected signal.
     fn follow_project(&mut self, ctx: &egui::Context) {
         self.compare.follow(&self.project);
         let heard = self.compared_texture();
         self.session.set_hidden(self.compare.is_hidden());
         let is_bench = self.workspace == Workspace::Signals;
-        self.session.feel(self.signals.felt_signal().filter(|_| is_bench));
+        self.session.feel(self.pages.signals.felt_signal().filter(|_| is_bench));
         self.session.follow(&self.project, heard.as_deref(), ctx);
     }
 
-    /// A gesture lasts while a button or key is held or a text field has the keyboard, and for the frame after.
+    /// Counts gestures. A gesture lasts while a button or key is held or a text field has the focus, and one frame
+    /// longer.
     fn next_gesture(&mut self, ctx: &egui::Context) {
-        // A visit of a text field is one gesture, however many keys it takes.
+        // Typing in one text field is one gesture, regardless of the number of keys.
         let is_writing = ctx.memory(egui::Memory::focused) == self.writing && ctx.text_edit_focused();
         self.writing = ctx.memory(egui::Memory::focused);
         let holding = is_writing || ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty());
@@ -431,7 +434,8 @@ impl Window {
         self.was_holding = holding;
     }
 
-    /// How large everything is drawn, which the keyboard decides and the room of the window, is remembered as it is wanted.
+    /// Follows the zoom factor, which the keyboard and the window size determine, and stores the zoom that the user
+    /// wants.
     fn keep_scale(&mut self, ctx: &egui::Context) {
         let now = ctx.zoom_factor();
         let scale = self.scale.follow(now, ctx.content_rect().size());
@@ -441,7 +445,7 @@ impl Window {
         self.files.settings.scale = self.scale.wanted();
     }
 
-    /// Something moves while something sounds; otherwise a few frames a second show how the output is doing.
+    /// Requests continuous frames while something is playing, otherwise a few frames a second for the status bar.
     fn keep_going(&self, ctx: &egui::Context) {
         let sounding = self.session.touch().contact.force_n > 0.0 || self.session.scope().rms(0.5) > 1e-4;
         if self.session.hand_is_running() || sounding {
@@ -452,7 +456,7 @@ impl Window {
     }
 }
 
-/// What the picture of a blend is made of: of a field the textures that say the most, as shares of one.
+/// Textures with the largest weights, and their weights normalized to a sum of one, for the blended picture.
 fn pictured(parents: &[(usize, f64)]) -> Vec<(usize, f64)> {
     let largest = &parents[..parents.len().min(MAX_PICTURED)];
     let sum: f64 = largest.iter().map(|(_, weight)| weight.max(0.0)).sum();

@@ -1,38 +1,59 @@
-//! The workspaces of the window, in the order of the work.
+//! Workspaces of the window, in the order of the workflow: one row each.
+//!
+//! A new workspace needs a module, its line in `lib.rs`, a row here, and its page in `window/pages.rs`.
 
-use crate::strings;
+use egui::Key;
 
-/// A workspace.
+/// Workspace of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Workspace {
-    /// A texture is found in the space and felt.
+    /// Finds a texture in the space and plays it.
     #[default]
     Author,
-    /// A space is made of what people sorted and rated.
+    /// Builds a space from sorting and rating data.
     Build,
-    /// Signals are compared, compressed and painted.
+    /// Compares, compresses and edits signals.
     Signals,
+}
+
+/// Description of a workspace.
+#[derive(Clone, Copy, Debug)]
+pub struct WorkspaceInfo {
+    /// Name on its tab.
+    pub name: &'static str,
+    /// Tooltip of its tab.
+    pub help: &'static str,
+    /// Label of the command that shows it.
+    pub show: &'static str,
+    /// Key that shows it, together with Ctrl or Cmd.
+    pub key: Key,
 }
 
 impl Workspace {
     /// All workspaces, in the order of their tabs.
     pub const ALL: [Self; 3] = [Self::Author, Self::Build, Self::Signals];
 
-    /// Name on its tab.
-    pub fn name(self) -> &'static str {
+    /// Returns the description of the workspace.
+    pub const fn info(self) -> WorkspaceInfo {
         match self {
-            Self::Author => strings::AUTHOR,
-            Self::Build => strings::BUILD,
-            Self::Signals => strings::signals::SIGNALS,
-        }
-    }
-
-    /// What it is for.
-    pub fn help(self) -> &'static str {
-        match self {
-            Self::Author => strings::AUTHOR_HELP,
-            Self::Build => strings::BUILD_HELP,
-            Self::Signals => strings::signals::SIGNALS_HELP,
+            Self::Author => WorkspaceInfo {
+                name: "Author",
+                help: "Choose a point of the space and feel its texture",
+                show: "Show the Author workspace",
+                key: Key::Num1,
+            },
+            Self::Build => WorkspaceInfo {
+                name: "Build",
+                help: "Build a space from sorting and rating data",
+                show: "Show the Build workspace",
+                key: Key::Num2,
+            },
+            Self::Signals => WorkspaceInfo {
+                name: "Signals",
+                help: "Compare, compress and edit signals",
+                show: "Show the Signals workspace",
+                key: Key::Num3,
+            },
         }
     }
 }

@@ -1,17 +1,25 @@
-//! Texture models, spaces, blending and the physics behind the starter library.
+//! Texture models, authoring spaces, interpolation between textures, and the contact model behind the starter library.
 //!
-//! Pure: nothing here touches a file, a clock, a thread, the environment or unseeded randomness.
+//! This crate is pure: it uses no files, no clock, no threads, no environment variables and no unseeded randomness.
 //!
 //! # Conventions
 //!
-//! - `f64` and SI units. Across a public boundary a quantity is a type of [`units`]; a bare `f64` has no unit.
-//! - A *texture* is known by its index in a library; a *point* of the space runs 0..100 on both axes, 0 = roughest and
-//!   0 = hardest ([`space::SpacePoint`]).
+//! - Numbers are `f64` in SI units. A quantity in a public signature has a type of [`units`]; a bare `f64` is
+//!   dimensionless.
+//! - A *texture* is identified by its index in a library.
+//! - A *point* of the authoring space has two coordinates, 0 to 100; 0 is the roughest or the hardest
+//!   ([`space::SpacePoint`]).
 //! - Power spectral densities are one-sided, in (m/s²)²/Hz.
 //!
+//! # Modules
+//!
+//! Each module uses only the modules listed before it, plus [`units`] and [`words`] (checked by
+//! `tests/structure/rooms.rs`):
+//! [`maths`], [`dsp`], [`texture`], [`recording`], [`people`], [`space`], [`surfaces`], [`signals`], [`actuator`].
+//!
 //! ```
-//! use shagreen_core::authoring::Authoring;
-//! use shagreen_core::blend::Mode;
+//! use shagreen_core::space::authoring::Authoring;
+//! use shagreen_core::texture::blend::Mode;
 //! use shagreen_core::space::{Space, SpacePoint};
 //!
 //! let at = |rs, hs| SpacePoint::new(rs, hs).map(Some);
@@ -24,75 +32,17 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(
     test,
-    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic on an unexpected value")
 )]
 
 pub mod actuator;
-pub mod ar;
-pub mod arma;
-pub mod attribute_predictor;
-pub mod authoring;
-pub mod blend;
-pub mod boundary;
-pub mod calibration;
-pub mod codec;
-pub mod contact_model;
-pub mod dft321;
-pub mod dissimilarities;
-pub mod drawn_material;
-pub mod drawn_path;
-pub mod features;
-pub mod fidelity;
-mod field;
-pub mod filter;
-pub mod fit;
-pub mod gaussian_process;
-pub mod generated;
-pub mod heat_map;
-pub mod height_field;
-pub mod imagined;
-pub mod isotonic;
-pub mod least_squares;
-pub mod leave_one_out;
-pub mod lsf;
-pub mod material;
-pub mod mds;
-pub mod mfcc;
-pub mod natural_neighbor;
-pub mod panel;
-pub mod patterns;
-pub mod picture_features;
-pub mod plane;
-pub mod procrustes;
-pub mod profile;
-pub mod profile_stimuli;
-pub mod prompt;
-pub mod property;
-pub mod quality;
-pub mod radial_basis;
-pub mod rate;
-pub mod ratings;
+pub mod dsp;
+pub mod maths;
+pub mod people;
 pub mod recording;
-pub mod relief;
-pub mod render;
-pub mod rng;
-mod sampled;
-pub mod segment;
-pub mod selection;
-pub mod shading;
-mod smoother;
-pub mod sorting;
+pub mod signals;
 pub mod space;
-pub mod space_build;
-pub mod spatial_spectrogram;
-pub mod spectrum;
-pub mod starter;
-pub mod statistics;
-pub mod tap;
+pub mod surfaces;
 pub mod texture;
-pub mod texture_path;
-pub mod threshold;
-pub mod touch_words;
-pub mod triangulation;
 pub mod units;
 pub mod words;

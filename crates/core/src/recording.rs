@@ -1,15 +1,20 @@
-//! What a stylus felt, measured: acceleration, speed and force on one clock.
+//! Stroke recordings: measured acceleration, tip speed and normal force on one clock.
 
+mod axis;
+mod bounds;
 mod clock;
 mod dropout;
 mod fault;
 mod finding;
+pub mod fit;
 mod from_raw;
+pub mod landings;
 mod missing;
 mod motion;
 mod plausible;
 mod raw;
 mod resample;
+pub mod segment;
 mod spike;
 mod stretch;
 
@@ -24,29 +29,29 @@ pub use crate::recording::raw::{RawClock, RawMotion, RawRecording, RawTrack};
 
 use crate::units::Hertz;
 
-/// A recording on one regular clock, in SI units. All columns have one length.
+/// Recording with a regular clock, in SI units. All columns have the same length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// Samples a second of every column.
+    /// Sample rate of all columns.
     pub rate: Hertz,
-    /// Acceleration in m/s², one axis: three were made one by DFT321.
+    /// Acceleration in m/s², one axis; several axes are combined by DFT321.
     pub acceleration_mps2: Vec<f64>,
-    /// Speed of the tip along the surface, in m/s.
+    /// Tip speed along the surface, in m/s.
     pub speed_mps: Vec<f64>,
-    /// Normal force in N; about zero while lifted.
+    /// Normal force in N; about zero while the tip is lifted.
     pub force_n: Vec<f64>,
-    /// Stretches of samples that were really measured, ascending, apart from each other. What lies between was missing,
-    /// stuck or clipped, counts for nothing and is NaN in every column.
+    /// Ranges of valid samples, ascending and separated from each other. The samples between them were missing, stuck
+    /// or clipped; they are NaN in every column and are ignored.
     pub usable: Vec<Range<usize>>,
 }
 
 impl Recording {
-    /// Length in seconds.
+    /// Duration in seconds.
     pub fn seconds(&self) -> f64 {
         self.acceleration_mps2.len() as f64 / self.rate.0
     }
 
-    /// Length of what is usable, in seconds.
+    /// Duration of the valid samples, in seconds.
     pub fn usable_seconds(&self) -> f64 {
         self.usable.iter().map(Range::len).sum::<usize>() as f64 / self.rate.0
     }

@@ -1,4 +1,4 @@
-//! Quantities with their units: what crosses a public boundary says what it is.
+//! Quantities with units, used in public signatures.
 
 use std::fmt;
 
@@ -33,7 +33,7 @@ quantity!(
 );
 
 quantity!(
-    /// An electric tension in V.
+    /// A voltage in V.
     Volts,
     "V"
 );
@@ -44,40 +44,56 @@ quantity!(
 );
 
 impl MetersPerSecond {
-    /// A speed given in mm/s, the unit of hands and of the command line.
+    /// Speed from a value in mm/s, the unit that the command line uses.
     pub fn from_mm_per_s(mm_per_s: f64) -> Self {
         Self(mm_per_s * 1e-3)
     }
 
-    /// The speed in mm/s.
+    /// Value in mm/s.
     pub fn mm_per_s(self) -> f64 {
         self.0 * 1e3
     }
 }
 
 impl Kilograms {
-    /// A mass given in g, the unit of pens and of data sheets.
+    /// Mass from a value in g, the unit that data sheets use.
     pub fn from_g(g: f64) -> Self {
         Self(g * 1e-3)
     }
 
-    /// The mass in g.
+    /// Value in g.
     pub fn g(self) -> f64 {
         self.0 * 1e3
     }
 }
 
-/// Speed and normal force of the tip on the surface.
+/// Tip speed and normal force on the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
-    /// Tangential speed of the tip.
+    /// Tangential tip speed.
     pub speed: MetersPerSecond,
     /// Normal force, zero when the tip is lifted.
     pub force: Newtons,
 }
 
+/// The contact as the renderer has it, in `f32`.
+impl From<Contact> for shagreen_synth::contact::Contact {
+    fn from(contact: Contact) -> Self {
+        Self { speed_mps: contact.speed.0 as f32, force_n: contact.force.0 as f32 }
+    }
+}
+
+impl From<shagreen_synth::contact::Contact> for Contact {
+    fn from(contact: shagreen_synth::contact::Contact) -> Self {
+        Self {
+            speed: MetersPerSecond(f64::from(contact.speed_mps)),
+            force: Newtons(f64::from(contact.force_n)),
+        }
+    }
+}
+
 impl Contact {
-    /// A contact from the units of hands: mm/s and N.
+    /// Contact from a tip speed in mm/s and a normal force in N.
     pub fn from_mm_per_s_and_n(mm_per_s: f64, force_n: f64) -> Self {
         Self { speed: MetersPerSecond::from_mm_per_s(mm_per_s), force: Newtons(force_n) }
     }

@@ -1,14 +1,14 @@
-//! Numbers and names in sentences.
+//! Counts and lists of names for messages.
 
-/// How many names a sentence says before it counts the rest.
+/// Number of names that a message lists before it counts the rest.
 const N_NAMED: usize = 3;
 
-/// A number of things that are called `noun` where there is one: `1 texture`, `2 textures`.
+/// Count followed by `noun`, in the plural unless the count is one: `1 texture`, `2 textures`.
 pub fn counted(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
-/// The first three names, and how many more there are.
+/// First three names, followed by the number of remaining names.
 pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     let named: Vec<&str> = names.iter().take(N_NAMED).map(AsRef::as_ref).collect();
     match names.len().saturating_sub(N_NAMED) {

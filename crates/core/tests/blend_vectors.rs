@@ -1,22 +1,22 @@
-//! The reference script's numbers on weights and mixtures (`vectors/g_interp`), against what the program authors.
+//! Compares weights and mixtures with the reference script (`vectors/g_interp`).
 //!
-//! Two things in the file are no part of the program: inverse distance with exponent 2, and Sibson's weights. The former
-//! is recomputed here beside exponent 1, so that the file itself is checked; the latter is compared with what it shares
-//! with barycentric weights, the point that it reproduces.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+//! Two parts of the vector file are not compared directly: inverse-distance weights with exponent 2, and the
+//! script's Sibson weights. The former are recomputed here together with exponent 1, which checks the file itself. The
+//! latter are compared in the property that they share with barycentric weights: both reproduce the query point.
+#![allow(clippy::unwrap_used, reason = "a test may panic on unexpected data")]
 
 use std::collections::BTreeSet;
 
 use serde_json::Value;
-use shagreen_core::ar::power_gain;
-use shagreen_core::authoring::Authoring;
-use shagreen_core::blend::{Mode, mixture_psd};
-use shagreen_core::lsf::{ar_from_lsf, lsf_from_ar};
-use shagreen_core::plane::Plane;
-use shagreen_core::rng::Random;
+use shagreen_core::dsp::ar::power_gain;
+use shagreen_core::dsp::lsf::{ar_from_lsf, lsf_from_ar};
+use shagreen_core::maths::rng::Random;
+use shagreen_core::maths::triangulation::Triangulation;
+use shagreen_core::space::authoring::Authoring;
 use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::texture::blend::{Mode, mixture_psd};
+use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::{GrainNode, TextureModel};
-use shagreen_core::triangulation::Triangulation;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 fn vectors() -> Value {
@@ -27,7 +27,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
 }
 
-/// A point of the file, whose axes run to 1.
+/// A point of the vector file, whose axes run from 0 to 1.
 fn point(xy: &[f64]) -> SpacePoint {
     SpacePoint::new(100.0 * xy[0], 100.0 * xy[1]).unwrap()
 }
@@ -58,7 +58,7 @@ fn inverse_distance(corners: &[Vec<f64>], q: &[f64], exponent: f64) -> Vec<f64> 
 #[track_caller]
 fn close(value: f64, golden: &Value, tolerance: f64) {
     let golden = golden.as_f64().unwrap();
-    assert!((value - golden).abs() <= tolerance, "{value} is not {golden}");
+    assert!((value - golden).abs() <= tolerance, "{value} differs from {golden}");
 }
 
 #[test]
@@ -75,8 +75,8 @@ fn weights_in_a_triangle() {
             close(barycentric[corner], &case["bary"][corner], 1e-12);
             close(first[corner], &case["idw1"][corner], 1e-12);
             close(second[corner], &case["idw2"][corner], 1e-12);
-            // On an edge the program mixes the two ends alone: with the third corner, weights would depend on which of
-            // the two triangles the edge is counted to.
+            // On an edge, the program mixes only the two ends. With the third corner, the weights would depend on which
+            // of the two triangles the edge is assigned to.
             if barycentric.iter().all(|w| *w > 1e-12) || corner == 2 && paper[2] > 0.0 {
                 close(paper[corner], &case["idw1"][corner], 1e-12);
             }
@@ -85,12 +85,12 @@ fn weights_in_a_triangle() {
     let height = 100.0 * 0.75_f64.sqrt();
     let equal = [(0.0, 0.0), (100.0, 0.0), (50.0, height)].map(|(x, y)| SpacePoint::new(x, y).ok());
     let space = Space::new(&equal).unwrap();
-    // As near to the edge as weights still count as inside.
+    // As close to the edge as a point still counts as inside.
     let at = SpacePoint::new(50.0, 1e-7).unwrap();
     for (weight, golden) in
         weights(&space, at, Mode::Paper, 3).iter().zip(numbers(&v["equilateral_mid_edge"]["idw1"]))
     {
-        assert!((weight - golden).abs() < 1e-8, "{weight} is not {golden}");
+        assert!((weight - golden).abs() < 1e-8, "{weight} differs from {golden}");
     }
     let flat = [vec![0.0, 0.0], vec![1.0, 0.0], vec![0.5, 0.75_f64.sqrt()]];
     for (i, weight) in inverse_distance(&flat, &[0.5, 0.0], 2.0).iter().enumerate() {
@@ -128,12 +128,13 @@ fn weights_between_the_sites() {
         let place: f64 =
             sibson.map(|(i, w)| w.as_f64().unwrap() * sites[i.parse::<usize>().unwrap()][axis]).sum();
         let ours: f64 = barycentric.iter().zip(&sites).map(|(w, s)| w * s[axis]).sum();
-        // The file leaves out weights below 1e-9.
+        // The file omits weights below 1e-9.
         assert!((place - q[axis]).abs() < 1e-8 && (ours - q[axis]).abs() < 1e-14);
     }
 }
 
-/// Random points of ours, not the script's: means of 4,000 points against its 400, which scatter by 0.02 / √400 = 0.001.
+/// Uses our own random points: means of 4,000 points against 400 in the script, with a standard error of 0.02 / √400 =
+/// 0.001.
 #[test]
 fn the_point_that_weights_reproduce() {
     let golden = &vectors()["position_error_mean"];
@@ -156,7 +157,8 @@ fn the_point_that_weights_reproduce() {
     }
     assert!(error[0] / n < 1e-14);
     close(error[1] / n, &golden["idw1"], 0.004);
-    // Losses scatter by 1.1 dB; the script's 5,000 points and these leave 0.025.
+    // Losses have a standard deviation of 1.1 dB; with the script's 5,000 points and these, the standard error is 0.025
+    // dB.
     let golden = &vectors()["rms_loss_uniform_in_hull_dB"];
     losses.sort_by(f64::total_cmp);
     close(losses.iter().sum::<f64>() / n, &golden["mean"], 0.08);
@@ -179,7 +181,7 @@ fn jumps_across_edges() {
         let (a, b) = (&sites[*a], &sites[*b]);
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
         for u in [0.25, 0.5, 0.75] {
-            // A hair to either side of the edge.
+            // A small offset to either side of the edge.
             let side = |sign: f64| {
                 let normal = [-(b[1] - a[1]) / length, (b[0] - a[0]) / length];
                 point(&[0, 1].map(|k| a[k] * (1.0 - u) + b[k] * u + sign * 1e-9 * normal[k]))
@@ -193,13 +195,13 @@ fn jumps_across_edges() {
     }
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let largest = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
-    // A hair of 1e-9 over the height of the flattest triangle.
+    // The offset of 1e-9, divided by the height of the flattest triangle.
     assert!(largest(&jumps[0]) < 1e-6, "{}", largest(&jumps[0]));
     close(mean(&jumps[1]), &golden["idw1"]["mean"], 1e-6);
     close(largest(&jumps[1]), &golden["idw1"]["max"], 1e-6);
 }
 
-/// A predictor of resonances at Hz, with pole radii, at 1 kHz.
+/// Predictor coefficients of two resonances, given as frequencies in Hz and pole radii, at 1 kHz.
 fn predictor(resonances: [(f64, f64); 2]) -> Vec<f64> {
     let [(c, d), (e, f)] = resonances
         .map(|(hz, radius)| (-2.0 * radius * (std::f64::consts::TAU * hz / 1000.0).cos(), radius * radius));
@@ -222,15 +224,15 @@ fn levels_of_mixtures() {
     };
     let planes: Vec<Plane> = predictors.iter().zip(&levels).map(|(ar, level)| plane(ar, *level)).collect();
     let parents: Vec<(&Plane, f64)> = planes.iter().zip(shares.iter().copied()).collect();
-    // The mean of a density over the middles of equal steps is its integral to rounding, for poles this far inside.
+    // For poles this far inside the unit circle, the mean over bin centers equals the integral up to rounding.
     let frequencies: Vec<Hertz> = (0..4096).map(|k| Hertz((f64::from(k) + 0.5) * 500.0 / 4096.0)).collect();
     let level = |parents: &[(&Plane, f64)], mode: Mode| {
         let density = mixture_psd(parents, mode, contact, &frequencies);
         (density.iter().sum::<f64>() * 500.0 / 4096.0).sqrt()
     };
     let [paper, power, shared] = [Mode::Paper, Mode::Power, Mode::Shared].map(|mode| level(&parents, mode));
-    // The script sums mixtures from 0 Hz on, which misses the integral by half a step's difference of the ends, 1e-5; the
-    // independent one has a closed form.
+    // The script sums mixtures from 0 Hz on. That differs from the integral by half a step's difference of the end
+    // values, 1e-5. The independent mixture has a closed form.
     let squares: f64 = shares.iter().zip(&levels).map(|(w, l)| (w * l).powi(2)).sum();
     assert!((paper - squares.sqrt()).abs() < 1e-9, "{paper}");
     close(paper, &golden["rms_independent_sum"], 2e-5);
@@ -240,7 +242,7 @@ fn levels_of_mixtures() {
     let mean = |f: fn(f64) -> f64| shares.iter().zip(&levels).map(|(w, l)| w * f(*l)).sum::<f64>();
     close(mean(f64::ln).exp(), &golden["log_rms_target"], 1e-12);
     close(mean(|l| l * l).sqrt(), &golden["power_target"], 1e-12);
-    // One spectrum between the three, with the excitation's variance from the linear mean of the gains.
+    // One interpolated spectrum, whose excitation variance is the weighted mean of the parents' excitation variances.
     let gain: f64 = predictors
         .iter()
         .zip(levels.iter().zip(&shares))
@@ -260,7 +262,7 @@ fn levels_of_mixtures() {
     let between = (power_gain(&ar_from_lsf(&lsf)) * gain_of_squares).sqrt();
     close(between, &golden["rms_lsf_with_linear_excitation_variance"], 1e-9);
     assert!(gain * gain < gain_of_squares);
-    // Equal levels: what independent signals lose, whatever their spectra.
+    // At equal levels: the level loss of independent signals does not depend on their spectra.
     let third = 1.0 / 3.0;
     for (key, shares) in [
         ("(0.3333333333333333, 0.3333333333333333, 0.3333333333333333)", [third, third, third]),

@@ -1,16 +1,16 @@
-//! The texture of the callback has the levels of the model, over the whole plane of every texture that comes with the
-//! program, and at another rate the textures keep their spectra.
+//! Levels of the prepared textures in the audio callback equal those of the models, over the whole plane of every
+//! starter texture. Conversion to another sample rate preserves their spectra.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::print_stdout,
-    reason = "a test may stop at what it did not expect"
+    reason = "a test may panic on unexpected data"
 )]
 
 use serde_json::Value;
-use shagreen_core::ar::power_gain;
-use shagreen_core::plane::Plane;
-use shagreen_core::rate::at_rate;
+use shagreen_core::dsp::ar::power_gain;
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::rate::at_rate;
 use shagreen_core::texture::{GrainNode, TextureModel};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_synth::contact::Contact as SynthContact;
@@ -18,7 +18,7 @@ use shagreen_synth::lsf::ar_from_lsf;
 
 const STARTER: &str = include_str!("../../../assets/starter/starter.json");
 
-/// The models alone: reading all of the file is the work of another crate, which is above this one.
+/// Reads only the models; the complete file format belongs to another crate, which depends on this one.
 fn models() -> Vec<(String, TextureModel)> {
     let number = |value: &Value| value.as_f64().expect("a number");
     let node = |anchor: &Value| GrainNode {
@@ -37,7 +37,7 @@ fn models() -> Vec<(String, TextureModel)> {
     textures.iter().map(model).collect()
 }
 
-/// The level of the very predictor and excitation that the callback would run, against the model.
+/// Compares the level of the predictor and excitation that the callback runs with the level of the model.
 #[test]
 fn levels_of_the_starter_textures_are_those_of_their_models() {
     let models = models();
@@ -63,7 +63,8 @@ fn levels_of_the_starter_textures_are_those_of_their_models() {
                 worst = (error_db, format!("{id} at {contact:?}"));
             }
         };
-        // A grid that meets no node, and the lines of the grid of measurements, where the error of a quadratic is largest.
+        // A grid that contains no node, and the lines of the measurement grid, where the error of the quadratic is
+        // largest.
         for i in 1..60 {
             let along = f64::from(i) / 60.0;
             for j in 1..60 {
@@ -78,7 +79,7 @@ fn levels_of_the_starter_textures_are_those_of_their_models() {
     assert!(worst.0.abs() < 0.1, "{} dB: {}", worst.0, worst.1);
 }
 
-/// Root mean square differences of spectra up to 450 Hz at every node, in dB, ascending.
+/// Root-mean-square differences of the spectra up to 450 Hz at every node, in dB, in ascending order.
 fn errors_at(rate_hz: f64) -> Vec<f64> {
     let mut errors = Vec::new();
     let f: Vec<Hertz> = (1..=90).map(|i| Hertz(5.0 * f64::from(i))).collect();
@@ -98,8 +99,8 @@ fn errors_at(rate_hz: f64) -> Vec<f64> {
 
 #[test]
 fn starter_textures_keep_their_spectra_at_higher_rates() {
-    // Measured: 0.46 dB and 2.67 dB at twice the rate; 2.01 dB and 6.41 dB at four times, where the order of a predictor
-    // is spread over a band of which three quarters are empty.
+    // Measured: 0.46 dB and 2.67 dB at twice the rate; 2.01 dB and 6.41 dB at four times, where the predictor order
+    // covers a band of which three quarters are empty.
     for (rate_hz, median_db, worst_db) in [(2000.0, 0.5, 3.0), (4000.0, 2.5, 7.0)] {
         let errors = errors_at(rate_hz);
         let (median, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);

@@ -1,4 +1,4 @@
-//! Outputs through the system's sound.
+//! Actuator outputs through the operating system's audio interfaces.
 
 mod choose;
 
@@ -15,12 +15,12 @@ use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::{Reporter, Shared};
-use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, make_engine};
+use crate::output_options::{Made, OpenOptions, OutputInfo, OutputKind, make_engine};
 
-/// The one id that needs no search: the search opens every card.
+/// The only id that is opened without a device search, because a search opens every sound card.
 const ALSA_DEFAULT: &str = "alsa:default";
 
-/// Which way sound goes through a device.
+/// Direction of an audio stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
     Out,
@@ -28,7 +28,7 @@ pub(crate) enum Way {
 }
 
 impl Way {
-    /// What such devices are called in messages.
+    /// Word for such devices in messages.
     fn name(self) -> &'static str {
         match self {
             Self::Out => "output",
@@ -58,7 +58,7 @@ pub(crate) struct Listed {
     pub(crate) is_default: bool,
 }
 
-/// A stream of the system, open until it is dropped.
+/// An open audio stream; it closes when it is dropped.
 pub(crate) struct AudioOutput {
     _stream: cpal::Stream,
 }
@@ -69,7 +69,7 @@ impl std::fmt::Debug for AudioOutput {
     }
 }
 
-/// What came of opening.
+/// Result of opening an output.
 pub(crate) struct Opened {
     pub(crate) output: AudioOutput,
     pub(crate) rate_hz: u32,
@@ -79,7 +79,7 @@ pub(crate) struct Opened {
     pub(crate) shared: Arc<Shared>,
 }
 
-/// Names under which ALSA lists its plugins: they convert for another output, or are none. Who means one opens it by id.
+/// Ids of ALSA plugins that convert for another output or play to none. They are not listed but can be opened by id.
 const ALSA_CONVERTERS: [&str; 8] = [
     "alsa:null",
     "alsa:lavrate",
@@ -91,8 +91,8 @@ const ALSA_CONVERTERS: [&str; 8] = [
     "alsa:oss",
 ];
 
-/// Whether an id names a card by its number (`alsa:hw:CARD=0,DEV=0`, `alsa:plughw:1,0`): after replugging, the number may
-/// be another card's. Names of cards never begin with a digit.
+/// Whether an id names a card by its number (`alsa:hw:CARD=0,DEV=0`, `alsa:plughw:1,0`). After replugging, that number
+/// may belong to another card. Card names never begin with a digit.
 fn is_by_number(id: &str) -> bool {
     let Some((_, arguments)) = id.strip_prefix("alsa:").and_then(|pcm| pcm.split_once(':')) else {
         return false;
@@ -101,23 +101,23 @@ fn is_by_number(id: &str) -> bool {
     card.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// The outputs of every system of sound that answers. None is opened.
+/// Outputs of all available audio interfaces. None is opened.
 pub(crate) fn list() -> Vec<OutputInfo> {
     let output =
         |Listed { id, name, is_default }| OutputInfo { id, name, kind: OutputKind::Audio, is_default };
     devices(Way::Out).into_iter().map(output).collect()
 }
 
-/// The devices of every system of sound that answers, which sound goes through this way. None is opened.
+/// Devices of all available audio interfaces for one direction. None is opened.
 pub(crate) fn devices(way: Way) -> Vec<Listed> {
-    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Gone since.
+    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Disconnected.
     hosts.flat_map(|host| devices_of(&host, way)).collect()
 }
 
 fn devices_of(host: &cpal::Host, way: Way) -> Vec<Listed> {
     let default = way.default_of(host);
-    let default_id = default.as_ref().and_then(|device| device.id().ok()); // Pulled out since.
-    // The default is not among the devices of every system.
+    let default_id = default.as_ref().and_then(|device| device.id().ok()); // Disconnected.
+    // Not every audio interface lists its default among its devices.
     let found = host.devices().into_iter().flatten().filter(|device| way.is_supported_by(device));
     let mut listed: Vec<Listed> = Vec::new();
     for device in default.into_iter().chain(found) {
@@ -137,7 +137,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let configs = configs_of(id, &device)?;
     let Some((range, rate_hz)) = choose(&configs, options) else {
         let message = format!(
-            "the output `{id}` has no channel, rate and format that would do ({} kinds of stream); \
+            "the output `{id}` has no suitable channel, rate and format (of {} stream formats); \
              choose other channels, or another output: `shagreen devices` lists them",
             configs.len()
         );
@@ -147,7 +147,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let config = StreamConfig { channels: range.channels(), sample_rate: rate_hz, buffer_size: asked };
     let (handle, stream, engine_latency_secs, shared) =
         match build(id, &device, config, range.sample_format(), options) {
-            // The number of frames is only a wish.
+            // The requested number of frames is optional.
             Err(error) if error.kind() == DeviceErrorKind::Unsupported && asked != BufferSize::Default => {
                 let config = StreamConfig { buffer_size: BufferSize::Default, ..config };
                 build(id, &device, config, range.sample_format(), options)?
@@ -158,7 +158,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let opened = Opened {
         rate_hz,
         channels: range.channels(),
-        buffer_frames: stream.buffer_size().ok(), // Not every system says.
+        buffer_frames: stream.buffer_size().ok(), // Not every system reports it.
         output: AudioOutput { _stream: stream },
         engine_latency_secs,
         shared,
@@ -166,27 +166,26 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     Ok((handle, opened))
 }
 
-/// The device of exactly this id.
+/// Returns the device with exactly this id.
 pub(crate) fn find(way: Way, id: &str) -> Result<cpal::Device, DeviceError> {
     let what = way.name();
     let not_found = || {
-        let message = format!(
-            "there is no {what} `{id}` on this machine; `shagreen devices` lists those that there are"
-        );
+        let message =
+            format!("there is no {what} `{id}` on this machine; `shagreen devices` lists the available ones");
         DeviceError::new(DeviceErrorKind::NotFound, message)
     };
     if is_by_number(id) {
         let message = format!(
-            "the {what} `{id}` names a card by its number, which may be another card's tomorrow; `shagreen devices` lists \
-             it by its name"
+            "the {what} `{id}` names a card by its number, which may belong to another card later; `shagreen devices` \
+             lists it by its name"
         );
         return Err(DeviceError::new(DeviceErrorKind::NotFound, message));
     }
     let device_id: cpal::DeviceId = id.parse().map_err(|_| not_found())?;
     let host = cpal::host_from_id(device_id.host()).map_err(|error| explain(way, id, "found", &error))?;
     if id == ALSA_DEFAULT {
-        // A name like any other to ALSA. Elsewhere the default device is one that is followed when it changes, and
-        // must be opened by its own id.
+        // To ALSA this is an ordinary name. On other systems the default device follows changes, so a device must be
+        // opened by its own id there.
         return way.default_of(&host).ok_or_else(not_found);
     }
     host.device_by_id(&device_id).ok_or_else(not_found)
@@ -195,7 +194,7 @@ pub(crate) fn find(way: Way, id: &str) -> Result<cpal::Device, DeviceError> {
 fn configs_of(id: &str, device: &cpal::Device) -> Result<Vec<SupportedStreamConfigRange>, DeviceError> {
     let configs = device
         .supported_output_configs()
-        .map_err(|error| explain(Way::Out, id, "asked what it can do", &error))?;
+        .map_err(|error| explain(Way::Out, id, "queried for its formats", &error))?;
     Ok(configs.collect())
 }
 
@@ -245,12 +244,12 @@ fn build_as<T: SizedSample + FromSample<f32>>(
     Ok((handle, stream, engine_latency_secs, shared))
 }
 
-/// What the system reports about an open stream. It may be on the callback's thread, but not in the callback: only an
-/// error that ends the stream allocates here.
+/// Handles an error that the system reports for an open stream. This may run on the callback's thread, but not inside
+/// the callback; only an error that ends the stream allocates here.
 fn note_error(id: &str, reporter: &mut Reporter, error: &cpal::Error) {
     let lost = || {
         let message = format!(
-            "the output `{id}` is lost: {}; it stays silent until you open it again, or another that \
+            "the output `{id}` is lost: {}; it stays silent until you open it again, or open another that \
              `shagreen devices` lists",
             reason(error)
         );
@@ -258,44 +257,44 @@ fn note_error(id: &str, reporter: &mut Reporter, error: &cpal::Error) {
     };
     match error.kind() {
         ErrorKind::Xrun => reporter.note_underrun(Instant::now(), lost),
-        // A stream that the system sent elsewhere is in someone's headphones.
+        // A stream that the system has rerouted may play to someone's headphones.
         ErrorKind::DeviceNotAvailable
         | ErrorKind::DeviceChanged
         | ErrorKind::HostUnavailable
         | ErrorKind::PermissionDenied
         | ErrorKind::StreamInvalidated => reporter.lose(lost()),
-        // It plays all the same.
+        // The stream plays without real-time priority.
         ErrorKind::RealtimeDenied => {}
         _ => reporter.note_error(Instant::now(), lost),
     }
     if reporter.shared.is_lost() {
-        // Some systems report without a pause what is lost; nothing is late any more.
+        // Some systems repeat this report without pause. The stream has ended, so a delay here is harmless.
         std::thread::sleep(Duration::from_millis(10));
     }
 }
 
-/// An error of the system before anything played.
+/// Converts a system error before playback into an error that says what to do.
 pub(crate) fn explain(way: Way, id: &str, done: &str, error: &cpal::Error) -> DeviceError {
     let (kind, advice) = match error.kind() {
         ErrorKind::DeviceBusy => (DeviceErrorKind::Busy, "close the program that uses it and try again"),
         ErrorKind::DeviceNotAvailable => {
-            (DeviceErrorKind::NotFound, "plug it in, or choose another: `shagreen devices` lists them")
+            (DeviceErrorKind::NotFound, "plug it in, or choose another one that `shagreen devices` lists")
         }
         ErrorKind::PermissionDenied => {
             (DeviceErrorKind::Denied, "allow access to it in the system's settings")
         }
         ErrorKind::HostUnavailable => {
-            (DeviceErrorKind::Unavailable, "start the system's sound and try again")
+            (DeviceErrorKind::Unavailable, "start the system's audio service and try again")
         }
         ErrorKind::InvalidInput | ErrorKind::UnsupportedConfig | ErrorKind::UnsupportedOperation => {
-            (DeviceErrorKind::Unsupported, "ask for another rate or buffer, or choose another")
+            (DeviceErrorKind::Unsupported, "choose another rate, buffer size or device")
         }
-        _ => (DeviceErrorKind::Backend, "try again, or choose another: `shagreen devices` lists them"),
+        _ => (DeviceErrorKind::Backend, "try again, or choose another one that `shagreen devices` lists"),
     };
     DeviceError::new(kind, format!("the {} `{id}` cannot be {done}: {}; {advice}", way.name(), reason(error)))
 }
 
-/// The system's words, to go in the middle of a sentence.
+/// The system's error text without its final period, for use within a sentence.
 fn reason(error: &cpal::Error) -> String {
     error.to_string().trim_end_matches('.').to_owned()
 }

@@ -1,4 +1,4 @@
-//! Inputs of the system's sound: the accelerometer that an actuator is measured with, or a loop back.
+//! Audio inputs, for the accelerometer of an actuator measurement or for a loopback.
 
 mod sample_clock;
 
@@ -19,24 +19,24 @@ use crate::error::{DeviceError, DeviceErrorKind};
 
 use self::sample_clock::{SampleClock, SampleTimes};
 
-/// Samples that can wait to be read: more than two seconds at 192 kHz.
+/// Capacity in samples of the queue to the reader: more than two seconds at 192 kHz.
 const WAITING: usize = 1 << 19;
 
-/// One input of this machine.
+/// One audio input of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputInfo {
-    /// Name by which it is opened, the same every time.
+    /// Stable name by which it is opened.
     pub id: String,
-    /// Name to show.
+    /// Display name.
     pub name: String,
 }
 
-/// The inputs of this machine. None is opened.
+/// Audio inputs of this machine. None is opened.
 pub fn list_inputs() -> Vec<InputInfo> {
     devices(Way::In).into_iter().map(|Listed { id, name, .. }| InputInfo { id, name }).collect()
 }
 
-/// What the callbacks tell.
+/// State that the callbacks report.
 #[derive(Debug, Default)]
 struct Told {
     has_begun: AtomicBool,
@@ -45,7 +45,7 @@ struct Told {
 }
 
 impl Told {
-    /// The system reports something about the open stream.
+    /// Records an error that the system reports for the open stream.
     fn note_error(&self, kind: ErrorKind) {
         match kind {
             ErrorKind::DeviceNotAvailable
@@ -53,9 +53,10 @@ impl Told {
             | ErrorKind::HostUnavailable
             | ErrorKind::PermissionDenied
             | ErrorKind::StreamInvalidated => self.is_lost.store(true, Ordering::Relaxed),
-            // It records all the same.
+            // The stream records without real-time priority.
             ErrorKind::RealtimeDenied => {}
-            // Before the first sample nothing can be missing: some devices report errors when they start.
+            // Errors before the first sample are ignored: some devices report errors when they start, and nothing is
+            // missing.
             _ => {
                 if self.has_begun.load(Ordering::Relaxed) {
                     self.n_dropped.fetch_add(1, Ordering::Relaxed);
@@ -65,14 +66,14 @@ impl Told {
     }
 }
 
-/// An open input: it records one channel until it is dropped.
+/// An open audio input that records one channel until it is dropped.
 pub struct Recorder {
     id: String,
     rate_hz: u32,
     samples: Consumer<f32>,
     told: Arc<Told>,
     opened: Instant,
-    /// In seconds since `opened`.
+    /// Times in seconds since `opened`.
     times: triple_buffer::Output<Option<SampleTimes>>,
     _stream: cpal::Stream,
 }
@@ -87,23 +88,24 @@ impl std::fmt::Debug for Recorder {
 }
 
 impl Recorder {
-    /// Opens input `id` to record channel `channel_idx`, counted from zero, at `preferred_rate_hz` or the rate nearest to it.
+    /// Opens input `id` to record channel `channel_idx` (counted from zero) at the supported rate closest to
+    /// `preferred_rate_hz`.
     ///
     /// # Errors
-    /// - [`DeviceErrorKind::NotFound`] where there is no such input.
-    /// - [`DeviceErrorKind::Busy`] or [`DeviceErrorKind::Denied`] where it cannot be had.
-    /// - [`DeviceErrorKind::Unsupported`] where it has no such channel.
-    /// - [`DeviceErrorKind::Unavailable`] or [`DeviceErrorKind::Backend`] where the system fails.
+    /// - [`DeviceErrorKind::NotFound`] if there is no such input.
+    /// - [`DeviceErrorKind::Busy`] or [`DeviceErrorKind::Denied`] if it is in use or access is refused.
+    /// - [`DeviceErrorKind::Unsupported`] if it has no such channel in a readable format.
+    /// - [`DeviceErrorKind::Unavailable`] or [`DeviceErrorKind::Backend`] if the system fails.
     pub fn open(id: &str, channel_idx: usize, preferred_rate_hz: u32) -> Result<Self, DeviceError> {
         let device = find(Way::In, id)?;
         let configs: Vec<SupportedStreamConfigRange> = device
             .supported_input_configs()
-            .map_err(|error| explain(Way::In, id, "asked what it can do", &error))?
+            .map_err(|error| explain(Way::In, id, "queried for its formats", &error))?
             .collect();
         let Some((range, rate_hz)) = choose(&configs, channel_idx, preferred_rate_hz) else {
             let message = format!(
-                "the input `{id}` has no channel {} in a format that can be read; choose another channel or input: \
-                 `shagreen devices` lists them",
+                "the input `{id}` has no channel {} in a readable format; choose another channel, or an input that \
+                 `shagreen devices` lists",
                 channel_idx + 1
             );
             return Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
@@ -131,12 +133,12 @@ impl Recorder {
         Ok(Self { id: id.to_owned(), rate_hz, samples, told, opened, times, _stream: stream })
     }
 
-    /// Rate of the samples, in Hz.
+    /// Sample rate, in Hz.
     pub fn rate_hz(&self) -> u32 {
         self.rate_hz
     }
 
-    /// Appends the samples that wait, -1..1 of the input's full scale, oldest first.
+    /// Appends all queued samples, -1..1 of the input's full scale, oldest first.
     pub fn read(&mut self, out: &mut Vec<f32>) {
         let n_waiting = self.samples.slots();
         let begin = out.len();
@@ -145,36 +147,38 @@ impl Recorder {
         out.truncate(begin + n_read);
     }
 
-    /// How many samples had been taken at a time, whole or not and negative before the first; none before anything
-    /// was taken. This is a line through the earliest times of each second of the recording, in the device's clock, so that it
-    /// holds for the end of a long one too: within some hundredths of a millisecond where callbacks are late by one, but for
-    /// what all of them are late by.
+    /// Returns the fractional number of samples recorded before a time; negative before the first sample, `None` before
+    /// any sample is recorded.
+    ///
+    /// The value comes from a line fitted to the earliest callback time of each second of device time, so that it
+    /// follows clock drift over long recordings. If callbacks are late by about 1 ms, the error is a few hundredths of
+    /// a millisecond. A delay that all callbacks share is not detected.
     pub fn sample_index_at(&mut self, time: Instant) -> Option<f64> {
         let since = time.saturating_duration_since(self.opened).as_secs_f64();
         let before = self.opened.saturating_duration_since(time).as_secs_f64();
         Some(self.times.read().as_ref()?.index_at(since - before, f64::from(self.rate_hz)))
     }
 
-    /// What is missing: samples that nobody read in time, and errors of the stream, each of which may have cost some.
+    /// Number of losses: samples that were not read in time, and stream errors, each of which may have lost samples.
     pub fn n_dropped(&self) -> u64 {
         self.told.n_dropped.load(Ordering::Relaxed)
     }
 
-    /// Whether the input is there and nothing is missing.
+    /// Checks that the input is still connected and that no samples are missing.
     ///
     /// # Errors
-    /// - [`DeviceErrorKind::Lost`] where it is gone, with what to do.
-    /// - [`DeviceErrorKind::Backend`] where something is missing.
+    /// - [`DeviceErrorKind::Lost`] if it is disconnected; the message says what to do.
+    /// - [`DeviceErrorKind::Backend`] if samples are missing.
     pub fn check(&self) -> Result<(), DeviceError> {
         if self.told.is_lost.load(Ordering::Relaxed) {
-            let message = format!("the input `{}` is lost; plug it in and measure again", self.id);
+            let message = format!("the input `{}` is disconnected; plug it in and measure again", self.id);
             return Err(DeviceError::new(DeviceErrorKind::Lost, message));
         }
         let n_dropped = self.n_dropped();
         if n_dropped > 0 {
             let message = format!(
-                "samples of the input `{}` were lost while it was measured ({n_dropped} losses); close other programs and \
-                 measure again",
+                "samples of the input `{}` were lost during the measurement ({n_dropped} losses); close other programs \
+                 and measure again",
                 self.id
             );
             return Err(DeviceError::new(DeviceErrorKind::Backend, message));
@@ -183,7 +187,8 @@ impl Recorder {
     }
 }
 
-/// The kind of stream and the rate to open: fewest channels that hold the wanted one, the rate nearest to the preferred.
+/// Returns the stream format and the rate to open. The criteria, in order: a readable format with the wanted channel,
+/// the rate closest to the preferred one, the fewest channels, the best sample format.
 fn choose(
     configs: &[SupportedStreamConfigRange],
     channel_idx: usize,
@@ -216,7 +221,7 @@ fn choose(
         })
 }
 
-/// The callback's half.
+/// Callback side of a recorder.
 struct Intake {
     producer: Producer<f32>,
     told: Arc<Told>,
@@ -241,7 +246,7 @@ impl Intake {
         Self { producer, told, channel_idx, n_taken: 0, config, opened, clock, times }
     }
 
-    /// Takes a block: never allocates, locks or waits.
+    /// Takes a block of interleaved frames. It never allocates, locks or waits.
     fn take<T: SizedSample>(&mut self, block: &[T], since_capture: Duration)
     where
         f32: FromSample<T>,
@@ -330,7 +335,7 @@ mod tests {
         let (times_in, mut times) = triple_buffer(&None);
         let opened = Instant::now();
         let mut intake = Intake::new(config, 1, opened, producer, Arc::clone(&told), times_in);
-        // Two frames and the beginning of a third.
+        // The block has two complete frames and the start of a third.
         intake.take(&[0_i16, 16_384, 0, 0, -16_384, 0, 7], Duration::from_millis(2));
         let first_secs = times.read().unwrap().first_secs;
         assert!((-0.002..opened.elapsed().as_secs_f64() - 0.002).contains(&first_secs), "{first_secs}");

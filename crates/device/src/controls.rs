@@ -1,4 +1,4 @@
-//! What the callback is told, all at once: a `Copy` struct, since its parts must agree.
+//! Controls of the engine, sent together as one `Copy` struct because they must agree.
 
 use shagreen_synth::renderer::{Blend, Mix};
 use shagreen_synth::tap::Tap;
@@ -6,82 +6,82 @@ use shagreen_synth::tap::Tap;
 use crate::hand::Hand;
 use crate::repeat::Repeat;
 
-/// What moves over the texture.
+/// Source of the tip's motion over the texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Input {
-    /// Nothing: the tip is in the air.
+    /// None: the tip is lifted.
     #[default]
     Lifted,
-    /// The person, through [`crate::live::LiveInput`].
+    /// Live stylus input through [`crate::live::LiveInput`].
     Live,
-    /// The automatic hand, from the start of its stroke. A change of speed, force or extent goes on from where the hand
-    /// is; a change of path starts anew.
+    /// Automatic stroke, from its start. A change of speed, force or extent continues from the current tip position; a
+    /// change of path restarts the stroke.
     Hand(Hand),
-    /// The last track given to [`crate::engine::Handle::play_track`], from its start.
+    /// The last track passed to [`crate::engine::Handle::play_track`], once, from its start.
     Track,
-    /// The last track that was given, from its start and again and again. A change of tempo or force goes on from where the
-    /// tip is.
+    /// The last track, repeated from its start. A change of tempo or force continues from the current tip position.
     Repeat(Repeat),
 }
 
-/// When a person's hand takes over from the chosen input by itself: from the block on that its report arrives in, whatever
-/// the thread of a window does meanwhile. It does with a stylus that touches, or that says that it is near
-/// ([`crate::live::LiveInput::hover`]). A landing sounds at once; the contact fades, as with every change of input.
+/// Automatic takeover of the chosen input by live stylus input. It starts with the block in which the stylus report
+/// arrives, independently of the window's thread. A stylus takes over when it touches or reports proximity
+/// ([`crate::live::LiveInput::hover`]). The tap transient starts at once; the contact fades, as at every change of
+/// input.
 ///
-/// The chosen input stands still while the person's hand is followed, and goes on from there.
+/// The chosen input pauses during the takeover and continues from the same position afterwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Takeover {
-    /// How long after the stylus is neither near nor touching the chosen input goes on, in seconds.
+    /// Time from the end of touch and proximity until the chosen input continues, in seconds.
     pub lifted_secs: f32,
-    /// The same after the last report of a stylus that never said that it went, in seconds.
+    /// Time from the last report of a stylus that never reported leaving, in seconds.
     pub stale_secs: f32,
 }
 
 impl Takeover {
-    /// Between two taps of a mouse the hand stays; a pen may be held still for a while.
+    /// Usual times: `lifted_secs` bridges two taps of a mouse, and `stale_secs` allows a pen to be held still.
     pub const USUAL: Self = Self { lifted_secs: 0.3, stale_secs: 2.0 };
 }
 
-/// How much of the signal goes out.
+/// Level of the output signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// Whether nothing goes out.
+    /// Whether the output is muted.
     pub muted: bool,
-    /// Gain from the texture's acceleration to that of the actuator, at least 0; the limiter acts after it.
+    /// Gain from the texture's acceleration to the actuator's, at least 0. The limiter follows it.
     pub gain: f32,
 }
 
 impl Default for Drive {
-    /// As measured: not muted, with a gain of one.
+    /// Not muted, with a gain of 1 (the measured level).
     fn default() -> Self {
         Self { muted: false, gain: 1.0 }
     }
 }
 
 impl Drive {
-    /// The gain to fade to: zero when muted, or where the gain is not a number from zero up.
+    /// Gain to fade to: zero when muted, or if the gain is negative or not finite.
     pub(crate) fn target(self) -> f32 {
         if self.muted || !(self.gain.is_finite() && self.gain >= 0.0) { 0.0 } else { self.gain }
     }
 }
 
-/// All that an engine can be told at once.
+/// All controls that an engine takes at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controls {
-    /// Which textures sound, and how they are blended.
+    /// Textures to play and their interpolation mode.
     pub mix: Mix,
-    /// What a landing sounds like.
+    /// Tap transient at a contact onset.
     pub tap: Tap,
-    /// How much of it goes out.
+    /// Level of the output signal.
     pub drive: Drive,
-    /// What moves over them.
+    /// Source of the tip's motion.
     pub input: Input,
-    /// Whether and when a person's hand does in its place.
+    /// Automatic takeover by live input, if enabled.
     pub takeover: Option<Takeover>,
 }
 
 impl Default for Controls {
-    /// Nothing sounds, so that how it would be blended does not matter, and nothing moves.
+    /// No texture and no motion. The interpolation mode has no effect on an empty mix.
     fn default() -> Self {
         Self {
             mix: Mix::silent(Blend::Power),

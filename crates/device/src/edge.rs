@@ -1,4 +1,4 @@
-//! Between a device and the engine: the clock, the load, and the device's format of samples.
+//! Adapter between a device callback and the engine: time stamps, load measurement, and sample format conversion.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -8,14 +8,14 @@ use cpal::{FromSample, Sample};
 use crate::engine::{BlockEdge, Engine};
 use crate::link::Shared;
 
-/// Samples converted at a time; at least a frame of the most channels that a device has.
+/// Samples converted at a time; at least one frame of the largest channel count of any device.
 const SCRATCH: usize = 1024;
-/// A device that says that it is later than this is not believed.
+/// Upper limit for the latency that a device reports.
 const MAX_LATENCY: Duration = Duration::from_secs(10);
-/// Time constant of the load that is shown, in seconds.
+/// Time constant of the displayed load, in seconds.
 const LOAD_SECS: f64 = 0.5;
 
-/// An engine in the hands of a device.
+/// An engine driven by a device callback.
 #[derive(Debug)]
 pub(crate) struct Edge {
     engine: Engine,
@@ -31,10 +31,10 @@ impl Edge {
         Self { engine, shared, rate_hz, load: 0.0, load_max: 0.0, scratch: [0.0; SCRATCH] }
     }
 
-    /// What the callback does: fills `out`, interleaved frames of `channels` samples, which will be heard so much later, and
-    /// measures how long it took.
+    /// Body of the audio callback: fills `out` with interleaved frames of `channels` samples that will be played after
+    /// `device_latency`, and measures the time it takes.
     ///
-    /// Reads the clock twice; does nothing else that could wait.
+    /// It reads the clock twice and does nothing else that could wait.
     pub(crate) fn fill<T: Sample + FromSample<f32>>(
         &mut self,
         out: &mut [T],
@@ -43,7 +43,7 @@ impl Edge {
     ) {
         let begun = Instant::now();
         let channels = channels.max(1);
-        // A device that came back by itself stays silent until a person opens it again.
+        // A device that reconnects by itself stays silent until a person opens it again.
         if self.shared.is_lost() {
             out.fill(T::EQUILIBRIUM);
             return;
@@ -57,7 +57,8 @@ impl Edge {
         };
         self.engine.begin_block(edge);
         let block = Duration::from_secs_f64((out.len() / channels) as f64 / self.rate_hz.max(1.0));
-        // Said ahead of what the engine tells: who knows that something was played finds its end here.
+        // Published before the engine's status, so that whoever sees that frames were rendered also finds their end
+        // time.
         self.shared.note_heard_by(begun + device_latency.min(MAX_LATENCY) + block);
         let at_once = (SCRATCH / channels).max(1) * channels;
         for part in out.chunks_mut(at_once.min(SCRATCH)) {
@@ -70,7 +71,7 @@ impl Edge {
         self.note_load(begun.elapsed().as_secs_f64(), (out.len() / channels) as f64 / self.rate_hz);
     }
 
-    /// The engine, as it was after the last block.
+    /// Returns the engine in its state after the last block.
     pub(crate) fn engine(&self) -> &Engine {
         &self.engine
     }
@@ -186,9 +187,9 @@ mod tests {
             edge.fill(&mut vec![0.0_f32; 480], 2, Duration::ZERO);
             handle.status().touch.contact.speed_mps
         };
-        // A time yet to come has no age, however busy the machine is.
+        // A time in the future has no age, however busy the machine is.
         assert_eq!(live_speed(Instant::now() + Duration::from_mins(1)), 0.4);
-        // A second is much later than hold and decay.
+        // One second is much longer than hold and decay.
         assert!(live_speed(Instant::now().checked_sub(Duration::from_secs(1)).unwrap()) < 1e-9);
     }
 

@@ -1,13 +1,14 @@
-//! What the callback runs, and the handle by which it is told what to do.
+//! Real-time engine: the part that runs in the audio callback, and the handle that controls it.
 //!
-//! 1. [`new`] makes both halves; the [`Engine`] goes into the callback, the [`Handle`] stays.
-//! 2. [`Handle::load`] sends textures down; [`Handle::set_mix`], [`Handle::set_input`] and [`Handle::set_drive`] say
-//!    what to do with them.
-//! 3. The device calls [`Engine::process`] for every block, which never allocates, frees, locks, waits or panics.
-//! 4. [`Handle::unload`] lets a texture fade out and come back; [`Handle::collect`] frees what came back. Call it
-//!    often: every picture of a window, or every tenth of a second.
+//! 1. [`new`] creates both halves. The [`Engine`] moves into the callback; the [`Handle`] stays with the controlling
+//!    thread.
+//! 2. [`Handle::load`] sends textures to the engine. [`Handle::set_mix`], [`Handle::set_input`] and
+//!    [`Handle::set_drive`] control it.
+//! 3. The device calls [`Engine::process`] for every block. It never allocates, frees, locks, waits or panics.
+//! 4. [`Handle::unload`] fades a texture out and returns it; [`Handle::collect`] frees returned objects. Call `collect`
+//!    often: at every frame of the user interface, or every tenth of a second.
 //!
-//! An engine whose handle is gone fades out: nobody could mute it any more.
+//! When the handle is dropped, the engine fades to silence, because nobody could mute it any more.
 
 mod config;
 mod handle;
@@ -44,44 +45,44 @@ use crate::texture::OwnedTexture;
 use crate::touch::Touch;
 use crate::track::Track;
 
-/// Textures that an engine can hold at once.
+/// Number of textures that an engine can hold.
 pub const SLOTS: usize = 64;
-/// How long muting, a gain or a change of input takes, in seconds.
+/// Duration of a fade at muting, a gain change or an input change, in seconds.
 pub const FADE_SECS: f64 = 0.02;
-/// Orders that can wait for the next block.
+/// Capacity of the command queue.
 const COMMANDS: usize = 128;
-/// Things that can wait to be freed.
+/// Capacity of the queue of objects to be freed.
 const RETURNED: usize = 32;
-/// Touches that can wait for the next block: a quarter of a second of a fast stylus.
+/// Capacity of a touch queue: a quarter of a second of a fast stylus.
 const TOUCHES: usize = 256;
-/// Ways in for touches: a pen's and the mouse's.
+/// Number of live inputs: one for a pen, one for the mouse.
 pub const LIVE_INPUTS: usize = 2;
-/// Samples of the scope that can wait to be drawn: more than half a second at 48 kHz.
+/// Capacity of the scope queue in samples: more than half a second at 48 kHz.
 const SCOPE: usize = 32_768;
 /// Frames rendered at a time.
 const SCRATCH: usize = 256;
 
-/// What must arrive together and only whose newest counts.
+/// Values that must change together; only the newest counts.
 #[derive(Clone, Copy, Debug, Default)]
 struct Orders {
     controls: Controls,
-    /// Counts the wishes to end the limiter's latched silence.
+    /// Number of requests to end the limiter's latched silence.
     n_resets: u32,
-    /// Counts the wishes to end the signal that is played.
+    /// Number of requests to end the current signal.
     n_stops: u32,
 }
 
-/// What must not be missed.
+/// Commands that must not be lost.
 #[derive(Debug)]
 enum Command {
     Load(TextureId, Box<OwnedTexture>),
     Unload(TextureId),
     Play(Box<Track>),
-    /// With the number of wishes to end signals that are older.
+    /// The signal with the number of stop requests sent before it.
     Signal(Box<Signal>, u32),
 }
 
-/// What the callback is done with and does not free.
+/// Objects that the callback no longer needs and must not free.
 #[derive(Debug)]
 enum Returned {
     Texture(TextureId, #[expect(dead_code, reason = "held to be freed with its box")] Box<OwnedTexture>),
@@ -89,24 +90,24 @@ enum Returned {
     Signal(#[expect(dead_code, reason = "held to be freed with its box")] Box<Signal>),
 }
 
-/// What the edge of a device knows and an engine does not: it has no clock.
+/// Data that the device adapter adds to a block, because the engine has no clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BlockEdge {
-    /// When the block was asked for.
+    /// Time at which the device requested the block.
     pub(crate) now: Instant,
     /// Smoothed load up to the last block.
     pub(crate) load: f32,
     /// Highest load up to the last block.
     pub(crate) load_max: f32,
-    /// How much later than now the block will be heard, in seconds.
+    /// Time from now until the device plays the block, in seconds.
     pub(crate) device_latency_secs: f32,
 }
 
-/// The callback's half.
+/// The half of the engine that runs in the audio callback.
 #[derive(Debug)]
 pub struct Engine {
     stream: Stream,
-    /// A stream that has not begun, to start again from after nonsense.
+    /// Unused copy of the initial stream, to restart from after non-finite samples.
     fresh_stream: Stream,
     slots: Slots,
     player: Player,
@@ -116,7 +117,7 @@ pub struct Engine {
     signal: SignalPlayer,
     chain: DriveChain,
     gain: Ramp,
-    /// Zero while muted: a signal is silenced by muting, not turned down by the gain.
+    /// Zero while muted. A signal obeys muting but not the gain.
     unmuted: Ramp,
     meter: Meter,
     device_rate_hz: f64,
@@ -126,7 +127,7 @@ pub struct Engine {
     edge: Option<BlockEdge>,
     latency: Latency,
     frames_played: u64,
-    /// Frames since the stream began, or began again.
+    /// Frames since the stream started or restarted.
     stream_frames: u64,
     leaked: u64,
     orders: triple_buffer::Output<Orders>,
@@ -137,10 +138,10 @@ pub struct Engine {
     status: triple_buffer::Input<Status>,
 }
 
-/// Both halves of a silent engine.
+/// Returns both halves of a silent engine.
 ///
 /// # Errors
-/// [`ConfigError`] names the setting that contradicts the rest.
+/// [`ConfigError`] names the invalid setting.
 pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
     let config = config.check()?;
     let (orders_in, orders_out) = triple_buffer(&Orders::default());
@@ -189,12 +190,12 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
 }
 
 impl Engine {
-    /// Fills `out`, interleaved frames of `channels` samples each, with the next of the signal, -1..1.
+    /// Fills `out` with the next frames, interleaved with `channels` samples each, -1..1.
     ///
-    /// Never allocates, frees, locks, waits or panics. Cost: that of [`Stream::process`] for the frames, and of at
-    /// most a ring full of orders.
+    /// Never allocates, frees, locks, waits or panics. Cost: that of [`Stream::process`] for the frames, plus at most
+    /// one full queue of commands.
     pub fn process(&mut self, out: &mut [f32], channels: usize) {
-        // Orders first: whatever they name was put into the rings before they were given.
+        // Orders are read first: the objects they refer to were already queued when the orders were written.
         let orders = *self.orders.read();
         self.take_commands();
         self.take_touches();
@@ -217,25 +218,26 @@ impl Engine {
         self.publish();
     }
 
-    /// From a change of the contact to its middle in the output, in seconds, not counting the device's own buffers.
+    /// Delay in seconds from a change of contact to the middle of its ramp in the output, without the device's own
+    /// buffers.
     pub fn latency_secs(&self) -> f32 {
         self.stream.latency_secs() + self.chain.latency_secs()
     }
 
-    /// What a receiver that renders by itself has to know: the touch, the texture of the highest weight, and the gain.
+    /// Returns what a receiver that renders by itself needs: touch, id of the texture with the highest weight, gain.
     pub(crate) fn now(&self) -> (Touch, Option<TextureId>, f32) {
         let parents = self.mix.parents.iter().filter(|parent| parent.weight > 0.0);
         let loudest = parents.max_by(|a, b| a.weight.total_cmp(&b.weight));
         (self.player.touch(), loudest.map(|parent| parent.id), self.gain.value())
     }
 
-    /// Tells what only the edge knows, before a block.
+    /// Sets the adapter's data before a block.
     pub(crate) fn begin_block(&mut self, edge: BlockEdge) {
         self.edge = Some(edge);
     }
 
     fn take_commands(&mut self) {
-        // As many as the ring holds: a sender that never rests cannot keep the callback.
+        // The loop is bounded by the queue's capacity, so that a fast sender cannot stall the callback.
         for _ in 0..COMMANDS {
             match self.commands.pop() {
                 Ok(Command::Load(id, texture)) => {
@@ -279,7 +281,7 @@ impl Engine {
             self.n_resets = orders.n_resets;
             self.start_again();
         }
-        // A mix that was given twice would begin its fade anew.
+        // Setting the same mix again would restart its fade.
         if orders.controls.mix != self.mix {
             self.mix = orders.controls.mix;
             self.stream.set_mix(self.mix);
@@ -290,14 +292,15 @@ impl Engine {
         for unheard in self.signal.follow(orders.n_stops).into_iter().flatten() {
             self.return_or_leak(Returned::Signal(unheard));
         }
-        // Without a handle nobody can mute.
+        // Without a handle nobody can mute, so the output fades to silence.
         let is_in_hand = !self.commands.is_abandoned();
         let drive = orders.controls.drive;
         self.gain.aim(if is_in_hand { drive.target() } else { 0.0 });
         self.unmuted.aim(if is_in_hand && !drive.muted { 1.0 } else { 0.0 });
     }
 
-    /// Ends the limiter's latched silence. What was not finite came from the stream, which would never forget it.
+    /// Ends the limiter's latched silence. Non-finite samples come from the stream's filters, which would keep them, so
+    /// the stream restarts.
     fn start_again(&mut self) {
         if self.chain.is_tripped() {
             self.chain.reset();
@@ -310,13 +313,13 @@ impl Engine {
         }
     }
 
-    /// Renders frames from the textures to what the device gets.
+    /// Renders frames from the textures up to the device's drive signal.
     fn render(&mut self, mono: &mut [f32]) {
         self.stream.process(&self.slots, &mut self.player, mono);
         self.add_taps(mono);
         let driven = self.signal.replace(mono);
         if driven == Driven::Acceleration {
-            // What does not fit is not drawn: the scope is a picture, not a recording.
+            // Samples that do not fit are dropped: the scope is a display, not a recording.
             let _ = self.scope.push_partial_slice(mono);
             self.meter.note_signal(mono);
         }
@@ -333,7 +336,7 @@ impl Engine {
         }
     }
 
-    /// Adds what the landings sound like, from their very frame on.
+    /// Adds tap transients, starting at the exact frame of the contact onset.
     fn add_taps(&mut self, mono: &mut [f32]) {
         let stream_secs = self.stream_frames as f64 / self.device_rate_hz;
         if let Some(landing) = self.player.take_landing(stream_secs) {
@@ -354,7 +357,7 @@ impl Engine {
         self.taps.add_to(rest);
     }
 
-    /// Sends textures that nothing sounds of any more to be freed. One that does not fit waits in its slot.
+    /// Returns retired textures that no voice uses any more. A texture stays in its slot while the queue is full.
     fn give_back(&mut self) {
         let Self { slots, stream, returned, .. } = self;
         for id in 0..SLOTS as TextureId {
@@ -370,7 +373,7 @@ impl Engine {
         }
     }
 
-    /// Sends something to be freed that there is no place to keep in.
+    /// Returns an object to be freed. If the queue is full, the object is leaked and counted.
     fn return_or_leak(&mut self, thing: Returned) {
         if let Err(PushError::Full(thing)) = self.returned.push(thing) {
             std::mem::forget(thing);

@@ -1,32 +1,32 @@
-//! What goes wrong at the edge of the machine.
+//! Errors of devices.
 
-/// What the caller should do about a [`DeviceError`].
+/// Kind of a [`DeviceError`], which determines what the caller should do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DeviceErrorKind {
-    /// There is no device of this id now: list the devices and let the person choose another, or plug it in.
-    /// Unlike [`Self::Lost`], it was never open.
+    /// No device with this id is present. List the devices and let the person choose another, or plug it in. Unlike
+    /// [`Self::Lost`], the device was never open.
     NotFound,
-    /// Another program holds the device: ask to close it, then try again.
+    /// Another program uses the device. Ask the person to close that program, then try again.
     Busy,
-    /// The system refuses access: the person must grant it; trying again does not help.
+    /// The system refuses access. The person must grant it; trying again does not help.
     Denied,
-    /// An open device went away or failed for good. It is silent; open it again when the person asks for it, and
-    /// never another in its place.
+    /// An open device was disconnected or failed permanently. It is silent. Reopen it when the person requests it, and
+    /// never open another device instead.
     Lost,
-    /// The device is there but cannot do what was asked: ask for another rate, buffer or channel.
+    /// The device does not support the request. Use another rate, buffer size or channel.
     Unsupported,
-    /// The settings contradict themselves: a fault of the caller, to be fixed there.
+    /// The settings are contradictory: a bug in the caller.
     Config,
-    /// The system of devices (sound server, driver) does not answer: start it, then try again.
+    /// The system service or driver does not respond. Start it, then try again.
     Unavailable,
-    /// The person stopped it.
+    /// The person canceled the operation.
     Canceled,
-    /// Anything else that the system reports: show the message; trying again may help.
+    /// Any other error that the system reports. Show the message; trying again may help.
     Backend,
 }
 
-/// What went wrong with a device: a kind to act on and a message to show, with what, where and what to do.
+/// Error of a device: a kind to act on, and a message that says what is wrong, where, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct DeviceError {
@@ -35,17 +35,17 @@ pub struct DeviceError {
 }
 
 impl DeviceError {
-    /// An error of `kind` that reads as `message`.
+    /// An error of `kind` with the text `message`.
     pub fn new(kind: DeviceErrorKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
     }
 
-    /// What to do about it.
+    /// Kind of the error.
     pub fn kind(&self) -> DeviceErrorKind {
         self.kind
     }
 
-    /// What to show.
+    /// Text to show.
     pub fn message(&self) -> &str {
         &self.message
     }

@@ -1,7 +1,7 @@
-//! The automatic hand: a stroke that repeats for ever at a set speed and force.
+//! Automatic stroke: an endless periodic tip motion at a set speed and force.
 //!
-//! Every path is a fixed shape walked by distance: at `distance = speed x time` the tip is at one place, whatever the
-//! speed. So a hand whose speed changes while it moves goes on from where it is.
+//! Every path is a fixed curve parameterized by distance. At `distance = speed × time` the tip has one position for any
+//! speed, so a stroke whose speed changes continues from its position.
 
 use std::f64::consts::PI;
 
@@ -9,45 +9,45 @@ use shagreen_synth::contact::Contact;
 
 use crate::touch::Touch;
 
-/// Depth of the turn at each end of a line, as a share of the extent: there the velocity goes through zero along a
-/// cosine.
+/// Depth of the reversal at each end of a line, as a fraction of the extent. The velocity passes through zero along a
+/// cosine there.
 pub const TURN_SHARE: f64 = 0.025;
 
-/// Most by which the speed of a scribble differs from the set speed, as a share of it.
+/// Largest relative deviation of a scribble's speed from the set speed.
 pub const SCRIBBLE_SPREAD: f64 = 0.02;
 
-/// The shape that a hand follows, within a circle of the hand's extent around the middle of the pad.
+/// Curve of an automatic stroke, within a circle of the stroke's extent around the center of the pad.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Path {
-    /// To the right and back along a line, at the set speed but for the turns ([`TURN_SHARE`]).
+    /// Back and forth along a line, at the set speed except in the reversals ([`TURN_SHARE`]).
     #[default]
     Line,
-    /// Round a circle, at exactly the set speed.
+    /// A circle, at exactly the set speed.
     Circle,
-    /// A lying eight that slowly turns through all directions, at the set speed within [`SCRIBBLE_SPREAD`].
+    /// A horizontal figure eight that slowly rotates, at the set speed within [`SCRIBBLE_SPREAD`].
     Scribble,
 }
 
-/// What the automatic hand does.
+/// Parameters of an automatic stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hand {
-    /// The shape of the stroke.
+    /// Curve of the stroke.
     pub path: Path,
     /// Set speed in m/s.
     pub speed_mps: f32,
-    /// Force in N, constant.
+    /// Normal force in N, constant.
     pub force_n: f32,
-    /// Greatest width of the stroke in m.
+    /// Largest width of the stroke in m.
     pub extent_m: f32,
 }
 
 impl Hand {
-    /// The tip `time_secs` after the start of the stroke. Nonsense numbers are a lifted tip.
+    /// Returns the touch `time_secs` after the start of the stroke. Invalid parameters give a lifted tip.
     pub fn touch_at(self, time_secs: f64) -> Touch {
         self.touch_at_distance(f64::from(self.speed_mps) * time_secs)
     }
 
-    /// The tip after `distance_m` of the stroke at the set speed: turns count as if they had been walked at full speed.
+    /// Returns the touch at `distance_m` along the stroke. The distance advances at the set speed in reversals too.
     pub fn touch_at_distance(self, distance_m: f64) -> Touch {
         let extent_m = f64::from(self.extent_m);
         let u = distance_m / extent_m;
@@ -68,7 +68,7 @@ impl Hand {
     }
 }
 
-/// Position and speed on a line of extent 1 at distance `u`.
+/// Position and relative speed on a line of extent 1 at distance `u`.
 fn line(u: f64) -> (f64, f64, f64) {
     let straight = 1.0 - 2.0 * TURN_SHARE;
     let half_cycle = straight + PI * TURN_SHARE;
@@ -82,16 +82,16 @@ fn line(u: f64) -> (f64, f64, f64) {
     }
 }
 
-/// Position and speed on the turning eight of extent 1 at distance `u`.
+/// Position and relative speed on the rotating figure eight of extent 1 at distance `u`.
 fn scribble(u: f64) -> (f64, f64, f64) {
-    // Two circles that touch in the middle, the right one walked first, both entered downwards.
+    // Two circles touch in the center. The right one comes first, and both start downwards.
     let radius = 0.25;
     let walked = u.rem_euclid(4.0 * PI * radius);
     let side = if walked < 2.0 * PI * radius { 1.0 } else { -1.0 };
     let (sin, cos) = (walked / radius).sin_cos();
     let (x, y) = (side * radius * (1.0 - cos), -radius * sin);
     let (dx, dy) = (side * sin, -cos);
-    // The whole figure turns: its rim, half an extent from the middle, moves at the spread.
+    // The figure rotates: its outermost point, half an extent from the center, moves at `SCRIBBLE_SPREAD`.
     let turn_rate = 2.0 * SCRIBBLE_SPREAD;
     let rate = (dx - turn_rate * y).hypot(dy + turn_rate * x);
     let (sin, cos) = (turn_rate * u).sin_cos();
@@ -108,7 +108,7 @@ mod tests {
         Hand { path, speed_mps: 0.15, force_n: 0.7, extent_m: 0.06 }
     }
 
-    /// The shape in f64, so that a numeric derivative means something.
+    /// The curve in f64, so that a numeric derivative is meaningful.
     fn place(path: Path, u: f64) -> (f64, f64, f64) {
         match path {
             Path::Line => super::line(u),
@@ -125,7 +125,7 @@ mod tests {
                 let u = f64::from(i) * 1.37e-3;
                 let (a, b, here) = (place(path, u - h), place(path, u + h), place(path, u));
                 let slope = (b.0 - a.0).hypot(b.1 - a.1) / (2.0 * h);
-                // Second derivatives are at most 1/TURN_SHARE = 40, and jump where a curve begins: 40 h.
+                // Second derivatives are at most 1/TURN_SHARE = 40 and jump where a curve begins, so the error is 40 h.
                 assert!((slope - here.2).abs() < 5e-4, "{path:?} at {u}: {slope} for {}", here.2);
             }
         }
@@ -145,11 +145,11 @@ mod tests {
                     Path::Scribble => assert!((share - 1.0).abs() <= SCRIBBLE_SPREAD + 1e-6, "{share}"),
                 }
                 at_speed += i32::from((share - 1.0).abs() < 1e-6);
-                // Never outside the extent.
+                // The tip never leaves the extent.
                 assert!(touch.x_m.hypot(touch.y_m) <= 0.5 * hand.extent_m * 1.000_01);
             }
             if path == Path::Line {
-                // 0.95 of straight to 0.025 pi of turn.
+                // Ratio of 0.95 for the straight part to 0.025 pi for the reversal.
                 let share = f64::from(at_speed) / 20_000.0;
                 assert!((share - 0.95 / (0.95 + 0.025 * PI)).abs() < 0.01, "{share}");
             }
@@ -160,7 +160,7 @@ mod tests {
     fn a_line_passes_through_rest_in_the_stated_time() {
         let hand = hand(Path::Line);
         let end_of_straight = 0.95 * 0.06 / 0.15;
-        // Half a circle of a fortieth of the extent, walked at the set speed.
+        // The reversal is half a circle with a radius of 1/40 of the extent, traversed at the set speed.
         let turn_secs = PI * TURN_SHARE * 0.06 / 0.15;
         let slowest = hand.touch_at(end_of_straight + 0.5 * turn_secs);
         assert!(slowest.contact.speed_mps < 1e-6);

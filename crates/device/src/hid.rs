@@ -1,8 +1,8 @@
-//! Pens by the protocol of human interface devices (HID), without the system's own driver for pens between.
+//! Direct input from pens by the human interface device (HID) protocol, without the system's pen driver.
 //!
-//! [`descriptor`] reads what a device declares, [`pen`] finds the pen in it and reads its reports, [`tracker`] makes
-//! touches of them, and [`live`] does this for a device that can come and go. Nothing here trusts a device: reports
-//! and descriptors may hold anything.
+//! [`descriptor`] parses report descriptors, [`pen`] finds the pen in one and decodes its reports, [`tracker`] converts
+//! them to touches, and [`live`] does this for a device that can be unplugged. No module trusts a device: reports and
+//! descriptors may hold any bytes.
 
 pub mod clock;
 pub mod descriptor;

@@ -1,34 +1,35 @@
-//! The speed of a tip from its reported positions.
+//! Estimation of the tip speed from reported positions.
 //!
-//! Reports come at uneven times with a noise of some hundredths of a millimeter. The Kalman filter follows a stroke
-//! with a few milliseconds of delay where the low-pass used with the published texture models needs about twenty;
-//! both are here so that recordings made with either can be repeated. Golden numbers: `vectors/l_stylus`.
+//! Reports arrive at irregular times with a position noise of some hundredths of a millimeter. The Kalman filter
+//! follows a stroke with a delay of a few milliseconds. The low-pass used with the published (HaTT) texture models
+//! needs about 20 ms. Both are available, so that recordings made with either can be reproduced. Golden values:
+//! `vectors/l_stylus`.
 
 use std::f64::consts::TAU;
 
-/// How long the last speed stands after the last report, in seconds.
+/// Time for which the last speed is held after the last report, in seconds.
 pub const HOLD_SECS: f64 = 0.020;
-/// Time constant of the decay after that, in seconds.
+/// Time constant of the decay after the hold, in seconds.
 pub const DECAY_SECS: f64 = 0.015;
 
-/// How positions become a speed.
+/// Speed estimator, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpeedFilter {
-    /// A Kalman filter of constant velocity on each axis.
+    /// A constant-velocity Kalman filter on each axis.
     Kalman {
-        /// Power spectral density of the white acceleration that changes the velocity, in m²/s³.
+        /// Power spectral density of the white-noise acceleration, in m²/s³.
         acceleration_density_m2ps3: f64,
-        /// Standard deviation of a reported position, in m.
+        /// Standard deviation of the position noise, in m.
         position_noise_m: f64,
     },
-    /// The derivative inside a one-euro filter. (That filter's other two settings smooth the position only.)
+    /// The derivative stage of a one-euro filter. The filter's other two parameters smooth the position only.
     OneEuro {
         /// Cutoff of the low-pass on the derivative, in Hz.
         cutoff_hz: f64,
     },
-    /// Two equal first-order low-passes, discretized by backward Euler.
+    /// Two equal first-order low-passes, discretized by the backward Euler method.
     LowPass {
-        /// Corner of each, in rad/s.
+        /// Corner frequency of each, in rad/s.
         corner_radps: f64,
     },
 }
@@ -36,16 +37,16 @@ pub enum SpeedFilter {
 impl SpeedFilter {
     /// The default: q = 1e5 mm²/s³ and r = (0.02 mm)².
     pub const KALMAN: Self = Self::Kalman { acceleration_density_m2ps3: 0.1, position_noise_m: 2e-5 };
-    /// A one-euro filter with its derivative cut off at 15 Hz.
+    /// A one-euro filter whose derivative has a cutoff of 15 Hz.
     pub const ONE_EURO: Self = Self::OneEuro { cutoff_hz: 15.0 };
-    /// The low-pass that goes with the published texture models.
+    /// The low-pass used with the published (HaTT) texture models, with corner frequency 125 rad/s.
     pub const LOW_PASS: Self = Self::LowPass { corner_radps: 125.0 };
 }
 
-/// Variance of the velocity before the first step, in m²/s²: 0.1 m/s either way.
+/// Initial variance of the velocity in m²/s²: a standard deviation of 0.1 m/s.
 const FIRST_VELOCITY_VARIANCE: f64 = 0.01;
 
-/// One axis: every filter keeps a velocity, and some a second number or a covariance.
+/// Filter state of one axis. Every filter keeps a velocity; some also keep a second velocity or a covariance.
 #[derive(Clone, Copy, Debug, Default)]
 struct Axis {
     last_m: f64,
@@ -66,7 +67,7 @@ impl Axis {
         Self { last_m: position_m, position_m, covariance, ..Self::default() }
     }
 
-    /// Velocity in m/s after a report `step_secs` later.
+    /// Velocity in m/s after a report that is `step_secs` later.
     fn step(&mut self, filter: SpeedFilter, step_secs: f64, measured_m: f64) -> f64 {
         let difference_mps = (measured_m - self.last_m) / step_secs;
         self.last_m = measured_m;
@@ -101,7 +102,7 @@ impl Axis {
     }
 }
 
-/// The filter and what it remembers of one stroke.
+/// A speed filter with its state for one stroke.
 #[derive(Clone, Debug)]
 pub struct SpeedEstimator {
     filter: SpeedFilter,
@@ -117,9 +118,9 @@ impl SpeedEstimator {
         Self { filter, last_secs: None, x: Axis::default(), y: Axis::default(), speed_mps: 0.0 }
     }
 
-    /// Speed in m/s after the tip was reported at a place: zero at the first report of a stroke.
+    /// Processes a position and returns the speed in m/s: zero at the first report of a stroke.
     ///
-    /// A report that is not later than the last, or not finite, changes nothing.
+    /// A report that is not later than the last one, or not finite, is ignored.
     pub fn report(&mut self, time_secs: f64, x_m: f64, y_m: f64) -> f64 {
         if !(time_secs.is_finite() && x_m.is_finite() && y_m.is_finite()) {
             return self.speed_mps;
@@ -143,17 +144,17 @@ impl SpeedEstimator {
         self.speed_mps
     }
 
-    /// Forgets the stroke: the next report begins another.
+    /// Ends the stroke. The next report starts another one.
     pub fn lift(&mut self) {
         self.last_secs = None;
         self.speed_mps = 0.0;
     }
 }
 
-/// The speed to play `age_secs` after the report that gave `speed_mps`: held for [`HOLD_SECS`], then decaying with
-/// [`DECAY_SECS`], since a hand that no longer moves no longer reports.
+/// Returns the speed to play `age_secs` after the report that gave `speed_mps`. It is held for [`HOLD_SECS`] and then
+/// decays with [`DECAY_SECS`], because a stylus at rest sends no reports.
 pub fn held_speed(speed_mps: f64, age_secs: f64) -> f64 {
-    // A clock that went back, or nonsense, counts as no time.
+    // A negative or invalid age counts as zero.
     let late_secs = (age_secs - HOLD_SECS).max(0.0);
     speed_mps * (-late_secs / DECAY_SECS).exp()
 }
@@ -179,7 +180,7 @@ mod tests {
             ("one_euro", SpeedFilter::ONE_EURO),
             ("lp2", SpeedFilter::LOW_PASS),
         ] {
-            // Along either axis, and along neither (3-4-5), the speed is the same.
+            // Along either axis, and along a diagonal (3-4-5), the speed is the same.
             for (cos, sin) in [(1.0, 0.0), (0.0, -1.0), (0.6, 0.8)] {
                 let mut estimator = SpeedEstimator::new(filter);
                 for ((&t, &x_mm), expected) in times.iter().zip(&places_mm).zip(numbers(&vec[name])) {
@@ -199,7 +200,7 @@ mod tests {
             let mut estimator = SpeedEstimator::new(filter);
             let mut speed = 0.0;
             for i in 0..400 {
-                // Uneven times.
+                // Times are irregular.
                 let t = f64::from(i) * 0.005 + 0.001 * f64::from(i % 3);
                 speed = estimator.report(t, 0.1 * t, 0.0);
             }

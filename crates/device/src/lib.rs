@@ -1,14 +1,14 @@
-//! Everything that can block, fail or vanish: actuator outputs, styluses, and the engine between them.
+//! Device access: actuator outputs, styluses, and the real-time engine between them.
 //!
 //! # Conventions
 //!
-//! - SI units, in the name of every number: `x_m`, `speed_mps`, `force_n`, `time_secs`, `rate_hz`; accelerations are
-//!   in m/s² (`_mps2`). Only the last step before the actuator is without a unit: -1..1 of the device's full scale.
-//! - Two halves: a [`engine::Handle`] for whoever is in charge, an [`engine::Engine`] for the callback. What must agree
-//!   goes down in one `Copy` struct, textures and strokes go down in bounded rings and come back to be freed, and a
-//!   full ring gives the value back.
-//! - An output is opened by identity and never replaced by another: if it goes, there is silence, and
-//!   [`status::Status`] says so.
+//! - SI units, stated in names: `x_m`, `speed_mps`, `force_n`, `time_secs`, `rate_hz`; accelerations are in m/s²
+//!   (`_mps2`). Only the drive signal is dimensionless: -1..1 of the device's full scale.
+//! - The engine has two halves: an [`engine::Handle`] for the controlling thread and an [`engine::Engine`] for the
+//!   audio callback. Controls that must agree are sent as one `Copy` struct. Textures and strokes are sent through
+//!   bounded queues and returned to be freed. A full queue returns the value to the sender.
+//! - An output is opened by its id and never replaced by another one. If it is lost, there is silence, and
+//!   [`status::Status`] reports it.
 //!
 //! ```
 //! use shagreen_device::engine::{self, ChannelMask, EngineConfig};
@@ -21,7 +21,7 @@
 //!     drive: DriveConfig::proportional(20.0, 0.9),
 //!     channels: ChannelMask::FIRST_TWO,
 //! })?;
-//! // What a callback does: here nothing is loaded, so it is silence.
+//! // Body of an audio callback. No texture is loaded, so the output is silent.
 //! let mut out = [f32::NAN; 512];
 //! engine.process(&mut out, 2);
 //! assert_eq!(out, [0.0; 512]);
@@ -45,10 +45,13 @@ pub mod live;
 pub mod measure;
 mod null_output;
 pub mod output;
+mod output_options;
 pub mod pressure;
 #[cfg(target_os = "linux")]
 mod pulse;
 pub mod repeat;
+mod running;
+pub mod sensor;
 pub mod serial;
 pub mod signal;
 pub mod status;
@@ -58,5 +61,5 @@ pub mod touch;
 pub mod track;
 mod urgency;
 
-/// The types that an engine is fed with: `Mix`, `Contact`, `DriveConfig`, `Node`, `Tap`, `Triangle`.
+/// Rendering types that an engine takes: `Mix`, `Contact`, `DriveConfig`, `Node`, `Tap`, `Triangle`.
 pub use shagreen_synth as synth;

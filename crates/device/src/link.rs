@@ -1,4 +1,4 @@
-//! What the device says about itself, from its own threads to the handle: counters, and the error that ends it.
+//! Status of a device, shared by its threads with the handle: counters, and the error that ends the connection.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -9,18 +9,18 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use crate::error::DeviceError;
 use crate::status::{LinkState, Status};
 
-/// A device that has not asked for samples for this long is stalled, and if it reports errors meanwhile, lost; seconds.
+/// Time without a callback, in seconds, after which a device is stalled; with errors meanwhile, it is lost.
 pub const STALL_SECS: f64 = 1.0;
-/// The same for a device that has just been opened and has not asked yet: some take seconds to wake; seconds.
+/// The same limit, in seconds, for a newly opened device before its first callback; some take seconds to start.
 pub const START_SECS: f64 = 5.0;
 
-/// Counters that every end sees; nothing waits for them.
+/// Counters that all threads share without waiting.
 #[derive(Debug)]
 pub(crate) struct Shared {
     opened: Instant,
-    /// Microseconds from `opened` to the last call of the callback, plus one; zero before the first.
+    /// Microseconds from `opened` to the last callback, plus one; zero before the first.
     last_callback: AtomicU64,
-    /// Microseconds from `opened` to when the last block will have been heard, as far as the device says.
+    /// Microseconds from `opened` to the estimated end of playback of the last block, from the device's stated latency.
     heard: AtomicU64,
     underruns: AtomicU64,
     backend_errors: AtomicU64,
@@ -28,19 +28,19 @@ pub(crate) struct Shared {
 }
 
 impl Shared {
-    /// The callback was called.
+    /// Records a callback.
     pub(crate) fn note_callback(&self, now: Instant) {
         let micros = now.saturating_duration_since(self.opened).as_micros() as u64;
         self.last_callback.store(micros + 1, Ordering::Relaxed);
     }
 
-    /// What the callback is about to hand over will have been heard by then.
+    /// Records when the block that the callback is about to return will have been played.
     pub(crate) fn note_heard_by(&self, time: Instant) {
         let micros = time.saturating_duration_since(self.opened).as_micros() as u64;
         self.heard.fetch_max(micros, Ordering::Relaxed);
     }
 
-    /// When all that has been handed over will have been heard, as far as the device says.
+    /// Time at which all returned blocks will have been played, from the device's stated latency.
     pub(crate) fn heard_by(&self) -> Instant {
         self.opened + Duration::from_micros(self.heard.load(Ordering::Relaxed))
     }
@@ -49,12 +49,12 @@ impl Shared {
         self.underruns.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The device says that it ran out of samples so many times more.
+    /// Adds underruns that the device reports.
     pub(crate) fn note_underruns(&self, n: u64) {
         self.underruns.fetch_add(n, Ordering::Relaxed);
     }
 
-    /// The device says that it went on after so many more errors.
+    /// Adds errors after which the device continued.
     pub(crate) fn note_errors(&self, n: u64) {
         self.backend_errors.fetch_add(n, Ordering::Relaxed);
     }
@@ -67,7 +67,7 @@ impl Shared {
         self.last_callback.load(Ordering::Relaxed).checked_sub(1).map(Duration::from_micros)
     }
 
-    /// Whether the callback has not been called for too long.
+    /// Whether the last callback is too long ago.
     fn is_silent(&self, now: Instant) -> bool {
         let since_opened = now.saturating_duration_since(self.opened);
         let (since, limit_secs) = match self.last_callback() {
@@ -78,7 +78,7 @@ impl Shared {
     }
 }
 
-/// The device's end.
+/// The device's side of the link.
 #[derive(Debug)]
 pub(crate) struct Reporter {
     pub(crate) shared: Arc<Shared>,
@@ -86,27 +86,27 @@ pub(crate) struct Reporter {
 }
 
 impl Reporter {
-    /// The device is gone: silence from here on. Only the first such report is told.
+    /// Marks the device as lost; it is silent from now on. Only the first such error is kept.
     pub(crate) fn lose(&mut self, error: DeviceError) {
         if !self.shared.lost.swap(true, Ordering::Relaxed) {
-            self.losses.push(error).ok(); // Full of the loss that came first, which is the one to tell.
+            self.losses.push(error).ok(); // Full: it holds the first loss, which is reported.
         }
     }
 
-    /// The device ran out of samples.
+    /// Records an underrun.
     pub(crate) fn note_underrun(&mut self, now: Instant, error: impl FnOnce() -> DeviceError) {
         self.shared.note_underrun();
         self.lose_if_silent(now, error);
     }
 
-    /// The device reported an error that it may go on after.
+    /// Records an error after which the device may continue.
     pub(crate) fn note_error(&mut self, now: Instant, error: impl FnOnce() -> DeviceError) {
         self.shared.backend_errors.fetch_add(1, Ordering::Relaxed);
         self.lose_if_silent(now, error);
     }
 
-    /// Some devices report thousands of errors when they start and then play perfectly, so errors are a loss only
-    /// where nothing has been played for [`STALL_SECS`]: then they are told as `error`.
+    /// Marks the device as lost with `error` if there was no callback for [`STALL_SECS`]. Errors alone are not a loss:
+    /// some devices report thousands when they start and then play correctly.
     fn lose_if_silent(&mut self, now: Instant, error: impl FnOnce() -> DeviceError) {
         if self.shared.is_silent(now) {
             self.lose(error());
@@ -114,7 +114,7 @@ impl Reporter {
     }
 }
 
-/// The handle's end.
+/// The handle's side of the link.
 #[derive(Debug)]
 pub(crate) struct Monitor {
     shared: Arc<Shared>,
@@ -123,7 +123,7 @@ pub(crate) struct Monitor {
 }
 
 impl Monitor {
-    /// Fills in what the device says about itself.
+    /// Fills in the fields of `status` that describe the device.
     pub(crate) fn complete(&self, status: &mut Status, now: Instant) {
         status.underruns = self.shared.underruns.load(Ordering::Relaxed);
         status.backend_errors = self.shared.backend_errors.load(Ordering::Relaxed);
@@ -140,13 +140,13 @@ impl Monitor {
 
     pub(crate) fn loss(&mut self) -> Option<&DeviceError> {
         if self.loss.is_none() {
-            self.loss = self.losses.pop().ok(); // Empty: nothing is lost.
+            self.loss = self.losses.pop().ok(); // Empty: the device is not lost.
         }
         self.loss.as_ref()
     }
 }
 
-/// The two ends of a device opened now.
+/// Returns both sides of the link to a device that is opened now.
 pub(crate) fn link() -> (Reporter, Monitor) {
     let shared = Arc::new(Shared {
         opened: Instant::now(),

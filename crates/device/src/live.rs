@@ -1,4 +1,4 @@
-//! The way of a person's touches into the engine.
+//! Input of live touches to the engine.
 
 use std::time::Instant;
 
@@ -6,41 +6,41 @@ use rtrb::{Producer, PushError};
 
 use crate::touch::Touch;
 
-/// A touch and when it was.
+/// A touch with its time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TimedTouch {
     pub(crate) touch: Touch,
     pub(crate) time: Instant,
-    /// How fast the tip landed, in m/s, where that is known.
+    /// Impact speed of the tip in m/s, if known.
     pub(crate) landing_mps: Option<f32>,
-    /// Whether the stylus touches or is about to.
+    /// Whether the stylus touches or is in proximity.
     pub(crate) is_near: bool,
 }
 
 impl TimedTouch {
-    /// A stylus that touches is near, and one that does not is not.
+    /// A touch whose proximity equals its contact.
     pub(crate) fn new(touch: Touch, time: Instant, landing_mps: Option<f32>) -> Self {
         Self { touch, time, landing_mps, is_near: touch.contact.force_n > 0.0 }
     }
 }
 
-/// The sender's end of a bounded ring of touches: it belongs to whoever reads the stylus, on any thread.
+/// Sender of live touches through a bounded queue, for the reader of a stylus on any thread.
 #[derive(Debug)]
 pub struct LiveInput {
     pub(crate) touches: Producer<TimedTouch>,
 }
 
 impl LiveInput {
-    /// Sends what the stylus did at `time`; the newest counts, and its speed decays when no other follows.
+    /// Sends a touch of the stylus at `time`. The newest touch counts; its speed decays if no other follows.
     ///
     /// # Errors
-    /// Gives the touch back while the ring is full, which it is only when the output has stopped.
+    /// Returns the touch if the queue is full, which happens only when the output has stopped.
     pub fn send(&mut self, touch: Touch, time: Instant) -> Result<(), Touch> {
         self.push(TimedTouch::new(touch, time, None))
     }
 
-    /// Sends a touch that may be a landing, and how fast it was, in m/s, as far as the stylus tells. A touch is a landing
-    /// where the one before was lifted.
+    /// Sends a touch that may be a contact onset, with its impact speed in m/s if the stylus provides it. A touch is a
+    /// contact onset if the previous one was lifted.
     ///
     /// # Errors
     /// As [`LiveInput::send`].
@@ -48,8 +48,8 @@ impl LiveInput {
         self.push(TimedTouch::new(touch, time, landing_mps))
     }
 
-    /// Sends that the stylus is near, above the place of `touch`: it is nobody's turn but the person's from now on where the
-    /// controls let the hand take over ([`crate::controls::Takeover`]).
+    /// Sends that the stylus is in proximity, above the position of `touch`. Live input takes over from now on if the
+    /// controls permit it ([`crate::controls::Takeover`]).
     ///
     /// # Errors
     /// As [`LiveInput::send`].

@@ -1,4 +1,4 @@
-//! Plays a signal on an output and listens to a sensor meanwhile: how an actuator is measured.
+//! Measurement of an actuator: plays a signal on an output and records a sensor at the same time.
 
 use std::fmt::Display;
 use std::time::{Duration, Instant};
@@ -9,24 +9,10 @@ use crate::audio_input::Recorder;
 use crate::engine::{ChannelMask, FADE_SECS, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::output::{self, OpenOptions, Running};
+use crate::sensor::Sensor;
 use crate::serial::{self, ReceiverInfo, SerialOptions, SerialSensor};
 use crate::signal::Signal;
 use crate::status::{LinkState, Status};
-
-/// What listens: samples that come by themselves.
-pub trait Sensor {
-    /// Rate of the samples, in Hz.
-    fn rate_hz(&self) -> f64;
-
-    /// Appends what has come since the last call.
-    fn read(&mut self, out: &mut Vec<f32>);
-
-    /// Whether it still listens and nothing is missing.
-    ///
-    /// # Errors
-    /// Says what is wrong and what to do.
-    fn check(&self) -> Result<(), DeviceError>;
-}
 
 impl Sensor for Recorder {
     fn rate_hz(&self) -> f64 {
@@ -42,58 +28,59 @@ impl Sensor for Recorder {
     }
 }
 
-/// Who listens.
+/// Sensor of a measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Listener {
-    /// An input of the system's sound.
+    /// An audio input of the system.
     Input {
-        /// Its id.
+        /// Id of the input.
         id: String,
-        /// Which of its channels, from zero.
+        /// Channel, counted from zero.
         channel_idx: usize,
-        /// Acceleration of a sample of 1.0, in m/s².
+        /// Acceleration at a sample of 1.0, in m/s².
         sensitivity_mps2: f64,
     },
     /// The accelerometer of a receiver on a serial port.
     Serial {
-        /// The port.
+        /// Name of the port.
         port: String,
-        /// Its baud rate.
+        /// Baud rate.
         baud: u32,
     },
 }
 
-/// What was heard of a signal.
+/// Result of a measurement.
 #[derive(Clone, Debug)]
 pub struct Heard {
-    /// Acceleration in m/s².
+    /// Recorded acceleration in m/s².
     pub mps2: Vec<f64>,
-    /// Samples a second.
+    /// Sample rate, in Hz.
     pub rate_hz: f64,
-    /// How the output was doing at the end, but for what counts from the beginning of the measurement on: its underruns,
-    /// errors and limited samples, and the lowest gain that kept the coil cool.
+    /// Status of the output at the end. Underruns, errors and limited samples count from the start of the measurement;
+    /// `heat_gain` is the lowest thermal gain during it.
     pub status: Status,
 }
 
 impl Heard {
-    /// Whether the limits of the actuator turned the signal down.
+    /// Whether the actuator's limits attenuated the signal.
     pub fn was_limited(&self) -> bool {
         self.status.limited_samples > 0 || self.status.heat_gain < 0.99
     }
 }
 
-/// Opens output `id` with these limits on these channels, plays on it the drive that `drive_at` makes for its rate in Hz, and returns what was heard.
+/// Plays a drive signal on output `id`, with these limits and channels, and returns the recorded acceleration.
+/// `drive_at` makes the drive for the output's sample rate in Hz.
 ///
-/// `go_on` is told the share that is done, 0..1, and says whether to go on. Where it does not, and with every error, the
-/// signal fades before the output is closed.
+/// `go_on` gets the completed fraction, 0..1, and returns whether to continue. If it returns false, and after every
+/// error, the signal fades out before the output is closed.
 ///
 /// # Errors
-/// Those of [`crate::output::open`] and of the listener, and:
-/// - [`DeviceErrorKind::Config`] where `drive_at` says why there is no drive.
-/// - [`DeviceErrorKind::Unsupported`], before anything is played, where the receiver that is to listen has no sensor.
-/// - [`DeviceErrorKind::Lost`] where the output or the sensor goes.
-/// - [`DeviceErrorKind::Canceled`] where `go_on` says so.
-/// - [`DeviceErrorKind::Unavailable`] where the output asks for nothing, or the sensor says nothing.
+/// Those of [`crate::output::open`] and of the sensor, and:
+/// - [`DeviceErrorKind::Config`] if `drive_at` fails; the message is its error.
+/// - [`DeviceErrorKind::Unsupported`], before playback, if the receiver of the measurement has no sensor.
+/// - [`DeviceErrorKind::Lost`] if the output or the sensor is disconnected.
+/// - [`DeviceErrorKind::Canceled`] if `go_on` returns false.
+/// - [`DeviceErrorKind::Unavailable`] if the output requests no samples, or the sensor sends none.
 pub fn measure<E: Display>(
     id: &str,
     (drive, channels): (DriveConfig, ChannelMask),
@@ -101,7 +88,7 @@ pub fn measure<E: Display>(
     drive_at: &dyn Fn(f64) -> Result<Vec<f32>, E>,
     go_on: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Heard, DeviceError> {
-    // Nothing is rendered here: the rate of textures and the noise say nothing.
+    // No texture is rendered, so the model rate and the seed have no effect.
     let options = OpenOptions {
         model_rate_hz: 1000.0,
         preferred_rate_hz: None,
@@ -127,7 +114,7 @@ pub fn measure<E: Display>(
         }
         Listener::Serial { port, baud } => {
             let serial = SerialOptions { baud: *baud, ..SerialOptions::default() };
-            // The channels are those of the output; a receiver that only listens has its own.
+            // The channels apply to the output; a receiver that is only the sensor gets its own.
             let is_output = serial_id(id) == serial_id(port);
             let listening = OpenOptions { channels: ChannelMask::FIRST_TWO, ..options };
             let mut connection = serial::open(port, if is_output { options } else { listening }, serial)?;
@@ -145,44 +132,44 @@ pub fn measure<E: Display>(
     Ok(Heard { mps2: samples.iter().map(|x| scale * f64::from(*x)).collect(), rate_hz, status })
 }
 
-/// A port's name without what its id begins with.
+/// Name of a port without the id prefix.
 fn serial_id(id: &str) -> &str {
     id.strip_prefix(serial::ID_PREFIX).unwrap_or(id)
 }
 
-/// Whether a receiver has something to listen with.
+/// Checks that a receiver has a sensor.
 fn check_sensor(port: &str, receiver: &ReceiverInfo) -> Result<(), DeviceError> {
     if receiver.has_sensor {
         return Ok(());
     }
     let message = format!(
-        "the receiver `{}` on `{port}` has no sensor; connect an accelerometer that its firmware knows, or listen with an \
-         input of the system's sound: `shagreen devices` lists them",
+        "the receiver `{}` on `{port}` has no sensor; connect an accelerometer that its firmware supports, or use an \
+         audio input: `shagreen devices` lists them",
         receiver.name
     );
     Err(DeviceError::new(DeviceErrorKind::Unsupported, message))
 }
 
-/// What a sensor said of a signal.
+/// Recording of a sensor during a signal.
 #[derive(Clone, Debug)]
 struct Listened {
-    /// Its samples, silence before and after the signal included.
+    /// Samples, including the silence before and after the signal.
     samples: Vec<f32>,
     /// As [`Heard::status`].
     status: Status,
 }
 
-/// Silence that is recorded before the signal and after it, in seconds: what the room does by itself, and what rings.
+/// Duration of the recorded silence before and after the signal, in seconds, for background noise and decay.
 pub const SILENCE_SECS: f64 = 1.0;
-/// How often both are looked at.
+/// Interval between two reads of sensor and output.
 const POLL: Duration = Duration::from_millis(10);
-/// How much longer than the signal playing may take.
+/// Time that playback may take beyond the signal's length.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// How much longer than its fade a signal may take to end where a measurement is given up.
+/// Time that a signal may take beyond its fade to end after an aborted measurement.
 const FADE_PATIENCE: Duration = Duration::from_millis(500);
 
-/// Plays a signal through an engine and returns what the sensor heard, silence before and after included. Whatever ends
-/// it, the signal has faded by the time that this returns.
+/// Plays a signal through an engine and returns the sensor's recording, including silence before and after. The signal
+/// has faded out when this returns, also after an error.
 fn play_and_listen(
     handle: &mut Handle,
     signal: Signal,
@@ -192,7 +179,7 @@ fn play_and_listen(
     play_and_listen_for(handle, signal, sensor, go_on, PATIENCE)
 }
 
-/// The same, with another patience for what does not begin or end.
+/// As [`play_and_listen`], with another time limit.
 fn play_and_listen_for(
     handle: &mut Handle,
     signal: Signal,
@@ -207,7 +194,7 @@ fn play_and_listen_for(
     listened
 }
 
-/// Ends the signal and waits until its fade has left the device, as far as that can be.
+/// Stops the signal and waits until its fade has been played by the device, within a time limit.
 fn let_fade(handle: &mut Handle) {
     handle.stop_signal();
     let begun = Instant::now();
@@ -218,13 +205,13 @@ fn let_fade(handle: &mut Handle) {
         }
         std::thread::sleep(POLL);
     }
-    // What the device has taken is heard so much later.
+    // Samples that the device has taken are played after its latency.
     let device_secs = handle.status().device_latency_secs;
     let device = Duration::try_from_secs_f32(device_secs).unwrap_or_default();
     std::thread::sleep(POLL + device.min(FADE_PATIENCE));
 }
 
-/// What an output did since a status, up to the last of those that it was told.
+/// Changes of an output's status since the start of the measurement.
 struct Watch {
     begin: Status,
     lowest_heat_gain: f32,
@@ -267,29 +254,35 @@ fn listen_around(
         let status = handle.status();
         if status.state == LinkState::Lost {
             let lost = || {
-                DeviceError::new(DeviceErrorKind::Lost, "the output is lost; open it again and measure anew")
+                DeviceError::new(
+                    DeviceErrorKind::Lost,
+                    "the output is lost; open it again and repeat the measurement",
+                )
             };
             return Err(handle.loss().cloned().unwrap_or_else(lost));
         }
         if !go_on(secs_done / (signal_secs + 2.0 * SILENCE_SECS)) {
-            return Err(DeviceError::new(DeviceErrorKind::Canceled, "the measurement was stopped"));
+            return Err(DeviceError::new(DeviceErrorKind::Canceled, "the measurement was canceled"));
         }
         Ok(status)
     };
     let started = Instant::now();
     while listen(handle, 0.0, &mut heard)?.state != LinkState::Running || heard.is_empty() {
         if started.elapsed() > patience {
-            let what =
-                if heard.is_empty() { "the sensor sends nothing" } else { "the output asks for no samples" };
+            let what = if heard.is_empty() {
+                "the sensor sends no samples"
+            } else {
+                "the output requests no samples"
+            };
             let message =
-                format!("{what}; look at its connection, or choose another: `shagreen devices` lists them");
+                format!("{what}; check its connection, or choose another one that `shagreen devices` lists");
             return Err(DeviceError::new(DeviceErrorKind::Unavailable, message));
         }
     }
     wait(SILENCE_SECS, &mut |secs| listen(handle, secs, &mut heard).map(|_| ()))?;
     let mut watch = Watch::new(handle.status());
     if handle.play_signal(signal).is_err() {
-        let message = "the output takes no signal; try again";
+        let message = "the output's command queue is full; try again";
         return Err(DeviceError::new(DeviceErrorKind::Unavailable, message));
     }
     let begun = Instant::now();
@@ -304,7 +297,8 @@ fn listen_around(
         }
         has_begun |= plays;
         if begun.elapsed() > Duration::from_secs_f64(signal_secs) + patience {
-            let message = "the output did not play the signal to its end; open it again and measure anew";
+            let message =
+                "the output did not play the signal to its end; open it again and repeat the measurement";
             return Err(DeviceError::new(DeviceErrorKind::Unavailable, message));
         }
     }
@@ -314,7 +308,7 @@ fn listen_around(
     Ok(Listened { samples: heard, status: watch.until(handle.status()) })
 }
 
-/// Does something for so long, told how long it has been done.
+/// Calls `step` repeatedly for the given time, with the elapsed time in seconds.
 fn wait(secs: f64, step: &mut dyn FnMut(f64) -> Result<(), DeviceError>) -> Result<(), DeviceError> {
     let begun = Instant::now();
     while begun.elapsed().as_secs_f64() < secs {

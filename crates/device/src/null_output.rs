@@ -1,4 +1,4 @@
-//! The output that plays to nobody, by a real clock: for work without an actuator, and for tests.
+//! Silent output that runs on a real clock, for work without an actuator and for tests.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,12 +11,13 @@ use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::{Reporter, Shared};
 use crate::urgency::run_before_others;
 
-/// Channels of the silent output.
+/// Number of channels of the silent output.
 pub(crate) const CHANNELS: u16 = 2;
-/// A clock that is further behind than this was suspended; what it missed is skipped, and counted as an underrun.
+/// Delay after which the clock is assumed to have been suspended; the missed time is skipped and counted as an
+/// underrun.
 const SUSPENDED: Duration = Duration::from_secs(1);
 
-/// A thread that asks the engine for samples as a device would.
+/// A thread that requests samples from the engine like a device.
 #[derive(Debug)]
 pub(crate) struct NullOutput {
     stop: Arc<AtomicBool>,
@@ -24,7 +25,7 @@ pub(crate) struct NullOutput {
 }
 
 impl NullOutput {
-    /// Starts to play in blocks of `frames`.
+    /// Starts playback in blocks of `frames`.
     pub(crate) fn start(
         engine: Engine,
         reporter: &Reporter,
@@ -44,7 +45,8 @@ impl NullOutput {
                 play(edge, clock, &shared, &stopped, tap);
             })
             .map_err(|error| {
-                let message = format!("the silent output cannot start: the system gives no thread ({error})");
+                let message =
+                    format!("the silent output cannot start: the system cannot start a thread ({error})");
                 DeviceError::new(DeviceErrorKind::Backend, message)
             })?;
         Ok(Self { stop, thread: Some(thread) })
@@ -56,12 +58,12 @@ impl Drop for NullOutput {
         self.stop.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
             thread.thread().unpark();
-            thread.join().ok(); // A tap that panicked has said so on its own thread.
+            thread.join().ok(); // The panic of a tap has been printed already.
         }
     }
 }
 
-/// When each block is due: counted from the beginning, so that late blocks do not add up.
+/// Clock of the blocks. Due times count from the start, so that delays do not accumulate.
 struct Clock {
     begun: Instant,
     rate_hz: u32,
@@ -70,20 +72,20 @@ struct Clock {
 }
 
 impl Clock {
-    /// When block `block_idx` is asked for, since the beginning.
+    /// Time from the start until block `block_idx` is due.
     fn due(&self, block_idx: u64) -> Duration {
         let nanos =
             u128::from(block_idx) * u128::from(self.block_frames) * 1_000_000_000 / u128::from(self.rate_hz);
         Duration::from_nanos(nanos as u64)
     }
 
-    /// How long until the next block is due; nothing if it is.
+    /// Time until the next block is due; `None` if it is due already.
     fn wait(&self, now: Instant) -> Option<Duration> {
         let wait = self.due(self.blocks_done).saturating_sub(now.saturating_duration_since(self.begun));
         (!wait.is_zero()).then_some(wait)
     }
 
-    /// Starts anew if the clock stood still for long; says whether it did.
+    /// Restarts the clock after a suspension. Returns whether there was one.
     fn skip_suspension(&mut self, now: Instant) -> bool {
         let behind = now.saturating_duration_since(self.begun).saturating_sub(self.due(self.blocks_done));
         let was_suspended = behind > SUSPENDED;
@@ -106,7 +108,7 @@ fn play(mut edge: Edge, mut clock: Clock, shared: &Shared, stop: &AtomicBool, mu
             std::thread::park_timeout(wait);
             continue;
         }
-        // What is asked for when it is due is heard at once.
+        // A block is due at the moment of its playback, so its latency is zero.
         edge.fill(&mut block, channels, Duration::ZERO);
         tap(&block);
         clock.blocks_done += 1;
@@ -152,20 +154,20 @@ mod tests {
             extent_m: 0.06,
         }));
         std::thread::sleep(Duration::from_millis(300));
-        // Never ahead of the clock by more than a block, and soon within two blocks of it; on a busy machine not at
-        // every moment.
+        // The output is never ahead of the clock by more than a block, and soon within two blocks of it, though not at
+        // every moment on a busy machine.
         let mut tries = 0;
         loop {
             let since = begun.elapsed().as_secs_f64() * 48_000.0;
             let status = handle.status();
             let until = begun.elapsed().as_secs_f64() * 48_000.0;
             assert!(status.frames_played as f64 <= until + 256.0);
-            // The thread began a little after the test did.
+            // The thread started slightly after the test.
             if status.frames_played as f64 >= since - 2.0 * 256.0 {
                 break;
             }
             tries += 1;
-            assert!(tries < 10_000, "never caught up: {status:?} after {since} frames");
+            assert!(tries < 10_000, "the output does not catch up: {status:?} after {since} frames");
             std::thread::sleep(Duration::from_millis(1));
         }
         drop(running);
@@ -187,7 +189,7 @@ mod tests {
         }
         let stopping = Instant::now();
         drop(running);
-        // The next block is due eight seconds after the first.
+        // The next block is due eight seconds after the first one.
         assert!(stopping.elapsed() < Duration::from_secs(4));
     }
 
@@ -196,7 +198,7 @@ mod tests {
         let begun = Instant::now();
         let mut clock = Clock { begun, rate_hz: 44_100, block_frames: 256, blocks_done: 0 };
         assert_eq!(clock.wait(begun), None);
-        // Ten hours in.
+        // The clock has run for ten hours.
         clock.blocks_done = 36_000 * 44_100 / 256;
         let due = clock.due(clock.blocks_done).as_secs_f64();
         assert!((due - clock.blocks_done as f64 * 256.0 / 44_100.0).abs() < 1e-6);

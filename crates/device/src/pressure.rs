@@ -1,22 +1,23 @@
-//! From the pressure of a pen without a unit to newtons.
+//! Conversion of a pen's unitless pressure to newtons.
 
-/// The map from a pressure of 0..1 to a force, steeper towards full pressure: pens of the usual kind report more than
-/// in proportion at low forces, and this undoes it. Golden numbers: `vectors/l_stylus`.
+/// Map from a pressure of 0..1 to a force: `F = F₀ + (F_max − F₀)(e^{cp} − 1)/(e^c − 1)`. It is steeper towards full
+/// pressure, because usual pens report disproportionately high pressure at low forces. Golden values:
+/// `vectors/l_stylus`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressureMap {
-    /// Force at which the tip is just felt, in N.
+    /// Activation force `F₀` of the tip, in N.
     pub activation_n: f64,
-    /// Force at full pressure, in N.
+    /// Force `F_max` at full pressure, in N.
     pub full_n: f64,
-    /// Bend `c` of the exponential; zero is a straight line.
+    /// Curvature `c` of the exponential; zero is a straight line.
     pub bend: f64,
 }
 
 impl PressureMap {
-    /// What fits pens that declare nothing.
+    /// Default map for pens that declare no force.
     pub const USUAL: Self = Self { activation_n: 0.03, full_n: 4.0, bend: 2.0 };
 
-    /// Force in N at `pressure` (pulled to 0..1), zero while the tip is off.
+    /// Force in N at `pressure` (clamped to 0..1); zero without contact.
     pub fn force_n(&self, pressure: f64, touching: bool) -> f64 {
         if !touching || pressure.is_nan() {
             return 0.0;

@@ -1,9 +1,9 @@
-//! Outputs of a PulseAudio server, or of PipeWire, which speaks the same protocol.
+//! Outputs of a PulseAudio server, or of PipeWire, which implements the same protocol.
 //!
-//! The routes by which other libraries reach such a server let it move a stream to another sink when its own goes: drive
-//! that was meant for an actuator would then sound in somebody's headphones. Here a stream names its sink and forbids the
-//! server to move it, so that the server ends it instead. The protocol itself is that of the crate `pulseaudio`, which
-//! `cpal` uses too; its own client tells nobody of a stream that was ended, moved or ran dry, so only its messages are used.
+//! Other libraries let the server move a stream to another sink when its own is removed; actuator drive would then
+//! reach someone's headphones. Here, a stream names its sink and forbids moves, so the server ends it instead. The
+//! protocol messages are those of the crate `pulseaudio`, which `cpal` also uses. That crate's client does not report
+//! streams that were ended, moved or ran out of samples, so only its messages are used.
 
 mod connection;
 mod playback;
@@ -22,13 +22,13 @@ use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Shared;
-use crate::output::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
+use crate::output_options::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
 use crate::urgency::run_before_others;
 
-/// What ids of such outputs begin with; the rest is the sink's name.
+/// Prefix of the ids of these outputs; the rest is the sink's name.
 pub(crate) const PREFIX: &str = "pulse:";
 
-/// The sinks of the server, if one answers.
+/// Sinks of the server; empty if no server responds.
 pub(crate) fn list() -> Vec<OutputInfo> {
     // Without a server there are no such outputs.
     let Ok(mut connection) = Connection::open() else { return Vec::new() };
@@ -50,7 +50,7 @@ pub(crate) fn list() -> Vec<OutputInfo> {
 /// An open stream; it ends when it is dropped.
 #[derive(Debug)]
 pub(crate) struct PulseOutput {
-    /// Said before the line is hung up: what ends then is no loss.
+    /// Set before the connection is closed: the end of the stream is then not a loss.
     is_closing: Arc<AtomicBool>,
     socket: UnixStream,
     thread: Option<JoinHandle<()>>,
@@ -59,14 +59,14 @@ pub(crate) struct PulseOutput {
 impl Drop for PulseOutput {
     fn drop(&mut self) {
         self.is_closing.store(true, Ordering::Relaxed);
-        self.socket.shutdown(Shutdown::Both).ok(); // The server may have gone first.
+        self.socket.shutdown(Shutdown::Both).ok(); // The server may have closed it already.
         if let Some(thread) = self.thread.take() {
-            thread.join().ok(); // A callback that panicked has said so on its own thread.
+            thread.join().ok(); // The panic of a callback has been printed already.
         }
     }
 }
 
-/// What came of opening.
+/// Result of opening an output.
 pub(crate) struct Opened {
     pub(crate) output: PulseOutput,
     pub(crate) rate_hz: u32,
@@ -76,28 +76,27 @@ pub(crate) struct Opened {
     pub(crate) shared: Arc<Shared>,
 }
 
-/// Opens sink `id`.
+/// Opens the sink with this id.
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
     let name = id.strip_prefix(PREFIX).unwrap_or(id);
     let unavailable = |error: connection::Failure| {
-        let message = format!("the sound server does not answer: {error}; start it and try again");
+        let message = format!("the sound server does not respond: {error}; start it and try again");
         DeviceError::new(DeviceErrorKind::Unavailable, message)
     };
     let mut connection = Connection::open().map_err(unavailable)?;
     let sinks = connection.ask::<SinkInfoList>(&Command::GetSinkInfoList).map_err(unavailable)?;
     let Some(sink) = sinks.into_iter().find(|sink| sink.name.to_bytes() == name.as_bytes()) else {
-        let message = format!(
-            "there is no output `{id}` on this machine; `shagreen devices` lists those that there are"
-        );
+        let message =
+            format!("there is no output `{id}` on this machine; `shagreen devices` lists the available ones");
         return Err(DeviceError::new(DeviceErrorKind::NotFound, message));
     };
     let n_channels = usize::from(sink.sample_spec.channels);
     if n_channels < options.channels.n_least() {
         let message =
-            format!("the output `{id}` has {n_channels} channels; choose others, or another output");
+            format!("the output `{id}` has {n_channels} channels; choose other channels or another output");
         return Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
     }
-    // The sink's own rate, so that nobody resamples, where it holds the texture's.
+    // The sink's own rate avoids resampling by the server, if it is at least the texture's rate.
     let own_hz = sink.sample_spec.sample_rate;
     let rate_hz = options.preferred_rate_hz.unwrap_or(own_hz).max(options.model_rate_hz.ceil() as u32);
     let kind = StreamKind {
@@ -113,7 +112,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let edge = Edge::new(engine, Arc::clone(&shared), f64::from(rate_hz));
     let refused = |error: connection::Failure| {
         let message = format!(
-            "the output `{id}` cannot be opened: {error}; choose another, or look at the sound server"
+            "the output `{id}` cannot be opened: {error}; choose another one, or check the sound server"
         );
         DeviceError::new(DeviceErrorKind::Backend, message)
     };
@@ -129,7 +128,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let thread = thread.map_err(|error| {
         DeviceError::new(
             DeviceErrorKind::Backend,
-            format!("the system gives no thread for the output: {error}"),
+            format!("the system cannot start a thread for the output: {error}"),
         )
     })?;
     let output = PulseOutput { is_closing, socket, thread: Some(thread) };

@@ -1,37 +1,37 @@
-//! A recorded stroke that is repeated for ever, as it was or faster and harder.
+//! Endless repetition of a recorded stroke, optionally with changed tempo and force.
 //!
-//! It is walked by its own time: at a tempo of two the tip is where it was in half the time, twice as fast. So a stroke
-//! whose tempo changes while it is repeated goes on from where it is.
+//! The stroke is parameterized by its own time: at tempo 2, the tip takes half the time at twice the speed. A stroke
+//! whose tempo changes during repetition therefore continues from its position.
 
 use crate::touch::Touch;
 use crate::track::Track;
 
-/// How long the tip is off between the end of a stroke and its next beginning, in seconds: the way from one to the other
-/// is no stroke, and what lands then is no switch that chatters.
+/// Time with a lifted tip between the end of a stroke and its next start, in seconds. The way back is not part of the
+/// stroke, and the pause keeps the next contact onset from being taken for contact bounce.
 pub const LIFT_SECS: f64 = 0.1;
 
-/// How a stroke is repeated.
+/// Parameters of the repetition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Repeat {
-    /// Speed over that of the recording, above zero.
+    /// Speed relative to the recording, above zero.
     pub tempo: f32,
-    /// Force over that of the recording, at least zero.
+    /// Force relative to the recording, at least zero.
     pub force: f32,
 }
 
 impl Repeat {
-    /// As it was recorded.
+    /// The stroke as it was recorded.
     pub const AS_RECORDED: Self = Self { tempo: 1.0, force: 1.0 };
 
-    /// Where in the time of the track the tip is `step_secs` after it was at `track_secs`: from zero up to its end and on
-    /// through the lift that follows. Where a faster tempo has begun a lift that is over at this one, the stroke begins. A
-    /// tempo that is nonsense stands still.
+    /// Returns the position in track time `step_secs` after `track_secs`, from zero through the end of the track and
+    /// the lift that follows. If a slower tempo shortens the lift in track time so that it is over, the stroke starts
+    /// again. An invalid tempo stops the tip.
     pub(crate) fn advanced(self, track: &Track, track_secs: f64, step_secs: f64) -> f64 {
         let tempo = f64::from(self.tempo);
         if !(tempo.is_finite() && tempo > 0.0) {
             return track_secs;
         }
-        // The lift takes as long at every tempo.
+        // The lift has the same duration at every tempo.
         let cycle_secs = track.duration_secs() + tempo * LIFT_SECS;
         if track_secs > cycle_secs {
             return 0.0;
@@ -39,7 +39,7 @@ impl Repeat {
         (track_secs + tempo * step_secs).rem_euclid(cycle_secs)
     }
 
-    /// The tip at this time of the track. Costs what [`Track::touch_at`] does.
+    /// Returns the touch at this track time. Cost: that of [`Track::touch_at`].
     pub(crate) fn touch_at(self, track: &Track, track_secs: f64) -> Touch {
         let mut touch = track.touch_at(track_secs);
         touch.contact.speed_mps *= self.tempo;
@@ -57,7 +57,7 @@ mod tests {
     use shagreen_synth::contact::Contact;
     use shagreen_synth::drive::DriveConfig;
 
-    /// A second to the right at 0.1 m/s, pressed with 0.5 N.
+    /// A stroke of 1 s to the right at 0.1 m/s with 0.5 N.
     fn straight() -> Track {
         let sample = |i| PenSample {
             time_secs: 0.01 * f64::from(i),
@@ -80,7 +80,7 @@ mod tests {
                 track_secs = repeat.advanced(&track, track_secs, 1e-3);
                 let expected = (1e-3 * f64::from(tick)).rem_euclid(cycle_secs) * f64::from(tempo);
                 let off = (track_secs - expected).abs();
-                // Rounding adds up, and decides at the very turn whether it is before or behind it.
+                // Rounding errors accumulate, and at the wraparound they decide on which side the time lies.
                 assert!(off < 1e-9 || off > cycle_secs * f64::from(tempo) - 1e-9, "{tempo}: {track_secs}");
                 let touch = repeat.touch_at(&track, track_secs);
                 assert_eq!(touch.contact.force_n == 0.0, track_secs > track.duration_secs(), "{track_secs}");
@@ -88,7 +88,7 @@ mod tests {
         }
     }
 
-    /// Whatever the tempo becomes during the lift, the tip comes down at the beginning.
+    /// Whatever the tempo becomes during the lift, the next contact onset is at the start of the stroke.
     #[test]
     fn another_tempo_during_the_lift_begins_no_stroke_in_its_middle() {
         let (track, step_secs) = (straight(), 1e-3);
@@ -126,7 +126,7 @@ mod tests {
         };
         let (mut handle, mut engine) = engine::new(config).unwrap();
         handle.repeat_track(straight(), Repeat::AS_RECORDED).unwrap();
-        // Blocks of 5 ms.
+        // Each block is 5 ms long.
         let mut out = [0.0; 480];
         let mut contacts = Vec::new();
         for _ in 0..400 {
@@ -140,7 +140,7 @@ mod tests {
         }
         assert_eq!(at(1.05), Contact::LIFTED);
         handle.set_input(Input::Lifted);
-        // The fade, and a block until it is told.
+        // The fade takes four blocks, and the status lags by one.
         for _ in 0..5 {
             engine.process(&mut out, 2);
         }

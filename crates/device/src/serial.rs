@@ -1,7 +1,7 @@
-//! Actuators behind a microcontroller on a serial port: USB CDC or a UART.
+//! Actuators driven by a microcontroller on a serial port (USB CDC or UART).
 //!
-//! `docs/serial-protocol.md` is the protocol: all that firmware needs to know. [`receiver`] is the microcontroller's side
-//! of it, [`open`] the host's.
+//! `docs/serial-protocol.md` specifies the protocol for firmware authors. [`receiver`] implements the microcontroller's
+//! side, [`open`] the host's.
 
 mod agreement;
 mod connection;
@@ -30,28 +30,29 @@ use self::line::Line;
 use self::message::Mode;
 use crate::engine::Handle;
 use crate::error::DeviceError;
-use crate::output::{Made, OpenOptions, Running, make_engine};
+use crate::output_options::{Made, OpenOptions, make_engine};
+use crate::running::{Running, RunningFacts};
 
-/// Baud rate where nobody asks for another: adapters and microcontrollers have it without rounding.
+/// Default baud rate; adapters and microcontrollers generate it without rounding.
 pub const USUAL_BAUD: u32 = 1_000_000;
-/// Silence after this long without samples, in ms, where nobody asks for another time.
+/// Default watchdog time: the receiver is silent after this time without samples, in ms.
 pub const USUAL_WATCHDOG_MS: u16 = 50;
 
-/// How to open a serial output, beyond what every output is opened by.
+/// Options for a serial output, in addition to [`OpenOptions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SerialOptions {
-    /// Baud rate; USB CDC has none and does not care.
+    /// Baud rate; USB CDC ignores it.
     pub baud: u32,
-    /// Who renders.
+    /// Mode: rendering by the host or by the receiver.
     pub mode: Mode,
-    /// The receiver is silent this long after samples or control stop, in ms, at least 10.
+    /// Time after the last samples or controls at which the receiver becomes silent, in ms, at least 10.
     pub watchdog_ms: u16,
-    /// How long a receiver may take to answer: some are reset when the port is opened.
+    /// Time limit for the receiver's first reply; some receivers reset when the port is opened.
     pub patience: Duration,
 }
 
 impl Default for SerialOptions {
-    /// The host renders; three seconds are enough for a boot loader.
+    /// Rendering by the host, and a time limit of three seconds, which suffices for a boot loader.
     fn default() -> Self {
         Self {
             baud: USUAL_BAUD,
@@ -65,27 +66,27 @@ impl Default for SerialOptions {
 /// An open serial output.
 #[derive(Debug)]
 pub struct Connection {
-    /// For whoever is in charge.
+    /// Handle of the engine.
     pub handle: Handle,
-    /// Plays until it is dropped.
+    /// The open output; it plays until it is dropped.
     pub running: Running,
-    /// What the receiver says of itself.
+    /// Capabilities that the receiver declares.
     pub receiver: ReceiverInfo,
-    /// What it says beside the stream; bounded: what nobody takes is dropped.
+    /// Sensor data and events from the receiver, in a bounded queue; if it is full, new ones are dropped.
     pub heard: Consumer<Heard>,
 }
 
-/// Opens the receiver on a serial port as an output, silent until its handle is told otherwise. The id is one of
-/// [`list_serial_ports`], or any port's name; `serial:` before it may be left out. Blocks until the receiver answers.
+/// Opens the receiver on a serial port as an output, which is silent until its handle sets controls. The id is one of
+/// [`list_serial_ports`] or any port name; the prefix `serial:` is optional. Blocks until the receiver replies.
 ///
 /// [`OpenOptions::buffer_frames`] is the number of samples that are queued in the receiver.
 ///
 /// # Errors
-/// - [`crate::error::DeviceErrorKind::NotFound`], `Busy` or `Denied` where the port is so.
-/// - [`crate::error::DeviceErrorKind::Unavailable`] where nothing answers on it.
-/// - [`crate::error::DeviceErrorKind::Unsupported`] where the receiver or the line cannot do what is asked.
-/// - [`crate::error::DeviceErrorKind::Config`] where the options contradict themselves.
-/// - [`crate::error::DeviceErrorKind::Backend`] where the system fails.
+/// - [`crate::error::DeviceErrorKind::NotFound`], `Busy` or `Denied` if the port is missing, in use or refused.
+/// - [`crate::error::DeviceErrorKind::Unavailable`] if there is no reply.
+/// - [`crate::error::DeviceErrorKind::Unsupported`] if the receiver or the connection does not support the options.
+/// - [`crate::error::DeviceErrorKind::Config`] if the options are contradictory.
+/// - [`crate::error::DeviceErrorKind::Backend`] if the system fails.
 pub fn open(id: &str, options: OpenOptions, serial: SerialOptions) -> Result<Connection, DeviceError> {
     let id = if id.starts_with(ID_PREFIX) { id.to_owned() } else { format!("{ID_PREFIX}{id}") };
     let port = ports::resolve(&id)?;
@@ -101,6 +102,15 @@ pub fn open(id: &str, options: OpenOptions, serial: SerialOptions) -> Result<Con
     let line_latency = Duration::from_secs_f64(line_latency_secs);
     let (output, heard) = SerialOutput::start(&id, line, plan, engine, reporter, line_latency)?;
     let latencies_secs = (engine_latency_secs, line_latency_secs);
-    let running = Running::of_serial(id, rate_hz, plan.configure.window, latencies_secs, shared, output);
+    let (engine_latency_secs, device_latency_secs) = latencies_secs;
+    let facts = RunningFacts {
+        id,
+        rate_hz,
+        channels: 1,
+        buffer_frames: Some(u32::from(plan.configure.window)),
+        engine_latency_secs,
+        device_latency_secs,
+    };
+    let running = Running::new(facts, shared, output);
     Ok(Connection { handle, running, receiver, heard })
 }

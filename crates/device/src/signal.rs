@@ -1,4 +1,4 @@
-//! A signal that is played as it is: a test tone, or the sweep that measures an actuator.
+//! A signal for direct playback: a test tone, or the sweep of an actuator measurement.
 
 use std::f64::consts::TAU;
 
@@ -6,51 +6,49 @@ use shagreen_synth::drive::Driven;
 
 /// Longest signal, in seconds.
 pub const MAX_SIGNAL_SECS: f64 = 120.0;
-/// How long a tone takes to come and to go, in seconds.
+/// Duration of a tone's fade-in and fade-out, in seconds.
 const TONE_FADE_SECS: f64 = 0.05;
 
-/// Samples at the device's rate, and what they are.
+/// Samples at the device's rate, with their kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signal {
     samples: Box<[f32]>,
     driven: Driven,
 }
 
-/// Why samples are not a signal.
+/// Reasons why samples are not a valid signal.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// There is none.
+    /// There are no samples.
     #[error("the signal has no samples; make it longer")]
     Empty,
-    /// It takes too long.
-    #[error(
-        "the signal takes {secs:.1} s, and no more than {MAX_SIGNAL_SECS} s are played at once; play a shorter one"
-    )]
+    /// The signal is too long.
+    #[error("the signal takes {secs:.1} s, the limit is {MAX_SIGNAL_SECS} s; play a shorter one")]
     TooLong {
-        /// How long, in seconds.
+        /// Duration in seconds.
         secs: f64,
     },
-    /// The rate is none.
-    #[error("the rate of the signal is {rate_hz} Hz; take that of the output that plays it")]
+    /// The sample rate is not a positive number.
+    #[error("the sample rate of the signal is {rate_hz} Hz; use that of the output")]
     Rate {
-        /// What was given, in Hz.
+        /// Given rate, in Hz.
         rate_hz: f64,
     },
-    /// A sample is not a number.
-    #[error("sample {index} of the signal is not a finite number")]
+    /// A sample is not finite.
+    #[error("sample {index} of the signal is not a finite number; remove or replace it")]
     NotFinite {
-        /// Which, from zero.
+        /// Index of the sample, from zero.
         index: usize,
     },
 }
 
 impl Signal {
-    /// A signal of these samples at the rate in Hz of the output that plays it: m/s², or shares of the device's full
-    /// scale, which still are limited.
+    /// A signal with these samples at the sample rate in Hz of the output. The samples are accelerations in m/s², or
+    /// drive as fractions of the device's full scale; the actuator's limits apply to both.
     ///
     /// # Errors
-    /// [`SignalError`] says what is wrong with them.
+    /// [`SignalError`] names the problem.
     pub fn new(samples: Vec<f32>, rate_hz: f64, driven: Driven) -> Result<Self, SignalError> {
         if samples.is_empty() {
             return Err(SignalError::Empty);
@@ -62,10 +60,10 @@ impl Signal {
         Ok(Self { samples: samples.into_boxed_slice(), driven })
     }
 
-    /// A sine of acceleration that comes and goes softly.
+    /// A sine of acceleration with a fade-in and a fade-out.
     ///
     /// # Errors
-    /// [`SignalError`] where it is too long, or a number of it is not finite.
+    /// [`SignalError`] if it is too long or an argument is not finite.
     pub fn tone(
         frequency_hz: f64,
         amplitude_mps2: f64,
@@ -82,7 +80,7 @@ impl Signal {
         Self::new((0..n_frames as usize).map(sample).collect(), rate_hz, Driven::Acceleration)
     }
 
-    /// How many samples.
+    /// Number of samples.
     pub fn n_frames(&self) -> usize {
         self.samples.len()
     }
@@ -91,14 +89,14 @@ impl Signal {
         self.driven
     }
 
-    /// The samples from one on, as many as there are up to `n`.
+    /// Up to `n` samples from index `begin`.
     pub(crate) fn part(&self, begin: usize, n: usize) -> &[f32] {
         let begin = begin.min(self.samples.len());
         &self.samples[begin..self.samples.len().min(begin + n)]
     }
 }
 
-/// Whether so many frames are no more than may be played.
+/// Checks that the signal is not too long.
 fn check_length(n_frames: f64, rate_hz: f64) -> Result<(), SignalError> {
     if !(rate_hz.is_finite() && rate_hz > 0.0) {
         return Err(SignalError::Rate { rate_hz });

@@ -1,40 +1,43 @@
-//! What the callback tells back, after every block.
+//! Status that the engine publishes after every block.
 
 use crate::touch::Touch;
 
-/// How an output is doing.
+/// Connection state of an output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LinkState {
-    /// Opened, but the device has not asked for anything yet.
+    /// Opened, but the device has not requested samples yet.
     #[default]
     Starting,
-    /// The device asks for samples.
+    /// The device requests samples.
     Running,
-    /// The device has not asked for a while ([`crate::engine::STALL_SECS`], or after opening
-    /// [`crate::engine::START_SECS`]): it may come back.
+    /// The device has not requested samples for some time ([`crate::engine::STALL_SECS`], or after opening
+    /// [`crate::engine::START_SECS`]). It may recover.
     Stalled,
-    /// The device is gone or failed for good: it stays silent until the person opens an output again.
-    /// [`crate::engine::Handle::loss`] says why.
+    /// The device was disconnected or failed permanently. It stays silent until the person opens an output again.
+    /// [`crate::engine::Handle::loss`] gives the reason.
     Lost,
 }
 
-/// How long a person's touch takes until the drive that it makes has left the device, as far as the device says.
+/// Latency from a live touch to the device's output, based on the latency that the device states.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Latency {
-    /// Of the last touch: from its report to the middle of the change of texture, in seconds; zero before the first.
+    /// Latency of the last touch, from its report to the middle of the change of texture, in seconds; zero before the
+    /// first.
     pub stroke_secs: f32,
-    /// Of the last touch, had it landed: from its report to the first sample of the tap, in seconds.
+    /// Latency that a tap at the last touch would have, from its report to the first sample of the tap transient, in
+    /// seconds.
     pub tap_secs: f32,
-    /// Highest of the strokes since the output was opened, in seconds.
+    /// Highest `stroke_secs` since the output was opened, in seconds.
     pub stroke_max_secs: f32,
-    /// Touches that were measured.
+    /// Number of measured touches.
     pub n_touches: u64,
 }
 
-/// A texture that is later than this does not feel tied to the hand: the budget from report to drive, in seconds.
+/// Latency limit for strokes from report to drive, in seconds; above it, a texture feels detached from the hand's
+/// motion.
 pub const STROKE_BUDGET_SECS: f32 = 0.030;
-/// A tap that is later than about this feels softer than it is, in seconds.
+/// Latency limit for taps, in seconds; above it, a surface feels softer than it is.
 pub const TAP_BUDGET_SECS: f32 = 0.006;
 
 impl Latency {
@@ -47,57 +50,56 @@ impl Latency {
         };
     }
 
-    /// Whether taps come too late to feel as hard as they are.
+    /// Whether taps exceed their latency limit.
     pub fn is_tap_late(&self) -> bool {
         self.n_touches > 0 && self.tap_secs > TAP_BUDGET_SECS
     }
 
-    /// Whether strokes come later than the budget.
+    /// Whether strokes exceed their latency limit.
     pub fn is_stroke_late(&self) -> bool {
         self.n_touches > 0 && self.stroke_secs > STROKE_BUDGET_SECS
     }
 }
 
-/// How the engine is doing: as of the end of the last block.
+/// Status of the engine and its device at the end of the last block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Status {
-    /// Whether the device still asks for samples.
+    /// Connection state of the output.
     pub state: LinkState,
-    /// Time used by the callback over time allotted to it, smoothed; 1 is the end.
+    /// Processing time of the callback divided by the block's duration, smoothed; at 1, dropouts begin.
     pub load: f32,
-    /// Highest time used over time allotted in any block since the output was opened.
+    /// Highest unsmoothed load of any block since the output was opened.
     pub load_max: f32,
-    /// Times that the device ran out of samples.
+    /// Number of underruns (dropouts) that the device reports.
     pub underruns: u64,
-    /// Other errors that the device reported and went on after.
+    /// Number of other errors after which the device continued.
     pub backend_errors: u64,
-    /// Samples that the limiter turned down or bent.
+    /// Number of samples that the limiters attenuated.
     pub limited_samples: u64,
-    /// Whether a sample that was not finite has silenced the output until [`crate::engine::Handle::reset_limiter`].
+    /// Whether a non-finite sample has silenced the output until [`crate::engine::Handle::reset_limiter`].
     pub tripped: bool,
-    /// Share of what the coil stands for long that is used, root mean square over its time constant; 0 where that is not
-    /// known.
+    /// Running RMS of the drive as a fraction of the coil's thermal limit; 0 without a limit.
     pub heat_used: f32,
-    /// Gain by which the drive is turned down to keep the coil cool, 0..1.
+    /// Current gain of the thermal limiter, 0..1.
     pub heat_gain: f32,
-    /// How much later than it was asked for the last block is heard, in seconds, as far as the device says.
+    /// Time from the request of the last block until its playback, in seconds, as the device states it.
     pub device_latency_secs: f32,
-    /// How long touches take.
+    /// Latency of live touches.
     pub latency: Latency,
-    /// Whether a signal is played in the place of the texture.
+    /// Whether a signal replaces the texture.
     pub plays_signal: bool,
-    /// Whether a person's hand is followed, because it was chosen or because it took over.
+    /// Whether live input is followed, because it was selected or because it took over.
     pub follows_live: bool,
-    /// Where the tip is and what it does.
+    /// Position and contact of the tip.
     pub touch: Touch,
-    /// Level of the texture before gain and limiter, root mean square over about 50 ms, in m/s².
+    /// Level (RMS over about 50 ms) of the texture before gain and limiter, in m/s².
     pub level_mps2: f32,
-    /// Highest output of late as a share of the device's full scale, 0..1: falls by half in about 0.2 s.
+    /// Recent output peak as a fraction of full scale, 0..1; it decays by half in about 0.2 s.
     pub peak: f32,
-    /// Frames handed to the device since it was opened.
+    /// Number of frames returned to the device since it was opened.
     pub frames_played: u64,
     /// Time since the input was last switched or its track replaced, in seconds of the engine's clock.
     pub input_secs: f64,
-    /// Things that the callback could neither keep nor give back, and leaked.
+    /// Number of objects that the callback could neither keep nor return, and leaked.
     pub leaked: u64,
 }

@@ -1,4 +1,4 @@
-//! What a hand holds. The mouse is always there; it has no pressure, so it presses with a set force. Pens come and go.
+//! Styluses: the mouse, which is always available and uses a set force, and pens, which can be unplugged.
 
 use crate::error::DeviceError;
 use crate::hid::identity::HidPen;
@@ -8,7 +8,7 @@ use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
 use crate::touch::Touch;
 use shagreen_synth::contact::Contact;
 
-/// What sort of stylus it is.
+/// Type of a stylus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StylusKind {
@@ -21,15 +21,15 @@ pub enum StylusKind {
 /// One stylus of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StylusInfo {
-    /// Name by which it is chosen.
+    /// Id by which it is chosen.
     pub id: String,
-    /// Name to show.
+    /// Display name.
     pub name: String,
-    /// What sort it is.
+    /// Type of the stylus.
     pub kind: StylusKind,
-    /// Whether it measures how hard it is pressed. Of a pen that the system tells little of, this is assumed.
+    /// Whether it measures pressure. For a pen with unknown capabilities, this is assumed to be true.
     pub has_pressure: bool,
-    /// Vendor and product, as the USB forum and the vendor assigned them; the mouse has none.
+    /// USB vendor and product id; `None` for the mouse.
     pub product: Option<(u16, u16)>,
 }
 
@@ -38,11 +38,11 @@ pub struct StylusInfo {
 pub struct StylusList {
     /// The mouse, then the pens.
     pub styluses: Vec<StylusInfo>,
-    /// Why there may be more pens than are listed.
+    /// Reason why the list may lack pens, if any.
     pub warning: Option<DeviceError>,
 }
 
-/// The styluses of this machine. None is opened.
+/// Lists the styluses of this machine. None is opened.
 pub fn list_styluses() -> StylusList {
     let mouse = StylusInfo {
         id: "mouse".into(),
@@ -73,7 +73,7 @@ impl From<HidPen> for StylusInfo {
     }
 }
 
-/// The mouse as a stylus: pressed with a set force while its button is down.
+/// The mouse as a stylus, which presses with a set force while its button is down.
 #[derive(Clone, Debug)]
 pub struct MouseStylus {
     force_n: f64,
@@ -83,19 +83,19 @@ pub struct MouseStylus {
 }
 
 impl MouseStylus {
-    /// A lifted stylus that will press with `force_n` newtons.
+    /// A lifted stylus with a set force of `force_n` newtons.
     pub fn new(force_n: f64) -> Self {
         let estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
         Self { force_n, estimator, touch: Touch::default(), last_secs: 0.0 }
     }
 
-    /// Presses with `force_n` newtons from the next report on.
+    /// Sets the force in newtons from the next report on.
     pub fn set_force_n(&mut self, force_n: f64) {
         self.force_n = force_n;
     }
 
-    /// The touch after the pointer was reported at a place (m from the middle of the pad, seconds on any clock that
-    /// does not go back) with its button down or up.
+    /// Processes a pointer position in m from the center of the pad, with its button pressed or not. Times are seconds
+    /// on any clock that does not decrease. Returns the touch.
     pub fn report(&mut self, time_secs: f64, x_m: f64, y_m: f64, pressed: bool) -> Touch {
         let contact = if pressed {
             let speed_mps = self.estimator.report(time_secs, x_m, y_m) as f32;
@@ -109,7 +109,7 @@ impl MouseStylus {
         self.touch
     }
 
-    /// The touch at `time_secs`, when the last report has aged: its speed is held, then decays.
+    /// Returns the touch at `time_secs`: the speed of the last report is held and then decays.
     pub fn touch_at(&self, time_secs: f64) -> Touch {
         let mut touch = self.touch;
         touch.contact.speed_mps =

@@ -1,39 +1,39 @@
-//! A prepared texture that owns its numbers and lends them to the callback.
+//! A prepared texture that owns its data and lends them to the audio callback.
 
 use shagreen_synth::relief::Relief;
 use shagreen_synth::texture::{self, Excitation, Node, Parts, Texture, Triangle};
 
-/// Why numbers do not make a texture.
+/// Reason why data do not form a valid texture, with the sizes involved.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "a texture of order {order} at {rate_hz} Hz with {n_nodes} nodes and {n_triangles} triangles \
      cannot be played: {}", explain(*.reason)
 )]
 pub struct TextureError {
-    /// The rule that is broken.
+    /// The violated rule.
     pub reason: texture::TextureError,
-    /// Order that was given.
+    /// Given order.
     pub order: usize,
-    /// Rate that was given, in Hz.
+    /// Given sample rate, in Hz.
     pub rate_hz: f32,
-    /// Nodes that were given.
+    /// Number of given nodes.
     pub n_nodes: usize,
-    /// Triangles that were given.
+    /// Number of given triangles.
     pub n_triangles: usize,
 }
 
 fn explain(reason: texture::TextureError) -> &'static str {
     match reason {
         texture::TextureError::Order => "the order is zero or too high",
-        texture::TextureError::Range => "the rate, or the largest speed or force, is not a positive number",
-        texture::TextureError::Triangle => "there is no triangle, or one names a node that does not exist",
-        texture::TextureError::Excitation => "some nodes have an excitation and others have none",
-        texture::TextureError::Number => "a number is not finite, or frequencies do not ascend",
-        _ => "it breaks a rule of the renderer",
+        texture::TextureError::Range => "the rate, maximum speed or maximum force is not a positive number",
+        texture::TextureError::Triangle => "no triangle, or one refers to a node that does not exist",
+        texture::TextureError::Excitation => "some nodes have an excitation and others do not",
+        texture::TextureError::Number => "a value is not finite, or frequencies do not ascend",
+        _ => "it violates a rule of the renderer",
     }
 }
 
-/// A prepared texture: nodes over (speed, force) and their triangulation, checked once.
+/// A prepared texture: nodes over (speed, force) and their triangulation, validated once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OwnedTexture {
     rate_hz: f32,
@@ -47,7 +47,7 @@ pub struct OwnedTexture {
     relief: Option<Box<OwnedRelief>>,
 }
 
-/// What a [`Relief`] lends.
+/// Owned data of a [`Relief`].
 #[derive(Clone, Debug, PartialEq)]
 struct OwnedRelief {
     step_m: f32,
@@ -68,10 +68,10 @@ impl OwnedRelief {
 }
 
 impl OwnedTexture {
-    /// A copy of what was prepared.
+    /// A copy of prepared data.
     ///
     /// # Errors
-    /// [`TextureError`] where the renderer would refuse it.
+    /// [`TextureError`] if the renderer would reject them.
     pub fn new(parts: Parts<'_>) -> Result<Self, TextureError> {
         let Parts {
             rate_hz,
@@ -104,12 +104,12 @@ impl OwnedTexture {
         })
     }
 
-    /// Samples a second of the model, in Hz.
+    /// Sample rate of the model, in Hz.
     pub fn rate_hz(&self) -> f32 {
         self.rate_hz
     }
 
-    /// The texture as the renderer sees it: checked when it was made, and unchanged since.
+    /// View of the texture for the renderer; the data were validated at construction.
     pub fn view(&self) -> Texture<'_> {
         Texture::checked_before(Parts {
             rate_hz: self.rate_hz,
@@ -132,12 +132,13 @@ pub(crate) mod tests {
     use shagreen_synth::relief::Relief;
     use shagreen_synth::texture::{self, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 
-    /// White noise of `level_mps2` at 1 m/s and 1 N, in proportion to the smaller of speed and force below that.
+    /// White noise of `level_mps2` at 1 m/s and 1 N; the level scales with the smaller of the normalized speed and
+    /// force.
     pub(crate) fn white(level_mps2: f32) -> OwnedTexture {
         white_at(1000.0, level_mps2).unwrap()
     }
 
-    /// Without noise, a wave of 0.64 mm along x: sixteen of them before it repeats.
+    /// A relief without noise: a wave of 0.64 mm along x, with sixteen periods.
     pub(crate) fn wavy() -> OwnedTexture {
         let mut octaves = Vec::new();
         for n in (2..=10).rev().map(|octave| 1_usize << octave) {
@@ -161,7 +162,7 @@ pub(crate) mod tests {
     }
 
     pub(crate) fn white_at(rate_hz: f32, level_mps2: f32) -> Result<OwnedTexture, super::TextureError> {
-        // Evenly spread frequencies make a predictor of zeros, with a gain of one.
+        // Evenly spaced LSFs give a predictor with zero coefficients and gain 1.
         let mut lsf = [0.0; MAX_ORDER];
         (lsf[0], lsf[1]) = (core::f32::consts::PI / 3.0, core::f32::consts::PI * 2.0 / 3.0);
         let node = |level_mps2| Node { level_mps2, lsf };

@@ -1,26 +1,26 @@
-//! Where the tip is and what it does there.
+//! Position and contact of the tip.
 
 use shagreen_synth::contact::Contact;
 
-/// The tip on the pad at one moment.
+/// State of the tip on the pad at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
-    /// Position to the right of the middle of the pad, in m.
+    /// Position to the right of the pad's center, in m.
     pub x_m: f32,
-    /// Position above the middle of the pad, in m.
+    /// Position above the pad's center, in m.
     pub y_m: f32,
-    /// Speed and force of the tip; no force is a lifted tip.
+    /// Speed and force of the tip; a force of zero is a lifted tip.
     pub contact: Contact,
 }
 
 impl Touch {
-    /// The same place with the tip in the air.
+    /// Returns the touch at the same position with a lifted tip.
     #[must_use]
     pub fn lifted(self) -> Self {
         Self { contact: Contact::LIFTED, ..self }
     }
 
-    /// The same touch with the nonsense of a broken input device taken out: see [`Contact::sanitized`].
+    /// Returns the touch with invalid values of a faulty device replaced: see [`Contact::sanitized`].
     #[must_use]
     pub fn sanitized(self) -> Self {
         let clean = |x: f32| if x.is_finite() { x } else { 0.0 };
@@ -28,7 +28,7 @@ impl Touch {
     }
 }
 
-/// `from`, moved by `share` (0..1) of the way to `to`.
+/// Linear interpolation between two contacts, with `share` in 0..1.
 pub(crate) fn mix_contacts(from: Contact, to: Contact, share: f32) -> Contact {
     let mix = |a: f32, b: f32| a + share * (b - a);
     Contact { speed_mps: mix(from.speed_mps, to.speed_mps), force_n: mix(from.force_n, to.force_n) }

@@ -1,99 +1,101 @@
-//! A recorded stroke, made ready to be replayed.
+//! A recorded stroke, prepared for replay.
 
 use shagreen_synth::contact::Contact;
 
 use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
 use crate::touch::{Touch, mix_contacts};
 
-/// Points of a track a second, in Hz.
+/// Rate of a track's points, in Hz.
 pub const TRACK_RATE_HZ: f64 = 1000.0;
-/// Reports further apart than this are two strokes, in seconds, where they do not usually come as seldom.
+/// Smallest gap that separates two strokes, in seconds; recordings with longer intervals have a longer one.
 pub const LIFT_GAP_SECS: f64 = 0.050;
-/// Usual intervals after which they are: two reports in a row may be lost.
+/// Gap in median intervals that separates two strokes; it allows for two lost reports in a row.
 const LIFT_GAP_INTERVALS: f64 = 3.5;
-/// Longest track, in seconds: what is longer is more likely a wrong unit.
+/// Longest track, in seconds; a longer one probably has times in another unit.
 pub const MAX_TRACK_SECS: f64 = 3600.0;
 
-/// One report of a pen.
+/// One pen report of a stroke recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PenSample {
-    /// When, in seconds on any clock.
+    /// Time in seconds on any clock.
     pub time_secs: f64,
-    /// Position to the right of the middle of the pad, in m.
+    /// Position to the right of the pad's center, in m.
     pub x_m: f64,
-    /// Position above the middle of the pad, in m.
+    /// Position above the pad's center, in m.
     pub y_m: f64,
-    /// Force in N; counts for nothing while the tip is off.
+    /// Normal force in N; ignored while the tip is lifted.
     pub force_n: f64,
     /// Whether the tip touches.
     pub touching: bool,
 }
 
-/// Why samples do not make a track.
+/// Reasons why samples do not form a track.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrackError {
-    /// There is no sample.
-    #[error("a stroke needs at least one sample, got none")]
+    /// There are no samples.
+    #[error("the stroke has no samples; it needs at least one")]
     Empty,
-    /// A number is not finite.
-    #[error("sample {index} of the stroke holds a number that is not finite")]
+    /// A value is not finite.
+    #[error("sample {index} of the stroke has a value that is not finite; remove or correct it")]
     NotFinite {
-        /// Which sample, from zero.
+        /// Index of the sample, from zero.
         index: usize,
     },
     /// A force is negative.
-    #[error("sample {index} of the stroke has a force of {force_n} N; it must be at least zero")]
+    #[error("sample {index} of the stroke has a negative force ({force_n} N); remove it or correct its sign")]
     NegativeForce {
-        /// Which sample, from zero.
+        /// Index of the sample, from zero.
         index: usize,
-        /// Its force, in N.
+        /// Force of the sample, in N.
         force_n: f64,
     },
-    /// Time goes back.
-    #[error("sample {index} of the stroke is at {time_secs} s, before the sample at {previous_secs} s")]
+    /// Times decrease.
+    #[error(
+        "sample {index} of the stroke is at {time_secs} s, after one at {previous_secs} s; sort them by time"
+    )]
     TimeGoesBack {
-        /// Which sample, from zero.
+        /// Index of the sample, from zero.
         index: usize,
-        /// Its time, in seconds.
+        /// Time of the sample, in seconds.
         time_secs: f64,
-        /// The time before it, in seconds.
+        /// Time of the previous sample, in seconds.
         previous_secs: f64,
     },
     /// The stroke is longer than [`MAX_TRACK_SECS`].
-    #[error("the stroke lasts {duration_secs} s, more than {MAX_TRACK_SECS} s: are its times in seconds?")]
+    #[error("the stroke lasts {duration_secs} s, more than {MAX_TRACK_SECS} s; are its times in seconds?")]
     TooLong {
-        /// How long it lasts, in seconds.
+        /// Duration of the stroke, in seconds.
         duration_secs: f64,
     },
 }
 
-/// What was not quite as it should be.
+/// Imperfections of the samples that are not errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TrackWarnings {
-    /// Samples left out because the next had the same time.
+    /// Number of samples that were skipped because the next sample had the same time.
     pub n_equal_timestamps: usize,
 }
 
-/// A stroke on a uniform grid of [`TRACK_RATE_HZ`].
+/// A stroke on a uniform time grid of [`TRACK_RATE_HZ`].
 ///
-/// Each pen-down stretch has its speed from the Kalman filter on the real times of the reports. Between two reports
-/// place, speed and force go in straight lines; towards a lift they stay, as they do for a live pen, until the lift.
-/// Where reports end without a lift, speed is held and decays and the tip is off [`LIFT_GAP_SECS`] later, or after some of the
-/// intervals of a slower recording.
+/// Each contact segment gets its speed from the Kalman filter, with the actual times of the reports. Between two
+/// reports, position, speed and force are interpolated linearly. Before a lift, force is held, and speed is held and
+/// decays, as for a live pen. Where reports end without a lift, speed is held and decays, and the tip is lifted after
+/// [`LIFT_GAP_SECS`], or after some intervals of a slower recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     touches: Box<[Touch]>,
     duration_secs: f64,
-    /// What was not quite as it should be.
+    /// Imperfections of the samples.
     pub warnings: TrackWarnings,
 }
 
 impl Track {
-    /// The track of the samples, which starts at the first of them.
+    /// Returns the track of the samples, which starts at the first one.
     ///
     /// # Errors
-    /// [`TrackError`] names the first sample that is not usable.
+    /// [`TrackError`] names the first invalid sample.
     pub fn new(samples: &[PenSample]) -> Result<Self, TrackError> {
         check(samples)?;
         let gap_secs = lift_gap_secs(samples);
@@ -106,7 +108,7 @@ impl Track {
         if duration_secs > MAX_TRACK_SECS {
             return Err(TrackError::TooLong { duration_secs });
         }
-        // Up to the last report: a millionth of a point is rounding of the times, not one more point.
+        // The grid ends at the last report. A millionth of a grid step is rounding, not another point.
         let n_touches = (duration_secs * TRACK_RATE_HZ - 1e-6).ceil().max(0.0) as usize + 1;
         let mut next = 0;
         let touches = (0..n_touches).map(|i| {
@@ -114,19 +116,19 @@ impl Track {
             while next < reports.len() && reports[next].time_secs <= time_secs {
                 next += 1;
             }
-            // The first report is at the first point of the grid, so there is one before.
+            // The first grid point coincides with the first report, so there is always a report before.
             touch_between(&reports[next.saturating_sub(1)], reports.get(next), time_secs, gap_secs)
         });
         Ok(Self { touches: touches.collect(), duration_secs, warnings })
     }
 
-    /// From the first sample to the last, in seconds.
+    /// Duration from the first to the last sample, in seconds.
     pub fn duration_secs(&self) -> f64 {
         self.duration_secs
     }
 
-    /// The touch `time_secs` after the start, in a straight line between points of the grid; lifted outside the track.
-    /// Costs two look-ups.
+    /// Returns the touch `time_secs` after the start, interpolated linearly between grid points; lifted outside the
+    /// track. Cost: two table look-ups.
     pub fn touch_at(&self, time_secs: f64) -> Touch {
         let inside = time_secs >= 0.0 && time_secs <= self.duration_secs;
         let position = if inside { time_secs * TRACK_RATE_HZ } else { 0.0 };
@@ -165,15 +167,15 @@ fn check(samples: &[PenSample]) -> Result<(), TrackError> {
     Ok(())
 }
 
-/// A sample with the speed of its stroke.
+/// A sample with its estimated speed.
 struct Report {
     time_secs: f64,
     touch: Touch,
     touching: bool,
 }
 
-/// After how long without a report the tip of a recorded stroke is off, in seconds: [`LIFT_GAP_SECS`], or so many usual
-/// intervals of a slower recording.
+/// Returns the gap after which the tip of a recorded stroke is lifted, in seconds: [`LIFT_GAP_SECS`], or
+/// [`LIFT_GAP_INTERVALS`] median intervals of a slower recording.
 fn lift_gap_secs(samples: &[PenSample]) -> f64 {
     let mut intervals: Vec<f64> = samples
         .windows(2)
@@ -185,7 +187,7 @@ fn lift_gap_secs(samples: &[PenSample]) -> f64 {
     LIFT_GAP_SECS.max(LIFT_GAP_INTERVALS * usual_secs)
 }
 
-/// One report a time, with speeds.
+/// Returns one report per time, with speeds.
 fn reports_of(samples: &[PenSample], gap_secs: f64) -> (Vec<Report>, TrackWarnings) {
     let mut reports: Vec<Report> = Vec::with_capacity(samples.len());
     let mut warnings = TrackWarnings::default();
@@ -213,7 +215,7 @@ fn reports_of(samples: &[PenSample], gap_secs: f64) -> (Vec<Report>, TrackWarnin
     (reports, warnings)
 }
 
-/// The touch at a time from `from` on and before `to`; reports further apart than the gap are of two strokes.
+/// Returns the touch at a time between two reports. Reports further apart than the gap belong to two strokes.
 fn touch_between(from: &Report, to: Option<&Report>, time_secs: f64, gap_secs: f64) -> Touch {
     let age_secs = time_secs - from.time_secs;
     let near = to.filter(|to| to.time_secs - from.time_secs <= gap_secs);

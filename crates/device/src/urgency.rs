@@ -1,9 +1,9 @@
-//! Threads that must not wait for the window.
+//! Real-time priority for threads with deadlines.
 
 use thread_priority::ThreadPriority;
 
-/// Asks the system to run this thread before all others that have no deadline. Where it may not, the thread runs as any
-/// other: then a busy machine makes itself heard as dropouts, which are counted.
+/// Requests real-time priority for the current thread. If the system refuses, the thread keeps its normal priority; a
+/// busy machine then causes dropouts, which are counted.
 pub(crate) fn run_before_others() {
     #[cfg(target_os = "linux")]
     {
@@ -12,9 +12,9 @@ pub(crate) fn run_before_others() {
             thread_native_id,
         };
         let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::RoundRobin);
-        // Below the sound server and the drivers, which this thread waits for.
-        set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Min, policy).ok(); // As far as allowed.
+        // The priority is below that of the sound server and the drivers, which this thread waits for.
+        set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Min, policy).ok(); // If permitted.
     }
     #[cfg(not(target_os = "linux"))]
-    ThreadPriority::Max.set_for_current().ok(); // As far as allowed.
+    ThreadPriority::Max.set_for_current().ok(); // If permitted.
 }

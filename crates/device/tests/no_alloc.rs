@@ -1,6 +1,6 @@
-//! The callback neither allocates nor frees, whatever it is told.
+//! Tests that the audio callback neither allocates nor frees memory, whatever the controls are.
 //!
-//! The gate is the global allocator of this test program; it counts what happens inside `assert_no_alloc`.
+//! The gate is the global allocator of this test program. It counts allocations and releases inside `assert_no_alloc`.
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
@@ -50,7 +50,7 @@ fn engine() -> (Handle, Engine) {
     engine::new(config).unwrap()
 }
 
-/// Plays blocks under the gate; every sample must have been written. Returns the highest.
+/// Plays blocks under the gate and checks that every sample is written. Returns the highest magnitude.
 fn play(engine: &mut Engine, n_blocks: usize) -> f32 {
     let mut highest = 0.0_f32;
     let mut out = [f32::NAN; 512];
@@ -103,7 +103,7 @@ fn loads_mixes_swaps_and_unloads() {
         handle.set_mix(mix).unwrap();
         let highest = play(&mut engine, 1 + usize::from(round % 11));
         assert!(round < 20 || highest > 0.0);
-        // Sometimes while it sounds, sometimes an old one; collected only now and then.
+        // Unloads a playing or an older texture, and collects only occasionally.
         if round % 2 == 0 {
             handle.unload(id);
         } else {
@@ -188,7 +188,7 @@ fn a_full_way_back_leaks_and_never_frees() {
         play(&mut engine, 1);
     }
     assert_eq!(handle.status().leaked, 9);
-    // Nobody draws the scope and nobody collects, for ten seconds.
+    // For ten seconds, nobody reads the scope or collects.
     play(&mut engine, 1900);
     assert!(handle.collect() > 0);
     play(&mut engine, 1);

@@ -1,11 +1,12 @@
-//! The callback does not call the system: no lock that waits, no clock that is no memory, no file, no allocation that
-//! grows the heap.
+//! Tests that the audio callback makes no system calls: no waiting lock, no clock that needs a system call, no file, no
+//! allocation that grows the heap.
 //!
-//! The gate is the kernel itself: a program of its own sets up an engine, puts a filter on one of its threads that ends the
-//! whole program at any system call, plays blocks on that thread, and says by its exit that it got through. Programs that
-//! do what is forbidden must not get through.
+//! The gate is the kernel. A separate program sets up an engine and installs a filter on one of its threads that kills
+//! the program at any system call. It plays blocks on that thread and reports by its exit status that it finished.
+//! Programs that make system calls must not finish.
 //!
-//! Locks that nobody else holds make no system call, so the words of the callback's files are read as well.
+//! Locks without contention make no system call, so the callback's source files are searched for forbidden words as
+//! well.
 #![cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "tests")]
 
@@ -30,12 +31,12 @@ use shagreen_device::touch::Touch;
 
 use support::{DRIVE, texture};
 
-/// Names what the program of its own does.
+/// Environment variable with the role of the separate program.
 const ROLE: &str = "SHAGREEN_SYSCALL_ROLE";
-/// Signal by which the kernel ends a program at a forbidden call.
+/// Signal by which the kernel kills a program at a forbidden call.
 const SIGSYS: i32 = 31;
 
-/// Runs this program again as `role`, and says how it ended: by itself, or by the gate.
+/// Runs this program again as `role`. Returns whether it finished (true) or was killed by the gate (false).
 fn ends_by_itself(role: &str) -> bool {
     let exe = std::env::current_exe().unwrap();
     let mut command = Command::new(exe);
@@ -48,7 +49,7 @@ fn ends_by_itself(role: &str) -> bool {
     }
 }
 
-/// Does nothing in the test run itself; in the program of its own, what its role says.
+/// Does nothing in the test run itself; in the separate program, it does the work of the role.
 #[test]
 fn the_other_program() {
     let Ok(role) = std::env::var(ROLE) else { return };
@@ -60,7 +61,7 @@ fn the_other_program() {
         apply_filter(&nothing_allowed()).unwrap();
         work();
         ready.store(true, Ordering::Release);
-        // Even to end is to call the system.
+        // Ending the thread would be a system call.
         loop {
             std::hint::spin_loop();
         }
@@ -71,11 +72,11 @@ fn the_other_program() {
     std::process::exit(0);
 }
 
-/// A filter that ends the program at any call.
+/// A filter that kills the program at any system call.
 fn nothing_allowed() -> BpfProgram {
     let arch = std::env::consts::ARCH.try_into().unwrap();
     let end = SeccompAction::KillProcess;
-    // A filter must name something: calls of this number there are none.
+    // A filter needs at least one rule; no system call has this number.
     let rules = [(1_000_000, Vec::new())].into_iter().collect();
     SeccompFilter::new(rules, end, SeccompAction::Allow, arch).unwrap().try_into().unwrap()
 }
@@ -110,7 +111,7 @@ fn work_of(role: &str) -> Work {
     }
 }
 
-/// Two seconds of all that an engine can do, with orders that lie in its rings.
+/// Two seconds of all functions of an engine, with commands in its queues.
 fn playing() -> Work {
     handle_time();
     let (mut handle, mut engine) = engine::new(EngineConfig {
@@ -139,7 +140,7 @@ fn playing() -> Work {
         for _ in 0..750 {
             engine.process(&mut out, 2);
             highest = out.iter().fold(highest, |h, x| h.max(x.abs()));
-            // Orders from the same thread: they go through rings that call nobody either.
+            // Commands from the same thread; their queues make no system calls either.
             n_blocks += 1;
             match n_blocks % 50 {
                 10 => handle.set_input(Input::Live),
@@ -161,7 +162,7 @@ fn playing() -> Work {
     })
 }
 
-/// A time without asking the clock, which on some machines is a call.
+/// A time without reading the clock, which needs a system call on some machines.
 fn handle_time() -> Instant {
     static BEGUN: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
     *BEGUN.get_or_init(Instant::now)
@@ -176,13 +177,16 @@ fn the_engine_calls_nobody() {
 fn the_gate_lets_through_what_calls_nobody_and_ends_what_does() {
     assert!(ends_by_itself("nothing"));
     for role in ["print", "sleep", "grow", "lock"] {
-        assert!(!ends_by_itself(role), "{role} got through");
+        assert!(!ends_by_itself(role), "{role} was not killed");
     }
-    // The edge reads the clock twice a block: on most machines that is a look into memory.
-    println!("the clock is {}", if ends_by_itself("clock") { "no system call" } else { "a system call" });
+    // The device adapter reads the clock twice a block; on most machines this only reads memory.
+    println!(
+        "reading the clock is {}",
+        if ends_by_itself("clock") { "no system call" } else { "a system call" }
+    );
 }
 
-/// The files of the callback, and what none of them may say.
+/// Source files of the callback.
 const CALLBACK: &[(&str, &str)] = &[
     ("edge.rs", include_str!("../src/edge.rs")),
     ("engine.rs", include_str!("../src/engine.rs")),
@@ -211,7 +215,7 @@ const FORBIDDEN: &[&str] = &[
     "std::env",
 ];
 
-/// The forbidden words of a file, without its tests and comments.
+/// Returns the forbidden words in a file, without its tests and comments.
 fn forbidden_in(source: &str) -> Vec<&'static str> {
     let code = source.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
     let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));

@@ -1,6 +1,6 @@
-//! The receiver in C is the receiver in Rust: the same bytes and ticks give the same samples and the same frames.
+//! Tests that the receivers in C and in Rust agree: the same bytes and ticks give the same samples and frames.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop, and says what it skips")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "tests may panic and print what they skip")]
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -26,13 +26,14 @@ const CONFIGURE: Configure = Configure {
 };
 const ABOUT: About = About { has_control: true, name: "C receiver", ..About::STREAM };
 
-/// What arrives before some ticks of the clock.
+/// Received bytes, followed by ticks of the sample clock.
 struct Step {
     bytes: Vec<u8>,
     n_ticks: u8,
 }
 
-/// Compiles the C, with every warning an error; nothing, and a word about it, where there is no compiler.
+/// Compiles the C receiver, with every warning as an error. Returns `None` and prints a message if there is no
+/// compiler.
 fn compile(folder: &Path) -> Option<PathBuf> {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/serial-receiver-c");
     let program = folder.join("receiver");
@@ -48,13 +49,13 @@ fn compile(folder: &Path) -> Option<PathBuf> {
             Some(program)
         }
         Err(error) => {
-            println!("skipped: there is no C compiler here ({error})");
+            println!("skipped: no C compiler is available ({error})");
             None
         }
     }
 }
 
-/// What the C says to these steps.
+/// Output of the C receiver for these steps.
 fn played_by_c(program: &Path, steps: &[Step]) -> Vec<u8> {
     let mut child = Command::new(program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut script = Vec::new();
@@ -71,12 +72,12 @@ fn played_by_c(program: &Path, steps: &[Step]) -> Vec<u8> {
     output.stdout
 }
 
-/// What the Rust says to them, and how many samples of it are not 0.
+/// Output of the Rust receiver for these steps, with the number of nonzero samples.
 fn played_by_rust(steps: &[Step]) -> (Vec<u8>, usize) {
     let mut receiver = Receiver::<256>::new(ABOUT);
     let (mut said, mut n_heard) = (Vec::new(), 0);
     let mut wire = [0; MAX_WIRE];
-    // Until there is one, the control is that of the last run; the C tells it as it is.
+    // The C receiver uses the control of the last run until there is a new one.
     let mut speed = 0;
     for step in steps {
         for &byte in &step.bytes {
@@ -100,7 +101,7 @@ fn played_by_rust(steps: &[Step]) -> (Vec<u8>, usize) {
     (said, n_heard)
 }
 
-/// Numbers that look random, from a seed.
+/// Pseudorandom numbers from a seed.
 struct Numbers(u64);
 
 impl Numbers {
@@ -116,11 +117,11 @@ impl Numbers {
     }
 }
 
-/// A stream, or control, over a line that loses, repeats, exchanges and corrupts; `percent` of the frames, each.
+/// A stream, or controls, over a line that loses, repeats, reorders and corrupts `percent` of the frames each.
 fn steps(seed: u64, mode: Mode, percent: u64) -> Vec<Step> {
     let mut numbers = Numbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     let mut wire = [0; MAX_WIRE];
-    // A mirror of the receiver tells which run is on: a host would hear it.
+    // A copy of the receiver provides the run number that a host would know.
     let mut mirror = Receiver::<256>::new(ABOUT);
     let mut seq = numbers.below(65_536) as u16;
     let mut held: Option<Vec<u8>> = None;
@@ -185,7 +186,7 @@ fn steps(seed: u64, mode: Mode, percent: u64) -> Vec<Step> {
             bytes.extend((0..numbers.below(300)).map(|_| numbers.below(256) as u8));
         }
         let n_ticks = if numbers.is(2) { numbers.below(256) } else { 14 + numbers.below(5) };
-        // A step holds 255 bytes: the rest comes with no ticks before it.
+        // A step holds at most 255 bytes; further bytes follow without ticks in between.
         let mut parts: Vec<Step> =
             bytes.chunks(255).map(|part| Step { bytes: part.to_vec(), n_ticks: 0 }).collect();
         match parts.last_mut() {
@@ -215,16 +216,19 @@ fn both_say_and_play_the_same() {
                 let (expected, n_heard) = played_by_rust(&steps);
                 let found = played_by_c(&program, &steps);
                 let differs = found.iter().zip(&expected).position(|(a, b)| a != b);
-                assert!(found == expected, "{mode:?}, {percent} %, seed {seed}: differs at byte {differs:?}");
+                assert!(
+                    found == expected,
+                    "{mode:?}, {percent} %, seed {seed}: outputs differ at byte {differs:?}"
+                );
                 n_heard_of_all += n_heard;
             }
         }
     }
-    println!("{n_heard_of_all} samples heard, all alike");
+    println!("{n_heard_of_all} nonzero samples, all equal");
     assert!(n_heard_of_all > 500_000, "{n_heard_of_all}");
 }
 
-/// The negative control: the comparison sees a single sample.
+/// Negative control: the comparison detects a single additional sample.
 #[test]
 fn the_comparison_can_fail() {
     let folder = tempfile::tempdir().unwrap();

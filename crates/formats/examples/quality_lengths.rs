@@ -1,25 +1,27 @@
-//! Makes the quality model of the program: the weights of the paper with lengths of a corpus, the textures of the starter
-//! library against themselves through the codec. To be run after `train_codec`:
+//! Writes the built-in quality model: the paper's weights, with scaling lengths computed from a corpus. The corpus
+//! pairs each texture of the starter library with its decoded version at every bit rate. Run it after `train_codec`:
 //!
 //! `cargo run --release -p shagreen-formats --example quality_lengths -- assets/quality/paper.json`
 
 use std::error::Error;
 use std::sync::Arc;
 
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::codec::corpus::signal;
-use shagreen_core::contact_model::REFERENCE_CONTACT;
-use shagreen_core::quality::{
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::coded::Coded;
+use shagreen_core::signals::codec::corpus::signal;
+use shagreen_core::signals::quality::{
     PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityMeter, QualityModel, SEGMENT_SECS, Term,
 };
+use shagreen_core::surfaces::contact_model::REFERENCE_CONTACT;
 use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::quality_model::write_quality_model;
 use shagreen_formats::starter::starter_library;
 use shagreen_formats::thresholds::ThresholdKind;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args_os().nth(1).ok_or("give the file to write, assets/quality/paper.json")?;
+    let path = std::env::args_os()
+        .nth(1)
+        .ok_or("missing argument: give the output file, for example assets/quality/paper.json")?;
     let books = Arc::new(built_in_codebooks()?);
     let meter = QualityMeter::new(PAPER_RATE, &ThresholdKind::default().read()?)?;
     let mut corpus = Vec::new();
@@ -31,12 +33,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let weights: Vec<_> = PAPER_FEATURES.into_iter().zip(PAPER_WEIGHTS).collect();
-    // Lengths grow with the number of pairs.
+    // A length is the root of a sum over pairs, so it is scaled to the number of pairs in the paper.
     let share = (PAPER_PAIRS as f64 / corpus.len() as f64).sqrt();
     let terms = QualityModel::weighted(&weights, &corpus)?;
     let terms = terms.terms().iter().map(|term| Term { length: share * term.length, ..*term }).collect();
     let said = format!(
-        "{} pairs, as of {PAPER_PAIRS}: the textures of the starter library at 100 mm/s and 1 N against themselves through the codec at its five rates",
+        "{} pairs, scaled to {PAPER_PAIRS}: the textures of the starter library at 100 mm/s and 1 N, original against decoded, at the five bit rates of the codec",
         corpus.len()
     );
     std::fs::write(path, write_quality_model(&QualityModel::of_terms(terms)?, &said))?;

@@ -1,15 +1,16 @@
-//! Actuator configurations (ACF) for players of `.haptic` clips, as JSON, which is also JSON5.
+//! Actuator configuration files (ACF) for players of `.haptic` clips. The output is JSON, which is also valid JSON5.
 //!
-//! Such a player knows no frequency response: it plays sines between two frequencies, and short bursts at clip's emphases.
-//! What is written is chosen so that it neither overloads the actuator nor plays where it does nothing:
+//! Such a player uses no frequency response: it plays sines between two frequencies, and short bursts at the emphases
+//! of a clip. The values written here neither overload the actuator nor use frequencies at which its gain is low:
 //!
-//! - frequencies of `continuous` run from where the gain reaches half of that far above the resonance (not below the lowest
-//!   frequency of the profile) to [`HIGHEST_HZ`], or to twice the resonance where that is higher;
-//! - gains are those of a sine that the rated voltage bears for ever (`continuous`), and the peak voltage for a moment
-//!   (`emphasis`), as shares of the digital full scale of the drive, at most 1;
-//! - `emphasis_ducking` is the gain that is left to the continuous signal while an emphasis sounds;
-//! - an emphasis takes two periods, of the lowest frequency at its dullest, of the middle between resonance and highest
-//!   frequency (geometrically) at its sharpest, as a sine and a square; a voice coil rings out by itself, so nothing fades.
+//! - The `continuous` band starts where the gain reaches half of the gain far above the resonance, but not below the
+//!   lowest frequency of the profile. It ends at [`HIGHEST_HZ`], or at twice the resonance frequency if that is higher.
+//! - Gains are fractions of the digital full scale of the drive, at most 1. `continuous` is the amplitude of a sine at
+//!   the rated voltage, which the actuator bears indefinitely; `emphasis` is the peak voltage, which it bears briefly.
+//! - `emphasis_ducking` is the gain of the continuous signal during an emphasis.
+//! - An emphasis lasts two periods. At its lowest sharpness it is a sine at the lowest frequency. At its highest it is
+//!   a square wave at the geometric mean of the resonance and the highest frequency. A voice coil rings down by itself,
+//!   so the fade-out is zero.
 
 use serde::{Deserialize, Serialize};
 use shagreen_core::actuator::{Actuator, ActuatorError, Drive, Response};
@@ -17,80 +18,80 @@ use shagreen_core::units::Hertz;
 
 use crate::layout;
 
-/// Highest frequency of a clip, in Hz: skin feels best around it, and clips are made for it.
+/// Highest frequency of a clip, in Hz: skin is most sensitive near it, and clips are designed for it.
 pub const HIGHEST_HZ: f64 = 300.0;
-/// What is left of the continuous signal while an emphasis sounds.
+/// Gain of the continuous signal during an emphasis.
 const DUCKING: f64 = 0.5;
-/// Share of the gain far above the resonance from which on a frequency is worth playing.
+/// Fraction of the gain far above the resonance that a frequency must reach to be used.
 const LEAST_SHARE: f64 = 0.5;
 /// Periods of an emphasis.
 const PERIODS: f64 = 2.0;
 
-/// A configuration as it is written.
+/// An actuator configuration, as the file stores it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AcfV1 {
-    /// Whom it is for and where it comes from; players do not read it.
+    /// Device, author and source; players ignore it.
     pub metadata: MetadataV1,
-    /// How continuous vibration is played.
+    /// Playback of continuous vibration.
     pub continuous: ContinuousV1,
-    /// How short events are played.
+    /// Playback of short events.
     pub emphasis: EmphasisV1,
 }
 
-/// Free text.
+/// Free-text metadata.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MetadataV1 {
     /// Version of the configuration.
     pub version: String,
-    /// The actuator.
+    /// Name of the actuator.
     pub device: String,
     /// The program that wrote it.
     pub author: String,
-    /// Where the figures come from.
+    /// Source of the actuator data.
     pub source: String,
 }
 
-/// How continuous vibration is played.
+/// Playback of continuous vibration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContinuousV1 {
-    /// Share of full scale at amplitude 1, 0 to 1.
+    /// Fraction of full scale at amplitude 1, 0 to 1.
     pub gain: f64,
-    /// Gain that is left while an emphasis sounds: 1 leaves it alone, 0 silences it.
+    /// Gain of the continuous signal during an emphasis: 1 leaves it unchanged, 0 mutes it.
     pub emphasis_ducking: f64,
-    /// Frequency in Hz at frequency 0.
+    /// Output frequency in Hz at clip frequency 0.
     pub frequency_min: f64,
-    /// Frequency in Hz at frequency 1.
+    /// Output frequency in Hz at clip frequency 1.
     pub frequency_max: f64,
 }
 
-/// How short events are played.
+/// Playback of short events.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EmphasisV1 {
-    /// Share of full scale at amplitude 1, 0 to 1.
+    /// Fraction of full scale at amplitude 1, 0 to 1.
     pub gain: f64,
-    /// By how much it fades to its end, 0 to 100.
+    /// Fade-out at the end, 0 to 100 %.
     pub fade_out_percent: f64,
-    /// At frequency 0.
+    /// Burst at clip frequency 0.
     pub frequency_min: BurstV1,
-    /// At frequency 1.
+    /// Burst at clip frequency 1.
     pub frequency_max: BurstV1,
 }
 
-/// A short event.
+/// A burst of a few periods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BurstV1 {
     /// Frequency in Hz.
     pub output_frequency: f64,
-    /// Length in ms.
+    /// Duration in ms.
     pub duration_ms: f64,
     /// `sine`, `square`, `saw` or `triangle`.
     pub shape: String,
 }
 
-/// The configuration of an actuator behind a drive; `author` is the program.
+/// Returns the configuration of an actuator behind a drive; `author` names the program.
 ///
 /// # Errors
-/// [`ActuatorError::NoResponse`].
+/// [`ActuatorError::NoResponse`] if the profile has no frequency response.
 pub fn acf(actuator: &Actuator, drive: Drive, author: &str) -> Result<AcfV1, ActuatorError> {
     let response = actuator.response()?;
     let share = |volts: Option<f64>| volts.map_or(1.0, |volts| (volts / drive.full_scale.0).min(1.0));
@@ -125,13 +126,13 @@ pub fn acf(actuator: &Actuator, drive: Drive, author: &str) -> Result<AcfV1, Act
     })
 }
 
-/// The bytes of a configuration.
+/// Serializes a configuration as JSON.
 pub fn write_acf(acf: &AcfV1) -> Vec<u8> {
     layout::to_bytes(acf, 3)
 }
 
-/// The lowest frequency at which the gain is a share of that far above the resonance: with `x = (f/f₀)²`,
-/// `x² = share² ((1 - x)² + x/Q²)`.
+/// Returns the lowest frequency at which the gain is `share` times the gain far above the resonance. It solves `x² =
+/// share² ((1 - x)² + x/Q²)` with `x = (f/f₀)²`.
 fn reaching(response: &Response, share: f64) -> Hertz {
     let square = share * share;
     let half = 0.5 * (response.q().powi(-2) - 2.0) * square;
@@ -157,12 +158,12 @@ mod tests {
         let bytes = write_acf(&made);
         assert_eq!(serde_json::from_slice::<AcfV1>(&bytes).unwrap(), made);
         let value: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
-        // 1.41 V rms is a sine of 1.994 V; 4.5 V are nine tenths of 5 V.
+        // 1.41 V rms is a sine of 1.994 V amplitude; 4.5 V is nine tenths of 5 V.
         assert!((value["continuous"]["gain"].as_f64().unwrap() - 0.3988).abs() < 1e-4);
         assert!((value["emphasis"]["gain"].as_f64().unwrap() - 0.9).abs() < 1e-12);
         assert_eq!(value["continuous"]["frequency_max"], 300.0);
         assert_eq!(value["emphasis"]["frequency_max"]["shape"], "square");
-        // The geometric mean of 65 and 300 Hz, and two periods of it.
+        // Two periods at the geometric mean of 65 and 300 Hz.
         assert_eq!(value["emphasis"]["frequency_max"]["output_frequency"], 139.6);
         assert_eq!(value["emphasis"]["frequency_max"]["duration_ms"], 14.3);
     }
@@ -179,7 +180,7 @@ mod tests {
         for (q, share) in [(0.5, 0.5), (4.0, 0.5), (30.0, 0.9), (0.2, 0.1)] {
             let response = Response::new(Hertz(65.0), q, 2.0).unwrap();
             let gain = response.magnitude_at(reaching(&response, share));
-            // A closed root in f64.
+            // The root has a closed form, so only f64 rounding remains.
             assert!((gain / (2.0 * share) - 1.0).abs() < 1e-12, "{gain} for Q {q}");
         }
     }
@@ -188,6 +189,6 @@ mod tests {
     fn without_a_response_there_is_none() {
         let unknown = built_in_actuators().unwrap().pop().unwrap();
         let message = acf(&unknown, Drive::ASSUMED, "").unwrap_err().to_string();
-        assert!(message.contains("mm1c; calibrate it"), "{message}");
+        assert!(message.contains("mm1c is unknown; calibrate it"), "{message}");
     }
 }

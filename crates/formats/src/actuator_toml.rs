@@ -1,7 +1,7 @@
-//! Profiles of actuators, as TOML files.
+//! Actuator profiles, as TOML files.
 //!
-//! Every key has its unit in its name; files are in grams and microhenries, values in SI units. What is not stated is left
-//! out. A key that is not known is an error, for it would be a figure without effect.
+//! Every key carries its unit in its name. Files use grams and microhenries; values in memory use SI units. Unknown
+//! quantities are omitted. An unknown key is an error, because its value would have no effect.
 //!
 //! ```
 //! use shagreen_core::units::{Hertz, Kilograms};
@@ -23,12 +23,12 @@ use shagreen_core::units::{Hertz, Kilograms, Volts};
 
 use crate::library::id_from_name;
 
-/// What the key `format` holds.
+/// Value of the `format` key.
 pub const FORMAT: &str = "shagreen-actuator";
-/// Version of the format.
+/// Version of the file format.
 pub const VERSION: &str = "1.0";
 
-/// The profiles that are built into the program, in the order of their list.
+/// The built-in profiles, in list order.
 const BUILT_IN: [&str; 4] = [
     include_str!("../../../assets/actuators/haptuator-mark-ii.toml"),
     include_str!("../../../assets/actuators/haptuator-redesign.toml"),
@@ -36,42 +36,48 @@ const BUILT_IN: [&str; 4] = [
     include_str!("../../../assets/actuators/mm1c.toml"),
 ];
 
-/// Why bytes are no profile.
+/// Why bytes are not an actuator profile.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ActuatorFileError {
-    /// Not UTF-8.
-    #[error("the profile is not UTF-8 text from byte {at} on; save the file as UTF-8")]
+    /// The file is not UTF-8.
+    #[error("the actuator profile is not valid UTF-8 at byte {at}; save the file as UTF-8")]
     NotText {
-        /// The first byte that is not.
+        /// Offset of the first invalid byte, from zero.
         at: usize,
     },
-    /// Not TOML, or a key is missing, unknown or of the wrong kind.
-    #[error("the profile cannot be read: {reason}; correct the file")]
+    /// Not TOML, or a key is missing, unknown or of the wrong type.
+    #[error("cannot read the actuator profile: {reason}; correct that line of the file")]
     Damaged {
-        /// What is wrong, with the line, on one line.
+        /// The parser's message with its line number, on one line.
         reason: String,
     },
-    /// Of another kind.
-    #[error("this is no profile of an actuator: its format is \"{found}\", not \"{FORMAT}\"")]
+    /// The file has another format.
+    #[error(
+        "the file is not an actuator profile: `format` is \"{found}\", not \"{FORMAT}\"; choose another file"
+    )]
     Format {
-        /// What the key `format` holds.
+        /// Value of the `format` key.
         found: String,
     },
-    /// Of another version.
-    #[error("the profile has version {found}, this program reads {VERSION}; open it with a newer Shagreen")]
+    /// The file has an unsupported version.
+    #[error(
+        "the actuator profile has version {found}, but this program reads version {VERSION}; use a newer version of Shagreen"
+    )]
     Version {
-        /// What the key `version` holds.
+        /// Value of the `version` key.
         found: String,
     },
-    /// The identifier is none.
-    #[error("\"{id}\" is no identifier of a profile; use lower-case letters, digits and hyphens")]
+    /// The `id` key is not a valid identifier.
+    #[error(
+        "`id` is \"{id}\", which is not a valid identifier; use only lower-case letters, digits and hyphens"
+    )]
     Id {
-        /// What it is.
+        /// Value of the `id` key.
         id: String,
     },
-    /// A number has no meaning.
-    #[error("{0}; correct the profile")]
+    /// A number is out of range.
+    #[error("{0}; correct the actuator profile")]
     Number(#[from] ActuatorError),
 }
 
@@ -144,15 +150,15 @@ struct CalibrationV1 {
     full_scale_v: f64,
 }
 
-/// Reads a profile.
+/// Reads an actuator profile.
 ///
 /// # Errors
-/// See [`ActuatorFileError`]; every number is checked by [`validate`].
+/// See [`ActuatorFileError`]; [`validate`] checks every number.
 pub fn read_actuator(bytes: &[u8]) -> Result<Actuator, ActuatorFileError> {
     let text =
         std::str::from_utf8(bytes).map_err(|error| ActuatorFileError::NotText { at: error.valid_up_to() })?;
     let damaged = |error: toml::de::Error| damaged(&error, text);
-    // What it is comes first: of a newer version, other keys are no mistake.
+    // The header is checked first: in a newer version, unknown keys are not an error.
     let header: HeaderV1 = toml::from_str(text).map_err(damaged)?;
     if header.format != FORMAT {
         return Err(ActuatorFileError::Format { found: header.format });
@@ -169,18 +175,18 @@ pub fn read_actuator(bytes: &[u8]) -> Result<Actuator, ActuatorFileError> {
     Ok(actuator)
 }
 
-/// The profiles that are built into the program; the first has a response.
+/// Returns the built-in actuator profiles; the first has a frequency response.
 ///
 /// # Errors
-/// None, as long as the committed files are sound, which a test holds.
+/// Fails only if an embedded file is damaged, which a test excludes.
 pub fn built_in_actuators() -> Result<Vec<Actuator>, ActuatorFileError> {
     BUILT_IN.iter().map(|text| read_actuator(text.as_bytes())).collect()
 }
 
-/// A key with its number, where there is one.
+/// A key with its number, if known.
 type Entry = (&'static str, Option<f64>);
 
-/// A profile as the bytes of its file.
+/// Serializes an actuator profile as TOML.
 pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
     let volts = |volts: Option<Volts>| volts.map(|volts| volts.0);
     let grams = |mass: Option<Kilograms>| mass.map(|mass| exact(mass.0, 1e3, |g| Kilograms::from_g(g).0));
@@ -193,7 +199,7 @@ pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
         ("source", &actuator.source),
         ("licence", &actuator.license),
     ];
-    // A profile has an id, a name and a source in any case.
+    // A profile always has an id, a name and a source.
     let is_told = |(key, text): &(&str, &String)| !text.is_empty() || ["id", "name", "source"].contains(key);
     lines.extend(
         texts.iter().filter(|entry| is_told(entry)).map(|(key, text)| format!("{key} = {}", quoted(text))),
@@ -251,8 +257,8 @@ pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
     lines.join("\n").into_bytes()
 }
 
-/// An SI value in the unit of the file, `per_si` of which are one, so that it comes back exactly: of the numbers near the
-/// product the one that does, with the fewest digits.
+/// Converts an SI value to the unit of the file so that `back` restores it exactly. `per_si` is the number of file
+/// units in one SI unit. Among the numbers near the product, it returns an exact one with the fewest digits.
 fn exact(si: f64, per_si: f64, back: impl Fn(f64) -> f64) -> f64 {
     let product = si * per_si;
     let rounded = (0..=15).filter_map(|digits| format!("{product:.digits$e}").parse::<f64>().ok());
@@ -262,12 +268,12 @@ fn exact(si: f64, per_si: f64, back: impl Fn(f64) -> f64) -> f64 {
         .unwrap_or(product)
 }
 
-/// A text as TOML has it: JSON's escapes, and one character more.
+/// A TOML string: JSON escapes, plus one for DEL, which TOML also requires.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
 }
 
-/// The parser's message on one line, with the line of the file.
+/// The parser's message on one line, with the line number in the file.
 fn damaged(error: &toml::de::Error, text: &str) -> ActuatorFileError {
     let message = error.message().replace('\n', " ");
     let before = error.span().and_then(|span| text.get(..span.start));
@@ -336,7 +342,7 @@ mod tests {
         assert_eq!(ids, ["haptuator-mark-ii", "haptuator-redesign", "alps-aft14a903a", "mm1c"]);
         for actuator in &actuators {
             assert!(actuator.source.len() > 20, "{}", actuator.id);
-            // One has a response; the others ask to be calibrated.
+            // Only one built-in profile has a response; the others ask the user to calibrate.
             assert_eq!(actuator.measured.is_some(), actuator.id == "haptuator-mark-ii");
             assert!(actuator.measured.is_some() || actuator.source.contains("calibrate it"));
         }
@@ -369,7 +375,7 @@ mod tests {
             (physical.stiffness_n_per_m.unwrap(), mechanics.stiffness_n_per_m),
             (physical.damping_n_s_per_m.unwrap(), mechanics.damping_n_s_per_m),
         ] {
-            // Six digits are written.
+            // The file stores six digits.
             assert!((written / derived - 1.0).abs() < 5e-6, "{written} for {derived}");
         }
     }
@@ -401,10 +407,10 @@ mod tests {
         check_error(&good.replace("peak_v = 4.5", "peak_v = -4.5"), "the peak voltage in V is -4.5");
         check_error(&good.replace("lowest_hz = 20", "lowest_hz = \"low\""), "line 9");
         check_error(&good.replace("\"1.0\"", "\"2.0\""), "version 2.0");
-        check_error(&good.replace("shagreen-actuator", "shagreen-signal"), "no profile of an actuator");
+        check_error(&good.replace("shagreen-actuator", "shagreen-signal"), "not an actuator profile");
         check_error(
             &good.replace("id = \"haptuator-mark-ii\"", "id = \"Mark II\""),
-            "\"Mark II\" is no identifier",
+            "`id` is \"Mark II\", which is not a valid identifier",
         );
         check_error("x = 1", "missing field");
         check_error("[", "line 1");

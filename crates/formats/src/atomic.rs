@@ -1,4 +1,4 @@
-//! Writing files whole or not at all: to a new file in the same folder, to the disk, then by renaming.
+//! Atomic file writing: write a temporary file in the same folder, flush it to disk, then rename it.
 
 use std::fs;
 use std::io::{self, Write as _};
@@ -6,44 +6,44 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{NamedTempFile, TempPath};
 
-/// Why a file was not written. What was there before is untouched.
+/// Why a file was not written. The previous file is unchanged.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write the file ({source}); check that its folder exists, is writable and has room: {}", path.display())]
+#[error("cannot write the file ({source}); check that its folder exists, is writable and has free space: {}", path.display())]
 pub struct WriteError {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What the system says.
+    /// The error of the operating system.
     #[source]
     pub source: io::Error,
 }
 
-/// Writes `bytes` to `path`, replacing a file that is there.
+/// Writes `bytes` to `path`, replacing an existing file.
 ///
 /// # Errors
-/// [`WriteError`]; then a file that was there still is, as it was.
+/// [`WriteError`]; an existing file is then unchanged.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     write_all(&[(path, bytes)])
 }
 
-/// Writes several files of which none makes sense without the others, replacing those that are there.
+/// Writes several files that belong together, replacing existing ones.
 ///
-/// All of them are on the disk under other names before the first takes its place. Where a later one cannot take its
-/// place, the earlier ones are put back as they were.
+/// All files are on disk under temporary names before the first is renamed. If renaming a later file fails, the earlier
+/// ones are restored.
 ///
-/// A writer that is killed in the middle leaves every file whole, old or new, and what it was at under a hidden name
-/// beside it.
+/// If the process is killed halfway, every file is complete, either old or new. A hidden temporary file may remain next
+/// to it.
 ///
-/// A link is followed: what it points to is replaced, and the link stays. What is there and is no file (a folder, a
-/// device, a pipe) is left alone.
+/// Symbolic links are followed: the target is replaced, and the link stays. A path that is a folder, device or pipe is
+/// an error and is left unchanged.
 ///
 /// # Errors
-/// [`WriteError`] for the first file that could not be written; then all files are as they were.
+/// [`WriteError`] for the first file that could not be written; all files are then unchanged.
 pub fn write_all(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
     replace(stage_all(files)?)
 }
 
-/// Whether [`write_all`] could write these files by now, as far as can be told without replacing one: for whoever has
-/// something to do before that cannot be done again.
+/// Checks whether [`write_all`] could write these files now, as far as possible without replacing one. Call it before
+/// work that cannot be repeated.
 ///
 /// # Errors
 /// [`WriteError`] for the first file that could not be written.
@@ -52,13 +52,14 @@ pub fn check_all(paths: &[&Path]) -> Result<(), WriteError> {
     stage_all(&files).map(drop)
 }
 
-/// All files under other names.
+/// Writes all files under temporary names.
 fn stage_all<'a>(files: &[(&'a Path, &[u8])]) -> Result<Vec<Staged<'a>>, WriteError> {
     let mut staged: Vec<Staged<'_>> = Vec::with_capacity(files.len());
     for (path, bytes) in files {
         let file = stage(path, bytes).map_err(|source| WriteError { path: path.to_path_buf(), source })?;
         if let Some(twin) = staged.iter().find(|other| other.target == file.target) {
-            let reason = format!("it is the same file as {}", twin.path.display());
+            let reason =
+                format!("it is the same file as {}, which is also being written", twin.path.display());
             let source = io::Error::new(io::ErrorKind::InvalidInput, reason);
             return Err(WriteError { path: path.to_path_buf(), source });
         }
@@ -67,23 +68,23 @@ fn stage_all<'a>(files: &[(&'a Path, &[u8])]) -> Result<Vec<Staged<'a>>, WriteEr
     Ok(staged)
 }
 
-/// A file that is on the disk under another name, in the folder where it belongs.
+/// A file on disk under a temporary name, in its final folder.
 struct Staged<'a> {
-    /// What was asked for.
+    /// The path that the caller gave.
     path: &'a Path,
-    /// What that is behind all links: the file to replace.
+    /// The file to replace, after following all links.
     target: PathBuf,
-    /// The new bytes; they go away unless they take their place.
+    /// The new bytes; the temporary file is deleted unless it is renamed.
     file: NamedTempFile,
 }
 
-/// The bytes on the disk, in the folder of what `path` means.
+/// Writes the bytes to a temporary file in the folder of the target of `path`.
 fn stage<'a>(path: &'a Path, bytes: &[u8]) -> io::Result<Staged<'a>> {
     let target = behind_links(path)?;
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
-        // A file like any other, as the person's umask has it; the default is for secrets.
+        // The usual file mode under the user's umask; the default of `tempfile` is private to the user.
         use std::os::unix::fs::PermissionsExt as _;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
@@ -93,34 +94,34 @@ fn stage<'a>(path: &'a Path, bytes: &[u8]) -> io::Result<Staged<'a>> {
     Ok(Staged { path, target, file })
 }
 
-/// What the names of files begin with that are not in their place yet.
+/// Prefix of temporary file names.
 const PREFIX: &str = ".shagreen-";
-/// Most links that are followed: as many as Linux follows.
+/// Maximum number of links to follow: the limit of Linux.
 const MAX_LINKS: usize = 40;
 
-/// The file that a path means: one that is there, or one that is not there yet.
+/// Resolves a path to the file that it means, which may not exist yet.
 fn behind_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_path_buf();
     for _ in 0..MAX_LINKS {
         match fs::metadata(&path) {
             Ok(found) if found.is_file() => return fs::canonicalize(&path),
             Ok(found) if found.is_dir() => {
-                return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+                return Err(io::Error::new(io::ErrorKind::IsADirectory, "the path is a folder"));
             }
             Ok(_) => {
-                let reason = "it is a device or a pipe, which no file replaces";
+                let reason = "the path is a device or a pipe, which cannot be replaced by a file";
                 return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),
         }
-        // Not there, or a link to what is not there.
+        // The path does not exist, or is a link to a missing file.
         match fs::read_link(&path) {
             Ok(next) => path = folder_of(&path).join(next),
             Err(_) => return Ok(path),
         }
     }
-    Err(io::Error::new(io::ErrorKind::InvalidInput, "it is a link that leads to too many others"))
+    Err(io::Error::new(io::ErrorKind::InvalidInput, "the path leads through too many symbolic links"))
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -130,18 +131,18 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// The system's own words would name a file that nobody asked for, and those for what is missing are not for people.
+/// Rewords an I/O error: the original text would name the temporary file, and its text for a missing folder is unclear.
 fn unnamed(error: &io::Error) -> io::Error {
     match error.kind() {
-        kind @ io::ErrorKind::NotFound => io::Error::new(kind, "its folder is not there"),
+        kind @ io::ErrorKind::NotFound => io::Error::new(kind, "its folder does not exist"),
         kind => io::Error::from(kind),
     }
 }
 
-/// Lets staged files take their places.
+/// Renames staged files to their targets.
 fn replace(staged: Vec<Staged<'_>>) -> Result<(), WriteError> {
     let failed = |path: &Path, source| WriteError { path: path.to_path_buf(), source };
-    // The last file needs no copy of what it replaces: nothing can fail after it.
+    // The last file needs no backup, because nothing can fail after its rename.
     let n_kept = staged.len().saturating_sub(1);
     let mut before = Vec::with_capacity(n_kept);
     for staged in &staged[..n_kept] {
@@ -159,10 +160,10 @@ fn replace(staged: Vec<Staged<'_>>) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// What is at `target` under a second name, which goes away unless it is put back; nothing where nothing is.
+/// Makes a backup of `target` under a second name, which is deleted unless restored; `None` if the file does not exist.
 fn keep(target: &Path) -> io::Result<Option<TempPath>> {
     let under = |name: &Path| match fs::hard_link(target, name) {
-        // A file system without second names, or a file of someone else: a copy does too, where it can be read.
+        // Fallback to a copy: the file system has no hard links, or the file belongs to another user.
         Err(error) if !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::AlreadyExists) => {
             fs::copy(target, name).map(|_| ())
         }
@@ -177,7 +178,7 @@ fn keep(target: &Path) -> io::Result<Option<TempPath>> {
 
 fn put_back(before: Vec<(PathBuf, Option<TempPath>)>) {
     for (target, old) in before {
-        // The error that led here is the one to report; this is the best that can be done about it.
+        // The original error is reported; a failure to restore cannot be handled.
         let _ = match old {
             Some(kept) => kept.persist(&target).is_ok(),
             None => fs::remove_file(&target).is_ok(),
@@ -185,9 +186,9 @@ fn put_back(before: Vec<(PathBuf, Option<TempPath>)>) {
     }
 }
 
-/// Makes the new name of a file last through a loss of power.
+/// Makes a rename survive a power failure.
 fn sync_folder(target: &Path) {
-    // The file is in its place by now, and some file systems cannot do this: that is no failure to write it.
+    // The file is already in place, and some file systems cannot sync a folder, so an error here is ignored.
     #[cfg(unix)]
     let _ = fs::File::open(folder_of(target)).and_then(|folder| folder.sync_all());
     #[cfg(not(unix))]
@@ -244,7 +245,7 @@ mod tests {
         assert_eq!((fs::read(&a).unwrap(), names(folder.path())), (b"old".to_vec(), vec!["a".to_owned()]));
     }
 
-    /// Three staged files of which the last cannot take its place, for a folder has come there meanwhile.
+    /// Stages three files, of which the last cannot be renamed because a folder has taken its name.
     fn fail_late(folder: &std::path::Path) {
         let [old, fresh, taken] = ["old", "fresh", "taken"].map(|name| folder.join(name));
         let staged = [&old, &fresh, &taken].map(|path| stage(path, b"now").unwrap());
@@ -271,7 +272,7 @@ mod tests {
         fs::set_permissions(&old, fs::Permissions::from_mode(0o000)).unwrap();
         let before = fs::metadata(&old).unwrap();
         fail_late(folder.path());
-        // The very same file, with its rights and its owner.
+        // The same inode, with its permissions and owner.
         let after = fs::metadata(&old).unwrap();
         assert_eq!((after.ino(), after.mode()), (before.ino(), before.mode()));
     }

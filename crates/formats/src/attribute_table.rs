@@ -1,21 +1,21 @@
-//! The attributes of a library's textures as a table: what there is to learn from.
+//! The attribute values of the textures of a library as a table: the training data of an attribute predictor.
 
-use shagreen_core::attribute_predictor::{Known, quantities};
 use shagreen_core::space::LabelSource;
+use shagreen_core::space::attribute_predictor::{Known, quantities};
 use shagreen_core::words::counted;
 
 use crate::library::{Library, TextureEntry};
 
-/// Textures with attributes that all of them have.
+/// Textures and the attributes that all of them share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttributeTable {
-    /// Names of the attributes: pairs of adjectives, the one at 0 first.
+    /// Attribute names: pairs of adjectives, the one at 0 first.
     pub names: Vec<String>,
     /// Indices of the textures in their library.
     pub textures: Vec<usize>,
     /// Values of each texture, 0..100, in the order of the names.
     pub values: Vec<Vec<f64>>,
-    /// Where they come from; several where textures differ.
+    /// Label sources of the values; several if textures differ.
     pub sources: Vec<LabelSource>,
 }
 
@@ -23,14 +23,15 @@ pub struct AttributeTable {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AttributeTableError {
-    /// No texture has attributes or a place.
+    /// No texture has attributes or a position.
     #[error(
-        "no texture of the library has attributes or a place; place some by `shagreen space place` or rate them"
+        "no texture of the library has attributes or a position; assign positions with `shagreen space place` or rate textures"
     )]
     Nothing,
 }
 
-/// The attributes that all textures with any have; where none has any, the axes of their places. Estimates are left out.
+/// Returns the attributes that all rated textures share. If no texture is rated, or no attribute is common to all, the
+/// table holds the axes of their positions. Estimated values are excluded.
 ///
 /// # Errors
 /// See [`AttributeTableError`].
@@ -68,7 +69,8 @@ pub fn attribute_table(library: &Library) -> Result<AttributeTable, AttributeTab
     if table.textures.is_empty() { Err(AttributeTableError::Nothing) } else { Ok(table) }
 }
 
-/// Whether there is something to learn from: an estimate tells what was learned already.
+/// Returns whether values of this source may serve as training data. Estimates may not: they are predictions
+/// themselves.
 fn is_known(source: LabelSource) -> bool {
     source != LabelSource::Estimated
 }
@@ -82,10 +84,10 @@ impl AttributeTable {
         }
     }
 
-    /// What each texture is known by, with its attributes.
+    /// Returns the physical quantities of each texture with its attribute values.
     ///
     /// # Panics
-    /// If it is the table of another library.
+    /// If the table belongs to another library.
     pub fn known(&self, library: &Library) -> Vec<Known> {
         let of = |(index, values): (&usize, &Vec<f64>)| Known {
             quantities: quantities(&library.textures[*index].model),
@@ -94,18 +96,17 @@ impl AttributeTable {
         self.textures.iter().zip(&self.values).map(of).collect()
     }
 
-    /// What there is to learn from, in words: how many textures of the library of this name, and where their values come
-    /// from.
+    /// Describes the training data: the number of textures, the name of the library, and the label sources.
     pub fn of_library(&self, name: &str) -> String {
         format!("{} of \"{name}\" ({})", counted(self.textures.len(), "texture"), self.source_words())
     }
 
-    /// Where the values come from: identifiers as files of libraries have them.
+    /// Identifiers of the label sources, as library files store them.
     pub fn source_ids(&self) -> impl Iterator<Item = &'static str> {
         self.sources.iter().map(|source| source.id())
     }
 
-    /// Where the values come from, in words.
+    /// Names of the label sources, separated by commas.
     pub fn source_words(&self) -> String {
         let words: Vec<&str> = self.sources.iter().map(|source| source.label()).collect();
         words.join(", ")
@@ -117,8 +118,8 @@ mod tests {
     use super::{AttributeTableError, attribute_table};
     use crate::library::Library;
     use crate::starter::{simulated_library, starter_library};
-    use shagreen_core::attribute_predictor::leave_one_out;
     use shagreen_core::space::LabelSource;
+    use shagreen_core::space::attribute_predictor::leave_one_out;
 
     #[test]
     fn ratings_count_before_places_and_only_what_all_have() {

@@ -1,22 +1,22 @@
-//! The libraries that are built into the program, by name.
+//! The texture libraries built into the program, by name.
 
 use crate::library::Library;
 use crate::starter::{SimulatedLibraryError, simulated_library, starter_library};
 
-/// A library of the program.
+/// A built-in texture library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BuiltIn {
-    /// Everyday materials, placed by physical labels.
+    /// Everyday materials, positioned by physical labels.
     Starter,
-    /// The same materials, placed as a simulated panel sorted and rated them.
+    /// The same materials, positioned by the sorting and rating of simulated raters.
     Simulated,
 }
 
 impl BuiltIn {
-    /// All of them, in the order of menus.
+    /// All built-in libraries, in menu order.
     pub const ALL: [Self; 2] = [Self::Starter, Self::Simulated];
 
-    /// The word that stands for it in files and on the command line.
+    /// The identifier in files and on the command line.
     pub fn id(self) -> &'static str {
         match self {
             Self::Starter => "starter",
@@ -24,15 +24,15 @@ impl BuiltIn {
         }
     }
 
-    /// The library that has this [`BuiltIn::id`].
+    /// Returns the library with this [`BuiltIn::id`].
     pub fn from_id(id: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|each| each.id() == id)
     }
 
-    /// The library itself; reading it takes some milliseconds.
+    /// Reads the library, which takes some milliseconds.
     ///
     /// # Errors
-    /// The program is damaged.
+    /// Fails only if the program file is damaged.
     pub fn read(self) -> Result<Library, SimulatedLibraryError> {
         match self {
             Self::Starter => Ok(starter_library()?),

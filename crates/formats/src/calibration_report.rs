@@ -1,11 +1,11 @@
-//! A calibration as figures.
+//! Figures of an actuator calibration.
 
-use shagreen_core::calibration::{Calibration, CurvePoint};
+use shagreen_core::actuator::calibration::{Calibration, CurvePoint};
 
 use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Tone};
 
-/// The figures of a calibration with their names: gain over frequency, what is left of it beside the fit, distortion.
-/// `source` says what was measured.
+/// Returns the named figures of a calibration: gain over frequency, residual of the fit, harmonic distortion. `source`
+/// describes the measurement.
 pub fn calibration_figures(calibration: &Calibration, source: &str) -> Vec<(&'static str, Figure)> {
     let db = |ratio: f64| 20.0 * ratio.log10();
     let chart = |title: &str, y_label: &str, series: Vec<Series>| {
@@ -34,7 +34,7 @@ pub fn calibration_figures(calibration: &Calibration, source: &str) -> Vec<(&'st
     ];
     gains.retain(|series| !series.points.is_empty());
     let left =
-        over("measured over fit", Tone::Main, Mark::Line, &|p| fitted(p).map(|f| db(p.gain_mps2_per_v / f)));
+        over("measured / fit", Tone::Main, Mark::Line, &|p| fitted(p).map(|f| db(p.gain_mps2_per_v / f)));
     let harmonics = calibration.distortion.iter();
     let harmonics = harmonics.map(|p| Point::new(p.frequency.0, 100.0 * p.share)).collect();
     let harmonics = Series {
@@ -43,12 +43,12 @@ pub fn calibration_figures(calibration: &Calibration, source: &str) -> Vec<(&'st
         tone: Tone::Third,
         points: harmonics,
     };
-    let mut figures = vec![("gain", chart("Gain of the actuator", "gain in dB over 1 (m/s²)/V", gains))];
+    let mut figures = vec![("gain", chart("Gain of the actuator", "gain in dB re 1 (m/s²)/V", gains))];
     if !left.points.is_empty() {
-        let title = "What the fit leaves";
-        figures.push(("residual", chart(title, "measured over fit in dB", vec![left])));
+        let title = "Residual of the fit";
+        figures.push(("residual", chart(title, "measured / fit in dB", vec![left])));
     }
-    figures.push(("distortion", chart("Harmonics", "share of the fundamental in %", vec![harmonics])));
+    figures.push(("distortion", chart("Harmonics", "amplitude in % of the fundamental", vec![harmonics])));
     figures
 }
 
@@ -56,8 +56,8 @@ pub fn calibration_figures(calibration: &Calibration, source: &str) -> Vec<(&'st
 mod tests {
     use super::calibration_figures;
     use crate::figure::{Figure, figure_csv, figure_svg};
+    use shagreen_core::actuator::calibration::{Sweep, calibrate};
     use shagreen_core::actuator::{Drive, Response};
-    use shagreen_core::calibration::{Sweep, calibrate};
     use shagreen_core::units::Hertz;
 
     #[test]
@@ -72,10 +72,10 @@ mod tests {
             figures.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
             ["gain", "residual", "distortion"]
         );
-        let Figure::Chart(gain) = &figures[0].1 else { panic!("a chart") };
+        let Figure::Chart(gain) = &figures[0].1 else { panic!("the gain figure is not a chart") };
         let measured = gain.series.iter().find(|s| s.name == "measured").unwrap();
         let most = measured.points.iter().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
-        // Loudest at 65 Hz / √(1 - 1/2Q²), by about 20 log10 8 dB, on a grid of 24 to the octave.
+        // The maximum lies at 65 Hz / √(1 - 1/2Q²), at about 20 log10 8 dB, on a grid of 24 points per octave.
         assert!((most.x / 66.04 - 1.0).abs() < 0.016 && (most.y - 18.06).abs() < 0.3, "{most:?}");
         for (_, figure) in &figures {
             assert!(figure_svg(figure).ends_with("</svg>\n"));

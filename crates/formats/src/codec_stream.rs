@@ -1,19 +1,25 @@
-//! Streams of the texture codec: a header, then blocks of eight frames, each with a checksum.
+//! Bit streams of the texture codec: a header, then blocks of eight frames, each block with a checksum.
 //!
 //! # Layout
 //!
-//! Numbers are little-endian. The header has 24 bytes: `SHGC`; the version, 1; a zero; bits a second (`u16`); samples of the
-//! signal (`u32`, at 2 kHz); the root mean square of the signal and its highest magnitude in m/s² (`f32` each); CRC-32 (ISO-HDLC)
-//! of these 20 bytes, which every version has there. Eight frames of 35 to 63 bits are 35 to 63 whole bytes: a block is these, then CRC-16 (IBM-3740) of its number
-//! (`u32`, from zero) and its bytes. The last block has the frames that are left, filled up with zero bits to a byte.
+//! Numbers are little-endian. The header has 24 bytes:
 //!
-//! What is damaged costs its block, 160 ms, which a decoder fills in; what is cut off ends the signal earlier.
+//! - the magic bytes `SHGC`, the version 1, and a zero byte;
+//! - the bit rate in bit/s (`u16`) and the number of samples at 2 kHz (`u32`);
+//! - the root mean square and the peak magnitude of the signal in m/s² (`f32` each);
+//! - the CRC-32 (ISO-HDLC) of these 20 bytes, at the same place in every version.
+//!
+//! Eight frames of 35 to 63 bits fill 35 to 63 whole bytes. A block consists of these bytes and the CRC-16 (IBM-3740)
+//! of the block number (`u32`, from zero) and the bytes. The last block holds the remaining frames, padded with zero
+//! bits to a whole byte.
+//!
+//! A damaged block loses 160 ms, which the decoder conceals. A truncated stream yields a shorter signal.
 
 use crc::{CRC_16_IBM_3740, CRC_32_ISO_HDLC, Crc};
-use shagreen_core::codec::FRAME_SAMPLES;
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::codec::frame::{BitReader, BitWriter, Frame};
+use shagreen_core::signals::codec::FRAME_SAMPLES;
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::coded::Coded;
+use shagreen_core::signals::codec::frame::{BitReader, BitWriter, Frame};
 use shagreen_core::words::counted;
 
 use crate::imported::Imported;
@@ -21,52 +27,59 @@ use crate::imported::Imported;
 const MAGIC: &[u8; 4] = b"SHGC";
 const VERSION: u8 = 1;
 const HEADER_BYTES: usize = 24;
-/// Bytes of the header that its checksum is of.
+/// Header bytes that its checksum covers.
 const CHECKED_BYTES: usize = 20;
-/// Frames of a block: as many as a byte has bits, so that any frame makes whole bytes.
+/// Frames per block: eight, so that frames of any size fill whole bytes.
 const BLOCK_FRAMES: usize = 8;
-/// Bytes of the checksum of a block.
+/// Bytes of a block checksum.
 const CHECK_BYTES: usize = 2;
 const HEADER_CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 const BLOCK_CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_3740);
 
-/// Why bytes are no stream.
+/// Why bytes are not a codec stream.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodecStreamError {
-    /// Something else.
-    #[error("this is no stream of the texture codec; give a file that \"shagreen codec encode\" wrote")]
+    /// The bytes have another format.
+    #[error("the file is not a texture codec stream; use a file written by \"shagreen codec encode\"")]
     NotStream,
-    /// A stream of a later program.
-    #[error("the stream has version {found}, this program reads version {VERSION}; install a newer one")]
+    /// The stream has an unsupported version.
+    #[error(
+        "the codec stream has version {found}, but this program reads version {VERSION}; use a newer version of Shagreen"
+    )]
     Version {
         /// The version found.
         found: u8,
     },
-    /// The header is cut off, or not as it was written.
-    #[error("the head of the stream is damaged, and nothing can be told without it; get the file anew")]
+    /// The header is truncated or damaged.
+    #[error(
+        "the header of the codec stream is damaged, so the stream cannot be decoded; get a new copy of the file"
+    )]
     Header,
-    /// A header as it was written by a program that says what cannot be.
-    #[error("the stream says {what}; get it from another program")]
+    /// An intact header with an impossible value.
+    #[error("the header of the codec stream states {what}; encode the signal again")]
     Nonsense {
-        /// What it says.
+        /// The impossible value.
         what: String,
     },
-    /// More samples than a stream can count.
-    #[error("{n_samples} samples do not fit a stream; encode {} or fewer at once", u32::MAX)]
+    /// The signal has more samples than the header can count.
+    #[error(
+        "the signal has {n_samples} samples, too many for a codec stream; encode {} or fewer at once",
+        u32::MAX
+    )]
     TooLong {
         /// Samples of the signal.
         n_samples: usize,
     },
 }
 
-/// Whether bytes begin as a stream does, of whatever version.
+/// Returns whether bytes begin with the magic bytes of a stream, of any version.
 pub fn is_stream(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// The bytes of a stream. A frame that was lost is written as zeros whose checksum is wrong, so that it stays lost, with its
-/// block.
+/// Serializes coded frames. A lost frame is written as zeros, and its block gets an invalid checksum, so the whole
+/// block stays lost.
 ///
 /// # Errors
 /// [`CodecStreamError::TooLong`].
@@ -75,11 +88,11 @@ pub fn write_stream(coded: &Coded) -> Result<Vec<u8>, CodecStreamError> {
     let n = u32::try_from(n_samples).map_err(|_| CodecStreamError::TooLong { n_samples })?;
     let mut bytes = MAGIC.to_vec();
     bytes.extend([VERSION, 0]);
-    // The highest rate is 3150.
+    // The highest bit rate is 3150 bit/s, which fits `u16`.
     bytes.extend((coded.rate.bits_per_sec() as u16).to_le_bytes());
     bytes.extend(n.to_le_bytes());
     bytes.extend((coded.scale_mps2 as f32).to_le_bytes());
-    // Rounding may not lower it.
+    // Rounding to `f32` must not lower the limit.
     let limit = coded.limit_mps2 as f32;
     let limit = if f64::from(limit) < coded.limit_mps2 { limit.next_up() } else { limit };
     bytes.extend(limit.to_le_bytes());
@@ -98,7 +111,7 @@ pub fn write_stream(coded: &Coded) -> Result<Vec<u8>, CodecStreamError> {
     Ok(bytes)
 }
 
-/// Reads a stream as far as it goes.
+/// Reads a codec stream up to its end or truncation.
 ///
 /// # Errors
 /// See [`CodecStreamError`].
@@ -119,13 +132,13 @@ pub fn read_stream(bytes: &[u8]) -> Result<Imported<Coded>, CodecStreamError> {
     let bits_per_sec = u32::from(u16::from_le_bytes([head[6], head[7]]));
     let nonsense = |what: String| CodecStreamError::Nonsense { what };
     let rate = Bitrate::from_bits_per_sec(bits_per_sec)
-        .ok_or_else(|| nonsense(format!("{bits_per_sec} bits a second, which no rate of the codec has")))?;
+        .ok_or_else(|| nonsense(format!("{bits_per_sec} bit/s, which is not a bit rate of the codec")))?;
     let (n_samples, scale, limit) = (word(8) as usize, f32::from_bits(word(12)), f32::from_bits(word(16)));
     if !(scale.is_finite() && scale > 0.0) {
         return Err(nonsense(format!("a root mean square of {scale} m/s²")));
     }
     if !(limit.is_finite() && limit >= 0.0) {
-        return Err(nonsense(format!("a highest magnitude of {limit} m/s²")));
+        return Err(nonsense(format!("a peak magnitude of {limit} m/s²")));
     }
     let n_frames = n_samples.div_ceil(FRAME_SAMPLES);
     let (frames, warnings) = read_blocks(body, rate, n_frames);
@@ -134,7 +147,7 @@ pub fn read_stream(bytes: &[u8]) -> Result<Imported<Coded>, CodecStreamError> {
     Ok(Imported { value: Coded { rate, n_samples, scale_mps2, limit_mps2, frames }, warnings })
 }
 
-/// The frames that there are, at most so many, and what is odd about them.
+/// Reads up to `n_frames` frames; also returns warnings.
 fn read_blocks(mut body: &[u8], rate: Bitrate, n_frames: usize) -> (Vec<Option<Frame>>, Vec<String>) {
     let mut frames = Vec::new();
     let mut n_damaged = 0;
@@ -143,14 +156,14 @@ fn read_blocks(mut body: &[u8], rate: Bitrate, n_frames: usize) -> (Vec<Option<F
         let n_left = n_frames - frames.len();
         if n_left == 0 {
             if !body.is_empty() {
-                warnings.push(format!("{} bytes follow the stream and were left", body.len()));
+                warnings.push(format!("{} bytes after the end of the stream are ignored", body.len()));
             }
             break;
         }
         let n_block = n_left.min(BLOCK_FRAMES);
         let n_bytes = (n_block * rate.allocation().n_bits() as usize).div_ceil(8);
         let Some((block, rest)) = body.split_at_checked(n_bytes + CHECK_BYTES) else {
-            warnings.push(format!("the stream is cut off: {} of {n_frames} frames are there", frames.len()));
+            warnings.push(format!("the stream is truncated: it holds {} of {n_frames} frames", frames.len()));
             break;
         };
         body = rest;
@@ -164,13 +177,13 @@ fn read_blocks(mut body: &[u8], rate: Bitrate, n_frames: usize) -> (Vec<Option<F
         }
     }
     if n_damaged > 0 {
-        let pieces = counted(n_damaged, "piece");
-        warnings.push(format!("the stream is damaged: {pieces} of up to 160 ms were filled in"));
+        let pieces = counted(n_damaged, "block");
+        warnings.push(format!("the stream is damaged: {pieces} of up to 160 ms will be concealed"));
     }
     (frames, warnings)
 }
 
-/// The checksum of a block, which tells its place too.
+/// Checksum of a block, which includes its number.
 fn checksum(index: usize, body: &[u8]) -> u16 {
     let mut digest = BLOCK_CRC.digest();
     digest.update(&(index as u32).to_le_bytes());

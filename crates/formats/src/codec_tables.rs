@@ -1,23 +1,23 @@
-//! The tables of the codec that are built into the program, and their file.
+//! The built-in codebook tables of the texture codec, and their file format.
 
 use serde::{Deserialize, Serialize};
-use shagreen_core::codec::books::{BooksError, Codebooks, SplitTable, Tables};
+use shagreen_core::signals::codec::books::{BooksError, Codebooks, SplitTable, Tables};
 
 use crate::layout;
 
 const BYTES: &[u8] = include_bytes!("../../../assets/codec/tables.json");
-/// Digits that are kept of every number: far finer than what any of them is known to.
+/// Numbers are rounded to multiples of 1/`DIGITS`, far finer than their accuracy.
 const DIGITS: f64 = 1e7;
 
-/// The tables as JSON.
+/// The tables, as the JSON file stores them.
 #[derive(Debug, Serialize, Deserialize)]
 struct TablesV1 {
-    /// What the tables were learnt from, for people.
+    /// Description of the training data, for people.
     trained_on: String,
-    /// In radians.
+    /// Mean line spectral frequencies in radians.
     lsf_mean: Vec<f64>,
     lsf: Vec<SplitV1>,
-    /// Of 4, 5 and 6 bits.
+    /// Gain codebooks of 4, 5 and 6 bits.
     gains: Vec<Vec<[f64; 2]>>,
 }
 
@@ -28,22 +28,22 @@ struct SplitV1 {
     entries: Vec<Vec<f64>>,
 }
 
-/// Why there are no tables.
+/// Why the tables are unavailable.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodecTablesError {
-    /// No JSON of tables.
-    #[error("the tables of the codec are damaged: {0}; install the program again")]
+    /// The JSON file is invalid.
+    #[error("the built-in codec tables are damaged: {0}; reinstall the program")]
     Json(#[from] serde_json::Error),
-    /// Tables of another codec.
+    /// The tables do not fit this codec.
     #[error(transparent)]
     Books(#[from] BooksError),
 }
 
-/// The tables of the program: encoder and decoder of a stream must have the same.
+/// Returns the built-in codebooks. Encoder and decoder of a stream must use the same ones.
 ///
 /// # Errors
-/// None, as long as the committed file is sound, which a test holds.
+/// Fails only if the embedded file is damaged, which a test excludes.
 pub fn built_in_codebooks() -> Result<Codebooks, CodecTablesError> {
     let TablesV1 { lsf_mean, lsf, gains, .. } = serde_json::from_slice(BYTES)?;
     let split =
@@ -51,7 +51,7 @@ pub fn built_in_codebooks() -> Result<Codebooks, CodecTablesError> {
     Ok(Codebooks::new(Tables { lsf_mean, lsf: lsf.into_iter().map(split).collect(), gains })?)
 }
 
-/// Tables as the bytes of their file.
+/// Serializes tables as JSON; `trained_on` describes the training data.
 pub fn write_tables(tables: &Tables, trained_on: &str) -> Vec<u8> {
     let row = |row: &[f64]| -> Vec<f64> { row.iter().map(|x| (x * DIGITS).round() / DIGITS).collect() };
     let split = |table: &SplitTable| SplitV1 {

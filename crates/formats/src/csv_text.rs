@@ -1,28 +1,28 @@
-//! Text of tables in the dialects of spreadsheets: its encoding, what parts its columns, where its rows stand.
+//! Text of CSV tables in the dialects of spreadsheets: encoding, column delimiter, row positions and decimal commas.
 
 use std::borrow::Cow;
 
-/// Why bytes are no text.
+/// Why bytes are not text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableTextError {
-    /// Neither UTF-8 nor UTF-16 with its mark.
-    #[error("line {line} is no UTF-8 text (byte {byte} of the file); save the table as CSV in UTF-8")]
+    /// Neither UTF-8 nor UTF-16 with a byte order mark.
+    #[error("line {line} is not valid UTF-8 (byte {byte} of the file); save the table as CSV in UTF-8")]
     Utf8 {
         /// The line, from one.
         line: u64,
-        /// The first byte that is none, from zero.
+        /// Offset of the first invalid byte, from zero.
         byte: usize,
     },
-    /// UTF-16 with half a character.
-    #[error("line {line} holds half a character of UTF-16 text; save the table again as CSV in UTF-8")]
+    /// UTF-16 with an unpaired surrogate or an odd byte.
+    #[error("line {line} holds an incomplete UTF-16 character; save the table again as CSV in UTF-8")]
     Utf16 {
         /// The line, from one.
         line: u64,
     },
-    /// A zero byte, as other kinds of files have them.
+    /// A zero byte, which is typical of binary files.
     #[error(
-        "line {line} holds a zero, so the file is no table of text, or is UTF-16 without its mark; save the table as CSV in UTF-8"
+        "line {line} holds a zero byte, so the file is not a text table or is UTF-16 without a byte order mark; save the table as CSV in UTF-8"
     )]
     Zero {
         /// The line, from one.
@@ -30,7 +30,8 @@ pub enum TableTextError {
     },
 }
 
-/// Text of bytes without its mark: UTF-8, or UTF-16 of either order with a mark, as spreadsheets call "Unicode text".
+/// Decodes bytes without their byte order mark: UTF-8, or UTF-16 of either byte order, which spreadsheets call "Unicode
+/// text".
 pub(crate) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, TableTextError> {
     let text = if let Some(units) = wide_units(bytes) {
         Cow::Owned(narrow(units, bytes.len() % 2 == 1)?)
@@ -47,7 +48,7 @@ pub(crate) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, TableTextError> {
     }
 }
 
-/// The same where odd letters do not matter, as of a header in another encoding: they are replaced.
+/// Decodes like [`text`] but replaces invalid characters, for files whose encoding does not matter, such as headers.
 pub(crate) fn text_with_odd_letters(bytes: &[u8]) -> Cow<'_, str> {
     match wide_units(bytes) {
         Some(units) => {
@@ -58,7 +59,7 @@ pub(crate) fn text_with_odd_letters(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// The units of UTF-16 after the mark that says their order.
+/// The UTF-16 code units after a byte order mark; `None` without one.
 fn wide_units(bytes: &[u8]) -> Option<impl Iterator<Item = u16> + '_> {
     let from: fn([u8; 2]) -> u16 = match bytes {
         [0xff, 0xfe, ..] => u16::from_le_bytes,
@@ -71,30 +72,31 @@ fn wide_units(bytes: &[u8]) -> Option<impl Iterator<Item = u16> + '_> {
 fn narrow(units: impl Iterator<Item = u16>, is_cut: bool) -> Result<String, TableTextError> {
     let mut text = String::new();
     for decoded in char::decode_utf16(units) {
-        // The rest of the line is of no use here.
+        // The offset within the line is not needed here.
         let character = decoded.map_err(|_| TableTextError::Utf16 { line: line_at(text.as_bytes()) })?;
         text.push(character);
     }
     if is_cut { Err(TableTextError::Utf16 { line: line_at(text.as_bytes()) }) } else { Ok(text) }
 }
 
-/// The line, from one, on which stands what follows `before`.
+/// The line number, from one, of the text that follows `before`.
 fn line_at(before: &[u8]) -> u64 {
     before.split(|byte| *byte == b'\n').count() as u64
 }
 
-/// What a first line `sep=;` says that columns are parted by, and the text after it.
+/// Returns the delimiter that a first line `sep=;` states, and the text after it.
 ///
-/// Spreadsheets write and obey such a line. What follows begins with the end of it, so that lines count as in the file.
+/// Spreadsheets write and obey such a line. The returned text begins with the line's end, so line numbers stay those of
+/// the file.
 pub(crate) fn stated_delimiter(text: &str) -> (Option<u8>, &str) {
     let (line, rest) = text.split_at(text.find(['\r', '\n']).unwrap_or(text.len()));
-    // A tab at the end may be what is stated.
+    // The delimiter may itself be a tab at the end of the line.
     let line = line.trim_matches([' ', '"']);
     let stated = line.get(..4).filter(|start| start.eq_ignore_ascii_case("sep=")).map(|_| &line[4..]);
     match stated.map(str::as_bytes) {
-        // Nothing is stated, or it was a space.
+        // No delimiter is stated, or it was a space.
         Some([]) => (None, rest),
-        // What was stated may be followed by the empty columns of a table that was saved again.
+        // Saving the table again may append empty columns, each with its delimiter.
         Some([mark, empty @ ..]) if is_delimiter(*mark) && empty.iter().all(|byte| byte == mark) => {
             (Some(*mark), rest)
         }
@@ -102,12 +104,13 @@ pub(crate) fn stated_delimiter(text: &str) -> (Option<u8>, &str) {
     }
 }
 
-/// Whether columns may be parted by this: by nothing that names and numbers are made of.
+/// Returns whether this byte may delimit columns; bytes that occur in names and numbers may not.
 fn is_delimiter(byte: u8) -> bool {
     byte == b'\t' || (byte.is_ascii_punctuation() && !matches!(byte, b'"' | b'#' | b'.' | b'-' | b'_'))
 }
 
-/// The delimiter of the first line that is neither empty nor a comment: a semicolon or tab is never part of a number.
+/// Guesses the delimiter from the first line that is neither empty nor a comment. Semicolons and tabs never occur in a
+/// number.
 fn delimiter_of(text: &str) -> u8 {
     let is_content = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
     let line = text.lines().find(is_content).unwrap_or("");
@@ -120,30 +123,30 @@ fn delimiter_of(text: &str) -> u8 {
     }
 }
 
-/// A reader of rows of any length, of which none need be a header, without spaces around fields.
+/// A CSV reader of rows of any length, without a header row, that trims spaces around fields.
 pub(crate) fn rows(delimiter: u8) -> csv::ReaderBuilder {
     let mut builder = csv::ReaderBuilder::new();
     builder.delimiter(delimiter).has_headers(false).flexible(true).trim(csv::Trim::All);
     builder
 }
 
-/// What parts the columns of a text, stated or told by its first line, and the text without a line that stated it.
+/// Returns the delimiter, stated or guessed from the first line, and the text without a `sep=` line.
 pub(crate) fn delimited(text: &str) -> (u8, &str) {
     let (stated, text) = stated_delimiter(text);
     (stated.unwrap_or_else(|| delimiter_of(text)), text)
 }
 
-/// A table by its rows that hold anything: what parts its columns, its text without a line that said so, and the records.
+/// Returns the delimiter, the text without a `sep=` line, and the records that are not empty.
 pub(crate) fn records(text: &str) -> (u8, &str, impl Iterator<Item = csv::StringRecord>) {
     let (delimiter, text) = delimited(text);
     let reader = rows(delimiter).from_reader(text.as_bytes());
-    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
+    // The text is in memory and rows may have any length, so the parser has no error left to return.
     let records = reader.into_records().map_while(Result::ok);
     (delimiter, text, records.filter(|record| record.iter().any(|field| !field.is_empty())))
 }
 
-/// The line, from one, on which a record of `text` stands: the reader counts from the end of the record before it, and
-/// there may be empty lines and comments between.
+/// Returns the line, from one, of a record of `text`. The reader counts from the end of the previous record, so empty
+/// lines and comments between are added.
 pub(crate) fn line_of(text: &str, record: &csv::StringRecord) -> u64 {
     let Some(position) = record.position() else { return 0 };
     let rest = usize::try_from(position.byte()).ok().and_then(|byte| text.get(byte..)).unwrap_or("");
@@ -151,8 +154,8 @@ pub(crate) fn line_of(text: &str, record: &csv::StringRecord) -> u64 {
     position.line() + rest.lines().take_while(is_skipped).count() as u64
 }
 
-/// The number in a field, if it is a finite one. A comma is the decimal one: where commas part columns, it stood in quotes.
-/// There it may as well part thousands, as in `1,000`, which then is no number: nobody knows which is meant.
+/// Parses a finite number. A comma is a decimal comma; in a comma-delimited table the field was quoted. There, `1,000`
+/// could also contain a thousands separator, so it is ambiguous and returns `None`.
 pub(crate) fn number(field: &str, delimiter: u8) -> Option<f64> {
     if delimiter == b','
         && let Some((whole, part)) = field.split_once(',')
@@ -165,7 +168,7 @@ pub(crate) fn number(field: &str, delimiter: u8) -> Option<f64> {
         }
     }
     let parsed = if field.contains(',') { field.replace(',', ".").parse() } else { field.parse() };
-    // What is no number is the caller's to name.
+    // The caller reports a field that is not a number.
     parsed.ok().filter(|value: &f64| value.is_finite())
 }
 

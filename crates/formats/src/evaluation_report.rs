@@ -1,23 +1,23 @@
-//! What leaving one texture out came to: a JSON report for scripts and figures for people.
+//! Results of a leave-one-out evaluation: a JSON report for scripts and figures for people.
 
 use serde_json::{Map, Value, json};
-use shagreen_core::fidelity::{FORCES_N, N_CHANNELS, SPEEDS_MM_PER_S, center};
-use shagreen_core::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, SignalCheck, Summary};
 use shagreen_core::space::LabelSource;
+use shagreen_core::space::fidelity::{FORCES_N, N_CHANNELS, SPEEDS_MM_PER_S, center};
+use shagreen_core::space::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, SignalCheck, Summary};
 use shagreen_core::words::counted;
 
 use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
 use crate::library::Library;
 
-/// What the field `format` of a report holds.
+/// Value of the `format` field of a report.
 pub const FORMAT: &str = "shagreen-evaluation-report";
-/// What stands beside every figure: nobody felt anything.
+/// Label beside every figure: the errors are measured on signals, not in listening or touch experiments.
 pub const MEASURED: &str = "measured on signals";
 
 /// Version of the report.
 const VERSION: &str = "1.0";
 
-/// The word for a method in files and figures.
+/// Identifier of a method in files and figures.
 pub fn method_id(method: &Method) -> &'static str {
     match method {
         Method::Nearest => "nearest",
@@ -25,13 +25,13 @@ pub fn method_id(method: &Method) -> &'static str {
     }
 }
 
-/// What the figures rest on: signals, at places of this origin.
+/// Describes the basis of the figures: signals, and the label sources of the positions.
 pub fn evaluation_source(library: &Library) -> String {
     let sources: Vec<&str> = library.label_sources().into_iter().map(LabelSource::label).collect();
-    format!("{MEASURED}, places from {}", sources.join(" and "))
+    format!("{MEASURED}, positions from {}", sources.join(" and "))
 }
 
-/// Everything that was measured, in one object. `library` is the one that was measured.
+/// Returns the complete report as one JSON object. `library` must be the evaluated library.
 pub fn evaluation_report(library: &Library, measured: &LeaveOneOut) -> Value {
     let summaries = measured.methods.iter().map(|s| (method_id(&s.method).to_owned(), summary(s)));
     let mut modes: Map<String, Value> = summaries.collect();
@@ -57,7 +57,7 @@ pub fn evaluation_report(library: &Library, measured: &LeaveOneOut) -> Value {
     })
 }
 
-/// The method of the least mean error.
+/// Returns the method with the lowest mean error.
 pub fn best(measured: &LeaveOneOut) -> Option<&Summary> {
     measured.methods.iter().min_by(|a, b| a.error_db_mean.total_cmp(&b.error_db_mean))
 }
@@ -105,15 +105,15 @@ fn texture(library: &Library, measured: &LeaveOneOut, left: &LeftOut) -> Value {
     })
 }
 
-/// Short name of the figure of one method, which serves for files; [`TABLE`] is that of all.
+/// Short name of the figure of one method, used as a file name. [`TABLE`] names the table of all methods.
 pub fn figure_name(method: &Method) -> String {
     format!("error-{}", method_id(method))
 }
 
-/// Name of the figure that compares the methods.
+/// Name of the table that compares the methods.
 pub const TABLE: &str = "methods";
 
-/// A table of the methods, and for each method the space with the error at every place.
+/// Returns a table of the methods, and for each method a map of the space with the error at every evaluated position.
 pub fn evaluation_figures(library: &Library, measured: &LeaveOneOut) -> Vec<(String, Figure)> {
     let mut figures = vec![(TABLE.to_owned(), methods(measured))];
     let maps = measured.methods.iter().enumerate();
@@ -147,7 +147,7 @@ fn methods(measured: &LeaveOneOut) -> Figure {
         (method_id(&summary.method).to_owned(), values)
     };
     Figure::Table(Table {
-        title: format!("{} left out one by one", counted(measured.textures.len(), "texture")),
+        title: format!("Leave-one-out errors of {}", counted(measured.textures.len(), "texture")),
         columns: columns.map(str::to_owned).to_vec(),
         rows: measured.methods.iter().map(row).collect(),
         decimals: 2,
@@ -155,8 +155,8 @@ fn methods(measured: &LeaveOneOut) -> Figure {
     })
 }
 
-/// The space with the error of one method at every place that was authored, apart by whether a copy of the nearest texture
-/// is worse.
+/// The map of one method: the error at every evaluated position, colored by whether a copy of the nearest texture has a
+/// larger error.
 fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
     let summary = &measured.methods[method];
     let nearest = measured.methods.iter().position(|summary| summary.method == Method::Nearest);
@@ -179,16 +179,20 @@ fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
     };
     let mut all = vec![
         series(
-            "on the hull, not authored",
+            "on the convex hull, not evaluated",
             Tone::Faint,
             on_hull.map(|at| Point::new(at.rough_smooth, at.hard_soft)).collect(),
         ),
-        series("farther than a copy of the nearest", Tone::Second, dots(&|left| !is_better(left))),
+        series(
+            "larger error than a copy of the nearest texture",
+            Tone::Second,
+            dots(&|left| !is_better(left)),
+        ),
         series(
             if summary.method == Method::Nearest {
-                "left out"
+                "left-out texture"
             } else {
-                "no farther than a copy of the nearest"
+                "no larger error than a copy of the nearest texture"
             },
             Tone::Main,
             dots(&is_better),
@@ -210,9 +214,9 @@ fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
 
 #[cfg(test)]
 mod tests {
-    use shagreen_core::blend::Mode;
-    use shagreen_core::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, Summary};
     use shagreen_core::space::SpacePoint;
+    use shagreen_core::space::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, Summary};
+    use shagreen_core::texture::blend::Mode;
 
     use super::{MEASURED, best, evaluation_figures, evaluation_report, figure_name, method_id};
     use crate::figure::{figure_csv, figure_svg};
@@ -278,13 +282,13 @@ mod tests {
         let names: Vec<&str> = figures.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["methods", "error-nearest", &figure_name(&Method::Blended(Mode::Field.into()))]);
         for (_, figure) in &figures {
-            assert!(figure.title().contains("measured on signals, places from physical labels"));
+            assert!(figure.title().contains("measured on signals, positions from physical labels"));
             assert!(figure_svg(figure).contains(MEASURED));
         }
         let csv = String::from_utf8(figure_csv(&figures[2].1)).unwrap();
-        assert!(csv.contains("no farther than a copy of the nearest,1.2,10,23"), "{csv}");
-        assert!(csv.contains("\nfarther than a copy of the nearest,4.8,10,24"), "{csv}");
-        // The hull's three textures, without a number.
-        assert_eq!(csv.matches("on the hull").count(), 3);
+        assert!(csv.contains("no larger error than a copy of the nearest texture,1.2,10,23"), "{csv}");
+        assert!(csv.contains("\nlarger error than a copy of the nearest texture,4.8,10,24"), "{csv}");
+        // The three textures on the convex hull have no error.
+        assert_eq!(csv.matches("on the convex hull").count(), 3);
     }
 }

@@ -1,4 +1,4 @@
-//! Figures as data: what is drawn in the window and what is saved as SVG or CSV is one and the same.
+//! Figures as data: the window and the SVG, PNG and CSV exports all use these types.
 
 mod color_map;
 mod labels;
@@ -16,45 +16,45 @@ pub use crate::figure::svg::{figure_svg, page_svg};
 pub enum Figure {
     /// Points and lines over two axes.
     Chart(Chart),
-    /// Numbers by row and column.
+    /// A table of numbers.
     Table(Table),
-    /// A value over two axes, as colors.
+    /// A scalar field over two axes, color coded.
     Map(Map),
 }
 
 /// Points and lines over two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What it shows, in a line.
+    /// One-line title.
     pub title: String,
     /// Name and unit of the horizontal axis.
     pub x_label: String,
     /// Name and unit of the vertical axis.
     pub y_label: String,
-    /// Whether a unit is as long on both axes.
+    /// Whether one unit has the same length on both axes.
     pub is_isotropic: bool,
-    /// How the horizontal axis is laid out; points have their own coordinates on either.
+    /// Scale of the horizontal axis; points store unscaled coordinates in either case.
     pub x_scale: Scale,
-    /// What the axes show, horizontal then vertical, where that is not left to the points.
+    /// Range of the axes, horizontal then vertical; `None` fits them to the points.
     pub shown: Option<[(f64, f64); 2]>,
-    /// What is drawn, the last on top.
+    /// The series, drawn in this order.
     pub series: Vec<Series>,
-    /// Who or what it comes from, shown with it and saved with every number; may be empty.
+    /// Source of the data, shown with the figure and saved with every number; may be empty.
     pub source: String,
 }
 
-/// How coordinates are laid out on an axis.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// The same distance for the same difference.
+    /// Equal distances for equal differences.
     #[default]
     Linear,
-    /// The same distance for the same ratio; all coordinates are above zero.
+    /// Equal distances for equal ratios; all coordinates are positive.
     Logarithmic,
 }
 
 impl Scale {
-    /// Where a coordinate is on its axis, in any unit of length.
+    /// Position of a coordinate along the axis, in arbitrary units of length.
     pub fn laid_out(self, coordinate: f64) -> f64 {
         match self {
             Self::Linear => coordinate,
@@ -62,7 +62,7 @@ impl Scale {
         }
     }
 
-    /// The coordinate at a place on the axis: the other way round.
+    /// Coordinate at a position along the axis; the inverse of [`Scale::laid_out`].
     pub fn coordinate(self, place: f64) -> f64 {
         match self {
             Self::Linear => place,
@@ -71,44 +71,44 @@ impl Scale {
     }
 }
 
-/// Points that belong together.
+/// A series of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Name in the legend and in the file.
     pub name: String,
-    /// How they are drawn.
+    /// How the points are drawn.
     pub mark: Mark,
-    /// In which color.
+    /// Role that selects the color.
     pub tone: Tone,
-    /// The points, of finite coordinates.
+    /// The points; all coordinates are finite.
     pub points: Vec<Point>,
 }
 
-/// How points are drawn.
+/// How the points of a series are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// A dot each, with its label beside it.
+    /// A dot per point, with its label next to it.
     Dots,
-    /// A line through all.
+    /// A line through all points.
     Line,
-    /// A line from each point of even index to the next, whose label stands at its end.
+    /// A line from each point of even index to the next, with the label of the second at its end.
     Segments,
 }
 
-/// The part that a series plays, which decides its color.
+/// The role of a series in its figure, which selects its color.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
-    /// What the figure is about.
+    /// The main quantity of the figure.
     Main,
-    /// What it is compared with.
+    /// The reference that the main quantity is compared with.
     Second,
-    /// A third thing.
+    /// A third quantity.
     Third,
-    /// A fourth thing.
+    /// A fourth quantity.
     Fourth,
-    /// A limit that the others are seen against.
+    /// A limit.
     Limit,
-    /// What only helps reading.
+    /// An auxiliary line.
     Faint,
 }
 
@@ -119,57 +119,57 @@ pub struct Point {
     pub x: f64,
     /// Vertical coordinate.
     pub y: f64,
-    /// What it is; empty where that needs no saying.
+    /// Label; may be empty.
     pub label: String,
 }
 
-/// Numbers by row and column.
+/// A table of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// What it shows, in a line.
+    /// One-line title.
     pub title: String,
-    /// Names of the columns after the first.
+    /// Column names, without the row-name column.
     pub columns: Vec<String>,
-    /// Name of each row, and its numbers; `None` where there is none.
+    /// Name and numbers of each row; `None` marks a missing number.
     pub rows: Vec<(String, Vec<Option<f64>>)>,
-    /// Decimals that mean something.
+    /// Number of significant decimals.
     pub decimals: usize,
-    /// As [`Chart::source`].
+    /// Source of the data, see [`Chart::source`].
     pub source: String,
 }
 
-/// A value over two axes.
+/// A scalar field over two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// What it shows, in a line.
+    /// One-line title.
     pub title: String,
     /// Name and unit of the horizontal axis.
     pub x_label: String,
     /// Name and unit of the vertical axis.
     pub y_label: String,
-    /// Name of the value.
+    /// Name of the quantity.
     pub value_label: String,
-    /// Its unit.
+    /// Unit of the quantity.
     pub value_unit: String,
-    /// Where the first column begins and the last ends.
+    /// Start of the first column and end of the last.
     pub x: (f64, f64),
-    /// Where the first row begins and the last ends.
+    /// Start of the first row and end of the last.
     pub y: (f64, f64),
-    /// The values that have the first and the last color.
+    /// Values that map to the first and last color.
     pub range: (f64, f64),
-    /// The values, row by row from the lowest, all rows as long.
+    /// Values, row by row from the lowest; all rows have the same length.
     pub rows: Vec<Vec<f64>>,
-    /// As [`Chart::source`].
+    /// Source of the data, see [`Chart::source`].
     pub source: String,
 }
 
 impl Map {
-    /// The value as a share of the range, 0..1.
+    /// Returns a value as a fraction of the color range, clamped to 0..1.
     pub fn share(&self, value: f64) -> f64 {
         ((value - self.range.0) / (self.range.1 - self.range.0)).clamp(0.0, 1.0)
     }
 
-    /// The middle of each cell, row by row, and its value.
+    /// Returns `(x, y, value)` for the center of each cell, row by row.
     pub fn cells(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         let middle =
             |(low, high): (f64, f64), i: usize, n: usize| low + (i as f64 + 0.5) * (high - low) / n as f64;
@@ -186,14 +186,14 @@ impl Point {
         Self::named(x, y, "")
     }
 
-    /// A point that says what it is.
+    /// A labeled point.
     pub fn named(x: f64, y: f64, label: impl Into<String>) -> Self {
         Self { x, y, label: label.into() }
     }
 }
 
 impl Figure {
-    /// What it shows and whom it comes from, in a line.
+    /// Returns the title, with the data source in parentheses.
     pub fn title(&self) -> String {
         let (title, source) = match self {
             Self::Chart(chart) => (&chart.title, &chart.source),
@@ -203,7 +203,7 @@ impl Figure {
         if source.is_empty() { title.clone() } else { format!("{title} ({source})") }
     }
 
-    /// Says whom it comes from.
+    /// Sets the data source.
     pub fn set_source(&mut self, source: &str) {
         match self {
             Self::Chart(chart) => source.clone_into(&mut chart.source),
@@ -214,11 +214,11 @@ impl Figure {
 }
 
 impl Table {
-    /// A number as it is shown.
+    /// Formats a number with [`Table::decimals`] decimals; a missing number is an en dash.
     pub fn shown(&self, value: Option<f64>) -> String {
         let Some(value) = value else { return "\u{2013}".to_owned() };
         let text = format!("{value:.*}", self.decimals);
-        // Nothing reads "-0.000".
+        // Avoids "-0.000".
         match text.strip_prefix('-') {
             Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
             _ => text,
@@ -227,8 +227,8 @@ impl Table {
 }
 
 impl Chart {
-    /// What the axes show: [`Chart::shown`], else the lowest and highest coordinate of all points, horizontal then vertical,
-    /// with some room around; 0 to 1 where there are none.
+    /// Returns the axis ranges, horizontal then vertical: [`Chart::shown`], or the extent of all points plus a margin.
+    /// A chart without points spans 0 to 1.
     pub fn bounds(&self) -> [(f64, f64); 2] {
         if let Some(shown) = self.shown {
             return shown;
@@ -248,13 +248,14 @@ impl Chart {
     }
 }
 
-/// The first line of a chart's table.
+/// Header of a chart's CSV.
 const CHART_COLUMNS: [&str; 5] = ["series", "label", "x", "y", "source"];
 
-/// The first line of a map's table.
+/// Header of a map's CSV.
 const MAP_COLUMNS: [&str; 4] = ["x", "y", "value", "source"];
 
-/// The numbers of a figure as CSV: of a chart one point a line, of a table its own rows, of a map one cell a line.
+/// Writes the numbers of a figure as CSV: one point per line for a chart, one row per line for a table, one cell per
+/// line for a map.
 pub fn figure_csv(figure: &Figure) -> Vec<u8> {
     match figure {
         Figure::Chart(chart) => {
@@ -285,7 +286,7 @@ pub fn figure_csv(figure: &Figure) -> Vec<u8> {
     }
 }
 
-/// Whether bytes are a table that [`figure_csv`] wrote.
+/// Returns whether bytes are a table written by [`figure_csv`].
 pub fn is_figure_csv(bytes: &[u8]) -> bool {
     let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
     let is_one = |columns: &[&str]| first == columns.join(",").as_bytes();
@@ -413,7 +414,7 @@ mod tests {
         assert_eq!(csv.lines().last(), Some("-0.25,75,-30,"));
         let svg = figure_svg(&figure);
         assert!(svg.contains("Spectrogram") && svg.contains("density"), "{svg}");
-        // Beyond the page and the scale of colors: five runs of one color, and the first color of the range twice.
+        // The values below and above the range take its end colors.
         assert!(svg.contains("#00224E") && svg.contains("#FEE838"), "{svg}");
     }
 }

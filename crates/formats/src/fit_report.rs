@@ -1,4 +1,4 @@
-//! What a fit was like, for people: a page of plots (SVG) and a table of its segments (CSV).
+//! Reports of a model fit for people: a page of plots (SVG) and a table of the segments (CSV).
 
 use std::ops::Range;
 
@@ -11,13 +11,13 @@ use plotters::prelude::{
     IntoLogRange as _, LineSeries, RGBColor, SVGBackend, TextStyle,
 };
 use plotters::style::Color as _;
-use shagreen_core::fit::{FitReport, Segment};
+use shagreen_core::recording::fit::{FitReport, Segment};
 
 /// Size of the page in pixels.
 const SIZE: (u32, u32) = (1200, 820);
-/// Height of the lines above the plots.
+/// Height of the page header in pixels.
 const TITLE_HEIGHT: u32 = 76;
-/// Segments whose spectra are shown.
+/// Number of segments whose spectra are shown.
 const SPECTRA: usize = 4;
 
 const INK: RGBColor = RGBColor(0x22, 0x2B, 0x2F);
@@ -26,12 +26,12 @@ const MEASURED: RGBColor = RGBColor(0x8A, 0x96, 0x9C);
 const MODEL: RGBColor = RGBColor(0x0B, 0x7A, 0x63);
 const BAD: RGBColor = RGBColor(0xC0, 0x4A, 0x1B);
 
-/// Goodness of fit below which a segment is drawn as bad: the usual gate for models of textures.
+/// Goodness of fit (GFC) below which a segment is marked as bad: the usual criterion for texture models.
 const GOOD_GFC: f64 = 0.9;
 
-/// What every figure rests on.
+/// States what all figures are based on.
 const MEASURED_ON: &str = "(measured on signals)";
-/// The first line of the table.
+/// Header of the CSV table.
 const COLUMNS: &str =
     "recording,start_s,seconds,speed_mm_per_s,force_n,level_mps2,gfc,level_error_db,held_out";
 
@@ -39,27 +39,27 @@ type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
-/// The page of plots: the segments on the plane of speed and force, their goodness of fit and level errors, and the
-/// spectra of four of them from the faintest to the loudest.
+/// Renders the page of plots: the segments in the speed-force plane, their goodness of fit and level errors, and the
+/// spectra of four segments from the lowest to the highest level.
 pub fn fit_report_svg(name: &str, report: &FitReport) -> String {
     let mut svg = String::new();
     let drawn = draw(&mut svg, name, report);
-    // Memory takes all text, and every range below is made of finite numbers that differ.
-    assert!(drawn.is_ok(), "a report can always be drawn: {drawn:?}");
+    // Writing to a string cannot fail, and every range below consists of distinct finite numbers.
+    assert!(drawn.is_ok(), "cannot draw the fit report: {drawn:?}");
     svg
 }
 
-/// Whether bytes are such a page.
+/// Returns whether bytes are such a page.
 pub fn is_fit_report_svg(bytes: &[u8]) -> bool {
     std::str::from_utf8(bytes).is_ok_and(|text| text.starts_with("<svg") && text.contains(MEASURED_ON))
 }
 
-/// Whether bytes are such a table.
+/// Returns whether bytes are such a table.
 pub fn is_fit_report_csv(bytes: &[u8]) -> bool {
     bytes.starts_with(COLUMNS.as_bytes())
 }
 
-/// The table: one segment a line, in the units of hands.
+/// Writes the table, one segment per line, in mm/s, N and m/s².
 pub fn fit_report_csv(report: &FitReport) -> Vec<u8> {
     let mut text = format!("{COLUMNS}\n");
     for s in &report.segments {
@@ -89,11 +89,11 @@ fn draw(svg: &mut String, name: &str, report: &FitReport) -> Drawn {
     let (top, bottom) = rest.split_vertically((SIZE.1 - TITLE_HEIGHT) / 2);
     let panels = top.split_evenly((1, 3));
     plane(&panels[0], report)?;
-    by_segment(&panels[1], report, "goodness of fit (GFC) by segment", &|s| s.comparison.gfc, (0.5, 1.0))?;
+    by_segment(&panels[1], report, "goodness of fit (GFC) per segment", &|s| s.comparison.gfc, (0.5, 1.0))?;
     by_segment(
         &panels[2],
         report,
-        "level error by segment, dB",
+        "level error per segment in dB",
         &|s| s.comparison.level_error_db,
         (-3.0, 3.0),
     )?;
@@ -103,21 +103,21 @@ fn draw(svg: &mut String, name: &str, report: &FitReport) -> Drawn {
     page.present()
 }
 
-/// The figures in a sentence.
+/// One-line summary of the fit.
 fn summary(report: &FitReport) -> String {
     let tap = report.tap.as_ref().map_or_else(String::new, |t| {
         format!(
-            " · tap {:.0} Hz, decay {:.0} 1/s, from {} landings",
+            " · tap {:.0} Hz, decay {:.0} 1/s, from {} contact transients",
             t.tap.frequency.0, t.tap.decay_per_sec, t.n_landings
         )
     });
     format!(
-        "{} segments · model at {:.0} Hz, order {} · {:.0} % of the speed-force plane · {}: median GFC {:.3}, level error {:.2} dB {MEASURED_ON}{tap}",
+        "{} segments · model at {:.0} Hz, AR order {} · {:.0} % of the speed-force plane · {}: median GFC {:.3}, level error {:.2} dB {MEASURED_ON}{tap}",
         report.segments.len(),
         report.rate.0,
         report.order,
         100.0 * report.coverage,
-        if report.held_out { "held-out segments" } else { "the model's own segments, none was held out" },
+        if report.held_out { "held-out segments" } else { "training segments, none held out" },
         report.gfc_median(),
         report.level_error_db_median(),
     )
@@ -131,7 +131,7 @@ fn color(segment: &Segment) -> RGBColor {
     if segment.comparison.gfc >= GOOD_GFC { MODEL } else { BAD }
 }
 
-/// A chart with a caption, and a grid over these ranges.
+/// A chart with a caption and a grid over these ranges.
 fn axes<'a>(
     panel: &Page<'a>,
     caption: &str,
@@ -157,12 +157,13 @@ fn axes<'a>(
     Ok(chart)
 }
 
-/// Segments over speed and force, larger where they are longer.
+/// Plots segments over speed and force; longer segments have larger dots.
 fn plane(panel: &Page<'_>, report: &FitReport) -> Drawn {
     let highest =
         |value: &dyn Fn(&Segment) -> f64| 1.05 * report.segments.iter().map(value).fold(1e-3, f64::max);
     let speeds = 0.0..highest(&|s| s.speed.mm_per_s());
-    let mut chart = axes(panel, "segments: speed, mm/s, and force, N", speeds, 0.0..highest(&|s| s.force.0))?;
+    let mut chart =
+        axes(panel, "segments: force in N over speed in mm/s", speeds, 0.0..highest(&|s| s.force.0))?;
     let size = |s: &Segment| (3.0 + 4.0 * s.seconds.min(1.0)) as i32;
     chart.draw_series(
         report
@@ -173,7 +174,7 @@ fn plane(panel: &Page<'_>, report: &FitReport) -> Drawn {
     Ok(())
 }
 
-/// A figure of every segment, in their order.
+/// Plots one quantity of every segment, in their order.
 fn by_segment(
     panel: &Page<'_>,
     report: &FitReport,
@@ -183,7 +184,7 @@ fn by_segment(
 ) -> Drawn {
     let last = report.segments.len().max(2) as f64;
     let mut chart = axes(panel, caption, 0.0..last, low..high)?;
-    // What is off the scale is drawn at its end, not left out.
+    // Values outside the range are drawn at its edge, not omitted.
     let dot = |(i, s): (usize, &Segment)| {
         Circle::new((i as f64 + 0.5, value(s).clamp(low, high)), 3, color(s).filled())
     };
@@ -191,7 +192,7 @@ fn by_segment(
     Ok(())
 }
 
-/// Segments from the faintest to the loudest, evenly.
+/// Returns up to [`SPECTRA`] segments, evenly spaced in rank from the lowest to the highest level.
 fn chosen(report: &FitReport) -> Vec<&Segment> {
     let mut by_level: Vec<&Segment> = report.segments.iter().collect();
     by_level.sort_by(|a, b| a.level_mps2.total_cmp(&b.level_mps2));
@@ -203,7 +204,7 @@ fn chosen(report: &FitReport) -> Vec<&Segment> {
     }
 }
 
-/// Measured spectrum and the model's, in dB re 1 (m/s²)²/Hz.
+/// Plots the measured and the model power spectral density, in dB re 1 (m/s²)²/Hz.
 fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
     let db = |psd: &[f64]| -> Vec<(f64, f64)> {
         let points = report.frequencies.iter().zip(psd).filter(|(f, p)| f.0 >= 5.0 && **p > 0.0);
@@ -234,7 +235,7 @@ fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
         .bold_line_style(FAINT)
         .axis_style(MEASURED)
         .label_style(text(12.0))
-        .x_desc("Hz; dB re 1 (m/s²)²/Hz; gray measured, green model")
+        .x_desc("Hz; PSD in dB re 1 (m/s²)²/Hz; gray measured, green model")
         .x_label_formatter(&|f| format!("{f:.0}"))
         .y_label_formatter(&|db| format!("{db:.0}"))
         .y_labels(7)
@@ -248,7 +249,7 @@ fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
 #[cfg(test)]
 mod tests {
     use super::{fit_report_csv, fit_report_svg};
-    use shagreen_core::fit::{Comparison, FitReport, Segment};
+    use shagreen_core::recording::fit::{Comparison, FitReport, Segment};
     use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 
     fn report(n: usize) -> FitReport {
@@ -284,14 +285,14 @@ mod tests {
     #[test]
     fn the_page_shows_every_segment_and_says_what_it_compares() {
         let svg = fit_report_svg("Cork <1>", &report(9));
-        // A segment is a dot in three plots.
+        // Each segment is a dot in three plots.
         assert_eq!(svg.matches("<circle").count(), 3 * 9);
         assert!(svg.contains("held-out segments") && svg.contains("Cork &lt;1&gt;"), "{svg}");
         let of_itself = fit_report_svg("x", &FitReport { held_out: false, ..report(9) });
-        assert!(of_itself.contains("none was held out"));
+        assert!(of_itself.contains("none held out"));
     }
 
-    /// Few segments, silent ones and figures that are no numbers make a page too.
+    /// Reports of few or silent segments, or with NaN values, are drawn too.
     #[test]
     fn a_poor_report_is_drawn() {
         for n in [0, 1, 2] {

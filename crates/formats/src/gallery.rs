@@ -1,21 +1,21 @@
-//! Projects that are built into the program: to be tried, taken apart and begun from.
+//! Example projects built into the program.
 
 use std::io;
 use std::path::Path;
 
 use crate::project::{Project, ProjectError, read_project};
 
-/// A project of the gallery.
+/// A built-in example project.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GalleryProject {
-    /// The word that stands for it on the command line.
+    /// Identifier on the command line.
     pub id: &'static str,
-    /// Its name.
+    /// Name to show.
     pub title: &'static str,
     bytes: &'static [u8],
 }
 
-/// All of them, in the order in which they are shown.
+/// All example projects, in the order of the list.
 pub const GALLERY: [GalleryProject; 12] = [
     entry("ways-to-blend", "Ways to blend", include_bytes!("../../../assets/gallery/ways-to-blend.shagreen")),
     entry("journeys", "Journeys", include_bytes!("../../../assets/gallery/journeys.shagreen")),
@@ -36,12 +36,12 @@ const fn entry(id: &'static str, title: &'static str, bytes: &'static [u8]) -> G
 }
 
 impl GalleryProject {
-    /// The project itself.
+    /// Reads the project.
     ///
     /// # Errors
-    /// None, as long as the committed files are sound, which a test holds.
+    /// Fails only if the embedded file is damaged, which a test excludes.
     pub fn read(&self) -> Result<Project, ProjectError> {
-        // They stand on the program's own library.
+        // Gallery projects use a built-in library, so they read no other file.
         let nothing = |_: &Path| Err(io::ErrorKind::NotFound.into());
         read_project(self.bytes, Path::new(""), &nothing).map(|imported| imported.value)
     }
@@ -54,11 +54,11 @@ mod tests {
 
     use super::GALLERY;
     use crate::project::{ProjectLibrary, write_project};
-    use shagreen_core::authoring::Outside;
     use shagreen_core::space::Space;
+    use shagreen_core::space::authoring::Outside;
 
-    /// Every project is as the program itself would write it, stands on a library of the program, and authors within its
-    /// outline, unless it says that it goes beyond.
+    /// Every project equals what the program writes, uses a built-in library, and authors inside the convex hull unless
+    /// it requests extrapolation.
     #[test]
     fn the_committed_files_are_sound() {
         let mut names = HashSet::new();

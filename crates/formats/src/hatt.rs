@@ -1,19 +1,19 @@
 //! Texture models in the XML of the Penn Haptic Texture Toolkit (HaTT): `Models_<Name>.xml`.
 //!
-//! A file is a `modelSet` of ARMA models over speed and force: line spectral frequencies of both filters, the variance of
-//! the excitation, a gain, and the boundary models that close the plane (H. Culbertson, J. Lopez Delgado and K.
-//! Kuchenbecker, "One hundred data-driven haptic texture models and open-source methods for rendering on 3D objects",
-//! 2014). The line spectral frequencies are what the published renderer uses, so they are what is read; triangles are
-//! made anew.
+//! A file is a `modelSet` of ARMA models over speed and force. Each model has the line spectral frequencies of both
+//! filters, the variance of the excitation and a gain; boundary models extend the set to the edges of the speed-force
+//! plane (H. Culbertson, J. Lopez Delgado and K. Kuchenbecker, "One hundred data-driven haptic texture models and
+//! open-source methods for rendering on 3D objects", 2014). This reader uses the line spectral frequencies, as the
+//! published renderer does, and computes the triangulation again.
 //!
-//! Lists of numbers are understood parted by white space, commas or semicolons, as repeated elements, with one inner
-//! element a number, or as attributes.
+//! Lists of numbers may be separated by white space, commas or semicolons. They may also be repeated elements, hold one
+//! inner element per number, or be attributes.
 //!
-//! # Terms
+//! # Terms of use
 //!
-//! The published models are for research and may not be passed on. A file is taken for one of them, and its texture is
-//! [`Provenance::Restricted`], unless it has an element `createdBy`, which [`write_hatt`] writes into files made of a
-//! person's own models, and published files do not have.
+//! The published models are for research and must not be redistributed. A file counts as one of them, and its texture
+//! as [`Provenance::Restricted`], unless it has an element `createdBy`. Published files have no such element;
+//! [`write_hatt`] adds it to files of a user's own models.
 
 mod boundary;
 mod file;
@@ -28,29 +28,29 @@ use crate::library::{Provenance, TextureEntry};
 pub use crate::hatt::read::read_hatt;
 pub use crate::hatt::write::{HattWriteError, lost_in_hatt, write_hatt};
 
-/// The element by which a file says that it is not one of the published ones.
+/// The element that marks a file as not one of the published ones.
 const CREATED_BY: &str = "createdBy";
 
-/// Highest order of a filter that is looked at.
+/// Highest filter order that the reader accepts.
 const MAX_ORDER: usize = shagreen_core::texture::MAX_ORDER;
 
-/// A texture as a file of the toolkit has it.
+/// A texture, as a HaTT file stores it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HattTexture {
-    /// Name of the material; empty where the file has none.
+    /// Name of the material; empty if the file has none.
     pub name: String,
-    /// Number of the texture among the published ones.
+    /// Number of the texture in the published set.
     pub index: Option<u32>,
-    /// Whether it may be passed on.
+    /// Whether it may be redistributed.
     pub provenance: Provenance,
-    /// The program that wrote the file, where it says so.
+    /// The program that wrote the file, if stated.
     pub created_by: Option<String>,
-    /// What it does to a tip: published nodes with their boundary, friction.
+    /// The texture model: published nodes with their boundary, and friction.
     pub model: TextureModel,
 }
 
 impl HattTexture {
-    /// The texture as an entry of a library, under this identifier, with where it comes from.
+    /// Converts the texture to a library entry with this identifier; fills in license and origin.
     pub fn into_entry(self, id: impl Into<String>) -> TextureEntry {
         let origin = match (self.provenance, self.index, self.created_by) {
             (Provenance::Restricted, Some(index), _) => format!("HaTT texture {index}, restricted"),
@@ -71,41 +71,45 @@ impl HattTexture {
     }
 }
 
-/// Terms of the published models, in a sentence.
-const RESTRICTED_TERMS: &str = "Penn Haptic Texture Toolkit: non-profit research; not to be passed on without written approval of its authors";
+/// Terms of use of the published models.
+const RESTRICTED_TERMS: &str = "Penn Haptic Texture Toolkit: non-profit research only; redistribution requires written approval of its authors";
 
-/// Why bytes are no texture of the toolkit.
+/// Why bytes are not a HaTT texture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HattError {
-    /// Not XML, cut off, or more than is read.
-    #[error("the file cannot be read as XML: {reason}; get a complete copy")]
+    /// Not XML, truncated, or above the size limits.
+    #[error("cannot read the file as XML: {reason}; correct the file or get a complete copy")]
     Xml {
-        /// What is wrong, with line and column where there are any.
+        /// What is wrong, with line and column if known.
         reason: String,
     },
-    /// XML of another kind.
-    #[error("this is no HaTT texture: the file is a \"{found}\", not a \"modelSet\"; choose another file")]
+    /// XML of another format.
+    #[error(
+        "the file is not a HaTT texture: its root element is \"{found}\", not \"modelSet\"; choose another file"
+    )]
     Format {
-        /// Name of the root.
+        /// Name of the root element.
         found: String,
     },
-    /// An element is missing.
-    #[error("{element} is missing in what begins in line {line}; get a complete copy")]
+    /// A required element is missing.
+    #[error(
+        "{element} is missing in the element that begins in line {line}; get a complete copy of the file"
+    )]
     Missing {
-        /// The element.
+        /// Name of the missing element.
         element: &'static str,
-        /// Line of what should have it.
+        /// Line of the element that should contain it.
         line: u32,
     },
-    /// A quantity has another unit.
-    #[error("{element} is {found}, this program reads {expected}; convert the numbers and the unit")]
+    /// A quantity has an unsupported unit.
+    #[error("{element} is {found}, but this program reads {expected}; convert the numbers and the unit")]
     Unit {
         /// The element.
         element: &'static str,
         /// The unit in the file.
         found: String,
-        /// The unit that is read.
+        /// The supported unit.
         expected: &'static str,
     },
     /// A word is not a finite number.
@@ -113,26 +117,26 @@ pub enum HattError {
     Number {
         /// The element.
         element: String,
-        /// Its line.
+        /// Line of the element.
         line: u32,
-        /// What stands there.
+        /// The word in the file.
         found: String,
     },
-    /// An element has more numbers than make sense.
+    /// An element has the wrong number of values.
     #[error("{element} in line {line} has {found} numbers, not {expected}; correct it")]
     Count {
         /// The element.
         element: String,
-        /// Its line.
+        /// Line of the element.
         line: u32,
-        /// The numbers found.
+        /// Number of values found.
         found: usize,
-        /// The numbers expected.
+        /// Number of values expected.
         expected: usize,
     },
-    /// A filter has no line spectral frequencies, and its coefficients have none.
+    /// A filter has no line spectral frequencies, and none follow from its coefficients.
     #[error(
-        "{element} (order {order}) of the model in line {line} has no line spectral frequencies: the filter is not stable, or its order is above {max}; make the model anew",
+        "{element} (order {order}) of the model in line {line} has no line spectral frequencies: the filter is unstable, or its order is above {max}; fit the model again",
         max = MAX_ORDER
     )]
     Unstable {
@@ -143,17 +147,17 @@ pub enum HattError {
         /// Order of the filter.
         order: usize,
     },
-    /// The numbers are no texture.
-    #[error("the texture cannot be used: {0}; {hint}", hint = hint(.0))]
+    /// The numbers do not form a valid texture model.
+    #[error("the texture model is invalid: {0}; {hint}", hint = hint(.0))]
     Model(#[from] TextureModelError),
 }
 
-/// What to do about numbers that are no texture.
+/// What the user should do about an invalid texture model.
 fn hint(error: &TextureModelError) -> &'static str {
     match error {
         TextureModelError::Rate { .. } => "correct SampleRate",
         TextureModelError::Friction { .. } => "correct mu",
-        _ => "correct it; nodes count from zero in the order of the file",
+        _ => "correct it; nodes are numbered from zero in file order",
     }
 }
 

@@ -1,10 +1,13 @@
-//! Reports of input devices as text, as `hid-recorder` and `usbhid-dump` write them.
+//! HID reports of input devices as text, in the formats of `hid-recorder` and `usbhid-dump`.
 //!
-//! `hid-recorder`: a line `R:` holds the number of bytes of a report descriptor and the bytes, `N:` a name, `I:` bus,
-//! vendor and product, and each `E:` a time in seconds, a number of bytes and a report; `D:` says which of several
-//! devices the lines that follow are of, and `#` begins a comment. `usbhid-dump`: a line `BUS:DEVICE:INTERFACE:STREAM
-//! TIME` (or `DESCRIPTOR`) is followed by lines of bytes. All bytes are hexadecimal. Text is UTF-8, or UTF-16 with its mark,
-//! as some shells write what a program prints.
+//! `hid-recorder`: a line `R:` holds the number of bytes of a report descriptor and the bytes. `N:` holds a name, and
+//! `I:` holds bus, vendor and product. Each `E:` holds a time in seconds, a number of bytes and a report. `D:` selects
+//! one of several devices for the lines that follow, and `#` begins a comment.
+//!
+//! `usbhid-dump`: a line `BUS:DEVICE:INTERFACE:STREAM TIME` (or `DESCRIPTOR`) precedes lines of bytes.
+//!
+//! All bytes are hexadecimal. The text is UTF-8, or UTF-16 with a byte order mark, which some shells use for program
+//! output.
 
 mod dump;
 mod recorder;
@@ -12,41 +15,41 @@ mod recorder;
 use crate::csv_text::{text, text_with_odd_letters};
 use crate::imported::Imported;
 
-/// A report and when it came.
+/// A report with its time stamp.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimedReport {
-    /// When, in seconds on the recorder's clock; never before the report ahead of it.
+    /// Time in seconds on the recorder's clock; never before that of the previous report.
     pub time_secs: f64,
-    /// Its bytes, the first of which is its id where the device has several reports.
+    /// Bytes of the report; the first is the report id if the device uses report ids.
     pub bytes: Vec<u8>,
 }
 
-/// What a file tells of one device.
+/// The recorded data of one device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HidRecording {
-    /// What the file calls it: its number there, or bus, device and interface.
+    /// The file's name for the device: its number, or bus, device and interface.
     pub device: String,
-    /// Its own name.
+    /// The device's own name.
     pub name: Option<String>,
-    /// Its vendor and product.
+    /// Vendor and product ids.
     pub identity: Option<(u16, u16)>,
-    /// Its report descriptor.
+    /// The report descriptor.
     pub descriptor: Option<Vec<u8>>,
-    /// Its reports in the order of time.
+    /// The reports in order of time.
     pub reports: Vec<TimedReport>,
 }
 
-/// Why text holds nothing of a device.
+/// Why text contains no device data.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HidTextError {
-    /// No line of the kind.
+    /// No line has either format.
     #[error(
-        "this is no recording of an input device; make one with hid-recorder, or with usbhid-dump --entity=all"
+        "the file is not a recording of an input device; record one with hid-recorder or usbhid-dump --entity=all"
     )]
     NotARecording,
-    /// Lines of the kind, but none that can be read.
-    #[error("line {line}: {problem}; nothing else in the file can be read either: get a complete copy")]
+    /// Lines have the format, but none is readable.
+    #[error("line {line}: {problem}; no other line is readable either; get a complete copy of the file")]
     Unreadable {
         /// The first such line, from one.
         line: usize,
@@ -54,27 +57,27 @@ pub enum HidTextError {
         problem: String,
     },
     /// Neither a descriptor nor a report.
-    #[error("the recording holds neither a report descriptor nor a report; record again and move the pen")]
+    #[error("the recording has neither a report descriptor nor reports; record again while moving the pen")]
     Empty,
 }
 
-/// A line that was not used, and why.
+/// A line that was ignored, and why.
 struct Damage {
     line: usize,
     problem: String,
 }
 
-/// Warnings of one file at most: what follows is counted.
+/// Maximum number of separate warnings for one file; further ones are only counted.
 const MAX_WARNINGS: usize = 20;
 
-/// Whether bytes look like one of these recordings: text with a line that only they have.
+/// Returns whether bytes look like such a recording: text with a characteristic line.
 pub fn is_hid_text(bytes: &[u8]) -> bool {
     let Ok(text) = text(bytes) else { return false };
     lines(&text).any(|(_, line)| recorder::is_line(line) || dump::heading(line).is_some())
 }
 
-/// Reads a recording: the devices of which there is a descriptor or a report, in the order of the file. Lines that are
-/// damaged are left out, with a warning.
+/// Reads a recording. Returns the devices with a descriptor or a report, in file order. Damaged lines are ignored with
+/// a warning.
 ///
 /// # Errors
 /// See [`HidTextError`].
@@ -95,22 +98,22 @@ pub fn read_hid_text(bytes: &[u8]) -> Result<Imported<Vec<HidRecording>>, HidTex
     let mut warnings: Vec<String> = damages
         .by_ref()
         .take(MAX_WARNINGS)
-        .map(|Damage { line, problem }| format!("line {line} was left out: {problem}"))
+        .map(|Damage { line, problem }| format!("line {line} is ignored: {problem}"))
         .collect();
     match damages.count() {
         0 => {}
-        n => warnings.push(format!("{n} more lines were left out")),
+        n => warnings.push(format!("{n} more lines are ignored")),
     }
     Ok(Imported { value: devices, warnings })
 }
 
-/// The bytes of a file that is text of nothing but bytes, as [`bytes_of_hex`] reads it; `None` if it is anything else.
+/// Returns the bytes of a file of hexadecimal text, as [`bytes_of_hex`] reads it; `None` for any other content.
 pub fn bytes_of_hex_file(bytes: &[u8]) -> Option<Vec<u8>> {
-    bytes_of_hex(&text(bytes).ok()?) // What is no text is something else.
+    bytes_of_hex(&text(bytes).ok()?) // Bytes that are not text are not hexadecimal.
 }
 
-/// Bytes as pairs of hexadecimal digits, with or without white space, commas and `0x` between; `None` if it is anything
-/// else, or empty.
+/// Parses bytes from pairs of hexadecimal digits, optionally separated by white space, commas and `0x`; `None` for any
+/// other content or empty text.
 pub fn bytes_of_hex(text: &str) -> Option<Vec<u8>> {
     let words = text.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
     let mut bytes = Vec::with_capacity(text.len() / 2);
@@ -123,21 +126,21 @@ pub fn bytes_of_hex(text: &str) -> Option<Vec<u8>> {
             return None;
         }
         for pair in digits.as_bytes().chunks(2) {
-            let pair = std::str::from_utf8(pair).ok()?; // Digits are ASCII.
-            bytes.push(u8::from_str_radix(pair, 16).ok()?); // They were checked.
+            let pair = std::str::from_utf8(pair).ok()?; // Hexadecimal digits are ASCII.
+            bytes.push(u8::from_str_radix(pair, 16).ok()?); // Both are checked digits.
         }
     }
     (!bytes.is_empty()).then_some(bytes)
 }
 
-/// The lines that say something, with their numbers from one.
+/// The lines with content, numbered from one.
 fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let text = text.trim_start_matches('\u{feff}');
     let numbered = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     numbered.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// The place of a device in the list, which gets it if it is not there.
+/// Index of a device in the list; appends the device if it is new.
 fn index_of(devices: &mut Vec<HidRecording>, name: &str) -> usize {
     devices.iter().position(|device| device.device == name).unwrap_or_else(|| {
         devices.push(HidRecording { device: name.to_owned(), ..HidRecording::default() });
@@ -145,11 +148,11 @@ fn index_of(devices: &mut Vec<HidRecording>, name: &str) -> usize {
     })
 }
 
-/// Adds a report, unless time goes back.
+/// Appends a report; fails if its time is before that of the last report.
 fn add_report(device: &mut HidRecording, time_secs: f64, bytes: Vec<u8>) -> Result<(), String> {
     match device.reports.last() {
         Some(last) if time_secs < last.time_secs => {
-            Err(format!("time goes back, from {} s to {time_secs} s", last.time_secs))
+            Err(format!("the time decreases from {} s to {time_secs} s", last.time_secs))
         }
         _ => {
             device.reports.push(TimedReport { time_secs, bytes });
@@ -158,13 +161,13 @@ fn add_report(device: &mut HidRecording, time_secs: f64, bytes: Vec<u8>) -> Resu
     }
 }
 
-/// A time in seconds.
+/// Parses a finite time in seconds.
 fn time(word: &str) -> Result<f64, String> {
-    let time = word.parse::<f64>().ok().filter(|time| time.is_finite()); // Anything else is said below.
-    time.ok_or_else(|| format!("\"{}\" is no time in seconds", short(word)))
+    let time = word.parse::<f64>().ok().filter(|time| time.is_finite()); // Other text is an error below.
+    time.ok_or_else(|| format!("\"{}\" is not a time in seconds", short(word)))
 }
 
-/// Text for a message, cut off where it is long.
+/// Text for a message, truncated to 40 characters.
 fn short(text: &str) -> String {
     text.chars().take(40).collect()
 }

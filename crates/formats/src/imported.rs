@@ -1,10 +1,10 @@
-//! A value read from a file, with what was not quite as it should be.
+//! A value read from a file, with warnings.
 
-/// What was read, and what the reader would like to tell.
+/// A value read from a file, with the reader's warnings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported<T> {
-    /// The value, complete and checked.
+    /// The value, complete and validated.
     pub value: T,
-    /// Sentences for people, one for each thing that was odd but usable.
+    /// Sentences for the user, one for each imperfection that leaves the data usable.
     pub warnings: Vec<String>,
 }

@@ -1,19 +1,19 @@
-//! How the JSON of a file is laid out: a line for each thing that a person looks for, so that a comparison of two
-//! versions shows what changed, and long rows of numbers on one.
+//! Layout of the JSON in Shagreen files: one line per object that a person looks for, and long arrays of numbers on one
+//! line. A text diff of two versions then shows what changed.
 
 use std::io;
 
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 
-/// The JSON of `value`, with a line feed at its end. Objects and arrays nested deeper than `open_depth` stand on one
+/// Serializes `value` as JSON with a final line feed. Objects and arrays nested deeper than `open_depth` stay on one
 /// line.
 pub(crate) fn to_bytes(value: &impl Serialize, open_depth: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
     let written =
         value.serialize(&mut Serializer::with_formatter(&mut bytes, Layout { depth: 0, open_depth }));
-    // Memory takes all bytes, keys are strings, and non-finite numbers are written as null.
-    assert!(written.is_ok(), "our types are always JSON: {written:?}");
+    // Writing to memory cannot fail, keys are strings, and non-finite numbers become null.
+    assert!(written.is_ok(), "cannot serialize to JSON: {written:?}");
     bytes.push(b'\n');
     bytes
 }

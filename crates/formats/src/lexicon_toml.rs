@@ -1,52 +1,53 @@
-//! Words of touch from a TOML file; that of the program is `assets/words/lexicon.toml`, which says what it means.
+//! The lexicon of touch words, read from a TOML file. The built-in one is `assets/words/lexicon.toml`, which documents
+//! its fields.
 
 use std::sync::OnceLock;
 
 use serde::Deserialize;
-use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::touch_words::{Hints, Lexicon, LexiconError, Meaning, Shade};
+use shagreen_core::maths::gaussian_process::Estimate;
+use shagreen_core::surfaces::touch_words::{Hints, Lexicon, LexiconError, Meaning, Shade};
 
 use crate::materials_toml::PatternKindV1;
 
-/// The text of the program's words.
+/// Text of the built-in lexicon.
 pub const LEXICON_TEXT: &str = include_str!("../../../assets/words/lexicon.toml");
 
-/// Why text is no lexicon.
+/// Why text is not a lexicon.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LexiconFileError {
-    /// Not TOML, or a key is missing, unknown or of the wrong kind.
-    #[error("the words cannot be read: {0}")]
+    /// Not TOML, or a key is missing, unknown or of the wrong type.
+    #[error("cannot read the lexicon: {0}; correct the file")]
     Damaged(#[from] toml::de::Error),
-    /// A number has no meaning.
-    #[error("{what} of \"{word}\" is {value}, needs {low} to {high}")]
+    /// A number is out of range.
+    #[error("{what} of \"{word}\" is {value}; change it to a value from {low} to {high}")]
     OutOfRange {
         /// The first word of the entry.
         word: String,
-        /// Which number.
+        /// Name of the number.
         what: &'static str,
-        /// Its value.
+        /// The value in the file.
         value: f64,
-        /// The least it may be.
+        /// Lowest permitted value.
         low: f64,
-        /// The most.
+        /// Highest permitted value.
         high: f64,
     },
-    /// An adjective or pattern says nothing of any attribute.
-    #[error("\"{word}\" says nothing of any attribute")]
+    /// An adjective or pattern has no estimate.
+    #[error("\"{word}\" has no estimate of any attribute; add one, or remove the entry")]
     Empty {
         /// The first word of the entry.
         word: String,
     },
-    /// An entry is not whole.
-    #[error("\"{word}\" lacks {what}")]
+    /// An entry is incomplete.
+    #[error("the entry \"{word}\" lacks {what}; add it")]
     Lacks {
         /// The first word of the entry.
         word: String,
-        /// What it should have.
+        /// The missing keys.
         what: &'static str,
     },
-    /// The words themselves.
+    /// The words themselves are invalid.
     #[error(transparent)]
     Words(#[from] LexiconError),
 }
@@ -65,10 +66,10 @@ struct FileV1 {
     degree: Vec<DegreeV1>,
 }
 
-/// Mean and deviation.
+/// Mean and standard deviation, on a scale of 0 to 100.
 type HintV1 = Option<[f64; 2]>;
 
-/// A word that can be felt: a surface, an adjective or a pattern.
+/// A word for a tactile property: a surface, an adjective or a pattern.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FeltV1 {
@@ -83,17 +84,17 @@ struct FeltV1 {
     sticky_slippery: HintV1,
     #[serde(rename = "irritating-pleasant")]
     irritating_pleasant: HintV1,
-    /// Of surfaces.
+    /// Surfaces only.
     like: Option<String>,
-    /// Of surfaces.
+    /// Surfaces only.
     color: Option<[u8; 3]>,
-    /// Of surfaces and adjectives.
+    /// Surfaces and adjectives.
     gloss: Option<f64>,
-    /// Of adjectives.
+    /// Adjectives only.
     mottle: Option<f64>,
-    /// Of patterns.
+    /// Patterns only.
     kind: Option<PatternKindV1>,
-    /// Of patterns.
+    /// Patterns only.
     period_mm: Option<f64>,
 }
 
@@ -127,17 +128,17 @@ struct DegreeV1 {
     reach: f64,
 }
 
-/// The words of the program.
+/// Returns the built-in lexicon.
 ///
 /// # Errors
-/// The program is damaged.
+/// Fails only if the program file is damaged.
 pub fn built_in_lexicon() -> Result<&'static Lexicon, LexiconFileError> {
     static LEXICON: OnceLock<Result<Lexicon, LexiconFileError>> = OnceLock::new();
     let read = || read_lexicon(LEXICON_TEXT);
     LEXICON.get_or_init(read).as_ref().map_err(Clone::clone)
 }
 
-/// Reads words.
+/// Reads a lexicon.
 ///
 /// # Errors
 /// See [`LexiconFileError`].
@@ -194,7 +195,7 @@ fn name(words: &[String]) -> String {
 }
 
 impl FeltV1 {
-    /// Estimates of 0..100 with deviations that mean something; at least one.
+    /// Returns the estimates, with means from 0 to 100 and plausible standard deviations; there must be at least one.
     fn hints(&self) -> Result<Hints, LexiconFileError> {
         let word = name(&self.words);
         let values = [
@@ -208,7 +209,7 @@ impl FeltV1 {
         for (hint, value) in hints.iter_mut().zip(values) {
             let Some([mean, deviation]) = value else { continue };
             let mean = within(&word, "a mean", mean, 0.0, 100.0)?;
-            let deviation = within(&word, "a deviation", deviation, 1.0, 50.0)?;
+            let deviation = within(&word, "a standard deviation", deviation, 1.0, 50.0)?;
             *hint = Some(Estimate { mean, deviation });
         }
         if hints.iter().all(Option::is_none) {
@@ -233,8 +234,8 @@ fn within(word: &str, what: &'static str, value: f64, low: f64, high: f64) -> Re
 mod tests {
     use super::{built_in_lexicon, read_lexicon};
     use crate::starter::starter_library;
-    use shagreen_core::prompt::understand;
-    use shagreen_core::touch_words::Meaning;
+    use shagreen_core::surfaces::prompt::understand;
+    use shagreen_core::surfaces::touch_words::Meaning;
 
     #[test]
     fn the_words_of_the_program_are_sound() {
@@ -244,8 +245,11 @@ mod tests {
         for (word, _) in lexicon.words() {
             if let Some((_, Meaning::Surface { like, hints, .. })) = lexicon.get(word) {
                 n_surfaces += 1;
-                assert!(library.textures.iter().any(|texture| texture.id == *like), "{word} is like {like}");
-                assert!(hints.iter().all(Option::is_some), "{word} says nothing of an attribute");
+                assert!(
+                    library.textures.iter().any(|texture| texture.id == *like),
+                    "{word} refers to the missing texture {like}"
+                );
+                assert!(hints.iter().all(Option::is_some), "{word} has no estimate of some attribute");
             }
         }
         assert!(n_surfaces > 500, "{n_surfaces}");
@@ -275,13 +279,13 @@ mod tests {
         assert!(read_lexicon(FRAME).is_ok());
         let with = |from: &str, to: &str| read_lexicon(&FRAME.replace(from, to)).unwrap_err().to_string();
         for (from, to, expected) in [
-            ("fillers = []", "fillers = [\"a\", \"a\"]", "\"a\" stands twice"),
+            ("fillers = []", "fillers = [\"a\", \"a\"]", "\"a\" is listed twice"),
             (
                 "quality = []",
                 "quality = [{ words = [\"rough\"], rough-smooth = [140, 8] }]",
                 "a mean of \"rough\" is 140",
             ),
-            ("quality = []", "quality = [{ words = [\"rough\"] }]", "nothing of any attribute"),
+            ("quality = []", "quality = [{ words = [\"rough\"] }]", "no estimate of any attribute"),
             ("size = []", "size = [{ words = [\"tiny\"], factor = 0 }]", "factor of \"tiny\" is 0"),
             ("size = []", "size = [{ words = [\"tiny\"], factor = 1, of = 2 }]", "unknown field"),
         ] {

@@ -1,12 +1,14 @@
-//! Bytes to types and back: texture libraries, pen strokes, rendered signals, material parameters.
+//! Readers and writers for the files of Shagreen: texture libraries, recordings, strokes, signals, actuator profiles
+//! and reports.
 //!
 //! # Conventions
 //!
-//! - A reader takes bytes and gives a value of this crate or of `shagreen-core`, checked by core's own constructors, or
-//!   one error that says what is wrong and what to do. It names the place in the file; whoever opened the file adds its path.
-//! - What is not quite as it should be and yet usable is a warning in [`imported::Imported`], not an error.
-//! - Types that end in `V1` own a wire format. Files are in the units of hands (mm/s, N, mm); values are SI.
-//! - Files are written by [`atomic`] alone: whole, or not at all.
+//! - A reader takes bytes and returns a value of this crate or of `shagreen-core`, checked by the constructors of core.
+//!   It returns one error otherwise, which says what is wrong and what to do. The error names the place in the file;
+//!   the caller that opened the file adds its path.
+//! - An imperfection that leaves the data usable is a warning in [`imported::Imported`], not an error.
+//! - Types whose names end in `V1` define a file format. Files use mm/s, N and mm; values in memory use SI units.
+//! - Only [`atomic`] writes files, and it writes each file completely or not at all.
 //!
 //! ```
 //! let library = shagreen_formats::starter::starter_library()?;
@@ -17,7 +19,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(
     test,
-    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic on an unexpected result")
 )]
 
 pub mod acf;

@@ -1,4 +1,4 @@
-//! A texture library: one JSON file that says what it holds, in which units, and where it comes from.
+//! The texture library format: one JSON file that states its contents, units and sources.
 //!
 //! ```json
 //! {
@@ -19,62 +19,65 @@
 //!
 //! Version 1.1 added, to a texture:
 //!
-//! - `"interpolation"`: how grain is found between anchors, `"barycentric"` (also where it is left out),
-//!   `"radial_basis"`, or `"published"`. Anchors of the last have `"variance"` in (m/s²)², `"gain"` and `"ma_lsf"` in place
-//!   of `level_mps2`, and include the boundary (speed or force zero).
-//! - `"tap": {"frequency_hz": 180.0, "decay_per_s": 90.0, "amplitude_mps2": 4.0}`: the transient of a landing.
-//! - `"provenance": "restricted"`: made from data that may not be passed on; see [`Provenance`].
+//! - `"interpolation"`: interpolation of the AR models between anchors, `"barycentric"` (the default),
+//!   `"radial_basis"`, or `"published"`. Anchors of `"published"` have `"variance"` in (m/s²)², `"gain"` and `"ma_lsf"`
+//!   instead of `level_mps2`, and include the boundary (speed or force zero).
+//! - `"tap": {"frequency_hz": 180.0, "decay_per_s": 90.0, "amplitude_mps2": 4.0}`: the tap transient.
+//! - `"provenance": "restricted"`: made from data that must not be redistributed; see [`Provenance`].
 //!
 //! Version 1.2 added, to a texture:
 //!
-//! - `"attributes": {"label_source": "human", "values": [{"name": "rough-smooth", "value": 40.5}, …]}`: values from 0 to
-//!   100 on any number of attributes, each named by its two poles; see [`Attributes`].
+//! - `"attributes": {"label_source": "human", "values": [{"name": "rough-smooth", "value": 40.5}, …]}`: values from 0
+//!   to 100 on any number of attributes, each named by its two poles; see [`Attributes`].
 //!
 //! and to the library:
 //!
-//! - `"space_report": {…}`: how its space was made and how far it can be believed, as `shagreen space build` prints it.
+//! - `"space_report": {…}`: how its space was built and validated, in the form that `shagreen space build` prints.
 //!
 //! Version 1.3 added, to the library:
 //!
-//! - `"axes": ["warm-cold", "flat-bumpy"]`: the attributes that `rough_smooth` and `hard_soft` of every place stand for,
-//!   where they are others than their names say.
+//! - `"axes": ["warm-cold", "flat-bumpy"]`: the attributes that the fields `rough_smooth` and `hard_soft` of every
+//!   position hold, if they differ from what these field names say.
 //!
 //! Version 1.4 added, to a texture that changes along a stroke:
 //!
 //! - `"path": {"along": "distance", "at_end": "hold", "keys": [{"along": 0.0, "rough_smooth": 30.0, "hard_soft": 70.0,
-//!   "stop": true, "mu": 0.4, "tap": {…}, "anchors": […]}, …]}`: textures at places of the stroke, in mm that the tip has
-//!   traveled or (`"along": "time"`) in s that it has touched. `at_end` is `hold`, `turn` or `repeat`; `stop` marks the
-//!   places that somebody chose. Its own anchors are those of the first key, for programs that know no paths.
+//!   "stop": true, "mu": 0.4, "tap": {…}, "anchors": […]}, …]}`: textures at points along the stroke, in mm of tip
+//!   travel or, with `"along": "time"`, in s of contact. `at_end` is `hold`, `turn` or `repeat`; `stop` marks the
+//!   points that a person chose. The texture's own anchors are those of the first key, for programs without path
+//!   support.
 //!
 //! Version 1.5 added, to a texture and to the keys of its path:
 //!
-//! - `"relief": {"step_mm": 0.01, "force_n": 1.0, "mps2": [0.1, -0.2]}`: accelerations in m/s² a step apart, played by
-//!   where the tip is, at the force at which they are as they stand here; back and forth beyond the last one.
+//! - `"relief": {"step_mm": 0.01, "force_n": 1.0, "mps2": [0.1, -0.2]}`: an acceleration profile in m/s² over tip
+//!   position, sampled every `step_mm`. It has its stated level at `force_n`. Beyond its end it is traversed backwards
+//!   and forwards.
 //!
-//! Version 1.6 added the label source `estimated`: a place that words, a picture or a recording were taken for.
+//! Version 1.6 added the label source `estimated`: a position estimated from words, a picture or a recording.
 //!
-//! A file says the lowest version that has all it uses.
+//! A file states the lowest version that has all features it uses.
 //!
-//! Fields that this version does not know are kept in [`Unknown`] and written back. A file of a higher major version is
-//! refused.
+//! Unknown fields are kept in [`Unknown`] and written back. A file of a higher major version is rejected.
 
 mod anchors;
 pub(crate) mod attributes;
 mod authored;
 mod error;
 mod id;
+pub(crate) mod numbers;
 mod path;
 mod provenance;
 pub(crate) mod read;
 mod relief;
+mod tap;
 pub(crate) mod v1;
 pub(crate) mod write;
 
 use serde_json::{Map, Value};
+use shagreen_core::space::texture_path::TexturePath;
 use shagreen_core::space::{LabelSource, SpacePoint};
-use shagreen_core::starter::Labels;
+use shagreen_core::surfaces::starter::Labels;
 use shagreen_core::texture::TextureModel;
-use shagreen_core::texture_path::TexturePath;
 
 use crate::picture::Picture;
 
@@ -83,94 +86,94 @@ pub use crate::library::attributes::{Attribute, Attributes};
 pub use crate::library::authored::ReliefSource;
 pub use crate::library::error::LibraryError;
 pub use crate::library::id::{free_id, free_name, id_from_name, name_from_file};
+pub(crate) use crate::library::numbers::{DIGITS, digits, frequencies};
 pub use crate::library::provenance::Provenance;
 pub use crate::library::read::read_library;
 pub use crate::library::write::write_library;
-pub(crate) use crate::library::write::{DIGITS, digits, frequencies};
 
-/// What the field `format` of a library holds.
+/// Value of the `format` field of a library.
 pub const FORMAT: &str = "shagreen-library";
-/// Major version that is read and written: files of another one are refused.
+/// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
-/// Highest minor version that is written: fields may be added by a higher one.
+/// Highest minor version that is written; a newer one may add fields.
 pub const VERSION_MINOR: u32 = 6;
-/// Names of the two axes of a space, where a library names no others.
+/// Default names of the two axes of a space.
 pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
-/// Textures that belong together.
+/// A set of textures with a common space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Library {
     /// Name to show.
     pub name: String,
-    /// What it is, in a sentence or two.
+    /// Description in a sentence or two.
     pub description: String,
     /// Where its textures come from.
     pub origin: String,
-    /// Under which terms it may be used, as an SPDX expression where there is one.
+    /// Terms of use, as an SPDX expression if there is one.
     pub license: String,
     /// The program that wrote it, with its version.
     pub created_by: String,
-    /// Seed of all that is random in it, where it was made by a program.
+    /// Random seed, if a program generated it.
     pub seed: Option<u64>,
-    /// Names of the attributes that the two coordinates of its places stand for, each by its two poles, the one at 0
-    /// first; `None` for [`USUAL_AXES`]. Neither empty nor the same.
+    /// Names of the attributes that the two position coordinates represent, each by its two poles, the one at 0 first;
+    /// `None` for [`USUAL_AXES`]. The names are neither empty nor equal.
     pub axes: Option<[String; 2]>,
-    /// How its space was made and how far it can be believed: a JSON object, as `shagreen space build` prints it.
+    /// How its space was built and validated: a JSON object in the form that `shagreen space build` prints.
     pub space_report: Option<Value>,
-    /// The textures. Identifiers are unique; a texture is known by its index here.
+    /// The textures, identified by their index here. Their `id`s are unique.
     pub textures: Vec<TextureEntry>,
     /// Fields that this version does not know.
     pub unknown: UnknownOfLibrary,
 }
 
-/// A texture and what is known about it.
+/// A texture with its metadata.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureEntry {
-    /// Identifier, unique in its library, neither empty nor with white space.
+    /// Identifier, unique in its library; neither empty nor with white space.
     pub id: String,
     /// Name to show.
     pub name: String,
-    /// Words to search by.
+    /// Search terms.
     pub tags: Vec<String>,
-    /// Terms of this texture; those of the library where it is empty.
+    /// Terms of use of this texture; empty if those of the library apply.
     pub license: String,
-    /// Where it comes from; as the library where it is empty.
+    /// Where it comes from; empty if the origin of the library applies.
     pub origin: String,
-    /// Whether it may be passed on.
+    /// Whether it may be redistributed.
     pub provenance: Provenance,
-    /// What it is.
+    /// Description.
     pub description: String,
-    /// Where it lies in the space, where it has been placed.
+    /// Position in the space, if assigned.
     pub place: Option<Place>,
-    /// How it is rated on attributes, of which two may be the axes of its space.
+    /// Attribute values; two of the attributes may be the axes of the space.
     pub attributes: Option<Attributes>,
-    /// What was measured or computed of the surface itself, where that is known.
+    /// Measured or simulated physical quantities, if known.
     pub physical: Option<PhysicalLabels>,
-    /// What it does to a tip; where it changes along a stroke, at its beginning.
+    /// The texture model; for a texture that changes along a stroke, the model at the start.
     pub model: TextureModel,
-    /// How it changes along a stroke, where it does.
+    /// Changes along a stroke, if any.
     pub path: Option<TexturePath>,
-    /// What it looks like.
+    /// Picture of the surface.
     pub picture: Option<Picture>,
     /// Fields that this version does not know.
     pub unknown: Unknown,
 }
 
-/// A position in the space, which always says where it comes from.
+/// A position in the space with its label source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// The position.
     pub at: SpacePoint,
-    /// What it was derived from.
+    /// What the position was derived from.
     pub source: LabelSource,
 }
 
-/// Physical quantities that stand behind [`LabelSource::PhysicalLabels`].
+/// The physical quantities behind [`LabelSource::PhysicalLabels`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhysicalLabels {
     /// log₁₀ of the root mean square acceleration in m/s² at 100 mm/s and 1 N.
     pub roughness_log10_mps2: f64,
-    /// log₁₀ of the stiffness of the contact in N/m at 1 N.
+    /// log₁₀ of the contact stiffness in N/m at 1 N.
     pub hardness_log10_n_per_m: f64,
 }
 
@@ -183,44 +186,44 @@ impl From<PhysicalLabels> for Labels {
     }
 }
 
-/// Fields of a library that this version does not know, by the object that they stood in.
+/// Unknown fields of a library, by the object that contains them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnknownOfLibrary {
     library: Map<String, Value>,
     units: Map<String, Value>,
 }
 
-/// Fields of a texture that this version does not know, by the object that they stood in.
+/// Unknown fields of a texture, by the object that contains them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Unknown {
     texture: Map<String, Value>,
     space: Map<String, Value>,
     attributes: Map<String, Value>,
-    /// Empty, or one for each value of the attributes.
+    /// Empty, or one per attribute value.
     values: Vec<Map<String, Value>>,
     physical: Map<String, Value>,
     picture: Map<String, Value>,
     tap: Map<String, Value>,
     path: Map<String, Value>,
     relief: Map<String, Value>,
-    /// Empty, or one for each key of the path.
+    /// Empty, or one per key of the path.
     keys: Vec<UnknownOfKey>,
-    /// Empty, or one for each node of the model.
+    /// Empty, or one per node of the model.
     anchors: Vec<Map<String, Value>>,
 }
 
-/// The same of a key of a path.
+/// Unknown fields of a path key, by the object that contains them.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct UnknownOfKey {
     key: Map<String, Value>,
     tap: Map<String, Value>,
     relief: Map<String, Value>,
-    /// Empty, or one for each node of the model.
+    /// Empty, or one per node of the model.
     anchors: Vec<Map<String, Value>>,
 }
 
 impl TextureEntry {
-    /// A texture of which only identifier, name and model are known.
+    /// Creates a texture from identifier, name and model; all other fields are empty.
     pub fn new(id: impl Into<String>, name: impl Into<String>, model: TextureModel) -> Self {
         Self {
             id: id.into(),
@@ -240,12 +243,12 @@ impl TextureEntry {
         }
     }
 
-    /// Where it lies in the space, where it has been placed.
+    /// Position in the space, if assigned.
     pub fn at(&self) -> Option<SpacePoint> {
         self.place.map(|place| place.at)
     }
 
-    /// What its position was derived from, where it has one.
+    /// What the position was derived from, if assigned.
     pub fn label_source(&self) -> Option<LabelSource> {
         self.place.map(|place| place.source)
     }
@@ -257,18 +260,18 @@ impl Library {
         self.textures.iter().position(|texture| texture.id == id)
     }
 
-    /// Names of the attributes that the two coordinates of its places stand for.
+    /// Names of the attributes that the two position coordinates represent.
     pub fn axis_names(&self) -> [&str; 2] {
         self.axes.as_ref().map_or(USUAL_AXES, |axes| axes.each_ref().map(String::as_str))
     }
 
-    /// Positions of all textures, indexed as [`Library::textures`]: what a space is made of.
+    /// Positions of all textures, indexed as [`Library::textures`]; the input of a space.
     pub fn positions(&self) -> Vec<Option<SpacePoint>> {
         self.textures.iter().map(TextureEntry::at).collect()
     }
 
-    /// All that the positions were derived from, each once, in the order of the textures. Where there are several, no
-    /// one word stands for the library, and distances between textures of different sources mean little.
+    /// All label sources of the positions, each once, in texture order. Distances between textures of different label
+    /// sources are hardly meaningful.
     pub fn label_sources(&self) -> Vec<LabelSource> {
         let mut sources = Vec::new();
         for source in self.textures.iter().filter_map(TextureEntry::label_source) {
@@ -279,8 +282,8 @@ impl Library {
         sources
     }
 
-    /// What the positions were derived from; `None` where there are none or they are of several kinds, which
-    /// [`Library::label_sources`] tells apart.
+    /// The single label source of all positions; `None` if there are no positions or several sources, see
+    /// [`Library::label_sources`].
     pub fn label_source(&self) -> Option<LabelSource> {
         match self.label_sources()[..] {
             [source] => Some(source),
@@ -288,12 +291,12 @@ impl Library {
         }
     }
 
-    /// The textures that may not be passed on.
+    /// The textures that must not be redistributed.
     pub fn restricted(&self) -> impl Iterator<Item = &TextureEntry> {
         self.textures.iter().filter(|texture| texture.provenance == Provenance::Restricted)
     }
 
-    /// Terms of a texture: its own, or those of the library.
+    /// Terms of use of a texture: its own, or those of the library.
     pub fn license_of<'a>(&'a self, texture: &'a TextureEntry) -> &'a str {
         if texture.license.is_empty() { &self.license } else { &texture.license }
     }

@@ -1,11 +1,11 @@
-//! Names that differ in what a hand easily writes differently: `P1`, `p 1` and `p01`.
+//! Detection of names that differ only in spelling: `P1`, `p 1` and `p01`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::named_table::plain;
 
-/// That names of `what` look alike, one sentence for each group of them, in the order of the alphabet. They stay
-/// different: who is whom is for a person to say.
+/// Returns a warning for each group of look-alike names, in alphabetical order; `what` is the plural of the named
+/// things. The names stay distinct, because only a person can tell whether they mean the same.
 pub fn look_alikes(names: &[&str], what: &str) -> Vec<String> {
     let mut groups: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
     for name in names {
@@ -14,14 +14,14 @@ pub fn look_alikes(names: &[&str], what: &str) -> Vec<String> {
     let sentence = |names: BTreeSet<&str>| {
         let quoted: Vec<String> = names.into_iter().map(|name| format!("\"{name}\"")).collect();
         format!(
-            "the {what} {} look alike and are taken for different ones; if they are one, write the name in one way",
+            "the {what} {} look alike but are treated as different; if they are the same, use one spelling",
             quoted.join(", ")
         )
     };
     groups.into_values().filter(|names| names.len() > 1).map(sentence).collect()
 }
 
-/// What look-alikes share: neither case nor blanks, hyphens and underscores count, nor zeros ahead of a number.
+/// Returns a key that look-alikes share: it ignores case, blanks, hyphens, underscores, and leading zeros of numbers.
 fn likeness(name: &str) -> String {
     let mut likeness = String::new();
     let mut in_number = false;
@@ -31,14 +31,14 @@ fn likeness(name: &str) -> String {
         let is_padding = c == '0' && !in_number && characters.peek().is_some_and(char::is_ascii_digit);
         if !is_padding {
             likeness.push(c);
-            // Zeros after a dot count.
+            // Zeros after a decimal point are significant.
             in_number = c.is_ascii_digit() || (in_number && c == '.');
         }
     }
     likeness
 }
 
-/// The name as it is compared, but with one mark left between digits: `1-11` is not `11-1`.
+/// Normalizes a name but keeps a separator between digits: `1-11` differs from `11-1`.
 fn parted_numbers(name: &str) -> String {
     let mut parts = name.split([' ', '_', '-', '\u{2013}']).map(plain).filter(|p| !p.is_empty());
     let mut whole = parts.next().unwrap_or_default();
@@ -51,7 +51,7 @@ fn parted_numbers(name: &str) -> String {
     whole
 }
 
-/// Whether a character leaves no mark: blanks of all kinds, some of no width.
+/// Returns whether a character is invisible: white space of any kind, including zero width.
 fn is_unseen(c: char) -> bool {
     c.is_whitespace() || matches!(c, '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}')
 }

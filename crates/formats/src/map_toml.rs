@@ -1,20 +1,20 @@
-//! The columns of a recording, said in a TOML file.
+//! The column map of a recording, read from a TOML file.
 //!
-//! Every key is optional; what is not said is guessed or asked for. A key that is not known is an error, for it would be
-//! an answer without effect.
+//! Every key is optional; missing ones are guessed or asked for. An unknown key is an error, because its value would
+//! have no effect.
 //!
 //! ```
 //! let map = shagreen_formats::map_toml::read_map(br#"
 //! separator = "semicolon"        # comma, semicolon, tab or spaces
 //! decimal_comma = true
 //! header = true
-//! time = "t"                     # a column by its name, or by its place from 1
+//! time = "t"                     # a column name, or a column number from 1
 //! time_unit = "ms"               # s, ms, us or ns
-//! rate_hz = 10000.0              # only where there is no time column
+//! rate_hz = 10000.0              # only if there is no time column
 //! acceleration = ["ax", "ay", "az"]
 //! acceleration_unit = "g"        # m/s^2, g or mg
-//! per_count = 6.1e-5             # only for counts of a converter: units a count
-//! full_scale = 16.0              # a WAV sample of 1.0, or the range of the sensor, in that unit
+//! per_count = 6.1e-5             # only for raw ADC counts: acceleration units per count
+//! full_scale = 16.0              # acceleration of a WAV sample of 1.0, or the sensor range, in that unit
 //! speed = "v"                    # or positions = ["x", "y"] with position_unit = "mm" (mm, m or um),
 //! speed_unit = "mm/s"            # or constant_speed = "100 mm/s"
 //! force = 6                      # or constant_force = "1 N"
@@ -25,39 +25,39 @@
 //! # Ok::<(), shagreen_formats::map_toml::MapError>(())
 //! ```
 //!
-//! A WAV file has `channels = ["acceleration", "speed", "force", "unused"]`, `full_scale`, `speed_full_scale` and
+//! A WAV file uses `channels = ["acceleration", "speed", "force", "unused"]`, `full_scale`, `speed_full_scale` and
 //! `force_full_scale` instead of columns.
 
 use toml::Value;
 
 use crate::recording::{Ask, ColumnMap};
 
-/// Why bytes are no map.
+/// Why bytes are not a column map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapError {
-    /// Not UTF-8.
-    #[error("the map is not UTF-8 text from byte {at} on; save the file as UTF-8")]
+    /// The file is not UTF-8.
+    #[error("the column map is not valid UTF-8 at byte {at}; save the file as UTF-8")]
     NotText {
-        /// The first byte that is not.
+        /// Offset of the first invalid byte, from zero.
         at: usize,
     },
-    /// Not TOML, or a key is unknown or its value has no meaning.
-    #[error("the map cannot be read: {reason}; correct the file")]
+    /// Not TOML, a key is unknown, or its value is invalid.
+    #[error("cannot read the column map: {reason}; correct the file")]
     Damaged {
-        /// What is wrong, with the line, on one line.
+        /// What is wrong, with the line number, on one line.
         reason: String,
     },
 }
 
-/// Keys of constants, and what they answer.
+/// Keys of constants, and the questions that they answer.
 const CONSTANTS: [(&str, Ask); 2] = [("constant_speed", Ask::Speed), ("constant_force", Ask::Force)];
 
-/// Keys that cannot stand in one map.
+/// Keys that exclude each other.
 const EXCLUSIVE: [[&str; 2]; 3] =
     [["constant_speed", "speed"], ["constant_speed", "positions"], ["constant_force", "force"]];
 
-/// Reads a map.
+/// Reads a column map.
 ///
 /// # Errors
 /// See [`MapError`].
@@ -85,7 +85,7 @@ pub fn read_map(bytes: &[u8]) -> Result<ColumnMap, MapError> {
         let Some(what) =
             constant.map(|(_, what)| *what).or_else(|| Ask::ALL.iter().copied().find(|ask| ask.key() == key))
         else {
-            return Err(damaged(format!("{key:?} is not known")));
+            return Err(damaged(format!("unknown key {key:?}")));
         };
         let answer =
             answer_of(value).ok_or_else(|| damaged(format!("{key} cannot be a {}", value.type_str())))?;
@@ -93,7 +93,7 @@ pub fn read_map(bytes: &[u8]) -> Result<ColumnMap, MapError> {
         let taken = if what == Ask::Speed { map.speed.is_some() } else { map.force.is_some() };
         if constant.is_some() && taken {
             return Err(damaged(format!(
-                "{key} is {answer:?}, needs a number with its unit, such as {:?}",
+                "{key} is {answer:?}, but must be a number with its unit, such as {:?}",
                 if what == Ask::Speed { "100 mm/s" } else { "1 N" }
             )));
         }
@@ -101,7 +101,7 @@ pub fn read_map(bytes: &[u8]) -> Result<ColumnMap, MapError> {
     Ok(map)
 }
 
-/// A value as an answer to a question.
+/// Converts a TOML value to the text form of an answer.
 fn answer_of(value: &Value) -> Option<String> {
     match value {
         Value::String(text) => Some(text.clone()),
@@ -116,7 +116,7 @@ fn answer_of(value: &Value) -> Option<String> {
     }
 }
 
-/// The line, from one, that begins with a key.
+/// Returns the line, from one, that begins with a key.
 fn line_of(text: &str, key: &str) -> Option<usize> {
     let begins =
         |line: &str| line.trim_start().trim_start_matches(['"', '\'', '[']).strip_prefix(key).is_some();
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_named_with_its_line() {
-        check_error("header = true\nspeeed = \"v\"", "\"speeed\" is not known in line 2");
+        check_error("header = true\nspeeed = \"v\"", "unknown key \"speeed\" in line 2");
         check_error("time_unit = \"h\"", "one of s, ms, us, ns in line 1");
         check_error("a = [", "line 1");
         check_error("rate_hz = -5", "a number above 0");

@@ -1,39 +1,39 @@
-//! The parameters of physical materials, from a TOML file: what a starter library is made of.
+//! Parameters of physical materials, read from a TOML file; the source data of the starter library.
 //!
-//! The keys are the fields of [`Material`], all in SI units; kinds of pattern are written in `kebab-case`. A key that is
-//! not known is an error, for it would be a parameter without effect.
+//! The keys are the fields of [`Material`], all in SI units; pattern kinds are written in `kebab-case`. An unknown key
+//! is an error, because its value would have no effect.
 
 use std::collections::HashSet;
 
 use serde::Deserialize;
-use shagreen_core::material::{Bumps, Material, MaterialError, Pattern, PatternKind, validate};
+use shagreen_core::surfaces::material::{Bumps, Material, MaterialError, Pattern, PatternKind, validate};
 
 /// The materials of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Materials {
-    /// Seed of all that is random in what is made of them.
+    /// Random seed for the textures synthesized from them.
     pub seed: u64,
-    /// At least one; identifiers are unique.
+    /// At least one material; identifiers are unique.
     pub materials: Vec<Material>,
 }
 
-/// Why bytes are no materials.
+/// Why bytes are not a materials file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MaterialsError {
-    /// Not UTF-8.
-    #[error("the materials are not UTF-8 text from byte {at} on; save the file as UTF-8")]
+    /// The file is not UTF-8.
+    #[error("the materials file is not valid UTF-8 at byte {at}; save the file as UTF-8")]
     NotText {
-        /// The first byte that is not.
+        /// Offset of the first invalid byte, from zero.
         at: usize,
     },
-    /// Not TOML, or a key is missing, unknown or of the wrong kind.
-    #[error("the materials cannot be read: {reason}; correct the file")]
+    /// Not TOML, or a key is missing, unknown or of the wrong type.
+    #[error("cannot read the materials: {reason}; correct that line of the file")]
     Damaged {
-        /// What the parser says, with the line, on one line.
+        /// The parser's message with its line number, on one line.
         reason: String,
     },
-    /// A material's numbers have no meaning.
+    /// A number of a material is invalid.
     #[error("{0}; correct the material")]
     Material(#[from] MaterialError),
     /// Two materials have the same identifier.
@@ -42,8 +42,8 @@ pub enum MaterialsError {
         /// The identifier.
         id: String,
     },
-    /// The list is empty.
-    #[error("the file has no materials; add a [[material]]")]
+    /// The file has no materials.
+    #[error("the file has no materials; add a [[material]] table")]
     Empty,
 }
 
@@ -92,7 +92,7 @@ struct PatternV1 {
     jitter: f64,
 }
 
-/// The shape of a pattern, by its name.
+/// The kind of a pattern, by its name in the file.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum PatternKindV1 {
@@ -118,7 +118,7 @@ struct BumpsV1 {
 /// Reads materials.
 ///
 /// # Errors
-/// See [`MaterialsError`]; every number is checked by [`validate`].
+/// See [`MaterialsError`]; [`validate`] checks every number.
 pub fn read_materials(bytes: &[u8]) -> Result<Materials, MaterialsError> {
     let text =
         std::str::from_utf8(bytes).map_err(|error| MaterialsError::NotText { at: error.valid_up_to() })?;
@@ -137,7 +137,7 @@ pub fn read_materials(bytes: &[u8]) -> Result<Materials, MaterialsError> {
     Ok(Materials { seed: wire.seed, materials })
 }
 
-/// The parser's message on one line, with the line of the file.
+/// The parser's message on one line, with the line number in the file.
 fn damaged(error: &toml::de::Error, text: &str) -> MaterialsError {
     let message = error.message().replace('\n', " ");
     let before = error.span().and_then(|span| text.get(..span.start));
@@ -206,11 +206,11 @@ fn bumps(wire: &BumpsV1) -> Bumps {
 #[cfg(test)]
 mod tests {
     use super::read_materials;
-    use shagreen_core::material::PatternKind;
+    use shagreen_core::surfaces::material::PatternKind;
 
     const STARTER: &str = include_str!("../../../assets/starter/materials.toml");
 
-    /// A file of one material.
+    /// A file with one material.
     const SMALL: &str = r#"
 seed = 1
 [[material]]

@@ -1,43 +1,44 @@
-//! The profile of an actuator that was measured, and the sentence that says where its figures come from.
+//! The actuator profile from a calibration, with a sentence that states the source of its figures.
 
+use shagreen_core::actuator::calibration::{Fit, fitted_actuator};
 use shagreen_core::actuator::{Actuator, Drive};
-use shagreen_core::calibration::{Fit, fitted_actuator};
 use shagreen_core::units::Kilograms;
 
 use crate::library::id_from_name;
 
-/// What stands before the source of the figures that were not measured.
+/// Text before the source of the figures that were not measured. Saved profiles contain it, so it must not change.
 const REST: &str = "; everything else from ";
 
-/// How an actuator was measured.
+/// The conditions of a calibration measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HowMeasured {
-    /// What it is called now.
+    /// New name of the actuator.
     pub name: String,
-    /// What was played or read.
+    /// Description of the output or the recording that was measured.
     pub heard: String,
-    /// What it carried, as far as that is known.
+    /// Mass of the load, if known.
     pub load: Option<Kilograms>,
-    /// How samples became volts.
+    /// Conversion of samples to volts.
     pub drive: Drive,
-    /// Whether nobody measured those volts.
+    /// Whether the voltage is assumed instead of measured.
     pub is_drive_assumed: bool,
 }
 
-/// The actuator of `base`, or one of which nothing else is known, with the response that was fitted, its name, its id and the
-/// source of its figures. Figures keep the source that they have in `base`, also where that was measured itself.
+/// Returns the profile of a calibrated actuator: `base`, or an otherwise unknown actuator, with the fitted response, a
+/// new name and identifier, and the source of its figures. Figures that were not measured keep their source in `base`,
+/// even if `base` was calibrated itself.
 pub fn measured_profile(base: Option<Actuator>, fit: &Fit, how: HowMeasured) -> Actuator {
     let HowMeasured { name, heard, load, drive, is_drive_assumed } = how;
     let on = load.map_or("an unknown load".to_owned(), |load| format!("{} g", load.g()));
-    let assumed = if is_drive_assumed { ", which is assumed" } else { "" };
+    let assumed = if is_drive_assumed { ", which is assumed, not measured" } else { "" };
     let volts = drive.full_scale.0;
     let rest = base.as_ref().and_then(|base| match base.calibrated {
         None => Some(format!("{REST}the profile {}: {}", base.id, base.source)),
-        // Its response is replaced: what remains is what that measurement had from before.
+        // The response of `base` is replaced, so only the source of its other figures remains.
         Some(_) => base.source.find(REST).map(|at| base.source[at..].to_owned()),
     });
     let source = format!(
-        "Response measured on {on} with a sweep ({heard}), taking {volts} V for digital full scale{assumed}{}",
+        "Response measured on {on} with a swept sine ({heard}), with {volts} V at digital full scale{assumed}{}",
         rest.unwrap_or_default()
     );
     Actuator { id: id_from_name(&name), name, source, ..fitted_actuator(base, fit, load, drive) }
@@ -48,7 +49,7 @@ mod tests {
     use super::{HowMeasured, measured_profile};
     use crate::actuator_toml::built_in_actuators;
     use shagreen_core::actuator::Drive;
-    use shagreen_core::calibration::Fit;
+    use shagreen_core::actuator::calibration::Fit;
     use shagreen_core::units::{Hertz, Kilograms, Volts};
 
     #[test]

@@ -1,36 +1,34 @@
-//! Tables of words and numbers with a first line that names their columns: judgments of people, places of textures.
+//! Tables of words and numbers with a header line: judgments of people, positions of textures.
 //!
-//! Columns are parted by commas, semicolons or tabs, or by what a first line such as `sep=|` says; a decimal comma is
-//! understood, in quotes where commas part the columns. Names of columns are compared without case, spaces, underscores
-//! and hyphens.
+//! Commas, semicolons or tabs separate the columns, or the character that a first line such as `sep=|` states. Decimal
+//! commas are accepted, in quotes if commas separate the columns. Column names are compared without case, spaces,
+//! underscores and hyphens.
 
 use std::collections::HashSet;
 
 use crate::csv_text::{self, TableTextError, line_of, number};
 
-/// Why bytes are no such table, or a field of it cannot be used.
+/// Why bytes are not such a table, or a field is invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NamedTableError {
-    /// Nothing but, at most, a first line.
-    #[error(
-        "the table has no rows; give a first line that names the columns ({wanted}) and a row for each {of}"
-    )]
+    /// No rows after the header line.
+    #[error("the table has no rows; add a header line with the columns ({wanted}) and one row per {of}")]
     Empty {
-        /// The columns that it needs.
+        /// The required columns.
         wanted: &'static str,
-        /// What a row is of.
+        /// What one row describes.
         of: &'static str,
     },
     /// Not text.
     #[error(transparent)]
     Text(#[from] TableTextError),
-    /// A column is missing.
-    #[error("no column is named {wanted}; the columns are {found}; name it in the first line")]
+    /// A required column is missing.
+    #[error("no column is named {wanted}; the columns are {found}; correct the header line")]
     Missing {
-        /// Names that would do.
+        /// Accepted column names.
         wanted: String,
-        /// Names that are there.
+        /// Column names in the file.
         found: String,
     },
     /// Two columns have the same name.
@@ -39,27 +37,27 @@ pub enum NamedTableError {
         /// The name.
         name: String,
     },
-    /// A column has no name.
-    #[error("line {line} has something in a column without a name; name the column in the first line")]
+    /// A column with values has no name.
+    #[error("line {line} has a value in a column without a name; name the column in the header line")]
     Unnamed {
         /// The first such line, from one.
         line: u64,
     },
-    /// A row has too few or too many fields.
+    /// A row has the wrong number of fields.
     #[error(
-        "line {line} has {found} fields, the first line names {expected} columns; correct the line{hint}"
+        "line {line} has {found} fields, but the header line names {expected} columns; correct the line{hint}"
     )]
     Fields {
         /// The line, from one.
         line: u64,
-        /// The fields found.
+        /// Number of fields found.
         found: usize,
-        /// The columns.
+        /// Number of columns.
         expected: usize,
-        /// What else may help.
+        /// A further suggestion, or empty.
         hint: &'static str,
     },
-    /// A field is empty that must not be.
+    /// A required field is empty.
     #[error("line {line} has no {column}; fill it in, or remove the line")]
     Blank {
         /// The line, from one.
@@ -76,36 +74,36 @@ pub enum NamedTableError {
         line: u64,
         /// Name of the column.
         column: String,
-        /// What stands there.
+        /// Text of the field.
         found: String,
     },
 }
 
-/// A table, every row as long as the first line.
+/// A table whose rows all have as many fields as the header line.
 pub(crate) struct NamedTable {
-    /// Names of the columns as they are written.
+    /// Column names as written in the file.
     pub(crate) columns: Vec<String>,
-    /// Where they are named, from one.
+    /// Number of the header line, from one.
     pub(crate) first_line: u64,
-    /// What parts columns.
+    /// The column delimiter.
     delimiter: u8,
     rows: Vec<Row>,
 }
 
-/// A row and where it stands.
+/// A row with its line number.
 struct Row {
     line: u64,
     fields: Vec<String>,
 }
 
-/// A row of a table.
+/// A row with its table.
 #[derive(Clone, Copy)]
 pub(crate) struct RowOf<'a> {
     table: &'a NamedTable,
     row: &'a Row,
 }
 
-/// A field of a table.
+/// A field with its row and table.
 #[derive(Clone, Copy)]
 pub(crate) struct Field<'a> {
     table: &'a NamedTable,
@@ -114,7 +112,8 @@ pub(crate) struct Field<'a> {
 }
 
 impl NamedTable {
-    /// Reads a table of which a row is `of` something and needs the columns `wanted`, in words.
+    /// Reads a table. `wanted` lists the required columns, and `of` names what one row describes; both appear in
+    /// errors.
     pub(crate) fn read(
         bytes: &[u8],
         wanted: &'static str,
@@ -127,7 +126,7 @@ impl NamedTable {
         let mut first_line = 1;
         let mut rows = Vec::new();
         let mut record = csv::StringRecord::new();
-        // Text in memory with rows of any length: there is nothing left that the parser could refuse.
+        // The text is in memory and rows may have any length, so the parser has no error left to return.
         while reader.read_record(&mut record).unwrap_or(false) {
             let line = line_of(text, &record);
             if record.iter().all(str::is_empty) {
@@ -140,7 +139,7 @@ impl NamedTable {
                     let (found, expected) = (fields.len(), columns.len());
                     let is_comma = delimiter == b',' && found > expected;
                     let hint = if is_comma {
-                        "; a decimal comma needs quotes where commas part the columns"
+                        "; a number with a decimal comma needs quotes in a comma-separated table"
                     } else {
                         ""
                     };
@@ -154,7 +153,7 @@ impl NamedTable {
         if let Some(name) = columns.iter().find(|name| !name.is_empty() && !names.insert(plain(name))) {
             return Err(NamedTableError::TwoColumns { name: name.clone() });
         }
-        // Spreadsheets leave empty columns behind; one that holds something needs a name.
+        // Spreadsheets leave empty columns behind; only one with values needs a name.
         let is_lost =
             |row: &&Row| row.fields.iter().zip(&columns).any(|(f, name)| name.is_empty() && !f.is_empty());
         if let Some(row) = rows.iter().find(is_lost) {
@@ -163,12 +162,12 @@ impl NamedTable {
         Ok(Self { columns, first_line, delimiter, rows })
     }
 
-    /// The column of the first of these names that there is.
+    /// Returns the column of the first of these names that exists.
     pub(crate) fn find(&self, names: &[&str]) -> Option<usize> {
         names.iter().find_map(|name| self.columns.iter().position(|column| plain(column) == plain(name)))
     }
 
-    /// The same, which must be there.
+    /// Returns the column of the first of these names that exists, or an error.
     pub(crate) fn need(&self, names: &[&str]) -> Result<usize, NamedTableError> {
         self.find(names).ok_or_else(|| NamedTableError::Missing {
             wanted: names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or "),
@@ -176,13 +175,13 @@ impl NamedTable {
         })
     }
 
-    /// The columns that are none of these and have a name.
+    /// Returns the named columns that are not in `taken`.
     pub(crate) fn others(&self, taken: &[Option<usize>]) -> Vec<usize> {
         let is_other = |i: &usize| !taken.contains(&Some(*i)) && !self.columns[*i].is_empty();
         (0..self.columns.len()).filter(is_other).collect()
     }
 
-    /// The rows.
+    /// The rows of the table.
     pub(crate) fn rows(&self) -> impl Iterator<Item = RowOf<'_>> {
         self.rows.iter().map(|row| RowOf { table: self, row })
     }
@@ -194,24 +193,24 @@ impl<'a> RowOf<'a> {
         Field { table: self.table, row: self.row, column }
     }
 
-    /// Where it stands, from one.
+    /// Line number, from one.
     pub(crate) fn line(self) -> u64 {
         self.row.line
     }
 }
 
 impl<'a> Field<'a> {
-    /// Where it stands, from one.
+    /// Line number, from one.
     pub(crate) fn line(self) -> u64 {
         self.row.line
     }
 
-    /// What stands there, perhaps nothing.
+    /// Text of the field; may be empty.
     pub(crate) fn text(self) -> &'a str {
         &self.row.fields[self.column]
     }
 
-    /// What stands there, which must be something.
+    /// Text of the field, or an error if it is empty.
     pub(crate) fn word(self) -> Result<&'a str, NamedTableError> {
         let text = self.text();
         if text.is_empty() {
@@ -220,7 +219,7 @@ impl<'a> Field<'a> {
         Ok(text)
     }
 
-    /// The number there; `None` where it is left empty, or says that there is none.
+    /// The number in the field; `None` if it is empty or a missing-value mark.
     pub(crate) fn number(self) -> Result<Option<f64>, NamedTableError> {
         let text = self.text();
         if matches!(text.to_ascii_lowercase().as_str(), "" | "-" | "na" | "n/a" | "nan" | "null" | "none") {
@@ -233,24 +232,24 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// Name of its column.
+    /// Name of the column.
     pub(crate) fn name(self) -> &'a str {
         &self.table.columns[self.column]
     }
 }
 
-/// A table of these rows, the first line among them, all as long, that [`NamedTable::read`] takes back.
+/// Serializes rows of equal length, the header first, in the form that [`NamedTable::read`] accepts.
 pub(crate) fn write_table(rows: impl IntoIterator<Item = Vec<String>>) -> Vec<u8> {
     let mut writer = csv::WriterBuilder::new().comment(Some(b'#')).from_writer(Vec::new());
     for row in rows {
-        // Memory takes all text.
+        // Writing to memory cannot fail.
         let written = writer.write_record(&row);
-        assert!(written.is_ok(), "rows are all as long: {written:?}");
+        assert!(written.is_ok(), "rows differ in length: {written:?}");
     }
     writer.into_inner().unwrap_or_default()
 }
 
-/// A name as it is compared.
+/// Normalizes a name for comparison.
 pub(crate) fn plain(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, ' ' | '_' | '-' | '\u{2013}')).collect::<String>().to_lowercase()
 }
@@ -313,17 +312,17 @@ mod tests {
         check("id,rs\n", "no rows");
         check(
             "id,rs\na,1,2\n",
-            "line 2 has 3 fields, the first line names 2 columns; correct the line; a decimal",
+            "line 2 has 3 fields, but the header line names 2 columns; correct the line; a number with a decimal",
         );
         check("id;rs\na;1;2\n", "names 2 columns; correct the line");
         check("id,ID\na,1\n", "two columns");
-        check("id,,\na,,\nb,,1\n", "line 3 has something in a column without a name");
+        check("id,,\na,,\nb,,1\n", "line 3 has a value in a column without a name");
         assert!(
             NamedTable::read(b"id\na\xff\n", "id", "texture")
                 .err()
                 .unwrap()
                 .to_string()
-                .contains("line 2 is no")
+                .contains("line 2 is not valid UTF-8")
         );
         let table = read("id,rs\n,x1\n").unwrap();
         let row = table.rows().next().unwrap();

@@ -1,10 +1,10 @@
-//! What all JSON files of the program have in common: they say what they are, and in which version.
+//! The header that all Shagreen JSON files share: a `format` name and a `version`.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::Value;
 
-/// Enough of any file to tell whether it is ours.
+/// The two fields that identify a Shagreen file.
 #[derive(Deserialize)]
 pub(crate) struct Header {
     #[serde(default)]
@@ -13,42 +13,43 @@ pub(crate) struct Header {
     version: Value,
 }
 
-/// Why the head of a file is not that of a format; each format has words of its own for it.
+/// Why the header of a file does not match the expected format. Each format words its own error from this.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum HeaderFault {
-    /// More values than any file of ours needs bytes for.
+    /// More values than a Shagreen file of this length has.
     TooDense(String),
-    /// Not JSON, or cut off.
+    /// Not JSON, or truncated.
     Damaged(String),
-    /// JSON of another kind: what `format` holds.
+    /// JSON of another format; holds the `format` field.
     Format(String),
-    /// Not `major.minor`: what `version` holds.
+    /// The version is not `major.minor`; holds the `version` field.
     Version(String),
-    /// Another major version.
+    /// An unsupported major version; holds the version.
     Major(String),
 }
 
-/// Memory that values may take while they are read, whatever the length of a file.
+/// Memory in bytes that parsed values may occupy, whatever the file length.
 const MEMORY_BYTES: usize = 48 << 20;
-/// Memory beyond that, by the length of the file.
+/// Additional memory, in bytes per byte of the file.
 const MEMORY_FACTOR: usize = 10;
-/// What a value of the unknown fields takes while it is read, about: it is kept twice, in lists that grow. Frequencies to
-/// six decimals always pass.
+/// Estimated memory in bytes of one value in an unknown field while parsing; each is held twice, in growing lists.
+/// Files with frequencies written to six decimals always pass.
 const VALUE_BYTES: usize = 80;
 
-/// The minor version of a file of this format and major version, which is one or lies above what is known.
+/// Returns the minor version of a file with this format and major version. The minor version may be newer than the
+/// known ones.
 pub(crate) fn minor_version(bytes: &[u8], format: &str, known_major: u32) -> Result<u32, HeaderFault> {
     check_density(bytes)?;
     header(bytes)?.minor_version(format, known_major)
 }
 
 impl Header {
-    /// The header of something that is read already.
+    /// The header of a file that is already parsed.
     pub(crate) fn of(format: &str, version: &str) -> Self {
         Self { format: format.into(), version: version.into() }
     }
 
-    /// The minor version, where format and major version are these.
+    /// Returns the minor version if format and major version match.
     pub(crate) fn minor_version(&self, format: &str, known_major: u32) -> Result<u32, HeaderFault> {
         if self.format != format {
             return Err(HeaderFault::Format(shown(&self.format)));
@@ -59,7 +60,7 @@ impl Header {
     }
 }
 
-/// Refuses files of more values than anybody needs bytes for: a list of zeros takes fifty times its text.
+/// Rejects files with an excessive density of values: a list of zeros takes fifty times its file size in memory.
 fn check_density(bytes: &[u8]) -> Result<(), HeaderFault> {
     let n_values = bytes.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
     if n_values.saturating_mul(VALUE_BYTES) <= MEMORY_FACTOR.saturating_mul(bytes.len()) + MEMORY_BYTES {
@@ -68,26 +69,26 @@ fn check_density(bytes: &[u8]) -> Result<(), HeaderFault> {
     Err(HeaderFault::TooDense(format!("{n_values} values in {} bytes are more than it needs", bytes.len())))
 }
 
-/// What kind of file it is. JSON that is no object is of another kind, whatever it holds.
+/// Parses the header. JSON that is not an object counts as another format.
 fn header(bytes: &[u8]) -> Result<Header, HeaderFault> {
     if bytes.trim_ascii_start().first() == Some(&b'{') {
         return serde_json::from_slice(bytes).map_err(|error| HeaderFault::Damaged(error.to_string()));
     }
     match serde_json::from_slice::<IgnoredAny>(bytes) {
         Ok(_) => Err(HeaderFault::Format(shown(&Value::Null))),
-        // A file of ours begins with a brace: what does not is no JSON of ours that was cut off.
+        // Every Shagreen file begins with a brace, so this is not a truncated Shagreen file.
         Err(_) => Err(HeaderFault::Format("missing".to_owned())),
     }
 }
 
-/// `major.minor` as numbers.
+/// Splits `major.minor` into numbers.
 fn numbers(version: &Value) -> Option<(u32, u32)> {
     let (major, minor) = version.as_str()?.split_once('.')?;
-    // Not a number is not a version: the caller says so.
+    // A part that is not a number makes the version invalid; the caller reports it.
     Some((major.parse().ok()?, minor.parse().ok()?))
 }
 
-/// A value for a message: short, whatever stood there.
+/// A JSON value for an error message, truncated to 40 characters.
 fn shown(value: &Value) -> String {
     if value.is_null() {
         return "missing".to_owned();

@@ -1,18 +1,18 @@
-//! Which columns of a table are adjective pairs: tables of experiments have others beside them, as `age` or `start_time`.
+//! Detection of adjective-pair columns: tables of experiments also have other columns, such as `age` or `start_time`.
 
-use shagreen_core::ratings::{AdjectivePair, PairNameError};
+use shagreen_core::people::ratings::{AdjectivePair, PairNameError};
 
 use crate::named_table::{Field, NamedTable};
 
-/// Columns of a table, told apart by their names.
+/// Columns of a table, classified by their names.
 pub(crate) struct PairColumns {
-    /// Those that are named by two adjectives.
+    /// Columns named by two adjectives.
     pub(crate) pairs: Vec<(usize, AdjectivePair)>,
-    /// Those that are not.
+    /// All other columns.
     pub(crate) unused: Vec<usize>,
 }
 
-/// Words that stand for what is recorded beside a judgment. None of them is an adjective that a surface is felt by.
+/// Words for data that experiments record besides judgments. None of them is an adjective for a surface.
 const NOT_FELT: [&str; 53] = [
     "age",
     "begin",
@@ -69,11 +69,11 @@ const NOT_FELT: [&str; 53] = [
     "trial",
 ];
 
-/// Tells pairs from other columns among `others`. A name with more than one hyphen is one of a pair where all that stands
-/// in its column `is_value`.
+/// Classifies the columns `others`. A name with several hyphens counts as an adjective pair if `is_value` holds for
+/// every field of the column.
 ///
 /// # Errors
-/// A name that could be parted in several ways, of a column that holds values.
+/// The name of a column of values can be split into two adjectives in several ways.
 pub(crate) fn pair_columns(
     table: &NamedTable,
     others: &[usize],
@@ -97,7 +97,8 @@ pub(crate) fn pair_columns(
     Ok(columns)
 }
 
-/// Whether a column is an attribute by one adjective alone: a word that is none of [`NOT_FELT`], over values.
+/// Returns whether a column is an attribute named by a single adjective: the name is not in [`NOT_FELT`], and the
+/// column holds values.
 pub(crate) fn is_attribute(
     table: &NamedTable,
     column: usize,
@@ -110,7 +111,7 @@ pub(crate) fn is_attribute(
         && !fields().all(is_blank)
 }
 
-/// Whether a pole can be an adjective: it has letters, and one word at least that is not [`NOT_FELT`].
+/// Returns whether a pole can be an adjective: it contains letters, and at least one word that is not in [`NOT_FELT`].
 fn is_felt(pole: &str) -> bool {
     let mut words = pole.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
     words.any(|word| !is_recorded(word))
@@ -120,7 +121,7 @@ fn is_recorded(word: &str) -> bool {
     NOT_FELT.contains(&word.to_lowercase().as_str())
 }
 
-/// That columns are not used, by name; nothing where there are none.
+/// A warning that names the unused columns; `None` if there are none.
 pub(crate) fn unused_warning(table: &NamedTable, unused: &[usize], used: &str) -> Option<String> {
     let names: Vec<&str> = unused.iter().map(|column| table.columns[*column].as_str()).collect();
     match names[..] {
@@ -130,9 +131,9 @@ pub(crate) fn unused_warning(table: &NamedTable, unused: &[usize], used: &str) -
     }
 }
 
-/// What makes a column one of a pair, for [`unused_warning`].
+/// The naming rule of adjective pairs, for [`unused_warning`].
 pub(crate) const NAME_BOTH_POLES: &str =
-    "a column of values is named by two adjectives with a hyphen between them, as rough-smooth";
+    "attribute columns are named by two adjectives joined by a hyphen, such as rough-smooth";
 
 #[cfg(test)]
 mod tests {
@@ -184,11 +185,11 @@ mod tests {
         ] {
             assert_eq!(
                 told_apart(name, "3").unwrap(),
-                (vec![name.parse::<shagreen_core::ratings::AdjectivePair>().unwrap().name()], None)
+                (vec![name.parse::<shagreen_core::people::ratings::AdjectivePair>().unwrap().name()], None)
             );
         }
         assert!(told_apart("non-stick-sticky", "3").unwrap_err().contains("several ways"));
-        // What holds no values is no pair whose name was written badly.
+        // A column without values is not an adjective pair with an ambiguous name.
         assert!(told_apart("one-two-three,hard-soft", "x,3").unwrap().1.is_some());
     }
 }

@@ -1,48 +1,49 @@
-//! What a simulated panel perceives of a library: the places and attributes that its textures have, and what follows from
-//! their models.
+//! Input of simulated raters: positions and attributes of the textures of a library, plus values derived from their
+//! models.
 //!
-//! The five pairs of "Predicting Perceptual Haptic Attributes of Textured Surface from Tactile Data Based on Deep CNN-LSTM
-//! Network" (VRST 2023) are always there. Where a library has no attribute of that name, the simulation assumes:
+//! The output always contains the five adjective pairs of "Predicting Perceptual Haptic Attributes of Textured Surface
+//! from Tactile Data Based on Deep CNN-LSTM Network" (VRST 2023). If a library lacks one of them, the simulation
+//! assumes:
 //!
-//! - `sticky-slippery` falls with the coefficient of friction, over the range of the library;
-//! - `flat-bumpy` falls with the logarithm of the spectral centroid: long waves are bumps;
-//! - `irritating-pleasant` is seven parts `rough-smooth` and three parts `hard-soft`, where these are the axes.
+//! - `sticky-slippery` decreases with the friction coefficient, scaled to the range of the library;
+//! - `flat-bumpy` decreases with the logarithm of the spectral centroid, because long wavelengths are bumps;
+//! - `irritating-pleasant` is 0.7 `rough-smooth` + 0.3 `hard-soft`, if these are the axes.
 //!
-//! No person said so: these are assumptions of a simulation, there to try a pipeline with.
+//! No person stated this: these are assumptions of a simulation for testing the pipeline.
 
-use shagreen_core::features::{Physical, physical};
-use shagreen_core::patterns::paper_patterns;
-use shagreen_core::property::{ZeroAt, axis_positions};
-use shagreen_core::ratings::{AdjectivePair, PairNameError};
+use shagreen_core::people::property::{ZeroAt, axis_positions};
+use shagreen_core::people::ratings::{AdjectivePair, PairNameError};
+use shagreen_core::space::features::{Physical, physical};
+use shagreen_core::texture::patterns::paper_patterns;
 
 use crate::library::{Library, TextureEntry, USUAL_AXES};
 
-/// Labels of the textures that have a place.
+/// Attribute values of the textures that have a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PanelLabels {
-    /// The adjective pairs: both axes, further attributes that all these textures have, and what is assumed.
+    /// The adjective pairs: both axes, further attributes that all these textures have, and assumed ones.
     pub pairs: Vec<AdjectivePair>,
     /// Identifiers of the textures.
     pub ids: Vec<String>,
-    /// Values of each texture, 0..100, one a pair.
+    /// Values of each texture, 0..100, one per pair.
     pub labels: Vec<Vec<f64>>,
 }
 
-/// Why there is nothing to perceive.
+/// Why there are no labels.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PanelLabelsError {
-    /// No texture has a place.
+    /// No texture has a position.
     #[error(
-        "no texture of the library has a place, so a simulated panel has nothing to perceive; place some by a table"
+        "no texture of the library has a position, which simulated raters need; assign positions from a table"
     )]
     NoPlaces,
-    /// An attribute is no pair of adjectives.
+    /// An attribute name is not an adjective pair.
     #[error(transparent)]
     Pair(#[from] PairNameError),
 }
 
-/// The labels of a library.
+/// Returns the labels of a library.
 ///
 /// # Errors
 /// See [`PanelLabelsError`].
@@ -78,8 +79,8 @@ pub fn panel_labels(library: &Library) -> Result<PanelLabels, PanelLabelsError> 
     Ok(perceived)
 }
 
-/// What the simulation assumes of textures that have a place, 0..100; `None` where a quantity is missing or the same for
-/// all. What is assumed to follow from the axes does so on the usual ones alone.
+/// Returns the assumed values of the positioned textures, 0..100; `None` if a quantity is missing or equal for all.
+/// Values derived from the axes need the usual axes.
 fn assumed(placed: &[&TextureEntry], is_usual: bool) -> [(&'static str, Option<Vec<f64>>); 3] {
     let contacts = paper_patterns();
     let physical: Vec<Physical> = placed.iter().map(|texture| physical(&texture.model, &contacts)).collect();
@@ -114,14 +115,14 @@ mod tests {
         }
         let labels = panel_labels(&library).unwrap();
         let names: Vec<String> =
-            labels.pairs.iter().map(shagreen_core::ratings::AdjectivePair::name).collect();
+            labels.pairs.iter().map(shagreen_core::people::ratings::AdjectivePair::name).collect();
         let five = ["rough-smooth", "hard-soft", "flat-bumpy", "sticky-slippery", "irritating-pleasant"];
         assert_eq!(names, five);
         assert_eq!((labels.ids.len(), labels.labels.len(), labels.labels[0].len()), (24, 24, 5));
         assert!(labels.labels.iter().flatten().all(|value| (0.0..=100.0).contains(value)), "{labels:?}");
         let slippery: Vec<f64> = labels.labels.iter().map(|of| of[3]).collect();
         assert!(slippery.contains(&0.0) && slippery.contains(&100.0));
-        // The place counts, not the attribute of its name.
+        // The position takes precedence over the attribute of the same name.
         assert_eq!(labels.labels[4][1], library.textures[5].at().unwrap().hard_soft);
         assert_eq!(labels.labels[4][2], 5.0);
         assert_eq!(panel_labels(&Library::default()), Err(PanelLabelsError::NoPlaces));

@@ -1,4 +1,4 @@
-//! Pictures of surfaces: pixels to compressed bytes and back.
+//! Pictures of surfaces: encoding and decoding.
 
 use std::io::Cursor;
 
@@ -9,27 +9,28 @@ use image::{
     ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder as _, ImageError, ImageFormat,
     ImageReader,
 };
-use shagreen_core::shading::Picture as Surface;
+use shagreen_core::surfaces::shading::Picture as Surface;
 
-/// Quality of the JPEG pictures in a library, 1..100.
+/// JPEG quality of the pictures in a library, 1..100.
 pub const JPEG_QUALITY: u8 = 85;
 
-/// Longest side of a picture that is read, in pixels.
+/// Maximum side of a decoded picture, in pixels.
 pub const MAX_SIDE: u32 = 4096;
 
-/// Longest side of a photo that is made a picture of, in pixels.
+/// Maximum side of a photo to import, in pixels.
 pub const MAX_PHOTO_SIDE: u32 = 16_384;
-/// Bytes of a photo that is unpacked, at most.
+/// Maximum size of a decoded photo, in bytes.
 const MAX_PHOTO_BYTES: u64 = 1 << 30;
-/// Longest side of the picture that is made of a photo, in pixels.
+/// Maximum side of the picture made from a photo, in pixels.
 pub const PHOTO_SIDE: u32 = 768;
 
-/// Memory that a picture may take to unpack, whatever its length: the largest in full color, and some.
+/// Memory in bytes that decoding a picture may take regardless of its file size: the largest picture in full color,
+/// with a margin.
 const MEMORY_BYTES: u64 = 56 << 20;
-/// Memory beyond that, by the length of its bytes.
+/// Additional memory, in bytes per compressed byte.
 const MEMORY_FACTOR: u64 = 8;
 
-/// How the bytes of a picture are compressed.
+/// Compression format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureFormat {
     /// JPEG.
@@ -39,7 +40,7 @@ pub enum PictureFormat {
 }
 
 impl PictureFormat {
-    /// The media type that stands in files.
+    /// Media type, as files store it.
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Jpeg => "image/jpeg",
@@ -47,40 +48,40 @@ impl PictureFormat {
         }
     }
 
-    /// The format that has this [`PictureFormat::media_type`].
+    /// Returns the format with this [`PictureFormat::media_type`].
     pub fn from_media_type(media_type: &str) -> Option<Self> {
         [Self::Jpeg, Self::Png].into_iter().find(|format| format.media_type() == media_type)
     }
 }
 
-/// A compressed picture of a piece of surface.
+/// A compressed picture of a surface patch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Pixels in a row, 1 to [`MAX_SIDE`].
+    /// Width in pixels, 1 to [`MAX_SIDE`].
     pub width: u32,
-    /// Rows, 1 to [`MAX_SIDE`].
+    /// Height in pixels, 1 to [`MAX_SIDE`].
     pub height: u32,
-    /// Length of surface that the width covers, in mm.
+    /// Width of the surface patch, in mm.
     pub millimeters: f64,
-    /// How `bytes` are compressed.
+    /// Compression format of `bytes`.
     pub format: PictureFormat,
     /// The compressed picture.
     pub bytes: Vec<u8>,
 }
 
-/// Pixels: red, green and blue (sRGB) of each, row after row from the upper left.
+/// Uncompressed pixels: red, green and blue (sRGB), row by row from the upper left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rgb {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// Three bytes a pixel.
+    /// Three bytes per pixel.
     pub pixels: Vec<u8>,
 }
 
 impl Rgb {
-    /// The same as what is lit and looked at; `millimeters` is the length of surface that the width covers.
+    /// Converts to a surface picture for shading; `millimeters` is the width of the surface patch.
     pub fn into_surface(self, millimeters: f64) -> Surface {
         Surface { width: self.width as usize, height: self.height as usize, rgb: self.pixels, millimeters }
     }
@@ -93,70 +94,76 @@ impl From<&Surface> for Rgb {
     }
 }
 
-/// Why a picture cannot be packed or unpacked.
+/// Why a picture cannot be encoded or decoded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// The number of bytes does not fit the size, or the size is outside 1 to [`MAX_SIDE`].
-    #[error("a picture of {width} x {height} pixels cannot have {n_bytes} bytes of color")]
+    /// The number of bytes does not match the size, or the size is outside 1 to [`MAX_SIDE`].
+    #[error(
+        "a picture of {width} x {height} pixels cannot have {n_bytes} bytes of color; correct its size or its data"
+    )]
     Size {
-        /// Pixels in a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
-        /// Bytes given.
+        /// Number of bytes given.
         n_bytes: usize,
     },
-    /// The compressed bytes have another size than the file says.
-    #[error("the picture is {found_width} x {found_height} pixels, the library says {width} x {height}")]
+    /// The compressed picture has another size than its file states.
+    #[error(
+        "the picture is {found_width} x {found_height} pixels, but the library states {width} x {height}; correct the stated size or replace the picture"
+    )]
     Mismatch {
-        /// Pixels in a row, by the library.
+        /// Width in pixels, as stated.
         width: u32,
-        /// Rows, by the library.
+        /// Height in pixels, as stated.
         height: u32,
-        /// Pixels in a row, by the picture.
+        /// Width in pixels, of the picture.
         found_width: u32,
-        /// Rows, by the picture.
+        /// Height in pixels, of the picture.
         found_height: u32,
     },
-    /// Unpacking would take far more memory than a picture of so many bytes is worth.
+    /// Decoding would take too much memory for a picture of this file size.
     #[error(
-        "the picture is {width} x {height} pixels in {n_bytes} bytes, too large to unpack; make it smaller"
+        "the picture is {width} x {height} pixels in {n_bytes} bytes, too large to decode; use a smaller picture"
     )]
     TooLarge {
-        /// Pixels in a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
-        /// Compressed bytes.
+        /// Number of compressed bytes.
         n_bytes: usize,
     },
-    /// There is no such row.
-    #[error("the picture has rows 0 to {}, there is no row {row}", .rows - 1)]
+    /// The requested row does not exist.
+    #[error("the picture has rows 0 to {}, but row {row} was requested; choose a row in this range", .rows - 1)]
     Row {
-        /// The row that was asked for.
+        /// The requested row.
         row: u32,
-        /// How many there are.
+        /// Number of rows.
         rows: u32,
     },
     /// The bytes are neither JPEG nor PNG.
-    #[error("this is no photo that can be read; save it as JPEG or PNG")]
+    #[error("the file is not a readable photo; save it as JPEG or PNG")]
     NoPhoto,
-    /// A photo of more than [`MAX_PHOTO_SIDE`] pixels a side, or of more than 1 GiB once it is unpacked.
-    #[error("the photo is too large; make it at most {MAX_PHOTO_SIDE} pixels a side, with 8 bits a color")]
+    /// A photo with a side above [`MAX_PHOTO_SIDE`] pixels, or above 1 GiB when decoded.
+    #[error(
+        "the photo is too large; scale it to at most {MAX_PHOTO_SIDE} pixels per side, with 8 bits per color channel"
+    )]
     LargePhoto,
     /// A photo that ends before its last row.
-    #[error("the photo is cut off; get it again")]
+    #[error("the photo is truncated; get a complete copy")]
     CutOff,
     /// The compressed bytes are damaged.
-    #[error("the picture is damaged")]
+    #[error("the picture is damaged; replace it")]
     Codec(#[from] ImageError),
 }
 
-/// Packs pixels as JPEG at [`JPEG_QUALITY`]; `millimeters` is the length of surface that the width covers.
+/// Encodes pixels as JPEG at [`JPEG_QUALITY`]; `millimeters` is the width of the surface patch.
 ///
 /// # Errors
-/// [`PictureError::Size`] where pixels and size do not fit.
+/// [`PictureError::Size`] if the number of pixels does not match the size.
 pub fn encode_jpeg(rgb: &Rgb, millimeters: f64) -> Result<Picture, PictureError> {
     let Rgb { width, height, ref pixels } = *rgb;
     let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
@@ -169,7 +176,7 @@ pub fn encode_jpeg(rgb: &Rgb, millimeters: f64) -> Result<Picture, PictureError>
     Ok(Picture { width, height, millimeters, format: PictureFormat::Jpeg, bytes })
 }
 
-/// A PNG of pixels, without loss.
+/// Encodes pixels as PNG, lossless.
 ///
 /// # Errors
 /// As [`encode_jpeg`].
@@ -183,10 +190,11 @@ pub fn encode_png(rgb: &Rgb) -> Result<Vec<u8>, PictureError> {
     Ok(bytes)
 }
 
-/// A square of heights as a PNG of 16 bits: the lowest is 0, the highest 65,535. What that is in meters is told elsewhere.
+/// Encodes a square height map as 16-bit PNG: the lowest height becomes 0, the highest 65,535. The caller stores the
+/// range in meters.
 ///
 /// # Errors
-/// [`PictureError::Size`] where there are not as many rows as columns.
+/// [`PictureError::Size`] unless there are as many rows as columns.
 pub fn encode_heights(heights_m: &[f64], n_columns: usize) -> Result<Vec<u8>, PictureError> {
     let side = u32::try_from(n_columns).unwrap_or(u32::MAX);
     if n_columns == 0 || heights_m.len() != n_columns * n_columns {
@@ -202,28 +210,29 @@ pub fn encode_heights(heights_m: &[f64], n_columns: usize) -> Result<Vec<u8>, Pi
     Ok(bytes)
 }
 
-/// Unpacks a picture.
+/// Decodes a picture.
 ///
 /// # Errors
-/// [`PictureError::Codec`] where the bytes are damaged, [`PictureError::Mismatch`] where they are of another size,
-/// [`PictureError::TooLarge`] where few bytes would unpack to more than ten times their length and 64 MB.
+/// [`PictureError::Codec`] if the bytes are damaged, [`PictureError::Mismatch`] if the size differs from the stated
+/// one, [`PictureError::TooLarge`] if decoding takes more memory than a fixed amount plus a multiple of the compressed
+/// size.
 pub fn decode(picture: &Picture) -> Result<Rgb, PictureError> {
     let rgb = DynamicImage::from_decoder(decoder(picture)?)?.into_rgb8();
     check_size(picture, rgb.dimensions())?;
     Ok(Rgb { width: picture.width, height: picture.height, pixels: rgb.into_raw() })
 }
 
-/// A picture of a photo, whatever its size: upright, and no larger than [`PHOTO_SIDE`]; `millimeters` is the length of surface
-/// that the width covers.
+/// Converts a photo of any size to a picture: upright, and scaled to at most [`PHOTO_SIDE`]. `millimeters` is the width
+/// of the surface patch.
 ///
 /// # Errors
-/// [`PictureError::NoPhoto`] for what is neither JPEG nor PNG, [`PictureError::LargePhoto`] for more than
-/// [`MAX_PHOTO_SIDE`] pixels a side, [`PictureError::CutOff`] and [`PictureError::Codec`] for damaged bytes.
+/// [`PictureError::NoPhoto`] if the bytes are neither JPEG nor PNG, [`PictureError::LargePhoto`] above
+/// [`MAX_PHOTO_SIDE`] pixels per side, [`PictureError::CutOff`] and [`PictureError::Codec`] for damaged bytes.
 pub fn of_photo(bytes: &[u8], millimeters: f64) -> Result<Picture, PictureError> {
     encode_jpeg(&photo_pixels(bytes)?, millimeters)
 }
 
-/// The pixels of such a picture, before it is packed.
+/// Returns the pixels of a photo as [`of_photo`] does, before compression.
 ///
 /// # Errors
 /// As [`of_photo`].
@@ -236,11 +245,11 @@ pub fn photo_pixels(bytes: &[u8]) -> Result<Rgb, PictureError> {
     Ok(Rgb { width: rgb.width(), height: rgb.height(), pixels: rgb.into_raw() })
 }
 
-/// The brightness along a row of a photo or of a height map, 0 (black) to 1, pixel by pixel: as finely as the file has it,
-/// which in a PNG may be 16 bits. Row 0 is the upper one; `None` is the one in the middle.
+/// Returns the brightness along one row of a photo or a height map, 0 (black) to 1, per pixel. The resolution is that
+/// of the file, up to 16 bits in a PNG. Row 0 is the top row; `None` selects the middle row.
 ///
 /// # Errors
-/// As [`of_photo`], and [`PictureError::Row`] where there is no such row.
+/// As [`of_photo`], and [`PictureError::Row`] if the row does not exist.
 pub fn brightness_row(bytes: &[u8], row: Option<u32>) -> Result<Vec<f64>, PictureError> {
     let photo = upright(bytes)?.into_luma16();
     let rows = photo.height();
@@ -252,7 +261,7 @@ pub fn brightness_row(bytes: &[u8], row: Option<u32>) -> Result<Vec<f64>, Pictur
     Ok((0..photo.width()).map(pixel).collect())
 }
 
-/// Whether bytes begin as JPEG or PNG do.
+/// Returns whether bytes begin like a JPEG or PNG.
 pub fn is_picture(bytes: &[u8]) -> bool {
     photo_format(bytes).is_some()
 }
@@ -261,7 +270,7 @@ fn photo_format(bytes: &[u8]) -> Option<ImageFormat> {
     image::guess_format(bytes).ok().filter(|f| matches!(f, ImageFormat::Jpeg | ImageFormat::Png))
 }
 
-/// A photo as it was held.
+/// Decodes a photo and applies its stored orientation.
 fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     let mut reader = ImageReader::new(Cursor::new(bytes));
     let format = photo_format(bytes).ok_or(PictureError::NoPhoto)?;
@@ -279,15 +288,15 @@ fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     };
     let mut decoder = reader.into_decoder().map_err(refused)?;
     limits.reserve(decoder.total_bytes()).map_err(refused)?;
-    // A photo that does not say how it was held was held upright.
+    // A photo without orientation data counts as upright.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut photo = DynamicImage::from_decoder(decoder).map_err(refused)?;
     photo.apply_orientation(orientation);
     Ok(photo)
 }
 
-/// Whether a JPEG ends before its marker of the end: decoders fill what is missing with gray and say nothing. A whole one
-/// whose writer left the marker out cannot be told from one that lost its last row.
+/// Returns whether a JPEG ends before its end marker. Decoders silently fill missing rows with gray. A complete file
+/// whose writer omitted the marker is indistinguishable from one without its last row.
 fn is_cut_off(bytes: &[u8]) -> bool {
     const BEGIN: u8 = 0xD8;
     const END: u8 = 0xD9;
@@ -297,23 +306,23 @@ fn is_cut_off(bytes: &[u8]) -> bool {
         match rest {
             [0xFF, 0xFF, ..] => rest = &rest[1..],
             [0xFF, BEGIN, ..] => rest = &rest[2..],
-            // Within a scan 0xFF is always followed by something else than this.
+            // Within scan data, the end marker never follows 0xFF.
             [0xFF, SCAN, data @ ..] => return !data.windows(2).any(|pair| pair == [0xFF, END]),
-            // What is before the scans says how long it is; it may hold a small picture that has an end of its own.
+            // Segments before the scans state their length; they may contain a thumbnail with its own end marker.
             [0xFF, 0xC0..=0xFE, high, low, ..] => {
                 let length = usize::from(u16::from_be_bytes([*high, *low]));
                 let Some(after) = rest.get(2 + length..) else { return true };
                 rest = after;
             }
             [] | [0xFF] | [0xFF, 0xC0..=0xFE, ..] => return true,
-            // Something else is wrong with it; whoever decodes it says so.
+            // Other damage; the decoder reports it.
             _ => return false,
         }
     }
 }
 
-/// Looks at the head of a picture, in microseconds: whether it is one, of the size that it should have. Damage further
-/// in shows only in [`decode`].
+/// Checks the header of a picture, in microseconds: its format and its size. Only [`decode`] finds damage in the image
+/// data.
 ///
 /// # Errors
 /// As [`decode`].
@@ -321,14 +330,14 @@ pub fn check(picture: &Picture) -> Result<(), PictureError> {
     decoder(picture).map(|_| ())
 }
 
-/// A decoder that has seen the head of a picture, and found it good.
+/// Returns a decoder after checking the header of a picture.
 fn decoder(picture: &Picture) -> Result<impl ImageDecoder + '_, PictureError> {
     let decoder = reader(picture).into_decoder()?;
     let (width, height) = decoder.dimensions();
     check_size(picture, (width, height))?;
     let n_pixels = u64::from(width) * u64::from(height);
     let converted = if decoder.color_type() == ColorType::Rgb8 { 0 } else { 3 * n_pixels };
-    // A progressive JPEG is kept as 16-bit coefficients until its last pass.
+    // The decoder keeps a progressive JPEG as 16-bit coefficients until its last pass.
     let is_progressive =
         picture.format == PictureFormat::Jpeg && picture.bytes.windows(2).any(|pair| pair == [0xFF, 0xC2]);
     let coefficients = if is_progressive { 6 * n_pixels } else { 0 };
@@ -383,7 +392,7 @@ mod tests {
         let picture = of_photo(bytes.get_ref(), 60.0).unwrap();
         assert_eq!((picture.width, picture.height, picture.millimeters), (PHOTO_SIDE, PHOTO_SIDE / 2, 60.0));
         let rgb = decode(&picture).unwrap();
-        assert!(rgb.pixels[0] < 12 && rgb.pixels[rgb.pixels.len() - 3] > 240, "it is the same way up");
+        assert!(rgb.pixels[0] < 12 && rgb.pixels[rgb.pixels.len() - 3] > 240, "the picture is upside down");
         let small = encode_jpeg(&gradient(), 20.0).unwrap();
         assert_eq!(of_photo(&small.bytes, 20.0).unwrap().width, 32);
         assert!(matches!(of_photo(b"GIF89a", 20.0), Err(PictureError::NoPhoto)));
@@ -401,7 +410,7 @@ mod tests {
         for end in 3..whole.len() {
             assert!(matches!(of_photo(&whole[..end], 20.0), Err(PictureError::CutOff)), "cut to {end}");
         }
-        // A small picture in the head has an end of its own; what follows the end belongs to somebody else.
+        // A thumbnail in the header has its own end marker; bytes after the end of the image are ignored.
         let (begin, rest) = whole.split_at(2);
         let length = ((whole.len() + 2) as u16).to_be_bytes();
         let with_small = [begin, &[0xFF, 0xE1], &length, &whole, rest, b"more"].concat();
@@ -431,7 +440,7 @@ mod tests {
         let bytes = encode_heights(&heights, 64).unwrap();
         let row = brightness_row(&bytes, Some(20)).unwrap();
         for (got, height) in row.iter().zip(&heights[20 * 64..]) {
-            // Half a level of 16 bits.
+            // Half a step of 16 bits.
             assert!((got * 976e-6 - height).abs() < 976e-6 / 65_535.0 / 1.9);
         }
         assert!(
@@ -458,7 +467,7 @@ mod tests {
         let back = decode(&picture).unwrap();
         let error: f64 =
             back.pixels.iter().zip(gradient().pixels).map(|(a, b)| f64::from(a.abs_diff(b))).sum();
-        // At quality 85 a smooth gradient is off by about one step of 255.
+        // At quality 85 a smooth gradient deviates by about one step of 255.
         assert!(error / (back.pixels.len() as f64) < 3.0, "{error}");
     }
 
@@ -470,7 +479,7 @@ mod tests {
             let mut cut = picture.clone();
             cut.bytes.truncate(end);
             assert!(decode(&cut).is_err());
-            // The head of a JPEG ends with its tables, which take more than this.
+            // A JPEG header ends with its tables, which take more bytes than this.
             assert!(check(&cut).is_err() || end > 100, "{end}");
         }
         let wider = super::Picture { width: 33, ..picture.clone() };

@@ -1,15 +1,16 @@
-//! Where the positions of a library come from, in its own words.
+//! The sentence on label sources in the origin text of a library.
 
 use shagreen_core::space::LabelSource;
 
 use crate::library::Library;
 
-/// What libraries made by the program say of their positions, which human ratings prove wrong.
+/// Text in the origin of built-in libraries that human ratings make false. Saved libraries contain it, so it must not
+/// change.
 const NOBODY_RATED: &str = " and nobody rated one";
-/// How the sentence on positions begins.
+/// Start of the sentence on positions. Saved libraries contain it, so it must not change.
 const POSITIONS: &str = "Positions come from ";
 
-/// Makes the origin of a library say where its positions come from, in place of what it said of them before.
+/// Makes the origin of a library state the label sources of its positions; replaces an earlier such sentence.
 pub(crate) fn state_origin_of_places(library: &mut Library) {
     let sources = library.label_sources();
     if sources.contains(&LabelSource::HumanRatings) {
@@ -20,7 +21,7 @@ pub(crate) fn state_origin_of_places(library: &mut Library) {
             }
         }
     }
-    // The sentence is the last one, where the program wrote it.
+    // The program writes this sentence last.
     if let Some(at) = library.origin.rfind(POSITIONS).filter(|at| is_ours(&library.origin[*at..])) {
         library.origin.truncate(at);
     }
@@ -34,7 +35,7 @@ pub(crate) fn state_origin_of_places(library: &mut Library) {
     };
 }
 
-/// Whether this is a sentence of [`state_origin_of_places`], and no other follows.
+/// Returns whether this is a sentence of [`state_origin_of_places`] with nothing after it.
 fn is_ours(sentence: &str) -> bool {
     let labels = sentence.strip_prefix(POSITIONS).and_then(|rest| rest.strip_suffix('.'));
     let is_label = |label: &str| LabelSource::ALL.iter().any(|source| source.label() == label);

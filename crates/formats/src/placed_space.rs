@@ -1,37 +1,37 @@
-//! What a space gives the textures of a library: places, attributes, names of axes, and how far all that can be believed.
+//! The result of building a space, applied to a library: positions, attributes, axis names and the validation report.
 
 use serde_json::Value;
-use shagreen_core::space_build::SpaceBuild;
+use shagreen_core::space::space_build::SpaceBuild;
 
 use crate::library::{Attribute, Attributes, Library, Place, is_usual};
 use crate::place_origin::state_origin_of_places;
 use crate::space_report::space_report;
 
-/// A space without the way to it.
+/// A space without the data that it was built from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedSpace {
-    /// The textures that have a place in it. Identifiers are unique.
+    /// The textures with a position in the space. Identifiers are unique.
     pub textures: Vec<PlacedTexture>,
-    /// Names of the attributes that the two coordinates stand for, where they are not the usual ones: as in
+    /// Names of the attributes that the two coordinates represent, if they are not the usual ones; see
     /// [`Library::axes`].
     pub axes: Option<[String; 2]>,
-    /// How it was made, as in [`Library::space_report`].
+    /// How it was built and validated, see [`Library::space_report`].
     pub report: Value,
 }
 
-/// What a space says of one texture.
+/// Position and attributes of one texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedTexture {
-    /// Its identifier.
+    /// Identifier of the texture.
     pub id: String,
-    /// Where it lies.
+    /// Position in the space.
     pub place: Place,
-    /// How it was rated.
+    /// Mean ratings.
     pub attributes: Option<Attributes>,
 }
 
 impl PlacedSpace {
-    /// What a space that was built gives.
+    /// Extracts the positions, attributes and report of a built space.
     pub fn of(build: &SpaceBuild) -> Self {
         let texture = |(i, id): (usize, &String)| PlacedTexture {
             id: id.clone(),
@@ -40,7 +40,7 @@ impl PlacedSpace {
         };
         let mut report = space_report(build);
         if let Value::Object(report) = &mut report {
-            // A library is passed on: who took part stays with those who asked them.
+            // Libraries are shared, so data about individual participants stays with the experimenter.
             for field in ["raters", "sorters", "verdict", "warnings"] {
                 report.remove(field);
             }
@@ -53,9 +53,9 @@ impl PlacedSpace {
         }
     }
 
-    /// The library with the places and attributes of the space, and its report. Textures that are not in the space lose
-    /// their place: positions of two origins mean little beside each other. The origin of the library says what they come
-    /// from.
+    /// Returns the library with the positions, attributes and report of the space. Textures outside the space lose
+    /// their position, because positions from different sources are not comparable. The origin text of the library
+    /// states the label source.
     pub fn place(&self, library: &Library) -> Library {
         let mut placed = library.clone();
         for texture in &mut placed.textures {
@@ -70,7 +70,8 @@ impl PlacedSpace {
     }
 }
 
-/// Mean ratings of a texture on every pair that counts, as they were given; on an axis in the axis's own direction.
+/// Mean ratings of a texture on every relevant pair, as given; a pair that is an axis follows the direction of the
+/// axis.
 fn attributes(build: &SpaceBuild, texture: usize) -> Attributes {
     let counted = build.adjectives.iter().filter(|adjective| adjective.is_relevant);
     let values = counted.filter_map(|adjective| {

@@ -1,18 +1,19 @@
-//! Places of textures as a table: `id`, `rs` and `hs` from 0 to 100, and any further attribute by its two poles.
+//! Positions of textures as a table: `id`, `rs` and `hs` from 0 to 100, and any further attribute by its two poles.
 //!
 //! ```csv
 //! id,rs,hs,flat-bumpy,source
 //! cork,40.5,71,33,human
 //! ```
 //!
-//! `source` says what the places were derived from: `human`, `simulated`, `physical` or `estimated`; where there is no such column, the
-//! whole table has the one that the caller states. Without `rs` and `hs`, the columns `rough-smooth` and `hard-soft` are
-//! the place. The axes of a space may be other attributes: then the columns of the place are named `x:` and `y:` with the
-//! attribute, as `x:warm-cold`. A table on another [`Scale`] is brought to 0 to 100. Columns that are none of these are not used.
+//! `source` states what the positions were derived from: `human`, `simulated`, `physical` or `estimated`. Without this
+//! column, the source that the caller states applies to the whole table. Without `rs` and `hs`, the columns
+//! `rough-smooth` and `hard-soft` hold the position. The axes of a space may be other attributes: the position columns
+//! are then named `x:` and `y:` followed by the attribute, such as `x:warm-cold`. A table on another [`Scale`] is
+//! converted to 0 to 100. Other columns are not used.
 
 use std::collections::HashMap;
 
-use shagreen_core::ratings::{PairNameError, SHORT_SCALE};
+use shagreen_core::people::ratings::{PairNameError, SHORT_SCALE};
 use shagreen_core::space::{LabelSource, SpacePoint};
 
 use crate::imported::Imported;
@@ -21,20 +22,20 @@ use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::{NAME_BOTH_POLES, is_attribute, pair_columns, unused_warning};
 use crate::place_origin::state_origin_of_places;
 
-/// The scale on which values of a table were given.
+/// The scale of the values in a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
     low: f64,
     high: f64,
 }
 
-/// Why two numbers are no scale.
+/// Why two numbers do not form a scale.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("a scale runs from a number to a higher one, not from {low} to {high}")]
+#[error("a scale must run from a number to a higher one, not from {low} to {high}; correct its two ends")]
 pub struct ScaleError {
     /// The first number.
     pub low: f64,
-    /// The second.
+    /// The second number.
     pub high: f64,
 }
 
@@ -45,7 +46,7 @@ impl Scale {
     /// A scale from `low` to `high`.
     ///
     /// # Errors
-    /// [`ScaleError`] unless both are finite, and so is what lies between them, which is not nothing.
+    /// [`ScaleError`] unless both numbers and their difference are finite, and `high` exceeds `low`.
     pub fn new(low: f64, high: f64) -> Result<Self, ScaleError> {
         if (high - low).is_finite() && high > low {
             Ok(Self { low, high })
@@ -54,59 +55,59 @@ impl Scale {
         }
     }
 
-    /// Whether a value lies on the scale.
+    /// Returns whether a value lies on the scale.
     pub fn contains(self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
 
-    /// A value of the scale as one from 0 to 100.
+    /// Converts a value of the scale to 0..100.
     pub fn to_space(self, value: f64) -> f64 {
         if self == Self::OF_SPACE {
             return value;
         }
-        // Rounding must not lead out of the square.
+        // Rounding must not exceed the range of the space.
         (100.0 * ((value - self.low) / (self.high - self.low))).clamp(0.0, 100.0)
     }
 }
 
-/// Where a texture lies, and its attributes.
+/// The position of a texture, and its attributes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// Identifier of the texture.
     pub id: String,
-    /// Where it lies.
+    /// Position in the space.
     pub place: Place,
-    /// Its values on all attributes of the table, the two axes first.
+    /// Values of all attributes in the table, the two axes first.
     pub attributes: Attributes,
 }
 
-/// Where textures lie by a table.
+/// Positions of textures from a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Places {
-    /// Names of the two axes, where they are not [`USUAL_AXES`].
+    /// Names of the two axes, if they are not [`USUAL_AXES`].
     pub axes: Option<[String; 2]>,
     /// The textures.
     pub placements: Vec<Placement>,
 }
 
-/// Why a table places nothing.
+/// Why a table holds no positions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlacesCsvError {
-    /// It cannot be read.
+    /// The table cannot be read.
     #[error(transparent)]
     Table(#[from] NamedTableError),
-    /// A texture is there twice.
-    #[error("\"{id}\" is placed in line {first} and again in line {line}; keep one of the two")]
+    /// A texture is listed twice.
+    #[error("\"{id}\" has a position in line {first} and again in line {line}; remove one of the two lines")]
     Twice {
         /// Identifier of the texture.
         id: String,
         /// The first line, from one.
         first: u64,
-        /// The second.
+        /// The second line, from one.
         line: u64,
     },
-    /// A place has no number.
+    /// A coordinate is empty.
     #[error("{column} of \"{id}\" is empty in line {line}; fill it in, or remove the line")]
     Blank {
         /// Identifier of the texture.
@@ -116,9 +117,9 @@ pub enum PlacesCsvError {
         /// The line, from one.
         line: u64,
     },
-    /// A value lies outside the scale.
+    /// A value is outside the scale.
     #[error(
-        "{column} in line {line} is {value}; it must lie between {low} and {high}, or the scale of the table must be stated"
+        "{column} in line {line} is {value}; it must be between {low} and {high}; correct it, or state the scale of the table"
     )]
     Range {
         /// Name of the column.
@@ -127,24 +128,24 @@ pub enum PlacesCsvError {
         line: u64,
         /// The value.
         value: f64,
-        /// The low end of the scale.
+        /// Low end of the scale.
         low: f64,
-        /// The high end of the scale.
+        /// High end of the scale.
         high: f64,
     },
-    /// What should be a value of an attribute is none.
+    /// An attribute value is not a number.
     #[error(
-        "{column} in line {line} is \"{found}\", not a number; if the column is no adjective pair, remove it, or name it by one word"
+        "{column} in line {line} is \"{found}\", not a number; if the column is not an adjective pair, remove it, or give it a name of one word"
     )]
     NotAValue {
         /// Name of the column.
         column: String,
         /// The line, from one.
         line: u64,
-        /// What stands there.
+        /// Text of the field.
         found: String,
     },
-    /// A name could be several pairs.
+    /// A column name can be split into two adjectives in several ways.
     #[error("line {line}: {source}")]
     Pair {
         /// The line, from one.
@@ -152,46 +153,43 @@ pub enum PlacesCsvError {
         /// What is wrong.
         source: PairNameError,
     },
-    /// One axis of the two is named.
+    /// Only one of the two axes is named.
     #[error(
-        "the column \"{column}\" is one axis of a place; name the other too, as \"{missing}\" and its attribute"
+        "the column \"{column}\" is one axis of a position; name the other axis column too, as \"{missing}\" followed by its attribute"
     )]
     HalfAPlace {
-        /// Name of the column that is there.
+        /// Name of the existing axis column.
         column: String,
-        /// What the name of the other begins with.
+        /// Prefix of the missing column name.
         missing: &'static str,
     },
-    /// One axis is named twice.
-    #[error(
-        "both axes are \"{name}\"; name the columns of the place by two attributes, as x:warm-cold and y:flat-bumpy"
-    )]
+    /// Both axes have the same name.
+    #[error("both axes are \"{name}\"; use two different attributes, such as x:warm-cold and y:flat-bumpy")]
     OneAxis {
-        /// Its name.
+        /// The name.
         name: String,
     },
-    /// A source is not known.
-    #[error("source in line {line} is \"{found}\"; say human, simulated, physical or estimated")]
+    /// A label source is unknown.
+    #[error("source in line {line} is \"{found}\"; use human, simulated, physical or estimated")]
     Source {
         /// The line, from one.
         line: u64,
-        /// What stands there.
+        /// Text of the field.
         found: String,
     },
-    /// Nothing says what the places were derived from.
+    /// The label source is not stated.
     #[error(
-        "nothing says where the places come from; add a column `source` with human, simulated, physical or estimated, or state one for the whole table"
+        "the source of the positions is not stated; add a column `source` with human, simulated, physical or estimated, or state one source for the whole table"
     )]
     NoSource,
 }
 
-/// What the names of columns begin with that are places on other axes than the usual ones.
+/// Prefixes of position columns on other axes than the usual ones.
 const PLACE_ON: [&str; 2] = ["x:", "y:"];
 /// Short names of the columns of the usual axes.
 const SHORT: [&str; 2] = ["rs", "hs"];
 
-/// Reads a table of places on a scale; `source` is that of rows that do not state their own. Columns that are not used
-/// are a warning.
+/// Reads a table of positions on a scale. `source` applies to rows without their own. Unused columns raise a warning.
 ///
 /// # Errors
 /// See [`PlacesCsvError`].
@@ -209,7 +207,7 @@ pub fn read_places(
     let others = table.others(&[Some(id_column), Some(across), Some(up), source_column]);
     let columns = pair_columns(&table, &others, |field| value(field, scale).is_ok())
         .map_err(|source| PlacesCsvError::Pair { line: table.first_line, source })?;
-    // An attribute may be called by one word, unlike a pair that was rated.
+    // An attribute may have a one-word name, unlike a rated adjective pair.
     let of_one_word =
         |column: &usize| is_attribute(&table, *column, |field| value(field, scale).ok().flatten());
     let (single, unused): (Vec<usize>, Vec<usize>) =
@@ -238,7 +236,8 @@ pub fn read_places(
         let axis = |name: &str, value: f64| Attribute { name: name.to_owned(), value };
         let mut values = Vec::new();
         for (name, value) in names.into_iter().zip([point.rough_smooth, point.hard_soft]) {
-            // A table may have the attribute beside the place: what was rated is not where it was put.
+            // If the table also has this attribute as a column, its rated value is kept; it may differ from the
+            // position.
             if attribute_columns.iter().all(|column| !row.at(*column).name().eq_ignore_ascii_case(name)) {
                 values.push(axis(name, value));
             }
@@ -256,7 +255,7 @@ pub fn read_places(
     Ok(Imported { value: Places { axes, placements }, warnings: warning.into_iter().collect() })
 }
 
-/// The columns of the place, and the names of the axes where they are not the usual ones.
+/// Returns the position columns, and the axis names if they are not the usual ones.
 fn place_columns(table: &NamedTable) -> Result<([usize; 2], Option<[String; 2]>), PlacesCsvError> {
     let named = PLACE_ON.map(|prefix| {
         table.columns.iter().enumerate().find_map(|(column, name)| {
@@ -280,7 +279,7 @@ fn place_columns(table: &NamedTable) -> Result<([usize; 2], Option<[String; 2]>)
     Ok(([needed(0)?, needed(1)?], None))
 }
 
-/// The value of an attribute, 0 to 100; `None` where it is left empty.
+/// Returns the value of an attribute, 0 to 100; `None` if the field is empty.
 fn value(field: Field<'_>, scale: Scale) -> Result<Option<f64>, PlacesCsvError> {
     let number = field.number().map_err(|_| PlacesCsvError::NotAValue {
         column: field.name().to_owned(),
@@ -290,7 +289,7 @@ fn value(field: Field<'_>, scale: Scale) -> Result<Option<f64>, PlacesCsvError> 
     number.map(|value| in_scale(field, value, scale)).transpose()
 }
 
-/// What a field holds, from 0 to 100.
+/// Converts the value of a field to 0..100.
 fn in_scale(field: Field<'_>, value: f64, scale: Scale) -> Result<f64, PlacesCsvError> {
     if scale.contains(value) {
         return Ok(scale.to_space(value));
@@ -299,16 +298,16 @@ fn in_scale(field: Field<'_>, value: f64, scale: Scale) -> Result<f64, PlacesCsv
     Err(PlacesCsvError::Range { column, line, value, low, high })
 }
 
-/// The lowest and the highest coordinate of several placements, where they look as if they were on another scale than
-/// 0 to 100: none is above [`SHORT_SCALE`].
+/// Returns the lowest and highest coordinate if several placements look as if they used another scale than 0 to 100:
+/// none is above [`SHORT_SCALE`].
 pub fn looks_rescaled(placements: &[Placement]) -> Option<(f64, f64)> {
     let all = placements.iter().flat_map(|p| [p.place.at.rough_smooth, p.place.at.hard_soft]);
     let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
     (placements.len() > 1 && high <= SHORT_SCALE).then_some((low, high))
 }
 
-/// Puts the textures of a library where a table says; returns the identifiers of those that are not in it, which lose
-/// their place and attributes. The origin of the library says what the positions come from.
+/// Assigns the positions and attributes of a table to a library. Returns the identifiers of textures that the table
+/// does not list; these lose their position and attributes. The origin text of the library states the label source.
 pub fn place_textures(library: &mut Library, places: &Places) -> Vec<String> {
     let Places { axes, placements } = places;
     library.axes.clone_from(axes);
@@ -325,8 +324,8 @@ pub fn place_textures(library: &mut Library, places: &Places) -> Vec<String> {
     missing
 }
 
-/// The places and attributes of a library as such a table, with the attributes in the order of their first appearance.
-/// Textures without a place are not in it.
+/// Writes the positions and attributes of a library as such a table, with attributes in the order of first appearance.
+/// Textures without a position are omitted.
 pub fn places_csv(library: &Library) -> Vec<u8> {
     let placed = || library.textures.iter().filter_map(|texture| Some((texture, texture.place?)));
     let mut names: Vec<&str> = Vec::new();
@@ -385,7 +384,7 @@ mod tests {
         let written = places_csv(&library);
         assert!(written.starts_with(b"id,x:warm-cold,y:flat-bumpy,source,"));
         assert_eq!(read_places(&written, None, Scale::OF_SPACE).unwrap().value, places);
-        // A table of the usual axes takes the names away again.
+        // A table on the usual axes removes the axis names.
         let usual =
             read_places(b"id,x:Rough-Smooth,y:hard-soft,source\ncork,1,2,human\n", None, Scale::OF_SPACE);
         place_textures(&mut library, &usual.unwrap().value);
@@ -442,11 +441,11 @@ mod tests {
         assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value.placements), Some((1.0, 7.0)));
         assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value.placements[..1]), None);
         let message = read(Scale::new(1.0, 6.0).unwrap()).unwrap_err().to_string();
-        assert!(message.contains("hs in line 2 is 7; it must lie between 1 and 6"), "{message}");
+        assert!(message.contains("hs in line 2 is 7; it must be between 1 and 6"), "{message}");
         for (low, high) in [(7.0, 1.0), (1.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (-1e308, 1e308)] {
             assert!(Scale::new(low, high).is_err(), "{low} {high}");
         }
-        // No rounding leads out of the square, and none of the table's own scale.
+        // Rounding stays within both the space and the scale of the table.
         let odd = Scale::new(0.1, 0.7).unwrap();
         assert_eq!((odd.to_space(0.1), odd.to_space(0.7)), (0.0, 100.0));
         assert_eq!(Scale::OF_SPACE.to_space(28.999_999_999_999_996), 28.999_999_999_999_996);
@@ -470,10 +469,10 @@ mod tests {
         };
         check("id,rs,hs\na,1,2\na,3,4\n", "line 2 and again in line 3");
         check("id,rs,hs\na,,2\n", "rs of \"a\" is empty");
-        check("id,rs,hs\na,101,2\n", "rs in line 2 is 101; it must lie between 0 and 100");
+        check("id,rs,hs\na,101,2\n", "rs in line 2 is 101; it must be between 0 and 100");
         check("id,rs,hs,warm-cold\na,1,2,-3\n", "warm-cold in line 2 is -3");
         check("id,rs,hs,warm-cold\na,1,2,12:30\n", "warm-cold in line 2 is \"12:30\"");
-        check("id,rs,hs,so-so-so\na,1,2,3\n", "line 1: \"so-so-so\" can be parted");
+        check("id,rs,hs,so-so-so\na,1,2,3\n", "line 1: \"so-so-so\" can be split");
         check("id,rs,hs,source\na,1,2,me\n", "human, simulated, physical or estimated");
         check("id,rs\na,1\n", "\"hs\"");
         let unsaid = read_places_csv(b"id,rs,hs\na,1,2\n", None).unwrap_err();

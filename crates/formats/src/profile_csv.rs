@@ -1,4 +1,4 @@
-//! Profiles as tables: positions in mm, evenly spaced, and what is there.
+//! Profiles as tables: evenly spaced positions in mm, and a value at each.
 //!
 //! ```csv
 //! x_mm,value
@@ -6,59 +6,59 @@
 //! 0.01,0.7
 //! ```
 //!
-//! The first column is the position, the second the value, whatever their names. A position is in mm unless its name ends in
-//! another unit: `x_m`, `x_cm`, `x_um`.
+//! The first column is the position and the second the value, whatever their names. Positions are in mm unless the
+//! column name ends in another unit: `x_m`, `x_cm`, `x_um`.
 
 use std::fmt::Write as _;
 
-use shagreen_core::profile::{Profile, ProfileError};
+use shagreen_core::texture::profile::{Profile, ProfileError};
 
 use crate::csv_text::{self, TableTextError, line_of, number};
 
-/// First line of the tables that are written.
+/// Header line of written tables.
 const HEADER: &str = "x_mm,value\n";
-/// How far a position may lie beside the even grid, in steps.
+/// Tolerated deviation of a position from the even grid, in steps.
 const TOLERANCE_STEPS: f64 = 0.2;
 
-/// Why bytes are no profile.
+/// Why bytes are not a profile.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileCsvError {
     /// Not text.
     #[error(transparent)]
     Text(#[from] TableTextError),
-    /// A row that is not a position and a value.
-    #[error("line {line} is not a position in mm and a value, and no more; correct the line")]
+    /// A row is not a position and a value.
+    #[error("line {line} must hold exactly two numbers, a position in mm and a value; correct the line")]
     Row {
         /// The line, from one.
         line: u64,
     },
-    /// A first column that is no position.
+    /// The first column is not a position.
     #[error(
-        "the first column is {name:?}, which is no position; give positions, or a signal (.wav) with its speed"
+        "the first column is {name:?}, which is not a position; use positions there, or use a signal (.wav) with its speed"
     )]
     NoPosition {
-        /// Its name.
+        /// Name of the column.
         name: String,
     },
-    /// Positions that are not evenly spaced.
+    /// Positions are not evenly spaced.
     #[error(
-        "the position in line {line} is {found}, even steps lead to {wanted:.6}; sample the profile evenly"
+        "the position in line {line} is {found}, but even spacing requires {wanted:.6}; resample the profile at even spacing"
     )]
     Uneven {
         /// The line, from one.
         line: u64,
-        /// What stands there.
+        /// The position in the file.
         found: f64,
-        /// What an even grid has there.
+        /// The position on an even grid.
         wanted: f64,
     },
-    /// Rows that make no profile.
-    #[error("{0}; give rows of a position in mm, ascending, and a value")]
+    /// The rows do not form a valid profile.
+    #[error("{0}; use rows of a position in mm, ascending, and a value")]
     Profile(#[from] ProfileError),
 }
 
-/// Reads a profile. Positions may begin anywhere: the profile begins at zero.
+/// Reads a profile. Its positions may start anywhere; the returned profile starts at zero.
 ///
 /// # Errors
 /// See [`ProfileCsvError`].
@@ -69,7 +69,7 @@ pub fn read_profile_csv(bytes: &[u8]) -> Result<Profile, ProfileCsvError> {
     let mut unit_m = 1e-3;
     for (index, record) in records.enumerate() {
         let line = || line_of(text, &record);
-        // A delimiter at the end of a row parts nothing.
+        // A delimiter at the end of a row adds no field.
         let fields: Vec<&str> = record.iter().collect();
         let fields = fields.strip_suffix(&[""]).unwrap_or(&fields);
         let &[x, value] = fields else { return Err(ProfileCsvError::Row { line: line() }) };
@@ -90,14 +90,14 @@ pub fn read_profile_csv(bytes: &[u8]) -> Result<Profile, ProfileCsvError> {
         unit_m * (last - first) / (rows.len() - 1) as f64,
         rows.iter().map(|row| row.2).collect(),
     )?;
-    // Most steps are right where one is wrong.
+    // The median step is robust against single wrong positions.
     let mut steps: Vec<f64> = rows.windows(2).map(|pair| pair[1].1 - pair[0].1).collect();
     let middle = (steps.len() - 1) / 2;
     let step = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
     for pair in rows.windows(2) {
         let ((_, before, _), (line, found, _)) = (pair[0], pair[1]);
         let wanted = before + step;
-        // Positions are finite, and so are their differences: the step was accepted.
+        // The profile was accepted, so positions and their differences are finite.
         if (found - wanted).abs() > TOLERANCE_STEPS * step {
             return Err(ProfileCsvError::Uneven { line, found, wanted });
         }
@@ -105,7 +105,7 @@ pub fn read_profile_csv(bytes: &[u8]) -> Result<Profile, ProfileCsvError> {
     Ok(profile)
 }
 
-/// What a position of a column of this name counts, in m; `None` where it is no position.
+/// Length in m of one position unit, from the column name; `None` if the name is not a position.
 fn unit_of(name: &str) -> Option<f64> {
     let name = name.trim().trim_end_matches([')', ']']).to_lowercase();
     match name.rsplit(['_', ' ', '(', '[']).next().unwrap_or("") {
@@ -117,16 +117,16 @@ fn unit_of(name: &str) -> Option<f64> {
     }
 }
 
-/// Whether bytes are a table that [`profile_csv`] wrote.
+/// Returns whether bytes are a table that [`profile_csv`] wrote.
 pub fn is_profile_csv(bytes: &[u8]) -> bool {
     bytes.starts_with(HEADER.as_bytes())
 }
 
-/// A profile as a table that [`read_profile_csv`] reads.
+/// Writes a profile as a table that [`read_profile_csv`] reads.
 pub fn profile_csv(profile: &Profile) -> String {
     let mut text = String::from(HEADER);
     for (i, value) in profile.values().iter().enumerate() {
-        // A picometer is finer than any step. Writing to a string cannot fail.
+        // Rounded to a picometer, finer than any step. Writing to a string cannot fail.
         let x_mm = (1e12 * profile.step_m() * i as f64).round() / 1e9;
         let _ = writeln!(text, "{x_mm},{value}");
     }
@@ -137,7 +137,7 @@ pub fn profile_csv(profile: &Profile) -> String {
 mod tests {
     use super::{ProfileCsvError, profile_csv, read_profile_csv};
     use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
-    use shagreen_core::profile::{Profile, ProfileError};
+    use shagreen_core::texture::profile::{Profile, ProfileError};
 
     #[test]
     fn tables_of_spreadsheets_are_read() {

@@ -1,4 +1,4 @@
-//! A project: what somebody makes with the program, in one JSON file.
+//! A project: the textures that a user authors, in one JSON file.
 //!
 //! ```json
 //! {
@@ -23,15 +23,16 @@
 //! }
 //! ```
 //!
-//! - `library` is one of the program's (`built_in`), another file (`{"file": "woods.json", "sha256": "…"}`, relative to the
-//!   folder of the project where it lies in there), or inside (`{"inside": {…}}`, a whole library).
-//! - `joined` are textures that came to those of the library, as a library has them; `renamed`, `starred`, `locked` and
-//!   `solo` know textures by their identifiers.
-//! - `snapshots` are states of authored textures that somebody wanted to come back to.
-//! - `space` is a space that was built here and gives the textures their places, in the way of a library.
+//! - `library` is a built-in library (`built_in`), another file (`{"file": "woods.json", "sha256": "…"}`, relative to
+//!   the folder of the project if it lies inside that folder), or embedded (`{"inside": {…}}`, a whole library).
+//! - `joined` are textures added to those of the library, in the library format. `renamed`, `starred`, `locked` and
+//!   `solo` refer to textures by their identifiers.
+//! - `locked` are the pinned textures of the interpolation mode Field.
+//! - `snapshots` are saved states of authored textures.
+//! - `space` is a space that was built in this project; it gives the textures their positions, in the library format.
 //!
-//! Fields that this version does not know are kept where they stood in the project or in an authored texture, and written
-//! back. A file of a higher major version is refused.
+//! Unknown fields of the project or of an authored texture are kept and written back. A file of a higher major version
+//! is rejected.
 
 mod error;
 mod read;
@@ -43,10 +44,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
-use shagreen_core::authoring::{Blending, Outside, Weights};
-use shagreen_core::blend::Mode;
-use shagreen_core::drawn_path::DrawnPath;
 use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::{Blending, Outside, Weights};
+use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::texture::blend::Mode;
 
 use crate::built_in::BuiltIn;
 use crate::library::{Library, Provenance, TextureEntry};
@@ -58,63 +59,63 @@ pub use crate::project::error::ProjectError;
 pub use crate::project::read::{read_project, sha256_hex};
 pub use crate::project::write::write_project;
 
-/// What the field `format` of a project holds.
+/// Value of the `format` field of a project.
 pub const FORMAT: &str = "shagreen-project";
-/// Major version that is read and written: files of another one are refused.
+/// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
-/// Minor version that is written: fields may be added by a higher one.
+/// Minor version that is written; a newer one may add fields.
 pub const VERSION_MINOR: u32 = 0;
-/// What the names of files end with.
+/// File name extension.
 pub const EXTENSION: &str = "shagreen";
-/// How many colors authored textures may be told apart by.
+/// Number of colors for authored textures.
 pub const N_COLORS: u8 = 8;
 
-/// What somebody makes. Large parts are shared, so that a copy is cheap.
+/// The work of a user. Large parts are shared, so a copy is cheap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
-    // What changes often stands first, so that two that differ are found to differ soon.
-    /// What was authored, never empty.
+    // Frequently changed fields come first, so that comparing two different projects ends early.
+    /// Authored textures; never empty.
     pub authored: Vec<Arc<AuthoredTexture>>,
-    /// The one that is being worked on, by its place among those.
+    /// Index of the selected authored texture.
     pub selected: usize,
-    /// The texture of the library or among those that joined that is heard alone instead, by identifier.
+    /// Identifier of a library or added texture that is rendered alone instead of the selected one.
     pub solo: Option<String>,
-    /// States of authored textures to come back to, oldest first.
+    /// Saved states of authored textures, oldest first.
     pub snapshots: Vec<Arc<AuthoredTexture>>,
-    /// What somebody wants to remember of it.
+    /// Notes of the user.
     pub notes: String,
-    /// Names that textures were given here, by identifier.
+    /// Names given to textures in this project, by identifier.
     pub renamed: BTreeMap<String, String>,
-    /// Identifiers of textures to be found again soon.
+    /// Identifiers of favorite textures.
     pub starred: BTreeSet<String>,
-    /// Names of the attributes across and up, where they are the axes; `None` takes the places.
+    /// Names of the attributes used as horizontal and vertical axis; `None` uses the positions.
     pub axes: Option<[String; 2]>,
-    /// The space that gives the textures their places and attributes; `None` leaves them as their files have them.
+    /// The space that gives the textures their positions and attributes; `None` keeps those of the files.
     pub space: Option<Arc<PlacedSpace>>,
-    /// The textures to author from.
+    /// The library of textures to interpolate from.
     pub library: ProjectLibrary,
-    /// Textures that joined those of the library, in the order in which they came.
+    /// Textures added to those of the library, in the order of addition.
     pub joined: Vec<Arc<TextureEntry>>,
     /// Fields that this version does not know.
     pub unknown: Map<String, Value>,
 }
 
-/// Where the library of a project is.
+/// Location of the library of a project.
 #[derive(Clone, Debug)]
 pub enum ProjectLibrary {
-    /// It is one of the program's.
+    /// A built-in library.
     BuiltIn(BuiltIn),
-    /// It is a file of its own.
+    /// A separate file.
     File(Arc<LibraryFile>),
-    /// It is a part of the project.
+    /// Embedded in the project.
     Inside(Arc<Library>),
 }
 
 impl ProjectLibrary {
-    /// The textures of the library; those of the program take some milliseconds to read.
+    /// Returns the library; a built-in one takes some milliseconds to read.
     ///
     /// # Errors
-    /// The program is damaged.
+    /// Fails only if the program file is damaged.
     pub fn read(&self) -> Result<Library, SimulatedLibraryError> {
         match self {
             Self::BuiltIn(built_in) => built_in.read(),
@@ -125,7 +126,7 @@ impl ProjectLibrary {
 }
 
 impl PartialEq for ProjectLibrary {
-    /// Libraries are long and never change: what is shared is the same.
+    /// Libraries are large and immutable, so shared ones are compared by pointer first.
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::BuiltIn(a), Self::BuiltIn(b)) => a == b,
@@ -139,56 +140,56 @@ impl PartialEq for ProjectLibrary {
 /// A library that was read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibraryFile {
-    /// Where it was read from.
+    /// Path of the file.
     pub path: PathBuf,
-    /// SHA-256 of its bytes, in hexadecimal digits: tells whether it is still the same.
+    /// SHA-256 of the file in hexadecimal digits; detects later changes.
     pub sha256: String,
-    /// What it held.
+    /// Contents of the file.
     pub library: Library,
 }
 
-/// A texture that is authored: a place in the space, and how it is made of what lies around.
+/// An authored texture: a position in the space, and how to interpolate there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuthoredTexture {
-    /// Tells it from the others of its project, whatever their order and names.
+    /// Key that identifies it in its project, independent of order and name.
     pub key: u32,
-    /// Its name.
+    /// Name to show.
     pub name: String,
-    /// The color that it is known by, below [`N_COLORS`].
+    /// Index of its color, below [`N_COLORS`].
     pub color: u8,
-    /// What somebody wants to remember of it.
+    /// Notes of the user.
     pub notes: String,
-    /// Words to search by.
+    /// Search terms.
     pub tags: Vec<String>,
-    /// Where it lies.
+    /// Position in the space.
     pub at: SpacePoint,
-    /// How textures become one there.
+    /// Interpolation options at that position.
     pub blend: BlendChoice,
-    /// The way through the space that it can follow along a stroke, where one is drawn.
+    /// Drawn path through the space that it can follow along a stroke.
     pub path: Option<DrawnPath>,
-    /// What it looks like, where that is not left to the pictures of its neighbors.
+    /// Its own picture; `None` derives one from the pictures of its neighbors.
     pub picture: Option<Arc<Picture>>,
     /// Fields that this version does not know.
     pub unknown: Map<String, Value>,
 }
 
-/// How textures become one, with what other modes than the chosen one were asked to do: they are to be compared without
-/// losing that.
+/// Interpolation options. Options of other modes than the selected one are kept, so that modes can be compared without
+/// losing them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlendChoice {
-    /// How textures become one.
+    /// Interpolation mode.
     pub mode: Mode,
-    /// Which of them count, in the mode parametric.
+    /// Weighting of the neighbors, in the mode Parametric.
     pub weights: Weights,
-    /// What happens outside their hull, in the mode field.
+    /// Behavior outside the convex hull, in the mode Field.
     pub outside: Outside,
-    /// Identifiers of textures that the field must meet exactly at their own places.
+    /// Identifiers of pinned textures: the field passes through them at their positions.
     pub locked: BTreeSet<String>,
 }
 
 impl BlendChoice {
-    /// The blending without what its mode cannot do: it always passes [`Blending::check`]. `index_of` finds a texture by its
-    /// identifier; locks of those that are not there have no effect.
+    /// Returns the options that the selected mode supports; the result always passes [`Blending::check`]. `index_of`
+    /// maps identifiers to library indices; pinned textures that do not exist are ignored.
     pub fn blending(&self, index_of: impl Fn(&str) -> Option<usize>) -> Blending {
         match self.mode {
             Mode::Field => {
@@ -201,24 +202,24 @@ impl BlendChoice {
         }
     }
 
-    /// Whether textures can be locked in the chosen mode.
+    /// Returns whether the selected mode supports pinned textures.
     pub fn can_lock(&self) -> bool {
         self.mode == Mode::Field
     }
 
-    /// Whether the field meets the texture of this identifier exactly at its own place.
+    /// Returns whether the texture with this identifier is pinned in the selected mode.
     pub fn is_locked(&self, id: &str) -> bool {
         self.can_lock() && self.locked.contains(id)
     }
 }
 
 impl AuthoredTexture {
-    /// Whether another one is heard as this one is, whatever it is called and looks like.
+    /// Returns whether both textures give the same signal, regardless of name and appearance.
     pub fn sounds_like(&self, other: &Self) -> bool {
         (self.at, &self.blend, &self.path) == (other.at, &other.blend, &other.path)
     }
 
-    /// A texture at the middle of the space, with the first color.
+    /// Creates a texture at the center of the space, with the first color.
     pub fn new(key: u32, name: &str) -> Self {
         Self {
             key,
@@ -236,7 +237,7 @@ impl AuthoredTexture {
 }
 
 impl Project {
-    /// A project of one texture, at the middle of the space.
+    /// Creates a project with one authored texture at the center of the space.
     pub fn new(library: ProjectLibrary, name: &str) -> Self {
         Self {
             notes: String::new(),
@@ -254,16 +255,16 @@ impl Project {
         }
     }
 
-    /// The authored texture that is being worked on.
+    /// The selected authored texture.
     ///
     /// # Panics
-    /// Nothing was authored, which no project allows.
+    /// If `authored` is empty, which no project allows.
     pub fn texture(&self) -> &AuthoredTexture {
         &self.authored[self.selected]
     }
 
-    /// The textures as they are shown and heard here: those of `base`, which is the project's library, then those that joined,
-    /// in the places of the space that is in use, under the names that they were given.
+    /// Returns the textures as the project shows and renders them: those of `base` (the project's library), then the
+    /// added ones, at the positions of the current space and under their names in the project.
     pub fn textures_on(&self, base: Library) -> Library {
         let mut library = base;
         library.join(&self.joined);
@@ -278,8 +279,7 @@ impl Project {
         library
     }
 
-    /// The textures that a file of the project would hold and that may not be passed on: those of a library inside, and
-    /// those that joined.
+    /// The restricted textures that a file of the project would contain: those of an embedded library, and added ones.
     pub fn restricted(&self) -> impl Iterator<Item = &TextureEntry> {
         let inside =
             if let ProjectLibrary::Inside(library) = &self.library { &library.textures[..] } else { &[] };
@@ -287,7 +287,7 @@ impl Project {
         all.filter(|entry| entry.provenance == Provenance::Restricted)
     }
 
-    /// A key that no authored texture of the project has, nor had as long as a snapshot knows it.
+    /// Returns a key that no authored texture or snapshot of the project has.
     pub fn free_key(&self) -> u32 {
         let highest = self.authored.iter().chain(&self.snapshots).map(|texture| texture.key).max();
         highest.unwrap_or(0) + 1

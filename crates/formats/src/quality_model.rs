@@ -1,16 +1,16 @@
-//! The quality model that is built into the program: the weights of the paper, with the lengths of a corpus of ours.
+//! The built-in model of perceived quality: the weights of the paper, with scaling lengths from our own corpus.
 
 use serde::{Deserialize, Serialize};
-use shagreen_core::quality::{Feature, QualityModel, QualityModelError, Term};
+use shagreen_core::signals::quality::{Feature, QualityModel, QualityModelError, Term};
 
 use crate::layout;
 
 const BYTES: &[u8] = include_bytes!("../../../assets/quality/paper.json");
 
-/// The model as JSON.
+/// The model, as the JSON file stores it.
 #[derive(Debug, Serialize, Deserialize)]
 struct ModelV1 {
-    /// What the lengths are those of, for people.
+    /// Description of the corpus that the lengths were computed from, for people.
     corpus: String,
     terms: Vec<TermV1>,
 }
@@ -22,28 +22,28 @@ struct TermV1 {
     length: f64,
 }
 
-/// Why there is no model.
+/// Why the model is unavailable.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum QualityModelFileError {
-    /// No JSON of a model.
-    #[error("the quality model is damaged: {0}; install the program again")]
+    /// The JSON file is invalid.
+    #[error("the built-in quality model is damaged: {0}; reinstall the program")]
     Json(#[from] serde_json::Error),
-    /// A feature that there is not.
-    #[error("the quality model has a feature \"{name}\", which there is not; install the program again")]
+    /// A feature is unknown.
+    #[error("the built-in quality model has the unknown feature \"{name}\"; reinstall the program")]
     Feature {
-        /// Its name.
+        /// Name of the feature.
         name: String,
     },
-    /// Terms that make no model.
+    /// The terms do not form a valid model.
     #[error(transparent)]
     Model(#[from] QualityModelError),
 }
 
-/// The model of the program, for signals of [`shagreen_core::quality::PAPER_RATE`].
+/// Returns the built-in model, for signals at [`shagreen_core::signals::quality::PAPER_RATE`].
 ///
 /// # Errors
-/// None, as long as the committed file is sound, which a test holds.
+/// Fails only if the embedded file is damaged, which a test excludes.
 pub fn built_in_quality_model() -> Result<QualityModel, QualityModelFileError> {
     let model: ModelV1 = serde_json::from_slice(BYTES)?;
     let term = |term: TermV1| match Feature::from_id(&term.feature) {
@@ -54,7 +54,7 @@ pub fn built_in_quality_model() -> Result<QualityModel, QualityModelFileError> {
     Ok(QualityModel::of_terms(terms)?)
 }
 
-/// A model as the bytes of its file; `corpus` says what its lengths are those of.
+/// Serializes a model as JSON; `corpus` describes the data that its lengths were computed from.
 pub fn write_quality_model(model: &QualityModel, corpus: &str) -> Vec<u8> {
     let term = |term: &Term| TermV1 {
         feature: term.feature.id().to_owned(),
@@ -70,7 +70,7 @@ pub fn write_quality_model(model: &QualityModel, corpus: &str) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::{BYTES, ModelV1, built_in_quality_model, write_quality_model};
-    use shagreen_core::quality::{PAPER_FEATURES, PAPER_WEIGHTS};
+    use shagreen_core::signals::quality::{PAPER_FEATURES, PAPER_WEIGHTS};
 
     #[test]
     fn the_committed_file_is_sound_and_is_what_is_written() {

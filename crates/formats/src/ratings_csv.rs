@@ -1,16 +1,16 @@
-//! Ratings by people as a table, in either of two shapes.
+//! Human ratings as a table, in long or wide format.
 //!
-//! A line for each rating, or a line for each participant and texture with a column for each adjective pair:
+//! One line per rating, or one line per participant and texture with a column for each adjective pair:
 //!
 //! ```csv
 //! participant,texture,adjective,value          participant,texture,rough-smooth,hard-soft
 //! p01,cork,rough-smooth,41                     p01,cork,41,70.5
 //! ```
 //!
-//! A pair is named by its poles, the one at 0 first. A rating that is left empty is missing. Columns that are none of
-//! these, as `age` or `start_time`, are not used.
+//! A pair is named by its poles, the one at 0 first. An empty rating is missing. Other columns, such as `age` or
+//! `start_time`, are not used.
 
-use shagreen_core::ratings::{AdjectivePair, PairNameError, Rating, RelevanceVote};
+use shagreen_core::people::ratings::{AdjectivePair, PairNameError, Rating, RelevanceVote};
 
 use crate::imported::Imported;
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
@@ -21,10 +21,10 @@ use crate::sorting_csv::{PARTICIPANT, TEXTURE};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RatingsCsvError {
-    /// It cannot be read.
+    /// The table cannot be read.
     #[error(transparent)]
     Table(#[from] NamedTableError),
-    /// A name is no pair of adjectives.
+    /// A name is not an adjective pair.
     #[error("line {line}: {source}")]
     Pair {
         /// The line, from one.
@@ -32,36 +32,34 @@ pub enum RatingsCsvError {
         /// What is wrong.
         source: PairNameError,
     },
-    /// What should be a rating is none.
-    #[error(
-        "{column} in line {line} is \"{found}\"; a rating is a number from 0 to 100, or is left empty; {hint}"
-    )]
+    /// A value is not a rating.
+    #[error("{column} in line {line} is \"{found}\"; a rating is a number from 0 to 100, or empty; {hint}")]
     NotARating {
         /// Name of the column.
         column: String,
         /// The line, from one.
         line: u64,
-        /// What stands there.
+        /// Text of the field.
         found: String,
-        /// What may help.
+        /// What the user should do.
         hint: &'static str,
     },
-    /// No column is for a pair.
+    /// No column is an adjective pair.
     #[error(
-        "no column holds ratings; give the columns adjective and value, or a column for each pair, named as \"rough-smooth\": the columns are {found}"
+        "no column holds ratings; the columns are {found}; use the columns adjective and value, or one column per adjective pair, named like \"rough-smooth\""
     )]
     NoPairs {
         /// Names of the columns.
         found: String,
     },
     /// A vote is neither yes nor no.
-    #[error("{column} in line {line} is \"{found}\"; say 1 or 0, or yes or no")]
+    #[error("{column} in line {line} is \"{found}\"; use 1 or 0, or yes or no")]
     Vote {
         /// Name of the column.
         column: String,
         /// The line, from one.
         line: u64,
-        /// What stands there.
+        /// Text of the field.
         found: String,
     },
 }
@@ -70,12 +68,11 @@ const ADJECTIVE: [&str; 6] = ["adjective", "adjective_pair", "pair", "attribute"
 const VALUE: [&str; 4] = ["value", "rating", "score", "response"];
 const RELEVANT: [&str; 4] = ["relevant", "selected", "vote", "chosen"];
 
-/// What may help where a rating is none, in either shape.
-const RESCALE: &str = "bring another scale to it first";
-const RESCALE_OR_RENAME: &str =
-    "bring another scale to it first; if the column is no adjective pair, remove it, or name it by one word";
+/// Suggestions for an invalid rating, in either format.
+const RESCALE: &str = "convert ratings on another scale first";
+const RESCALE_OR_RENAME: &str = "convert ratings on another scale first; if the column is not an adjective pair, remove it, or give it a name of one word";
 
-/// Reads ratings, missing ones among them. Columns that are not used are a warning.
+/// Reads ratings, including missing ones. Unused columns raise a warning.
 ///
 /// # Errors
 /// See [`RatingsCsvError`].
@@ -96,7 +93,7 @@ pub fn read_ratings(bytes: &[u8]) -> Result<Imported<Vec<Rating>>, RatingsCsvErr
             push(row.at(participant), row.at(texture), pair, rating(row.at(value), RESCALE)?)?;
         }
         let unused = table.others(&[participant, texture, adjective, value].map(Some));
-        unused_warning(&table, &unused, "a rating is in the columns adjective and value")
+        unused_warning(&table, &unused, "ratings are read from the columns adjective and value")
     } else {
         let others = table.others(&[Some(participant), Some(texture)]);
         let columns = pair_columns(&table, &others, |field| rating(field, RESCALE).is_ok())
@@ -115,7 +112,7 @@ pub fn read_ratings(bytes: &[u8]) -> Result<Imported<Vec<Rating>>, RatingsCsvErr
     Ok(Imported { value: ratings, warnings: warning.into_iter().collect() })
 }
 
-/// The rating in a field; `None` where it is left empty.
+/// Parses the rating in a field; `None` if it is empty.
 fn rating(field: Field<'_>, hint: &'static str) -> Result<Option<f64>, RatingsCsvError> {
     match field.number() {
         Ok(value) if value.is_none_or(|value| (0.0..=100.0).contains(&value)) => Ok(value),
@@ -128,7 +125,7 @@ fn rating(field: Field<'_>, hint: &'static str) -> Result<Option<f64>, RatingsCs
     }
 }
 
-/// The ratings of [`read_ratings`] alone.
+/// Reads ratings as [`read_ratings`] does, without warnings.
 ///
 /// # Errors
 /// See [`RatingsCsvError`].
@@ -136,8 +133,8 @@ pub fn read_ratings_csv(bytes: &[u8]) -> Result<Vec<Rating>, RatingsCsvError> {
     read_ratings(bytes).map(|imported| imported.value)
 }
 
-/// Reads votes on which adjectives are relevant: the columns `participant`, `adjective`, `relevant` and perhaps
-/// `texture`, or a column for each adjective. A vote that is left empty was not cast.
+/// Reads votes on the relevance of adjectives: the columns `participant`, `adjective`, `relevant` and optionally
+/// `texture`, or one column per adjective. An empty vote was not cast.
 ///
 /// # Errors
 /// See [`RatingsCsvError`].
@@ -192,7 +189,7 @@ fn vote(field: Field<'_>) -> Result<Option<bool>, RatingsCsvError> {
     }
 }
 
-/// The ratings as a table with a line each.
+/// Writes ratings as a table with one line per rating.
 pub fn ratings_csv(ratings: &[Rating]) -> Vec<u8> {
     let first = ["participant", "texture", "adjective", "value"].map(str::to_owned).to_vec();
     let rows = ratings.iter().map(|Rating { participant, texture, pair, value }| {
@@ -232,7 +229,7 @@ mod tests {
         );
         check(
             "participant,texture,non-stick-sticky\np,cork,3\n",
-            "line 1: \"non-stick-sticky\" can be parted",
+            "line 1: \"non-stick-sticky\" can be split",
         );
         check("sep=,\nparticipant,texture,non-stick-sticky\np,cork,3\n", "line 2: \"non-stick-sticky\"");
         check(
@@ -242,7 +239,7 @@ mod tests {
         check("participant,texture,a-b,pre-post\np,cork,1,12:30\n", "pre-post in line 2 is \"12:30\"");
         check(
             "participant,texture,a-b,pre-post\np,cork,1,12:30\n",
-            "if the column is no adjective pair, remove it",
+            "if the column is not an adjective pair, remove it",
         );
         check("participant,texture,pair,value\np,cork,a-b,-1\n", "value in line 2 is \"-1\"");
         check("participant,texture,a-b\np,cork,\"1,234,5\"\n", "a-b in line 2 is \"1,234,5\"");

@@ -1,8 +1,8 @@
-//! Recordings of strokes: tables and WAV files to columns in SI units.
+//! Recordings of strokes: tables and WAV files, converted to columns in SI units.
 //!
-//! A file seldom says everything of itself. What it does not say is a [`Question`]: where the reader can tell the answer
-//! from the numbers it goes on with a guess and says so; where it cannot, it stops and asks. It never makes a number up.
-//! The answers are a [`ColumnMap`], from the window, the command line or a file ([`crate::map_toml`]).
+//! A file rarely describes itself completely. Each missing fact is a [`Question`]. If the numbers imply an answer, the
+//! reader uses that guess and reports it; otherwise it stops and asks. It never invents a number. The answers form a
+//! [`ColumnMap`], from the window, the command line or a file ([`crate::map_toml`]).
 
 mod column_map;
 mod from_table;
@@ -29,20 +29,20 @@ pub use crate::recording::column_map::{Channel, Column, ColumnMap, Separator};
 pub use crate::recording::question::{AnswerError, Ask, Question};
 pub use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit};
 
-/// A recording as its file holds it.
+/// The contents of a recording file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordingFile {
     /// Its columns in SI units.
     pub raw: RawRecording,
-    /// What the columns were taken for, complete.
+    /// The complete interpretation of the columns.
     pub map: ColumnMap,
-    /// What the file did not say; each has a guess that was gone on with.
+    /// Facts that the file does not state; each has a guess that was used.
     pub questions: Vec<Question>,
-    /// Sentences for people, one for each thing that was odd but usable.
+    /// Sentences for the user, one for each imperfection that leaves the data usable.
     pub warnings: Vec<String>,
 }
 
-/// Why a file is no recording.
+/// Why a file is not a recording.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingFileError {
@@ -51,7 +51,7 @@ pub enum RecordingFileError {
     Table {
         /// What is wrong.
         problem: String,
-        /// Where, from one.
+        /// The line, from one.
         line: Option<usize>,
     },
     /// The WAV file cannot be read.
@@ -60,14 +60,14 @@ pub enum RecordingFileError {
         /// What is wrong.
         problem: String,
     },
-    /// The sidecar of a WAV file cannot be read.
-    #[error("the sidecar cannot be read: {reason}; correct it, or take it away and answer by a map")]
+    /// The sidecar file of a WAV file cannot be read.
+    #[error("cannot read the sidecar file: {reason}; correct it, or remove it and use a column map")]
     Sidecar {
-        /// What is wrong, with the line where it is known.
+        /// What is wrong, with the line if known.
         reason: String,
     },
-    /// The map does not fit the file.
-    #[error("the map does not fit the file: {problem}")]
+    /// The column map does not fit the file.
+    #[error("the column map does not fit the file: {problem}")]
     Map {
         /// What is wrong.
         problem: String,
@@ -75,26 +75,26 @@ pub enum RecordingFileError {
     /// No column can be acceleration.
     #[error("{}", no_acceleration(columns, faults))]
     NoAcceleration {
-        /// The columns that there are.
+        /// Names of the columns.
         columns: Vec<String>,
-        /// What else would keep the recording from being used.
+        /// Further faults that would make the recording unusable.
         faults: Vec<Fault>,
     },
-    /// The file does not say what it takes to read it.
+    /// The file lacks facts that are necessary to read it.
     #[error("{0}")]
     NeedsAnswers(Box<NeedsAnswers>),
 }
 
-/// What a file does not say, and what is known of it so far.
+/// Facts that a file does not state, and what is known so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeedsAnswers {
-    /// All questions, those with a guess too; at least one has none.
+    /// All questions, including those with a guess; at least one has none.
     pub questions: Vec<Question>,
-    /// What would keep the recording from being used whatever the answers are.
+    /// Faults that make the recording unusable whatever the answers are.
     pub faults: Vec<Fault>,
-    /// What the columns were taken for so far.
+    /// The interpretation of the columns so far.
     pub map: ColumnMap,
-    /// Sentences for people.
+    /// Sentences for the user.
     pub warnings: Vec<String>,
 }
 
@@ -102,7 +102,7 @@ impl fmt::Display for NeedsAnswers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let open = self.questions.iter().filter(|question| question.guess.is_none());
         let questions: Vec<String> = open.map(Question::to_string).collect();
-        // What no answer mends comes first.
+        // Faults that no answer can fix come first.
         for fault in &self.faults {
             write!(f, "{fault}; ")?;
         }
@@ -114,20 +114,20 @@ impl fmt::Display for NeedsAnswers {
 fn no_acceleration(columns: &[String], faults: &[Fault]) -> String {
     let columns: Vec<String> = columns.iter().map(|name| format!("{name:?}")).collect();
     let mut sentences = vec![format!(
-        "no acceleration: the columns are {}; name those of acceleration in the map, or record acceleration",
+        "no acceleration: the columns are {}; name the acceleration columns in the column map, or record acceleration",
         columns.join(", ")
     )];
     sentences.extend(faults.iter().map(Fault::to_string));
     sentences.join("; ")
 }
 
-/// Channels of a WAV file as far as its head says them; 0 where it does not.
+/// Number of channels that the header of a WAV file states; 0 if it does not.
 pub(crate) fn n_channels(wav: &[u8]) -> usize {
     wav::n_channels(wav)
 }
 
-/// Reads a recording: a WAV file by its first bytes, anything else as a table. `file_name` is for messages, `sidecar` the
-/// bytes of the `.json` beside a WAV file, `map` what is known already.
+/// Reads a recording: a WAV file if its first bytes say so, otherwise a table. `file_name` is for messages, `sidecar`
+/// holds the bytes of the `.json` file next to a WAV file, and `map` holds known answers.
 ///
 /// # Errors
 /// See [`RecordingFileError`].
@@ -140,7 +140,7 @@ pub fn read_recording(
     if is_wav(bytes) {
         recording_of_wav(bytes, sidecar, map)
     } else if file_name.to_lowercase().ends_with(".wav") {
-        let problem = "does not begin as WAV files do".to_owned();
+        let problem = "does not begin with a WAV header".to_owned();
         Err(RecordingFileError::Wav { problem })
     } else {
         recording_of_table(read_table(bytes, map)?, map)

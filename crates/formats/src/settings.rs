@@ -1,4 +1,4 @@
-//! What the program remembers of a person and a machine, whatever project is open: one JSON file.
+//! Saved settings of a user and a machine, independent of the project: one JSON file.
 
 use std::path::{Path, PathBuf};
 
@@ -9,76 +9,76 @@ use serde_json::{Map, Value};
 use crate::layout;
 use crate::rig_settings::RigSettings;
 
-/// All of it stands open.
+/// Nesting depth up to which values get their own lines.
 const OPEN_DEPTH: usize = 2;
 
-/// Projects that are remembered.
+/// Number of recent projects that are saved.
 pub const MAX_RECENT: usize = 12;
-/// Prompts that are remembered.
+/// Number of recent prompts that are saved.
 pub const MAX_PROMPTS: usize = 24;
 
-/// What is remembered.
+/// The saved settings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Settings {
-    /// Projects that were open, newest first.
+    /// Recently opened projects, newest first.
     pub recent: Vec<PathBuf>,
-    /// Whether the light theme was chosen, or the dark one; `None` follows the system.
+    /// Whether the light theme is selected; `None` follows the system.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub is_light: Option<bool>,
-    /// Whether the first steps were shown, or skipped.
+    /// Whether the introduction was shown or skipped.
     pub has_seen_tour: bool,
-    /// How much larger everything is drawn than usual; `None` is as usual.
+    /// Scale factor of the user interface; `None` for the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f32>,
-    /// The project that new ones begin like.
+    /// The project that new projects start from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub template: Option<PathBuf>,
-    /// The output, the actuator and the pen; `None` where nobody has chosen any.
+    /// The device setup; `None` if the user has not selected any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rig: Option<RigSettings>,
-    /// What was described, newest first.
+    /// Recent prompts, newest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub prompts: Vec<KeptPrompt>,
-    /// What another version remembers.
+    /// Fields of other versions.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
 }
 
-/// A prompt, and how a picture was made of it.
+/// A prompt, and how a picture was generated from it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeptPrompt {
-    /// The words.
+    /// Text of the prompt.
     pub prompt: String,
-    /// The seed.
+    /// The random seed.
     pub seed: u64,
-    /// Whether the diffusion model of the user made it.
+    /// Whether the user's diffusion model generated the picture.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub by_diffusion: bool,
 }
 
-/// Why the rig of a file of settings is not known: whoever goes on without it drives an actuator without its limits.
+/// Why the device setup in a settings file is unknown. Without it, an actuator would be driven without its limits.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingsError {
-    /// The file is no JSON object.
-    #[error("it is no JSON object: {0}")]
+    /// The file is not a JSON object.
+    #[error("it is not a JSON object: {0}")]
     Format(serde_json::Error),
-    /// The rig is none that this version understands.
-    #[error("its \"rig\" is none of this version: {0}")]
+    /// The device setup has a form that this version does not know.
+    #[error("its field \"rig\" is invalid or from another version: {0}")]
     Rig(serde_json::Error),
 }
 
 impl Settings {
-    /// A project was opened or saved.
+    /// Records that a project was opened or saved.
     pub fn note_project(&mut self, path: &Path) {
-        // Told from every folder alike.
+        // An absolute path is valid from every folder.
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
         self.recent.truncate(MAX_RECENT);
     }
 
-    /// Something was described.
+    /// Records a prompt.
     pub fn note_prompt(&mut self, kept: KeptPrompt) {
         self.prompts.retain(|other| *other != kept);
         self.prompts.insert(0, kept);
@@ -86,8 +86,8 @@ impl Settings {
     }
 }
 
-/// Settings from the bytes of a file, each on its own: one that cannot be read is as nobody had chosen any. That the rig is
-/// one of them is told beside it.
+/// Reads settings, each independently: an unreadable one takes its default. An unreadable device setup is also returned
+/// as an error.
 pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
     let mut all: Map<String, Value> = match serde_json::from_slice(bytes) {
         Ok(all) => all,
@@ -110,13 +110,13 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
     (settings, error)
 }
 
-/// A setting that does no harm where it is forgotten.
+/// Removes and parses a setting whose loss is harmless.
 fn taken<T: DeserializeOwned>(all: &mut Map<String, Value>, name: &str) -> Option<T> {
-    // One that cannot be read is chosen again.
+    // The user can select an unreadable setting again.
     all.remove(name).and_then(|value| serde_json::from_value(value).ok())
 }
 
-/// The file of settings.
+/// Serializes settings as JSON.
 pub fn write_settings(settings: &Settings) -> Vec<u8> {
     layout::to_bytes(settings, OPEN_DEPTH)
 }
@@ -129,7 +129,7 @@ mod tests {
     use crate::rig_settings::{ActuatorSettings, PressureSettings, ProfileSettings};
     use std::path::Path;
 
-    /// What comes back where nothing is wrong with the rig.
+    /// Reads settings with a valid device setup.
     fn read(bytes: &[u8]) -> Settings {
         let (settings, error) = read_settings(bytes);
         assert!(error.is_none(), "{error:?}");
@@ -147,7 +147,7 @@ mod tests {
         settings.note_prompt(KeptPrompt { prompt: "rough".to_owned(), seed: 1, by_diffusion: true });
         assert_eq!(settings.prompts.iter().map(|kept| kept.seed).collect::<Vec<_>>(), [1, 1, 2]);
         let before = br#"{"prompts": [{"prompt": "rough", "seed": 2}]}"#;
-        assert_eq!(read(before).prompts, settings.prompts[2..], "files from before generators were kept");
+        assert_eq!(read(before).prompts, settings.prompts[2..], "an older file, without generators");
         settings.unknown.insert("later".to_owned(), 3.into());
         assert_eq!(read(&write_settings(&settings)), settings);
         assert_eq!(read(b"{}"), Settings::default());
@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// One that cannot be read takes no other along, least of all the rig.
+    /// An unreadable setting affects no other, least of all the device setup.
     #[test]
     fn each_setting_is_read_on_its_own() {
         let rig = RigSettings { output: Some("null".to_owned()), ..RigSettings::default() };

@@ -1,6 +1,6 @@
-//! Signals to be compared or encoded: the acceleration of a WAV file, without the stroke that it was felt under.
+//! Signals to compare or encode: the acceleration of a WAV file, without its stroke.
 
-use shagreen_core::dft321::{Dft321Error, dft321};
+use shagreen_core::dsp::dft321::{Dft321Error, dft321};
 use shagreen_core::recording::RawClock;
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 
@@ -9,74 +9,72 @@ use crate::recording::{
     AccelerationUnit, Channel, ColumnMap, RecordingFileError, n_channels, read_recording,
 };
 
-/// A signal of one axis: several are made one by DFT321.
+/// A signal with one axis; several axes are combined by DFT321.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signal {
-    /// Acceleration in m/s², all of it finite.
+    /// Acceleration in m/s², all finite.
     pub samples_mps2: Vec<f64>,
-    /// Samples a second.
+    /// Sample rate.
     pub rate: Hertz,
 }
 
-/// What is known of a signal beside its file.
+/// Facts about a signal that its file does not state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SignalHints {
-    /// What a sample of 1.0 is, in m/s², where no sidecar says it.
+    /// Acceleration of a sample of 1.0 in m/s², if there is no sidecar file.
     pub full_scale_mps2: Option<f64>,
-    /// The channel that is the signal, from zero; `None` where all are axes of it.
+    /// The channel that holds the signal, from zero; `None` if all channels are axes.
     pub channel: Option<usize>,
 }
 
-/// Lowest and highest rate of a signal in Hz: what is felt needs more than the one, no converter has more than the other.
+/// Supported sample rates in Hz: from the lowest that covers vibrotactile bandwidth to the highest of audio converters.
 pub const RATES_HZ: std::ops::RangeInclusive<f64> = 200.0..=768_000.0;
 
-/// Why a file is no signal.
+/// Why a file is not a signal.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {
     /// The file cannot be read.
     #[error(transparent)]
     File(RecordingFileError),
-    /// A table, whose rows may come at any time.
-    #[error(
-        "a signal is a WAV file, and this is none; \"shagreen render\" writes such, and editors of sound do"
-    )]
+    /// A table, whose rows may be unevenly spaced.
+    #[error("the file is not a WAV file; use a signal from \"shagreen render\" or from an audio editor")]
     NotWav,
-    /// A file that has to be explained.
+    /// The file lacks necessary facts.
     #[error(
-        "{what}; say --channel N for the channel that is the signal, and \"units\" and \"full_scale\" in the .json beside the file for what a sample of 1.0 is"
+        "{what}; select the channel of the signal with --channel N, and state \"units\" and \"full_scale\" (the value of a sample of 1.0) in the .json file next to it"
     )]
     Unclear {
-        /// What it does not say.
+        /// The missing facts.
         what: String,
     },
-    /// A channel that the file does not have.
-    #[error("there is no channel {channel} among {n_channels}; give one of these")]
+    /// The requested channel does not exist.
+    #[error("there is no channel {channel}; choose a channel from 1 to {n_channels}")]
     Channel {
         /// The channel, from one.
         channel: usize,
-        /// How many the file has.
+        /// Number of channels in the file.
         n_channels: usize,
     },
-    /// A rate at which nothing is recorded.
-    #[error("the file says {rate_hz} samples a second; {} to {} are read, so correct its head", RATES_HZ.start(), RATES_HZ.end())]
+    /// The sample rate is not supported.
+    #[error("the file states a sample rate of {rate_hz} Hz, but {} to {} Hz are supported; correct its header or resample it", RATES_HZ.start(), RATES_HZ.end())]
     Rate {
-        /// Its rate in Hz.
+        /// Sample rate of the file in Hz.
         rate_hz: f64,
     },
-    /// Axes that cannot be combined.
+    /// The axes cannot be combined.
     #[error(transparent)]
     Axes(#[from] Dft321Error),
-    /// A sample that is no number.
-    #[error("sample {index} is not a finite number; cut it out, or export the file again")]
+    /// A sample is not a finite number.
+    #[error("sample {index} is not a finite number; remove it, or export the file again")]
     NotFinite {
-        /// Which, from zero.
+        /// Index of the sample, from zero.
         index: usize,
     },
 }
 
-/// Reads a signal. `sidecar` are the bytes of the `.json` beside the file, which tells what a sample of 1.0 is; where there is
-/// none the hints do, and where nothing does, it is taken for 1 m/s², with a warning.
+/// Reads a signal. `sidecar` holds the bytes of the `.json` file next to the WAV file, which states the value of a
+/// sample of 1.0. Without a sidecar the hints apply; without either, a sample of 1.0 is read as 1 m/s², with a warning.
 ///
 /// # Errors
 /// See [`SignalError`].
@@ -96,7 +94,7 @@ pub fn read_signal(
         acceleration_unit: (!is_said).then_some(AccelerationUnit::MetersPerSecondSquared),
         full_scale: (!is_said).then(|| hints.full_scale_mps2.unwrap_or(1.0)),
         channels,
-        // Whatever the stroke was, it changes nothing here.
+        // The stroke has no effect here, so any value will do.
         constant_speed: Some(MetersPerSecond(0.1)),
         constant_force: Some(Newtons(1.0)),
         ..ColumnMap::default()
@@ -121,14 +119,14 @@ pub fn read_signal(
     warnings.extend(file.questions.into_iter().map(|question| question.text));
     if sidecar.is_none() && hints.full_scale_mps2.is_none() {
         warnings.push(
-            "nothing says what the samples are; a sample of 1.0 is taken for 1 m/s² (--full-scale says otherwise)"
+            "the unit of the samples is not stated; a sample of 1.0 is read as 1 m/s² (set another value with --full-scale)"
                 .to_owned(),
         );
     }
     Ok(Imported { value: Signal { samples_mps2, rate }, warnings })
 }
 
-/// One channel as the signal, the others as nothing.
+/// Selects one channel as the signal and ignores the others.
 fn only(channel: usize, n_channels: usize) -> Result<Vec<Channel>, SignalError> {
     if channel >= n_channels {
         return Err(SignalError::Channel { channel: channel + 1, n_channels });
@@ -167,7 +165,7 @@ mod tests {
         }
     }
 
-    /// A WAV file of 16 bits with these channels.
+    /// A 16-bit WAV file with these channels.
     fn integers(rate_hz: u32, channels: &[[i16; 4]]) -> Vec<u8> {
         let spec = hound::WavSpec {
             channels: channels.len() as u16,

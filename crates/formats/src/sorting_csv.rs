@@ -1,37 +1,37 @@
-//! Cluster sortings as a table, in either of two shapes.
+//! Cluster sortings as a table, in long or wide format.
 //!
-//! A line for each texture of each sort:
+//! One line per texture of each sort:
 //!
 //! ```csv
 //! participant,trial,groups,texture,group
 //! p01,1,3,cork,a
 //! ```
 //!
-//! or a line for each sort, with a column for each texture that holds its group:
+//! or one line per sort, with a column for each texture that holds its group:
 //!
 //! ```csv
 //! participant,trial,groups,cork,felt,glass
 //! p01,1,3,a,a,b
 //! ```
 //!
-//! `groups` is how many groups were to be made; without it those that were made are counted. Without `trial` the number of
-//! groups tells the sorts of a participant apart. A texture whose group is left empty was not sorted.
+//! `groups` is the requested number of groups; without it, the groups in the sort are counted. Without `trial`, the
+//! number of groups identifies the sorts of a participant. A texture with an empty group was not sorted.
 
 use std::collections::{HashMap, HashSet};
 
-use shagreen_core::sorting::{Grouped, Sort};
+use shagreen_core::people::sorting::{Grouped, Sort};
 
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::unused_warning;
 
-/// Sorts, and all textures that they name.
+/// Sorts, and all textures that they contain.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SortingTable {
-    /// Identifiers of the textures, in the order of their first appearance.
+    /// Identifiers of the textures, in the order of first appearance.
     pub textures: Vec<String>,
-    /// The sorts, in the order of the file.
+    /// The sorts, in file order.
     pub sorts: Vec<Sort>,
-    /// What was odd but usable, in sentences.
+    /// Sentences for the user, one for each imperfection that leaves the data usable.
     pub warnings: Vec<String>,
 }
 
@@ -39,60 +39,58 @@ pub struct SortingTable {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SortingCsvError {
-    /// It cannot be read.
+    /// The table cannot be read.
     #[error(transparent)]
     Table(#[from] NamedTableError),
-    /// There are neither columns for textures nor one that names them.
+    /// There are no texture columns, and no column that names textures.
     #[error(
-        "no column holds groups; give the columns texture and group, or a column for each texture: the columns are {found}"
+        "no column holds groups; the columns are {found}; use the columns texture and group, or one column per texture"
     )]
     NoGroups {
         /// Names of the columns.
         found: String,
     },
-    /// A number of groups is none.
-    #[error(
-        "{column} in line {line} is \"{found}\"; give the number of groups that were to be made, 1 or more"
-    )]
+    /// A number of groups is invalid.
+    #[error("{column} in line {line} is \"{found}\"; give the requested number of groups, 1 or more")]
     NotACount {
         /// Name of the column.
         column: String,
         /// The line, from one.
         line: u64,
-        /// What stands there.
+        /// Text of the field.
         found: String,
     },
-    /// The lines of one sort disagree.
+    /// Lines of one sort contradict each other.
     #[error(
-        "participant \"{participant}\", trial \"{trial}\": line {line} says another number of groups than the lines before; correct it"
+        "participant \"{participant}\", trial \"{trial}\": line {line} states another number of groups than earlier lines; correct it"
     )]
     OtherCount {
-        /// Who sorted.
+        /// The participant.
         participant: String,
-        /// Which sort.
+        /// The trial.
         trial: String,
         /// The line, from one.
         line: u64,
     },
-    /// A sort stands on two lines.
+    /// A sort is listed on two lines.
     #[error(
-        "participant \"{participant}\" has trial \"{trial}\" again in line {line}; number the trials, or keep one"
+        "participant \"{participant}\" has trial \"{trial}\" again in line {line}; number the trials, or remove one line"
     )]
     SortTwice {
-        /// Who sorted.
+        /// The participant.
         participant: String,
-        /// Which sort.
+        /// The trial.
         trial: String,
         /// The line, from one.
         line: u64,
     },
 }
 
-/// Names of the column that says who sorted.
+/// Accepted names of the participant column.
 pub(crate) const PARTICIPANT: [&str; 5] = ["participant", "subject", "rater", "person", "participant_id"];
 const TRIAL: [&str; 4] = ["trial", "sort", "session", "block"];
 const GROUPS: [&str; 4] = ["groups", "n_groups", "number_of_groups", "clusters"];
-/// Names of the column that says which texture.
+/// Accepted names of the texture column.
 pub(crate) const TEXTURE: [&str; 7] =
     ["texture", "texture_id", "id", "stimulus", "surface", "material", "item"];
 const GROUP: [&str; 4] = ["group", "cluster", "pile", "category"];
@@ -114,14 +112,14 @@ pub fn read_sorting_csv(bytes: &[u8]) -> Result<SortingTable, SortingCsvError> {
     }
 }
 
-/// Columns of both shapes.
+/// Columns of both formats.
 struct Columns {
     participant: usize,
     trial: Option<usize>,
     groups: Option<usize>,
 }
 
-/// Textures in the order of their first appearance.
+/// Textures in the order of first appearance.
 #[derive(Default)]
 struct Names(Vec<String>, HashSet<String>);
 
@@ -133,7 +131,7 @@ impl Names {
     }
 }
 
-/// How many groups were to be made, where that is said.
+/// The requested number of groups, if stated.
 fn count(field: Option<Field<'_>>) -> Result<Option<usize>, SortingCsvError> {
     let Some(field) = field else { return Ok(None) };
     if field.text().is_empty() {
@@ -147,7 +145,7 @@ fn count(field: Option<Field<'_>>) -> Result<Option<usize>, SortingCsvError> {
     })
 }
 
-/// What tells a sort from the others of its participant.
+/// The name that distinguishes a sort from the others of its participant.
 fn trial_name(trial: Option<Field<'_>>, n_groups: Option<usize>) -> Result<String, SortingCsvError> {
     match trial {
         Some(field) => Ok(field.word()?.to_owned()),
@@ -188,7 +186,8 @@ fn by_texture(
         }
     }
     let used = [Some(columns.participant), columns.trial, columns.groups, Some(texture), Some(group)];
-    let warning = unused_warning(table, &table.others(&used), "a sort is in the columns texture and group");
+    let warning =
+        unused_warning(table, &table.others(&used), "sorts are read from the columns texture and group");
     Ok(SortingTable { textures: names.0, sorts, warnings: warning.into_iter().collect() })
 }
 
@@ -218,7 +217,7 @@ fn by_sort(table: &NamedTable, columns: &Columns) -> Result<SortingTable, Sortin
     Ok(SortingTable { textures: names.0, sorts, warnings: Vec::new() })
 }
 
-/// The sortings as a table with a line for each texture of each sort.
+/// Writes sortings as a table with one line per texture of each sort.
 pub fn sorting_csv(sorts: &[Sort]) -> Vec<u8> {
     let first = ["participant", "trial", "groups", "texture", "group"].map(str::to_owned).to_vec();
     let rows = sorts.iter().flat_map(|sort| {
@@ -283,7 +282,7 @@ mod tests {
         check("participant,trial,groups,cork\np,1,many,a\n", "groups in line 2 is \"many\"");
         check("participant,trial,cork\np,1,a\np,1,b\n", "again in line 3");
         check("participant,cork\np,a\np,b\n", "again in line 3");
-        check("participant,trial,groups,texture,group\np,1,3,a,x\np,1,6,b,x\n", "line 3 says another");
+        check("participant,trial,groups,texture,group\np,1,3,a,x\np,1,6,b,x\n", "line 3 states another");
         check("participant,trial,texture,group\n,1,a,x\n", "line 2 has no participant");
     }
 }

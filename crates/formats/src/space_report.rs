@@ -1,17 +1,19 @@
-//! What building a space came to: a JSON report for scripts, figures for people, and the library with its places.
+//! Results of building a space: a JSON report for scripts and figures for people.
 
 use serde_json::{Value, json};
-use shagreen_core::mds::Ties;
-use shagreen_core::property::correlation_table;
-use shagreen_core::ratings::Agreement;
-use shagreen_core::selection::PaperChain;
-use shagreen_core::space_build::{Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, verdict};
+use shagreen_core::people::mds::Ties;
+use shagreen_core::people::property::correlation_table;
+use shagreen_core::people::ratings::Agreement;
+use shagreen_core::space::selection::PaperChain;
+use shagreen_core::space::space_build::{
+    Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, verdict,
+};
 
 use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
 
-/// What the field `format` of a report holds.
+/// Value of the `format` field of a report.
 pub const FORMAT: &str = "shagreen-space-report";
-/// Names of the figures, in their order.
+/// Names of the figures, in order.
 pub const FIGURES: [&str; 8] = [
     "stress",
     "perceptual-space",
@@ -26,7 +28,7 @@ pub const FIGURES: [&str; 8] = [
 /// Version of the report.
 const VERSION: &str = "1.2";
 
-/// The report: everything that was measured on the way, in one object.
+/// Returns the report: all results of the analysis in one JSON object.
 pub fn space_report(build: &SpaceBuild) -> Value {
     let options = &build.options;
     json!({
@@ -75,7 +77,7 @@ pub fn space_report(build: &SpaceBuild) -> Value {
     })
 }
 
-/// What places are, where they are the same on both axes.
+/// The kind of positions, if it is the same on both axes.
 fn placed_by(build: &SpaceBuild) -> Option<PlacedBy> {
     let [first, second] = build.axes.each_ref().map(|axis| axis.placed_by);
     (first == second).then_some(first)
@@ -101,7 +103,7 @@ fn adjective(adjective: &Adjective) -> Value {
     })
 }
 
-/// Numbers of a prediction that was not made are null, its features none.
+/// Numbers of a missing prediction are null, and its features are empty.
 fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
     let prediction = axis.prediction.as_ref();
     let v = prediction.map(|prediction| &prediction.validation);
@@ -127,7 +129,7 @@ fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
     })
 }
 
-/// The steps of the published selection.
+/// The steps of the paper's feature selection.
 fn chain(build: &SpaceBuild, chain: &PaperChain) -> Value {
     let name = |feature: &usize| &build.features.names[*feature];
     json!({
@@ -163,7 +165,7 @@ fn positions(build: &SpaceBuild) -> Vec<Value> {
     build.textures.iter().enumerate().map(position).collect()
 }
 
-/// The figures that papers print, each under a short name that serves for files.
+/// Returns the figures that are common in papers, each with a short name for files.
 pub fn space_figures(build: &SpaceBuild) -> Vec<(&'static str, Figure)> {
     let figures = [
         stress(build),
@@ -182,22 +184,22 @@ pub fn space_figures(build: &SpaceBuild) -> Vec<(&'static str, Figure)> {
     figures
 }
 
-/// What all figures rest on, in a line.
+/// A one-line description of the data behind all figures.
 pub fn space_subtitle(build: &SpaceBuild) -> String {
     format!(
-        "{} textures, {}: {} sorted, {} rated, seed {}; {} by {}, selection {}",
+        "{} textures, {}: {} sorters, {} raters, seed {}; {} from {}, feature selection {}",
         build.textures.len(),
         build.source.label(),
         build.similarity.agreements.len(),
         build.raters.len(),
         build.options.seed,
         match placed_by(build) {
-            Some(PlacedBy::Felt) => "placed where they were felt, predicted".to_owned(),
-            Some(PlacedBy::Predicted) => "placed".to_owned(),
+            Some(PlacedBy::Felt) => "perceptual positions, predictions".to_owned(),
+            Some(PlacedBy::Predicted) => "predicted positions".to_owned(),
             None => {
                 let felt = build.axes.iter().find(|axis| axis.placed_by == PlacedBy::Felt);
                 let felt = felt.map_or_else(String::new, |axis| axis.pair.to_string());
-                format!("placed where they were felt along {felt}, otherwise")
+                format!("perceptual positions along {felt}, predicted positions")
             }
         },
         build.features.label,
@@ -235,7 +237,7 @@ fn stress(build: &SpaceBuild) -> Figure {
         format!("{:.3}", build.perceptual.stress),
     );
     chart(
-        "Stress by dimension".to_owned(),
+        "Stress over number of dimensions".to_owned(),
         ["dimensions", "stress-1"],
         false,
         vec![
@@ -254,7 +256,7 @@ fn perceptual(build: &SpaceBuild) -> Figure {
     for (index, adjective) in build.adjectives.iter().enumerate() {
         let Ok(line) = &adjective.line else { continue };
         let end = |sign: f64, pole: &str| {
-            // Within what the textures take up.
+            // Scaled to the extent of the textures.
             let length = 0.9 * sign * line.r_squared * reach;
             Point::named(length * line.direction[0], length * line.direction[1], pole)
         };
@@ -267,7 +269,7 @@ fn perceptual(build: &SpaceBuild) -> Figure {
         build.textures.iter().zip(points).map(|(id, point)| Point::named(point[0], point[1], id)).collect();
     all.push(series("textures", Mark::Dots, Tone::Main, dots));
     chart(
-        format!("Perceptual space, stress {:.3}; lines as long as their R²", build.perceptual.stress),
+        format!("Perceptual space, stress {:.3}; line length is R²", build.perceptual.stress),
         ["dimension 1", "dimension 2"],
         true,
         all,
@@ -284,7 +286,7 @@ fn correlations(build: &SpaceBuild) -> Figure {
     };
     let dims = (1..=n_dims).map(|d| format!("dim. {d}"));
     Figure::Table(Table {
-        title: "Adjectives and dimensions: correlation, R², agreement".to_owned(),
+        title: "Adjectives and dimensions: correlation, R², rater agreement (ICC)".to_owned(),
         columns: dims.chain(["R²".to_owned(), "ICC(2,k)".to_owned()]).collect(),
         rows: build.adjectives.iter().map(row).collect(),
         decimals: 3,
@@ -303,7 +305,7 @@ fn adjectives(build: &SpaceBuild) -> Figure {
         .collect();
     let names: Vec<String> = build.adjectives.iter().map(|a| a.pair.name()).collect();
     Figure::Table(Table {
-        title: "Adjectives among themselves: correlation of mean ratings".to_owned(),
+        title: "Correlation of mean ratings between adjectives".to_owned(),
         columns: names.clone(),
         rows: names.into_iter().zip(correlation_table(&columns, &columns)).collect(),
         decimals: 2,
@@ -313,25 +315,25 @@ fn adjectives(build: &SpaceBuild) -> Figure {
 
 fn predicted(build: &SpaceBuild, axis: &Axis) -> Figure {
     let (mut dots, mut seen) = (Vec::new(), Vec::new());
-    let mut title = format!("{}: not predicted from so few textures", axis.pair);
+    let mut title = format!("{}: not predicted, too few textures", axis.pair);
     if let Some(Prediction { validation: v, predicted, .. }) = &axis.prediction {
         let named = build.textures.iter().enumerate();
         dots = named.map(|(i, id)| Point::named(axis.felt[i], v.predicted[i], id)).collect();
         seen = axis.felt.iter().zip(predicted).map(|(felt, p)| Point::new(*felt, *p)).collect();
         let chance = v.permutation_p.map_or_else(String::new, |p| format!(", p = {p:.3}"));
         title = format!(
-            "{}: nested r {:.2}{chance}; features chosen on all {:.2}",
+            "{}: nested cross-validation r {:.2}{chance}; r {:.2} with features selected on all textures",
             axis.pair, v.nested_cv_r, v.cv_r
         );
     }
     chart(
         title,
-        ["felt, 0 to 100", "predicted, 0 to 100"],
+        ["perceptual position, 0 to 100", "predicted position, 0 to 100"],
         false,
         vec![
-            series("as felt", Mark::Line, Tone::Faint, vec![Point::new(0.0, 0.0), Point::new(100.0, 100.0)]),
-            series("model that has seen it", Mark::Dots, Tone::Faint, seen),
-            series("not seen by its model", Mark::Dots, Tone::Main, dots),
+            series("identity", Mark::Line, Tone::Faint, vec![Point::new(0.0, 0.0), Point::new(100.0, 100.0)]),
+            series("training fit", Mark::Dots, Tone::Faint, seen),
+            series("nested cross-validation", Mark::Dots, Tone::Main, dots),
         ],
     )
 }
@@ -354,7 +356,7 @@ fn authoring(build: &SpaceBuild) -> Figure {
         true,
         vec![
             series("triangles", Mark::Segments, Tone::Faint, edges.into_iter().flatten().map(at).collect()),
-            series("hull", Mark::Segments, Tone::Third, hull),
+            series("convex hull", Mark::Segments, Tone::Third, hull),
             series("textures", Mark::Dots, Tone::Main, dots),
         ],
     )

@@ -1,8 +1,8 @@
-//! The libraries that are built into the program.
+//! The built-in starter library, its materials, and its variant positioned by simulated raters.
 
-use shagreen_core::imagined::Anchor;
-use shagreen_core::material::Material;
-use shagreen_core::starter::{LabelSpan, Labels};
+use shagreen_core::surfaces::imagined::Anchor;
+use shagreen_core::surfaces::material::Material;
+use shagreen_core::surfaces::starter::{LabelSpan, Labels};
 
 use crate::library::{Library, LibraryError, read_library};
 use crate::materials_toml::{MaterialsError, read_materials};
@@ -13,30 +13,31 @@ const MATERIALS: &[u8] = include_bytes!("../../../assets/starter/materials.toml"
 const SIMULATED_PLACES: &[u8] = include_bytes!("../../../assets/starter/simulated.csv");
 const SIMULATED_REPORT: &[u8] = include_bytes!("../../../assets/starter/simulated.report.json");
 
-/// The starter library: simulated everyday surfaces, placed by physical labels.
+/// The starter library: simulated everyday surfaces, positioned by physical labels.
 ///
 /// # Errors
-/// None, as long as the committed file is sound, which a test holds; reading it costs some milliseconds.
+/// Fails only if the embedded file is damaged, which a test excludes. Reading takes some milliseconds.
 pub fn starter_library() -> Result<Library, LibraryError> {
     read_library(BYTES).map(|imported| imported.value)
 }
 
-/// Why the materials of the starter library cannot be had.
+/// Why the materials of the starter library are unavailable.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StarterMaterialsError {
-    /// They are damaged.
+    /// The embedded materials are damaged.
     #[error(transparent)]
     Materials(#[from] MaterialsError),
-    /// The library is damaged.
+    /// The embedded library is damaged.
     #[error(transparent)]
     Library(#[from] LibraryError),
 }
 
-/// The materials that the starter library was made of, where they lie in it, and what its axes span.
+/// Returns the materials that the starter library was synthesized from, with their positions, and the label span of its
+/// axes.
 ///
 /// # Errors
-/// None, as long as the committed files are sound, which a test holds.
+/// Fails only if an embedded file is damaged, which a test excludes.
 pub fn starter_anchors() -> Result<(Vec<Anchor>, LabelSpan), StarterMaterialsError> {
     let materials = read_materials(MATERIALS)?.materials;
     let library = starter_library()?;
@@ -49,26 +50,26 @@ pub fn starter_anchors() -> Result<(Vec<Anchor>, LabelSpan), StarterMaterialsErr
     Ok((materials.into_iter().filter_map(anchor).collect(), LabelSpan::of(&labels)))
 }
 
-/// Why the second library cannot be had.
+/// Why the library of simulated raters is unavailable.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulatedLibraryError {
     /// The starter library is damaged.
     #[error(transparent)]
     Library(#[from] LibraryError),
-    /// Its places are damaged.
+    /// The table of positions is damaged.
     #[error(transparent)]
     Places(#[from] PlacesCsvError),
-    /// Its report is damaged.
+    /// The space report is damaged.
     #[error(transparent)]
     Report(#[from] serde_json::Error),
 }
 
-/// The textures of the starter library, placed by a simulated panel through the whole pipeline of sorting and rating, with
-/// five attributes each. Nobody felt anything.
+/// The textures of the starter library, positioned by simulated raters through the complete sorting and rating
+/// analysis, with five attributes each. No person felt these textures.
 ///
 /// # Errors
-/// None, as long as the committed files are sound, which a test holds.
+/// Fails only if an embedded file is damaged, which a test excludes.
 pub fn simulated_library() -> Result<Library, SimulatedLibraryError> {
     let mut library = starter_library()?;
     let places = read_places(SIMULATED_PLACES, None, Scale::OF_SPACE)?.value;
@@ -78,7 +79,7 @@ pub fn simulated_library() -> Result<Library, SimulatedLibraryError> {
     Ok(library)
 }
 
-/// The file of the starter library, as it was written.
+/// The embedded starter library file, byte for byte.
 pub fn starter_bytes() -> &'static [u8] {
     BYTES
 }
@@ -110,7 +111,7 @@ mod tests {
         for (anchor, texture) in anchors.iter().zip(&library.textures) {
             assert_eq!((&anchor.material.id, anchor.place), (&texture.id, texture.at().unwrap()));
             let [rough_smooth, hard_soft] = span.axes(&texture.physical.unwrap().into());
-            // The file has three digits behind the point.
+            // The file stores three decimals.
             assert!((rough_smooth - anchor.place.rough_smooth).abs() < 0.1, "{}", texture.id);
             assert!((hard_soft - anchor.place.hard_soft).abs() < 0.1, "{}", texture.id);
         }

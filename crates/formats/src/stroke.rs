@@ -1,50 +1,50 @@
-//! A recorded stroke, whatever file it came from.
+//! A recorded stroke, independent of its file format.
 
 /// One report of a pen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenSample {
-    /// When, in seconds on any clock; never before the sample ahead of it.
+    /// Time in seconds on any clock; never before that of the previous sample.
     pub time_secs: f64,
     /// Position to the right, in m.
     pub x_m: f64,
-    /// Position away from the person, in m.
+    /// Position away from the user, in m.
     pub y_m: f64,
-    /// How hard the tip is pressed, in the unit of [`Stroke::Pen`].
+    /// Pressure or force of the tip, in the unit of [`Stroke::Pen`].
     pub press: f64,
-    /// Whether the tip touches.
+    /// Whether the tip is in contact.
     pub touching: bool,
 }
 
-/// What [`PenSample::press`] counts.
+/// Unit of [`PenSample::press`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PressUnit {
-    /// A share of the pen's full scale, 0..1: a map to newtons is still needed.
+    /// Fraction of the pen's full scale, 0..1; needs a map to newtons.
     FullScale,
     /// Newtons.
     Newtons,
 }
 
-/// Speed and force at one moment.
+/// Speed and force at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimedContact {
-    /// When, in seconds; later than the contact ahead of it.
+    /// Time in seconds; later than that of the previous contact.
     pub time_secs: f64,
-    /// Tangential speed, in m/s, at least zero.
+    /// Tangential speed in m/s, non-negative.
     pub speed_mps: f64,
-    /// Normal force, in N, at least zero; zero while the tip is lifted.
+    /// Normal force in N, non-negative; zero while the tip is lifted.
     pub force_n: f64,
 }
 
 /// A stroke.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stroke {
-    /// Where a pen was; its speed is still to be estimated.
+    /// Positions of a pen; its speed remains to be estimated.
     Pen {
-        /// At least one.
+        /// At least one sample.
         samples: Vec<PenSample>,
-        /// What their pressure counts.
+        /// Unit of the samples' `press`.
         press_unit: PressUnit,
     },
-    /// Speed and force as they are.
+    /// Measured speed and force.
     Contacts(Vec<TimedContact>),
 }

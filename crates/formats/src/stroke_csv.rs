@@ -1,9 +1,9 @@
-//! Strokes as tables: CSV parted by commas, semicolons or tabs, with or without a header.
+//! Strokes as CSV tables, separated by commas, semicolons or tabs, with or without a header.
 //!
 //! With a header, columns are found by name: `t` or `time` (with `ms` or `s`), then either `x` and `y` in mm with
-//! `pressure` (0..1) or `force` in N, or `speed` in mm/s with `force` in N. `touching` (0 or 1) may say when the tip is
-//! off; else it is off where it is not pressed. Without a header, three columns are time, speed and force, and four are
-//! time, x, y and force. A decimal comma is understood, in quotes where commas part the columns.
+//! `pressure` (0..1) or `force` in N, or `speed` in mm/s with `force` in N. `touching` (0 or 1) may state contact;
+//! otherwise the tip is lifted at zero pressure or force. Without a header, three columns are time, speed and force,
+//! and four are time, x, y and force. Decimal commas are accepted, in quotes if commas separate the columns.
 
 mod columns;
 
@@ -14,35 +14,35 @@ use crate::imported::Imported;
 use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
 
-/// Longest stroke, in seconds, whose time column is taken for seconds where it does not say its unit.
+/// Maximum duration for which an unlabeled time column is read as seconds, in s.
 pub const LONGEST_IN_SECONDS: f64 = 60.0;
 
-/// Why bytes are no stroke.
+/// Why bytes are not a stroke.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StrokeCsvError {
     /// Not text.
     #[error(transparent)]
     Text(#[from] TableTextError),
-    /// No rows.
+    /// There are no rows.
     #[error(
-        "the table has no rows of numbers; give time, speed and force, or time, x, y and force or pressure"
+        "the table has no rows of numbers; add rows of time, speed and force, or of time, x, y and force or pressure"
     )]
     Empty,
-    /// Columns are missing or not known.
-    #[error("{problem}; name the columns t, x, y, force or t, speed, force in a first line")]
+    /// Columns are missing or unknown.
+    #[error("{problem}; name the columns t, x, y, force or t, speed, force in a header line")]
     Header {
         /// What is wrong.
         problem: String,
     },
-    /// A row has too few or too many values.
-    #[error("line {line} has {found} values, the table has {expected} columns; correct the line")]
+    /// A row has the wrong number of values.
+    #[error("line {line} has {found} values, but the table has {expected} columns; correct the line")]
     Columns {
         /// The line, from one.
         line: u64,
-        /// The values found.
+        /// Number of values found.
         found: usize,
-        /// The columns of the table.
+        /// Number of columns of the table.
         expected: usize,
     },
     /// A value is not a finite number.
@@ -52,11 +52,11 @@ pub enum StrokeCsvError {
         line: u64,
         /// The column.
         column: &'static str,
-        /// What stands there.
+        /// Text of the field.
         found: String,
     },
-    /// A value is outside the range that has a meaning.
-    #[error("{column} in line {line} is {value}, needs {needs}; correct the line")]
+    /// A value is out of range.
+    #[error("{column} in line {line} is {value}, but must be {needs}; correct the line")]
     Range {
         /// The line, from one.
         line: u64,
@@ -64,17 +64,17 @@ pub enum StrokeCsvError {
         column: &'static str,
         /// The value.
         value: f64,
-        /// What it must be.
+        /// The permitted range.
         needs: &'static str,
     },
-    /// Time does not go on.
+    /// Time does not increase.
     #[error(
-        "time does not go on in line {line}, from {before} to {time}; put the lines in the order of time, each time once"
+        "time does not increase in line {line}, from {before} to {time}; sort the lines by time and remove repeated times"
     )]
     TimeGoesBack {
         /// The line, from one.
         line: u64,
-        /// Time of the line ahead.
+        /// Time of the previous line.
         before: f64,
         /// Time of this line.
         time: f64,
@@ -89,7 +89,7 @@ struct Row {
     touching: Option<bool>,
 }
 
-/// Reads a stroke. What had to be assumed, for want of a header or a unit, is a warning.
+/// Reads a stroke. Assumptions about a missing header or unit are warnings.
 ///
 /// # Errors
 /// See [`StrokeCsvError`].
@@ -102,10 +102,10 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
         first.iter().all(|field| number(field, delimiter).is_none() && !is_nonsense_number(field));
     let columns = if is_header { Columns::from_header(&first)? } else { Columns::by_count(first.len())? };
     if !is_header {
-        warnings.push(format!("no header; the columns are taken for {}", columns.in_words()));
+        warnings.push(format!("the table has no header; the columns are read as {}", columns.in_words()));
     }
     let first_row = (!is_header).then_some(first);
-    // Room that the text can fill: a digit and what parts it from the next, for each value.
+    // The capacity is limited to what the text can hold: at least a digit and a separator per value.
     let n_lines = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count() + 1;
     let mut rows = Vec::with_capacity(n_lines.min(text.len() / (2 * columns.n) + 1));
     for record in first_row.into_iter().chain(records) {
@@ -138,16 +138,17 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
     Ok(Imported { value: stroke, warnings })
 }
 
-/// Whether a table is a stroke by the names in its first line, of which `head` holds all. Columns that a recording of
-/// acceleration may have too, such as a bare `x` and `y`, are none by which it is told.
+/// Returns whether a table is a stroke by the names in its header; `head` must contain the whole header line. Column
+/// names that acceleration recordings also use, such as a bare `x` and `y`, do not suffice.
 pub fn is_stroke_table(head: &[u8]) -> bool {
     let text = csv_text::text_with_odd_letters(head);
     let first = csv_text::records(&text).2.next();
     first.is_some_and(|first| Columns::from_header(&first).is_ok_and(|columns| columns.are_of_a_stroke_only))
 }
 
-/// A stroke of a pen as a table that [`read_stroke_csv`] reads: `t_s`, `x_mm`, `y_mm`, `pressure` or `force_n`, and
-/// `touching`. Its time starts at zero; of samples at one time the last is kept, since a time can be there but once.
+/// Writes a pen stroke as a table that [`read_stroke_csv`] reads: `t_s`, `x_mm`, `y_mm`, `pressure` or `force_n`, and
+/// `touching`. Time starts at zero. Of several samples at one time only the last is written, because the reader
+/// requires increasing times.
 pub fn stroke_csv(samples: &[PenSample], press_unit: PressUnit) -> String {
     let press = match press_unit {
         PressUnit::FullScale => "pressure",
@@ -167,7 +168,7 @@ pub fn stroke_csv(samples: &[PenSample], press_unit: PressUnit) -> String {
     text
 }
 
-/// Whether a field is NaN or infinity spelled out, which is no column name.
+/// Returns whether a field is NaN or infinity in words, which is not a column name.
 fn is_nonsense_number(field: &str) -> bool {
     field.parse::<f64>().is_ok()
 }
@@ -203,7 +204,7 @@ fn parse_row(
     Ok(Row { line, time, values, touching: touching.map(|value| value != 0.0) })
 }
 
-/// The length of a unit of time, once time is known to go on.
+/// Returns the time unit in seconds, after checking that time increases.
 fn secs_per_unit(columns: &Columns, rows: &[Row], warnings: &mut Vec<String>) -> Result<f64, StrokeCsvError> {
     let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return Err(StrokeCsvError::Empty) };
     for pair in rows.windows(2) {
@@ -217,13 +218,14 @@ fn secs_per_unit(columns: &Columns, rows: &[Row], warnings: &mut Vec<String>) ->
         Some(TimeUnit::Milliseconds) => 1e-3,
         None if last.time - first.time <= LONGEST_IN_SECONDS => {
             warnings.push(
-                "the unit of time is not stated; taken for seconds (name the column t_s or t_ms)".to_owned(),
+                "the unit of time is not stated; seconds are assumed (name the column t_s or t_ms)"
+                    .to_owned(),
             );
             1.0
         }
         None => {
             warnings.push(
-                "the unit of time is not stated; taken for milliseconds, since in seconds the stroke would last over a minute (name the column t_s or t_ms)"
+                "the unit of time is not stated; milliseconds are assumed, because in seconds the stroke would last over a minute (name the column t_s or t_ms)"
                     .to_owned(),
             );
             1e-3

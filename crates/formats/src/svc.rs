@@ -1,40 +1,40 @@
-//! Pen recordings of the kind used for handwriting: `*.svc`.
+//! Pen recordings in the `*.svc` format of handwriting research.
 //!
-//! The first line is the number of samples; each further line is `x y time on-surface azimuth altitude pressure`, parted
-//! by white space. The file does not state its units. Two flavors are told apart by their content: *raw* files hold
-//! whole numbers (counts of the tablet, ticks of its clock), *normalized* ones fractions (mm, s, 0..1). What is assumed
-//! is a [`PenMapping`], which can be changed and says itself in words.
+//! The first line is the number of samples. Each further line is `x y time on-surface azimuth altitude pressure`,
+//! separated by white space. The file does not state its units. Its content distinguishes two variants: *raw* files
+//! contain whole numbers (tablet counts, clock ticks), and *normalized* files contain fractions (mm, s, 0..1). A
+//! [`PenMapping`] holds the assumed units; it can be changed and describes itself.
 
 use std::fmt;
 
 use crate::imported::Imported;
 use crate::stroke::PenSample;
 
-/// Samples of a pen in the numbers of the file.
+/// Pen samples in the numbers of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PenRecording {
-    /// What the numbers look like.
+    /// Variant of the file.
     pub flavor: PenFlavor,
     rows: Vec<Row>,
 }
 
-/// What the numbers of a file look like.
+/// Variant of a file, by its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PenFlavor {
-    /// Whole numbers: counts, ticks.
+    /// Whole numbers: counts and ticks.
     Raw,
     /// Fractions: mm, s, pressure 0..1.
     Normalized,
 }
 
-/// What the numbers of a file mean.
+/// Units of the numbers in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenMapping {
     /// Length of one unit of x and y, in mm.
     pub mm_per_unit: f64,
-    /// Length of one unit of time, in s.
+    /// Duration of one unit of time, in s.
     pub secs_per_unit: f64,
-    /// The number that stands for full pressure.
+    /// The number for full pressure.
     pub pressure_full_scale: f64,
 }
 
@@ -48,36 +48,36 @@ struct Row {
     pressure: f64,
 }
 
-/// Why bytes are no pen recording, or its numbers have no meaning.
+/// Why bytes are not a pen recording, or its numbers are invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SvcError {
     /// The first line is not a count.
     #[error(
-        "the first line must be the number of samples, got \"{found}\"; check that this is a pen recording (.svc)"
+        "the first line must be the number of samples, but is \"{found}\"; check that the file is a pen recording (.svc)"
     )]
     Count {
-        /// What stands there.
+        /// Text of the line.
         found: String,
     },
     /// Samples are missing.
     #[error(
-        "the recording is damaged: line 1 announces {announced} samples, {found} are there; get a complete copy"
+        "the recording is damaged: line 1 states {announced} samples, but the file has {found}; get a complete copy"
     )]
     Missing {
-        /// The count in the first line.
+        /// Number of samples in the first line.
         announced: usize,
-        /// The samples found.
+        /// Number of samples found.
         found: usize,
     },
-    /// A line has too few or too many values.
+    /// A line has the wrong number of values.
     #[error(
-        "line {line} has {found} values, needs 7: x y time on-surface azimuth altitude pressure; get a complete copy or correct the line"
+        "line {line} has {found} values, but needs 7: x y time on-surface azimuth altitude pressure; get a complete copy or correct the line"
     )]
     Columns {
         /// The line, from one.
         line: usize,
-        /// The values found.
+        /// Number of values found.
         found: usize,
     },
     /// A value is not a finite number.
@@ -87,48 +87,48 @@ pub enum SvcError {
         line: usize,
         /// The column.
         column: &'static str,
-        /// What stands there.
+        /// Text of the field.
         found: String,
     },
-    /// Time goes back.
-    #[error("time goes back in line {line}, from {before} to {time}; put the lines in the order of time")]
+    /// Time decreases.
+    #[error("time decreases in line {line}, from {before} to {time}; sort the lines by time")]
     TimeGoesBack {
         /// The line, from one.
         line: usize,
-        /// Time of the line ahead.
+        /// Time of the previous line.
         before: f64,
         /// Time of this line.
         time: f64,
     },
-    /// A pressure is below zero or above the full scale.
+    /// A pressure is negative or above full scale.
     #[error(
-        "pressure in line {line} is {pressure}, outside 0 to the full scale of {full_scale}; state the pen's full scale"
+        "pressure in line {line} is {pressure}, outside the range from 0 to the full scale of {full_scale}; state the pen's full scale"
     )]
     Pressure {
         /// The line, from one.
         line: usize,
         /// The pressure.
         pressure: f64,
-        /// The full scale assumed or given.
+        /// The assumed or stated full scale.
         full_scale: f64,
     },
-    /// A mapping is not usable.
-    #[error("{what} is {value}; it must be a positive number")]
+    /// A part of a mapping is invalid.
+    #[error("{what} is {value}; change it to a positive number")]
     Mapping {
-        /// Which part.
+        /// The part.
         what: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
     },
 }
 
 impl PenMapping {
-    /// What raw files are taken to mean: 5080 lines per inch, milliseconds, 15 bits of pressure. No raw file states it.
+    /// Assumed units of raw files, which do not state them: 5080 lines per inch, milliseconds, 15 bits of pressure.
     pub const RAW: Self = Self { mm_per_unit: 0.005, secs_per_unit: 0.001, pressure_full_scale: 32_767.0 };
-    /// What normalized files are taken to mean: mm, s, 0..1.
+    /// Assumed units of normalized files: mm, s, 0..1.
     pub const NORMALIZED: Self = Self { mm_per_unit: 1.0, secs_per_unit: 1.0, pressure_full_scale: 1.0 };
 
-    /// What files of this flavor are taken to mean.
+    /// Assumed units of this variant.
     pub fn of(flavor: PenFlavor) -> Self {
         match flavor {
             PenFlavor::Raw => Self::RAW,
@@ -159,7 +159,7 @@ impl PenRecording {
         self.rows.len()
     }
 
-    /// Highest pressure, in the file's numbers.
+    /// Highest pressure, in the numbers of the file.
     pub fn pressure_max(&self) -> f64 {
         self.rows.iter().map(|row| row.pressure).fold(0.0, f64::max)
     }
@@ -167,18 +167,18 @@ impl PenRecording {
 
 /// Reads a recording.
 ///
-/// More samples than the first line announces are used, with a warning.
+/// If the file has more samples than its first line states, all are used, with a warning.
 ///
 /// # Errors
 /// See [`SvcError`].
 pub fn read_svc(bytes: &[u8]) -> Result<Imported<PenRecording>, SvcError> {
-    // What is not UTF-8 is no number either, and is refused as such.
+    // Text that is not UTF-8 is not a number either, and is rejected as such.
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let first = lines.next().map_or("", |(_, line)| line.trim());
     let announced: usize = first.parse().map_err(|_| SvcError::Count { found: short(first) })?;
-    // Room that the text can fill, whatever its first line says.
+    // The capacity is limited to what the text can hold, whatever the first line states.
     let mut rows = Vec::with_capacity(announced.min(text.len() / SHORTEST_ROW_BYTES));
     for (index, line) in lines {
         rows.push(parse_row(index + 1, line)?);
@@ -198,7 +198,7 @@ pub fn read_svc(bytes: &[u8]) -> Result<Imported<PenRecording>, SvcError> {
     let mut warnings = Vec::new();
     if rows.len() > announced {
         warnings.push(format!(
-            "the recording has {} samples although its first line announces {announced}; all are used",
+            "the recording has {} samples although its first line states {announced}; all are used",
             rows.len()
         ));
     }
@@ -207,20 +207,20 @@ pub fn read_svc(bytes: &[u8]) -> Result<Imported<PenRecording>, SvcError> {
     Ok(Imported { value: PenRecording { flavor, rows }, warnings })
 }
 
-/// The samples of a recording in SI units, its first sample at time zero.
+/// Converts a recording to samples in SI units, with its first sample at time zero.
 ///
-/// A highest pressure far below the full scale is usable, and warned of: the pen may well have fewer levels.
+/// A maximum pressure far below full scale raises a warning, because the pen may have fewer levels.
 ///
 /// # Errors
-/// [`SvcError::Mapping`], and [`SvcError::Pressure`] for the first sample that does not fit the full scale.
+/// [`SvcError::Mapping`], and [`SvcError::Pressure`] for the first sample outside the full scale.
 pub fn pen_samples(
     recording: &PenRecording,
     mapping: &PenMapping,
 ) -> Result<Imported<Vec<PenSample>>, SvcError> {
     let PenMapping { mm_per_unit, secs_per_unit, pressure_full_scale: full_scale } = *mapping;
     let parts = [
-        ("the length of a unit in mm", mm_per_unit),
-        ("the length of a unit of time in s", secs_per_unit),
+        ("the length of one position unit in mm", mm_per_unit),
+        ("the duration of one time unit in s", secs_per_unit),
         ("the full scale of pressure", full_scale),
     ];
     for (what, value) in parts {
@@ -249,7 +249,7 @@ pub fn pen_samples(
     Ok(Imported { value: recording.rows.iter().map(sample).collect(), warnings })
 }
 
-/// Seven digits, each with what parts it from the next.
+/// Length of the shortest row: seven digits, each with a separator.
 const SHORTEST_ROW_BYTES: usize = 14;
 
 fn parse_row(line: usize, text: &str) -> Result<Row, SvcError> {
@@ -270,7 +270,7 @@ fn parse_row(line: usize, text: &str) -> Result<Row, SvcError> {
     Ok(Row { line, x, y, time, touching: on_surface != 0.0, pressure })
 }
 
-/// Text for a message, cut off where it is long.
+/// Text for a message, truncated to 40 characters.
 fn short(text: &str) -> String {
     text.chars().take(40).collect()
 }

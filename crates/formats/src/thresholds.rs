@@ -1,51 +1,51 @@
-//! The thresholds of touch that are built into the program: tables, approximate.
+//! The built-in detection thresholds of vibration: approximate tables.
 //!
-//! They have the shape of the curves of the literature (flat to 40 Hz, then falling by 12 dB an octave to a minimum near
-//! 250 Hz), but their numbers were not taken from a table of one study: 3 dB
-//! up or down are well possible. Nobody was measured. That a hand around a tool is more sensitive is known (9.8 dB at 40 Hz
-//! and 18.5 dB at 300 Hz against a probe of a millimeter, Brisben 1999); 15 dB is a rule of thumb.
+//! They have the shape of curves in the literature: flat to 40 Hz, then falling by 12 dB per octave to a minimum near
+//! 250 Hz. Their numbers do not come from the table of a single study, so errors of ±3 dB are well possible. Nobody was
+//! measured for them. A hand that holds a tool is known to be more sensitive: by 9.8 dB at 40 Hz and 18.5 dB at 300 Hz
+//! relative to a 1 mm probe (Brisben 1999). The 15 dB used here is a rule of thumb.
 
-use shagreen_core::threshold::{Threshold, ThresholdError};
+use shagreen_core::dsp::threshold::{Threshold, ThresholdError};
 use shagreen_core::units::Hertz;
 
-/// How much more sensitive a hand around a tool is than the table of the skin, in dB.
+/// Sensitivity advantage of a hand that holds a tool over the skin table, in dB.
 const HELD_TOOL_DB: f64 = 15.0;
-/// What the program brings, as text.
+/// Text of the built-in tables.
 const PACINIAN: &str = include_str!("../../../assets/thresholds/pacinian.csv");
 const COMPOSITE: &str = include_str!("../../../assets/thresholds/composite.csv");
 
-/// A threshold of the program.
+/// A built-in detection threshold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ThresholdKind {
     /// The Pacinian channel, in a hand that holds a tool.
     #[default]
     HeldTool,
-    /// The Pacinian channel, under a large contactor on bare skin.
+    /// The Pacinian channel, for a large contactor on bare skin.
     Pacinian,
-    /// The most sensitive channel of each frequency, under the same contactor.
+    /// The most sensitive channel at each frequency, for the same contactor.
     Composite,
 }
 
-/// Why a table of the program is none: the program is damaged.
+/// Why a built-in table is invalid; the program file is then damaged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ThresholdTableError {
     /// A line is not two numbers.
-    #[error("line {line} of a table of thresholds is not two numbers; install the program again")]
+    #[error("line {line} of a built-in threshold table is not two numbers; reinstall the program")]
     Line {
         /// The line, from one.
         line: usize,
     },
-    /// The numbers are no threshold.
+    /// The numbers do not form a threshold.
     #[error(transparent)]
     Threshold(#[from] ThresholdError),
 }
 
 impl ThresholdKind {
-    /// All of them, in the order of menus.
+    /// All thresholds, in menu order.
     pub const ALL: [Self; 3] = [Self::HeldTool, Self::Pacinian, Self::Composite];
 
-    /// The word that stands for it on the command line.
+    /// Identifier on the command line.
     pub fn id(self) -> &'static str {
         match self {
             Self::HeldTool => "held-tool",
@@ -54,15 +54,15 @@ impl ThresholdKind {
         }
     }
 
-    /// The one that has this [`ThresholdKind::id`].
+    /// Returns the threshold with this [`ThresholdKind::id`].
     pub fn from_id(id: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|each| each.id() == id)
     }
 
-    /// The threshold itself.
+    /// Reads the threshold.
     ///
     /// # Errors
-    /// The program is damaged.
+    /// Fails only if the program file is damaged.
     pub fn read(self) -> Result<Threshold, ThresholdTableError> {
         Ok(match self {
             Self::HeldTool => read(PACINIAN)?.lowered(HELD_TOOL_DB),
@@ -85,10 +85,11 @@ fn read(table: &str) -> Result<Threshold, ThresholdTableError> {
 mod tests {
     use super::{ThresholdKind, ThresholdTableError, read};
     use serde_json::Value;
-    use shagreen_core::threshold::displacement_db_um;
+    use shagreen_core::dsp::threshold::displacement_db_um;
     use shagreen_core::units::Hertz;
 
-    /// Displacements and accelerations of an independent script, at thirteen frequencies in and beyond the tables.
+    /// Displacements and accelerations from an independent script, at thirteen frequencies inside and outside the
+    /// tables.
     #[test]
     fn the_tables_are_those_of_the_reference() {
         let vectors = include_str!("../../../vectors/h_thresh/quality_vectors.json");

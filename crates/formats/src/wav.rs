@@ -1,6 +1,6 @@
-//! Signals as 32-bit float WAV with a sidecar that says what the numbers are.
+//! Signals as 32-bit float WAV files with a sidecar file that states their units.
 //!
-//! A WAV file knows no units: beside `out.wav` lies `out.json` ([`SidecarV1`]). Both are written, or neither.
+//! A WAV file has no units, so `out.json` ([`SidecarV1`]) lies next to `out.wav`. Either both are written or neither.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -12,55 +12,55 @@ use crate::atomic::{self, WriteError};
 use crate::layout;
 use crate::library::Library;
 
-/// What the field `format` of a sidecar holds.
+/// Value of the `format` field of a sidecar.
 pub const FORMAT: &str = "shagreen-signal";
-/// Version of the sidecar.
+/// Version of the sidecar format.
 pub const VERSION: &str = "1.0";
-/// What the field `units` of a sidecar holds.
+/// Value of the `units` field of a sidecar.
 pub const UNITS: &str = "m/s^2";
 
 /// Bytes of a WAV file before its first sample.
 const HEADER_BYTES: u32 = 68;
-/// Most samples that fit a WAV file: it counts its bytes in 32 bits.
+/// Maximum number of samples in a WAV file, which counts its bytes in 32 bits.
 pub const MAX_SAMPLES: u64 = ((u32::MAX - HEADER_BYTES) / 4) as u64;
 
-/// What the samples of a WAV file are and how they came about.
+/// Meaning and origin of the samples of a WAV file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SidecarV1 {
     /// [`FORMAT`].
     pub format: String,
     /// [`VERSION`].
     pub version: String,
-    /// [`UNITS`]: what a sample counts.
+    /// Unit of the samples, [`UNITS`].
     pub units: String,
-    /// Units for a sample of 1.0.
+    /// Value of a sample of 1.0, in `units`.
     pub full_scale: f64,
-    /// What each channel is.
+    /// Contents of each channel.
     pub channels: Vec<String>,
-    /// Samples a second, in Hz.
+    /// Sample rate in Hz.
     pub rate_hz: u32,
-    /// Length, in seconds.
+    /// Duration in s.
     pub seconds: f64,
-    /// Identifier of the texture, where one was rendered as it is.
+    /// Identifier of the texture, if a library texture was rendered.
     pub texture: Option<String>,
-    /// Point of the space, rough-smooth and hard-soft (0..100), where one was authored.
+    /// Position in the space, rough-smooth and hard-soft (0..100), if an authored texture was rendered.
     pub at: Option<[f64; 2]>,
-    /// Whether that point was moved to the hull of the textures.
+    /// Whether that position was moved to the convex hull of the textures.
     pub clamped: bool,
-    /// Whether it lies outside that hull, where nothing was measured, and was authored nevertheless.
+    /// Whether the texture was extrapolated to a position outside the convex hull, beyond all measurements.
     #[serde(default)]
     pub extrapolated: bool,
-    /// How the parents were mixed.
+    /// Interpolation mode of the parent textures.
     pub blend: String,
-    /// The textures that were mixed.
+    /// The textures that were interpolated.
     pub parents: Vec<ParentV1>,
     /// Name of the library.
     pub library: String,
     /// What the positions of its textures were derived from: `human`, `simulated`, `physical` or `estimated`.
     pub label_source: Option<String>,
-    /// Seed of the noise.
+    /// Random seed of the noise.
     pub seed: u64,
-    /// Name of the stroke's file, where there was one.
+    /// File name of the stroke, if there is one.
     pub stroke: Option<String>,
     /// Speed and force over time.
     pub trace: TraceV1,
@@ -69,7 +69,7 @@ pub struct SidecarV1 {
 }
 
 impl SidecarV1 {
-    /// The sidecar of a signal of one channel in m/s²; what sounds in it, and how it was stroked, is to be filled in.
+    /// The sidecar of a signal with one channel in m/s²; the caller fills in the texture and the stroke.
     pub fn new(rate_hz: u32, seconds: f64, seed: u64, created_by: &str) -> Self {
         Self {
             format: FORMAT.to_owned(),
@@ -98,38 +98,38 @@ impl SidecarV1 {
 }
 
 impl ParentV1 {
-    /// A texture of a library with its share.
+    /// A texture of a library with its weight.
     pub fn new(library: &Library, texture: usize, weight: f64) -> Self {
         let entry = &library.textures[texture];
         Self { id: entry.id.clone(), weight, licence: library.license_of(entry).to_owned() }
     }
 }
 
-/// Whether bytes are the sidecar of a signal, of whatever version.
+/// Returns whether bytes are the sidecar of a signal, of any version.
 pub fn is_sidecar(bytes: &[u8]) -> bool {
     let json: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
     json.is_some_and(|json| json["format"] == FORMAT)
 }
 
-/// A texture in a mixture.
+/// A texture that contributes to an interpolated one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParentV1 {
-    /// Its identifier.
+    /// Identifier of the texture.
     pub id: String,
-    /// Its share, 0..1.
+    /// Its weight, 0..1.
     pub weight: f64,
-    /// Its terms.
+    /// Its terms of use.
     pub licence: String,
 }
 
-/// What the tip did: three columns of one length, straight lines between.
+/// The stroke of the tip: three columns of equal length, linearly interpolated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TraceV1 {
-    /// Times from the first sample of the signal, in seconds.
+    /// Times from the first sample of the signal, in s.
     pub time_s: Vec<f64>,
-    /// Speeds, in mm/s.
+    /// Speeds in mm/s.
     pub speed_mm_per_s: Vec<f64>,
-    /// Forces, in N; zero while lifted.
+    /// Normal forces in N; zero while the tip is lifted.
     pub force_n: Vec<f64>,
 }
 
@@ -138,39 +138,40 @@ pub struct TraceV1 {
 #[non_exhaustive]
 pub enum WavWriteError {
     /// The file would overwrite its own sidecar.
-    #[error("a signal cannot be called .json, for its sidecar is; name it .wav: {}", path.display())]
+    #[error("a signal file cannot end in .json, because its sidecar file does; use the ending .wav: {}", path.display())]
     Name {
-        /// The file asked for.
+        /// The requested path.
         path: PathBuf,
     },
-    /// There are more samples than [`MAX_SAMPLES`].
+    /// The signal has more than [`MAX_SAMPLES`] samples.
     #[error(
-        "a WAV file holds at most {MAX_SAMPLES} samples, the signal has {n_samples}; make it shorter or lower its rate"
+        "a WAV file holds at most {MAX_SAMPLES} samples, but the signal has {n_samples}; shorten it or lower its sample rate"
     )]
     TooLong {
-        /// Samples of the signal.
+        /// Number of samples of the signal.
         n_samples: u64,
     },
-    /// The samples cannot be packed.
-    #[error("the signal cannot be packed as WAV; choose another rate")]
+    /// The samples cannot be encoded.
+    #[error("cannot encode the signal as WAV; choose another sample rate")]
     Pack(#[from] hound::Error),
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
 }
 
-/// The sidecar of a WAV file: the same name with `.json`.
+/// Path of the sidecar of a WAV file: the same name with `.json`.
 pub fn sidecar_path(wav: &Path) -> PathBuf {
     wav.with_extension("json")
 }
 
-/// What may stand for the sidecar of a WAV file that is read: the name that is written, and `.json` behind the whole name.
+/// File names that are accepted as the sidecar of a WAV file: the one that is written, and the full name followed by
+/// `.json`.
 pub fn sidecar_names(wav_name: &str) -> [String; 2] {
     let stem = wav_name.rsplit_once('.').map_or(wav_name, |(stem, _)| stem);
     [format!("{stem}.json"), format!("{wav_name}.json")]
 }
 
-/// Says whether so many samples fit a WAV file, before anybody works them out.
+/// Checks whether a number of samples fits a WAV file, before they are computed.
 ///
 /// # Errors
 /// [`WavWriteError::TooLong`].
@@ -178,32 +179,32 @@ pub fn check_length(n_samples: u64) -> Result<(), WavWriteError> {
     if n_samples > MAX_SAMPLES { Err(WavWriteError::TooLong { n_samples }) } else { Ok(()) }
 }
 
-/// Writes samples and their sidecar, both or neither.
+/// Writes samples and their sidecar; either both or neither.
 ///
 /// # Errors
-/// See [`WavWriteError`]; files that were there are then as they were.
+/// See [`WavWriteError`]; existing files are then unchanged.
 pub fn write_wav(path: &Path, samples: &[f32], sidecar: &SidecarV1) -> Result<(), WavWriteError> {
     let beside = sidecar_path(path);
     if beside == path {
         return Err(WavWriteError::Name { path: path.to_path_buf() });
     }
     let wav = pack(samples, sidecar.rate_hz)?;
-    // A line for each field, and one for each row of the trace.
+    // One line per field, and one per row of the trace.
     let json = layout::to_bytes(sidecar, 2);
     atomic::write_all(&[(path, &wav), (&beside, &json)])?;
     Ok(())
 }
 
-/// Writes samples alone, -1 to 1 of digital full scale: for what is played and has no unit.
+/// Writes only samples, -1 to 1 of digital full scale, for drive signals without a unit.
 ///
 /// # Errors
-/// See [`WavWriteError`]; a file that was there is then as it was.
+/// See [`WavWriteError`]; an existing file is then unchanged.
 pub fn write_samples(path: &Path, samples: &[f32], rate_hz: u32) -> Result<(), WavWriteError> {
     atomic::write(path, &pack(samples, rate_hz)?)?;
     Ok(())
 }
 
-/// Samples as the bytes of a WAV file of 32-bit floats.
+/// Encodes samples as a 32-bit float WAV file.
 fn pack(samples: &[f32], rate_hz: u32) -> Result<Vec<u8>, WavWriteError> {
     check_length(samples.len() as u64)?;
     let spec = WavSpec {
@@ -257,7 +258,7 @@ mod tests {
     fn samples_and_sidecar_come_back_exactly() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("out.wav");
-        // Levels above one are kept: the unit is m/s², not a share of anything.
+        // Values above one are kept, because the unit is m/s², not a fraction of full scale.
         write_wav(&path, &[0.25, -7.5, 1e-9], &sidecar()).unwrap();
         let mut reader = hound::WavReader::open(&path).unwrap();
         assert_eq!((reader.spec().channels, reader.spec().sample_rate), (1, 1000));

@@ -1,21 +1,22 @@
-//! The codec on the starter library: against the reference at the same rate, and by what a hand would notice.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may stop at what it did not expect")]
+//! The texture codec on the starter library: signal-to-noise ratio against the reference at the same bit rate, and
+//! predicted detectability (d′).
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic on an unexpected result")]
 
 use std::sync::Arc;
 
 use serde_json::Value;
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::codec::corpus::{is_held_out, signal};
-use shagreen_core::contact_model::REFERENCE_CONTACT;
-use shagreen_core::quality::{PAPER_RATE, QualityMeter, snr_db};
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::coded::Coded;
+use shagreen_core::signals::codec::corpus::{is_held_out, signal};
+use shagreen_core::signals::quality::{PAPER_RATE, QualityMeter, snr_db};
+use shagreen_core::surfaces::contact_model::REFERENCE_CONTACT;
 use shagreen_formats::codec_stream::{read_stream, write_stream};
 use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::starter::starter_library;
 use shagreen_formats::thresholds::ThresholdKind;
 
-/// Every third texture: those that went into no table.
+/// Uses every third texture, which the codebooks were not trained on.
 #[test]
 fn ours_is_nearer_than_the_reference_and_what_is_noticed_falls_with_the_rate() {
     let vectors: Value = serde_json::from_str(include_str!("../../../vectors/i_celp/starter.json")).unwrap();
@@ -40,8 +41,8 @@ fn ours_is_nearer_than_the_reference_and_what_is_noticed_falls_with_the_rate() {
     assert!(d_primes.is_sorted_by(|a, b| a > b), "{d_primes:?}");
 }
 
-/// A stream that was written once is decoded to the same samples for ever: new tables, or another way to decode, are a new
-/// version of the stream.
+/// A written stream decodes to the same samples in every later version. New codebooks or another decoder need a new
+/// version of the stream format.
 #[test]
 fn the_stream_of_version_1_is_decoded_as_it_was() {
     let stream = include_bytes!("golden/codec_1.shgc");
@@ -53,7 +54,7 @@ fn the_stream_of_version_1_is_decoded_as_it_was() {
     let wanted = samples.as_chunks::<4>().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes)));
     assert_eq!(decoded.len(), samples.len() / 4);
     for (got, wanted) in decoded.iter().zip(wanted) {
-        // Singles, and the roundings of recursions.
+        // Tolerance for `f32` samples and the rounding of recursive filters.
         assert!((got - wanted).abs() < 1e-5, "{got} for {wanted}");
     }
 }

@@ -1,10 +1,10 @@
-//! A library survives the death of its writer: this program starts itself as a writer and kills it at random moments.
+//! A library file survives a crash of its writer: this program starts itself as a writer and kills it at random times.
 
 #![cfg(unix)]
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
-    reason = "a test may stop at what it did not expect, and the writer tells its parent where it stands"
+    reason = "a test may panic on an unexpected result, and the writer reports its progress to its parent"
 )]
 
 use std::io::{BufRead as _, BufReader, Write as _};
@@ -13,28 +13,29 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 use std::{env, fs, thread};
 
-use shagreen_core::rng::Random;
+use shagreen_core::maths::rng::Random;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{read_library, write_library};
 use shagreen_formats::starter::{starter_bytes, starter_library};
 
-/// How the writer writes; where it is set, this program is the writer.
+/// Environment variable for the writing method; if it is set, this program is the writer.
 const HOW: &str = "SHAGREEN_CRASH_WRITER";
-/// The file that it writes.
+/// Environment variable for the path of the file.
 const FILE: &str = "SHAGREEN_CRASH_FILE";
-/// What the writer says once the file is there.
+/// Message of the writer after its first complete file.
 const READY: &str = "the first file is written";
-/// Longest life of a writer after its first file: some ten files long.
+/// Maximum lifetime of a writer after its first file, in µs: the time of some ten files.
 const LONGEST_MICROS: u64 = 40_000;
 
-/// Two libraries of different lengths, so that half of one in place of the other shows.
+/// Two libraries of different lengths, so that a partial overwrite is detectable.
 fn two_libraries() -> [Vec<u8>; 2] {
     let mut shorter = starter_library().unwrap();
     shorter.textures.truncate(15);
     [starter_bytes().to_vec(), write_library(&shorter)]
 }
 
-/// The writer: alternates both libraries for as long as it lives. A test like any other, that does nothing unless asked.
+/// The writer: writes both libraries in turn until it is killed. As an ordinary test it does nothing unless the
+/// environment variables are set.
 #[test]
 fn writer() {
     let (Ok(how), Ok(file)) = (env::var(HOW), env::var(FILE)) else { return };
@@ -52,7 +53,7 @@ fn writer() {
     }
 }
 
-/// Starts a writer, waits for its first file, and kills it after so many microseconds.
+/// Starts a writer, waits for its first file, and kills it after `micros` microseconds.
 fn kill_after(how: &str, path: &Path, micros: u64) {
     let mut child = Command::new(env::current_exe().unwrap())
         .args(["writer", "--exact", "--nocapture"])
@@ -63,14 +64,14 @@ fn kill_after(how: &str, path: &Path, micros: u64) {
         .spawn()
         .unwrap();
     let lines = BufReader::new(child.stdout.take().unwrap()).lines();
-    assert!(lines.map(Result::unwrap).any(|line| line == READY), "the writer wrote nothing");
+    assert!(lines.map(Result::unwrap).any(|line| line == READY), "the writer did not report its first file");
     thread::sleep(Duration::from_micros(micros));
-    // SIGKILL: nothing of the writer runs after it.
+    // SIGKILL stops the writer at once.
     child.kill().unwrap();
     child.wait().unwrap();
 }
 
-/// Kills so many writers; returns how often the file was neither library, and how many other files were left.
+/// Kills `n` writers; returns how often the file was neither library, and how many other files remained.
 fn kills(how: &str, n: u32) -> (u32, usize) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("library.json");
@@ -91,15 +92,15 @@ fn kills(how: &str, n: u32) -> (u32, usize) {
 fn a_killed_writer_leaves_a_whole_library() {
     const KILLS: u32 = 80;
     let (torn, left) = kills("atomic", KILLS);
-    assert_eq!(torn, 0, "of {KILLS} killed writers");
-    // What a writer was at when it was killed stays under its hidden name, one file at most.
+    assert_eq!(torn, 0, "files were damaged by {KILLS} killed writers");
+    // A killed writer leaves at most one hidden temporary file.
     assert!(left <= KILLS as usize, "{left} files");
-    // The test is one only if writers die while they write.
-    assert!(left > 0, "no writer was killed in the middle of its work");
+    // The test is only meaningful if some writers were killed while writing.
+    assert!(left > 0, "no writer was killed while writing");
 }
 
 #[test]
 fn a_plain_writer_would_be_caught() {
     let (torn, _) = kills("plain", 40);
-    assert!(torn > 0, "40 writers that write in place were killed, and no file was torn");
+    assert!(torn > 0, "40 writers that write in place were killed, but no file was damaged");
 }

@@ -1,25 +1,25 @@
-//! Strokes that are made from a known texture and fitted again give back its spectra.
+//! Fitting strokes that were rendered from a known texture recovers its spectra.
 //!
-//! The strokes are simulated: the renderer under a hand that goes back and forth, on the 25 textures of the starter
-//! library. Some stretches of time are kept from the fit; there the fitted model is held against the strokes and against
-//! the texture that they were made of.
+//! The strokes are simulated: the renderer with a hand that moves back and forth, on the 25 textures of the starter
+//! library. Some time ranges are held out from the fit. There the fitted model is compared with the strokes and with
+//! the original texture.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
-    reason = "a test may stop at what it did not expect, and shows its figures when asked to"
+    reason = "a test may panic on an unexpected result, and prints its figures on request"
 )]
 
 use std::f64::consts::TAU;
 
-use shagreen_core::ar::comparison_frequencies;
-use shagreen_core::blend::Mode;
-use shagreen_core::fit::{FitOptions, Fitted, fit};
-use shagreen_core::plane::Plane;
+use shagreen_core::dsp::ar::comparison_frequencies;
+use shagreen_core::dsp::spectrum::goodness_of_fit;
 use shagreen_core::recording::Recording;
-use shagreen_core::render::{RenderPlan, render};
-use shagreen_core::segment::segment;
-use shagreen_core::spectrum::goodness_of_fit;
+use shagreen_core::recording::fit::{FitOptions, Fitted, fit};
+use shagreen_core::recording::segment::segment;
 use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::render::{RenderPlan, render};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::starter::starter_library;
@@ -27,7 +27,7 @@ use shagreen_formats::starter::starter_library;
 const RATE: Hertz = Hertz(1000.0);
 const SECONDS: f64 = 40.0;
 
-/// A hand: strokes back and forth whose length and tempo wander, and a force that wanders more slowly.
+/// Simulated hand motion: back-and-forth strokes with slowly varying length and tempo, and a more slowly varying force.
 fn hand(t: f64) -> Contact {
     let wander = |period_secs: f64, phase: f64| 0.5 + 0.5 * (TAU * t / period_secs + phase).sin();
     let phase = TAU * (0.55 * t + 0.8 * (TAU * t / 11.0).sin());
@@ -36,7 +36,7 @@ fn hand(t: f64) -> Contact {
     Contact { speed: MetersPerSecond(top_mps * phase.sin().abs()), force: Newtons(force_n) }
 }
 
-/// Strokes on a texture, simulated.
+/// Renders simulated strokes on a texture.
 fn strokes(model: &TextureModel, seed: u64) -> Recording {
     let prepared = Plane::new(model).prepare();
     let plan =
@@ -48,7 +48,7 @@ fn strokes(model: &TextureModel, seed: u64) -> Recording {
     Recording { rate: RATE, acceleration_mps2, speed_mps, force_n, usable }
 }
 
-/// Median goodness of fit, and median absolute level error in dB.
+/// Median goodness of fit (GFC), and median absolute level error in dB.
 #[derive(Clone, Copy, Debug)]
 struct Agreement {
     gfc: f64,
@@ -61,12 +61,12 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// The fitted model beside the true one, at the stretches of `unseen`.
+/// Compares the fitted model with the true one at the stationary segments of `unseen`.
 fn against_truth(fitted: &Fitted, model: &TextureModel, unseen: &Recording) -> Agreement {
     let frequencies = comparison_frequencies(RATE, 256);
     let (truth, ours) = (Plane::new(model), Plane::new(&fitted.model));
     let stretches = segment(unseen, 0.1).stretches;
-    let both = |s: &shagreen_core::segment::Stretch| {
+    let both = |s: &shagreen_core::recording::segment::Stretch| {
         let contact = Contact { speed: s.speed, force: s.force };
         (ours.at(contact), truth.at(contact))
     };
@@ -82,22 +82,22 @@ fn against_truth(fitted: &Fitted, model: &TextureModel, unseen: &Recording) -> A
     }
 }
 
-/// What came of one texture.
+/// Results for one texture.
 struct Outcome {
     held_out: Agreement,
     truth: Agreement,
-    /// Beside the next texture of the library.
+    /// Agreement with the next texture of the library, as a negative control.
     other: Agreement,
 }
 
-/// The strokes of the texture of this index are fitted.
+/// Fits the simulated strokes of the texture with this index.
 fn outcome(index: usize, textures: &[TextureEntry]) -> Outcome {
     let texture = &textures[index];
     let recording = strokes(&texture.model, index as u64 + 1);
     let all = fit(std::slice::from_ref(&recording), &FitOptions::usual()).unwrap();
     assert!(all.report.held_out);
     let held_out = Agreement { gfc: all.report.gfc_median(), level_db: all.report.level_error_db_median() };
-    // For the truth, every fifth second stays unseen.
+    // For the comparison with the true texture, every fifth second is held out.
     let (mut seen, mut unseen) = (recording.clone(), recording);
     seen.usable = (0..8).map(|i| 5000 * i..5000 * i + 4000).collect();
     unseen.usable = (0..8).map(|i| 5000 * i + 4000..5000 * (i + 1)).collect();
@@ -139,11 +139,11 @@ fn forty_seconds_of_strokes_give_back_the_texture() {
         println!("{name}: median {gfc:.3} {level_db:.2} dB, worst {worst_gfc:.3} {worst_db:.2} dB");
         assert!(gfc >= 0.95, "{name}: {gfc}");
         assert!(level_db < 1.0, "{name}: {level_db}");
-        // The worst texture stays recognizable. What was seen: 0.925 and 0.92 dB.
+        // Even the worst texture must stay recognizable. Measured: 0.925 and 0.92 dB.
         assert!(worst_gfc > 0.9 && worst_db < 1.3, "{name}: {worst_gfc}, {worst_db} dB");
     }
-    // The negative control: beside the next texture of the library, hardly a model would pass.
+    // Negative control: compared with the next texture, hardly any model would pass.
     let would_pass = others.iter().filter(|a| a.gfc >= 0.95 && a.level_db < 1.0).count();
-    println!("beside another texture {would_pass} of {} would pass", others.len());
+    println!("compared with another texture, {would_pass} of {} would pass", others.len());
     assert!(would_pass <= 2, "{others:?}");
 }

@@ -1,14 +1,14 @@
-//! Libraries of every version that was ever written are read, value for value, and what they hold beyond is kept.
+//! Library files of every published version are read value by value, and unknown fields in them are kept.
 //!
-//! The files in `golden` are never changed: a new version gets a new one.
+//! The files in `golden` never change: a new version gets a new file.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+#![allow(clippy::unwrap_used, reason = "a test may panic on an unexpected result")]
 
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
-use shagreen_core::tap::Tap;
+use shagreen_core::space::texture_path::{Along, AtEnd};
+use shagreen_core::texture::tap::Tap;
 use shagreen_core::texture::{Grain, Interpolation, TextureModel};
-use shagreen_core::texture_path::{Along, AtEnd};
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::picture::{PictureFormat, decode};
@@ -21,7 +21,7 @@ const V1_4: &[u8] = include_bytes!("golden/library-1.4.json");
 const V1_5: &[u8] = include_bytes!("golden/library-1.5.json");
 const V1_6: &[u8] = include_bytes!("golden/library-1.6.json");
 
-/// Reads without a warning.
+/// Reads a library without warnings.
 fn read(bytes: &[u8]) -> Library {
     let imported = read_library(bytes).unwrap();
     assert_eq!(imported.warnings, [""; 0]);
@@ -165,7 +165,7 @@ fn version_1_5() {
     assert_eq!(facts(&keys[0].model), None);
     for (change, names) in [
         (json!({"step_mm": 0.0}), "step"),
-        (json!({"mps2": [1.0]}), "two values or more"),
+        (json!({"mps2": [1.0]}), "at least two values"),
         (json!({"mps2": [1e7, 0.0]}), "value 0 of the relief"),
         (json!({"force_n": -1.0}), "force of a relief"),
     ] {
@@ -211,7 +211,7 @@ fn axes_are_two_attributes() {
         let mut value: Value = serde_json::from_slice(V1_3).unwrap();
         value["axes"] = axes;
         let message = read_library(value.to_string().as_bytes()).unwrap_err().to_string();
-        assert!(message.contains("two attributes that differ"), "{message}");
+        assert!(message.contains("two different attribute names"), "{message}");
     }
 }
 

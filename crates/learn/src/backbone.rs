@@ -1,6 +1,6 @@
-//! Networks that others taught to see, used as they are: what they make of a picture is where ours begins.
+//! Pretrained image backbones, used unchanged as feature extractors for our own heads.
 //!
-//! Their numbers are the user's files, in safetensors. Which network it is is told by the names in it.
+//! Their weights are the user's files, in safetensors. Tensor names identify the network.
 
 mod efficientnet;
 
@@ -10,69 +10,70 @@ use candle_core::{Device, Tensor};
 use candle_nn::VarBuilder;
 use candle_transformers::models::resnet::resnet50_no_final_layer;
 use safetensors::{Dtype, SafeTensors};
-use shagreen_core::picture_features::{SIDE, Square};
+use shagreen_core::surfaces::picture_features::{SIDE, Square};
 
 use self::efficientnet::EfficientNet;
 use crate::model_file::sha256_of;
 
-/// Converts the published file of EfficientNet-Lite0: a Python script that takes the package, the name of the file in it
-/// and the file to write.
+/// Python script that converts the published EfficientNet-Lite0 weights to safetensors.
+///
+/// Its arguments are the Python package, the name of the weights file in it, and the output file.
 pub const CONVERT_EFFICIENTNET: &str = include_str!("backbone/convert.py");
 
-/// Why a file is no such network.
+/// Reasons why a file is not a usable backbone.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BackboneError {
-    /// It is no safetensors file, or a damaged one.
-    #[error("it is no safetensors file, or damaged: {0}")]
+    /// The file is damaged or not safetensors.
+    #[error("it is not a safetensors file, or damaged: {0}; get the file again")]
     Tensors(#[from] safetensors::SafeTensorError),
-    /// It is a network that this program does not know.
+    /// The network is unknown.
     #[error(
-        "it is neither an EfficientNet-Lite0 nor a ResNet-50: it has no numbers called \"_conv_stem.weight\" or \"layer4.2.conv3.weight\""
+        "it is neither an EfficientNet-Lite0 nor a ResNet-50: it has no tensor \"_conv_stem.weight\" or \"layer4.2.conv3.weight\"; use one of them"
     )]
     Unknown,
-    /// Numbers are missing.
-    #[error("the numbers of \"{name}\" are missing")]
+    /// A tensor is missing.
+    #[error("tensor \"{name}\" is missing; get a complete file")]
     Missing {
-        /// What they are called.
+        /// Name of the tensor.
         name: String,
     },
-    /// Numbers have another shape.
-    #[error("\"{name}\" has the shape {found:?}, {expected:?} is expected")]
+    /// A tensor has the wrong shape.
+    #[error("tensor \"{name}\" has the shape {found:?}, needs {expected:?}; use a file of this network")]
     Shape {
-        /// What they are called.
+        /// Name of the tensor.
         name: String,
-        /// Their shape.
+        /// Its shape.
         found: Vec<usize>,
-        /// What it should be.
+        /// Required shape.
         expected: Vec<usize>,
     },
-    /// Numbers are not finite, or of a kind that is not read.
-    #[error("\"{name}\" holds something else than finite numbers of 16 or 32 bits")]
+    /// A tensor is not finite, or has an unsupported type.
+    #[error("tensor \"{name}\" has values that are not finite, or not floats of 16 or 32 bits")]
     Numbers {
-        /// What they are called.
+        /// Name of the tensor.
         name: String,
     },
-    /// The network cannot be worked out.
-    #[error("the network could not be worked out: {0}")]
+    /// A tensor operation failed.
+    #[error("the network could not be evaluated: {0}")]
     Tensor(#[from] candle_core::Error),
 }
 
-/// Numbers by name, each with its shape.
+/// Tensors by name, each with its shape.
 type Numbers = BTreeMap<String, (Vec<usize>, Vec<f32>)>;
 
-/// Which network it is.
+/// Kind of backbone network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BackboneKind {
     /// EfficientNet-Lite0, up to its eleventh block.
     EfficientnetLite0,
-    /// ResNet-50 without its last layer, by the names and the pixels of torchvision.
+    /// ResNet-50 without its last layer, with the tensor names and pixel normalization of torchvision.
     Resnet50,
 }
 
 impl BackboneKind {
-    /// What it is called.
+    /// Returns the name of the network.
     pub fn name(self) -> &'static str {
         match self {
             Self::EfficientnetLite0 => "EfficientNet-Lite0",
@@ -80,7 +81,7 @@ impl BackboneKind {
         }
     }
 
-    /// Features of a picture.
+    /// Returns the number of features per picture.
     pub fn n_features(self) -> usize {
         match self {
             Self::EfficientnetLite0 => efficientnet::N_FEATURES,
@@ -89,7 +90,7 @@ impl BackboneKind {
     }
 }
 
-/// A network that sees.
+/// A pretrained image network.
 pub struct Backbone {
     kind: BackboneKind,
     network: Network,
@@ -111,10 +112,10 @@ impl std::fmt::Debug for Backbone {
 }
 
 impl Backbone {
-    /// The network of a file.
+    /// Returns the network of a file.
     ///
     /// # Errors
-    /// See [`BackboneError`].
+    /// See the variants of [`BackboneError`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, BackboneError> {
         let tensors = SafeTensors::deserialize(bytes)?;
         let sha256 = sha256_of(bytes);
@@ -135,17 +136,17 @@ impl Backbone {
         Ok(Self { kind: BackboneKind::Resnet50, network, sha256 })
     }
 
-    /// Which network it is.
+    /// Returns the kind of network.
     pub fn kind(&self) -> BackboneKind {
         self.kind
     }
 
-    /// SHA-256 of its file.
+    /// Returns the SHA-256 of its file.
     pub fn sha256(&self) -> &str {
         &self.sha256
     }
 
-    /// What it sees in a picture: [`BackboneKind::n_features`] numbers.
+    /// Returns the features of a picture, [`BackboneKind::n_features`] values.
     ///
     /// # Errors
     /// [`BackboneError::Tensor`].
@@ -153,7 +154,7 @@ impl Backbone {
         match &self.network {
             Network::EfficientNet(network) => Ok(network.features(square)),
             Network::ResNet(network, device) => {
-                // As torchvision prepares pictures.
+                // Pixel normalization of torchvision.
                 const MEAN: [f32; 3] = [0.485, 0.456, 0.406];
                 const DEVIATION: [f32; 3] = [0.229, 0.224, 0.225];
                 let pixels = Tensor::from_slice(&square.rgb, (SIDE * SIDE, 3), device)?;
@@ -167,7 +168,7 @@ impl Backbone {
     }
 }
 
-/// All numbers of a file as singles.
+/// Returns all floating-point tensors of a file in single precision.
 fn numbers(tensors: &SafeTensors<'_>) -> Result<Numbers, BackboneError> {
     let mut numbers = Numbers::new();
     for (name, view) in tensors.tensors() {
@@ -176,7 +177,7 @@ fn numbers(tensors: &SafeTensors<'_>) -> Result<Numbers, BackboneError> {
             Dtype::F32 => data.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect(),
             Dtype::F16 => half(data, half::f16::from_le_bytes),
             Dtype::BF16 => half(data, half::bf16::from_le_bytes),
-            // Counts of batches, which nobody needs.
+            // Batch counts of batch normalization, unused in inference.
             Dtype::I64 => continue,
             _ => return Err(BackboneError::Numbers { name }),
         };

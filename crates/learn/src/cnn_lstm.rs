@@ -1,13 +1,14 @@
-//! The network that takes strokes to attributes: convolutions and long short-term memory side by side ("Predicting
-//! Perceptual Haptic Attributes of Textured Surface from Tactile Data Based on Deep CNN-LSTM Network", VRST 2023,
-//! section 4).
+//! CNN-LSTM network that predicts attributes from strokes.
 //!
-//! A segment of a stroke has three values a sample: acceleration, speed and force. Six convolutions with two poolings
-//! make features of their shape, four layers of long short-term memory features of their course; both are normalized
-//! together and go through two dense layers to one number an attribute.
+//! After "Predicting Perceptual Haptic Attributes of Textured Surface from Tactile Data Based on Deep CNN-LSTM
+//! Network", VRST 2023, section 4.
 //!
-//! The paper's sizes cannot all be had at once. `paper320` has the 320 features of the text, by poolings of 4 and 5;
-//! `literal` has the poolings of the text, without padding, and so 1408 features.
+//! A stroke segment has three channels: acceleration, speed and force. The convolutional stream has six convolutions
+//! and two pooling layers; the recurrent stream has four LSTM layers. Features of both streams are concatenated and
+//! batch-normalized. Two dense layers follow, with one output per attribute.
+//!
+//! The sizes in the paper contradict each other. `paper320` has the 320 features of the text, through pooling by 4 and
+//! 5. `literal` has the pooling of the text without padding, which gives 1408 features.
 
 mod architecture;
 mod normalization;
@@ -25,7 +26,7 @@ use crate::init::Uniform;
 use crate::lstm::{Exactness, lstm};
 use crate::parameters::Parameters;
 
-/// A network with its numbers.
+/// A network with its weights.
 #[derive(Clone, Debug)]
 pub(crate) struct CnnLstm {
     architecture: Architecture,
@@ -34,13 +35,13 @@ pub(crate) struct CnnLstm {
 }
 
 impl CnnLstm {
-    /// A network that has learned nothing, the same for the same seed.
+    /// Returns an untrained network, deterministic for a seed.
     pub(crate) fn new(architecture: Architecture, seed: u64, device: &Device) -> Result<Self> {
         let mut parameters = Parameters::default();
         let mut uniform = Uniform::new(seed);
         let mut weights =
             |parameters: &mut Parameters, name: &str, [n_inputs, n_outputs]: [usize; 2], kernel: usize| {
-                // Each output of a convolution goes to as many places as its kernel is long.
+                // Fan-out of a convolution: each input reaches as many positions as the kernel is long.
                 let values = uniform.glorot(n_inputs, n_outputs * kernel, n_inputs * n_outputs);
                 parameters.add(&format!("{name}.weight"), &[n_inputs, n_outputs], values, device)
             };
@@ -62,7 +63,7 @@ impl CnnLstm {
             for (index, n_units) in a.units.into_iter().enumerate() {
                 let name = format!("lstm{index}.input");
                 weights(&mut parameters, &name, [n_inputs, 4 * n_units], 1)?;
-                // What is remembered is not forgotten at first.
+                // Forget-gate bias of 1, so that memory persists at the start of training.
                 let forget = |gate| if gate / n_units == 1 { 1.0 } else { 0.0 };
                 bias(&mut parameters, &name, (0..4 * n_units).map(forget).collect())?;
                 weights(&mut parameters, &format!("lstm{index}.state"), [n_units, 4 * n_units], 1)?;
@@ -84,27 +85,28 @@ impl CnnLstm {
         &self.architecture
     }
 
-    /// One number an attribute for each segment (segments × samples × channels); nothing is learned.
+    /// Returns the attributes of each segment (segments × samples × channels) in inference mode.
     pub(crate) fn predict(&self, segments: &Tensor) -> Result<Tensor> {
         let features = self.features(segments, Exactness::Sixteen)?;
         self.attributes(&self.normalization.apply(&features, &self.parameters)?)
     }
 
-    /// The same while learning: features are normalized by those of the batch, which the network remembers.
+    /// Returns the attributes in training mode: batch statistics normalize the features and update the running
+    /// statistics.
     pub(crate) fn predict_learning(&mut self, segments: &Tensor) -> Result<Tensor> {
         let features = self.features(segments, Exactness::Full)?;
         let normalized = self.normalization.apply_learning(&features, &self.parameters)?;
         self.attributes(&normalized)
     }
 
-    /// Everything that the network has learned, by name.
+    /// Returns a copy of all weights and running statistics, by name.
     pub(crate) fn snapshot(&self) -> Result<BTreeMap<String, Tensor>> {
         let mut numbers = self.parameters.snapshot()?;
         numbers.extend(self.normalization.snapshot()?);
         Ok(numbers)
     }
 
-    /// Puts what a network of the same architecture has learned in its place.
+    /// Restores the weights and running statistics of a network with the same architecture.
     pub(crate) fn restore(&mut self, numbers: &BTreeMap<String, Tensor>) -> Result<()> {
         self.parameters.restore(numbers)?;
         self.normalization.restore(numbers)
@@ -144,7 +146,7 @@ impl CnnLstm {
         x.flatten_from(1)
     }
 
-    /// The states of the last layer after the last sample.
+    /// States of the last LSTM layer after the last sample.
     fn remembered(&self, segments: &Tensor, exactness: Exactness) -> Result<Tensor> {
         let mut x = segments.transpose(0, 1)?.contiguous()?;
         for index in 0..self.architecture.units.len() {
@@ -165,11 +167,11 @@ impl CnnLstm {
     }
 }
 
-/// For each sample it and those after it side by side (sequences × samples × kernel channels): a convolution is then a product.
+/// Sliding windows (sequences × samples × kernel·channels), which turn a convolution into a matrix product.
 fn windows(x: &Tensor, kernel: usize, padding: Padding) -> Result<Tensor> {
     let x = match padding {
         Padding::Valid => x.clone(),
-        // Of an odd number of zeros one more comes after.
+        // Odd total padding puts the extra zero at the end.
         Padding::Same => x.pad_with_zeros(1, (kernel - 1) / 2, kernel / 2)?,
     };
     let n_windows = x.dim(1)? + 1 - kernel;
@@ -177,7 +179,7 @@ fn windows(x: &Tensor, kernel: usize, padding: Padding) -> Result<Tensor> {
     Tensor::cat(&shifted, 2)
 }
 
-/// The largest of each so many samples; what is left at the end is dropped.
+/// Max pooling over `n` samples; a remainder at the end is dropped.
 fn pooled(x: &Tensor, n: usize) -> Result<Tensor> {
     let (n_sequences, n_samples, n_channels) = x.dims3()?;
     let n_pools = n_samples / n;

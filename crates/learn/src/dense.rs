@@ -1,11 +1,11 @@
-//! Dense layers: products with weights along the last dimension, and a bias.
+//! Dense (fully connected) layers.
 
 use candle_core::{Device, Result, Tensor};
 
 use crate::init::Uniform;
 use crate::parameters::Parameters;
 
-/// Adds a layer from so many inputs to so many outputs that has learned nothing: weights of Glorot, a bias of zero.
+/// Adds a layer of `n_inputs` × `n_outputs` with Glorot-uniform weights and zero bias.
 pub(crate) fn add(
     parameters: &mut Parameters,
     name: &str,
@@ -18,7 +18,7 @@ pub(crate) fn add(
     parameters.add(&format!("{name}.bias"), &[n_outputs], vec![0.0; n_outputs], device)
 }
 
-/// What the layer of this name makes of `x`, whose last dimension are its inputs.
+/// Returns the output of the named layer for `x`, whose last dimension holds the inputs.
 pub(crate) fn apply(parameters: &Parameters, name: &str, x: &Tensor) -> Result<Tensor> {
     let weights = parameters.get(&format!("{name}.weight"))?;
     let bias = parameters.get(&format!("{name}.bias"))?;

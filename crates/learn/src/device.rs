@@ -1,8 +1,8 @@
-//! Where networks are worked out.
+//! Selection of the compute device for networks.
 
 use candle_core::Device;
 
-/// A graphics card where the program was built for one and there is one, else the processor.
+/// Returns a GPU if the program was built with CUDA and one is available, else the CPU.
 pub(crate) fn best() -> Device {
     #[cfg(feature = "cuda")]
     if let Ok(device) = Device::new_cuda(0) {

@@ -1,8 +1,8 @@
-//! Pictures from words by Stable Diffusion 2.1, or by any model whose files are laid out as its are: a text encoder, a network
-//! that takes noise away step by step, and a decoder (R. Rombach et al. 2022).
+//! Text-to-image generation with Stable Diffusion 2.1, or any latent diffusion model with the same file layout.
 //!
-//! The weights are the user's files, a folder in the layout of diffusers with safetensors; sizes are read from its JSON. The
-//! noise is drawn by our own seed, so that the same seed gives the same picture again.
+//! Such a model has a text encoder, a U-Net denoiser and an autoencoder (R. Rombach et al. 2022). The weights are the
+//! user's files: a folder in the layout of diffusers, with safetensors. Network sizes are read from its JSON files. The
+//! initial noise comes from our own random generator, so that a seed reproduces a picture.
 
 mod files;
 mod scheduler;
@@ -16,9 +16,9 @@ use candle_core::{DType, Device, Tensor};
 use candle_nn::VarBuilder;
 use candle_transformers::models::stable_diffusion::unet_2d::UNet2DConditionModel;
 use candle_transformers::models::stable_diffusion::vae::AutoEncoderKL;
-use shagreen_core::rng::{Random, derive_seed};
-use shagreen_core::shading::Picture;
-use shagreen_core::starter::FRAMING;
+use shagreen_core::maths::rng::{Random, derive_seed};
+use shagreen_core::surfaces::shading::Picture;
+use shagreen_core::surfaces::starter::FRAMING;
 
 pub use self::files::{Files, Part};
 
@@ -26,91 +26,89 @@ use self::sizes::{AutoencoderSizes, DenoiserSizes, TextSizes};
 use self::text_encoder::TextEncoder;
 use self::tokens::Tokens;
 
-/// What is added to every prompt, so that a texture is shown and not a thing (the paper's section II-A).
+/// Appended to every prompt, so that the picture shows a texture instead of an object (section II-A of the paper).
 pub const DESCRIPTORS: &str = "real plain texture, zoomed-in, top view, realistic, no curl, high definition";
 
-/// Longest side of a picture, in pixels.
+/// Largest side of a picture, in pixels.
 pub const LONGEST_SIDE: usize = 1024;
-/// Most steps.
+/// Largest number of denoising steps.
 pub const MOST_STEPS: usize = 500;
 
-/// Why there is no picture.
+/// Reasons why a picture cannot be generated.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DiffusionError {
-    /// A file is not there.
+    /// A file is missing.
     #[error("the folder has no {}; it must be in the layout of diffusers, with safetensors", .part.names()[0])]
     Missing {
-        /// Which.
+        /// The missing file.
         part: Part,
     },
-    /// A file cannot be read.
-    #[error("{} cannot be read: {reason}", .part.names()[0])]
+    /// A file cannot be parsed.
+    #[error("{} cannot be read: {reason}; get the file again", .part.names()[0])]
     Damaged {
-        /// Which.
+        /// The file.
         part: Part,
-        /// Why.
+        /// Cause.
         reason: String,
     },
-    /// A file asks for what is not known here.
-    #[error("{} asks for {what}, which this program cannot do; Stable Diffusion 1 and 2 can be used", .part.names()[0])]
+    /// A file requires an unsupported feature.
+    #[error("{} requires {what}, which is not supported; use Stable Diffusion 1 or 2", .part.names()[0])]
     Unknown {
-        /// Which.
+        /// The file.
         part: Part,
-        /// What it asks for.
+        /// Unsupported feature.
         what: String,
     },
-    /// Two files do not belong together.
-    #[error("the parts do not belong together: {what}")]
+    /// Two files belong to different models.
+    #[error("the parts of the model do not match: {what}; use the files of one model")]
     Apart {
-        /// In what.
+        /// Difference between the files.
         what: String,
     },
-    /// A picture of this size, in so many steps, cannot be made.
+    /// The requested size, number of steps or guidance is not possible.
     #[error(
-        "{what}; {LONGEST_SIDE} pixels a side and {MOST_STEPS} steps are the most, and sides are multiples of {multiple}"
+        "{what}; use at most {LONGEST_SIDE} pixels per side, in multiples of {multiple}, and at most {MOST_STEPS} steps"
     )]
     Wish {
-        /// What is wrong.
+        /// The impossible value.
         what: String,
-        /// What sides must be multiples of.
+        /// Required divisor of the side, in pixels.
         multiple: usize,
     },
-    /// What came of it is no picture.
-    #[error(
-        "the model made numbers that are not finite; its files do not fit one another, or need more than 16 bits"
-    )]
+    /// The generated picture has values that are not finite.
+    #[error("the model output is not finite; its files do not match, or its weights need more than 16 bits")]
     NotFinite,
-    /// The networks cannot be worked out.
-    #[error("the networks could not be worked out: {0}")]
+    /// A tensor operation failed.
+    #[error("the networks could not be evaluated: {0}")]
     Tensor(#[from] candle_core::Error),
 }
 
-/// What a picture is to be.
+/// A request for a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wish<'a> {
-    /// What it is to show; [`DESCRIPTORS`] are added.
+    /// Prompt; [`DESCRIPTORS`] are appended.
     pub prompt: &'a str,
-    /// What it is not to show.
+    /// Negative prompt: what the picture should not show.
     pub negative: &'a str,
-    /// Pixels along each side.
+    /// Pixels per side.
     pub side: usize,
-    /// Steps from noise to picture.
+    /// Number of denoising steps.
     pub n_steps: usize,
-    /// How much more the prompt counts than nothing; 1 is as much as it was taught.
+    /// Scale of classifier-free guidance; 1 disables guidance, higher values follow the prompt more closely.
     pub guidance: f64,
-    /// Of the noise.
+    /// Seed of the initial noise.
     pub seed: u64,
 }
 
 impl<'a> Wish<'a> {
-    /// The usual one: the paper's 512 pixels, 30 steps, a guidance of 7.5.
+    /// Returns a request with the usual settings: 512 pixels as in the paper, 30 steps, a guidance scale of 7.5.
     pub fn usual(prompt: &'a str, seed: u64) -> Self {
         Self { prompt, negative: "", side: 512, n_steps: 30, guidance: 7.5, seed }
     }
 }
 
-/// A model that makes pictures.
+/// A text-to-image diffusion model.
 pub struct Diffusion {
     tokens: Tokens,
     text: TextEncoder,
@@ -123,10 +121,12 @@ pub struct Diffusion {
 }
 
 impl Diffusion {
-    /// The model of these files, which may take twice their size of memory while they are read, four times where they are of half precision.
+    /// Returns the model of these files.
+    ///
+    /// Loading can take twice the size of the files in memory, or four times for half-precision weights.
     ///
     /// # Errors
-    /// See [`DiffusionError`].
+    /// [`DiffusionError`] for missing, damaged, unsupported or mismatched files.
     pub fn new(mut files: Files) -> Result<Self, DiffusionError> {
         let device = crate::device::best();
         let text_sizes = TextSizes::read(&files)?;
@@ -135,7 +135,7 @@ impl Diffusion {
         if text_sizes.hidden_size != sizes.cross_attention_dim {
             return Err(DiffusionError::Apart {
                 what: format!(
-                    "the text encoder gives {} numbers a word, the network takes {}",
+                    "the text encoder has {} features per token, the denoiser takes {}",
                     text_sizes.hidden_size, sizes.cross_attention_dim
                 ),
             });
@@ -143,7 +143,7 @@ impl Diffusion {
         if sizes.in_channels != latents.latent_channels || sizes.out_channels != latents.latent_channels {
             return Err(DiffusionError::Apart {
                 what: format!(
-                    "the decoder takes {} channels, the network has {} and {}",
+                    "the autoencoder takes {} latent channels, the denoiser has {} inputs and {} outputs",
                     latents.latent_channels, sizes.in_channels, sizes.out_channels
                 ),
             });
@@ -176,18 +176,19 @@ impl Diffusion {
         Ok(Self { tokens, text, denoiser, autoencoder, scheduler, sizes, latents, device })
     }
 
-    /// What sides of pictures are multiples of.
+    /// Returns the required divisor of picture sides, in pixels.
     pub fn multiple(&self) -> usize {
         self.latents.factor() * self.sizes.factor()
     }
 
-    /// The picture that is wished for, the same for the same seed. `go_on` is called after each step with how many are done,
-    /// and stops by false: then there is none.
+    /// Returns the generated picture, deterministic for a seed; `None` if `go_on` stops the generation.
     ///
-    /// What it covers of a surface nobody knows; it is taken for as much as pictures of the starter library show.
+    /// `go_on` receives the number of completed steps after each step; false stops. The physical size of the pictured
+    /// surface is unknown. It is assumed to equal that of starter library pictures.
     ///
     /// # Errors
-    /// [`DiffusionError::Wish`] for a size or a number of steps that cannot be, [`DiffusionError::Tensor`].
+    /// [`DiffusionError::Wish`] for an impossible request, [`DiffusionError::NotFinite`] or [`DiffusionError::Tensor`]
+    /// if a network fails.
     pub fn picture(
         &self,
         wish: &Wish<'_>,
@@ -231,13 +232,13 @@ impl Diffusion {
         let multiple = self.multiple();
         let wrong = |what: String| Err(DiffusionError::Wish { what, multiple });
         if wish.side == 0 || wish.side > LONGEST_SIDE || !wish.side.is_multiple_of(multiple) {
-            return wrong(format!("{} pixels a side cannot be", wish.side));
+            return wrong(format!("{} pixels per side are not possible", wish.side));
         }
         if wish.n_steps == 0 || wish.n_steps > MOST_STEPS || !self.scheduler.has_steps(wish.n_steps) {
-            return wrong(format!("{} steps cannot be", wish.n_steps));
+            return wrong(format!("{} steps are not possible with this model", wish.n_steps));
         }
         if !wish.guidance.is_finite() {
-            return wrong("the guidance is no number".to_owned());
+            return wrong("the guidance scale is not finite".to_owned());
         }
         Ok(())
     }
@@ -249,7 +250,7 @@ impl std::fmt::Debug for Diffusion {
     }
 }
 
-/// What an error says, without where it came from: candle adds a trace of the program where one is asked for.
+/// Returns the first line of an error; candle appends a backtrace if one is enabled.
 fn first_line(error: &candle_core::Error) -> String {
     error.to_string().lines().next().unwrap_or_default().to_owned()
 }

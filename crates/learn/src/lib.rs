@@ -1,12 +1,12 @@
-//! Trained predictors: attributes from strokes and from pictures, and pictures from text.
+//! Trained models: attributes predicted from strokes and pictures, and pictures generated from text.
 //!
-//! Everything else works without this crate. Networks are those of candle, on the processor, or on a graphics card with
-//! the feature `cuda`; files are safetensors and nothing else. Nothing here touches the network or a file: bytes come in
-//! and go out.
+//! No other crate needs this one. Networks run with candle on the CPU, or on a GPU with the feature `cuda`. Model files
+//! are safetensors only. This crate accesses neither the internet nor the file system: callers pass bytes in and
+//! receive bytes.
 #![forbid(unsafe_code)]
 #![cfg_attr(
     test,
-    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic on an unexpected result")
 )]
 
 pub mod backbone;
@@ -24,3 +24,4 @@ pub mod picture_set;
 pub mod stroke_model;
 pub mod stroke_set;
 pub mod training;
+mod training_error;

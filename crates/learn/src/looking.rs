@@ -1,48 +1,48 @@
-//! What a picture would feel like: whoever looks at it, and the head that learned from what they see.
+//! Attribute prediction from pictures: a feature extractor followed by a trained head.
 
-use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::picture_features::{self, PictureError};
-use shagreen_core::shading::Picture;
+use shagreen_core::maths::gaussian_process::Estimate;
+use shagreen_core::surfaces::picture_features::{self, PictureError};
+use shagreen_core::surfaces::shading::Picture;
 
 use crate::backbone::{Backbone, BackboneError};
 use crate::model_file::sha256_of;
 use crate::picture_model::{Eyes, PictureModel, PictureModelError};
 
-/// Learned from drawn materials by what statistics see; needs nothing else.
+/// Head trained on texture statistics of drawn materials; needs no other file.
 const BY_STATISTICS: &[u8] = include_bytes!("../../../assets/models/pictures-by-statistics.safetensors");
-/// The same by EfficientNet-Lite0, whose numbers are the user's file.
+/// Head trained on EfficientNet-Lite0 features of drawn materials; the network weights are the user's file.
 const BY_EFFICIENTNET: &[u8] =
     include_bytes!("../../../assets/models/pictures-by-efficientnet-lite0.safetensors");
 
-/// Why a picture says nothing.
+/// Reasons why attributes cannot be predicted from a picture.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LookingError {
-    /// It is no picture to look at.
+    /// The picture has no features.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// The network cannot be worked out.
+    /// The backbone network failed.
     #[error(transparent)]
     Backbone(#[from] BackboneError),
-    /// The head cannot be worked out.
+    /// The head failed or its file is invalid.
     #[error(transparent)]
     Model(#[from] PictureModelError),
-    /// The head learned with other eyes.
-    #[error("the model learned from what {model} sees, this is {found}; {hint}")]
+    /// The head was trained on features of another extractor.
+    #[error("the model was trained on features of {model}, but these come from {found}; {hint}")]
     OtherEyes {
-        /// Who looked when it learned.
+        /// Feature extractor used in training.
         model: String,
-        /// Who would look now.
+        /// Feature extractor available now.
         found: String,
-        /// What to do.
+        /// What to do next.
         hint: &'static str,
     },
 }
 
-/// What is seen in a picture.
+/// Returns the features of a picture, from a backbone network or else texture statistics.
 ///
 /// # Errors
-/// See [`LookingError`].
+/// [`LookingError::Picture`] for an unusable picture, [`LookingError::Backbone`] if the network fails.
 pub fn see(backbone: Option<&Backbone>, picture: &Picture) -> Result<Vec<f32>, LookingError> {
     let square = picture_features::square(picture)?;
     Ok(match backbone {
@@ -51,7 +51,7 @@ pub fn see(backbone: Option<&Backbone>, picture: &Picture) -> Result<Vec<f32>, L
     })
 }
 
-/// Eyes by their name, and which of that name.
+/// Returns the name of a feature extractor, with the start of its file hash for a network.
 fn told(eyes: &Eyes) -> String {
     match eyes {
         Eyes::Statistics => eyes.name().to_owned(),
@@ -59,7 +59,7 @@ fn told(eyes: &Eyes) -> String {
     }
 }
 
-/// Eyes and a head that belong together.
+/// A feature extractor with a matching head.
 #[derive(Debug)]
 pub struct Looker {
     backbone: Option<Backbone>,
@@ -68,10 +68,10 @@ pub struct Looker {
 }
 
 impl Looker {
-    /// The head of a file, and the network that it learned with, if it did with one.
+    /// Returns the predictor of a head file and the network that it was trained with, if any.
     ///
     /// # Errors
-    /// [`LookingError::OtherEyes`] where they do not belong together, [`LookingError::Model`] for a file that is no head.
+    /// [`LookingError::OtherEyes`] if they do not match, [`LookingError::Model`] for a file that is not a head.
     pub fn new(model: &[u8], backbone: Option<Backbone>) -> Result<Self, LookingError> {
         let sha256 = sha256_of(model);
         let model = PictureModel::from_bytes(model)?;
@@ -82,37 +82,38 @@ impl Looker {
                 model: told(model.eyes()),
                 found: told(&eyes),
                 hint: if eyes.name() == model.eyes().name() {
-                    "the file of the network is another one: fetch it again by `shagreen model fetch`, or train a model with it"
+                    "the network file differs: fetch it again with `shagreen model fetch`, or train a model with it"
                 } else {
-                    "name the file of the same network, or train another model by `shagreen train photo`"
+                    "give the file of the same network, or train another model with `shagreen train photo`"
                 },
             });
         }
         Ok(Self { backbone, model, sha256 })
     }
 
-    /// The head that comes with the program: with EfficientNet-Lite0 where that is given, else with statistics.
+    /// Returns the built-in predictor: with EfficientNet-Lite0 if it is given, else with texture statistics.
     ///
     /// # Errors
-    /// As [`Looker::new`]; [`LookingError::OtherEyes`] for any other network.
+    /// Those of [`Looker::new`]; [`LookingError::OtherEyes`] for any other network.
     pub fn built_in(backbone: Option<Backbone>) -> Result<Self, LookingError> {
         Self::new(if backbone.is_some() { BY_EFFICIENTNET } else { BY_STATISTICS }, backbone)
     }
 
-    /// The head.
+    /// Returns the head.
     pub fn model(&self) -> &PictureModel {
         &self.model
     }
 
-    /// SHA-256 of the head's file.
+    /// Returns the SHA-256 of the head's file.
     pub fn sha256(&self) -> &str {
         &self.sha256
     }
 
-    /// What a picture would feel like: [`PictureModel::attributes`], each from 0 to 100.
+    /// Returns the predicted attributes of a picture, named by [`PictureModel::attributes`], each 0 to 100.
     ///
     /// # Errors
-    /// See [`LookingError`].
+    /// [`LookingError::Picture`] for an unusable picture, [`LookingError::Backbone`] or [`LookingError::Model`] if a
+    /// network fails.
     pub fn look(&self, picture: &Picture) -> Result<Vec<Estimate>, LookingError> {
         Ok(self.model.predict(&see(self.backbone.as_ref(), picture)?)?)
     }
@@ -122,8 +123,8 @@ impl Looker {
 mod tests {
     use super::{BY_EFFICIENTNET, BY_STATISTICS, Looker, LookingError, see};
     use crate::picture_model::Eyes;
-    use shagreen_core::picture_features::N_FEATURES;
-    use shagreen_core::shading::Picture;
+    use shagreen_core::surfaces::picture_features::N_FEATURES;
+    use shagreen_core::surfaces::shading::Picture;
 
     fn gray(side: usize) -> Picture {
         Picture { width: side, height: side, rgb: vec![128; 3 * side * side], millimeters: 20.0 }
@@ -135,7 +136,7 @@ mod tests {
         assert_eq!(looker.model().attributes(), ["rough-smooth", "hard-soft"]);
         assert_eq!((looker.model().eyes(), looker.sha256().len()), (&Eyes::Statistics, 64));
         let seen = looker.look(&gray(64)).unwrap();
-        // Nothing of one color was learned from: it is unsure.
+        // A uniform gray picture is unlike the training pictures, so the standard deviation is large.
         assert!(seen.iter().all(|of| (0.0..=100.0).contains(&of.mean) && of.deviation > 10.0), "{seen:?}");
         assert!(matches!(looker.look(&gray(8)), Err(LookingError::Picture(_))));
         assert_eq!(see(None, &gray(32)).unwrap().len(), N_FEATURES);

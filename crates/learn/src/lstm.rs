@@ -1,10 +1,11 @@
-//! A layer of long short-term memory as one operation on the processor.
+//! LSTM layer as one fused operation on the CPU.
 //!
-//! `i, f, o = σ(·)`, `g = tanh(·)` of `x W + b + h U`, in this order along the last dimension; `c ← f c + i g`,
-//! `h ← o tanh c` (S. Hochreiter and J. Schmidhuber 1997, with the forget gate of F. Gers et al. 2000). What the inputs
-//! add to the gates is one product for all steps and is worked out before; what is left are as many small steps as the
-//! sequence is long. As operations of a tensor library each of them costs a dozen allocations and passes; here they are
-//! one loop, and gates are kept for the way back.
+//! `i, f, o = σ(·)`, `g = tanh(·)` of `x W + b + h U`, in the order i, f, g, o along the last dimension;
+//! `c ← f c + i g`, `h ← o tanh c` (S. Hochreiter and J. Schmidhuber 1997, with the forget gate of F. Gers et al. 2000).
+//!
+//! The input part `x W + b` is one matrix product over all time steps, computed by the caller. The recurrence remains:
+//! one small step per sample. With tensor operations, each step costs a dozen allocations and memory passes. Here a
+//! single loop runs all steps and keeps the gates for backpropagation.
 
 mod gates;
 mod tiles;
@@ -19,23 +20,25 @@ use ndarray::{ArrayView2, ArrayViewMut2, Axis};
 use crate::lstm::gates::{Step, StepBack};
 use crate::lstm::tiles::Tiles;
 
-/// Sequences below which [`Exactness::Sixteen`] works products out row by row: packing the matrix would take longer.
+/// Batch size below which [`Exactness::Sixteen`] multiplies row by row: packing the matrix would take longer.
 const LEAST_BATCH_TO_PACK: usize = 4;
 
-/// How exactly the states are multiplied by their weights.
+/// Precision of the recurrent matrix product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exactness {
-    /// As exactly as the numbers are.
+    /// Single precision.
     Full,
-    /// Where there are few sequences, by weights of 16 bits: sooner, with errors of 1e-5 of the largest weight of each unit.
+    /// 16-bit weights for small batches: faster, with errors of about 1e-5 of the largest weight of each unit.
     Sixteen,
 }
 
-/// The states `h` of all steps (steps × sequences × units), from what the inputs add to the gates (steps × sequences ×
-/// 4 units) and the weights of the states (units × 4 units). It begins with states and cells of zero.
+/// Returns the states `h` of all steps (steps × sequences × units), starting from zero states and cells.
+///
+/// `gate_inputs` is the input part of the gates (steps × sequences × 4 units), `state_weights` the recurrent weights
+/// (units × 4 units).
 ///
 /// # Errors
-/// Shapes that do not fit, or tensors that are not `f32`.
+/// Shapes that do not match, or tensors that are not `f32`.
 pub(crate) fn lstm(gate_inputs: &Tensor, state_weights: &Tensor, exactness: Exactness) -> Result<Tensor> {
     let (n_steps, n_sequences, n_gates) = gate_inputs.dims3()?;
     let (n_units, n_columns) = state_weights.dims2()?;
@@ -49,7 +52,7 @@ pub(crate) fn lstm(gate_inputs: &Tensor, state_weights: &Tensor, exactness: Exac
     step_by_step(gate_inputs, state_weights)
 }
 
-/// The same as operations of tensors, for other devices and to compare with.
+/// The same layer with tensor operations, for other devices and as a test oracle.
 fn step_by_step(gate_inputs: &Tensor, state_weights: &Tensor) -> Result<Tensor> {
     let (n_steps, n_sequences, _) = gate_inputs.dims3()?;
     let n_units = state_weights.dim(0)?;
@@ -59,7 +62,7 @@ fn step_by_step(gate_inputs: &Tensor, state_weights: &Tensor) -> Result<Tensor> 
     for step in 0..n_steps {
         let gates = (gate_inputs.get(step)? + state.matmul(state_weights)?)?;
         let gates = gates.chunk(4, 1)?;
-        let [i, f, g, o] = &gates[..] else { bail!("there are four gates") };
+        let [i, f, g, o] = &gates[..] else { bail!("an LSTM layer has four gates") };
         let (i, f, o) =
             (candle_nn::ops::sigmoid(i)?, candle_nn::ops::sigmoid(f)?, candle_nn::ops::sigmoid(o)?);
         cell = ((f * cell)? + (i * g.tanh()?)?)?;
@@ -74,12 +77,12 @@ struct Lstm {
     n_sequences: usize,
     n_units: usize,
     exactness: Exactness,
-    /// Of the way there, for the way back.
+    /// Activations of the forward pass, kept for the backward pass.
     kept: Mutex<Option<Kept>>,
 }
 
 struct Kept {
-    /// What the gates are (steps × sequences × 4 units).
+    /// Gate activations (steps × sequences × 4 units).
     gates: Vec<f32>,
     /// Cells (steps × sequences × units).
     cells: Vec<f32>,
@@ -140,7 +143,7 @@ impl CustomOp2 for Lstm {
         let Self { n_steps, n_sequences, n_units, .. } = *self;
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(Kept { mut gates, cells }) = kept.take() else {
-            bail!("the way back of an LSTM layer goes once");
+            bail!("the backward pass of an LSTM layer runs only once");
         };
         let (of_step, n_gates) = (n_sequences * n_units, 4 * n_units);
         let wanted = states_gradient.flatten_all()?.to_vec1::<f32>()?;
@@ -152,7 +155,7 @@ impl CustomOp2 for Lstm {
             for (later, wanted) in from_later.iter_mut().zip(&wanted[step * of_step..]) {
                 *later += wanted;
             }
-            // Gates become their gradients in place.
+            // The gate buffer is overwritten by the gate gradients.
             let gates = &mut gates[4 * step * of_step..][..4 * of_step];
             let previous = step.checked_sub(1).map(|before| &cells[before * of_step..][..of_step]);
             let cells = &cells[step * of_step..][..of_step];
@@ -209,13 +212,13 @@ fn view_mut(values: &mut [f32], [rows, columns]: [usize; 2]) -> Result<ArrayView
     ArrayViewMut2::from_shape((rows, columns), values).map_err(candle_core::Error::wrap)
 }
 
-/// The values of a contiguous tensor.
+/// Returns the values of a contiguous tensor.
 fn floats<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     let Some((begin, end)) = layout.contiguous_offsets() else {
-        bail!("an LSTM layer takes contiguous tensors")
+        bail!("an LSTM layer needs contiguous tensors")
     };
     let values = storage.as_slice::<f32>()?;
-    debug_assert_eq!(storage.dtype(), candle_core::DType::F32, "as_slice says so");
+    debug_assert_eq!(storage.dtype(), candle_core::DType::F32, "as_slice checks the type");
     Ok(&values[begin..end])
 }
 

@@ -1,5 +1,6 @@
-//! Networks as files: safetensors, with a header of ours that says what they are. Nothing else is ever read: no format
-//! that could hold a program.
+//! Model files: safetensors with a Shagreen header that describes the model.
+//!
+//! No other format is read, in particular none that can contain code, such as pickle.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -8,51 +9,51 @@ use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// Key of our header among the metadata.
+/// Metadata key of the header.
 const KEY: &str = "shagreen";
-/// Format of the header.
+/// Format name in the header.
 const FORMAT: &str = "shagreen-model";
-/// Version that is written; a file of a later one is refused.
+/// Version that is written; newer versions are rejected.
 const VERSION: u32 = 1;
 
-/// Why a file is no network.
+/// Reasons why a file is not a usable model.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelFileError {
-    /// It is no safetensors file, or a damaged one.
-    #[error("it is no safetensors file, or damaged: {0}")]
+    /// The file is damaged or not safetensors.
+    #[error("it is not a safetensors file, or damaged: {0}; get the file again")]
     Tensors(#[from] safetensors::SafeTensorError),
-    /// It was not written by this program.
-    #[error("it was not written by Shagreen; make a model by `shagreen train`")]
+    /// The file has no Shagreen header.
+    #[error("it was not written by Shagreen; train a model with `shagreen train`")]
     Foreign,
-    /// Its header makes no sense.
-    #[error("its header is damaged: {0}")]
+    /// The header is invalid.
+    #[error("its header is damaged: {0}; get the file again")]
     Header(#[from] serde_json::Error),
-    /// It is of a later version.
-    #[error("it has version {version}, this program reads up to {VERSION}; get a newer Shagreen")]
+    /// The version is newer than this program.
+    #[error("it has version {version}, this program reads up to {VERSION}; use a newer version of Shagreen")]
     Version {
-        /// The version.
+        /// Version of the file.
         version: u32,
     },
-    /// It is a model of something else.
-    #[error("it is a model of {found}, one of {expected} is needed")]
+    /// The file holds another kind of model.
+    #[error("its kind is \"{found}\", needs \"{expected}\"; choose another file")]
     Kind {
-        /// What it is.
+        /// Kind of the file.
         found: String,
-        /// What it should be.
+        /// Required kind.
         expected: &'static str,
     },
-    /// Its numbers are not those that were written.
-    #[error("its numbers were changed or cut since it was written; get it again")]
+    /// The weights do not match their hash.
+    #[error("its weights were changed or cut since it was written; get the file again")]
     Hash,
-    /// A number of it is none.
-    #[error("\"{name}\" of it is not finite; learn anew by another seed, in another folder")]
+    /// A weight is not finite.
+    #[error("its tensor \"{name}\" is not finite; train again with another seed, in another folder")]
     NotFinite {
-        /// Name of the numbers.
+        /// Name of the tensor.
         name: String,
     },
-    /// Its numbers do not fit what it says it is.
-    #[error("its numbers do not fit: {0}")]
+    /// The tensors do not match the header.
+    #[error("its tensors do not fit: {0}")]
     Shape(#[from] candle_core::Error),
 }
 
@@ -61,18 +62,18 @@ struct Header {
     format: String,
     version: u32,
     kind: String,
-    /// Of all numbers, in the order of their names.
+    /// Hash of all tensors, in the order of their names.
     sha256: String,
     about: serde_json::Value,
 }
 
-/// Numbers by name.
+/// Tensors by name.
 pub(crate) type Numbers = BTreeMap<String, Tensor>;
 
-/// The bytes of a file of this kind.
+/// Returns the bytes of a file of this kind.
 ///
 /// # Errors
-/// [`ModelFileError::NotFinite`], and numbers that are not `f32`.
+/// [`ModelFileError::NotFinite`], and [`ModelFileError::Shape`] for tensors that are not `f32`.
 pub(crate) fn write<T: Serialize>(
     kind: &str,
     about: &T,
@@ -90,7 +91,7 @@ pub(crate) fn write<T: Serialize>(
     let sha256 = hash(data.iter().map(|(name, (shape, bytes))| (*name, &shape[..], &bytes[..])));
     let about = serde_json::to_value(about)?;
     let header = Header { format: FORMAT.to_owned(), version: VERSION, kind: kind.to_owned(), sha256, about };
-    // One key, so that the same model has the same bytes.
+    // A single metadata key, so that the same model gives the same bytes.
     let metadata = HashMap::from([(KEY.to_owned(), serde_json::to_string(&header)?)]);
     let views = data
         .iter()
@@ -102,10 +103,10 @@ pub(crate) fn write<T: Serialize>(
     Ok(safetensors::serialize(views, Some(metadata))?)
 }
 
-/// What a file of this kind holds.
+/// Returns the metadata and tensors of a file of this kind.
 ///
 /// # Errors
-/// See [`ModelFileError`].
+/// [`ModelFileError`] if the file is damaged, foreign, newer, of another kind or not finite.
 pub(crate) fn read<T: for<'de> Deserialize<'de>>(
     kind: &'static str,
     bytes: &[u8],
@@ -147,13 +148,13 @@ fn check_finite(name: &str, values: &[f32]) -> Result<(), ModelFileError> {
     }
 }
 
-/// Whether a file is a model that this program wrote, of whatever kind and version.
+/// Returns whether a file is a Shagreen model of any kind and version.
 pub fn is_model(bytes: &[u8]) -> bool {
     SafeTensors::read_metadata(bytes)
         .is_ok_and(|(_, metadata)| metadata.metadata().as_ref().is_some_and(|m| m.contains_key(KEY)))
 }
 
-/// SHA-256 of a file, as it is told with every prediction.
+/// Returns the SHA-256 of a file in hexadecimal, which is reported with every prediction.
 pub fn sha256_of(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
@@ -202,7 +203,7 @@ mod tests {
         let is_refused =
             |error: ModelFileError| matches!(error, ModelFileError::NotFinite { name } if name == "c");
         assert!(is_refused(write("toy", &7, &with(f32::NAN)).unwrap_err()));
-        // A file of somebody else's, whose hash is right.
+        // A foreign file with a valid hash.
         let bytes_of = |value: f32| [1.0, value].map(f32::to_le_bytes).concat();
         let bytes = write("toy", &7, &with(3.5)).unwrap();
         let at = bytes.windows(8).position(|window| window == bytes_of(3.5)).unwrap();
@@ -234,7 +235,7 @@ mod tests {
         let text = String::from_utf8_lossy(&bytes).into_owned();
         let later = text.replace(r#"\"version\":1"#, r#"\"version\":2"#);
         assert_ne!(later, text);
-        // The numbers are no text; only the header counts here.
+        // Lossy conversion may corrupt the weights; only the header matters here.
         assert!(matches!(
             failure(later.as_bytes()),
             ModelFileError::Version { version: 2 } | ModelFileError::Tensors(_)

@@ -1,18 +1,18 @@
-//! The numbers of a network, by name.
+//! Trainable parameters of a network, by name.
 
 use std::collections::BTreeMap;
 
 use candle_core::backprop::GradStore;
 use candle_core::{Device, Result, Tensor, Var, bail};
 
-/// Numbers that are learned, in the order of their names.
+/// Trainable parameters, sorted by name.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Parameters {
     vars: BTreeMap<String, Var>,
 }
 
 impl Parameters {
-    /// Adds numbers of this shape, row after row.
+    /// Adds a parameter tensor from values in row-major order.
     pub(crate) fn add(
         &mut self,
         name: &str,
@@ -25,36 +25,36 @@ impl Parameters {
         Ok(())
     }
 
-    /// Those of a name.
+    /// Returns the tensor with this name.
     pub(crate) fn get(&self, name: &str) -> Result<&Tensor> {
         match self.vars.get(name) {
             Some(var) => Ok(var.as_tensor()),
-            None => bail!("the network has no numbers called \"{name}\""),
+            None => bail!("the network has no tensor \"{name}\""),
         }
     }
 
-    /// All of them.
+    /// Returns all parameters.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &Var)> {
         self.vars.iter().map(|(name, var)| (name.as_str(), var))
     }
 
-    /// How many numbers there are.
+    /// Returns the total number of values.
     #[cfg(test)]
     pub(crate) fn n_numbers(&self) -> usize {
         self.vars.values().map(|var| var.elem_count()).sum()
     }
 
-    /// A copy that does not change with these.
+    /// Returns a copy that later training does not change.
     pub(crate) fn snapshot(&self) -> Result<BTreeMap<String, Tensor>> {
         self.vars.iter().map(|(name, var)| Ok((name.clone(), var.as_tensor().copy()?))).collect()
     }
 
-    /// Puts numbers in the place of those that are there: all of them, each of its shape.
+    /// Replaces all parameters; names and shapes must match.
     pub(crate) fn restore(&self, from: &BTreeMap<String, Tensor>) -> Result<()> {
         for (name, var) in &self.vars {
-            let Some(tensor) = from.get(name) else { bail!("the numbers of \"{name}\" are missing") };
+            let Some(tensor) = from.get(name) else { bail!("tensor \"{name}\" is missing") };
             if tensor.shape() != var.shape() {
-                bail!("\"{name}\" has the shape {:?}, {:?} is expected", tensor.shape(), var.shape());
+                bail!("tensor \"{name}\" has the shape {:?}, needs {:?}", tensor.shape(), var.shape());
             }
             var.set(&tensor.to_device(var.device())?)?;
         }
@@ -62,7 +62,7 @@ impl Parameters {
     }
 }
 
-/// How Adam steps (D. Kingma and J. Ba 2015, algorithm 1).
+/// Settings of Adam (D. Kingma and J. Ba 2015, algorithm 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct AdamConfig {
     pub(crate) learning_rate: f64,
@@ -72,18 +72,18 @@ pub(crate) struct AdamConfig {
 }
 
 impl AdamConfig {
-    /// The usual one, with this rate.
+    /// Returns the usual settings with this learning rate.
     pub(crate) const fn usual(learning_rate: f64) -> Self {
         Self { learning_rate, beta1: 0.9, beta2: 0.999, epsilon: 1e-7 }
     }
 }
 
-/// Where Adam is: candle's own keeps its moments to itself, and could not go on after a stop.
+/// State of the Adam optimizer; candle's own optimizer hides its moments, so training could not be resumed.
 #[derive(Clone, Debug)]
 pub(crate) struct Adam {
     config: AdamConfig,
     pub(crate) n_steps: usize,
-    /// Mean and mean square of the gradients of each name.
+    /// First and second moment of the gradient of each parameter.
     pub(crate) moments: BTreeMap<String, [Tensor; 2]>,
 }
 
@@ -92,7 +92,7 @@ impl Adam {
         Self { config, n_steps: 0, moments: BTreeMap::new() }
     }
 
-    /// Goes a step down these gradients; numbers without one stay.
+    /// Takes one step down these gradients; parameters without a gradient stay unchanged.
     pub(crate) fn step(&mut self, parameters: &Parameters, gradients: &GradStore) -> Result<()> {
         self.n_steps += 1;
         let AdamConfig { learning_rate, beta1, beta2, epsilon } = self.config;
@@ -126,7 +126,7 @@ mod tests {
         let mut parameters = Parameters::default();
         parameters.add("x", &[2], vec![1.0, -2.0], &Device::Cpu).unwrap();
         let mut adam = Adam::new(AdamConfig::usual(0.1));
-        // In doubles, with the gradient of x² y for y = (3, 1).
+        // In double precision, for the loss y·x² with y = (3, 1).
         let (mut x, mut m, mut v) = ([1.0_f64, -2.0], [0.0; 2], [0.0; 2]);
         for step in 1..=5 {
             let scale = Tensor::new(&[3.0_f32, 1.0], &Device::Cpu).unwrap();

@@ -1,17 +1,19 @@
-//! Attributes from pictures: dense layers over what a frozen network, or statistics, see in them (AttributeNet, "Text-Driven
-//! Generative Framework for Multimodal Visual and Haptic Texture Synthesis": layers of 512, 128 and 128 to one number an
-//! attribute, labels with a little noise, Adam, early stop).
+//! Attributes predicted from pictures: small dense networks (heads) on features of a frozen backbone or texture
+//! statistics.
 //!
-//! Several such heads learn from the same pictures, each with others kept aside; they predict their mean. How far they are
-//! off what was kept aside, how far they are apart, and how unlike anything they learned from a picture is, say how unsure
-//! that is.
+//! The heads follow AttributeNet ("Text-Driven Generative Framework for Multimodal Visual and Haptic Texture
+//! Synthesis"): layers of 512, 128 and 128 units, one output per attribute, label noise, Adam and early stopping.
+//!
+//! A model is an ensemble of heads, each trained with its own validation split. The prediction is their mean. Its
+//! standard deviation combines the validation error and the spread of the heads, and grows for pictures unlike the
+//! training set.
 
 use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
-use shagreen_core::gaussian_process::Estimate;
-use shagreen_core::prompt::OPEN;
-use shagreen_core::rng::{Random, derive_seed};
-use shagreen_core::statistics::{mean, quantile, standard_deviation};
+use shagreen_core::maths::gaussian_process::Estimate;
+use shagreen_core::maths::rng::{Random, derive_seed};
+use shagreen_core::maths::statistics::{mean, quantile, standard_deviation};
+use shagreen_core::surfaces::prompt::OPEN;
 
 use crate::backbone::{Backbone, BackboneKind};
 use crate::dense;
@@ -20,33 +22,33 @@ use crate::model_file::{self, ModelFileError, Numbers};
 use crate::parameters::{Adam, AdamConfig, Parameters};
 use crate::picture_set::Seen;
 
-/// Kind of a file with such a model.
+/// Kind of the file.
 const MODEL: &str = "attributes from pictures";
 
-/// Least deviation that a feature is divided by: one that is almost the same in all pictures says nothing.
+/// Smallest standard deviation that a feature is divided by; a nearly constant feature is not informative.
 const LEAST_DEVIATION: f32 = 1e-6;
-/// Largest feature, in deviations: a picture unlike all others must not throw a prediction anywhere.
+/// Limit of scaled features, in standard deviations, so that an unusual picture cannot cause an extreme prediction.
 const LARGEST: f32 = 6.0;
-/// Share of the pictures which are less unlike the others than what counts as unlike.
+/// Quantile of the training pictures' unlikeness that counts as usual.
 const USUAL_SHARE: f64 = 0.95;
 
-/// Who looks at a picture.
+/// Feature extractor of pictures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Eyes {
-    /// [`shagreen_core::picture_features`]: nothing else is needed.
+    /// Texture statistics ([`shagreen_core::surfaces::picture_features`]); no other file is needed.
     Statistics,
-    /// A network of others, by the hash of its file.
+    /// A pretrained backbone network, identified by the hash of its file.
     Network {
-        /// Which.
+        /// Kind of the network.
         kind: BackboneKind,
-        /// Of its file.
+        /// SHA-256 of the network's file.
         sha256: String,
     },
 }
 
 impl Eyes {
-    /// Those of a network, or else statistics.
+    /// Returns the extractor for a backbone network, or else texture statistics.
     pub fn of(backbone: Option<&Backbone>) -> Self {
         match backbone {
             Some(backbone) => Self::Network { kind: backbone.kind(), sha256: backbone.sha256().to_owned() },
@@ -54,7 +56,7 @@ impl Eyes {
         }
     }
 
-    /// What they are called.
+    /// Returns the name of the extractor.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Statistics => "statistics of the picture",
@@ -63,29 +65,29 @@ impl Eyes {
     }
 }
 
-/// How heads learn.
+/// Training settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PictureConfig {
-    /// Numbers after each layer but the last.
+    /// Units of each hidden layer.
     pub hidden: Vec<usize>,
-    /// Most rounds over all pictures.
+    /// Maximum number of epochs.
     pub n_epochs: usize,
-    /// Pictures a step.
+    /// Pictures per batch.
     pub n_batch: usize,
-    /// Adam's rate.
+    /// Learning rate of Adam.
     pub learning_rate: f64,
-    /// Labels are learned as if they were off by up to this, 0..1 of their range, another way at every step.
+    /// Amplitude of uniform label noise, relative to the label range of 0 to 1; drawn anew at every step.
     pub label_noise: f64,
-    /// Rounds without a better prediction of what is kept aside after which a head stops.
+    /// Epochs without a lower validation error before a head stops early.
     pub patience: usize,
-    /// How many heads learn.
+    /// Number of heads.
     pub n_heads: usize,
-    /// Everything that is drawn.
+    /// Seed of all random draws.
     pub seed: u64,
 }
 
 impl PictureConfig {
-    /// The paper's; steps of 32, which it does not say.
+    /// Returns the settings of the paper; it does not state the batch size, which is 32 here.
     pub fn paper(n_epochs: usize, patience: usize, n_heads: usize, seed: u64) -> Self {
         Self {
             hidden: vec![512, 128, 128],
@@ -100,88 +102,91 @@ impl PictureConfig {
     }
 }
 
-/// Why nothing is learned, or predicted.
+/// Reasons why a model cannot be trained, read or used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureModelError {
-    /// There is too little.
-    #[error("{n} pictures are too few to learn from, {least} are the least")]
+    /// There are too few pictures.
+    #[error("training needs at least {least} pictures, got {n}; add more")]
     TooFew {
-        /// Pictures there are.
+        /// Number of pictures.
         n: usize,
-        /// Pictures there should be.
+        /// Smallest number of pictures.
         least: usize,
     },
-    /// Pictures have different numbers of features or labels, or a number is not finite.
+    /// Features or labels differ in number between pictures, or a value is not finite.
     #[error(
-        "picture {index} (from 0) has {n_features} features and {n_labels} labels, or one that is not finite; {expected:?} are expected"
+        "picture {index} (from 0) has {n_features} features and {n_labels} labels, needs {expected:?}, all finite; extract its features again"
     )]
     Picture {
-        /// Which.
+        /// Index of the picture.
         index: usize,
-        /// Features it has.
+        /// Number of its features.
         n_features: usize,
-        /// Labels it has.
+        /// Number of its labels.
         n_labels: usize,
-        /// Features and labels it should have.
+        /// Required numbers of features and labels.
         expected: [usize; 2],
     },
-    /// A number of the settings makes no sense.
-    #[error("a head cannot learn with these settings")]
+    /// A setting or a size in a file is out of range.
+    #[error("the model's settings are invalid; check layer sizes, heads, batch size and label noise")]
     Settings,
     /// A file cannot be read.
     #[error(transparent)]
     File(#[from] ModelFileError),
-    /// Tensors do not fit.
-    #[error("the head could not be worked out: {0}")]
+    /// A tensor operation failed.
+    #[error("the head could not be evaluated: {0}")]
     Tensor(#[from] candle_core::Error),
 }
 
-/// What a file of a model says beside its numbers.
+/// Metadata of a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct About {
     eyes: Eyes,
     attributes: Vec<String>,
-    /// Sizes of all layers from the features on.
+    /// Sizes of all layers, features and outputs included.
     sizes: Vec<usize>,
     n_heads: usize,
-    /// Root mean square errors of what was kept aside, in points.
+    /// Validation RMSE of each attribute, in points of 0 to 100.
     aside_rmse: Vec<f64>,
-    /// How unlike the others a picture may be before it counts as unlike.
+    /// Unlikeness up to which a picture counts as similar to the training set.
     usual_unlikeness: f64,
     learned_from: String,
 }
 
-/// A model that has learned.
+/// A trained ensemble of heads.
 #[derive(Clone, Debug)]
 pub struct PictureModel {
     about: About,
-    /// Mean and deviation of each feature.
+    /// Mean and standard deviation of each feature.
     scale: [Vec<f32>; 2],
     heads: Vec<Parameters>,
     device: Device,
 }
 
-/// What a model is told beside its pictures.
+/// Metadata of a training run.
 #[derive(Clone, Debug)]
 pub struct Lesson {
-    /// Who looked at the pictures.
+    /// Feature extractor of the pictures.
     pub eyes: Eyes,
-    /// What the labels are called.
+    /// Names of the labels.
     pub attributes: Vec<String>,
-    /// What was learned from, in words.
+    /// Description of the training data.
     pub learned_from: String,
 }
 
-/// Fewest pictures to learn from.
+/// Smallest number of training pictures.
 const LEAST: usize = 8;
 
 impl PictureModel {
-    /// Learns; labels go from 0 to 100, and beyond for what lies beyond. `epoch` is called with the number of rounds of all heads so far, and stops by false:
-    /// what is learned until then is the model.
+    /// Trains a model; labels are on a scale of 0 to 100 and may exceed it.
+    ///
+    /// `epoch` receives the number of epochs so far, over all heads. If it returns false, training stops and the model
+    /// keeps what it has learned so far.
     ///
     /// # Errors
-    /// See [`PictureModelError`].
+    /// [`PictureModelError::TooFew`], [`PictureModelError::Picture`] or [`PictureModelError::Settings`] for unusable
+    /// input.
     pub fn learn(
         pictures: &[&Seen],
         lesson: Lesson,
@@ -234,25 +239,25 @@ impl PictureModel {
         Ok(Self { about, scale, heads, device })
     }
 
-    /// Who must have looked at a picture.
+    /// Returns the feature extractor that the model needs.
     pub fn eyes(&self) -> &Eyes {
         &self.about.eyes
     }
 
-    /// What it predicts.
+    /// Returns the names of the predicted attributes.
     pub fn attributes(&self) -> &[String] {
         &self.about.attributes
     }
 
-    /// What it learned from, in words.
+    /// Returns a description of the training data.
     pub fn learned_from(&self) -> &str {
         &self.about.learned_from
     }
 
-    /// Attributes of a picture in which these features were seen, 0..100.
+    /// Returns the attributes predicted from a picture's features, 0 to 100, with standard deviations.
     ///
     /// # Errors
-    /// [`PictureModelError::Picture`] for another number of features.
+    /// [`PictureModelError::Picture`] for another number of features, or a feature that is not finite.
     pub fn predict(&self, features: &[f32]) -> Result<Vec<Estimate>, PictureModelError> {
         let expected = [self.scale[0].len(), self.about.attributes.len()];
         if features.len() != expected[0] || features.iter().any(|x| !x.is_finite()) {
@@ -270,17 +275,17 @@ impl PictureModel {
             let values: Vec<f64> = by_head.iter().map(|head| 100.0 * f64::from(head[attribute])).collect();
             Estimate {
                 mean: mean(&values).clamp(0.0, 100.0),
-                // Nothing is less sure than what nothing is known of.
+                // Never above the standard deviation of an unknown attribute.
                 deviation: (unlike * rmse.hypot(standard_deviation(&values))).min(OPEN.deviation),
             }
         };
         Ok(self.about.aside_rmse.iter().enumerate().map(estimate).collect())
     }
 
-    /// The bytes of its file.
+    /// Returns the bytes of the model's file.
     ///
     /// # Errors
-    /// See [`PictureModelError`].
+    /// [`PictureModelError::File`] if a weight is not finite.
     pub fn to_bytes(&self) -> Result<Vec<u8>, PictureModelError> {
         let mut numbers = Numbers::new();
         for (index, head) in self.heads.iter().enumerate() {
@@ -293,10 +298,10 @@ impl PictureModel {
         Ok(model_file::write(MODEL, &self.about, &numbers)?)
     }
 
-    /// The model of a file.
+    /// Returns the model of a file.
     ///
     /// # Errors
-    /// See [`PictureModelError`].
+    /// [`PictureModelError::File`] for an invalid file, [`PictureModelError::Settings`] for impossible sizes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PictureModelError> {
         let device = crate::device::best();
         let (about, numbers) = model_file::read::<About>(MODEL, bytes, &device)?;
@@ -313,7 +318,7 @@ impl PictureModel {
         }
         let scale_of = |name: &str| match numbers.get(name) {
             Some(tensor) if tensor.dims() == [n_features] => tensor.to_vec1::<f32>(),
-            _ => candle_core::bail!("{name} does not have {n_features} numbers"),
+            _ => candle_core::bail!("tensor \"{name}\" does not have {n_features} values"),
         };
         let scale = ["scale.mean", "scale.deviation"].map(scale_of);
         let [means, deviations] = scale.map(|part| part.map_err(ModelFileError::Shape));
@@ -333,20 +338,20 @@ impl PictureModel {
     }
 }
 
-/// Looks, before anything is made for it, whether a file has the layers that it says.
+/// Checks, before any allocation, that a file has the layers its header states.
 fn check_shapes(numbers: &Numbers, sizes: &[usize]) -> Result<(), ModelFileError> {
     for (index, pair) in sizes.windows(2).enumerate() {
         let name = format!("dense{index}.weight");
         let found = numbers.get(&name).map(Tensor::dims);
         if found != Some(pair) {
-            let what = format!("\"{name}\" has the shape {found:?}, {pair:?} is expected");
+            let what = format!("tensor \"{name}\" has the shape {found:?}, needs {pair:?}");
             return Err(ModelFileError::Shape(candle_core::Error::Msg(what)));
         }
     }
     Ok(())
 }
 
-/// More numbers in a layer, layers and heads are no model of ours, but a file that asks for much memory.
+/// Limits of layer size, layers and heads; they guard against files that would allocate excessive memory.
 const MOST_NUMBERS: usize = 1 << 14;
 const MOST_LAYERS: usize = 16;
 const MOST_HEADS: usize = 64;
@@ -378,7 +383,7 @@ fn check(pictures: &[&Seen], lesson: &Lesson, config: &PictureConfig) -> Result<
     }
 }
 
-/// Mean and deviation of each feature.
+/// Returns mean and standard deviation of each feature.
 fn scale_of(pictures: &[&Seen]) -> [Vec<f32>; 2] {
     let column = |feature: usize| -> Vec<f64> {
         pictures.iter().map(|seen| f64::from(seen.features[feature])).collect()
@@ -396,7 +401,7 @@ fn scaled(features: &[f32], [means, deviations]: &[Vec<f32>; 2]) -> Vec<f32> {
     features.iter().zip(means).zip(deviations).map(of).collect()
 }
 
-/// Root mean square of scaled features: about one for a picture like those that were learned from.
+/// Returns the RMS of scaled features (unlikeness): about one for a picture similar to the training set.
 fn unlikeness(row: &[f32]) -> f64 {
     mean(&row.iter().map(|x| f64::from(*x).powi(2)).collect::<Vec<f64>>()).sqrt()
 }
@@ -421,7 +426,7 @@ fn run(parameters: &Parameters, x: &Tensor, n_layers: usize) -> Result<Tensor, c
     Ok(x)
 }
 
-/// A head that is learning.
+/// A head in training.
 struct Learning<'a> {
     rows: &'a [Vec<f32>],
     labels: &'a [Vec<f32>],
@@ -485,7 +490,7 @@ impl<'a> Learning<'a> {
             let all: Vec<usize> = (0..labels.len()).collect();
             let y = tensor(&labels, &all, self.device)?;
             let error = (run(&self.parameters, &x, self.n_layers)? - y)?.sqr()?.mean_all()?;
-            // Its slope has no end at zero.
+            // The offset keeps the gradient of the square root finite at zero error.
             let gradients = (error + 1e-12)?.sqrt()?.backward()?;
             adam.step(&self.parameters, &gradients)?;
         }
@@ -501,14 +506,14 @@ impl<'a> Learning<'a> {
         Ok(())
     }
 
-    /// How far off each picture that was kept aside is, label by label.
+    /// Returns the errors of each validation picture, label by label.
     fn aside_errors(&self) -> Result<Vec<Vec<f32>>, candle_core::Error> {
         let x = tensor(self.rows, &self.aside, self.device)?;
         let y = tensor(self.labels, &self.aside, self.device)?;
         (run(&self.parameters, &x, self.n_layers)? - y)?.to_vec2()
     }
 
-    /// The best that was learned, and how far off it is.
+    /// Returns the best parameters and their validation errors.
     fn finish(self) -> Result<(Parameters, Vec<Vec<f32>>), candle_core::Error> {
         self.parameters.restore(&self.best)?;
         let errors = self.aside_errors()?;
@@ -516,7 +521,7 @@ impl<'a> Learning<'a> {
     }
 }
 
-/// These rows, one below the other.
+/// Returns the selected rows as a tensor.
 fn tensor(rows: &[Vec<f32>], indices: &[usize], device: &Device) -> Result<Tensor, candle_core::Error> {
     let values: Vec<f32> = indices.iter().flat_map(|index| rows[*index].iter().copied()).collect();
     let n_columns = rows.first().map_or(0, Vec::len);

@@ -1,29 +1,29 @@
-//! What a network, or statistics, saw in pictures of which it is known what they feel like; kept as a file, since looking
-//! takes most of the time.
+//! Cached training set of picture features and labels, kept as a file because feature extraction takes most of the
+//! time.
 
 use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
 
 use crate::model_file::{self, ModelFileError, Numbers};
 
-/// Kind of its file.
+/// Kind of the file.
 const KIND: &str = "pictures that were looked at";
 
-/// What was seen in one picture.
+/// Features and labels of one picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
-    /// Features, as many as for all pictures.
+    /// Features; all pictures have the same number.
     pub features: Vec<f32>,
-    /// What it feels like.
+    /// Labels of the picture.
     pub labels: Vec<f64>,
 }
 
-/// What was seen in pictures that are drawn one after the other.
+/// Features and labels of a series of drawn pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureSet {
-    /// How they were drawn and who looked, so that a set is not continued by another.
+    /// How the pictures were drawn and which extractor made the features; a set is only continued by the same method.
     pub made_by: String,
-    /// In the order of their numbers.
+    /// Pictures in order of their numbers.
     pub pictures: Vec<Seen>,
 }
 
@@ -33,10 +33,10 @@ struct About {
 }
 
 impl PictureSet {
-    /// The bytes of its file.
+    /// Returns the bytes of the set's file.
     ///
     /// # Errors
-    /// [`ModelFileError`] where pictures have different numbers of features or labels.
+    /// [`ModelFileError`] if pictures differ in their number of features or labels, or a value is not finite.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ModelFileError> {
         let rows = |of: &dyn Fn(&Seen) -> Vec<f32>| -> Result<Tensor, candle_core::Error> {
             let rows: Vec<Vec<f32>> = self.pictures.iter().map(of).collect();
@@ -51,20 +51,20 @@ impl PictureSet {
         model_file::write(KIND, &About { made_by: self.made_by.clone() }, &numbers)
     }
 
-    /// The set of a file.
+    /// Returns the set of a file.
     ///
     /// # Errors
-    /// See [`ModelFileError`].
+    /// [`ModelFileError`] if the file is damaged or of another kind.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ModelFileError> {
         let (About { made_by }, numbers) = model_file::read(KIND, bytes, &Device::Cpu)?;
         let rows = |name: &str| match numbers.get(name) {
             Some(tensor) => tensor.to_vec2::<f32>(),
-            None => candle_core::bail!("there are no {name}"),
+            None => candle_core::bail!("tensor \"{name}\" is missing"),
         };
         let (features, labels) = (rows("features")?, rows("labels")?);
         if features.len() != labels.len() {
             return Err(ModelFileError::Shape(candle_core::Error::Msg(format!(
-                "there are {} rows of features and {} of labels",
+                "{} rows of features, but {} rows of labels",
                 features.len(),
                 labels.len()
             ))));

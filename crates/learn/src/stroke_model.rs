@@ -1,21 +1,21 @@
-//! A network that has learned attributes from strokes, and its file.
+//! A trained network that predicts attributes from strokes, and its file.
 
 use candle_core::Device;
 use serde::{Deserialize, Serialize};
-use shagreen_core::fit::Stroke;
+use shagreen_core::recording::fit::Stroke;
 
 use crate::cnn_lstm::{Architecture, CnnLstm};
 use crate::model_file::{self, ModelFileError};
 use crate::stroke_set::{Scale, Segments, StrokedTexture};
-use crate::training::TrainingError;
+use crate::training_error::TrainingError;
 
-/// Kind of its file.
+/// Kind of the file.
 const MODEL: &str = "attributes from strokes";
 
-/// Segments that are predicted at once.
+/// Segments per inference batch.
 pub(crate) const N_AT_ONCE: usize = 64;
 
-/// A network that has learned.
+/// A trained CNN-LSTM network.
 #[derive(Clone, Debug)]
 pub struct StrokeModel {
     network: CnnLstm,
@@ -23,22 +23,22 @@ pub struct StrokeModel {
     device: Device,
 }
 
-/// What a network tells, how well, and what it has learned that from.
+/// Model card: what a network predicts, its error, and its training data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelCard {
     /// Names of the attributes.
     pub attributes: Vec<String>,
-    /// Root mean square error of each for textures that were left out, in points of 0..100.
+    /// RMSE of each attribute on textures left out of training, in points of 0 to 100.
     pub left_out_rmse: Vec<f64>,
-    /// What sort of network it is.
+    /// Kind of network.
     pub network: String,
-    /// What it has learned from, in words.
+    /// Description of the training data.
     pub learned_from: String,
-    /// Where those attributes come from: identifiers as files of libraries have them.
+    /// Sources of the training labels, as identifiers of library files.
     pub label_sources: Vec<String>,
 }
 
-/// What a file of a network says beside its numbers.
+/// Metadata of a network file.
 #[derive(Serialize, Deserialize)]
 struct About {
     architecture: Architecture,
@@ -51,15 +51,17 @@ impl StrokeModel {
         Self { network, scale, device }
     }
 
-    /// Sizes of the network.
+    /// Returns the sizes of the network.
     pub fn architecture(&self) -> &Architecture {
         self.network.architecture()
     }
 
-    /// The attributes of strokes, 0..100: the mean over all whole segments; `None` where there is no whole one.
+    /// Returns the attributes predicted from strokes, 0 to 100, averaged over all whole segments.
+    ///
+    /// `None` if no stroke contains a whole segment.
     ///
     /// # Errors
-    /// See [`TrainingError`].
+    /// [`TrainingError::Tensor`] if the network fails.
     pub fn predict(&self, strokes: &[Stroke]) -> Result<Option<Vec<f64>>, TrainingError> {
         let n_outputs = self.architecture().n_outputs;
         let texture =
@@ -79,10 +81,11 @@ impl StrokeModel {
         Ok(Some(sums.iter().map(|sum| (sum / segments.len() as f64).clamp(0.0, 100.0)).collect()))
     }
 
-    /// The bytes of its file.
+    /// Returns the bytes of the model's file.
     ///
     /// # Errors
-    /// See [`TrainingError`]; [`TrainingError::Card`] where the card is not of this network.
+    /// [`TrainingError::Card`] if the card does not match this network, [`TrainingError::File`] if a weight is not
+    /// finite.
     pub fn to_bytes(&self, card: &ModelCard) -> Result<Vec<u8>, TrainingError> {
         check(card, self.architecture())?;
         let about =
@@ -90,10 +93,11 @@ impl StrokeModel {
         Ok(model_file::write(MODEL, &about, &self.network.snapshot()?)?)
     }
 
-    /// The network of a file, and what is known of it.
+    /// Returns the network and model card of a file.
     ///
     /// # Errors
-    /// See [`TrainingError`].
+    /// [`TrainingError::File`] for an invalid file, [`TrainingError::Sizes`] and [`TrainingError::Card`] for invalid
+    /// metadata.
     pub fn from_bytes(bytes: &[u8]) -> Result<(Self, ModelCard), TrainingError> {
         let device = crate::device::best();
         let (About { architecture, scale, card }, numbers) = model_file::read(MODEL, bytes, &device)?;

@@ -1,32 +1,32 @@
-//! Strokes over textures that people rated, cut into segments for a network.
+//! Training set of strokes over rated textures, split into segments.
 
 use candle_core::{Device, Result, Tensor};
-use shagreen_core::fit::Stroke;
+use shagreen_core::recording::fit::Stroke;
 
-/// The strokes over one texture, and what people say of it.
+/// Strokes over one texture, with its attributes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrokedTexture {
     /// Identifier of the texture.
     pub id: String,
-    /// Its strokes, at the rate at which the network works.
+    /// Strokes, at the sampling rate of the network.
     pub strokes: Vec<Stroke>,
-    /// Its attributes, 0..100.
+    /// Attributes, 0 to 100.
     pub attributes: Vec<f64>,
 }
 
-/// What brings the channels of a segment to about one.
+/// Scale factors that normalize the channels of a segment to about one.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Scale {
-    /// Root mean square acceleration of what was learned from, in m/s².
+    /// RMS acceleration of the training strokes, in m/s².
     pub(crate) accel_mps2: f64,
-    /// Highest speed of the paper's patterns, in m/s.
+    /// Highest speed of the paper's stroke patterns, in m/s.
     pub(crate) speed_mps: f64,
-    /// Highest force of the paper's patterns, in N.
+    /// Highest force of the paper's stroke patterns, in N.
     pub(crate) force_n: f64,
 }
 
 impl Scale {
-    /// That of these textures.
+    /// Returns the scale of these textures.
     pub(crate) fn of(textures: &[&StrokedTexture]) -> Self {
         let (mut sum, mut n) = (0.0, 0_usize);
         for value in
@@ -43,19 +43,19 @@ impl Scale {
 /// Segments with the attributes of their textures.
 #[derive(Clone, Debug)]
 pub(crate) struct Segments {
-    /// Channels beside each other, sample after sample, segment after segment.
+    /// Interleaved channels, sample by sample, segment by segment.
     values: Vec<f32>,
-    /// Attributes over 100, segment after segment.
+    /// Attributes divided by 100, segment by segment.
     targets: Vec<f32>,
     n_samples: usize,
     n_targets: usize,
 }
 
-/// Values a sample: acceleration, speed, force.
+/// Channels per sample: acceleration, speed, force.
 pub(crate) const N_CHANNELS: usize = 3;
 
 impl Segments {
-    /// All whole segments of the strokes.
+    /// Returns all whole segments of the strokes.
     pub(crate) fn of(textures: &[&StrokedTexture], n_samples: usize, scale: &Scale) -> Self {
         let (mut values, mut targets, mut n_targets) = (Vec::new(), Vec::new(), 0);
         for texture in textures {
@@ -71,12 +71,12 @@ impl Segments {
         Self { values, targets, n_samples, n_targets }
     }
 
-    /// How many there are.
+    /// Returns the number of segments.
     pub(crate) fn len(&self) -> usize {
         self.values.len() / (self.n_samples * N_CHANNELS)
     }
 
-    /// Some of them (segments × samples × channels), and their attributes (segments × attributes).
+    /// Returns a batch of segments (segments × samples × channels) and their attributes (segments × attributes).
     pub(crate) fn batch(&self, indices: &[usize], device: &Device) -> Result<(Tensor, Tensor)> {
         let of_segment = self.n_samples * N_CHANNELS;
         let values: Vec<f32> = indices
@@ -94,7 +94,7 @@ impl Segments {
     }
 }
 
-/// The channels of the first samples of a stroke.
+/// Returns the normalized channels of the first `n` samples of a stroke.
 fn samples(stroke: &Stroke, n: usize, scale: &Scale) -> impl Iterator<Item = f32> {
     let channels = stroke.accel_mps2.iter().zip(&stroke.speed_mps).zip(&stroke.force_n).take(n);
     channels.flat_map(|((accel, speed), force)| {

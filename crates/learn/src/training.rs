@@ -1,108 +1,68 @@
-//! How the network learns from strokes: Adam, root mean square error, early stop; it can be stopped at any epoch and goes
-//! on as if it had not been.
+//! Training of a stroke network: Adam, RMSE loss and early stopping.
+//!
+//! It can be stopped after any epoch and resumed with an identical result.
 
 use std::ops::Range;
 
 use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
-use shagreen_core::rng::{Random, derive_seed};
+use shagreen_core::maths::rng::{Random, derive_seed};
 
 use crate::cnn_lstm::{Architecture, CnnLstm};
-use crate::model_file::{self, ModelFileError, Numbers};
+use crate::model_file::{self, Numbers};
 use crate::parameters::{Adam, AdamConfig};
 use crate::stroke_model::{N_AT_ONCE, StrokeModel};
 use crate::stroke_set::{N_CHANNELS, Scale, Segments, StrokedTexture};
 
-/// Kind of a file with a network that is learning.
+pub use crate::training_error::TrainingError;
+
+/// Kind of the state file.
 const STATE: &str = "a training of attributes from strokes";
 
-/// Version of everything below that a training would not go on with as it began.
+/// Version of the training procedure; a state saved by another version cannot be resumed.
 const WAY: u32 = 1;
 
-/// How to learn.
+/// Training settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingConfig {
     /// Sizes of the network.
     pub architecture: Architecture,
-    /// Most rounds over all segments.
+    /// Maximum number of epochs.
     pub n_epochs: usize,
-    /// Segments a step, at most.
+    /// Maximum number of segments per batch.
     pub n_batch: usize,
-    /// Adam's rate.
+    /// Learning rate of Adam.
     pub learning_rate: f64,
-    /// Rounds without a better prediction of what is kept aside after which it stops; `None` never stops and keeps nothing
-    /// aside.
+    /// Epochs without a lower validation error before training stops early.
+    ///
+    /// `None` disables early stopping and the validation set.
     pub patience: Option<usize>,
-    /// Everything that is drawn.
+    /// Seed of all random draws.
     pub seed: u64,
 }
 
 impl TrainingConfig {
-    /// The paper's: steps of 32 (the paper does not say), at a rate of 0.001.
+    /// Returns the settings of the paper: a learning rate of 0.001, and batches of 32 (which the paper does not state).
     pub fn paper(architecture: Architecture, n_epochs: usize, patience: Option<usize>, seed: u64) -> Self {
         Self { architecture, n_epochs, n_batch: 32, learning_rate: 1e-3, patience, seed }
     }
 }
 
-/// Why nothing is learned.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum TrainingError {
-    /// There is too little.
-    #[error(
-        "{n_segments} segments of {n_textures} textures are too few to learn from; two textures with strokes of {n_samples} samples are the least"
-    )]
-    TooFew {
-        /// Segments there are.
-        n_segments: usize,
-        /// Textures there are.
-        n_textures: usize,
-        /// Samples of a segment.
-        n_samples: usize,
-    },
-    /// A size is zero or larger than anything could be.
-    #[error("the network cannot have these sizes")]
-    Sizes,
-    /// What it has learned is no number any more.
-    #[error("the learning went astray in round {round}; begin anew by another seed, in another folder")]
-    Astray {
-        /// Number of the round, from 1.
-        round: usize,
-    },
-    /// What is said of a network is not of this one.
-    #[error("what is said of the network does not fit its {n_outputs} attributes")]
-    Card {
-        /// Attributes of the network.
-        n_outputs: usize,
-    },
-    /// What was kept belongs to another training.
-    #[error(
-        "what was kept belongs to a training with other settings or textures; begin anew in another folder"
-    )]
-    Other,
-    /// A file cannot be read.
-    #[error(transparent)]
-    File(#[from] ModelFileError),
-    /// Tensors do not fit.
-    #[error("the network could not be worked out: {0}")]
-    Tensor(#[from] candle_core::Error),
-}
-
-/// What a round over all segments came to, in points of 0..100.
+/// Result of an epoch; errors are in points of 0 to 100.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
-    /// Number of the round, from 1.
+    /// Number of the epoch, from 1.
     pub number: usize,
-    /// Root mean square error of what was learned from, over the round.
+    /// Training RMSE, averaged over the epoch.
     pub learned_rmse: f64,
-    /// That of what was kept aside.
+    /// Validation RMSE; `None` without a validation set.
     pub aside_rmse: Option<f64>,
 }
 
-/// What a file of a training says beside its numbers.
+/// Metadata of a state file.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct State {
-    /// The [`WAY`] that it has learned by.
+    /// The [`WAY`] of the training.
     #[serde(default)]
     way: u32,
     config: TrainingConfig,
@@ -111,27 +71,27 @@ struct State {
     aside: Vec<String>,
     epochs: Vec<Epoch>,
     n_adam_steps: usize,
-    /// Number of the best round.
+    /// Number of the best epoch.
     best: usize,
 }
 
-/// A network that is learning.
+/// A network in training.
 pub struct Training {
     state: State,
     network: CnnLstm,
     adam: Adam,
     segments: Segments,
     aside: Segments,
-    /// What the network had learned after its best round.
+    /// Weights after the best epoch.
     best: Numbers,
     device: Device,
 }
 
 impl Training {
-    /// Begins with a network that has learned nothing. With patience, a tenth of the textures, at least one, is kept aside.
+    /// Starts training of a new network. With patience, a tenth of the textures, at least one, is the validation set.
     ///
     /// # Errors
-    /// See [`TrainingError`].
+    /// [`TrainingError::Sizes`] for invalid settings, [`TrainingError::TooFew`] for too little data.
     pub fn new(textures: &[&StrokedTexture], config: TrainingConfig) -> Result<Self, TrainingError> {
         if !config.architecture.is_possible()
             || config.architecture.n_channels != N_CHANNELS
@@ -180,10 +140,11 @@ impl Training {
         })
     }
 
-    /// Goes on from what [`Training::keep`] gave for the same textures and settings; the number of rounds may be another.
+    /// Resumes training from the state of [`Training::keep`], with the same textures and settings; only `n_epochs` may
+    /// differ.
     ///
     /// # Errors
-    /// See [`TrainingError`]; [`TrainingError::Other`] where it is of something else.
+    /// [`TrainingError::File`] for an invalid file, [`TrainingError::Other`] if textures or settings differ.
     pub fn resume(
         textures: &[&StrokedTexture],
         config: TrainingConfig,
@@ -217,10 +178,10 @@ impl Training {
         Ok(training)
     }
 
-    /// All there is to go on from.
+    /// Returns the state file to resume from.
     ///
     /// # Errors
-    /// See [`TrainingError`].
+    /// [`TrainingError::File`] if a weight is not finite.
     pub fn keep(&self) -> Result<Vec<u8>, TrainingError> {
         let mut numbers = Numbers::new();
         let mut add = |prefix: &str, more: &mut dyn Iterator<Item = (String, Tensor)>| {
@@ -234,23 +195,25 @@ impl Training {
         Ok(model_file::write(STATE, &self.state, &numbers)?)
     }
 
-    /// The rounds so far.
+    /// Returns the results of the epochs so far.
     pub fn epochs(&self) -> &[Epoch] {
         &self.state.epochs
     }
 
-    /// Whether there is nothing more to learn.
+    /// Returns whether training is finished: all epochs are done, or early stopping applies.
     pub fn is_over(&self) -> bool {
         let n = self.state.epochs.len();
         n >= self.state.config.n_epochs
             || self.state.config.patience.is_some_and(|patience| n >= self.state.best + patience && n > 0)
     }
 
-    /// One round over all segments. `is_wanted` is asked before each step with the share that is done; once it says no, the
-    /// round is not counted: the training has to be resumed from what was kept.
+    /// Runs one epoch, and returns its result.
+    ///
+    /// `is_wanted` receives the completed fraction before each batch. If it returns false, the epoch is discarded and
+    /// the result is `None`; resume from the saved state.
     ///
     /// # Errors
-    /// See [`TrainingError`].
+    /// [`TrainingError::Astray`] if the error is not finite, [`TrainingError::Tensor`] if the network fails.
     pub fn run_epoch(
         &mut self,
         mut is_wanted: impl FnMut(f64) -> bool,
@@ -269,7 +232,7 @@ impl Training {
             let predicted = self.network.predict_learning(&segments)?;
             let error = (predicted - targets)?.sqr()?.mean_all()?;
             sum += f64::from(error.to_scalar::<f32>()?) * indices.len() as f64;
-            // Its slope has no end at zero.
+            // The offset keeps the gradient of the square root finite at zero error.
             let gradients = (error + 1e-12)?.sqrt()?.backward()?;
             self.adam.step(&self.network.parameters, &gradients)?;
         }
@@ -290,10 +253,10 @@ impl Training {
         Ok(Some(epoch))
     }
 
-    /// What the network knew after its best round.
+    /// Returns the network with the weights of its best epoch.
     ///
     /// # Errors
-    /// See [`TrainingError`].
+    /// [`TrainingError::Tensor`] if the weights cannot be restored.
     pub fn finish(mut self) -> Result<StrokeModel, TrainingError> {
         self.network.restore(&self.best)?;
         Ok(StrokeModel::new(self.network, self.state.scale, self.device))
@@ -311,8 +274,9 @@ impl Training {
     }
 }
 
-/// The segments of a step, where all steps of a round have as many but for one: a batch of a few has no mean to speak of,
-/// and of a single one nothing is left once it is normalized.
+/// Returns the segments of a batch; all batches of an epoch are equally large, or differ by one.
+///
+/// Batch normalization needs this: statistics of a few segments are unreliable, and a single one normalizes to zero.
 fn part(n_segments: usize, n_steps: usize, step: usize) -> Range<usize> {
     n_segments * step / n_steps..n_segments * (step + 1) / n_steps
 }

@@ -1,22 +1,23 @@
-//! How much a coil may be driven before it gets too warm.
+//! Thermal limit of a voice coil: the RMS drive that it tolerates continuously.
 
-/// What a coil stands for long: the root mean square of its drive, taken over its thermal time constant.
+/// Thermal limit of a coil: the highest continuous RMS drive, averaged over the thermal time constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
-    /// Highest root mean square, in the unit of the samples; above zero.
+    /// Highest RMS, in the unit of the samples; above zero.
     pub rms: f32,
-    /// Time constant of the mean, in seconds; above zero.
+    /// Time constant of the exponential mean, in seconds; above zero.
     pub time_secs: f32,
 }
 
-/// Up to this share of the budget nothing is turned down.
+/// No gain reduction up to this fraction of the RMS limit.
 const FREE_SHARE: f64 = 0.95;
 
-/// The heat of a coil and the gain that keeps it within its [`Budget`].
+/// Thermal limiter: estimates the running RMS drive of a coil and the gain that keeps it within its [`Budget`].
 ///
-/// With `e` the mean square over that of the budget, the gain is 1 up to `FREE_SHARE`² and falls so that its square
-/// is zero at 1: the budget is never exceeded by more than what is on its way through the look-ahead, whatever the
-/// input, and turned down by 0.4 dB at most while the drive stays at the budget itself.
+/// Let `e` be the running mean square divided by the squared RMS limit. The gain is 1 up to `e` = `FREE_SHARE`². Above,
+/// the squared gain falls linearly and reaches zero at `e` = 1. The running RMS therefore exceeds the limit at most by
+/// the samples that are still in the look-ahead, for any input. A drive whose RMS stays exactly at the limit is
+/// attenuated by at most 0.4 dB.
 #[derive(Clone, Debug)]
 pub struct Heat {
     budget: Budget,
@@ -26,23 +27,24 @@ pub struct Heat {
 }
 
 impl Heat {
-    /// A cold coil whose drive has so many samples a second.
+    /// A cold coil (running mean square of zero) at a sample rate in Hz.
     pub fn new(budget: Budget, rate_hz: f32) -> Self {
         let forget = 1.0 / (f64::from(budget.time_secs) * f64::from(rate_hz)).max(1.0);
         Self { budget, forget, share: 0.0, gain: 1.0 }
     }
 
-    /// Gain at the moment, 0..1.
+    /// Current gain, 0..1.
     pub fn gain(&self) -> f32 {
         self.gain
     }
 
-    /// Share of the budget that is used: root mean square over that of the budget.
+    /// Running RMS as a fraction of the RMS limit.
     pub fn used(&self) -> f32 {
         libm::sqrt(self.share) as f32
     }
 
-    /// Takes the samples that the coil got. Call it for a hundred samples or fewer at a time.
+    /// Updates the running mean square with samples that were sent to the coil. Call it with at most 100 samples at a
+    /// time, because the gain changes once a call.
     pub fn note(&mut self, driven: &[f32]) {
         let budget = f64::from(self.budget.rms);
         if budget.is_nan() || budget <= 0.0 {
@@ -65,7 +67,7 @@ mod tests {
     const BUDGET: Budget = Budget { rms: 0.5, time_secs: 2.0 };
     const RATE_HZ: f32 = 1000.0;
 
-    /// Drives with a square wave through the gain, and says the root mean square of the last second and the highest share.
+    /// Sends a square wave through the gain. Returns the RMS of the last second and the highest fraction of the limit.
     fn drive(heat: &mut Heat, amplitude: f32, secs: f32) -> (f64, f32) {
         let (mut square, mut highest) = (0.0, 0.0_f32);
         let n_blocks = (secs * RATE_HZ / 10.0) as usize;
@@ -84,7 +86,7 @@ mod tests {
     #[test]
     fn short_bursts_pass_and_long_ones_come_down_to_the_budget() {
         let mut heat = Heat::new(BUDGET, RATE_HZ);
-        // Four times the power for a quarter of a second, of two.
+        // Four times the permitted power for 0.25 s, with a time constant of 2 s.
         let (rms, _) = drive(&mut heat, 1.0, 0.25);
         assert!(rms > 0.5 && heat.gain() == 1.0, "{rms} at {}", heat.gain());
         let (rms, highest) = drive(&mut heat, 1.0, 30.0);

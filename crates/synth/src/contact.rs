@@ -1,20 +1,20 @@
-//! What the hand does at one moment: the only input that a texture has.
+//! Contact of the tip with the surface at one moment: the only input of a texture.
 
-/// Speed and normal force of the tip on the surface.
+/// Tip speed and normal force on the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
-    /// Tangential speed of the tip in m/s, not negative.
+    /// Tangential tip speed in m/s, at least 0.
     pub speed_mps: f32,
-    /// Normal force in N; zero when the tip is lifted.
+    /// Normal force in N; zero while the tip is lifted.
     pub force_n: f32,
 }
 
 impl Contact {
-    /// The tip in the air.
+    /// No contact: speed and force are zero.
     pub const LIFTED: Self = Self { speed_mps: 0.0, force_n: 0.0 };
 
-    /// The same contact with anything that is not a positive finite number replaced by zero: an input device that
-    /// sends nonsense is a lifted tip, never a loud one.
+    /// Returns the contact with every value that is not finite and positive replaced by zero. Invalid input from a
+    /// device therefore acts as a lifted tip and never as a strong contact.
     #[must_use]
     pub fn sanitized(self) -> Self {
         let clean = |x: f32| if x.is_finite() && x > 0.0 { x } else { 0.0 };
@@ -22,27 +22,27 @@ impl Contact {
     }
 }
 
-/// Where the tip is along a relief.
+/// Position of the tip along a relief.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Place {
-    /// The place in m.
+    /// Position in m.
     pub x_m: f64,
-    /// How often it was somewhere else of a sudden, without a way there.
+    /// Number of jumps so far: position changes without a path between the two positions.
     pub n_jumps: u32,
 }
 
-/// Where the renderer asks what the hand does.
+/// Source of the contact that the renderer polls.
 pub trait ContactSource {
-    /// The contact at `time_secs` of the model clock, which starts at zero and never goes back.
+    /// Returns the contact at `time_secs` of the model clock, which starts at zero and never decreases.
     fn contact_at(&mut self, time_secs: f64) -> Contact;
 
-    /// Where the tip was at the contact that was asked for last: a hand that says nothing of it stands still.
+    /// Returns the tip position at the contact that was requested last. The default is a tip at rest at 0 m.
     fn place(&self) -> Place {
         Place::default()
     }
 }
 
-/// A hand that never changes.
+/// A constant contact.
 impl ContactSource for Contact {
     fn contact_at(&mut self, _time_secs: f64) -> Contact {
         *self

@@ -1,66 +1,67 @@
-//! From the acceleration of a texture to the drive of an actuator: equalizer, budget, look-ahead, and the limiter last.
+//! Output stage from texture acceleration to actuator drive: equalizer, thermal limiter, look-ahead limiter, limiter.
 
 use crate::budget::{Budget, Heat};
 use crate::equalizer::{Biquad, Equalizer, Resonance};
 use crate::limiter::Limiter;
 use crate::look_ahead::{LookAhead, MAX_LOOK_AHEAD};
 
-/// What undoes an actuator's response.
+/// Parameters of the equalizer that inverts an actuator's response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inverse {
-    /// The response.
+    /// Frequency response of the actuator.
     pub resonance: Resonance,
-    /// Lowest frequency that is reproduced in full, in Hz: see [`Biquad::bounded_inverse`].
+    /// Lowest frequency that is fully reproduced, in Hz: see [`Biquad::bounded_inverse`].
     pub lowest_hz: f64,
 }
 
-/// How acceleration becomes drive, whatever the rate of the device. Drive has no unit: 1 is the device's full scale.
+/// Conversion of acceleration to drive, independent of the device's sample rate. Drive is dimensionless: 1 is the
+/// device's full scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveConfig {
-    /// What undoes the actuator's response; without it drive is in proportion to acceleration.
+    /// Inverse of the actuator's response; with `None`, drive is proportional to acceleration.
     pub inverse: Option<Inverse>,
-    /// What full scale is: volts at the actuator with an inverse, m/s² without one.
+    /// Value of full scale: actuator voltage in V with an inverse, acceleration in m/s² without one.
     pub full_scale: f32,
-    /// Share of the full scale that is never exceeded, 0..1.
+    /// Highest output magnitude as a fraction of full scale, 0..1.
     pub ceiling: f32,
-    /// How far the limiter sees ahead, in seconds, 0 to [`MAX_LOOK_AHEAD_SECS`]; what it sees comes as much later.
+    /// Look-ahead of the limiter in seconds, 0 to [`MAX_LOOK_AHEAD_SECS`]; it delays the output by the same time.
     pub look_ahead_secs: f32,
-    /// What the coil stands for long, as a share of the full scale.
+    /// Thermal limit of the coil; its RMS is a fraction of full scale.
     pub budget: Option<Budget>,
 }
 
 /// Longest look-ahead, in seconds.
 pub const MAX_LOOK_AHEAD_SECS: f32 = 0.002;
-/// The limiter is linear up to this share of its ceiling.
+/// Knee of the limiter as a fraction of its ceiling; the limiter is linear below it.
 const KNEE_SHARE: f32 = 0.8;
-/// The same for the limiter behind the look-ahead, which leaves it nothing but rounding.
+/// Knee of the limiter that follows the look-ahead limiter, which leaves it only rounding errors.
 const LAST_KNEE_SHARE: f32 = 0.999;
-/// Samples between two looks at the coil's heat.
+/// Samples between two updates of the thermal gain.
 const HEAT_BLOCK: usize = 32;
 
 impl DriveConfig {
-    /// Drive in proportion to acceleration, for an actuator of which nothing is known.
+    /// Drive proportional to acceleration, for an actuator with unknown response.
     pub const fn proportional(full_scale_mps2: f32, ceiling: f32) -> Self {
         Self { inverse: None, full_scale: full_scale_mps2, ceiling, look_ahead_secs: 0.0, budget: None }
     }
 
-    /// Acceleration at full scale in m/s², far above the resonance.
+    /// Acceleration at full scale in m/s²; with an inverse, far above the resonance.
     pub fn full_scale_mps2(&self) -> f32 {
         self.inverse
             .map_or(self.full_scale, |inverse| self.full_scale * inverse.resonance.gain_mps2_per_volt as f32)
     }
 }
 
-/// What samples are before they are driven.
+/// Kind of samples that enter the output stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Driven {
-    /// Acceleration in m/s², to be equalized.
+    /// Acceleration in m/s²: equalized, then limited.
     Acceleration,
-    /// Drive, 1 at full scale: only kept within the limits.
+    /// Drive, 1 at full scale: only limited.
     Drive,
 }
 
-/// All that stands between a texture and an actuator.
+/// Output stage from texture to actuator.
 #[derive(Clone, Debug)]
 pub struct DriveChain {
     equalizer: Option<Equalizer>,
@@ -73,9 +74,9 @@ pub struct DriveChain {
 }
 
 impl DriveChain {
-    /// A chain at rest, at the rate of a device in Hz.
+    /// An output stage with zero state, at the device's sample rate in Hz.
     ///
-    /// An inverse whose resonance is not below half the rate is left out.
+    /// An inverse whose resonance is not below half the sample rate is ignored.
     pub fn new(config: DriveConfig, rate_hz: f32) -> Self {
         let DriveConfig { inverse, full_scale, ceiling, look_ahead_secs, budget } = config;
         let delay = libm::roundf(look_ahead_secs.clamp(0.0, MAX_LOOK_AHEAD_SECS) * rate_hz) as usize;
@@ -96,8 +97,8 @@ impl DriveChain {
         }
     }
 
-    /// Turns samples into drive, in place; to drive that is played as it is, what the equalizer still rings with of the
-    /// acceleration before is added. Cost: two filters' worth a sample.
+    /// Converts samples to drive, in place. For samples that are drive already, adds the decaying response of the
+    /// equalizer to the acceleration before. Cost: that of two second-order filters per sample.
     pub fn process(&mut self, block: &mut [f32], driven: Driven) {
         match driven {
             Driven::Acceleration => {
@@ -134,17 +135,17 @@ impl DriveChain {
         }
     }
 
-    /// How much later than its cause the drive is, in seconds.
+    /// Delay of the drive in seconds.
     pub fn latency_secs(&self) -> f32 {
         self.look_ahead.as_ref().map_or(0, LookAhead::delay) as f32 / self.rate_hz
     }
 
-    /// Whether a sample that was not finite has latched silence.
+    /// Whether a non-finite sample has latched silence.
     pub fn is_tripped(&self) -> bool {
         self.limiter.is_tripped()
     }
 
-    /// Ends the latched silence and forgets what was; a coil stays as warm as it is.
+    /// Ends the latched silence and clears the equalizer and look-ahead; the thermal estimate is kept.
     pub fn reset(&mut self) {
         self.limiter.reset();
         if let Some(equalizer) = &mut self.equalizer {
@@ -155,17 +156,17 @@ impl DriveChain {
         }
     }
 
-    /// Samples that were turned down or bent since the start.
+    /// Number of samples that the limiters have attenuated since the start.
     pub fn limited_samples(&self) -> u64 {
         self.limiter.limited_samples() + self.look_ahead.as_ref().map_or(0, LookAhead::limited_samples)
     }
 
-    /// Share of what the coil stands for long that is used, root mean square; 0 where nothing is known of it.
+    /// Running RMS as a fraction of the coil's thermal limit; 0 without a limit.
     pub fn heat_used(&self) -> f32 {
         self.heat.as_ref().map_or(0.0, Heat::used)
     }
 
-    /// Gain by which the drive is turned down to keep the coil cool, 0..1.
+    /// Current gain of the thermal limiter, 0..1.
     pub fn heat_gain(&self) -> f32 {
         self.heat_gain
     }

@@ -1,38 +1,40 @@
-//! The inverse of a voice coil's resonance, bounded where the coil can do nothing.
+//! Bounded inverse of a voice coil's resonance.
 
 use core::f64::consts::TAU;
 
-/// How a voice coil under voltage drive answers: a second-order high-pass,
+/// Acceleration response of a voice coil under voltage drive: a second-order high-pass,
 /// `a/V = K s² / (s² + (ω₀/Q) s + ω₀²)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resonance {
-    /// `ω₀/2π`, in Hz.
+    /// Resonance frequency `ω₀/2π`, in Hz.
     pub frequency_hz: f64,
-    /// `Q` under voltage drive.
+    /// Quality factor `Q` under voltage drive.
     pub q: f64,
-    /// `K`, far above the resonance, in m/s² for a volt.
+    /// Gain `K` far above the resonance, in m/s² per volt.
     pub gain_mps2_per_volt: f64,
 }
 
-/// Damping of the high-pass that an equalized actuator becomes: that of Butterworth's, to four digits.
-#[expect(clippy::approx_constant, reason = "the reference takes four digits, and its numbers are met")]
+/// Damping ratio of the equalized actuator's high-pass: Butterworth, to four digits.
+#[expect(clippy::approx_constant, reason = "the reference uses four digits, and its values are reproduced")]
 const INVERSE_DAMPING: f64 = 0.7071;
 
-/// A filter of second order, `y[n] = b₀x[n] + b₁x[n-1] + b₂x[n-2] - a₁y[n-1] - a₂y[n-2]`.
+/// A second-order IIR filter, `y[n] = b₀x[n] + b₁x[n-1] + b₂x[n-2] - a₁y[n-1] - a₂y[n-2]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Biquad {
-    /// `b₀, b₁, b₂`.
+    /// Feedforward coefficients `b₀, b₁, b₂`.
     pub b: [f64; 3],
-    /// `a₁, a₂`.
+    /// Feedback coefficients `a₁, a₂`.
     pub a: [f64; 2],
 }
 
 impl Biquad {
-    /// The bounded inverse of a resonance, from m/s² to volts:
-    /// `C(s) = (1/K) (s² + (ω₀/Q) s + ω₀²) / (s² + 2·0.7071 ω_h s + ω_h²)`, bilinear, exact at the resonance.
+    /// Returns the bounded inverse of a resonance, from m/s² to volts:
+    /// `C(s) = (1/K) (s² + (ω₀/Q) s + ω₀²) / (s² + 2·0.7071 ω_h s + ω_h²)`, by the bilinear transform prewarped at the
+    /// resonance.
     ///
-    /// What the actuator then gives is flat from about `1.5 lowest_hz` on and falls by 12 dB an octave below, where the
-    /// volts never exceed `(ω₀/ω_h)²/K` for each m/s². The resonance must lie below half the rate.
+    /// The equalized actuator is flat above about `1.5 lowest_hz` and falls by 12 dB per octave below `lowest_hz`.
+    /// Below `lowest_hz` the gain never exceeds `(ω₀/ω_h)²/K` V per m/s². The resonance must lie below half the sample
+    /// rate.
     pub fn bounded_inverse(resonance: Resonance, lowest_hz: f64, rate_hz: f64) -> Self {
         let Resonance { frequency_hz, q, gain_mps2_per_volt } = resonance;
         let (w, wh) = (TAU * frequency_hz, TAU * lowest_hz);
@@ -47,7 +49,7 @@ impl Biquad {
         Self { b: n.map(|x| scale * x), a: [d[1] / d[0], d[2] / d[0]] }
     }
 
-    /// Gain at a frequency.
+    /// Magnitude of the frequency response at a frequency in Hz.
     pub fn gain(&self, hz: f64, rate_hz: f64) -> f64 {
         let angle = TAU * hz / rate_hz;
         let (cos, sin) = (libm::cos(angle), libm::sin(angle));
@@ -57,18 +59,19 @@ impl Biquad {
     }
 }
 
-/// A [`Biquad`] and what it remembers, in `f64`: at 48 kHz its poles lie so near to 1 that `f32` would hiss.
+/// A [`Biquad`] with its state, in `f64`: at 48 kHz its poles are so close to 1 that rounding in `f32` would be audible
+/// noise.
 #[derive(Clone, Debug)]
 pub struct Equalizer {
     biquad: Biquad,
     state: [f64; 2],
 }
 
-/// What is smaller than this in the state is nothing: numbers near the smallest are slow.
+/// State values below this magnitude are set to zero, because arithmetic with subnormal numbers is slow.
 const NOTHING: f64 = 1e-60;
 
 impl Equalizer {
-    /// An equalizer at rest.
+    /// An equalizer with zero state.
     pub fn new(biquad: Biquad) -> Self {
         Self { biquad, state: [0.0; 2] }
     }
@@ -86,7 +89,7 @@ impl Equalizer {
         self.remember([s0, s1]);
     }
 
-    /// Adds `gain` times what it still rings with while nothing comes in.
+    /// Adds `gain` times the filter's response to zero input (its ringing) to a block.
     pub fn ring_out(&mut self, block: &mut [f32], gain: f32) {
         let Self { biquad: Biquad { a, .. }, state: [mut s0, mut s1] } = *self;
         if [s0, s1] == [0.0; 2] {
@@ -99,7 +102,7 @@ impl Equalizer {
         self.remember([s0, s1]);
     }
 
-    /// Forgets all that was.
+    /// Clears the state.
     pub fn reset(&mut self) {
         self.state = [0.0; 2];
     }
@@ -117,14 +120,14 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// Haptuator Mark II on 100 g, as its data sheet gives it.
+    /// Haptuator Mark II on 100 g, from its data sheet.
     const MARK_II: Resonance = Resonance {
         frequency_hz: 65.0,
         q: 4.086_340_698_080_68,
         gain_mps2_per_volt: 2.133_938_563_687_484_4,
     };
 
-    /// Gain of the coil at a frequency, in m/s² for a volt.
+    /// Acceleration gain of the coil at a frequency, in m/s² per volt.
     fn coil_gain(r: Resonance, hz: f64) -> f64 {
         let u = hz / r.frequency_hz;
         r.gain_mps2_per_volt * u * u / (1.0 - u * u).hypot(u / r.q)
@@ -171,7 +174,7 @@ mod tests {
             for i in 0..400 {
                 let hz = 5.0 * 1.0121_f64.powi(i);
                 let volts = biquad.gain(hz, 48_000.0);
-                // A damped coil takes a little more around its lowest frequency.
+                // A strongly damped coil needs slightly more around its lowest frequency.
                 let damping = (coil.q * 20.0 / frequency_hz).recip().max(1.0);
                 prop_assert!(volts <= 1.1 * bound * damping, "{volts} V at {hz} Hz, bound {bound}");
                 if (40.0..=500.0).contains(&hz) {
@@ -217,7 +220,7 @@ mod tests {
         expected.process(&mut silence);
         let mut out = vec![0.25; 4800];
         out.chunks_mut(85).for_each(|part| equalizer.ring_out(part, 0.5));
-        // Rounding of `f32` at 1.
+        // The tolerance is the rounding of `f32` at 1.
         assert!(silence.iter().zip(&out).all(|(x, y)| (0.25 + 0.5 * x - y).abs() < 1e-6));
         assert!(silence[0].abs() > 0.1);
         for (x, y) in expected.state.iter().zip(&equalizer.state) {

@@ -1,9 +1,10 @@
-//! The last thing before the actuator: always on, never above the ceiling, silent after nonsense.
+//! Final limiter before the actuator: always on, never above its ceiling, silent after a non-finite sample.
 
-/// A memoryless limiter with a soft knee, and a latch that trips on a sample that is not finite.
+/// A memoryless soft-knee limiter with a latch that trips on a non-finite sample.
 ///
-/// Below the knee a sample passes unchanged; above it the excess `u` is bent to `u / (1 + u)`, which is continuous
-/// with its slope and stays below the ceiling for any input. Cost: one comparison a sample below the knee.
+/// Below the knee a sample is unchanged. Above the knee the normalized excess `u` is compressed to `u / (1 + u)`. The
+/// curve and its slope are continuous, and the output stays below the ceiling for any input. Cost: one comparison per
+/// sample below the knee.
 #[derive(Clone, Debug)]
 pub struct Limiter {
     ceiling: f32,
@@ -13,16 +14,18 @@ pub struct Limiter {
 }
 
 impl Limiter {
-    /// A limiter for output between `-ceiling` and `ceiling`, linear up to `knee_share` (0..1) of it.
+    /// A limiter with output between `-ceiling` and `ceiling`, linear up to the fraction `knee_share` (0..1) of the
+    /// ceiling.
     ///
-    /// Numbers outside their range are pulled to the nearest allowed one; a ceiling that is not finite is silence.
+    /// Arguments outside their range are clamped to the nearest permitted value. A ceiling that is not finite gives
+    /// silence.
     pub fn new(ceiling: f32, knee_share: f32) -> Self {
         let ceiling = if ceiling.is_finite() { ceiling.max(0.0) } else { 0.0 };
         let knee_share = if knee_share.is_finite() { knee_share.clamp(0.0, 0.999) } else { 0.0 };
         Self { ceiling, knee: ceiling * knee_share, tripped: false, limited_samples: 0 }
     }
 
-    /// The limited sample; zero for ever after a sample that was not finite, until [`Limiter::reset`].
+    /// Returns the limited sample. After a non-finite sample it returns zero until [`Limiter::reset`].
     pub fn limit(&mut self, sample: f32) -> f32 {
         if !sample.is_finite() {
             self.tripped = true;
@@ -39,31 +42,31 @@ impl Limiter {
         if sample < 0.0 { -bent } else { bent }
     }
 
-    /// Whether a sample that was not finite has latched silence.
+    /// Whether a non-finite sample has latched silence.
     pub fn is_tripped(&self) -> bool {
         self.tripped
     }
 
-    /// How many samples were bent since the start.
+    /// Number of samples above the knee since the start.
     pub fn limited_samples(&self) -> u64 {
         self.limited_samples
     }
 
-    /// Ends the latched silence: a person has looked.
+    /// Ends the latched silence. Only a person's action may lead to this call.
     pub fn reset(&mut self) {
         self.tripped = false;
     }
 }
 
-/// The soft knee's curve above the knee: the excess `u`, in units of the room between knee and ceiling, becomes
-/// `u / (1 + u)` of it. Zero where there is no room.
+/// Soft-knee curve above the knee: the excess `u`, in units of `ceiling - knee`, becomes `u / (1 + u)` in the same
+/// units. Returns zero if the ceiling is not above the knee.
 pub(crate) fn bend(magnitude: f32, knee: f32, ceiling: f32) -> f32 {
     let room = ceiling - knee;
     if room <= 0.0 {
         return 0.0;
     }
     let excess = (magnitude - knee) / room;
-    // 1 - 1/(1+u) is u/(1+u) without the overflow of u/u for a huge u.
+    // 1 - 1/(1+u) equals u/(1+u) without the overflow of u/u for a very large u.
     (knee + room * (1.0 - 1.0 / (1.0 + excess))).min(ceiling)
 }
 

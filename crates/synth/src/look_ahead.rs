@@ -1,33 +1,34 @@
-//! A limiter that sees a peak before it comes, and turns it down without bending it.
+//! Look-ahead limiter: reduces the gain before a peak arrives instead of distorting the peak.
 
 use crate::limiter::bend;
 
-/// Longest look-ahead, in samples: 2 ms at 192 kHz, and room.
+/// Longest look-ahead, in samples: 2 ms at 192 kHz (384 samples) with a margin.
 pub const MAX_LOOK_AHEAD: usize = 512;
-/// Time constant of the gain's way back, in seconds.
+/// Release time constant of the gain, in seconds.
 const RELEASE_SECS: f64 = 0.05;
-/// The gain of one, as a whole number: sums of whole numbers never drift.
+/// Fixed-point representation of gain 1. Sums of integers do not drift.
 const ONE: u32 = 1 << 30;
-/// What is nearer to one than this counts as one.
+/// A gain within this distance of 1 is rounded to 1.
 const NEARLY: f64 = 1e-5;
 
-/// Delays by the look-ahead and multiplies by a gain that is smooth, at most 1, and for each sample at most what brings it
-/// to the curve of the soft knee.
+/// Delays the signal by the look-ahead and multiplies it by a smooth gain of at most 1. For each sample, the gain is at
+/// most the gain that brings the sample to the soft-knee curve.
 ///
-/// The gain that each sample needs (and, on the way back, what a release of 50 ms leaves of it) is taken as the lowest over
-/// the look-ahead and averaged over the look-ahead: every mean that a sample meets is of minima that include its own need.
-/// Below the knee, and once the release is over, samples pass unchanged. Cost: a few comparisons a sample, amortized.
+/// The gain that each sample requires passes through a release with a time constant of 50 ms. The result is replaced by
+/// its minimum over the look-ahead, then averaged over the look-ahead. Every mean that applies to a sample is thus a
+/// mean of minima that include the sample's own required gain. Below the knee, and after the release ends, samples are
+/// unchanged. Cost: a few comparisons per sample, amortized.
 #[derive(Clone, Debug)]
 pub struct LookAhead {
     knee: f32,
     ceiling: f32,
     release: f64,
-    /// Samples of delay; the minimum and the mean each span one more.
+    /// Delay in samples; the minimum and the mean each span `delay + 1` samples.
     delay: usize,
     samples: [f32; MAX_LOOK_AHEAD],
     minima: [u32; MAX_LOOK_AHEAD],
     sum: u64,
-    /// Candidates for the minimum, lowest first, in a ring: the gain and the time from which it counts.
+    /// Candidates for the minimum as a ring, lowest first: gain and start time.
     candidates: [(u32, u64); MAX_LOOK_AHEAD],
     first: usize,
     n_candidates: usize,
@@ -37,8 +38,8 @@ pub struct LookAhead {
 }
 
 impl LookAhead {
-    /// A limiter between `-ceiling` and `ceiling`, transparent up to `knee_share` of it, that looks ahead so many samples
-    /// (fewer than [`MAX_LOOK_AHEAD`]: more are pulled to that).
+    /// A limiter with output between `-ceiling` and `ceiling`, linear up to the fraction `knee_share` of the ceiling,
+    /// with a look-ahead of `delay` samples (clamped to [`MAX_LOOK_AHEAD`] − 1).
     pub fn new(ceiling: f32, knee_share: f32, delay: usize, rate_hz: f32) -> Self {
         let delay = delay.min(MAX_LOOK_AHEAD - 1);
         Self {
@@ -58,17 +59,17 @@ impl LookAhead {
         }
     }
 
-    /// Samples by which the output is later than the input.
+    /// Delay of the output in samples.
     pub fn delay(&self) -> usize {
         self.delay
     }
 
-    /// How many samples were turned down since the start.
+    /// Number of nonzero samples that were attenuated since the start.
     pub fn limited_samples(&self) -> u64 {
         self.limited_samples
     }
 
-    /// Takes a sample and gives the one of `delay` samples ago. A sample that is not finite comes out not finite.
+    /// Takes a sample and returns the limited sample of `delay` samples ago. A non-finite sample stays non-finite.
     pub fn next(&mut self, sample: f32) -> f32 {
         let needed = f64::from(self.needed(sample));
         self.envelope = if needed < self.envelope {
@@ -86,7 +87,7 @@ impl LookAhead {
         self.minima[slot] = minimum;
         let next_slot = if slot == self.delay { 0 } else { slot + 1 };
         self.samples[slot] = sample;
-        // With no delay it is the slot just filled.
+        // With zero delay this is the slot that was just filled.
         let delayed = self.samples[next_slot];
         let whole = (self.delay as u64 + 1) * u64::from(ONE);
         if self.sum == whole {
@@ -96,7 +97,7 @@ impl LookAhead {
         delayed * (self.sum as f64 / whole as f64) as f32
     }
 
-    /// Forgets all that was.
+    /// Clears the delayed samples and the gain history.
     pub fn reset(&mut self) {
         self.samples = [0.0; MAX_LOOK_AHEAD];
         self.minima = [ONE; MAX_LOOK_AHEAD];
@@ -105,18 +106,18 @@ impl LookAhead {
         self.envelope = 1.0;
     }
 
-    /// The gain that brings a sample to the knee's curve, 0..1.
+    /// Gain that brings a sample to the soft-knee curve, 0..1.
     fn needed(&self, sample: f32) -> f32 {
         let magnitude = sample.abs();
         if magnitude <= self.knee {
             return 1.0;
         }
         let gain = bend(magnitude, self.knee, self.ceiling) / magnitude;
-        // Infinity over infinity: what is not finite needs silence.
+        // Infinity divided by infinity is NaN; a non-finite sample gets gain 0.
         if gain.is_finite() { gain } else { 0.0 }
     }
 
-    /// The lowest gain of this and the last `delay` samples.
+    /// Lowest gain of this and the last `delay` samples.
     fn lowest(&mut self, gain: u32) -> u32 {
         let place = |first: usize, i: usize| (first + i) % MAX_LOOK_AHEAD;
         while self.n_candidates > 0 && self.candidates[place(self.first, self.n_candidates - 1)].0 >= gain {
@@ -145,7 +146,7 @@ mod tests {
         LookAhead::new(0.9, 0.8, delay, RATE_HZ)
     }
 
-    /// Minima and means from their definitions, in `f64`.
+    /// Reference implementation: minima and means computed from their definitions, in `f64`.
     fn oracle(input: &[f32], delay: usize) -> Vec<f64> {
         let release = 1.0 / (0.05 * f64::from(RATE_HZ));
         let mut envelope = 1.0_f64;
@@ -189,7 +190,7 @@ mod tests {
             let input = bursts();
             for (i, (x, expected)) in input.iter().zip(oracle(&input, delay)).enumerate() {
                 let out = f64::from(limiter.next(*x));
-                // Gains are f32 where they meet the samples.
+                // The gain is rounded to f32 before it is multiplied with the sample.
                 assert!((out - expected).abs() < 1e-6, "{out} for {expected} at {i}, delay {delay}");
             }
         }
@@ -202,7 +203,7 @@ mod tests {
         let out: Vec<f32> = input.iter().map(|x| limiter.next(*x)).collect();
         assert_eq!(out[96..], input[..input.len() - 96]);
         assert_eq!(limiter.limited_samples(), 0);
-        // And again once a peak has passed and the release is over.
+        // The same holds after a peak has passed and the release has ended.
         limiter.next(5.0);
         for _ in 0..48_000 {
             limiter.next(0.5);
@@ -218,10 +219,10 @@ mod tests {
         let mut limiter = limiter(96);
         let mut last = 0.0_f32;
         for i in 0_u16..20_000 {
-            // From one zero of the sine to another.
+            // The loud part starts and ends at zeros of the sine.
             let loud = if (5027..9111).contains(&i) { 2.0 } else { 0.7 };
             let out = limiter.next(loud * (f32::from(i) * 0.01).sin());
-            // The sine itself moves by 2 x 0.01 a sample where it is not turned down; the gain by a share of 1/96.
+            // The unattenuated sine itself moves by at most 2 × 0.01 per sample; the gain moves by a fraction of 1/97.
             assert!((out - last).abs() < 0.02 + 2.0 * 2.0 / 97.0, "{last} to {out} at {i}");
             last = out;
         }
@@ -245,7 +246,7 @@ mod tests {
             let mut limiter = limiter(delay);
             for x in input.into_iter().chain([0.0; 120]) {
                 let out = limiter.next(if x.is_finite() { x } else { 1.0 });
-                // A rounding above.
+                // The margin is one rounding.
                 prop_assert!(out.abs() <= 0.9 * 1.000_001, "{out}");
             }
         }

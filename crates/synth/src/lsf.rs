@@ -1,12 +1,12 @@
-//! Line spectral frequencies to predictor coefficients, inside the callback.
+//! Conversion of line spectral frequencies (LSFs) to linear-prediction coefficients, for the audio callback.
 //!
-//! With `P(z) = A(z) - z^-(p+1) A(1/z)` and `Q(z) = A(z) + z^-(p+1) A(1/z)`, the frequencies are the angles of the
-//! roots of Q and P in turn, and `A = (P + Q) / 2` (Itakura 1975). Both factors are palindromic, so only half of each
-//! is expanded, P and Q side by side.
+//! With `P(z) = A(z) - z^-(p+1) A(1/z)` and `Q(z) = A(z) + z^-(p+1) A(1/z)`, the LSFs are the angles of the roots of Q
+//! and P, which alternate. The inverse is `A = (P + Q) / 2` (Itakura 1975). Both polynomials are palindromic once their
+//! roots at ±1 are removed, so only half of each is expanded, P and Q side by side.
 
 use core::f64::consts::FRAC_PI_2;
 
-use crate::texture::MAX_ORDER;
+use crate::limits::MAX_ORDER;
 
 const MAX_FACTORS: usize = MAX_ORDER.div_ceil(2);
 
@@ -15,7 +15,7 @@ const MAX_FACTORS: usize = MAX_ORDER.div_ceil(2);
 fn minus_two_cos(w: f64) -> f64 {
     let x = w - FRAC_PI_2;
     let s = x * x;
-    // 1/3!, 1/5!, …, 1/15!, alternating.
+    // The terms are 1/3!, 1/5!, …, 1/15! with alternating sign.
     let series = 1.0
         + s * (-1.0 / 6.0
             + s * (1.0 / 120.0
@@ -28,8 +28,8 @@ fn minus_two_cos(w: f64) -> f64 {
 
 /// Writes the coefficients `a_1 … a_p` of `A(z) = 1 + Σ a_k z^-k` for `p` ascending frequencies in radians (0, π).
 ///
-/// `lsf` and `ar` have the same length `p`, at most [`MAX_ORDER`]; anything beyond is ignored.
-/// Cost: `p` cosines and `p²/4` multiply-adds.
+/// `lsf` and `ar` have the same length `p`, at most [`MAX_ORDER`]; further elements are ignored. Cost: `p` cosines and
+/// about `p²/4` multiply-adds.
 #[inline]
 pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
     let order = lsf.len().min(ar.len()).min(MAX_ORDER);
@@ -42,7 +42,7 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
         factor[i] =
             [minus_two_cos(f64::from(pair[0])), pair.get(1).map_or(0.0, |&w| minus_two_cos(f64::from(w)))];
     }
-    // half[i] = coefficient i of [Q, P], 0..=degree/2; both are expanded over p_factors, then Q alone goes on.
+    // half[i] is coefficient i of [Q, P], 0..=degree/2. Both are expanded over p_factors; any remaining factor is Q's.
     let mut half = [[0.0_f64; 2]; MAX_FACTORS + 1];
     half[0] = [1.0, 1.0];
     for (k, c) in factor[..p_factors].iter().enumerate() {
@@ -55,7 +55,7 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
     let q_at = |i: usize| if i <= q_factors { half[i][0] } else { half[2 * q_factors - i][0] };
     let p_at = |i: usize| if i <= p_factors { p_half[i][1] } else { p_half[2 * p_factors - i][1] };
     if order.is_multiple_of(2) {
-        // Q also has the root z = -1 and P the root z = 1.
+        // Q also has the root z = -1, and P the root z = 1.
         let (mut q_last, mut p_last) = (1.0, 1.0);
         for (i, a) in (1..).zip(ar[..order].iter_mut()) {
             let (q, p) = (q_at(i), p_at(i));
@@ -63,7 +63,7 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
             (q_last, p_last) = (q, p);
         }
     } else {
-        // P has both roots, Q none.
+        // P has the roots z = 1 and z = -1; Q has neither.
         for (i, a) in (1..).zip(ar[..order].iter_mut()) {
             let p = if i <= 2 * p_factors { p_at(i) } else { 0.0 };
             let p_before = if i >= 2 { p_at(i - 2) } else { 0.0 };
@@ -72,16 +72,16 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
     }
 }
 
-/// Multiplies two palindromes of degree `2 k` by `1 + c z + z²` each, keeping only their first halves.
+/// Multiplies two palindromes of degree `2 k` by `1 + c z + z²` each. Only their first halves are stored.
 #[inline]
 fn multiply(half: &mut [[f64; 2]; MAX_FACTORS + 1], k: usize, c: [f64; 2]) {
     for lane in 0..2 {
-        // The coefficient one past the middle mirrors the one before it.
+        // The coefficient after the middle equals the coefficient before it.
         let before = if k >= 1 { half[k - 1][lane] } else { 0.0 };
         half[k + 1][lane] = 2.0 * before + c[lane] * half[k][lane];
     }
     if k == 0 {
-        // Degree 2 of a single factor: 1, c, 1.
+        // A single factor has degree 2: 1, c, 1.
         return;
     }
     for i in (2..=k).rev() {
@@ -102,7 +102,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// The slow way: multiply every factor out at full length.
+    /// Slow reference: multiplies all factors at full length.
     fn oracle(lsf: &[f64]) -> Vec<f64> {
         let convolve = |a: &[f64], b: &[f64]| {
             let mut out = vec![0.0; a.len() + b.len() - 1];
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn first_order_in_closed_form() {
-        // Order 1: Q = 1 - 2 cos(w) z + z², P = 1 - z², so a_1 = -cos(w).
+        // For order 1, Q = 1 - 2 cos(w) z + z² and P = 1 - z², so a_1 = -cos(w).
         let mut ar = [0.0];
         ar_from_lsf(&[1.0], &mut ar);
         assert!((f64::from(ar[0]) + 1.0_f64.cos()).abs() < 1e-7);
@@ -158,7 +158,7 @@ mod tests {
             let expected = oracle(&wide);
             let scale = expected.iter().fold(1.0_f64, |m, v| m.max(v.abs()));
             for (a, e) in ar.iter().zip(&expected) {
-                // The result is rounded to f32 once; half a unit in the last place is 6e-8 of the largest.
+                // The result is rounded to f32 once; half a unit in the last place is 6e-8 of the largest value.
                 prop_assert!((f64::from(*a) - e).abs() < 2e-7 * scale, "{a} for {e}");
             }
         }

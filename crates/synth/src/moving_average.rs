@@ -1,29 +1,29 @@
-//! The moving average that colors the excitation of a published texture.
+//! Moving-average (MA) filter of the excitation, for ARMA texture models.
 
+use crate::limits::MAX_ORDER;
+use crate::limits::MAX_TICK;
 use crate::lsf::ar_from_lsf;
-use crate::texture::MAX_ORDER;
-use crate::voice::MAX_TICK;
 
-/// Products are summed in so many lanes, so that as many multiplications are one instruction.
+/// Products are summed in this many lanes so that the compiler can vectorize the sum.
 const LANES: usize = 8;
 
-/// `x[t] + Σ b_j x[t-j]`, its coefficients and its memory.
+/// MA filter `x[t] + Σ b_j x[t-j]` with coefficients and state.
 #[derive(Clone, Debug)]
 pub(crate) struct MovingAverage {
-    /// `b_1 …` turned round, so that they lie as the memory does: the first comes last.
+    /// Coefficients `b_1 …` in reverse order, to match the order of `memory`.
     coefficients: [f32; MAX_ORDER],
     order: usize,
-    /// The last inputs, oldest first, then room for one tick.
+    /// Last inputs, oldest first, followed by room for one tick.
     memory: [f32; MAX_ORDER + MAX_TICK],
 }
 
 impl MovingAverage {
-    /// One that passes its input on.
+    /// A filter of order 0, which passes its input unchanged.
     pub(crate) fn new() -> Self {
         Self { coefficients: [0.0; MAX_ORDER], order: 0, memory: [0.0; MAX_ORDER + MAX_TICK] }
     }
 
-    /// Takes coefficients from line spectral frequencies in radians; none make it pass its input on.
+    /// Sets the coefficients from line spectral frequencies in radians; an empty slice sets order 0.
     #[inline]
     pub(crate) fn aim(&mut self, lsf: &[f32]) {
         let order = lsf.len().min(MAX_ORDER);
@@ -37,13 +37,13 @@ impl MovingAverage {
         self.order = order;
     }
 
-    /// Whether there is nothing to do.
+    /// Whether the filter has order 0 and changes nothing.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.order == 0
     }
 
-    /// Filters at most [`MAX_TICK`] samples in place. Cost a sample: [`MAX_ORDER`] multiply-adds.
+    /// Filters at most [`MAX_TICK`] samples in place. Cost per sample: [`MAX_ORDER`] multiply-adds.
     pub(crate) fn filter(&mut self, samples: &mut [f32]) {
         let n = samples.len().min(MAX_TICK);
         let m = &mut self.memory;
@@ -97,7 +97,7 @@ mod tests {
             for (t, y) in got.iter().enumerate() {
                 let sum: f64 =
                     (1..=order.min(t)).map(|j| f64::from(b[j - 1]) * f64::from(x[t - j])).sum::<f64>();
-                // A sum of up to 32 products, rounded to f32.
+                // The tolerance covers a sum of up to 32 products, rounded to f32.
                 let (want, scale) = (f64::from(x[t]) + sum, 1.0 + b.iter().map(|b| b.abs()).sum::<f32>());
                 assert!((f64::from(*y) - want).abs() < 1e-6 * f64::from(scale), "order {order}, sample {t}");
             }

@@ -1,7 +1,7 @@
-//! Seeded Gaussian noise: xoshiro256++ drawn through a ziggurat.
+//! Seeded Gaussian noise: the xoshiro256++ generator with the ziggurat method.
 //!
-//! Sources: D. Blackman and S. Vigna, "Scrambled linear pseudorandom number generators" (2021), for the generator;
-//! G. Marsaglia and W. Tsang, "The ziggurat method" (2000), for the shape of the table.
+//! Sources: D. Blackman and S. Vigna, "Scrambled linear pseudorandom number generators" (2021), for the generator; G.
+//! Marsaglia and W. Tsang, "The ziggurat method" (2000), for the table.
 
 const LAYERS: usize = 128;
 /// Right edge of the lowest rectangle for 128 layers (Marsaglia and Tsang 2000).
@@ -9,14 +9,14 @@ const EDGE: f64 = 3.442_619_855_899;
 /// Area of each layer for 128 layers (Marsaglia and Tsang 2000).
 const AREA: f64 = 9.912_563_035_262_17e-3;
 
-/// The state of one seeded stream of random bits.
+/// State of one seeded pseudorandom bit stream.
 #[derive(Clone, Debug)]
 pub struct Noise {
     state: [u64; 4],
 }
 
 impl Noise {
-    /// A stream that depends on `seed` alone; neighboring seeds give unrelated streams.
+    /// A stream determined by `seed` alone; adjacent seeds give unrelated streams.
     pub fn new(seed: u64) -> Self {
         let mut counter = seed;
         let mut next = || {
@@ -43,20 +43,20 @@ impl Noise {
         out
     }
 
-    /// A uniform number in (0, 1).
+    /// The next uniform number in (0, 1).
     pub fn uniform(&mut self) -> f64 {
         ((self.bits() >> 11) as f64 + 0.5) * (1.0 / 9_007_199_254_740_992.0)
     }
 }
 
-/// The ziggurat's table: one for any number of streams.
+/// Ziggurat table of the standard normal distribution; any number of streams can share it.
 #[derive(Clone, Debug)]
 pub struct Gaussian {
     /// Right edge of each layer, widest first.
     edge: [f32; LAYERS + 1],
-    /// Share of a layer that lies wholly under the curve.
+    /// Fraction of a layer that lies entirely under the density curve.
     inside: [f32; LAYERS],
-    /// Height of the curve at each edge.
+    /// Height of the density curve at each edge.
     height: [f32; LAYERS + 1],
 }
 
@@ -67,7 +67,7 @@ impl Default for Gaussian {
 }
 
 impl Gaussian {
-    /// Builds the table: 128 logarithms and exponentials, once.
+    /// Builds the table: about 128 logarithms and exponentials, once.
     pub fn new() -> Self {
         let density = |x: f64| libm::exp(-0.5 * x * x);
         let mut x = [0.0_f64; LAYERS + 1];
@@ -85,14 +85,14 @@ impl Gaussian {
 
     /// The next value of a standard normal distribution.
     ///
-    /// Terminates with probability one; more than three rounds are rarer than one in a million draws. The rounds are
-    /// bounded all the same, since nothing in the callback may loop without a bound.
+    /// Rejection sampling ends with probability one; fewer than one draw in a million needs more than three rounds. The
+    /// rounds are bounded at 64 nevertheless, because no loop in the callback may be unbounded.
     #[inline]
     pub fn draw(&self, noise: &mut Noise) -> f32 {
         for _ in 0..64 {
             let bits = noise.bits();
             let layer = (bits & (LAYERS as u64 - 1)) as usize;
-            // The top 24 bits as a signed share of the layer, in -1..1 and never exactly 0.
+            // The top 24 bits as a signed fraction of the layer, in -1..1 and never exactly 0.
             let share = (((bits >> 40) as i32) - (1 << 23)) as f32 * (1.0 / (1 << 23) as f32)
                 + (0.5 / (1 << 23) as f32);
             let x = share * self.edge[layer];
@@ -140,7 +140,7 @@ mod tests {
         let n = 2_000_000;
         let x = draws(1, n);
         let moment = |k: i32| x.iter().map(|v| v.powi(k)).sum::<f64>() / n as f64;
-        // Five standard errors of each sample moment: sqrt(var(x^k)/n).
+        // The bound is five standard errors of each sample moment: sqrt(var(x^k)/n).
         let bound = |variance: f64| 5.0 * (variance / n as f64).sqrt();
         assert!(moment(1).abs() < bound(1.0));
         assert!((moment(2) - 1.0).abs() < bound(2.0));
@@ -152,7 +152,7 @@ mod tests {
     fn shares_under_the_curve_match_the_error_function() {
         let n = 2_000_000;
         let x = draws(2, n);
-        // P(|x| > t) of the standard normal distribution, from its closed form erfc(t/sqrt 2).
+        // P(|x| > t) of the standard normal distribution, from the closed form erfc(t/sqrt 2).
         for (t, p) in
             [(0.5, 0.617_075), (1.0, 0.317_311), (2.0, 0.045_500_3), (3.0, 0.002_699_8), (EDGE, 0.000_576_07)]
         {

@@ -1,35 +1,36 @@
-//! What a texture has at each place: played by where the tip is, forwards, backwards, and not at all while it stands.
+//! Surface relief: a signal stored over position and played by the tip's displacement, in both directions.
 
 use core::f32::consts::PI;
 
 use crate::contact::Place;
-use crate::voice::MAX_TICK;
+use crate::limits::MAX_TICK;
 
-/// Fewest samples of an octave: as many as the cubic between samples looks at.
+/// Fewest samples of an octave: the number that the cubic interpolation uses.
 pub const LEAST_SAMPLES: usize = 4;
 /// Most samples of an octave.
 pub const MOST_SAMPLES: usize = 1 << 24;
-/// What changes slower is no vibration, and a tip that stands feels none: the cut-off in Hz.
+/// Cutoff of the high-pass in Hz. Slower changes are not vibration, and a tip at rest must give no signal.
 pub const HIGH_PASS_HZ: f32 = 10.0;
-/// A way in one tick that no hand goes, in m: the tip is somewhere else.
+/// Largest plausible displacement in one tick, in m. A larger one counts as a jump.
 const JUMP_M: f64 = 0.015;
-/// Times the force of its level that a relief may be pressed with.
+/// Largest ratio of normal force to reference force that still increases the level.
 const MOST_GAIN: f32 = 4.0;
 
-/// Why slices do not make a relief.
+/// Reasons why data do not form a valid relief.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReliefError {
-    /// A step or a force that is not a positive finite number.
+    /// The step or the reference force is not a positive finite number.
     Range,
-    /// The slice is not as long as its octaves.
+    /// The number of samples is not a power of two in range, or the slice does not have the length of all octaves.
     Length,
-    /// A value is not finite.
+    /// A sample is not finite.
     Number,
 }
 
-/// Values in m/s² over places, that repeat, in octaves: the first has `n` samples a step apart, each of the others half as
-/// many of the lower half of the band. Every octave holds only what has four samples or more a period, for the cubic.
+/// A periodic acceleration profile in m/s² over tip position, stored as octaves (a multiresolution pyramid). Octave 0
+/// has `n` samples, one per step. Each further octave has half as many samples and half the bandwidth. Every octave
+/// contains only components with at least four samples per period, for the cubic interpolation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief<'a> {
     step_m: f32,
@@ -38,14 +39,14 @@ pub struct Relief<'a> {
     octaves: &'a [f32],
 }
 
-/// Numbers of all octaves of a relief of `n` samples, a power of two, down to [`LEAST_SAMPLES`].
+/// Total number of samples of all octaves of a relief of `n` samples (a power of two), down to [`LEAST_SAMPLES`].
 pub const fn length(n: usize) -> usize {
     (2 * n).saturating_sub(LEAST_SAMPLES)
 }
 
 impl<'a> Relief<'a> {
-    /// A relief of `n` samples, a power of two, whose octaves stand one behind the other, at the force in N at which it has
-    /// its level.
+    /// A relief of `n` samples (a power of two) with its octaves in sequence, a step in m, and the reference force in N
+    /// at which the samples have their stated level.
     ///
     /// # Errors
     /// See [`ReliefError`].
@@ -64,34 +65,36 @@ impl<'a> Relief<'a> {
         Ok(Self { step_m, force_n, n, octaves })
     }
 
-    /// A relief over numbers that [`Relief::new`] has accepted before. Others are silent or not finite, never out of bounds.
+    /// A relief over data that [`Relief::new`] has accepted before. Invalid data give zero or non-finite output and
+    /// never an out-of-bounds access.
     pub fn checked_before(step_m: f32, force_n: f32, n: usize, octaves: &'a [f32]) -> Self {
         Self { step_m, force_n, n: n.clamp(LEAST_SAMPLES, MOST_SAMPLES).next_power_of_two(), octaves }
     }
 
-    /// Distance of two samples of the first octave, in m.
+    /// Distance between two samples of octave 0, in m.
     pub fn step_m(&self) -> f32 {
         self.step_m
     }
 
-    /// Force in N at which it has its level.
+    /// Reference force in N, at which the samples have their stated level.
     pub fn force_n(&self) -> f32 {
         self.force_n
     }
 
-    /// Samples of the first octave.
+    /// Number of samples of octave 0.
     pub fn n(&self) -> usize {
         self.n
     }
 
-    /// The numbers of all octaves.
+    /// Samples of all octaves in sequence, in m/s².
     pub fn octaves(&self) -> &'a [f32] {
         self.octaves
     }
 
-    /// The value in m/s² at a place, in samples of the first octave, between octaves: 0.5 is half of both.
+    /// The value in m/s² at a position, in samples of octave 0. A fractional octave interpolates linearly between two
+    /// octaves.
     fn at(&self, place: f64, octave: f32) -> f32 {
-        // Beyond the last octave nothing but the mean is left.
+        // After the last octave only the mean remains.
         let beyond = (self.n / LEAST_SAMPLES).ilog2() + 1;
         let octave = octave.clamp(0.0, beyond as f32);
         let lower = octave as u32;
@@ -100,7 +103,7 @@ impl<'a> Relief<'a> {
         if share > 0.0 { value + share * (self.in_octave(place, lower + 1) - value) } else { value }
     }
 
-    /// The cubic through the four samples around (Catmull and Rom).
+    /// The value by cubic (Catmull-Rom) interpolation through the four surrounding samples.
     fn in_octave(&self, place: f64, octave: u32) -> f32 {
         let n = self.n >> octave;
         if n < LEAST_SAMPLES {
@@ -108,9 +111,9 @@ impl<'a> Relief<'a> {
             return last.iter().sum::<f32>() / LEAST_SAMPLES as f32;
         }
         let begin = 2 * (self.n - n);
-        // The first samples of all octaves lie at one place.
+        // The first samples of all octaves lie at the same position.
         let at = place / f64::from(1_u32 << octave);
-        // So far away that there is no telling where.
+        // A position that is not finite is read as zero.
         let at = if at.is_finite() { at } else { 0.0 };
         let whole = libm::floor(at);
         let t = (at - whole) as f32;
@@ -122,9 +125,9 @@ impl<'a> Relief<'a> {
         b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
     }
 
-    /// The octave that is played where the tip goes so far from model sample to model sample: the one whose band ends at half
-    /// the rate or below. From there the next one comes in within a quarter of an octave, so that what is heard at the very
-    /// end of the band is not lost a little later, and only there anything can fold back.
+    /// The octave to play for a tip displacement per model sample: the first one whose band ends at or below half the
+    /// sample rate. Above each whole octave, the next octave is faded in within a quarter of an octave. Components at
+    /// the edge of the band thus fade out smoothly, and aliasing is possible only within that quarter octave.
     fn octave(&self, way_m: f64) -> f32 {
         let ways = libm::fabs(way_m) as f32 / (2.0 * self.step_m);
         if ways <= 1.0 {
@@ -136,21 +139,21 @@ impl<'a> Relief<'a> {
     }
 }
 
-/// Where the tip goes in a tick, and how hard it is pressed at both ends.
+/// Tip displacement during a tick, with the normal force at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Passage {
-    /// Place at the beginning and at the end, in m.
+    /// Position at the start and at the end of the tick, in m.
     pub places_m: (f64, f64),
-    /// Force at the beginning and at the end, in N.
+    /// Normal force at the start and at the end, in N.
     pub forces_n: (f32, f32),
-    /// Whether it begins elsewhere than the one before ended.
+    /// Whether the start position differs from the previous end position (a contact onset or a jump).
     pub is_elsewhere: bool,
     n_jumps: u32,
 }
 
 impl Passage {
-    /// The way from the end of this one to another place and force. Where the tip was in the air, or is somewhere else of a
-    /// sudden, it does not go there: it is there.
+    /// Returns the next passage, from the end of this one to a new position and force. After a lifted tip, or after a
+    /// jump, the passage starts at the new position without a displacement.
     #[must_use]
     pub fn on(self, place: Place, force_n: f32) -> Self {
         let Place { x_m, n_jumps } = place;
@@ -162,34 +165,34 @@ impl Passage {
     }
 }
 
-/// A relief sounding.
+/// Playback state of a relief.
 #[derive(Clone, Debug)]
 pub struct ReliefVoice {
-    /// What the high-pass keeps of its last output from sample to sample, and takes of a change.
+    /// High-pass coefficients: `keep` for the last output, `take` for the change of the input.
     keep: f32,
     take: f32,
-    /// Last input and output in m/s², while the tip is down.
+    /// Last input and output in m/s²; `None` while the tip is lifted.
     last: Option<(f32, f32)>,
     octave: f32,
 }
 
 impl ReliefVoice {
-    /// A silent voice at a model's rate.
+    /// A silent voice at the model's sample rate in Hz.
     pub fn new(rate_hz: f32) -> Self {
         let corner = PI * HIGH_PASS_HZ / rate_hz;
         let (keep, take) = ((1.0 - corner) / (1.0 + corner), 1.0 / (1.0 + corner));
         Self { keep, take, last: None, octave: 0.0 }
     }
 
-    /// Forgets what sounded.
+    /// Clears the playback state.
     pub fn reset(&mut self) {
         self.last = None;
     }
 
-    /// Adds a tick to `out` (at most [`MAX_TICK`] samples), times a weight that goes from `weights.0` to `weights.1`. A tip
-    /// that lands begins in silence, whatever is there.
+    /// Adds a tick to `out` (at most [`MAX_TICK`] samples), multiplied by a weight that changes linearly from
+    /// `weights.0` to `weights.1`. At a contact onset, the output starts at zero whatever the relief's value there.
     ///
-    /// Cost a sample: two cubics.
+    /// Cost per sample: at most two cubic interpolations.
     pub fn add_tick(&mut self, relief: &Relief<'_>, passage: &Passage, weights: (f32, f32), out: &mut [f32]) {
         let Passage { places_m, forces_n, is_elsewhere, .. } = *passage;
         if forces_n.1 <= 0.0 && (forces_n.0 <= 0.0 || self.last.is_none()) {
@@ -200,12 +203,12 @@ impl ReliefVoice {
         let share = 1.0 / n.max(1) as f32;
         let way_m = (places_m.1 - places_m.0) * f64::from(share);
         let octave = relief.octave(way_m);
-        // What was played before a landing or a jump says nothing of how fast the tip is now.
+        // The octave before a contact onset or a jump does not match the current speed.
         let goes_on = self.last.is_some() && !is_elsewhere;
         let octave_before = if goes_on { self.octave } else { octave };
         self.octave = octave;
         let here = || relief.at(places_m.0 / f64::from(relief.step_m), octave_before);
-        // What still sounds goes on from there, so that nothing clicks.
+        // The high-pass state is kept after a jump, to avoid a click.
         let (mut input, mut kept) = match self.last {
             Some((_, kept)) if is_elsewhere => (here(), kept),
             Some(last) => last,

@@ -1,4 +1,4 @@
-//! Up to three textures mixed into one signal at the model's rate, a tick at a time.
+//! Mixer of up to three textures into one signal at the model's sample rate, one tick at a time.
 
 use crate::contact::{Contact, Place};
 use crate::noise::{Gaussian, Noise};
@@ -8,65 +8,66 @@ use crate::voice::{MAX_TICK, Voice};
 
 /// Longest control tick, in seconds.
 pub const TICK_SECS: f32 = 0.005;
-/// How long any change of weight, texture or blend takes, in seconds.
+/// Duration of a fade of weights, textures or blend, in seconds.
 pub const FADE_SECS: f32 = 0.02;
 /// Most textures in a mix.
 pub const MAX_PARENTS: usize = 3;
-/// Voices that may sound at once: those of the mix, and those on their way out.
+/// Most voices at once: those of the mix and those that fade out.
 pub const MAX_VOICES: usize = 8;
 
-/// Where a texture lies in the owner's table.
+/// Index of a texture in its owner's table.
 pub type TextureId = u16;
 
-/// The owner of the prepared textures, who keeps each one while [`Renderer::is_sounding`] says that it is in use.
+/// Owner of the prepared textures. It must keep each texture while [`Renderer::is_sounding`] returns true for it.
 pub trait Textures {
-    /// The texture at `id`, if there is one.
+    /// Returns the texture at `id`, or `None` if there is none.
     fn texture(&self, id: TextureId) -> Option<Texture<'_>>;
 }
 
-/// How the voices of a mix become one signal.
+/// Interpolation mode: how the voices of a mix are combined into one signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blend {
-    /// `Σ w_i s_i` of independent signals, as printed in the paper: level sinks between textures.
+    /// `Σ w_i s_i` of independent signals, as printed in the paper. The level drops between textures.
     Paper,
-    /// The same, times `Σ w_i σ_i / sqrt(Σ w_i² σ_i²)`, so that the level is the weighted mean of the levels.
+    /// `Σ w_i s_i` of independent signals, times `Σ w_i σ_i / sqrt(Σ w_i² σ_i²)`. The level is the weighted mean of the
+    /// levels.
     Power,
     /// `Σ w_i s_i` of signals that share one excitation.
     Shared,
 }
 
-/// One texture of a mix.
+/// One texture of a mix with its weight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parent {
-    /// Which texture.
+    /// Index of the texture.
     pub id: TextureId,
-    /// Its weight, 0..1.
+    /// Weight, 0..1.
     pub weight: f32,
 }
 
-/// What should sound: a `Copy` struct, since parents, weights and blend must agree.
+/// Textures to play: a `Copy` struct, because parents, weights and blend must change together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mix {
-    /// The textures, each at most once; a weight of zero is no texture.
+    /// The textures, each at most once; an entry with weight 0 is unused.
     pub parents: [Parent; MAX_PARENTS],
-    /// How they are mixed.
+    /// Interpolation mode.
     pub blend: Blend,
 }
 
 impl Mix {
-    /// No texture, to be blended in this way.
+    /// An empty mix with the given interpolation mode.
     pub fn silent(blend: Blend) -> Self {
         Self { parents: [Parent::default(); MAX_PARENTS], blend }
     }
 
-    /// One texture alone, with noise of its own.
+    /// One texture alone, with its own excitation.
     pub fn solo(id: TextureId) -> Self {
         let mut mix = Self::silent(Blend::Power);
         mix.parents[0] = Parent { id, weight: 1.0 };
         mix
     }
 
-    /// The weight of `id`, summed over its entries; zero where it is not in the mix.
+    /// Returns the weight of `id`, summed over its entries; zero if it is not in the mix.
     fn weight_of(&self, id: TextureId) -> f32 {
         let of_id = self.parents.iter().filter(|p| p.id == id && p.weight > 0.0);
         of_id.map(|p| p.weight).sum()
@@ -86,7 +87,7 @@ struct Slot {
     level: f32,
 }
 
-/// The mixer. Its output is in m/s² at the rate of the textures, all of which must share that rate.
+/// Mixer of textures. Its output is in m/s² at the sample rate of the textures, which must all share that rate.
 #[derive(Clone, Debug)]
 pub struct Renderer {
     seed: u64,
@@ -96,15 +97,16 @@ pub struct Renderer {
     shared_noise: Noise,
     slots: [Slot; MAX_VOICES],
     blend: Blend,
-    /// How far the power compensation is switched on, 0..1.
+    /// Fade of the power compensation, 0..1.
     compensation: f32,
     makeup: f32,
-    /// The way of the tip in the last tick.
+    /// Tip displacement in the last tick.
     passage: Passage,
 }
 
 impl Renderer {
-    /// A silent renderer at `rate_hz` (200 to 4000; anything else is pulled there) whose noise depends on `seed`.
+    /// A silent renderer at `rate_hz` with noise determined by `seed`. The rate is clamped to 200..4000 Hz; a
+    /// non-finite rate becomes 1000 Hz.
     pub fn new(rate_hz: f32, seed: u64) -> Self {
         let rate_hz = if rate_hz.is_finite() { rate_hz.clamp(200.0, 4000.0) } else { 1000.0 };
         let tick_len = ((rate_hz * TICK_SECS) as usize).clamp(1, MAX_TICK);
@@ -138,10 +140,10 @@ impl Renderer {
         self.tick_len
     }
 
-    /// Starts to fade to `mix`. Voices of textures that stay keep sounding; the others fade out.
+    /// Starts a fade to `mix`. Voices of textures that remain are not restarted; the others fade out.
     ///
-    /// Returns false, having changed nothing, while too many voices are still fading: offer the newest mix again
-    /// after the next tick. At most `FADE_SECS` later it is taken.
+    /// Returns false and changes nothing while too many voices are still fading. The caller then passes the newest mix
+    /// again after the next tick; it is accepted at most `FADE_SECS` later.
     #[must_use]
     pub fn set_mix(&mut self, mix: &Mix) -> bool {
         let is_new = |slots: &[Slot; MAX_VOICES], id: TextureId| slots.iter().all(|s| s.id != Some(id));
@@ -174,7 +176,7 @@ impl Renderer {
         true
     }
 
-    /// Ends every fade at once: for a render that starts in the middle of a stroke.
+    /// Completes all fades at once, for a render that starts in the middle of a stroke.
     pub fn finish_fades(&mut self) {
         for slot in &mut self.slots {
             slot.weight = slot.target;
@@ -186,15 +188,15 @@ impl Renderer {
         self.compensation = if self.blend == Blend::Power { 1.0 } else { 0.0 };
     }
 
-    /// Whether a voice of texture `id` is sounding or fading.
+    /// Whether a voice of texture `id` is active, including fades.
     pub fn is_sounding(&self, id: TextureId) -> bool {
         self.slots.iter().any(|s| s.id == Some(id))
     }
 
-    /// Renders one tick that ends at `contact` and `place` into `out`, of which [`Renderer::tick_len`] samples are
-    /// overwritten.
+    /// Renders one tick that ends at `contact` and `place`. Overwrites the first [`Renderer::tick_len`] samples of
+    /// `out`.
     ///
-    /// A texture that the owner no longer has is silent. Cost: bounded by [`MAX_VOICES`] voices.
+    /// A texture that its owner no longer has is silent. Cost: at most [`MAX_VOICES`] voices.
     pub fn tick(&mut self, textures: &dyn Textures, contact: Contact, place: Place, out: &mut [f32]) {
         let n = self.tick_len.min(out.len());
         let out = &mut out[..n];
@@ -237,7 +239,7 @@ impl Renderer {
                 &own[..n]
             };
             slot.voice.add_tick(noise, (start * makeup_before, slot.weight * self.makeup), out);
-            // Reliefs lie where they lie: their sum needs no making up.
+            // Relief signals are coherent, because they depend on position only; their sum needs no power compensation.
             match relief {
                 Some(relief) => {
                     slot.relief.add_tick(&relief, &self.passage, (start, slot.weight), out);
@@ -250,7 +252,7 @@ impl Renderer {
         }
     }
 
-    /// The gain that makes up for the loss of independent signals, faded in and out with the blend.
+    /// Gain that compensates the power loss of independent signals; it fades with the interpolation mode.
     fn next_makeup(&mut self) -> f32 {
         let target = if self.blend == Blend::Power { 1.0 } else { 0.0 };
         self.compensation =
@@ -260,13 +262,13 @@ impl Renderer {
             let part = s.weight * s.level;
             (sum + part, squares + part * part)
         });
-        // Between 1 and sqrt(MAX_VOICES) by Cauchy and Schwarz; without any level there is nothing to make up for.
+        // The ratio lies between 1 and sqrt(MAX_VOICES) (Cauchy-Schwarz); with zero levels no compensation is needed.
         let full = if squares > f32::MIN_POSITIVE { sum / libm::sqrtf(squares) } else { 1.0 };
         1.0 + self.compensation * (full - 1.0)
     }
 }
 
-/// `from` moved by `step` towards `to`, not past it.
+/// Returns `from` moved by `step` towards `to`, but not past it.
 fn approach(from: f32, to: f32, step: f32) -> f32 {
     let next = from + step;
     if (step >= 0.0 && next >= to) || (step <= 0.0 && next <= to) { to } else { next }

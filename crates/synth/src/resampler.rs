@@ -1,10 +1,10 @@
-//! From the model's rate to the device's: images at least 70 dB down, a few milliseconds late.
+//! Sample-rate conversion from model rate to device rate: images at least 70 dB down, a delay of a few milliseconds.
 //!
-//! Two stages. The first doubles the rate with an elliptic low-pass: flat to 0.92 of the model's Nyquist frequency and
-//! 70 dB down from the Nyquist frequency on, so that *no* image of the model's band survives. A linear-phase filter as
-//! steep would be 20 ms late, this one is 1.6 ms at low frequencies. The second interpolates between the doubled
-//! samples with a short windowed sinc, for any ratio of rates; its images lie above three times the model's Nyquist
-//! frequency and are as far down.
+//! The first of two stages doubles the rate with an elliptic low-pass. It is flat up to 0.92 of the model's Nyquist
+//! frequency and 70 dB down from the Nyquist frequency, so that it rejects *every* image of the model's band. A
+//! linear-phase filter as steep would delay by 20 ms; this one delays by 1.6 ms at low frequencies. The second stage
+//! interpolates between the doubled samples with a short windowed sinc, for any ratio of rates. Its images lie above
+//! three times the model's Nyquist frequency and are at least as far down.
 
 use core::f64::consts::PI;
 
@@ -53,19 +53,19 @@ const DOUBLER_DELAY: f32 = 3.154;
 
 const TAPS: usize = 10;
 const PHASES: usize = 128;
-/// Kaiser window for 75 dB: a margin over the first stage's 70.
+/// Kaiser window for 75 dB, 5 dB more than the 70 dB of the first stage.
 const KAISER_BETA: f64 = 0.1102 * (75.0 - 8.7);
 
-/// A stateful interpolator from one rate to a higher one.
+/// A stateful sample-rate converter to a rate at least as high.
 #[derive(Clone, Debug)]
 pub struct Resampler {
     table: [[f32; TAPS]; PHASES + 1],
     sections: [[f64; 2]; DOUBLER.len()],
     /// The newest doubled samples, oldest first.
     history: [f32; TAPS],
-    /// The second of a pair of doubled samples, not yet in the history.
+    /// Second of a pair of doubled samples, not yet in `history`.
     pending: Option<f32>,
-    /// Position between the two middle samples of the history, 0..1, as 32-bit fractions.
+    /// Position between the two middle samples of `history`, 0..1, as a 32-bit fraction.
     phase: u64,
     step: u64,
 }
@@ -73,14 +73,14 @@ pub struct Resampler {
 const ONE: u64 = 1 << 32;
 
 impl Resampler {
-    /// An interpolator from `model_rate_hz` to `device_rate_hz`, which must be at least as high; otherwise, or where a
-    /// rate is not a positive number, it runs at the model's rate.
+    /// A converter from `model_rate_hz` to `device_rate_hz`, which must be at least as high. If it is lower, or if a
+    /// rate is not a positive finite number, the output runs at the model's rate.
     pub fn new(model_rate_hz: f32, device_rate_hz: f32) -> Self {
         let ratio = 2.0 * f64::from(model_rate_hz) / f64::from(device_rate_hz);
         let ratio = if ratio.is_finite() && ratio > 0.0 && ratio <= 2.0 { ratio } else { 2.0 };
         let middle = TAPS as f64 / 2.0;
         let tap = |phase: usize, i: usize| {
-            // Distance from tap i to the point `phase` of the way from tap middle-1 to tap middle.
+            // Distance from tap i to the point that lies phase/PHASES of the way from tap middle-1 to tap middle.
             let t = i as f64 - (middle - 1.0) - phase as f64 / PHASES as f64;
             let sinc = if t == 0.0 { 1.0 } else { sin(PI * t) / (PI * t) };
             let r = t / middle;
@@ -97,21 +97,21 @@ impl Resampler {
         }
     }
 
-    /// How late the output is at low frequencies, in samples of the model's rate.
+    /// Delay of the output at low frequencies, in samples of the model's rate.
     pub fn delay_model_samples() -> f32 {
         0.5 * (DOUBLER_DELAY + (TAPS / 2) as f32)
     }
 
-    /// The next device sample; `pull` is asked for model samples as they are needed.
+    /// Returns the next device sample; calls `pull` for each model sample that it needs.
     #[inline]
     pub fn next(&mut self, mut pull: impl FnMut() -> f32) -> f32 {
-        // At most two rounds: the step is at most two doubled samples.
+        // At most two iterations, because the step is at most two doubled samples.
         while self.phase >= ONE {
             self.phase -= ONE;
             let doubled = if let Some(sample) = self.pending.take() {
                 sample
             } else {
-                // Zero-stuffing halves the level, hence the two.
+                // Zero-stuffing halves the level, hence the factor of two.
                 let first = self.double(2.0 * f64::from(pull()));
                 self.pending = Some(self.double(0.0));
                 first
@@ -131,14 +131,14 @@ impl Resampler {
         out
     }
 
-    /// One sample through the doubler, sections in transposed direct form.
+    /// Filters one sample with the doubler, sections in transposed direct form II.
     #[inline]
     fn double(&mut self, mut x: f64) -> f32 {
         for ([b0, b1, b2, a1, a2], z) in DOUBLER.iter().zip(&mut self.sections) {
             let y = b0 * x + z[0];
             z[0] = b1 * x - a1 * y + z[1];
             z[1] = b2 * x - a2 * y;
-            // Rung out: keep numbers that slow the processor out of the loop.
+            // The filter has rung out: clear the state to avoid slow subnormal arithmetic.
             if fabs(z[0]) < 1e-25 && fabs(z[1]) < 1e-25 {
                 *z = [0.0; 2];
             }
@@ -148,7 +148,8 @@ impl Resampler {
     }
 }
 
-/// Modified Bessel function of the first kind, order zero, by its power series (relative error below 1e-15 here).
+/// Returns the modified Bessel function of the first kind, order zero, by its power series (relative error below 1e-15
+/// here).
 pub fn bessel_i0(x: f64) -> f64 {
     let (mut term, mut sum) = (1.0, 1.0);
     for k in 1..60 {
@@ -199,7 +200,7 @@ mod tests {
             (4000.0, 48_000.0),
         ] {
             for share in [0.02, 0.1, 0.3, 0.5, 0.7, 0.9] {
-                // A whole number of periods, so that the peak is a bin.
+                // A whole number of periods puts the peak into one bin.
                 let bin = f64::from(device_hz) / n as f64;
                 let tone = (share * f64::from(model_hz) / 2.0 / bin).round() * bin;
                 let s = spectrum(model_hz, device_hz, tone, n);
@@ -211,7 +212,7 @@ mod tests {
                     .filter(|(k, _)| (*k as f64 * bin - tone).abs() > 5.0 * bin)
                     .fold(0.0_f64, |m, (_, v)| m.max(*v));
                 let rejection = -20.0 * (elsewhere / peak).log10();
-                // What the documentation claims; the worst of these tones has 70.6.
+                // The documented limit is 70 dB; the worst of these tones has 70.6 dB.
                 assert!(
                     rejection > 70.0,
                     "image of {tone} Hz, {model_hz} to {device_hz}: {rejection} dB down"
@@ -222,7 +223,7 @@ mod tests {
 
     #[test]
     fn the_stated_delay_is_the_delay() {
-        // A step of a constant: the output crosses one half at the group delay.
+        // For a unit step, the output crosses one half near the group delay.
         let mut resampler = Resampler::new(1000.0, 48_000.0);
         let mut pulled = 0;
         let mut crossing = None;
@@ -236,8 +237,9 @@ mod tests {
             }
         }
         let delay = f64::from(Resampler::delay_model_samples());
-        // The delay is that of low frequencies, and a step has all: through a filter without linear phase it crosses one
-        // half 0.39 model samples earlier (measured). Half a sample forgotten in either stage would be more than the rest.
+        // The stated delay holds at low frequencies, but a step has all frequencies. Through this filter, which is not
+        // linear-phase, the step crosses one half 0.39 model samples earlier (measured). A lost half sample in either
+        // stage would exceed the remaining tolerance.
         assert!((crossing.unwrap() - delay).abs() < 0.45, "{crossing:?} for {delay}");
     }
 
@@ -246,7 +248,7 @@ mod tests {
         let vectors = include_str!("../../../vectors/n_resample/resample_vectors.json");
         for section in super::DOUBLER {
             for coefficient in section {
-                // Digits as the reference printed them: the literals are the same numbers.
+                // The literals have the same digits as the reference.
                 let printed = std::format!("{coefficient:?}");
                 assert!(vectors.contains(&printed), "{printed} is not in the reference");
             }

@@ -1,11 +1,11 @@
-//! Model ticks to device samples, whatever the size of the blocks.
+//! Stream of device samples from model ticks, independent of block sizes.
 
 use crate::contact::ContactSource;
 use crate::renderer::{Mix, Renderer, TextureId, Textures};
 use crate::resampler::Resampler;
 use crate::voice::MAX_TICK;
 
-/// A renderer and the resampler behind it: what a callback drives.
+/// A renderer followed by the sample-rate converter, for use in an audio callback.
 #[derive(Clone, Debug)]
 pub struct Stream {
     renderer: Renderer,
@@ -18,7 +18,8 @@ pub struct Stream {
 }
 
 impl Stream {
-    /// A silent stream from textures at `model_rate_hz` to a device at `device_rate_hz`, seeded by `seed`.
+    /// A silent stream from textures at `model_rate_hz` to a device at `device_rate_hz`, with noise determined by
+    /// `seed`.
     pub fn new(model_rate_hz: f32, device_rate_hz: f32, seed: u64) -> Self {
         let renderer = Renderer::new(model_rate_hz, seed);
         Self {
@@ -32,18 +33,18 @@ impl Stream {
         }
     }
 
-    /// Fades to `mix` from the next tick on; a newer one replaces one that has not begun.
+    /// Starts a fade to `mix` at the next tick. A newer mix replaces one that has not started.
     pub fn set_mix(&mut self, mix: Mix) {
         self.wanted = Some(mix);
     }
 
-    /// Whether texture `id` sounds, fades, or waits to begin.
+    /// Whether texture `id` is active, fading or waiting to start.
     pub fn is_using(&self, id: TextureId) -> bool {
         self.renderer.is_sounding(id)
             || self.wanted.is_some_and(|mix| mix.parents.iter().any(|p| p.id == id && p.weight > 0.0))
     }
 
-    /// From a change of the contact to its middle in the output, in seconds: one tick of ramp and the filters.
+    /// Delay in seconds from a change of contact to the middle of its ramp in the output: one tick plus the filters.
     pub fn latency_secs(&self) -> f32 {
         (self.renderer.tick_len() as f32 + Resampler::delay_model_samples()) / self.model_rate_hz as f32
     }
@@ -83,7 +84,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// A hand that speeds up, presses, and lifts.
+    /// A stroke with varying speed and force and with lifts.
     struct Wave;
 
     impl ContactSource for Wave {
@@ -104,10 +105,10 @@ mod tests {
         stream
     }
 
-    /// The first `n` samples in blocks of `block`.
+    /// The first `n` samples, in blocks of `block`.
     fn render(block: usize, n: usize, mut stream: Stream) -> Vec<f32> {
         let table = Table::with_levels(&[0.5, 1.0, 2.0]);
-        // Pre-filled with what must be overwritten.
+        // NaN marks samples that are not overwritten.
         let mut out = vec![f32::NAN; n];
         for chunk in out.chunks_mut(block) {
             stream.process(&table, &mut Wave, chunk);

@@ -1,43 +1,43 @@
-//! What a landing sounds like: a decaying oscillation, from the very sample on that it is struck.
+//! Tap transient at a contact onset: a decaying sinusoid that starts at the sample of the impact.
 
 use core::f64::consts::TAU;
 
-/// `a(t) = A e^{-Bt} sin 2πft` from the landing on (Okamura, Cutkosky and Dennerlein, 2001).
+/// Parameters of the tap transient `a(t) = A e^{-Bt} sin 2πft` (Okamura, Cutkosky and Dennerlein, 2001).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tap {
-    /// `f`, in Hz.
+    /// Frequency `f`, in Hz.
     pub frequency_hz: f32,
-    /// `B`, in 1/s.
+    /// Decay rate `B`, in 1/s.
     pub decay_per_sec: f32,
-    /// `A`, in m/s².
+    /// Amplitude `A`, in m/s².
     pub amplitude_mps2: f32,
 }
 
 impl Tap {
-    /// No sound at all.
+    /// No tap transient.
     pub const SILENT: Self = Self { frequency_hz: 0.0, decay_per_sec: 0.0, amplitude_mps2: 0.0 };
 }
 
-/// Landings that can ring at once: a fifth takes the place of the oldest.
+/// Most transients at once; a fifth replaces the oldest.
 const RINGING: usize = 4;
-/// What has fallen below this, in m/s², has ended.
+/// Envelope in m/s² at which a transient ends.
 const ENDED_MPS2: f64 = 1e-5;
-/// Slowest decay that is rendered, in 1/s: what rings longer is no landing.
+/// Slowest decay that is rendered, in 1/s; a longer transient is not plausible for a tap.
 const SLOWEST_DECAY_PER_SEC: f64 = 2.0;
 
-/// One oscillation, by its recursion `y[n] = 2r cos θ y[n-1] - r² y[n-2]`.
+/// One transient by its recursion `y[n] = 2r cos θ y[n-1] - r² y[n-2]`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Ringing {
     twice_cos: f64,
     square: f64,
     last: f64,
     before: f64,
-    /// Amplitude of the envelope.
+    /// Envelope of the remaining oscillation.
     left: f64,
     decay: f64,
 }
 
-/// The landings that ring.
+/// The active tap transients.
 #[derive(Clone, Debug)]
 pub struct Taps {
     rate_hz: f64,
@@ -46,13 +46,13 @@ pub struct Taps {
 }
 
 impl Taps {
-    /// Silence at a rate in Hz.
+    /// No active transient, at a sample rate in Hz.
     pub fn new(rate_hz: f32) -> Self {
         Self { rate_hz: f64::from(rate_hz), ringing: [Ringing::default(); RINGING], next: 0 }
     }
 
-    /// The tip lands now, `strength` times as hard as where the tap was measured. What cannot ring (a frequency of zero or
-    /// above half the rate, a number that is not finite) is silent.
+    /// Starts a transient now, scaled by `strength` relative to the measured tap. Parameters without a valid
+    /// oscillation are ignored: a frequency of zero or of at least half the sample rate, or a value that is not finite.
     pub fn strike(&mut self, tap: Tap, strength: f32) {
         let angle = TAU * f64::from(tap.frequency_hz) / self.rate_hz;
         let decay_per_sec = f64::from(tap.decay_per_sec).max(SLOWEST_DECAY_PER_SEC);
@@ -66,7 +66,7 @@ impl Taps {
             twice_cos: 2.0 * decay * libm::cos(angle),
             square: decay * decay,
             last: 0.0,
-            // What lies a sample before the landing on the same curve.
+            // The value of the same curve one sample before the impact.
             before: -amplitude / decay * libm::sin(angle),
             left: amplitude.abs(),
             decay,
@@ -74,20 +74,20 @@ impl Taps {
         self.next = (self.next + 1) % RINGING;
     }
 
-    /// Whether anything rings.
+    /// Whether a transient is active.
     #[cfg(test)]
     fn are_ringing(&self) -> bool {
         self.ringing.iter().any(|r| r.left > 0.0)
     }
 
-    /// Adds what rings to a block in m/s².
+    /// Adds all active transients to a block in m/s².
     pub fn add_to(&mut self, block: &mut [f32]) {
         for r in self.ringing.iter_mut().filter(|r| r.left > 0.0) {
             for sample in block.iter_mut() {
                 *sample += r.last as f32;
                 (r.last, r.before) = (r.twice_cos * r.last - r.square * r.before, r.last);
                 r.left *= r.decay;
-                // By the sample, so that blocks do not matter.
+                // Checked per sample, so that the result does not depend on block sizes.
                 if r.left < ENDED_MPS2 {
                     r.left = 0.0;
                     break;
@@ -96,7 +96,7 @@ impl Taps {
         }
     }
 
-    /// Ends all at once.
+    /// Stops all transients at once.
     pub fn reset(&mut self) {
         self.ringing = [Ringing::default(); RINGING];
     }
@@ -120,7 +120,7 @@ mod tests {
             for (i, x) in out.iter().enumerate() {
                 let t = i as f64 / 48_000.0;
                 let expected = 3.0 * (-90.0 * t).exp() * (TAU * 180.0 * t).sin();
-                // A millionth of the amplitude, from `f32`.
+                // The tolerance is a millionth of the amplitude, from rounding to `f32`.
                 assert!((f64::from(*x) - expected).abs() < 3e-6, "{x} for {expected} at {t} s");
             }
         }
@@ -161,7 +161,7 @@ mod tests {
         taps.strike(Tap { decay_per_sec: f32::INFINITY, ..WOOD }, 1.0);
         taps.strike(Tap::SILENT, 1.0);
         assert!(!taps.are_ringing());
-        // One that would never end does.
+        // A transient that would never decay ends too.
         taps.strike(Tap { decay_per_sec: -5.0, ..WOOD }, 1.0);
         taps.add_to(&mut vec![0.0; 480_000]);
         assert!(!taps.are_ringing());

@@ -1,113 +1,112 @@
-//! A texture as the callback sees it: nodes over (speed, force) and a triangulation to interpolate between them.
+//! Texture model for the callback: nodes over (speed, force) and a triangulation for interpolation.
 
 use crate::contact::Contact;
+pub use crate::limits::MAX_ORDER;
 use crate::relief::Relief;
-
-/// Highest order of a predictor.
-pub const MAX_ORDER: usize = 32;
 
 /// "No neighbor" in [`Triangle::neighbors`].
 pub const NO_NEIGHBOR: u16 = u16::MAX;
 
-/// What was measured at one speed and force.
+/// Model at one measured speed and force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Output level, the root mean square in m/s²; zero at zero speed or force.
+    /// Output level (RMS) in m/s²; zero at zero speed or force.
     pub level_mps2: f32,
-    /// Line spectral frequencies in radians (0, π), ascending; the first `order` count.
+    /// Line spectral frequencies in radians (0, π), ascending; the first `order` are used.
     pub lsf: [f32; MAX_ORDER],
 }
 
-/// What drives the predictor of a published texture at a node, in place of the node's level.
+/// Excitation of a published (HaTT) model at a node, used instead of the node's level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excitation {
-    /// Variance of the white noise, in (m/s²)²; zero where the node is silent.
+    /// Variance of the white noise, in (m/s²)²; zero at a silent node.
     pub variance: f32,
-    /// Gain after it, without a unit.
+    /// Gain after the noise, dimensionless.
     pub gain: f32,
-    /// Line spectral frequencies of the moving average in radians (0, π), ascending; the first `ma_order` count.
+    /// Line spectral frequencies of the moving average in radians (0, π), ascending; the first `ma_order` are used.
     pub ma_lsf: [f32; MAX_ORDER],
 }
 
-/// Three nodes and the affine map from a contact to its weights.
+/// Three nodes with the affine map from a contact to its barycentric weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     /// Indices of the three nodes.
     pub nodes: [u16; 3],
-    /// Neighbor across the edge opposite each node, or [`NO_NEIGHBOR`].
+    /// Index of the triangle across the edge opposite each node, or [`NO_NEIGHBOR`].
     pub neighbors: [u16; 3],
-    /// First weight `= m[0] x + m[1] y + m[2]`, second likewise from `m[3..]`, with `x = speed / speed_max` and
-    /// `y = force / force_max`; the third is what is left of one.
+    /// Affine map: the first weight is `m[0] x + m[1] y + m[2]`, the second likewise from `m[3..]`, with
+    /// `x = speed / speed_max` and `y = force / force_max`. The third is one minus their sum.
     pub weights: [f32; 6],
-    /// ln of the power gain, that of the predictor alone being `1 / Π (1 - k²)`, at the three nodes, then at the middles
-    /// of the edges opposite each node. The gain between is the quadratic through these six: interpolated frequencies do not have
-    /// interpolated gains, and an exact gain would cost a step-down recursion at every tick.
+    /// Natural logarithm of the power gain at the three nodes, then at the midpoints of the edges opposite each node.
+    /// For an AR predictor alone, the power gain is `1 / Π (1 - k²)`. Between these six points the renderer uses their
+    /// quadratic interpolant: interpolated LSFs do not have interpolated gains, and an exact gain would need a
+    /// step-down recursion at every tick.
     pub ln_gain: [f32; 6],
 }
 
-/// Why slices do not make a texture.
+/// Reasons why data do not form a valid texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TextureError {
     /// The order is zero or above [`MAX_ORDER`], or there is a moving average without excitations.
     Order,
-    /// The rate, or the largest speed or force, is not a positive finite number.
+    /// The rate, or the maximum speed or force, is not a positive finite number.
     Range,
-    /// There is no triangle, or one names a node or neighbor that does not exist.
+    /// There is no triangle, or there are too many, or one refers to a node or neighbor that does not exist.
     Triangle,
-    /// A level, frequency, weight or gain is not finite, or frequencies do not ascend within (0, π).
+    /// A level, frequency, weight or gain is not finite or is out of range, or frequencies do not ascend within (0, π).
     Number,
-    /// There are excitations, but not one for each node.
+    /// The number of excitations is neither zero nor the number of nodes.
     Excitation,
 }
 
-/// What a prepared texture is made of, as its owner lends it.
+/// Data of a prepared texture, borrowed from its owner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parts<'a> {
-    /// Samples a second of the model, in Hz.
+    /// Sample rate of the model, in Hz.
     pub rate_hz: f32,
     /// Order of the predictor, the same at every node.
     pub order: usize,
-    /// Order of the moving average, the same at every node; zero where there is none.
+    /// Order of the moving average, the same at every node; zero without one.
     pub ma_order: usize,
     /// Speed at which the texture saturates, in m/s.
     pub speed_max_mps: f32,
     /// Force at which the texture saturates, in N.
     pub force_max_n: f32,
-    /// Nodes of the plane.
+    /// Nodes of the (speed, force) plane.
     pub nodes: &'a [Node],
-    /// For a published texture one for each node: excitations are interpolated instead of levels. Else none.
+    /// Excitations of a published (HaTT) model, one per node, interpolated instead of levels; empty otherwise.
     pub excitations: &'a [Excitation],
     /// Triangles over the nodes.
     pub triangles: &'a [Triangle],
-    /// What lies at each place, where anything does.
+    /// Surface relief, if the texture has one.
     pub relief: Option<Relief<'a>>,
 }
 
-/// A prepared texture, lent to the renderer. Checked once by [`Texture::new`], so that everything after is total.
+/// A prepared texture, borrowed by the renderer. [`Texture::new`] checks it once, so that rendering cannot fail.
 #[derive(Clone, Copy, Debug)]
 pub struct Texture<'a>(Parts<'a>);
 
-/// The model at one contact.
+/// Model interpolated at one contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluated {
-    /// Line spectral frequencies in radians; the first `order` count.
+    /// Line spectral frequencies in radians; the first `order` are used.
     pub lsf: [f32; MAX_ORDER],
-    /// Line spectral frequencies of the moving average in radians; the first `ma_order` count.
+    /// Line spectral frequencies of the moving average in radians; the first `ma_order` are used.
     pub ma_lsf: [f32; MAX_ORDER],
-    /// Order of the moving average; zero where there is none.
+    /// Order of the moving average; zero without one.
     pub ma_order: usize,
-    /// Output level, the root mean square in m/s².
+    /// Output level (RMS) in m/s².
     pub level_mps2: f32,
     /// Standard deviation of the excitation that gives this level, in m/s².
     pub sigma_mps2: f32,
 }
 
 impl<'a> Texture<'a> {
-    /// A texture over checked slices.
+    /// A texture over data that this function validates.
     ///
     /// # Errors
-    /// [`TextureError`] names the first rule that a slice breaks.
+    /// [`TextureError`] names the first violated rule.
     pub fn new(parts: Parts<'a>) -> Result<Self, TextureError> {
         let Parts {
             rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, triangles, ..
@@ -154,14 +153,14 @@ impl<'a> Texture<'a> {
         Ok(Self(parts))
     }
 
-    /// A texture over slices that [`Texture::new`] has accepted before: free, for an owner who lends them at every tick.
-    /// Slices that would not have been accepted are silent or not finite, never out of bounds.
+    /// A texture over data that [`Texture::new`] has accepted before. It costs nothing, for an owner who lends the data
+    /// at every tick. Invalid data give zero or non-finite output and never an out-of-bounds access.
     pub fn checked_before(parts: Parts<'a>) -> Self {
         let (order, ma_order) = (parts.order.min(MAX_ORDER), parts.ma_order.min(MAX_ORDER));
         Self(Parts { order, ma_order, ..parts })
     }
 
-    /// Samples a second of the model, in Hz.
+    /// Sample rate of the model, in Hz.
     pub fn rate_hz(&self) -> f32 {
         self.0.rate_hz
     }
@@ -171,15 +170,15 @@ impl<'a> Texture<'a> {
         self.0.order
     }
 
-    /// What lies at each place, where anything does.
+    /// Surface relief, if the texture has one.
     pub fn relief(&self) -> Option<Relief<'a>> {
         self.0.relief
     }
 
-    /// The model at `contact`, clamped to the measured range.
+    /// Returns the model at `contact`, clamped to the measured range.
     ///
-    /// `hint` is the triangle of the last call and becomes that of this one: a hand moves little in a tick, so the
-    /// walk is a step or two. It never takes more steps than there are triangles.
+    /// `hint` is the index of the triangle of the previous call and is updated. A contact moves little in a tick, so
+    /// the walk usually takes one or two steps. It never takes more steps than there are triangles.
     pub fn evaluate(&self, contact: Contact, hint: &mut u16) -> Evaluated {
         let contact = contact.sanitized();
         let x = (contact.speed_mps / self.0.speed_max_mps).min(1.0);
@@ -204,8 +203,8 @@ impl<'a> Texture<'a> {
             at.sigma_mps2 = at.level_mps2 * libm::expf(-0.5 * ln_gain);
         } else {
             self.excite(triangle, weights, &mut at);
-            // A published texture may sound on its axes, but in the air nothing sounds. The filters stay as they are, so
-            // that the last tick before the air has them too.
+            // A published model may have nonzero variance on the axes, but a lifted or resting tip must be silent. The
+            // filters are kept, so that the last tick before the lift still has them.
             if x <= 0.0 || y <= 0.0 {
                 at.sigma_mps2 = 0.0;
             }
@@ -214,7 +213,8 @@ impl<'a> Texture<'a> {
         at
     }
 
-    /// The moving average and the excitation of a published texture: variance and gain each linear in the triangle.
+    /// Interpolates the moving average and the excitation of a published model. Variance and gain are each linear
+    /// within the triangle.
     fn excite(&self, triangle: &Triangle, [u, v, w]: [f32; 3], at: &mut Evaluated) {
         let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.0.excitations.get(usize::from(n)))
         else {
@@ -228,7 +228,8 @@ impl<'a> Texture<'a> {
         at.sigma_mps2 = (u * a.gain + v * b.gain + w * c.gain) * libm::sqrtf(variance.max(0.0));
     }
 
-    /// The triangle that holds a normalized contact, and its three weights, each at least zero, that sum to one.
+    /// Returns the triangle of a normalized contact and its three barycentric weights, each at least zero, with sum
+    /// one.
     fn locate(&self, x: f32, y: f32, hint: &mut u16) -> Option<(&Triangle, [f32; 3])> {
         let mut triangle = self.0.triangles.get(usize::from(*hint)).or_else(|| {
             *hint = 0;
@@ -253,14 +254,14 @@ impl<'a> Texture<'a> {
             triangle = self.0.triangles.get(usize::from(next))?;
             *hint = next;
         }
-        // A contact a rounding error outside: all three weights are clamped and sum to one again.
+        // A contact may lie outside by a rounding error: the weights are clamped and normalized to sum one.
         let clamped = weights.map(|w| w.max(0.0));
         let sum = clamped[0] + clamped[1] + clamped[2];
         Some((triangle, if sum > 0.0 { clamped.map(|w| w / sum) } else { [1.0, 0.0, 0.0] }))
     }
 }
 
-/// Whether frequencies ascend within (0, π); none do.
+/// Whether frequencies ascend within (0, π); true for an empty slice.
 fn ascends(lsf: &[f32]) -> bool {
     lsf.first().is_none_or(|low| *low > 0.0)
         && lsf.last().is_none_or(|high| *high < core::f32::consts::PI)

@@ -1,28 +1,26 @@
-//! One texture sounding: its coefficients, its memory, its noise, and its weight on the way up or down.
+//! Voice of one texture: linear predictor, filter state, and excitation level.
 
+pub use crate::limits::MAX_TICK;
 use crate::lsf::ar_from_lsf;
 use crate::moving_average::MovingAverage;
 use crate::texture::{Evaluated, MAX_ORDER};
 
-/// Coefficients that meet the four newest outputs; those wait for the last sample, the rest do not.
+/// Number of predictor coefficients for the most recent outputs. Only these have to wait for the previous sample.
 const RECENT: usize = 4;
-/// Coefficients are taken four at a time, so that four multiplications are one instruction.
+/// The other coefficients are processed in groups of this size, so that the compiler can vectorize them.
 const LANES: usize = 4;
 const MAX_CHUNKS: usize = (MAX_ORDER - RECENT) / LANES;
-/// Below this an excitation or a memory is silence.
+/// Excitations and filter states below this magnitude are treated as silence.
 const TINY_MPS2: f32 = 1e-20;
-/// Longest tick in model samples: 5 ms at 4 kHz.
-pub const MAX_TICK: usize = 20;
-
-/// The predictor of one texture, its memory and its excitation level.
+/// Linear predictor of one texture, with its filter state and excitation level.
 #[derive(Clone, Debug)]
 pub struct Voice {
-    /// `a_1 … a_4`.
+    /// Coefficients `a_1 … a_4`.
     recent: [f32; RECENT],
-    /// `a_5 …`, each chunk turned round so that it lies as the memory does.
+    /// Coefficients `a_5 …`; each group is in reverse order, to match the order of `memory`.
     older: [[f32; LANES]; MAX_CHUNKS],
     n_chunks: usize,
-    /// The last outputs, oldest first, then room for one tick.
+    /// Last outputs, oldest first, followed by room for one tick.
     memory: [f32; MAX_ORDER + MAX_TICK],
     sigma: f32,
     sigma_next: f32,
@@ -49,7 +47,7 @@ impl Voice {
         }
     }
 
-    /// Takes over the model at the contact that the coming tick ends with.
+    /// Sets the model at the contact at the end of the next tick.
     pub fn aim(&mut self, order: usize, at: &Evaluated) {
         let order = order.min(MAX_ORDER);
         let mut ar = [0.0; MAX_ORDER];
@@ -64,11 +62,11 @@ impl Voice {
         self.sigma_next = if at.sigma_mps2 < TINY_MPS2 { 0.0 } else { at.sigma_mps2 };
     }
 
-    /// Adds the voice's output to `out` (at most [`MAX_TICK`] samples), times a weight that goes from `weights.0`
-    /// to `weights.1`, driven by `noise` of unit variance and the same length.
+    /// Adds the voice's output to `out` (at most [`MAX_TICK`] samples), multiplied by a weight that changes linearly
+    /// from `weights.0` to `weights.1`. The excitation is `noise` of unit variance, of the same length.
     ///
-    /// Cost a sample: `order` multiply-adds, all but four of them independent of the sample before; with a moving
-    /// average [`MAX_ORDER`] more.
+    /// Cost per sample: `order` multiply-adds, of which all but four are independent of the previous sample; with a
+    /// moving average, [`MAX_ORDER`] more.
     #[inline]
     pub fn add_tick(&mut self, noise: &[f32], weights: (f32, f32), out: &mut [f32]) {
         let n = noise.len().min(out.len()).min(MAX_TICK);
@@ -96,7 +94,7 @@ impl Voice {
     #[inline]
     fn add(&mut self, noise: &[f32], sigmas: (f32, f32), weights: (f32, f32), out: &mut [f32]) {
         match self.n_chunks {
-            // The orders that models have: known lengths keep the coefficients in registers.
+            // Usual orders have fixed loop lengths, which keep the coefficients in registers.
             2 => self.run::<2>(noise, sigmas, weights, out),
             3 => self.run::<3>(noise, sigmas, weights, out),
             4 => self.run::<4>(noise, sigmas, weights, out),
@@ -142,19 +140,19 @@ impl Voice {
         m.copy_within(n.., 0);
     }
 
-    /// A memory that has all but rung out becomes exactly zero: numbers below 1e-38 slow a processor by hundreds of
-    /// cycles each, and nothing below [`TINY_MPS2`] can be felt or measured.
+    /// Sets a filter state that has decayed below [`TINY_MPS2`] to exactly zero. Subnormal numbers (below 1e-38) cost a
+    /// processor hundreds of cycles each, and nothing below `TINY_MPS2` can be felt or measured.
     ///
-    /// With the excitation's own flush in [`Voice::aim`] this is enough: an excitation that is not zero is at least
-    /// `TINY_MPS2` and keeps the memory about as large, far above 1e-38; without one the memory falls, and is zero
-    /// as soon as all of it is below `TINY_MPS2`. What a fast decay leaves in between are a few ticks of small numbers.
+    /// [`Voice::aim`] also sets excitations below `TINY_MPS2` to zero. A nonzero excitation thus keeps the state near
+    /// or above `TINY_MPS2`, far above 1e-38. Without excitation the state decays and becomes zero once all of it is
+    /// below `TINY_MPS2`. A fast decay can leave subnormal numbers for a few ticks only.
     fn settle(&mut self) {
         if self.sigma_next == 0.0 && self.memory[..MAX_ORDER].iter().all(|y| y.abs() < TINY_MPS2) {
             self.memory[..MAX_ORDER].fill(0.0);
         }
     }
 
-    /// Forgets everything.
+    /// Clears the filter state and the coefficients.
     pub fn reset(&mut self) {
         *self = Self::new();
     }
@@ -173,7 +171,7 @@ mod tests {
     fn evaluated(order: usize, sigma_mps2: f32) -> Evaluated {
         let mut lsf = [0.0; MAX_ORDER];
         for (i, w) in lsf[..order].iter_mut().enumerate() {
-            // Uneven gaps: resonances where they are narrow.
+            // Uneven gaps give resonances where they are narrow.
             *w = core::f32::consts::PI * (i as f32 + 0.7 + 0.25 * (i as f32).sin()) / (order as f32 + 1.0);
         }
         Evaluated { lsf, ma_lsf: [0.0; MAX_ORDER], ma_order: 0, level_mps2: 1.0, sigma_mps2 }
@@ -191,7 +189,7 @@ mod tests {
             voice.aim(order, &at);
             voice.aim(order, &at);
             let mut out = vec![0.0_f32; e.len()];
-            // Uneven ticks: the memory must be carried over whatever their length.
+            // With uneven ticks, the filter state must carry over for every tick length.
             let mut at_sample = 0;
             for n in [1, 3, MAX_TICK, 7].into_iter().cycle() {
                 let end = (at_sample + n).min(e.len());
@@ -210,7 +208,7 @@ mod tests {
             }
             let peak = y.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             for (n, (a, b)) in out.iter().zip(&y).enumerate() {
-                // Rounding to f32 in a resonance of gain below a hundred.
+                // The tolerance covers rounding to f32 in a resonance with a gain below 100.
                 assert!((f64::from(*a) - b).abs() < 1e-4 * peak, "order {order}, sample {n}: {a} for {b}");
             }
         }
@@ -223,7 +221,7 @@ mod tests {
         voice.aim(2, &at);
         at.sigma_mps2 = 1.0;
         voice.aim(2, &at);
-        // With the predictor taken out, the output is noise x level x weight.
+        // With zero predictor coefficients, the output is noise × level × weight.
         voice.recent = [0.0; 4];
         let mut out = [0.0; 4];
         voice.add_tick(&[1.0; 4], (0.0, 1.0), &mut out);
@@ -244,7 +242,7 @@ mod tests {
 
     #[test]
     fn an_excitation_too_small_to_feel_rings_out_to_exactly_zero_too() {
-        // From the smallest number there is to just below what is kept.
+        // Excitations from the smallest subnormal number to just below the threshold.
         for sigma_mps2 in [f32::from_bits(1), 1e-38, 1e-30, 0.99 * TINY_MPS2] {
             let mut voice = Voice::new();
             voice.aim(8, &evaluated(8, 1.0));

@@ -1,22 +1,22 @@
-//! The figures of a space: a tab for each, one large, and its way into a file.
+//! Figures of a space: one tab for each, and a menu that saves the figure.
 
 use std::sync::Arc;
 
 use egui::{Align, Layout, Ui, UiBuilder, vec2};
 use shagreen_core::space::LabelSource;
 
-use crate::build::page::Built;
 use crate::command::Command;
 use crate::figure_ui::figure_ui;
-use crate::save::{FigureFile, FigureFormat};
+use crate::look::theme::GAP;
+use crate::state::figure_file::{FigureFile, FigureFormat};
 use crate::strings::build as strings;
-use crate::theme::GAP;
+use shagreen_studio::space::BuiltSpace;
 
-/// Height of the row of buttons under a figure, in points.
+/// Height of the row of buttons below a figure, in points.
 const FOOT: f32 = 28.0;
 
-/// Draws the tabs and the figure that is `shown`, and returns what the user asked of it.
-pub(super) fn figures_ui(ui: &mut Ui, built: &Built, shown: &mut usize) -> Option<Command> {
+/// Draws the tabs and the figure with index `shown`; returns the requested command.
+pub(super) fn figures_ui(ui: &mut Ui, built: &BuiltSpace, shown: &mut usize) -> Option<Command> {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
         ui.spacing_mut().button_padding.x = 7.0;

@@ -1,16 +1,17 @@
-//! What the space is made of: the tables that were read, and fields to read others.
+//! Input data of a space: the tables that were read, and fields to read others.
 
 use std::collections::BTreeSet;
 
 use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
 
-use crate::build::judgments::{Judgments, Kind, Slot};
-use crate::import::source::paths_in;
+use crate::build::judgments::{Judgments, Slot};
+use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
+use crate::state::source::paths_in;
 use crate::strings::build as strings;
-use crate::theme::{GAP, GROUP_GAP, tokens};
+use shagreen_studio::judgments::JudgmentKind;
 
-/// What is written in the fields.
+/// Text in the path fields.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Paths {
     sorting: String,
@@ -18,9 +19,9 @@ pub(super) struct Paths {
     votes: String,
 }
 
-/// What is said of one table.
+/// Status of one table.
 struct Said {
-    /// What was read, in figures.
+    /// Counts of what was read, as text.
     read: Option<String>,
     name: String,
     warnings: Vec<String>,
@@ -28,14 +29,14 @@ struct Said {
     unknown: Option<String>,
 }
 
-/// What the user asked of one table.
+/// Requested actions on one table.
 #[derive(Default)]
 struct Asked {
     read: bool,
     clear: bool,
 }
 
-/// Draws the tables; returns whether a simulated panel is asked for.
+/// Draws the tables; returns whether a simulated panel is requested.
 pub(super) fn inputs_ui(
     ui: &mut Ui,
     judgments: &mut Judgments,
@@ -49,13 +50,13 @@ pub(super) fn inputs_ui(
         let text = RichText::new(n_textures).color(t.text_weak);
         ui.add(Label::new(text).truncate().selectable(false));
     });
-    for kind in [Kind::Sorting, Kind::Ratings, Kind::Votes] {
+    for kind in [JudgmentKind::Sorting, JudgmentKind::Ratings, JudgmentKind::Votes] {
         ui.add_space(GAP);
         let said = said(judgments, kind, session);
         let path = match kind {
-            Kind::Sorting => &mut paths.sorting,
-            Kind::Ratings => &mut paths.ratings,
-            Kind::Votes => &mut paths.votes,
+            JudgmentKind::Sorting => &mut paths.sorting,
+            JudgmentKind::Ratings => &mut paths.ratings,
+            JudgmentKind::Votes => &mut paths.votes,
         };
         let asked = table_ui(ui, kind, path, &said);
         if asked.read {
@@ -77,13 +78,13 @@ pub(super) fn inputs_ui(
     ui.add_sized(size, Button::new(strings::SIMULATE)).on_hover_text(strings::SIMULATE_HELP).clicked()
 }
 
-fn table_ui(ui: &mut Ui, kind: Kind, path: &mut String, said: &Said) -> Asked {
+fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut String, said: &Said) -> Asked {
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
     let (title, help, nothing) = match kind {
-        Kind::Sorting => (strings::SORTING, strings::SORTING_HELP, strings::NOTHING_YET),
-        Kind::Ratings => (strings::RATINGS, strings::RATINGS_HELP, strings::NOTHING_YET),
-        Kind::Votes => (strings::VOTES, strings::VOTES_HELP, strings::OPTIONAL),
+        JudgmentKind::Sorting => (strings::SORTING, strings::SORTING_HELP, strings::NOTHING_YET),
+        JudgmentKind::Ratings => (strings::RATINGS, strings::RATINGS_HELP, strings::NOTHING_YET),
+        JudgmentKind::Votes => (strings::VOTES, strings::VOTES_HELP, strings::OPTIONAL),
     };
     ui.horizontal(|ui| {
         ui.add(Label::new(RichText::new(title).strong()).selectable(false)).on_hover_text(help);
@@ -129,29 +130,29 @@ fn table_ui(ui: &mut Ui, kind: Kind, path: &mut String, said: &Said) -> Asked {
     asked
 }
 
-fn said(judgments: &Judgments, kind: Kind, session: &Session) -> Said {
+fn said(judgments: &Judgments, kind: JudgmentKind, session: &Session) -> Said {
     let unknown = |names: BTreeSet<&str>| {
         let known = |name: &&str| session.library().index_of(name).is_some();
         let unknown: Vec<&str> = names.into_iter().filter(|name| !known(name)).collect();
         (!unknown.is_empty()).then(|| strings::not_in_library(&unknown))
     };
     match kind {
-        Kind::Sorting => {
+        JudgmentKind::Sorting => {
             let slot = &judgments.sorting;
             let placements = slot.values().iter().flat_map(|sort| &sort.placements);
             let unknown = unknown(placements.map(|placement| placement.texture.as_str()).collect());
             said_of(slot, strings::sorting, unknown)
         }
-        Kind::Ratings => {
+        JudgmentKind::Ratings => {
             let slot = &judgments.ratings;
             let unknown = unknown(slot.values().iter().map(|rating| rating.texture.as_str()).collect());
             said_of(slot, strings::ratings, unknown)
         }
-        Kind::Votes => said_of(&judgments.votes, strings::votes, None),
+        JudgmentKind::Votes => said_of(&judgments.votes, strings::votes, None),
     }
 }
 
-/// What is said of a table, which `in_figures` counts.
+/// Status of a table; `in_figures` turns its values into counts.
 fn said_of<T>(slot: &Slot<T>, in_figures: fn(&[T]) -> String, unknown: Option<String>) -> Said {
     Said {
         read: slot.read.as_ref().map(|(_, values)| in_figures(values)),

@@ -1,4 +1,4 @@
-//! The thread that builds a space, so that the window never waits.
+//! Background thread that builds a space, so that the window stays responsive.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,19 +6,17 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use shagreen_core::features::NamedTexture;
-use shagreen_core::ratings::{Rating, RelevanceVote};
-use shagreen_core::sorting::Sort;
+use shagreen_core::people::ratings::{Rating, RelevanceVote};
+use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::LabelSource;
-use shagreen_core::space_build::{SpaceBuild, SpaceData, SpaceOptions, Step, build_space, verdict};
+use shagreen_core::space::features::NamedTexture;
+use shagreen_core::space::space_build::{SpaceData, SpaceOptions, Step};
 use shagreen_core::texture::TextureModel;
-use shagreen_formats::figure::Figure;
-use shagreen_formats::placed_space::PlacedSpace;
-use shagreen_formats::space_report::space_figures;
+use shagreen_studio::space::{self, BuiltSpace};
 
 use crate::strings::build as strings;
 
-/// What a space is made of, owned.
+/// Input of a build, owned by the worker.
 pub(super) struct Order {
     pub(super) textures: Vec<(String, TextureModel)>,
     pub(super) sorts: Arc<Vec<Sort>>,
@@ -28,26 +26,13 @@ pub(super) struct Order {
     pub(super) options: SpaceOptions,
 }
 
-/// A space that was built, and how it is shown.
-#[derive(Clone, Debug)]
-pub struct Built {
-    /// The space.
-    pub build: Arc<SpaceBuild>,
-    /// What it gives textures.
-    pub placed: Arc<PlacedSpace>,
-    /// Its figures, each under a short name that serves for files.
-    pub figures: Vec<(&'static str, Arc<Figure>)>,
-    /// How far it can be believed, in sentences.
-    pub verdict: Vec<String>,
-}
-
 enum Message {
     Step(Step),
-    Done(Result<Box<Built>, String>),
+    Done(Result<Box<BuiltSpace>, String>),
 }
 
-/// A space in the making. Dropping it asks it to stop; what it still comes to reaches nobody, since every job has a
-/// channel of its own.
+/// Running build. Dropping it asks the worker to stop. Late results are discarded, because every job has its own
+/// channel.
 pub(super) struct Job {
     messages: Receiver<Message>,
     is_cancelled: Arc<AtomicBool>,
@@ -55,18 +40,17 @@ pub(super) struct Job {
     started: Instant,
 }
 
-/// What a job has come to.
+/// End of a build.
 pub(super) enum Outcome {
-    /// A space.
-    Built(Box<Built>),
-    /// Nothing, and why.
+    Built(Box<BuiltSpace>),
+    /// Reason for the failure.
     Failed(String),
-    /// Nothing, as was asked for: whatever it still came to is dropped.
+    /// Stopped on request; a late result is discarded.
     Cancelled,
 }
 
 impl Job {
-    /// Starts to build; `ctx` is asked to repaint at every step.
+    /// Starts to build. At every step, `ctx` is asked to repaint.
     pub(super) fn start(order: Order, ctx: &Context) -> Self {
         let (sender, messages) = channel();
         let is_cancelled = Arc::new(AtomicBool::new(false));
@@ -75,24 +59,24 @@ impl Job {
             let mut progress = Progress { sender, is_cancelled: is_stopped, told: None, ctx };
             let outcome = carry_out(&order, &mut progress);
             let Progress { sender, ctx, .. } = progress;
-            // The window may have closed meanwhile: then nobody listens any more.
+            // If the window was closed meanwhile, nobody receives the result.
             let _ = sender.send(Message::Done(outcome.map(Box::new)));
             ctx.request_repaint();
         });
         Self { messages, is_cancelled, step: Step::Sorting, started: Instant::now() }
     }
 
-    /// Asks it to stop. It is gone once [`Job::collect`] says so: until then it still holds the processor.
+    /// Asks the worker to stop. It uses the processor until [`Job::collect`] returns an outcome.
     pub(super) fn cancel(&self) {
         self.is_cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it was asked to stop.
+    /// Whether the worker was asked to stop.
     pub(super) fn is_stopping(&self) -> bool {
         self.is_cancelled.load(Ordering::Relaxed)
     }
 
-    /// What came of it, once it is done.
+    /// Outcome, once the worker has ended.
     pub(super) fn collect(&mut self) -> Option<Outcome> {
         let outcome = loop {
             match self.messages.try_recv() {
@@ -106,12 +90,10 @@ impl Job {
         Some(if self.is_stopping() { Outcome::Cancelled } else { outcome })
     }
 
-    /// The step that it is at.
     pub(super) fn step(&self) -> Step {
         self.step
     }
 
-    /// How long it has been at it.
     pub(super) fn elapsed(&self) -> Duration {
         self.started.elapsed()
     }
@@ -123,7 +105,7 @@ impl Drop for Job {
     }
 }
 
-/// What the worker tells, and whether it goes on.
+/// Progress reports of the worker, and its stop flag.
 struct Progress {
     sender: Sender<Message>,
     is_cancelled: Arc<AtomicBool>,
@@ -132,8 +114,8 @@ struct Progress {
 }
 
 impl Progress {
-    /// Hears of a step, as often as it likes, and returns whether to go on: only another step than the last is told, so
-    /// that the window is not woken for nothing.
+    /// Reports a step and returns whether to continue. It may be called often: only a new step is sent, so that the
+    /// window is not woken needlessly.
     fn at(&mut self, step: Step) -> bool {
         if self.is_cancelled.load(Ordering::Relaxed) {
             return false;
@@ -147,7 +129,7 @@ impl Progress {
     }
 }
 
-fn carry_out(order: &Order, progress: &mut Progress) -> Result<Built, String> {
+fn carry_out(order: &Order, progress: &mut Progress) -> Result<BuiltSpace, String> {
     let data = SpaceData {
         textures: order.textures.iter().map(|(name, model)| NamedTexture { name, model }).collect(),
         sorts: order.sorts.to_vec(),
@@ -155,28 +137,20 @@ fn carry_out(order: &Order, progress: &mut Progress) -> Result<Built, String> {
         votes: order.votes.to_vec(),
         source: order.source,
     };
-    let build = build_space(&data, &order.options, &mut |step| progress.at(step))
-        .map_err(|error| error.to_string())?;
-    let figures = space_figures(&build).into_iter();
-    Ok(Built {
-        verdict: verdict(&build),
-        figures: figures.map(|(name, figure)| (name, Arc::new(figure))).collect(),
-        placed: Arc::new(PlacedSpace::of(&build)),
-        build: Arc::new(build),
-    })
+    space::build(&data, &order.options, &mut |step| progress.at(step)).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Job, Message, Outcome, Progress};
     use egui::Context;
-    use shagreen_core::space_build::Step;
+    use shagreen_core::space::space_build::Step;
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
     use std::sync::mpsc::channel;
     use std::time::Instant;
 
-    /// A job whose worker is the test.
+    /// Job whose worker is the test.
     fn job() -> (Job, Progress) {
         let (sender, messages) = channel();
         let is_cancelled = Arc::new(AtomicBool::new(false));
@@ -197,7 +171,7 @@ mod tests {
         assert_eq!(job.step(), Step::Axis(0));
     }
 
-    /// It is asked to stop within a step, is still there until it has, and what is late is dropped.
+    /// A cancelled job stops within a step and remains until then. Its late result is discarded.
     #[test]
     fn a_cancelled_job_stops_within_a_step_and_comes_to_nothing() {
         let (mut job, mut progress) = job();
@@ -221,6 +195,8 @@ mod tests {
     fn a_worker_that_broke_off_is_said() {
         let (mut job, progress) = job();
         drop(progress);
-        assert!(matches!(job.collect(), Some(Outcome::Failed(reason)) if reason.contains("broke off")));
+        assert!(
+            matches!(job.collect(), Some(Outcome::Failed(reason)) if reason.contains("stopped unexpectedly"))
+        );
     }
 }

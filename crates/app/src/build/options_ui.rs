@@ -1,23 +1,23 @@
-//! How the space is made.
+//! Options for building a space.
 
 use egui::{ComboBox, DragValue, Grid, Label, Response, RichText, Ui};
-use shagreen_core::mds::{MAX_DIMS, Ties};
-use shagreen_core::ratings::{AdjectivePair, Rating};
-use shagreen_core::selection::Method;
-use shagreen_core::space_build::{FeatureKind, PlacedBy, SpaceOptions};
+use shagreen_core::people::mds::{MAX_DIMS, Ties};
+use shagreen_core::people::ratings::{AdjectivePair, Rating};
+use shagreen_core::space::selection::Method;
+use shagreen_core::space::space_build::{FeatureKind, PlacedBy, SpaceOptions};
 
-use crate::axes_choice::with_axis;
+use crate::author::axes_choice::with_axis;
+use crate::look::theme::{GAP, tokens};
 use crate::strings::build as strings;
-use crate::theme::{GAP, tokens};
 
 /// Width of the controls, in points.
 const CONTROL_WIDTH: f32 = 182.0;
-/// Distance from line to line, in points: all options are seen at once in a window of 720 points.
+/// Distance between rows, in points: all options are visible in a window 720 points high.
 const ROW_GAP: f32 = 4.0;
-/// The most permutations that can be asked for: a chance is then known to a ten thousandth.
+/// Maximum number of permutations: enough to resolve a p-value of 0.0001.
 const MAX_PERMUTATIONS: usize = 10_000;
 
-/// Draws the options; the pairs of the `ratings` can be axes.
+/// Draws the options; the adjective pairs in `ratings` can be chosen as axes.
 pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rating]) {
     ui.heading(strings::OPTIONS);
     Grid::new("build options").num_columns(2).spacing([2.0 * GAP, ROW_GAP]).show(ui, |ui| {
@@ -76,14 +76,14 @@ pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rat
     ui.checkbox(&mut options.is_orthogonal, strings::ORTHOGONAL).on_hover_text(strings::ORTHOGONAL_HELP);
 }
 
-/// A line with the name of its first control; others may follow in it.
+/// Draws a row with the label of its first control; other controls may follow in it.
 fn row(ui: &mut Ui, name: &str, help: &str, controls: impl FnOnce(&mut Ui) -> Response) {
     word(ui, name, help);
     ui.horizontal(|ui| controls(ui).accessible_name(name).on_hover_text(help));
     ui.end_row();
 }
 
-/// The name of a second control in a line.
+/// Draws the label of a second control in a row.
 fn beside(ui: &mut Ui, name: &str, help: &str) {
     ui.add_space(GAP);
     word(ui, name, help);
@@ -122,10 +122,10 @@ fn combo<T: Clone + PartialEq>(
     combo.response
 }
 
-/// The two axes: both automatic, or both chosen.
+/// Draws the choice of the two axes: both automatic, or both chosen.
 fn axes_ui(ui: &mut Ui, axes: &mut Option<[AdjectivePair; 2]>, pairs: &[AdjectivePair]) {
     if axes.iter().flatten().any(|pair| !pairs.contains(pair)) {
-        // Other ratings were read since.
+        // Other ratings have been read since.
         *axes = None;
     }
     for (axis, name) in [(0, strings::FIRST_AXIS), (1, strings::SECOND_AXIS)] {
@@ -142,7 +142,7 @@ fn axes_ui(ui: &mut Ui, axes: &mut Option<[AdjectivePair; 2]>, pairs: &[Adjectiv
     }
 }
 
-/// The pairs of ratings, in the order of their first appearance.
+/// Adjective pairs of the ratings, in the order of their first appearance.
 fn pairs_of(ratings: &[Rating]) -> Vec<AdjectivePair> {
     let mut pairs: Vec<AdjectivePair> = Vec::new();
     for rating in ratings {

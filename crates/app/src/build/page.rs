@@ -1,11 +1,11 @@
-//! The page: what is read, what is being built, what was built.
+//! Page of the Build workspace: input data, running build and built space.
 
 use egui::{
     Align, Button, CentralPanel, Context, Frame, Label, Layout, Margin, Panel as Side, ProgressBar, RichText,
     ScrollArea, Ui, vec2,
 };
-use shagreen_core::mds::MdsOptions;
-use shagreen_core::space_build::{SpaceOptions, Step};
+use shagreen_core::people::mds::MdsOptions;
+use shagreen_core::space::space_build::{SpaceOptions, Step};
 use shagreen_formats::project::ProjectLibrary;
 
 use crate::build::figures_ui::figures_ui;
@@ -15,35 +15,34 @@ use crate::build::judgments::Judgments;
 use crate::build::options_ui::options_ui;
 use crate::build::verdict_ui::verdict_ui;
 use crate::command::Command;
-use crate::import::source::Source;
+use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, RADIUS, VERDICT_WIDTH, tokens};
 use crate::panel::Panel;
 use crate::session::Session;
+use crate::state::source::Source;
 use crate::strings::build as strings;
-use crate::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, RADIUS, VERDICT_WIDTH, tokens};
 
-pub use crate::build::job::Built;
+pub use shagreen_studio::space::BuiltSpace;
 
-/// Width of what stands there before a space is built, in points.
+/// Width of the text shown before a space is built, in points.
 const EMPTY_WIDTH: f32 = 520.0;
-/// Width that is left to the bar that scrolls, in points.
+/// Width reserved for the scroll bar, in points.
 const SCROLL_BAR: i8 = 8;
 
-/// The state of the workspace.
+/// State of the Build workspace.
 pub struct BuildPage {
     judgments: Judgments,
     paths: Paths,
     options: SpaceOptions,
-    /// The library that is open.
     library: Option<ProjectLibrary>,
     job: Option<(Job, Recipe)>,
-    /// Why the last attempt came to nothing, and of what it was made.
+    /// Why the last build failed, and its input.
     failure: Option<(String, Recipe)>,
-    built: Option<(Built, Recipe)>,
-    /// Which figure is shown.
+    built: Option<(BuiltSpace, Recipe)>,
+    /// Index of the figure that is shown.
     shown: usize,
 }
 
-/// What a space is made of, to tell whether it has changed since.
+/// Input of a build, to detect later changes.
 #[derive(Clone, Debug, PartialEq)]
 struct Recipe {
     judgments: u64,
@@ -67,32 +66,32 @@ impl Default for BuildPage {
 }
 
 impl BuildPage {
-    /// What people said.
+    /// Judgments that were read.
     pub fn judgments(&self) -> &Judgments {
         &self.judgments
     }
 
-    /// The space that was built last.
-    pub fn built(&self) -> Option<&Built> {
+    /// Space that was built last.
+    pub fn built(&self) -> Option<&BuiltSpace> {
         self.built.as_ref().map(|(built, _)| built)
     }
 
-    /// Whether a space is being built, and is still wanted.
+    /// Whether a space is being built and has not been cancelled.
     pub fn is_building(&self) -> bool {
         self.job.as_ref().is_some_and(|(job, _)| !job.is_stopping())
     }
 
-    /// Whether building was cancelled and has not come to rest yet.
+    /// Whether a cancelled build is still running.
     pub fn is_stopping(&self) -> bool {
         self.job.as_ref().is_some_and(|(job, _)| job.is_stopping())
     }
 
-    /// Reads files that were dropped, as what they turn out to be.
+    /// Reads dropped files, each as the kind detected from its name and columns.
     pub fn read(&mut self, sources: Vec<Source>, ctx: &Context) {
         self.judgments.read(sources, None, ctx);
     }
 
-    /// Takes in what the workers have done.
+    /// Takes over the results of the background jobs.
     pub fn collect(&mut self) {
         self.judgments.collect();
         let Some(outcome) = self.job.as_mut().and_then(|(job, _)| job.collect()) else { return };
@@ -104,7 +103,7 @@ impl BuildPage {
         }
     }
 
-    /// Draws the page and returns what the user asked of the rest.
+    /// Draws the page; returns the requested commands.
     pub(crate) fn show(&mut self, ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         let mut commands = Vec::new();
         let t = tokens(ui.ctx());
@@ -131,13 +130,13 @@ impl BuildPage {
         }
     }
 
-    /// Whether library, judgments or options are others than those of the space that is shown.
+    /// Whether library, judgments or options differ from those of the space that is shown.
     fn has_changed(&self) -> bool {
         self.built.as_ref().is_some_and(|(_, recipe)| *recipe != self.recipe())
     }
 
     fn left_ui(&mut self, ui: &mut Ui, session: &Session) {
-        // The bar that scrolls lies over what is at its side.
+        // The scroll bar is drawn over the content at its side.
         let beside_bar = Frame::new().inner_margin(Margin { right: SCROLL_BAR, ..Margin::ZERO });
         let frame = Frame::new().inner_margin(Margin::symmetric(0, 8));
         Side::bottom("build button").frame(frame).show(ui, |ui| {
@@ -155,7 +154,7 @@ impl BuildPage {
         });
     }
 
-    /// The button, or how far building has come.
+    /// Draws the build button, or the progress of the build.
     fn build_ui(&mut self, ui: &mut Ui, session: &Session) {
         let t = tokens(ui.ctx());
         let weak = |ui: &mut Ui, text: &str, color| {
@@ -202,7 +201,7 @@ impl BuildPage {
     }
 }
 
-/// How far building has come, and the button that stops it.
+/// Draws the progress of the build and the button that cancels it.
 fn progress_ui(ui: &mut Ui, job: &Job) {
     let t = tokens(ui.ctx());
     let (step, secs, is_stopping) = (job.step(), job.elapsed().as_secs(), job.is_stopping());
@@ -225,7 +224,7 @@ fn progress_ui(ui: &mut Ui, job: &Job) {
     });
 }
 
-/// What stands there before a space is built.
+/// Draws the text shown before a space is built.
 fn empty_ui(ui: &mut Ui) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.add_space(0.1 * ui.clip_rect().height());
@@ -240,7 +239,7 @@ fn empty_ui(ui: &mut Ui) {
     });
 }
 
-/// What to do, and what the tables look like.
+/// Draws the steps to follow and examples of the tables.
 fn lesson_ui(ui: &mut Ui) {
     let t = tokens(ui.ctx());
     ui.add(Label::new(RichText::new(strings::EMPTY_TITLE).heading().strong()).selectable(false));

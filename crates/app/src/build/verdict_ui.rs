@@ -1,26 +1,26 @@
-//! How far the space can be believed, and the button that puts it to use.
+//! Validation summary of a built space, and the button that uses the space.
 
 use std::sync::Arc;
 
 use egui::{Button, Frame, Label, Margin, Panel as Side, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::space::LabelSource;
 
-use crate::build::page::Built;
 use crate::command::Command;
-use crate::edit::Edit;
+use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;
+use crate::state::edit::Edit;
 use crate::strings::build as strings;
-use crate::theme::{GAP, tokens};
 use crate::workspace::Workspace;
+use shagreen_studio::space::BuiltSpace;
 
-/// Height of the foot with the button, in points.
+/// Height of the area with the button, in points.
 const FOOT: f32 = 72.0;
 
-/// Draws the column and returns what the user asked of it.
+/// Draws the column; returns the requested command.
 pub(super) fn verdict_ui(
     ui: &mut Ui,
     panel: &Panel<'_>,
-    built: Option<&Built>,
+    built: Option<&BuiltSpace>,
     has_changed: bool,
 ) -> Option<Command> {
     let t = tokens(ui.ctx());
@@ -49,7 +49,7 @@ pub(super) fn verdict_ui(
             ui.add_space(2.0);
             ui.add(Label::new(RichText::new(finding).color(t.warning)).wrap());
         }
-        for sentence in &built.verdict {
+        for sentence in &built.validation {
             ui.add_space(2.0);
             ui.add(Label::new(sentence).wrap());
         }
@@ -58,7 +58,7 @@ pub(super) fn verdict_ui(
     asked
 }
 
-fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &Built) -> Option<Command> {
+fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &BuiltSpace) -> Option<Command> {
     let t = tokens(ui.ctx());
     let is_in_use = panel.project.space.as_ref().is_some_and(|used| Arc::ptr_eq(used, &built.placed));
     let size = vec2(ui.available_width(), 30.0);

@@ -1,73 +1,72 @@
-//! A signal of the bench that is felt in the place of what is authored.
+//! A signal of the Signals workspace that plays instead of the authored texture.
 
 use std::sync::Arc;
 
 use egui::Context;
-use shagreen_core::plane::Plane;
+use shagreen_core::texture::plane::Plane;
 use shagreen_device::synth::tap::Tap;
 
 use super::Session;
 use super::heard::Heard;
 use super::path_walk::PathWalk;
-use crate::signals::bench_signal::BenchSignal;
+use crate::state::bench_signal::BenchSignal;
 
-/// A signal that the pen feels.
+/// Signal that plays under the pen.
 pub(super) struct Felt {
     signal: Arc<BenchSignal>,
-    /// Whether it is not heard yet.
+    /// Whether it has not been sent to the output yet.
     pub(super) is_new: bool,
 }
 
 impl Session {
-    /// Lets the pen feel a signal, or what is authored again.
+    /// Plays a signal under the pen, or the authored texture again.
     pub fn feel(&mut self, signal: Option<&Arc<BenchSignal>>) {
-        let is_same = match (&self.felt, signal) {
+        let is_same = match (&self.sound.felt, signal) {
             (Some(felt), Some(signal)) => Arc::ptr_eq(&felt.signal, signal),
             (felt, signal) => felt.is_none() && signal.is_none(),
         };
         if !is_same {
-            self.felt = signal.map(|signal| Felt { signal: Arc::clone(signal), is_new: true });
-            if self.felt.is_none() {
-                // What was felt is nothing that was authored, and meanwhile no path went on.
-                (self.heard, self.player.mix_is_new) = (Heard::default(), true);
-                self.walk = self.walk.map(|walk| PathWalk::new(walk.along()));
-                self.walk_alone = None;
+            self.sound.felt = signal.map(|signal| Felt { signal: Arc::clone(signal), is_new: true });
+            if self.sound.felt.is_none() {
+                // The signal is no authored texture, and no path advanced while it played.
+                (self.sound.heard, self.sound.player.mix_is_new) = (Heard::default(), true);
+                self.authored.walk = self.authored.walk.map(|walk| PathWalk::new(walk.along()));
+                self.authored.walk_alone = None;
             }
-            // What comes next is found anew.
-            self.player.wanted = None;
+            // Forces the next texture to be computed.
+            self.sound.player.wanted = None;
         }
     }
 
-    /// The signal that the pen feels.
     pub(super) fn felt_signal(&self) -> Option<&Arc<BenchSignal>> {
-        self.felt.as_ref().map(|felt| &felt.signal)
+        self.sound.felt.as_ref().map(|felt| &felt.signal)
     }
 
-    /// The name of the signal that the pen feels, where it feels one.
+    /// Name of the signal that plays under the pen.
     pub fn felt_name(&self) -> Option<&str> {
-        self.felt.as_ref().map(|felt| felt.signal.name.as_str())
+        self.sound.felt.as_ref().map(|felt| felt.signal.name.as_str())
     }
 
-    /// The signal that is to be felt is heard; returns whether there is one.
+    /// Sends a new signal to the output. Returns whether a signal plays instead of the texture.
     pub(super) fn follow_felt(&mut self, ctx: &Context) -> bool {
-        let Some(felt) = &mut self.felt else { return false };
+        let Some(felt) = &mut self.sound.felt else { return false };
         if !std::mem::take(&mut felt.is_new) {
             return true;
         }
-        self.authored = None;
+        self.authored.current = None;
         match felt.signal.texture() {
             Ok(model) => {
-                self.n_made += 1;
-                self.heard = Heard::made_alone(Plane::new(&model), self.n_made);
+                self.authored.n_made += 1;
+                self.sound.heard = Heard::made_alone(Plane::new(&model), self.authored.n_made);
                 self.set_rate(model.rate().0, ctx);
             }
             Err(reason) => {
-                self.heard = Heard::default();
+                self.sound.heard = Heard::default();
                 self.say(reason);
             }
         }
-        self.player.tap = Tap::SILENT;
-        self.player.mix_is_new = true;
+        self.sound.player.tap = Tap::SILENT;
+        self.sound.player.mix_is_new = true;
         true
     }
 }

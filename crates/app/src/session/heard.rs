@@ -1,22 +1,21 @@
-//! What is heard: the voices of what was authored, with the plane of a texture that was made for the point.
+//! The audible textures: voices with their weights, and the texture interpolated for the point.
 
 use std::sync::Arc;
 
-use shagreen_core::authoring::{Authored, Voice};
-use shagreen_core::blend::{Mode, mixture_psd};
-use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::space::authoring::{Authored, Voice};
+use shagreen_core::texture::blend::{Mode, mixture_psd};
+use shagreen_core::texture::plane::{Plane, Prepared};
 use shagreen_core::units::{Contact, Hertz};
 
-/// Where a voice comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Source {
-    /// The texture at this index of the list.
+    /// Library texture with this index.
     Library(usize),
     /// [`Heard::made`].
     Made,
 }
 
-/// A texture that sounds.
+/// Audible texture and its weight.
 #[derive(Clone, Debug)]
 pub(super) struct HeardVoice {
     pub(super) source: Source,
@@ -24,25 +23,25 @@ pub(super) struct HeardVoice {
     pub(super) share: f64,
 }
 
-/// A texture that was made for a point.
+/// Interpolated texture, prepared for the renderer.
 #[derive(Clone, Debug)]
 pub(super) struct Made {
-    /// Tells it from all others that were made.
+    /// Identifies the texture to the output.
     pub(super) number: u64,
     pub(super) prepared: Prepared,
 }
 
-/// What sounds, and how it is mixed.
+/// Audible textures and the mode in which they are mixed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Heard {
-    /// At most three; none are silence.
+    /// At most three; empty is silence.
     pub(super) voices: Vec<HeardVoice>,
     pub(super) mixing: Mode,
     pub(super) made: Option<Made>,
 }
 
 impl Heard {
-    /// What is heard of `authored`; a texture that was made gets this `number`.
+    /// Audible textures of `authored`. An interpolated texture is identified by `number`.
     pub(super) fn new(authored: &Authored, planes: &[Arc<Plane>], number: u64) -> Self {
         let mut heard = Self { mixing: authored.mixing(), ..Self::default() };
         for (voice, share) in authored.voices() {
@@ -59,14 +58,15 @@ impl Heard {
         heard
     }
 
-    /// One texture that was made, alone; it gets this `number`.
+    /// A single interpolated texture, identified by `number`.
     pub(super) fn made_alone(plane: Plane, number: u64) -> Self {
         let made = Some(Made { number, prepared: plane.prepare() });
         let voice = HeardVoice { source: Source::Made, plane: Arc::new(plane), share: 1.0 };
         Self { voices: vec![voice], made, ..Self::default() }
     }
 
-    /// Whether all of it can go on sounding where only the textures that `is_kept` are there still, at this rate.
+    /// Whether all voices remain valid: their library textures are marked in `is_kept`, and their sample rate is
+    /// `rate`.
     pub(super) fn survives(&self, is_kept: &[bool], rate: Hertz) -> bool {
         self.voices.iter().all(|voice| {
             let is_there = match voice.source {
@@ -77,7 +77,7 @@ impl Heard {
         })
     }
 
-    /// Its density in (m/s²)²/Hz at one contact.
+    /// Power spectral density of the mixture in (m/s²)²/Hz at one contact.
     pub(super) fn psd(&self, contact: Contact, frequencies: &[Hertz]) -> Vec<f64> {
         let voices: Vec<(&Plane, f64)> =
             self.voices.iter().map(|voice| (&*voice.plane, voice.share)).collect();

@@ -1,12 +1,12 @@
-//! What is authored becomes what is heard: where, out of what, and when.
+//! From the authored point to the audible textures.
 
 use std::sync::Arc;
 use std::time::Instant;
 
-use shagreen_core::authoring::Authored;
-use shagreen_core::blend::Mode;
-use shagreen_core::rate::at_rate;
 use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::Authored;
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::rate::at_rate;
 use shagreen_core::units::Hertz;
 use shagreen_device::synth::tap::Tap;
 
@@ -14,18 +14,18 @@ use super::Session;
 use super::heard::Heard;
 use super::models_ahead::{Ingredients, Job};
 use super::path_walk::PathWalk;
-use shagreen_core::drawn_path::DrawnPath;
+use shagreen_core::space::texture_path::DrawnPath;
 
 impl Session {
-    /// Where the stroke is on the path, while one is played.
+    /// Advances the stroke along a played path and returns its position.
     pub(super) fn follow_path(&mut self, path: Option<&DrawnPath>) -> Option<SpacePoint> {
         let touch = self.touch();
-        let walk = self.walk.as_mut()?;
+        let walk = self.authored.walk.as_mut()?;
         let Some(route) = path.and_then(DrawnPath::route) else {
-            self.walk = None;
+            self.authored.walk = None;
             return None;
         };
-        // What is counted may have been changed meanwhile.
+        // The user may have switched between distance and time.
         if walk.along() != route.along() {
             *walk = PathWalk::new(route.along());
         }
@@ -33,16 +33,18 @@ impl Session {
         Some(route.point_at(walk.traveled()))
     }
 
-    /// The texture of the path that is heard alone, where the stroke is on it; `None` where what is heard alone is no path.
+    /// Index of the key nearest to the stroke on the path of a soloed texture. `None` if nothing is soloed or the
+    /// soloed texture has no path.
     pub(super) fn follow_key(&mut self, solo: Option<usize>) -> Option<usize> {
         let touch = self.touch();
         let Some((texture, path)) =
-            solo.and_then(|texture| Some((texture, self.library.textures[texture].path.as_ref()?)))
+            solo.and_then(|texture| Some((texture, self.textures.library.textures[texture].path.as_ref()?)))
         else {
-            self.walk_alone = None;
+            self.authored.walk_alone = None;
             return None;
         };
-        let (of, walk) = self.walk_alone.get_or_insert_with(|| (texture, PathWalk::new(path.along())));
+        let (of, walk) =
+            self.authored.walk_alone.get_or_insert_with(|| (texture, PathWalk::new(path.along())));
         if *of != texture {
             (*of, *walk) = (texture, PathWalk::new(path.along()));
         }
@@ -50,14 +52,14 @@ impl Session {
         Some(walk.nearest_key(path))
     }
 
-    /// What is heard alone: the texture, or that of its path where the stroke is.
+    /// A soloed texture, or the texture of its path at a key.
     pub(super) fn alone(&self, texture: usize, key: Option<usize>, at: SpacePoint, mode: Mode) -> Authored {
         let alone = Authored::alone(texture, at, mode);
-        let path = self.library.textures[texture].path.as_ref();
+        let path = self.textures.library.textures[texture].path.as_ref();
         match path.zip(key).and_then(|(path, key)| path.keys().get(key)) {
             Some(key) => {
-                // In a space of a higher rate it is heard at that one, as its place is.
-                let converted = at_rate(&key.model, Hertz(self.rates_hz[texture]));
+                // A texture with a position plays at the sample rate of the space, so the textures of its path do too.
+                let converted = at_rate(&key.model, Hertz(self.textures.rates_hz[texture]));
                 let model = converted.map_or_else(|_| key.model.clone(), |converted| converted.model);
                 Authored { mode: Mode::Field, model: Some(model), lock: None, ..alone }
             }
@@ -65,36 +67,37 @@ impl Session {
         }
     }
 
-    /// What was authored is heard. Where what its mode needs is not there yet, what sounded goes on.
+    /// Makes the interpolated texture audible. If the models for its mode are still being computed, the previous
+    /// texture keeps playing.
     pub(super) fn hear(&mut self) {
-        self.n_made += 1;
-        let heard = match &self.authored {
-            Some(authored) => Heard::new(authored, &self.planes, self.n_made),
+        self.authored.n_made += 1;
+        let heard = match &self.authored.current {
+            Some(authored) => Heard::new(authored, &self.textures.planes, self.authored.n_made),
             None => Heard::default(),
         };
-        if self.authored.is_some() && heard.voices.is_empty() && self.is_preparing() {
+        if self.authored.current.is_some() && heard.voices.is_empty() && self.is_preparing() {
             return;
         }
-        self.heard = heard;
-        let tap_of = |texture: usize| self.library.textures[texture].model.tap();
-        let tap = self.authored.as_ref().and_then(|authored| authored.tap(tap_of));
-        self.player.tap = tap.map_or(Tap::SILENT, Tap::from);
-        self.player.mix_is_new = true;
+        self.sound.heard = heard;
+        let tap_of = |texture: usize| self.textures.library.textures[texture].model.tap();
+        let tap = self.authored.current.as_ref().and_then(|authored| authored.tap(tap_of));
+        self.sound.player.tap = tap.map_or(Tap::SILENT, Tap::from);
+        self.sound.player.mix_is_new = true;
     }
 
-    /// Has a worker make what the modes that make a texture need of the textures in the space.
+    /// Requests the models of the field and parametric modes for the textures in the space.
     pub(super) fn ask_for_models(&mut self) {
-        let space = self.authoring.space().clone();
+        let space = self.authored.authoring.space().clone();
         if space.sites().is_empty() {
-            self.models.cancel();
+            self.authored.models.cancel();
             return;
         }
-        let mut textures: Vec<Option<Ingredients>> = self.planes.iter().map(|_| None).collect();
+        let mut textures: Vec<Option<Ingredients>> = self.textures.planes.iter().map(|_| None).collect();
         for (texture, _) in space.sites() {
-            let model = &self.library.textures[*texture].model;
-            let plane = Arc::clone(&self.planes[*texture]);
+            let model = &self.textures.library.textures[*texture].model;
+            let plane = Arc::clone(&self.textures.planes[*texture]);
             textures[*texture] = Some(Ingredients::of(model, plane));
         }
-        self.models.ask(Job { space, textures });
+        self.authored.models.ask(Job { space, textures });
     }
 }

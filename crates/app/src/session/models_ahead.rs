@@ -1,39 +1,38 @@
-//! What the modes that make a texture need is worked out by a worker: for a thousand textures that takes seconds.
+//! A worker that computes the models of the field and parametric modes: this takes seconds for a thousand textures.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::Instant;
 
-use shagreen_core::authoring::{Layers, Models};
-use shagreen_core::plane::Plane;
 use shagreen_core::space::Space;
-use shagreen_core::tap::Tap;
+use shagreen_core::space::authoring::{Layers, Models};
 use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::tap::Tap;
 
-use crate::background::in_background;
+use crate::state::background::in_background;
 use crate::strings;
 
-/// What models are made of.
+/// Input of one computation.
 pub(super) struct Job {
     pub(super) space: Space,
-    /// Indexed like the library; those that have a place in the space.
+    /// Indexed like the library; `None` for textures without a position in the space.
     pub(super) textures: Vec<Option<Ingredients>>,
 }
 
-/// What of a texture is blended.
+/// Interpolated properties of a texture.
 pub(super) struct Ingredients {
     pub(super) plane: Arc<Plane>,
     pub(super) friction: Option<f64>,
     pub(super) tap: Option<Tap>,
 }
 
-/// Models, or why there are none.
 type Outcome = Result<Arc<Models>, String>;
 
-/// One worker at most: the newest job waits for it, and what older ones come to is dropped.
+/// One worker computes models. A newer job replaces a waiting one, and stale results are discarded.
 #[derive(Default)]
 pub(super) struct ModelsAhead {
-    /// How many jobs there were.
+    /// Counts jobs and cancellations.
     generation: u64,
     waiting: Option<Job>,
     running: Option<(u64, Receiver<Outcome>)>,
@@ -60,20 +59,20 @@ impl Job {
 }
 
 impl ModelsAhead {
-    /// Asks for models in place of those that were asked for before.
+    /// Requests models and replaces earlier requests.
     pub(super) fn ask(&mut self, job: Job) {
         self.generation += 1;
         self.since = Some(Instant::now());
         self.waiting = Some(job);
     }
 
-    /// No models are needed.
+    /// Discards all requests.
     pub(super) fn cancel(&mut self) {
         self.generation += 1;
         (self.waiting, self.since) = (None, None);
     }
 
-    /// Once a frame: sets the worker to what waits, where it is free.
+    /// Starts the waiting job if the worker is idle, once a frame.
     pub(super) fn begin(&mut self, ctx: &egui::Context) {
         if self.running.is_some() {
             return;
@@ -84,7 +83,7 @@ impl ModelsAhead {
         }
     }
 
-    /// Once a frame: returns what was asked for last when that is done.
+    /// Result of the newest request when it is done, once a frame.
     pub(super) fn collect(&mut self) -> Option<Outcome> {
         let (generation, receiver) = self.running.as_ref()?;
         let outcome = match receiver.try_recv() {
@@ -100,7 +99,7 @@ impl ModelsAhead {
         })
     }
 
-    /// For how long what was asked for last has been awaited, in seconds; `None` where nothing is.
+    /// Time since the newest request in seconds, or `None` if nothing is requested.
     pub(super) fn awaited_secs(&self) -> Option<f64> {
         self.since.map(|since| since.elapsed().as_secs_f64())
     }
@@ -109,10 +108,10 @@ impl ModelsAhead {
 #[cfg(test)]
 mod tests {
     use super::{Ingredients, Job, ModelsAhead};
-    use shagreen_core::authoring::Authoring;
-    use shagreen_core::blend::Mode;
-    use shagreen_core::plane::Plane;
+    use shagreen_core::space::authoring::Authoring;
     use shagreen_core::space::{Space, SpacePoint};
+    use shagreen_core::texture::blend::Mode;
+    use shagreen_core::texture::plane::Plane;
     use shagreen_formats::starter::starter_library;
     use std::sync::Arc;
     use std::time::{Duration, Instant};
@@ -127,7 +126,7 @@ mod tests {
         Job { space: Space::new(&positions).unwrap(), textures: ingredients.collect() }
     }
 
-    /// Whatever was asked for first and comes to its end is dropped.
+    /// Results of earlier requests are discarded.
     #[test]
     fn only_what_was_asked_for_last_comes() {
         let (ctx, mut ahead) = (egui::Context::default(), ModelsAhead::default());

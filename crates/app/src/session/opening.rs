@@ -1,4 +1,4 @@
-//! An output that is being opened: one at a time, and of those that wait only the newest.
+//! Opens outputs, one at a time. A newer request replaces a waiting one.
 
 use std::sync::mpsc::{Receiver, TryRecvError};
 
@@ -6,18 +6,19 @@ use shagreen_device::engine::Handle;
 use shagreen_device::error::{DeviceError, DeviceErrorKind};
 use shagreen_device::output::{NULL_ID, OpenOptions, Running, list_outputs, open};
 
-use crate::background::in_background;
+use crate::state::background::in_background;
 use crate::strings;
 
-/// What came of opening an output, and why it is not the one that was meant.
+/// The opened output or the error, and a warning if it is a fallback.
 pub(super) type Opened = (Result<(Handle, Running), DeviceError>, Option<String>);
 
-/// Which output to open.
+/// Output to open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum OutputChoice {
-    /// The one that the system calls its default now, held by its identity from then on; without sound, the silent one.
+    /// System default at the time of opening; from then on it is identified by its id. If there is none or it cannot be
+    /// opened, the silent output is opened.
     SystemDefault,
-    /// The one with this identity, or none.
+    /// Output with this id, without a fallback.
     Id(String),
 }
 
@@ -38,7 +39,6 @@ impl OutputChoice {
     }
 }
 
-/// An output that was asked for.
 #[derive(Debug)]
 pub(super) struct Request {
     pub(super) choice: OutputChoice,
@@ -46,30 +46,30 @@ pub(super) struct Request {
     pub(super) ctx: egui::Context,
 }
 
-/// What becomes of an output that is being opened.
+/// Treatment of an output when its opening is complete.
 #[derive(Debug, Default)]
 enum Then {
-    /// It takes the place of the one before.
+    /// It replaces the present output.
     #[default]
     Use,
     /// It is closed.
     Close,
-    /// It is closed, and then another is opened.
+    /// It is closed, and another output is opened.
     Open(Box<Request>),
 }
 
-/// What has come of opening.
+/// Result of [`Opening::take`].
 #[derive(Debug)]
 pub(super) enum Came {
-    /// Nothing yet, or nothing that is wanted any more.
+    /// Nothing yet, or an output that is no longer wanted.
     Nothing,
-    /// An output, or why there is none.
+    /// Opened output, or the error.
     Opened(Box<Opened>),
-    /// What was opened is closed again: this one is wanted.
+    /// Request to start next; the output that was opened has been closed.
     Next(Box<Request>),
 }
 
-/// The output that is being opened, if one is.
+/// Output that is being opened, if any.
 #[derive(Debug, Default)]
 pub(super) struct Opening {
     receiver: Option<Receiver<Opened>>,
@@ -77,29 +77,28 @@ pub(super) struct Opening {
 }
 
 impl Opening {
-    /// Begins, where nothing is being opened.
+    /// Starts to open an output. No other may be in progress.
     pub(super) fn begin(&mut self, request: Request) {
         let Request { choice, options, ctx } = request;
         self.receiver = Some(in_background(ctx, move || choice.open(options)));
         self.then = Then::Use;
     }
 
-    /// Whether an output is being opened.
     pub(super) fn is_busy(&self) -> bool {
         self.receiver.is_some()
     }
 
-    /// The one that is being opened is not wanted any more, but this one.
+    /// Replaces the output that is being opened by this request.
     pub(super) fn wait_with(&mut self, request: Request) {
         self.then = Then::Open(Box::new(request));
     }
 
-    /// The one that is being opened is not wanted any more.
+    /// Closes the output that is being opened as soon as it is open.
     pub(super) fn discard(&mut self) {
         self.then = Then::Close;
     }
 
-    /// What has come since this was asked last.
+    /// Result since the last call.
     pub(super) fn take(&mut self) -> Came {
         let Some(receiver) = &self.receiver else { return Came::Nothing };
         let opened = match receiver.try_recv() {
@@ -113,7 +112,7 @@ impl Opening {
         match std::mem::take(&mut self.then) {
             Then::Use => Came::Opened(Box::new(opened)),
             Then::Close => Came::Nothing,
-            // What came is closed before: some devices can be held only once.
+            // The unwanted output is closed first, because some devices can be opened only once.
             Then::Open(request) => Came::Next(request),
         }
     }
@@ -138,7 +137,7 @@ mod tests {
         Request { choice: OutputChoice::Id(NULL_ID.to_owned()), options, ctx: egui::Context::default() }
     }
 
-    /// What comes in the end, once something does or nothing is being opened.
+    /// Waits for a result, or until nothing is being opened.
     fn came(opening: &mut Opening) -> Came {
         loop {
             let came = opening.take();

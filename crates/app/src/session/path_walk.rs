@@ -1,12 +1,11 @@
-//! How far a stroke has come along a path.
+//! Progress of a stroke along a path.
 
 use std::time::Instant;
 
-use shagreen_core::texture_path::{Along, TexturePath, Traveler};
-use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
+use shagreen_core::space::texture_path::{Along, TexturePath, Traveler};
 use shagreen_device::touch::Touch;
 
-/// The place of the stroke on a path that is played.
+/// Position of the stroke on a path that is played.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathWalk {
     traveler: Traveler,
@@ -14,34 +13,30 @@ pub(super) struct PathWalk {
 }
 
 impl PathWalk {
-    /// Before the stroke.
+    /// At the start of the path.
     pub(super) fn new(along: Along) -> Self {
         Self { traveler: Traveler::new(along), last: None }
     }
 
-    /// What is counted.
+    /// Quantity that is measured along the path.
     pub(super) fn along(&self) -> Along {
         self.traveler.along()
     }
 
-    /// How far the stroke has come, in m or s.
+    /// Traveled distance in m or time in s.
     pub(super) fn traveled(&self) -> f64 {
         self.traveler.traveled()
     }
 
-    /// Goes on to where the stroke is at `now`.
+    /// Advances to `now` with the speed and force of `touch`.
     pub(super) fn advance(&mut self, touch: Touch, now: Instant) {
         let secs = self.last.map_or(0.0, |last| now.duration_since(last).as_secs_f64());
         self.last = Some(now);
-        let contact = Contact {
-            speed: MetersPerSecond(f64::from(touch.contact.speed_mps)),
-            force: Newtons(f64::from(touch.contact.force_n)),
-        };
-        self.traveler.go(contact, secs);
+        self.traveler.go(touch.contact.into(), secs);
     }
 
-    /// The key of a path that is nearest to where the stroke is: keys lie so close that a fade from one to the next is
-    /// as good as what lies between.
+    /// Index of the key that is nearest to the stroke. Keys are so close that a fade between neighbors replaces
+    /// interpolation.
     pub(super) fn nearest_key(&self, path: &TexturePath) -> usize {
         let (key, share) = path.between(self.traveled());
         key + usize::from(share >= 0.5)

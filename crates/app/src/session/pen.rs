@@ -1,4 +1,4 @@
-//! The pen that is read beside the mouse: what it says, and whether it is near.
+//! The pen, which is read directly from the device in addition to the mouse.
 
 use std::collections::VecDeque;
 use std::sync::mpsc::Receiver;
@@ -10,28 +10,28 @@ use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::live::LiveInput;
 use shagreen_device::stylus::{StylusInfo, StylusKind, list_styluses};
 
-use crate::background::in_background;
-use crate::rig::Rig;
+use crate::state::background::in_background;
+use crate::state::rig::Rig;
 
-/// Moments that are kept to be shown.
+/// Number of samples kept for display.
 const KEPT: usize = 512;
 
-/// What a pen has said of itself.
+/// Properties that a pen reports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PenFacts {
-    /// Its name.
+    /// Name of the pen.
     pub name: String,
-    /// Width and height of its area in m, told or given.
+    /// Width and height of the active area in m, reported by the pen or set by the user.
     pub size_m: Option<[f64; 2]>,
-    /// Whether the size that it tells can hardly be true.
+    /// Whether the reported size is probably wrong.
     pub is_size_doubtful: bool,
-    /// Whether it tells pressure.
+    /// Whether the pen reports pressure.
     pub has_pressure: bool,
-    /// Force at full pressure in N, where it tells force.
+    /// Force at full pressure in N, if the pen reports force.
     pub full_n: Option<f64>,
 }
 
-/// A thread that reads a pen, and the newest of what it told.
+/// Thread that reads a pen, and its newest samples.
 #[derive(Default)]
 pub(super) struct Pen {
     thread: Option<PenThread>,
@@ -41,12 +41,12 @@ pub(super) struct Pen {
     pub(super) facts: Option<PenFacts>,
     pub(super) message: Option<String>,
     pub(super) moments: VecDeque<PenMoment>,
-    /// Those of them that came since the frame before.
+    /// Samples since the previous frame.
     pub(super) fresh: Vec<PenMoment>,
 }
 
 impl Pen {
-    /// Looks for pens.
+    /// Lists pens in the background.
     pub(super) fn list(&mut self, ctx: egui::Context) {
         self.listing = Some(in_background(ctx, || {
             let mut found = list_styluses().styluses;
@@ -55,7 +55,7 @@ impl Pen {
         }));
     }
 
-    /// Reads the pen that is chosen, the way that it is set; `live` is taken where a thread is started.
+    /// Reads the selected pen with the present settings. A new thread takes `live`, the pen's input to the engine.
     pub(super) fn follow(&mut self, rig: &Rig, live: &mut Option<LiveInput>) {
         if self.id == rig.pen {
             if let Some(thread) = &self.thread {
@@ -66,7 +66,7 @@ impl Pen {
         }
         self.id.clone_from(&rig.pen);
         if let Some(returned) = self.thread.take().and_then(PenThread::finish) {
-            // The next pen has the same way in.
+            // The next pen uses the same input.
             live.get_or_insert(returned);
         }
         (self.facts, self.message) = (None, None);
@@ -80,7 +80,7 @@ impl Pen {
         }
     }
 
-    /// Touches go to another engine from now on.
+    /// Moves the thread's touches to the input of another engine.
     pub(super) fn give(&mut self, live: &mut Option<LiveInput>) {
         if let Some(thread) = &self.thread
             && let Some(live) = live.take()
@@ -89,7 +89,7 @@ impl Pen {
         }
     }
 
-    /// Takes in what the thread told.
+    /// Takes in samples and notices of the thread.
     pub(super) fn collect(&mut self) {
         if let Some(pens) = self.listing.as_ref().and_then(|r| r.try_recv().ok()) {
             self.pens = pens;

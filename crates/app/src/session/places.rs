@@ -1,14 +1,14 @@
-//! Where textures lie: as their file has it, as a space puts them, or by two of their attributes.
+//! Positions of the textures: from the library file, from a space in use, or from two attributes.
 
-use shagreen_core::ratings::poles;
+use shagreen_core::people::ratings::poles;
 use shagreen_core::space::SpacePoint;
 use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, USUAL_AXES};
 
 use crate::strings;
 
-/// What a library said of its textures when it was opened, to go back to.
+/// Names, positions, attributes and header of a library as opened, to be restored.
 pub(super) struct Opened {
-    /// The library without its textures.
+    /// Library without its textures.
     header: Library,
     textures: Vec<(String, Option<Place>, Option<Attributes>)>,
 }
@@ -36,7 +36,7 @@ impl Opened {
         self.textures.len()
     }
 
-    /// Takes away what joined the library, and gives the rest its names, places and attributes back.
+    /// Removes added textures, and restores the names, positions and attributes of the others.
     pub(super) fn restore(&self, library: &mut Library) {
         let mut textures = std::mem::take(&mut library.textures);
         textures.truncate(self.textures.len());
@@ -48,7 +48,8 @@ impl Opened {
     }
 }
 
-/// Where each texture lies: by the attributes across and up, where they are given.
+/// Position of each texture: from the attributes of the x axis and the y axis if `axes` names them, otherwise the
+/// texture's own.
 pub(super) fn places(textures: &[TextureEntry], axes: Option<&[String; 2]>) -> Vec<Option<Place>> {
     let by_attributes = |texture: &TextureEntry, [across, up]: &[String; 2]| {
         let attributes = texture.attributes.as_ref()?;
@@ -58,7 +59,7 @@ pub(super) fn places(textures: &[TextureEntry], axes: Option<&[String; 2]>) -> V
     textures.iter().map(|texture| axes.map_or(texture.place, |axes| by_attributes(texture, axes))).collect()
 }
 
-/// Names of the attributes that textures are rated on, each once, in the order of their first appearance.
+/// Names of the attributes on which textures are rated, without duplicates, in order of first appearance.
 pub(super) fn attribute_names(textures: &[TextureEntry]) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for attribute in textures.iter().filter_map(|t| t.attributes.as_ref()).flat_map(|a| &a.values) {
@@ -69,8 +70,8 @@ pub(super) fn attribute_names(textures: &[TextureEntry]) -> Vec<&str> {
     names
 }
 
-/// The words at both ends of both axes: of the attributes that are chosen, else of the axes that the library's space was
-/// built on, else the usual ones.
+/// Words at both ends of both axes: of the selected attributes, otherwise of the axes stated by the library, otherwise
+/// the usual ones.
 pub(super) fn poles_of(library: &Library, axes: Option<&[String; 2]>) -> [[String; 2]; 2] {
     let usual = [[strings::ROUGH, strings::SMOOTH], [strings::HARD, strings::SOFT]];
     let named = library.axis_names();

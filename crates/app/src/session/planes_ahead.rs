@@ -1,31 +1,31 @@
-//! What the output takes of each texture is worked out by a worker: a drag into textures not yet heard must not wait for it.
+//! A worker that prepares textures for the renderer, so that a drag to textures that have not played yet does not
+//! block.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use shagreen_core::plane::{Plane, Prepared};
+use shagreen_core::texture::plane::{Plane, Prepared};
 
-/// A texture that was prepared: where it was in the list, and the plane that tells whether it still is.
+/// Prepared texture: its index, and its plane, which shows whether the index still refers to it.
 type Ahead = (usize, Arc<Plane>, Prepared);
 
-/// The textures as far as they are prepared, in the order of the planes.
+/// Prepared textures, in the order of the planes.
 pub(super) struct PlanesAhead {
     prepared: Vec<Option<Prepared>>,
-    /// Textures that no worker prepares yet.
+    /// Textures not yet passed to a worker.
     waiting: Vec<(usize, Arc<Plane>)>,
     incoming: Receiver<Ahead>,
     sender: Sender<Ahead>,
 }
 
 impl PlanesAhead {
-    /// None of these is prepared yet.
     pub(super) fn new(planes: &[Arc<Plane>]) -> Self {
         let (sender, incoming) = channel();
         let waiting = planes.iter().cloned().enumerate().collect();
         Self { prepared: vec![None; planes.len()], waiting, incoming, sender }
     }
 
-    /// From now on these are wanted; those that `is_kept` were the same at their place before.
+    /// Changes the set of planes; those marked in `is_kept` are unchanged at their index.
     pub(super) fn follow(&mut self, planes: &[Arc<Plane>], is_kept: &[bool]) {
         let before = std::mem::take(&mut self.prepared);
         self.prepared = before.into_iter().zip(is_kept).map(|(p, is_kept)| p.filter(|_| *is_kept)).collect();
@@ -35,7 +35,8 @@ impl PlanesAhead {
         self.waiting.extend(fresh);
     }
 
-    /// Once a frame: sets a worker to what waits for one. It ends with its textures or with the session.
+    /// Passes waiting textures to a new worker, once a frame. The worker ends after its last texture or with the
+    /// session.
     pub(super) fn begin(&mut self) {
         let planes = std::mem::take(&mut self.waiting);
         if planes.is_empty() {
@@ -52,17 +53,17 @@ impl PlanesAhead {
         });
     }
 
-    /// Once a frame: takes in what is done, as far as it is one of these.
+    /// Takes in prepared textures that are still valid, once a frame.
     pub(super) fn collect(&mut self, planes: &[Arc<Plane>]) {
         while let Ok((texture, plane, prepared)) = self.incoming.try_recv() {
-            // Undo may have taken it away meanwhile.
+            // Undo may have removed the texture in the meantime.
             if planes.get(texture).is_some_and(|now| Arc::ptr_eq(now, &plane)) {
                 self.prepared[texture] = Some(prepared);
             }
         }
     }
 
-    /// The textures in the order of the planes, `None` while one is not prepared.
+    /// Prepared textures in the order of the planes, `None` where preparation is not complete.
     pub(super) fn prepared(&self) -> &[Option<Prepared>] {
         &self.prepared
     }

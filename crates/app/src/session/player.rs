@@ -1,14 +1,14 @@
-//! The open output: textures on their way to it, touches, and what it tells back.
+//! The open output: textures sent to it, touches, and its status.
 
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
 
-use shagreen_core::authoring::Blending;
-use shagreen_core::filter::resample;
-use shagreen_core::plane::Prepared;
-use shagreen_core::render::synth_blend;
+use shagreen_core::dsp::filter::resample;
 use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::Blending;
+use shagreen_core::texture::plane::Prepared;
+use shagreen_core::texture::render::synth_blend;
 use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::controls::{Controls, Drive, Input, Takeover};
@@ -26,33 +26,33 @@ use shagreen_device::texture::OwnedTexture;
 
 use super::heard::{Heard, Made, Source};
 use super::opening::{Came, Opening, OutputChoice, Request};
-use crate::background::in_background;
-use crate::pad::MouseReport;
-use crate::recorded_stroke::RecordedStroke;
-use crate::rig::Rig;
-use crate::scope_buffer::ScopeBuffer;
+use crate::state::background::in_background;
+use crate::state::mouse_report::MouseReport;
+use crate::state::recorded_stroke::RecordedStroke;
+use crate::state::rig::Rig;
+use crate::state::scope_buffer::ScopeBuffer;
 use crate::strings;
 
-/// Length of a test tone, in seconds.
+/// Duration of a test tone, in seconds.
 const TONE_SECS: f64 = 2.0;
-/// Textures kept loaded; the least recently heard makes room.
+/// Maximum number of loaded textures; the least recently played one is unloaded.
 const KEPT: usize = SLOTS - 16;
 
-/// The slots of textures that were made for a point, each with the number of its texture: two at most.
+/// Slots of interpolated textures, each with the number of its texture.
 #[derive(Clone, Copy, Debug, Default)]
 struct MadeSlots {
-    /// In the mix.
+    /// Slot in the present mix.
     sounding: Option<(u64, TextureId)>,
-    /// Loaded, for the mix that comes next.
+    /// Slot loaded for the next mix.
     next: Option<(u64, TextureId)>,
 }
 
-/// An output and everything that is on its way to it.
+/// An output, and everything to be sent to it.
 pub(super) struct Player {
-    /// What the mix was last worked out for: the point, the blending, what is heard alone, and where on its path.
+    /// Input of the last computed mix: point, interpolation options, index of the soloed texture, and key on its path.
     pub(super) wanted: Option<(SpacePoint, Blending, Option<usize>, Option<usize>)>,
     pub(super) mix_is_new: bool,
-    /// What landings sound like, from the next mix on.
+    /// Tap transient at a contact onset, from the next mix on.
     pub(super) tap: Tap,
     pub(super) outputs: Vec<OutputInfo>,
     pub(super) inputs: Vec<InputInfo>,
@@ -64,19 +64,19 @@ pub(super) struct Player {
     handle: Option<Handle>,
     running: Option<Running>,
     live: Option<LiveInput>,
-    /// The way in for a pen, until it is given away.
+    /// Input for live touches of the pen, until the pen takes it.
     pub(super) pen_live: Option<LiveInput>,
     opening: Opening,
-    /// The output that was asked for last.
+    /// Last requested output.
     pub(super) choice: Option<OutputChoice>,
-    /// Whether somebody else has it meanwhile.
+    /// Whether the output was closed to free its device.
     pub(super) is_let_go: bool,
     listing: Option<Receiver<Vec<OutputInfo>>>,
     listing_inputs: Option<Receiver<Vec<InputInfo>>>,
-    /// Slot of each texture of the library, and when it was last in a mix.
+    /// Slot of each library texture, and the number of the mix that used it last.
     slots: Vec<Option<(TextureId, u64)>>,
     made: MadeSlots,
-    /// The stroke that the output has.
+    /// Stroke recording that the output holds.
     stroke: Option<Arc<RecordedStroke>>,
     n_mixes: u64,
     stylus: MouseStylus,
@@ -117,7 +117,7 @@ impl Player {
     pub(super) fn list_outputs(&mut self, ctx: egui::Context) {
         self.listing = Some(in_background(ctx, || {
             let mut outputs = list_outputs();
-            // Where the system does not give its ports there is none to choose.
+            // If the system cannot list serial ports, none is offered.
             let ports = list_serial_ports().unwrap_or_default().into_iter();
             outputs.extend(ports.map(|port| OutputInfo {
                 id: port.id,
@@ -133,13 +133,12 @@ impl Player {
         self.listing_inputs = Some(in_background(ctx, list_inputs));
     }
 
-    /// Closes the output, also one that is only being opened; what it was is remembered.
+    /// Closes the output, or cancels its opening. The choice of output is kept.
     pub(super) fn silence(&mut self) {
         self.close();
         self.opening.discard();
     }
 
-    /// Whether no output is open, nor being opened.
     pub(super) fn is_released(&self) -> bool {
         self.handle.is_none() && !self.opening.is_busy()
     }
@@ -168,11 +167,11 @@ impl Player {
         self.begin(Request { choice, options, ctx });
     }
 
-    /// Opens an output, once what is being opened has come.
+    /// Opens an output, after the opening in progress.
     fn begin(&mut self, request: Request) {
         let is_same = matches!(&request.choice, OutputChoice::Id(id) if self.output_id.as_ref() == Some(id));
         if is_same || self.status.is_some_and(|s| s.state == LinkState::Lost) {
-            // Some devices can be held only once, and what is open may drive another actuator.
+            // Some devices can be opened only once, and the open output may drive another actuator.
             self.close();
         }
         if self.opening.is_busy() {
@@ -182,7 +181,7 @@ impl Player {
         }
     }
 
-    /// Takes in what came back; true when an output has just been opened.
+    /// Reads status and samples from the output. Returns true if an output has just been opened.
     pub(super) fn collect(&mut self, scope: &mut ScopeBuffer) -> bool {
         if let Some(outputs) = self.listing.as_ref().and_then(|r| r.try_recv().ok()) {
             self.outputs = outputs;
@@ -229,7 +228,7 @@ impl Player {
             Err(error) => {
                 self.message = Some(error.to_string());
                 if self.handle.is_some() {
-                    // The one before stays.
+                    // The previous output stays open.
                     self.choice = self.output_id.clone().map(OutputChoice::Id);
                 }
                 false
@@ -242,9 +241,9 @@ impl Player {
                 handle.set_drive(Drive { muted: self.muted, ..Drive::default() });
                 handle.set_takeover(Some(Takeover::USUAL));
                 self.output_id = Some(running.id().to_owned());
-                // From now on it is this one, whatever the system prefers later.
+                // From now on it is this device, even if the system default changes.
                 self.choice = self.output_id.clone().map(OutputChoice::Id);
-                // The old output falls silent only now that the new one stands.
+                // The old output stops only now that the new one is open.
                 self.handle = Some(handle);
                 self.running = Some(running);
                 self.slots.fill(None);
@@ -256,8 +255,8 @@ impl Player {
         }
     }
 
-    /// Loads what is heard and fades to it. Tried again in the next frame where the output is busy, or a texture is still
-    /// being prepared.
+    /// Loads the audible textures and fades to them. If the output is busy or a texture is not prepared yet, the next
+    /// frame retries.
     pub(super) fn send_mix(&mut self, heard: &Heard, ahead: &[Option<Prepared>], rate_hz: f64) {
         let is_ready = |handle: &Handle| handle.config().model_rate_hz == rate_hz as f32;
         if !self.mix_is_new || !self.handle.as_ref().is_some_and(is_ready) {
@@ -284,14 +283,14 @@ impl Player {
                 if is_sounding(&slot) {
                     self.made.sounding = Some(slot);
                 } else {
-                    // It fades out before it comes back.
+                    // It fades out before its slot is freed.
                     handle.unload(slot.1);
                 }
             }
         }
     }
 
-    /// Lets go of the textures that are not kept, and makes room for as many as are asked about.
+    /// Unloads textures that are not marked in `is_kept`, and resizes the slots to its length.
     pub(super) fn keep(&mut self, is_kept: &[bool]) {
         self.slots.resize(self.slots.len().max(is_kept.len()), None);
         for (texture, slot) in self.slots.iter_mut().enumerate() {
@@ -323,14 +322,14 @@ impl Player {
         Some(id)
     }
 
-    /// The slot of a texture that was made for a point.
+    /// Slot of an interpolated texture, loaded if necessary.
     fn slot_of_made(&mut self, made: &Made) -> Option<TextureId> {
         let known = [self.made.sounding, self.made.next];
         if let Some((_, id)) = known.into_iter().flatten().find(|(number, _)| *number == made.number) {
             return Some(id);
         }
         if let (Some((_, id)), Some(handle)) = (self.made.next.take(), &mut self.handle) {
-            // The point moved on before this one came to sound.
+            // The point moved on before this texture played.
             handle.unload(id);
         }
         let id = self.load(&made.prepared)?;
@@ -338,7 +337,7 @@ impl Player {
         Some(id)
     }
 
-    /// Sends a texture to the output; where that is busy, the next frame tries again.
+    /// Sends a texture to the output. If the output is busy, the next frame retries.
     fn load(&mut self, prepared: &Prepared) -> Option<TextureId> {
         let handle = self.handle.as_mut()?;
         let refusal = match OwnedTexture::new(prepared.parts()) {
@@ -353,14 +352,14 @@ impl Player {
         None
     }
 
-    /// How many textures are loaded, those on their way out not counted.
+    /// Number of loaded textures, except those that are fading out.
     pub(super) fn n_loaded(&self) -> usize {
         let is_loaded = |handle: &Handle| (0..SLOTS).filter(|id| handle.is_loaded(*id as TextureId)).count();
         self.handle.as_ref().map_or(0, is_loaded)
     }
 
-    /// What strokes while no person does: the engine itself sees when one does. The stroke is sent along where it is repeated
-    /// and the output does not have it; where that is busy, the next frame tries again.
+    /// Sets the automatic stroke; the engine itself lets live input take over. A stroke recording is sent along if the
+    /// output does not hold it. If the output is busy, the next frame retries.
     pub(super) fn set_hand(&mut self, hand: Option<Input>, stroke: Option<&Arc<RecordedStroke>>) {
         let has_stroke = self.has_stroke(stroke);
         let Some(handle) = &mut self.handle else { return };
@@ -373,7 +372,7 @@ impl Player {
         }
     }
 
-    /// Whether the output has this stroke.
+    /// Whether the output holds this stroke recording.
     pub(super) fn has_stroke(&self, stroke: Option<&Arc<RecordedStroke>>) -> bool {
         self.stroke.as_ref().zip(stroke).is_some_and(|(held, wanted)| Arc::ptr_eq(held, wanted))
     }
@@ -384,7 +383,7 @@ impl Player {
         self.stylus.set_force_n(force_n);
         let touch = self.stylus.report(time_secs, report.x_m, report.y_m, report.pressed);
         if let Some(live) = &mut self.live {
-            // Full only when the output has stopped: then the touch has nowhere to go.
+            // The queue is full only if the output has stopped; then the touch is lost.
             let _ = live.send(touch, now);
         }
     }
@@ -404,7 +403,7 @@ impl Player {
         });
     }
 
-    /// Plays what is made for the rate of the output in Hz.
+    /// Plays the signal that `made` returns for the sample rate of the output in Hz.
     fn play(&mut self, made: impl FnOnce(f64) -> Result<Signal, SignalError>) {
         let Some(handle) = &mut self.handle else { return };
         match made(f64::from(handle.config().device_rate_hz)) {

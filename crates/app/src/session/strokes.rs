@@ -1,4 +1,4 @@
-//! Strokes that are recorded on the pad, and the automatic hand that repeats them.
+//! Stroke recordings, and the automatic stroke that repeats them.
 
 use std::sync::Arc;
 
@@ -6,58 +6,61 @@ use shagreen_device::controls::Input;
 use shagreen_device::track::PenSample;
 
 use super::Session;
-use crate::pad::MouseReport;
-use crate::recorded_stroke::RecordedStroke;
-use crate::recorder::{LONGEST_SECS, Recorder};
+use crate::state::mouse_report::MouseReport;
+use crate::state::recorded_stroke::RecordedStroke;
+use crate::state::recorder::{LONGEST_SECS, Recorder};
 use crate::strings::stroke as strings;
 
 impl Session {
-    /// Whether the automatic hand strokes.
+    /// Whether the automatic stroke is running.
     pub fn hand_is_running(&self) -> bool {
-        self.hand.is_some()
+        self.hand.automatic.is_some()
     }
 
-    /// Starts, changes or stops the automatic hand.
+    /// Starts, changes or stops the automatic stroke.
     pub fn set_hand(&mut self, hand: Option<Input>) {
-        if self.hand != hand {
-            self.hand = hand;
-            self.player.set_hand(hand, self.stroke.as_ref());
+        if self.hand.automatic != hand {
+            self.hand.automatic = hand;
+            self.sound.player.set_hand(hand, self.hand.stroke.as_ref());
         }
     }
 
-    /// The stroke that the hand can repeat.
+    /// Stroke recording that the automatic stroke can repeat.
     pub fn stroke(&self) -> Option<&RecordedStroke> {
-        self.stroke.as_deref()
+        self.hand.stroke.as_deref()
     }
 
-    /// How many strokes there were: it changes with the stroke.
+    /// Number of stroke recordings so far; it changes with the present recording.
     pub fn n_strokes(&self) -> u64 {
-        self.n_strokes
+        self.hand.n_strokes
     }
 
-    /// Takes a stroke in the place of the one before, and returns whether there was one; a hand that repeats begins it anew.
+    /// Replaces the stroke recording and returns whether there was one. An automatic stroke that repeats it restarts.
     pub fn set_stroke(&mut self, stroke: RecordedStroke) -> bool {
-        self.n_strokes += 1;
-        self.stroke.replace(Arc::new(stroke)).is_some()
+        self.hand.n_strokes += 1;
+        self.hand.stroke.replace(Arc::new(stroke)).is_some()
     }
 
-    /// Begins a recording; the hand does not stroke meanwhile.
+    /// Starts a recording and stops the automatic stroke.
     pub fn begin_recording(&mut self) {
         self.set_hand(None);
-        // What was said of the recording before is over.
+        // Messages about the previous recording are obsolete.
         let full = strings::full(LONGEST_SECS);
-        self.player.message.take_if(|message| message.starts_with(&full) || *message == strings::REPLACED);
-        self.recorder = Some(Recorder::new());
+        self.sound
+            .player
+            .message
+            .take_if(|message| message.starts_with(&full) || *message == strings::REPLACED);
+        self.hand.recorder = Some(Recorder::new());
     }
 
-    /// Ends the recording; where nothing has touched, the stroke before it stays.
+    /// Finishes the recording. Without a touch, the previous recording is kept.
     pub fn end_recording(&mut self) {
-        let is_full = self.recorder.as_ref().is_some_and(Recorder::is_full);
-        let outcome = match self.recorder.take().and_then(Recorder::finish).map(RecordedStroke::new) {
+        let is_full = self.hand.recorder.as_ref().is_some_and(Recorder::is_full);
+        let outcome = match self.hand.recorder.take().and_then(Recorder::finish).map(RecordedStroke::new) {
             Some(Ok(stroke)) => {
                 let is_other_replaced = self.set_stroke(stroke);
                 let outcome = if is_other_replaced { strings::REPLACED } else { strings::KEPT };
-                // What was to be expected is not said.
+                // An expected outcome needs no message.
                 (is_full || is_other_replaced).then(|| outcome.to_owned())
             }
             Some(Err(error)) => Some(error.to_string()),
@@ -70,40 +73,41 @@ impl Session {
         }
     }
 
-    /// The same where the pointer has pressed a button for it: a pen's tap on that is no part of the stroke.
+    /// Finishes the recording after a click on the button. If a pen clicked, its tap on the button is removed from the
+    /// stroke.
     pub fn end_recording_by_pointer(&mut self) {
-        if let Some(recorder) = &mut self.recorder {
+        if let Some(recorder) = &mut self.hand.recorder {
             recorder.drop_tap();
         }
         self.end_recording();
     }
 
-    /// What is recorded at the moment and how long it is in seconds, none before the first touch; `None` where nothing is
-    /// being recorded.
+    /// Samples of the recording in progress and its duration in seconds, which is `None` before the first touch. `None`
+    /// if nothing is being recorded.
     pub fn recording(&self) -> Option<(&[PenSample], Option<f64>)> {
-        self.recorder.as_ref().map(|recorder| (recorder.samples(), recorder.secs()))
+        self.hand.recorder.as_ref().map(|recorder| (recorder.samples(), recorder.secs()))
     }
 
-    /// Records what the mouse does, where something is being recorded.
+    /// Adds a mouse report to the recording, if one is in progress.
     pub(super) fn record_mouse(&mut self, report: MouseReport, force_n: f64) {
-        if let Some(recorder) = &mut self.recorder {
+        if let Some(recorder) = &mut self.hand.recorder {
             let MouseReport { x_m, y_m, pressed, .. } = report;
             let force_n = if pressed { force_n } else { 0.0 };
             recorder.take_mouse(PenSample { time_secs: 0.0, x_m, y_m, force_n, touching: pressed });
         }
     }
 
-    /// Once a frame: records what the pen has done, and gives the stroke to an output that does not have it.
+    /// Adds pen samples to the recording and sends the stroke recording to an output that needs it, once a frame.
     pub(super) fn follow_strokes(&mut self) {
-        if let Some(recorder) = &mut self.recorder {
-            recorder.take_pen(&self.pen.fresh);
+        if let Some(recorder) = &mut self.hand.recorder {
+            recorder.take_pen(&self.hand.pen.fresh);
             if recorder.is_full() {
                 self.end_recording();
             }
         }
-        let stroke = self.stroke.as_ref();
-        if matches!(self.hand, Some(Input::Repeat(_))) && !self.player.has_stroke(stroke) {
-            self.player.set_hand(self.hand, stroke);
+        let stroke = self.hand.stroke.as_ref();
+        if matches!(self.hand.automatic, Some(Input::Repeat(_))) && !self.sound.player.has_stroke(stroke) {
+            self.sound.player.set_hand(self.hand.automatic, stroke);
         }
     }
 }

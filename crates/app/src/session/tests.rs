@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
-use shagreen_core::blend::Mode;
-use shagreen_core::rate::at_rate;
 use shagreen_core::space::LabelSource;
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::rate::at_rate;
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::track::PenSample;
 use shagreen_formats::actuator_toml::built_in_actuators;
@@ -12,22 +12,23 @@ use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_library;
 
 use super::{OutputChoice, Session};
-use crate::edit::{Edit, edited};
-use crate::recorder::LONGEST_SECS;
-use crate::rig::{Mounted, Rig};
+use crate::state::edit::{Edit, edited};
+use crate::state::recorder::LONGEST_SECS;
+use crate::state::rig::{Mounted, Rig};
 use crate::strings::stroke;
-use crate::window::new_project;
+use shagreen_studio::project::new_project;
 
 fn starter() -> ProjectLibrary {
     ProjectLibrary::BuiltIn(BuiltIn::Starter)
 }
 
-/// A project on a library that is a part of it.
+/// Project with an embedded library.
 fn project_on(library: Library) -> Project {
     Project { library: ProjectLibrary::Inside(library.into()), ..new_project() }
 }
 
-/// The starter library, whose first six textures are rated, and the last of these is twice as fast and has no place.
+/// First eight textures of the starter library, six of them rated. The last rated one has twice the sample rate and no
+/// position.
 fn mixed_library() -> Library {
     let mut library = starter_library().unwrap();
     library.textures.truncate(8);
@@ -42,7 +43,7 @@ fn mixed_library() -> Library {
     library
 }
 
-/// The axes decide which textures are blended, and so the rate of all; undo brings everything back as it was.
+/// The axes determine which textures are interpolated, and thereby the sample rate. Undo restores everything.
 #[test]
 fn axes_take_places_and_rate_along_and_give_them_back() {
     let ctx = egui::Context::default();
@@ -50,28 +51,28 @@ fn axes_take_places_and_rate_along_and_give_them_back() {
     let mut session = Session::new(placed.library.clone()).unwrap();
     session.follow(&placed, None, &ctx);
     let (library, space) = (session.library().clone(), session.space().clone());
-    let planes = session.planes.clone();
-    assert_eq!((session.space_rate_hz(), session.rate_hz), (1000.0, 1000.0));
+    let planes = session.textures.planes.clone();
+    assert_eq!((session.space_rate_hz(), session.sound.rate_hz), (1000.0, 1000.0));
     assert_eq!(session.label_source(), "physical labels");
 
     let axes = Some(["warm-cold", "flat-bumpy"].map(str::to_owned));
     let turned = edited(&placed, Edit::SetAxes(axes));
     session.follow(&turned, None, &ctx);
-    assert_eq!((session.space_rate_hz(), session.rate_hz), (2000.0, 2000.0));
+    assert_eq!((session.space_rate_hz(), session.sound.rate_hz), (2000.0, 2000.0));
     assert_eq!(session.label_source(), "human ratings");
     let sites: Vec<usize> = session.space().sites().iter().map(|(texture, _)| *texture).collect();
     assert_eq!(sites, [0, 1, 2, 3, 4, 5]);
     assert_eq!(session.poles(), &[["warm", "cold"], ["flat", "bumpy"]]);
     assert_eq!(session.library(), &library, "what a file of it holds is as it was");
-    assert!(Arc::ptr_eq(&session.planes[5], &planes[5]), "this one has the rate already");
-    assert!(!Arc::ptr_eq(&session.planes[0], &planes[0]));
+    assert!(Arc::ptr_eq(&session.textures.planes[5], &planes[5]), "this one has the rate already");
+    assert!(!Arc::ptr_eq(&session.textures.planes[0], &planes[0]));
 
     session.follow(&placed, None, &ctx);
     assert_eq!((session.library(), session.space()), (&library, &space));
-    assert_eq!((session.space_rate_hz(), session.rate_hz), (1000.0, 1000.0));
+    assert_eq!((session.space_rate_hz(), session.sound.rate_hz), (1000.0, 1000.0));
 }
 
-/// A texture that joins and is too fast for the space stays out of it, and says so.
+/// An added texture with a higher sample rate than the space is left out of it, with a message.
 #[test]
 fn a_texture_too_fast_for_the_space_stays_out() {
     let ctx = egui::Context::default();
@@ -89,7 +90,8 @@ fn a_texture_too_fast_for_the_space_stays_out() {
     assert_eq!(session.textures().len(), 7);
 }
 
-/// Another library takes over places and source; what joined stays under a name of its own, and everything comes back.
+/// Another library replaces positions and their source, an added texture gets a unique id, and undo restores
+/// everything.
 #[test]
 fn another_library_is_opened_and_the_first_comes_back() {
     let ctx = egui::Context::default();
@@ -109,19 +111,19 @@ fn another_library_is_opened_and_the_first_comes_back() {
     session.follow(&simulated, None, &ctx);
     assert_eq!(session.base(), &ProjectLibrary::BuiltIn(BuiltIn::Simulated));
     assert_eq!(session.other_libraries(), std::slice::from_ref(&begun.library));
-    assert_eq!(session.label_source(), "mixed: never compare them");
+    assert_eq!(session.label_source(), "mixed: not comparable");
     assert!(session.is_simulated());
     let read = BuiltIn::Simulated.read().unwrap();
     assert_eq!(session.textures()[..25], read.textures[..]);
     assert_eq!(session.textures()[25].id, "glass-2");
     assert_eq!(session.textures()[25].model, joined.model);
     assert_eq!(session.library().space_report, read.space_report);
-    let planes = session.planes.clone();
+    let planes = session.textures.planes.clone();
 
-    // The same materials in other places: nothing has to be prepared again.
+    // The same materials at other positions need no new preparation.
     let on_starter = edited(&simulated, Edit::OpenLibrary(starter()));
     session.follow(&on_starter, None, &ctx);
-    assert!(planes.iter().zip(&session.planes).all(|(a, b)| Arc::ptr_eq(a, b)));
+    assert!(planes.iter().zip(&session.textures.planes).all(|(a, b)| Arc::ptr_eq(a, b)));
     assert_eq!(session.label_source(), "physical labels");
     assert_eq!(session.library().space_report, None);
 
@@ -133,7 +135,7 @@ fn another_library_is_opened_and_the_first_comes_back() {
     assert_eq!(session.textures()[..25], read.textures[..]);
 }
 
-/// A space in use, axes and what is heard alone belong to the textures that were there.
+/// Opening a library resets the space in use, the axes and solo, which belong to the previous textures.
 #[test]
 fn a_library_is_opened_as_its_file_has_it() {
     let ctx = egui::Context::default();
@@ -154,23 +156,26 @@ fn a_library_is_opened_as_its_file_has_it() {
     assert_eq!(session.poles()[0], ["hard", "soft"]);
 }
 
-/// A name that a texture was given here holds in every view, and ends with undo.
+/// A new name holds in the session, and undo removes it.
 #[test]
 fn a_texture_is_renamed_and_named_as_before() {
     let ctx = egui::Context::default();
     let begun = new_project();
     let mut session = Session::new(begun.library.clone()).unwrap();
     session.follow(&begun, None, &ctx);
-    let (planes, id) = (session.planes.clone(), session.textures()[2].id.clone());
+    let (planes, id) = (session.textures.planes.clone(), session.textures()[2].id.clone());
     let named = edited(&begun, Edit::RenameTexture { id, name: "Mine".to_owned() });
     session.follow(&named, None, &ctx);
     assert_eq!(session.textures()[2].name, "Mine");
-    assert!(planes.iter().zip(&session.planes).all(|(a, b)| Arc::ptr_eq(a, b)), "it is the same texture");
+    assert!(
+        planes.iter().zip(&session.textures.planes).all(|(a, b)| Arc::ptr_eq(a, b)),
+        "it is the same texture"
+    );
     session.follow(&begun, None, &ctx);
     assert_eq!(session.library(), &starter_library().unwrap());
 }
 
-/// Lets a session go on until something is so.
+/// Updates the session until the condition holds.
 fn go_on(session: &mut Session, what: &str, is_so: impl Fn(&Session) -> bool) {
     let begun = std::time::Instant::now();
     while !is_so(session) {
@@ -188,7 +193,7 @@ fn frames(session: &Session) -> Option<u32> {
     session.stream().and_then(|(.., frames)| frames)
 }
 
-/// A change of the rig while an output is being opened opens that one again, and not none.
+/// A change of the device setup while an output is being opened opens the same output again.
 #[test]
 fn a_rig_that_changes_during_the_opening_holds_for_what_was_asked_for() {
     let ctx = egui::Context::default();
@@ -199,7 +204,7 @@ fn a_rig_that_changes_during_the_opening_holds_for_what_was_asked_for() {
     assert_eq!(frames(&session), Some(512));
 }
 
-/// What was let go of while it was being opened comes back, also where nobody waited for it to be closed.
+/// An output that was let go of during its opening is reopened on request, even before it was closed.
 #[test]
 fn an_output_that_was_let_go_of_during_the_opening_comes_back() {
     let ctx = egui::Context::default();
@@ -216,7 +221,7 @@ fn an_output_that_was_let_go_of_during_the_opening_comes_back() {
     assert!(session.status().is_none() && !session.is_opening(), "a change of the rig takes nothing back");
 }
 
-/// An actuator that cannot be driven closes the output, also the first, and another opens it.
+/// An actuator that cannot be driven closes the output, even the first one. Another actuator reopens it.
 #[test]
 fn an_actuator_that_can_be_driven_opens_what_another_closed() {
     let ctx = egui::Context::default();
@@ -232,16 +237,18 @@ fn an_actuator_that_can_be_driven_opens_what_another_closed() {
     go_on(&mut session, "it opens", |s| !s.is_opening() && s.status().is_some());
 }
 
-/// A recording that has ended by itself is the stroke, or it is said why not.
+/// A recording that stops at its maximum duration becomes the stroke, or the message states why not.
 #[test]
 fn a_full_recording_is_said_to_be_kept_only_where_it_is() {
     let mut session = Session::new(starter()).unwrap();
-    for (force_n, words, n_strokes) in
-        [(-1.0, "at least zero", 0), (1.0, stroke::KEPT, 1), (1.0, stroke::REPLACED, 2)]
-    {
+    for (force_n, words, n_strokes) in [
+        (-1.0, "negative force (-1 N); remove it or correct its sign", 0),
+        (1.0, stroke::KEPT, 1),
+        (1.0, stroke::REPLACED, 2),
+    ] {
         session.begin_recording();
         assert_eq!(session.output_message(), None, "what was said of the one before is over");
-        let recorder = session.recorder.as_mut().unwrap();
+        let recorder = session.hand.recorder.as_mut().unwrap();
         for _ in 0..2 {
             recorder.take_mouse(PenSample { force_n, touching: true, ..PenSample::default() });
         }

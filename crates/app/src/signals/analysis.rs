@@ -1,12 +1,14 @@
-//! What is worked out of signals: by workers, since the codec at five rates takes a second.
+//! Analyses of signals. Background workers run them, since coding at five bit rates takes a second.
 
 use std::sync::Arc;
 
-use shagreen_core::codec::CODEC_RATE;
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::quality::{Distances, Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, snr_db};
-use shagreen_core::spatial_spectrogram::{
+use shagreen_core::signals::codec::CODEC_RATE;
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::coded::Coded;
+use shagreen_core::signals::quality::{
+    Distances, Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, snr_db,
+};
+use shagreen_core::signals::spatial_spectrogram::{
     Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window, profile_of,
     refine,
 };
@@ -14,58 +16,59 @@ use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
 
-use super::bench_signal::BenchSignal;
+use crate::state::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
 
-/// What becomes of a signal at a rate of the codec.
+/// Fidelity of a signal at one bit rate of the codec.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtRate {
-    /// Of the stream, in kbit/s.
+    /// Bit rate of the coded stream, in kbit/s.
     pub kbps: f64,
-    /// Signal to noise, in dB.
+    /// Signal-to-noise ratio, in dB.
     pub snr_db: f64,
-    /// Predicted: nobody was asked.
+    /// Sensitivity index d'. It is predicted, not measured with people.
     pub d_prime: f64,
 }
 
-/// What the codec keeps of a signal at its rates, or why that is not known.
+/// Fidelity of a signal at each bit rate of the codec, or why it cannot be computed.
 pub type ByRate = Result<Vec<AtRate>, String>;
 
-/// How two signals differ.
+/// Difference between two signals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
-    /// Of the first and the second.
+    /// Features of the first and the second signal.
     pub features: [Features; 2],
-    /// From one to the other.
+    /// Distances between the features of both signals.
     pub distances: Distances,
-    /// What each feature of the model adds to the predicted d'.
+    /// Contribution of each feature of the model to the predicted d'.
     pub parts: Vec<(Feature, f64)>,
-    /// Predicted: nobody was asked.
+    /// Sensitivity index d'. It is predicted, not measured with people.
     pub d_prime: f64,
-    /// Of the second against the first, in dB; infinite where they are equal, minus infinite where only the first is silent.
+    /// Signal-to-noise ratio of the second signal relative to the first, in dB. Infinite if both are equal, minus
+    /// infinite if only the first is silent.
     pub snr_db: f64,
-    /// How much of both was compared, in s.
+    /// Duration that was compared in both signals, in s.
     pub seconds: f64,
 }
 
-/// The windows of the paper that fit a signal, widest first: no wider than it, and of four samples at least.
+/// Windows of the paper that fit a signal, longest first: no longer than the signal, and at least four samples long.
 fn windows_of(signal: &BenchSignal) -> Vec<Framing> {
     let (step_m, length_m) = (signal.profile.step_m(), signal.profile.length_m());
     let windows = PAPER_WINDOWS_M.into_iter().filter(|m| *m <= length_m && *m >= 3.99 * step_m);
     windows.map(|window_m| Framing::of_length(window_m, step_m)).collect()
 }
 
-/// What windows of each width keep of a signal, widest first.
+/// Fidelity of the spatial spectrogram of a signal for each window length, longest first.
 pub(super) fn by_window(signal: &BenchSignal) -> Vec<ProfileFidelity> {
     let (values, step_m) = (signal.profile.values(), signal.profile.step_m());
-    // The windows fit, and a profile holds finite numbers only.
+    // This cannot fail: the windows fit, and a profile contains finite numbers only.
     fidelity_by_window(values, step_m, &windows_of(signal)).unwrap_or_default()
 }
 
-/// What the codec keeps of a signal, lowest rate first.
+/// Returns the fidelity of a signal at each bit rate of the codec, lowest bit rate first.
 ///
 /// # Errors
-/// In words: it is too short, or cannot be encoded.
+/// A sentence: the signal is too short or cannot be encoded.
 pub(super) fn by_rate(signal: &BenchSignal) -> ByRate {
     let samples = signal.at(CODEC_RATE);
     let meter = meter(samples.len())?;
@@ -86,10 +89,10 @@ pub(super) fn by_rate(signal: &BenchSignal) -> ByRate {
     Ok(all)
 }
 
-/// Compares two signals, sample beside sample from their beginnings.
+/// Compares two signals sample by sample from their beginnings, for the length of the shorter one.
 ///
 /// # Errors
-/// In words: they are too short, or far from any touch.
+/// A sentence: the signals are too short, or their levels are far outside the range of touch.
 pub(super) fn compare(first: &BenchSignal, second: &BenchSignal) -> Result<Compared, String> {
     let [mut a, mut b] = [first, second].map(|signal| signal.at(PAPER_RATE));
     let n_samples = a.len().min(b.len());
@@ -113,7 +116,7 @@ pub(super) fn compare(first: &BenchSignal, second: &BenchSignal) -> Result<Compa
     })
 }
 
-/// The meter, where there is enough to compare.
+/// Quality meter, if the signal is long enough to be compared.
 fn meter(n_samples: usize) -> Result<QualityMeter, String> {
     let threshold = ThresholdKind::default().read().map_err(|error| error.to_string())?;
     let meter = QualityMeter::new(PAPER_RATE, &threshold).map_err(|error| error.to_string())?;
@@ -123,24 +126,24 @@ fn meter(n_samples: usize) -> Result<QualityMeter, String> {
     Ok(meter)
 }
 
-/// What the codec leaves of a signal at a rate.
+/// Returns a signal after encoding and decoding at one bit rate.
 ///
 /// # Errors
-/// In words: it cannot be encoded.
+/// A sentence: the signal cannot be encoded.
 pub(super) fn through_codec(signal: &BenchSignal, rate: Bitrate) -> Result<BenchSignal, String> {
     let samples = signal.at(CODEC_RATE);
     let books = Arc::new(built_in_codebooks().map_err(|error| error.to_string())?);
     let decoded = Coded::encode(&samples, rate, &books).map_err(|error| error.to_string())?.decode(&books);
     let name = strings::through_codec(&signal.name, rate.kbps());
     let made = BenchSignal::of_samples(&name, &decoded, CODEC_RATE, signal.speed, signal.force)?.value;
-    // The terms that it came under hold for what is made of it.
+    // Restrictions on the original signal also apply to the signal made from it.
     Ok(BenchSignal { name, profile: made.profile, ..signal.clone() })
 }
 
-/// What a spatial spectrogram leaves of a signal, made to fit it better by so many steps.
+/// Returns the signal resynthesized from its spatial spectrogram, refined by `n_steps` Griffin-Lim iterations.
 ///
 /// # Errors
-/// In words: the window does not fit.
+/// A sentence: the window does not fit the signal.
 pub(super) fn remade(signal: &BenchSignal, window_m: f64, n_steps: usize) -> Result<BenchSignal, String> {
     let framing = signal.framing(window_m);
     let transform = Transform::new(framing);
@@ -154,9 +157,9 @@ pub(super) fn remade(signal: &BenchSignal, window_m: f64, n_steps: usize) -> Res
 #[cfg(test)]
 mod tests {
     use super::{by_rate, by_window, compare, remade, through_codec};
-    use crate::signals::bench_signal::BenchSignal;
-    use crate::signals::bench_signal::tests::tone;
-    use shagreen_core::codec::bitrate::Bitrate;
+    use crate::state::bench_signal::BenchSignal;
+    use crate::state::bench_signal::tests::tone;
+    use shagreen_core::signals::codec::bitrate::Bitrate;
     use shagreen_core::units::Hertz;
 
     #[test]
@@ -182,7 +185,7 @@ mod tests {
         let signal = tone(80.0, 4000.0, 1.0);
         let rates = by_rate(&signal).unwrap();
         assert_eq!(rates.iter().map(|at| at.kbps).collect::<Vec<_>>(), [1.75, 2.15, 2.45, 2.75, 3.15]);
-        // Steps of 25 µm: 0.2 mm are eight of them.
+        // At a step of 25 µm, the window of 0.2 mm is eight samples long.
         assert_eq!(by_window(&signal).len(), 7);
         let short = tone(80.0, 4000.0, 0.5);
         assert!(by_rate(&short).is_err() && by_window(&short).len() == 7);

@@ -1,76 +1,64 @@
-//! The editor of spatial spectrograms: a brush, an eraser, copies, and what was done taken back.
+//! Editor of spatial spectrograms: brush, eraser, copy and paste, with undo.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use shagreen_core::relief::MAX_VALUES;
-use shagreen_core::spatial_spectrogram::edit::{Brush, Patch, Region};
-use shagreen_core::spatial_spectrogram::{SpatialSpectrogram, Spectra, Transform, profile_of, refine};
+use shagreen_core::signals::spatial_spectrogram::edit::{Brush, Patch, Region};
+use shagreen_core::signals::spatial_spectrogram::{
+    SpatialSpectrogram, Spectra, Transform, profile_of, refine,
+};
+use shagreen_core::texture::relief::MAX_VALUES;
 
-use super::bench_signal::BenchSignal;
+use crate::choices::signals::Tool;
+use crate::state::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
 
-/// Steps that can be taken back.
+/// Maximum number of undo steps.
 const MAX_STEPS: usize = 50;
-/// From touch to touch of a brush that is drawn along, in its radius: its rim is soft, so that they melt.
+/// Distance between touches of a brush along a stroke, in brush radii. The edge of the brush is soft, so that touches
+/// merge.
 const SPACING: f64 = 0.35;
-/// Steps towards the stretched spectrogram: without them waves that go on get softer.
+/// Griffin-Lim iterations towards the stretched spectrogram: without them, continuous waves lose level.
 const N_REFINEMENTS: usize = 32;
-/// Widths of brushes, in mm either side.
+/// Range of the half-width of a brush, in mm.
 pub(super) const RADII_MM: RangeInclusive<f64> = 0.1..=50.0;
-/// Heights of brushes, in octaves either side.
+/// Range of the half-height of a brush, in octaves.
 pub(super) const RADII_OCTAVES: RangeInclusive<f64> = 0.1..=4.0;
-/// What a touch of a brush does, in dB.
+/// Range of the gain of one brush touch, in dB.
 pub(super) const GAINS_DB: RangeInclusive<f64> = 0.5..=24.0;
 
-/// What the pointer does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Tool {
-    /// Makes louder what is under it.
-    #[default]
-    Louder,
-    /// Makes softer what is under it.
-    Softer,
-    /// Takes out what is in a rectangle.
-    Erase,
-    /// Remembers what is in a rectangle.
-    Copy,
-    /// Puts there what was remembered, at a click.
-    Paste,
-}
-
 impl Tool {
-    /// All of them, in the order of their buttons.
+    /// All tools, in the order of their buttons.
     pub const ALL: [Self; 5] = [Self::Louder, Self::Softer, Self::Erase, Self::Copy, Self::Paste];
 
-    /// Whether it is drawn along, as a brush is.
+    /// Whether the tool is a brush, which is drawn along a stroke.
     pub(super) fn is_brush(self) -> bool {
         matches!(self, Self::Louder | Self::Softer)
     }
 
-    /// Whether it works on a rectangle.
+    /// Whether the tool works on a rectangle.
     pub(super) fn takes_region(self) -> bool {
         matches!(self, Self::Erase | Self::Copy)
     }
 }
 
-/// Spectra and the signal that was made of them.
+/// Spectra, and the signal that was synthesized from them.
 #[derive(Clone)]
 struct Painted {
     signal: Arc<BenchSignal>,
     spectra: Arc<Spectra>,
 }
 
-/// A signal before or after a change; with its spectra, where it came of some.
+/// Signal before or after a change, with its spectra if it was synthesized from any.
 #[derive(Clone)]
 struct State {
     signal: Arc<BenchSignal>,
     spectra: Option<Arc<Spectra>>,
-    /// What was done to it next.
+    /// Name of the change that was made to it next.
     tool: &'static str,
 }
 
-/// The editor. It is given a signal and returns another; what it was given stays as it was.
+/// Editor. It takes a signal and returns a new one; the original is not changed.
 pub(super) struct Editor {
     pub(super) tool: Tool,
     pub(super) radius_mm: f64,
@@ -82,7 +70,7 @@ pub(super) struct Editor {
     painted: Option<Painted>,
     undo: Vec<State>,
     redo: Vec<State>,
-    /// Where the brush touched last in the stroke that is being drawn.
+    /// Last touch of the brush in the current stroke: position in m, spatial frequency in 1/m.
     last_touch: Option<(f64, f64)>,
 }
 
@@ -104,10 +92,10 @@ impl Default for Editor {
 }
 
 impl Editor {
-    /// The spectra of a signal: those that it was made of, where it was.
+    /// Returns the spectra of a signal: those that it was synthesized from, if any.
     ///
     /// # Errors
-    /// In words: the windows do not fit.
+    /// A sentence: the windows do not fit the signal.
     pub(super) fn spectra(&self, signal: &Arc<BenchSignal>, window_m: f64) -> Result<Arc<Spectra>, String> {
         let framing = signal.framing(window_m);
         if let Some(painted) = &self.painted
@@ -120,11 +108,11 @@ impl Editor {
         made.map(Arc::new).map_err(|error| error.to_string())
     }
 
-    /// The brush is at a place in m and a spatial frequency in 1/m, on the way of a stroke. Returns what it makes of the signal;
-    /// `None` where it has not moved far enough to touch again.
+    /// Moves the brush to a position in m and a spatial frequency in 1/m, as part of a stroke. Returns the changed
+    /// signal; `None` if the brush has not moved far enough for another touch.
     ///
     /// # Errors
-    /// In words: the windows do not fit, or what would come of it is no signal.
+    /// A sentence: the windows do not fit the signal, or the result is not a valid signal.
     pub(super) fn brush_at(
         &mut self,
         signal: &Arc<BenchSignal>,
@@ -147,13 +135,13 @@ impl Editor {
         for (place_m, per_m) in &touches {
             spectra.paint(&brush, step_m, *place_m, *per_m);
         }
-        // What is drawn without letting go is one step.
+        // A stroke is one undo step, until the brush is lifted.
         let painted = self.take(signal, spectra, self.last_touch.is_none(), strings::BRUSH_STROKE)?;
         self.last_touch = Some(*last);
         Ok(Some(painted))
     }
 
-    /// Where a brush touches on its way from its last touch, all of the same distance; at once where it is put down.
+    /// Touches of a brush on its way from the last touch, at equal distances. The first touch of a stroke is at `to`.
     fn touches(&self, to: (f64, f64), brush: &Brush) -> Vec<(f64, f64)> {
         let Some(from) = self.last_touch else { return vec![to] };
         let across = (to.0 - from.0) / brush.radius_m;
@@ -164,12 +152,12 @@ impl Editor {
         (1..=n).map(|i| at(share(i))).collect()
     }
 
-    /// The brush is lifted: what it does next is another step.
+    /// Lifts the brush: the next stroke is another undo step.
     pub(super) fn lift(&mut self) {
         self.last_touch = None;
     }
 
-    /// Takes out what is in a rectangle.
+    /// Erases the content of a rectangle.
     ///
     /// # Errors
     /// As [`Editor::brush_at`].
@@ -184,10 +172,10 @@ impl Editor {
         self.take(signal, spectra, true, strings::ERASING)
     }
 
-    /// Remembers what is in a rectangle, to be pasted from now on.
+    /// Copies the content of a rectangle, and selects the paste tool.
     ///
     /// # Errors
-    /// In words: there is nothing in it, or the windows do not fit.
+    /// A sentence: the rectangle is empty, or the windows do not fit the signal.
     pub(super) fn copy(
         &mut self,
         signal: &Arc<BenchSignal>,
@@ -205,10 +193,10 @@ impl Editor {
         self.patch.is_some()
     }
 
-    /// Puts what was copied at a place in m.
+    /// Pastes the copied content at a position in m.
     ///
     /// # Errors
-    /// In words: nothing was copied, or from other windows.
+    /// A sentence: nothing was copied, or it was copied from other windows.
     pub(super) fn paste(
         &mut self,
         signal: &Arc<BenchSignal>,
@@ -222,10 +210,10 @@ impl Editor {
         self.take(signal, spectra, true, strings::PASTING)
     }
 
-    /// Draws the signal out, or together.
+    /// Stretches or compresses the signal by the stretch factor.
     ///
     /// # Errors
-    /// In words: by so much it cannot be, or it would be longer than a signal can be.
+    /// A sentence: the factor cannot be applied, or the result would be longer than a signal can be.
     pub(super) fn stretch(
         &mut self,
         signal: &Arc<BenchSignal>,
@@ -236,7 +224,7 @@ impl Editor {
             return Err(strings::too_long(MAX_VALUES as f64 / signal.profile.values().len() as f64));
         }
         let transform = Transform::new(signal.framing(window_m));
-        // The phases of other places tell nothing: what is left is the spectrogram without them.
+        // Phases do not carry over to other positions, so only the magnitudes are stretched.
         let spectrogram = SpatialSpectrogram::of(signal.profile.values(), &transform)
             .map_err(|error| error.to_string())?
             .stretched(self.stretch)
@@ -247,7 +235,7 @@ impl Editor {
         self.take(signal, spectra, true, strings::STRETCHING)
     }
 
-    /// Makes a signal of spectra that were changed.
+    /// Synthesizes a signal from changed spectra.
     fn take(
         &mut self,
         before: &Arc<BenchSignal>,
@@ -264,7 +252,7 @@ impl Editor {
         Ok(signal)
     }
 
-    /// What is there `before` a step can be had back, and what was taken back cannot be made again.
+    /// Adds an undo step that returns to `before`, and discards the redo steps.
     fn push_step(&mut self, before: &Arc<BenchSignal>, what: &'static str) {
         self.redo.clear();
         self.undo.push(self.state_of(before, what));
@@ -279,19 +267,19 @@ impl Editor {
         State { signal: Arc::clone(signal), spectra, tool }
     }
 
-    /// What would be taken back, and what would be made again.
+    /// Names of the next undo step and of the next redo step.
     pub(super) fn labels(&self) -> [Option<&'static str>; 2] {
         [&self.undo, &self.redo].map(|steps| steps.last().map(|state| state.tool))
     }
 
-    /// Takes the last change back; returns the signal as it was before.
+    /// Undoes the last change; returns the signal before it.
     pub(super) fn undo(&mut self, now: &Arc<BenchSignal>) -> Option<Arc<BenchSignal>> {
         let state = self.undo.pop()?;
         self.redo.push(self.state_of(now, state.tool));
         Some(self.restore(state))
     }
 
-    /// Makes it again.
+    /// Redoes the change that was undone last; returns the signal after it.
     pub(super) fn redo(&mut self, now: &Arc<BenchSignal>) -> Option<Arc<BenchSignal>> {
         let state = self.redo.pop()?;
         self.undo.push(self.state_of(now, state.tool));
@@ -305,13 +293,13 @@ impl Editor {
         signal
     }
 
-    /// Another signal takes the place of this one, which can be had back.
+    /// Adds an undo step for a signal that another one has replaced.
     pub(super) fn replaced(&mut self, before: &Arc<BenchSignal>) {
         self.push_step(before, strings::REPLACING);
         (self.painted, self.last_touch) = (None, None);
     }
 
-    /// Nothing is there any more: what was done is past.
+    /// Discards all steps, because there is no signal any more.
     pub(super) fn forget(&mut self) {
         (self.painted, self.last_touch) = (None, None);
         self.undo.clear();
@@ -322,20 +310,20 @@ impl Editor {
 #[cfg(test)]
 mod tests {
     use super::{Editor, Tool};
-    use crate::signals::bench_signal::BenchSignal;
-    use crate::signals::bench_signal::tests::tone;
-    use shagreen_core::spatial_spectrogram::edit::Region;
-    use shagreen_core::spectrum::rms;
+    use crate::state::bench_signal::BenchSignal;
+    use crate::state::bench_signal::tests::tone;
+    use shagreen_core::dsp::spectrum::rms;
+    use shagreen_core::signals::spatial_spectrogram::edit::Region;
     use std::sync::Arc;
 
     const WINDOW_M: f64 = 5e-3;
 
-    /// 100 Hz at 100 mm/s: a wave of 1 mm on 100 mm.
+    /// 100 Hz at 100 mm/s: a wavelength of 1 mm, 100 mm long.
     fn signal() -> Arc<BenchSignal> {
         Arc::new(tone(100.0, 2000.0, 1.0))
     }
 
-    /// The level between two places in mm.
+    /// RMS level between two positions in mm.
     fn level(signal: &BenchSignal, from_mm: f64, to_mm: f64) -> f64 {
         let at = |mm: f64| (1e-3 * mm / signal.profile.step_m()) as usize;
         rms(&signal.profile.values()[at(from_mm)..at(to_mm)])
@@ -355,19 +343,19 @@ mod tests {
         assert!(level(&now, 20.0, 30.0) > 1.8 * level(&first, 20.0, 30.0));
         let far = level(&now, 60.0, 90.0) / level(&first, 60.0, 90.0);
         assert!((far - 1.0).abs() < 1e-9, "{far}");
-        assert!(now.name.contains("painted") && editor.labels()[0].is_some());
+        assert!(now.name.contains("edited") && editor.labels()[0].is_some());
         let back = editor.undo(&now).unwrap();
         assert!(Arc::ptr_eq(&back, &first) && editor.labels()[0].is_none());
         let again = editor.redo(&back).unwrap();
         assert!(Arc::ptr_eq(&again, &now) && editor.redo(&again).is_none());
-        // A brush that makes softer takes it away again, nearly.
+        // A brush with the opposite gain nearly removes it again.
         editor.tool = Tool::Softer;
         let soft = editor.brush_at(&again, WINDOW_M, (0.025, 1000.0)).unwrap().unwrap();
         assert!(level(&soft, 23.0, 27.0) < level(&again, 23.0, 27.0));
         assert!(editor.labels()[1].is_none(), "what was done anew cannot be made again");
     }
 
-    /// However many reports a stroke has, it does the same.
+    /// The result of a stroke does not depend on the number of pointer reports.
     #[test]
     fn a_brush_does_not_depend_on_how_often_it_is_told_where_it_is() {
         let drawn = |n: i32| {
@@ -415,7 +403,7 @@ mod tests {
                 Err(reason) => break reason,
             }
         };
-        assert!(refused.contains("times at most"), "{refused}");
+        assert!(refused.contains("can be stretched by at most"), "{refused}");
         assert_eq!(editor.labels()[0], Some(crate::strings::signals::STRETCHING));
         editor.forget();
         assert!(editor.undo(&now).is_none());

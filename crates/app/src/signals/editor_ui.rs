@@ -1,25 +1,23 @@
-//! The tools of the editor.
+//! Tools of the editor.
 
 use egui::{Button, DragValue, Label, RichText, Ui};
-use shagreen_core::spatial_spectrogram::edit::STRETCHES;
+use shagreen_core::signals::spatial_spectrogram::edit::STRETCHES;
 
-use super::editor::{Editor, GAINS_DB, RADII_MM, RADII_OCTAVES, Tool};
+use super::editor::{Editor, GAINS_DB, RADII_MM, RADII_OCTAVES};
 use super::number_ui::number_ui;
+use crate::choices::signals::Tool;
+use crate::look::theme::{GROUP_GAP, tokens};
 use crate::strings::signals as strings;
-use crate::theme::{GROUP_GAP, tokens};
 
-/// What was asked of the tools.
+/// Action requested from the tools.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Asked {
-    /// Draw the signal out.
     Stretch,
-    /// Take the last change back.
     Undo,
-    /// Make it again.
     Redo,
 }
 
-/// Draws the tools; returns what is to be done, where one of them acts at once.
+/// Draws the tools; returns an action that is performed at once.
 pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
     let t = tokens(ui.ctx());
     let mut asked = None;
@@ -36,7 +34,7 @@ pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
             }
         }
         ui.add_space(GROUP_GAP);
-        // What is beside them stays where it is, whichever tool it is.
+        // Shown with every tool, so that the controls beside them do not move.
         ui.add_enabled_ui(editor.tool.is_brush(), |ui| {
             let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05);
             let width = width.prefix("± ").suffix(" mm");

@@ -1,23 +1,23 @@
-//! The features of a pair as bars.
+//! Bars for the features of a pair of signals.
 
 use std::sync::Arc;
 
 use egui::{Align2, Color32, FontId, Grid, Label, Rect, RichText, Sense, Ui, pos2, vec2};
-use shagreen_core::quality::Feature;
+use shagreen_core::signals::quality::Feature;
 use shagreen_formats::figure::{Figure, Table};
 
 use super::analysis::Compared;
-use super::slot::Slot;
 use super::slot_ui::slot_color;
+use crate::choices::signals::Slot;
 use crate::command::Command;
 use crate::figure_ui::figure_head_ui;
+use crate::look::theme::{GAP, tokens};
 use crate::strings::signals as strings;
-use crate::theme::{GAP, tokens};
 
 /// Size of a bar, in points.
 const BAR: (f32, f32) = (74.0, 16.0);
 
-/// Draws the features of both signals, their distances, and what each adds to the predicted d'.
+/// Draws the features of both signals, their distances, and the contribution of each distance to the predicted d'.
 pub(super) fn features_ui(ui: &mut Ui, compared: &Compared, figure: &Arc<Figure>) -> Option<Command> {
     let t = tokens(ui.ctx());
     let save = figure_head_ui(ui, figure, "features");
@@ -62,7 +62,7 @@ fn row_ui(ui: &mut Ui, feature: Feature, row: &(String, Vec<Option<f64>>), table
     bar(ui, &table.shown(part), part.map(|part| (part / most) as f32), t.text_weak);
 }
 
-/// What the bar of a feature goes from and to; `None` for those that are only compared.
+/// Range of the bar of a feature; `None` for features that are only compared.
 fn range_of(feature: Feature) -> Option<(f64, f64)> {
     match feature {
         Feature::Roughness => Some((-5.0, 2.0)),
@@ -73,7 +73,7 @@ fn range_of(feature: Feature) -> Option<(f64, f64)> {
     }
 }
 
-/// A number over a bar of a share of the room.
+/// Draws a number over a bar that fills `share` of its width.
 fn bar(ui: &mut Ui, number: &str, share: Option<f32>, color: Color32) {
     let t = tokens(ui.ctx());
     let (area, _) = ui.allocate_exact_size(vec2(BAR.0, BAR.1), Sense::hover());

@@ -1,28 +1,28 @@
-//! What the bench shows, each as a figure: what is drawn in the window and what is saved is one and the same.
+//! Figures of the Signals workspace. The window draws and saves the same figure.
 
-use shagreen_core::quality::Feature;
-use shagreen_core::spatial_spectrogram::{Frames, Framing, ProfileFidelity, Transform};
+use shagreen_core::signals::quality::Feature;
+use shagreen_core::signals::spatial_spectrogram::{Frames, Framing, ProfileFidelity, Transform};
 use shagreen_core::units::Hertz;
 use shagreen_formats::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone};
 
 use super::analysis::{ByRate, Compared};
-use super::bench_signal::BenchSignal;
+use crate::state::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
 
-/// Samples of a window of the spectrogram, at [`TIME_RATE`]: 64 ms.
+/// Samples of a spectrogram window at [`TIME_RATE`]: 64 ms.
 const TIME_WINDOW: usize = 128;
-/// Rate at which a spectrogram over time is taken: half of it is as high as a hand feels.
+/// Sample rate of a spectrogram over time. Half of it is the highest frequency that can be felt.
 const TIME_RATE: Hertz = Hertz(2000.0);
-/// Highest frequency that is shown, in Hz.
+/// Highest frequency shown, in Hz.
 const SHOWN_HZ: f64 = 1000.0;
-/// Range of the colors, in dB below the highest level of both signals.
+/// Color range, in dB below the highest level of both signals.
 const RANGE_DB: f64 = 60.0;
-/// Most columns and rows of a map: more cannot be told apart on a screen.
+/// Maximum number of columns and rows of a map: more are indistinguishable on a screen.
 const MAX_CELLS: (usize, usize) = (480, 192);
-/// Lowest level that colors begin at, in dB re 1 m/s²: what is below can never be felt.
+/// Lowest level, in dB re 1 m/s²: levels below it can never be felt.
 const LEAST_DB: f64 = -80.0;
 
-/// Amplitudes over two axes, in dB re 1 m/s²: before the range of colors is known, which several share.
+/// Amplitudes over two axes, in dB re 1 m/s². The color range is chosen later, because several maps share it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Levels {
     x: (f64, f64),
@@ -31,7 +31,7 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    /// Amplitudes of a signal over time in s and frequency in Hz; `None` where it is shorter than two samples.
+    /// Amplitudes of a signal over time in s and frequency in Hz; `None` if it is shorter than two samples.
     pub(super) fn over_time(signal: &BenchSignal) -> Option<Self> {
         let framing = Framing::new(TIME_WINDOW).ok()?.with_hop(TIME_WINDOW / 4).ok()?;
         let power = Transform::new(framing).power(&signal.at(TIME_RATE)).ok()?;
@@ -42,8 +42,8 @@ impl Levels {
         Some(Self { x: (secs(x.0), secs(x.1)), y: edges(step_hz, n_bins), rows })
     }
 
-    /// Amplitudes over the places that are shown, in mm, and spatial frequencies in 1/mm, up to those that are too fast to be
-    /// felt, of the power of a signal's windows.
+    /// Amplitudes over the shown positions in mm and spatial frequencies in 1/mm, from the power in the windows of a
+    /// signal. At the speed of the signal, frequencies extend to [`SHOWN_HZ`]; higher ones are too fast to be felt.
     pub(super) fn over_places(power: &Frames<f64>, signal: &BenchSignal, shown_mm: (f64, f64)) -> Self {
         let step_mm = 1e3 * signal.profile.step_m();
         let step_per_mm = 1.0 / (power.framing().window() as f64 * step_mm);
@@ -53,14 +53,14 @@ impl Levels {
         Self { x: (step_mm * x.0, step_mm * x.1), y: edges(step_per_mm, n_bins), rows }
     }
 
-    /// The highest level, in dB re 1 m/s².
+    /// Highest level, in dB re 1 m/s².
     pub(super) fn highest_db(&self) -> f64 {
         self.rows.iter().flatten().copied().fold(LEAST_DB, f64::max)
     }
 
-    /// The map, with colors up to a level.
+    /// Map with a color range that ends at `highest_db`.
     pub(super) fn figure(self, title: String, axes: [&str; 2], highest_db: f64) -> Figure {
-        // Whole tens, so that both sides of a comparison keep their colors while one is changed a little.
+        // Rounded up to whole tens, so that both maps keep their colors when one signal changes a little.
         let top = (highest_db / 10.0).ceil() * 10.0;
         Figure::Map(Map {
             title,
@@ -77,41 +77,42 @@ impl Levels {
     }
 }
 
-/// How many frequencies there are up to one, so many apart; some at least.
+/// Number of frequencies with spacing `step` up to `highest`, at least two.
 fn n_bins_to(highest: f64, step: f64, power: &Frames<f64>) -> usize {
     let n_bins = power.framing().n_bins();
     ((highest / step).ceil() as usize + 1).clamp(2, n_bins)
 }
 
-/// The edges of the lowest frequencies, so many apart: each lies in the middle of its cell.
+/// Lower and upper edge of the lowest frequencies with spacing `step`. Each frequency is the center of its cell.
 fn edges(step: f64, n_bins: usize) -> (f64, f64) {
     (-0.5 * step, (n_bins as f64 - 0.5) * step)
 }
 
-/// Levels in dB of the windows whose middles lie between two samples, at the lowest frequencies, in no more cells than can be
-/// seen; and where the first cell begins and the last ends, in samples.
+/// Levels in dB of the windows centered between two samples, at the lowest frequencies, in at most [`MAX_CELLS`]. Also
+/// returns the begin of the first cell and the end of the last one, in samples.
 fn cells(power: &Frames<f64>, (first, last): (f64, f64), n_bins: usize) -> ((f64, f64), Vec<Vec<f64>>) {
     let framing = power.framing();
     let hop = framing.hop() as f64;
-    // The window that is nearest to a place, of those whose middle is inside: others show what is inside once more.
+    // Window nearest to a position, among those whose center is inside the signal. Other windows would repeat its
+    // content.
     let begin = ((0.0 - framing.center(0)) / hop).ceil().max(0.0);
     let end = (power.n_frames() - 1) as f64;
     let frame =
         |sample: f64| ((sample - framing.center(0)) / hop).round().clamp(begin.min(end), end) as usize;
     let (from, to) = (frame(first), frame(last));
     let (n_columns, n_rows) = ((to - from + 1).min(MAX_CELLS.0), n_bins.min(MAX_CELLS.1));
-    // A wave of amplitude one has a bin of Σ w / 2 = N / 4.
+    // A wave of amplitude 1 has a bin of magnitude Σ w / 2 = N / 4.
     let unit = (4.0 / framing.window() as f64).powi(2);
     let mut rows = vec![vec![LEAST_DB; n_columns]; n_rows];
     for (i, frame) in power.frames().skip(from).take(to - from + 1).enumerate() {
         let column = i * n_columns / (to - from + 1);
         for (j, power) in frame[..n_bins].iter().enumerate() {
             let cell = &mut rows[j * n_rows / n_bins][column];
-            // The highest of all that share a cell: what is narrow stays seen.
+            // The highest level in a cell, so that narrow components remain visible.
             *cell = cell.max(10.0 * (unit * power).log10());
         }
     }
-    // Each window lies in the middle of what it stands for.
+    // Each window is the center of its cell.
     ((framing.center(from) - 0.5 * hop, framing.center(to) + 0.5 * hop), rows)
 }
 
@@ -119,7 +120,7 @@ fn line(name: &str, tone: Tone, mark: Mark, points: Vec<Point>) -> Series {
     Series { name: name.to_owned(), mark, tone, points }
 }
 
-/// What windows of each width keep of the signals, and where the window that is looked through lies.
+/// Fidelity of the spatial spectrogram for each window length, with the current window length marked.
 pub(super) fn fidelity_figure(of: &[(Tone, &str, &[ProfileFidelity])], window_m: f64) -> Figure {
     let points = |of: &[ProfileFidelity], value: fn(&ProfileFidelity) -> f64| {
         of.iter().map(|at| Point::new(1e3 * at.window_m, value(at).max(0.0))).collect()
@@ -147,7 +148,7 @@ pub(super) fn fidelity_figure(of: &[(Tone, &str, &[ProfileFidelity])], window_m:
     })
 }
 
-/// Predicted d' of the signals against what the codec leaves of them at each rate.
+/// Predicted d' between the signals and their coded versions, for each bit rate.
 pub(super) fn rates_figure(of: &[(Tone, &str, &ByRate)]) -> Figure {
     let told = vec![Point::new(1.6, 1.0), Point::new(3.3, 1.0)];
     let mut series = vec![line(strings::TOLD_APART, Tone::Limit, Mark::Line, told)];
@@ -171,7 +172,7 @@ pub(super) fn rates_figure(of: &[(Tone, &str, &ByRate)]) -> Figure {
     })
 }
 
-/// All features of a pair, as numbers.
+/// Table with all features of a pair of signals.
 pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
     let own = |feature, i: usize| {
         let of = &compared.features[i];
@@ -202,11 +203,11 @@ pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
 mod tests {
     use super::{Levels, rates_figure};
     use crate::signals::analysis::AtRate;
-    use crate::signals::bench_signal::tests::tone;
-    use shagreen_core::spatial_spectrogram::{Framing, Transform};
+    use crate::state::bench_signal::tests::tone;
+    use shagreen_core::signals::spatial_spectrogram::{Framing, Transform};
     use shagreen_formats::figure::{Figure, Tone};
 
-    /// The middle of the cell with the highest value.
+    /// Center of the cell with the highest value.
     fn loudest(figure: &Figure) -> (f64, f64) {
         let Figure::Map(map) = figure else { panic!("no map") };
         let (x, y, _) = map.cells().max_by(|a, b| a.2.total_cmp(&b.2)).unwrap();
@@ -215,13 +216,13 @@ mod tests {
 
     #[test]
     fn a_tone_of_one_is_zero_decibels_at_its_frequency() {
-        // The sixteenth of frequencies 15.6 Hz apart.
+        // Frequency number 16, at a spacing of 15.6 Hz.
         let signal = tone(250.0, 4000.0, 2.0);
         let levels = Levels::over_time(&signal).unwrap();
         assert!(levels.highest_db().abs() < 0.1, "{}", levels.highest_db());
         let figure = levels.figure(String::new(), ["", ""], 0.0);
         assert!((loudest(&figure).1 - 250.0).abs() < 1e-9, "{:?}", loudest(&figure));
-        // At 100 mm/s 260 Hz are 2.6 waves in a mm, which is the thirteenth frequency of windows of 5 mm.
+        // At 100 mm/s, 260 Hz are 2.6 waves per mm: frequency number 13 of windows of 5 mm.
         let signal = tone(260.0, 4000.0, 2.0);
         let transform = Transform::new(Framing::of_length(5e-3, signal.profile.step_m()));
         let power = transform.power(signal.profile.values()).unwrap();
@@ -230,7 +231,7 @@ mod tests {
         let (x, y) = loudest(&figure);
         assert!((17.0..63.0).contains(&x) && (y - 2.6).abs() < 1e-9, "{x} {y}");
         let Figure::Map(map) = figure else { panic!("no map") };
-        // Windows are 2.5 mm apart, and their middles lie in the middle of their cells.
+        // Windows are 2.5 mm apart, and each is the center of its cell.
         assert!((map.x.0 - 18.75).abs() < 1e-9 && (map.x.1 - 61.25).abs() < 1e-9, "{:?}", map.x);
     }
 

@@ -1,19 +1,19 @@
-//! What is known of signals: worked out by a thread, and of no other signals than those that are asked about.
+//! Results about signals, computed on a background thread only for the signals that are currently shown.
 
 use std::sync::Arc;
 
 use egui::Context;
 
-use super::bench_signal::BenchSignal;
-use crate::background::{BrokenOff, Newest};
+use crate::state::background::{BrokenOff, Newest};
+use crate::state::bench_signal::BenchSignal;
 
-/// What came of a question.
+/// Result of one computation.
 struct Answer<T, const N: usize> {
     of: [Arc<BenchSignal>; N],
     value: Result<T, BrokenOff>,
 }
 
-/// What was worked out of signals, `N` at a time.
+/// Last result about `N` signals.
 pub(super) struct Known<T, const N: usize> {
     answer: Option<Answer<T, N>>,
     asking: Newest<([Arc<BenchSignal>; N], T)>,
@@ -27,7 +27,7 @@ impl<T, const N: usize> Default for Known<T, N> {
 }
 
 impl<T: Send + 'static, const N: usize> Known<T, N> {
-    /// Takes in what came, and asks about these signals where they are others than those that were asked about.
+    /// Takes over a finished computation, and starts one for these signals if there is none yet.
     pub(super) fn follow(
         &mut self,
         signals: [Arc<BenchSignal>; N],
@@ -42,7 +42,7 @@ impl<T: Send + 'static, const N: usize> Known<T, N> {
             None => {}
         }
         let is_asked = self.asked.as_ref().is_some_and(|asked| are_same(asked, &signals));
-        // One after the other: while somebody paints, what comes in between is not asked about at all.
+        // One computation at a time: while the user paints, the signals in between are skipped.
         if !is_asked && !self.asking.is_busy() && self.of(&signals).is_none() {
             self.asked = Some(signals.clone());
             self.asking.ask(ctx, move || {
@@ -52,7 +52,7 @@ impl<T: Send + 'static, const N: usize> Known<T, N> {
         }
     }
 
-    /// What came of these signals, once something has.
+    /// Result about these signals, once it is computed.
     pub(super) fn of(&self, signals: &[Arc<BenchSignal>; N]) -> Option<Result<&T, BrokenOff>> {
         let answer = self.answer.as_ref().filter(|answer| are_same(&answer.of, signals))?;
         Some(answer.value.as_ref().map_err(|broken| *broken))
@@ -66,8 +66,8 @@ fn are_same<const N: usize>(a: &[Arc<BenchSignal>; N], b: &[Arc<BenchSignal>; N]
 #[cfg(test)]
 mod tests {
     use super::Known;
-    use crate::background::BrokenOff;
-    use crate::signals::bench_signal::tests::tone;
+    use crate::state::background::BrokenOff;
+    use crate::state::bench_signal::tests::tone;
     use std::sync::Arc;
     use std::time::{Duration, Instant};
 

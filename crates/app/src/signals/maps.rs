@@ -1,33 +1,33 @@
-//! The maps of both signals: drawn anew where they are of something else than they were, in colors that both share.
+//! Maps of both signals in a common color range, computed again only when their input changes.
 
 use std::sync::Arc;
 
 use egui::{Label, RichText, Ui};
-use shagreen_core::spatial_spectrogram::Transform;
+use shagreen_core::signals::spatial_spectrogram::Transform;
 use shagreen_formats::figure::Figure;
 
-use super::bench_signal::BenchSignal;
 use super::figures::Levels;
-use super::page::View;
-use super::slot::Slot;
 use super::spatial_ui::ShownMm;
+use crate::choices::signals::Slot;
+use crate::choices::signals::View;
 use crate::command::Command;
 use crate::figure_ui::framed_figure_ui;
+use crate::look::theme::tokens;
+use crate::state::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
-use crate::theme::tokens;
 
-/// How signals are looked at.
+/// View settings of the maps.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Seen {
     pub(super) view: View,
-    /// The window that is looked through, over places.
+    /// Window length of the spatial spectrogram, in mm.
     pub(super) window_mm: f64,
-    /// The part that is shown of them.
+    /// Range of positions that is shown.
     pub(super) shown_mm: ShownMm,
 }
 
 impl Seen {
-    /// Without what says nothing in its view.
+    /// The settings without those that have no effect in their view.
     fn relevant(self) -> Self {
         match self.view {
             View::Places => self,
@@ -36,17 +36,16 @@ impl Seen {
     }
 }
 
-/// The levels of a signal, and what they were drawn of.
+/// Levels of a signal, and the input that they were computed from.
 struct Drawn {
     of: Arc<BenchSignal>,
     seen: Seen,
     levels: Result<Levels, String>,
 }
 
-/// A map, or why there is none.
+/// Map, or why there is none.
 pub(super) type MapFigure = Result<Arc<Figure>, String>;
 
-/// The maps of both signals.
 #[derive(Default)]
 pub(super) struct Maps {
     drawn: [Option<Drawn>; 2],
@@ -54,7 +53,7 @@ pub(super) struct Maps {
 }
 
 impl Maps {
-    /// Draws anew what is of something else than it was.
+    /// Computes the maps again whose input has changed.
     pub(super) fn follow(&mut self, signals: &[Option<Arc<BenchSignal>>; 2], seen: Seen) {
         let seen = seen.relevant();
         let mut is_new = false;
@@ -79,7 +78,7 @@ impl Maps {
         }
     }
 
-    /// The map of a signal; `None` where there is no signal.
+    /// Map of a signal; `None` if there is no signal.
     pub(super) fn map(&self, slot: Slot) -> Option<&MapFigure> {
         self.figures[slot.index()].as_ref()
     }
@@ -99,7 +98,7 @@ fn levels(signal: &BenchSignal, seen: Seen) -> Result<Levels, String> {
     if seen.view != View::Places {
         return Levels::over_time(signal).ok_or_else(|| strings::TOO_SHORT_TO_DRAW.to_owned());
     }
-    // Of the signal as it is: what was painted is what is wanted of it.
+    // From the signal itself: its spectra can differ from those that were painted.
     let transform = Transform::new(signal.framing(1e-3 * seen.window_mm));
     let power = transform.power(signal.profile.values()).map_err(|error| error.to_string())?;
     let length_mm = 1e3 * signal.profile.length_m();
@@ -108,7 +107,7 @@ fn levels(signal: &BenchSignal, seen: Seen) -> Result<Levels, String> {
     Ok(Levels::over_places(&power, signal, (from, to.min(length_mm))))
 }
 
-/// The map of a place, or why there is none.
+/// Draws the map of a slot, or why there is none.
 pub(super) fn map_ui(ui: &mut Ui, slot: Slot, map: Option<&MapFigure>, stem: &str) -> Option<Command> {
     let t = tokens(ui.ctx());
     match map {

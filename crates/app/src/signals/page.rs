@@ -1,54 +1,45 @@
-//! The page: two places at the left, what is known of them beside it.
+//! Page of the Signals workspace: the two slots on the left, the views of their signals beside them.
 
 mod views;
 
 use std::sync::Arc;
 
 use egui::{CentralPanel, ComboBox, Context, Frame, Label, Margin, Panel as Side, RichText, ScrollArea, Ui};
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::spatial_spectrogram::ProfileFidelity;
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::spatial_spectrogram::ProfileFidelity;
 
+use super::Remaking;
 use super::analysis::{AtRate, Compared, compare, remade, through_codec};
-use super::bench_signal::BenchSignal;
 use super::editor::Editor;
 use super::known::Known;
 use super::maps::Maps;
 use super::playing::Playing;
-use super::slot::{Place, Slot};
+use super::slot::Place;
 use super::slot_ui::{State, place_ui, remaking_ui};
 use super::spatial_ui::Spatial;
-use super::{FromA, Remaking, SignalsCommand};
-use crate::background::BrokenOff;
+use crate::choices::signals::FromA;
+use crate::choices::signals::Slot;
+use crate::choices::signals::View;
 use crate::command::Command;
-use crate::import::source::Source;
+use crate::command::signals::SignalsCommand;
+use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, tokens};
 use crate::panel::Panel;
+use crate::state::background::BrokenOff;
+use crate::state::bench_signal::BenchSignal;
+use crate::state::source::Source;
 use crate::strings::signals as strings;
-use crate::theme::{BUILD_INPUTS_WIDTH, GAP, tokens};
 
-/// Width of what stands there before there is a signal, in points.
+/// Width of the text shown before there is a signal, in points.
 const EMPTY_WIDTH: f32 = 560.0;
 
-/// What is shown beside the places.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
-    /// Frequencies over time.
-    #[default]
-    Times,
-    /// Spatial frequencies over places, and the editor.
-    Places,
-    /// How the two differ.
-    Differences,
-}
-
 impl View {
-    /// All of them, in the order of their tabs.
+    /// All views, in the order of their tabs.
     pub const ALL: [Self; 3] = [Self::Times, Self::Places, Self::Differences];
 }
 
-/// Both signals.
 type Pair = [Arc<BenchSignal>; 2];
 
-/// The state of the workspace.
+/// State of the Signals workspace.
 pub struct SignalsPage {
     places: [Place; 2],
     view: View,
@@ -56,11 +47,11 @@ pub struct SignalsPage {
     remaking: Remaking,
     editor: Editor,
     felt: Option<Slot>,
-    /// The texture whose noise and taps a relief is kept with, by its identifier.
+    /// Identifier of the texture whose noise, friction and taps are added when a signal is kept as a relief.
     over: Option<String>,
-    /// The name of the texture that was kept last.
+    /// Name of the last texture that was kept.
     last_kept: Option<String>,
-    /// Which signal is played as it was recorded.
+    /// Signal that is played at its own speed, regardless of the pen.
     playing: Option<Playing>,
     compared: Known<Result<Compared, String>, 2>,
     maps: Maps,
@@ -87,23 +78,25 @@ impl Default for SignalsPage {
 }
 
 impl SignalsPage {
-    /// The signal in a place.
+    /// Signal in a slot.
     pub fn signal(&self, slot: Slot) -> Option<&Arc<BenchSignal>> {
         self.places[slot.index()].signal()
     }
 
-    /// What the codec keeps of the signal in a place, once that is known; it is asked about where differences are shown.
+    /// Fidelity of the signal in a slot at each bit rate of the codec, once computed. It is only requested while
+    /// [`View::Differences`] is shown.
     pub fn by_rate(&self, slot: Slot) -> Option<Result<&[AtRate], &str>> {
         let by_rate = self.places[slot.index()].by_rate()?;
         Some(by_rate.as_ref().map(Vec::as_slice).map_err(String::as_str))
     }
 
-    /// What windows of each width keep of the signal in a place, once that is known; it is asked about where places are shown.
+    /// Fidelity of the spatial spectrogram for each window length, once computed. It is only requested while
+    /// [`View::Places`] is shown.
     pub fn by_window(&self, slot: Slot) -> Option<&[ProfileFidelity]> {
         self.places[slot.index()].by_window()
     }
 
-    /// How the two differ, once that is known; it is asked about where differences are shown.
+    /// Difference between both signals, once computed. It is only requested while [`View::Differences`] is shown.
     pub fn compared(&self) -> Option<Result<&Compared, &str>> {
         Some(match self.compared.of(&self.pair()?)? {
             Ok(compared) => compared.as_ref().map_err(String::as_str),
@@ -111,22 +104,22 @@ impl SignalsPage {
         })
     }
 
-    /// Why what was tried last for a place came to nothing.
+    /// Why the last request for a slot failed.
     pub fn failure(&self, slot: Slot) -> Option<&str> {
         self.places[slot.index()].failure.as_deref()
     }
 
-    /// Which signal the pen feels.
+    /// Slot of the signal that the pen feels.
     pub fn felt(&self) -> Option<Slot> {
         self.felt
     }
 
-    /// What the pen feels.
+    /// Signal that the pen feels.
     pub(crate) fn felt_signal(&self) -> Option<&Arc<BenchSignal>> {
         self.signal(self.felt?)
     }
 
-    /// The window that is looked through, in m.
+    /// Window length of the spatial spectrogram, in m.
     fn window_m(&self) -> f64 {
         1e-3 * self.window_mm
     }
@@ -135,7 +128,7 @@ impl SignalsPage {
         Some([Arc::clone(self.signal(Slot::A)?), Arc::clone(self.signal(Slot::B)?)])
     }
 
-    /// Takes in what the workers have done, and sets them to what is shown next.
+    /// Takes over the results of the workers, and requests what is to be shown next.
     pub fn collect(&mut self, ctx: &Context) {
         for slot in Slot::ALL {
             let before = self.signal(slot).map(Arc::clone);
@@ -158,7 +151,7 @@ impl SignalsPage {
         }
     }
 
-    /// Another signal lies in B: the one before can be had back.
+    /// Adds an undo step for the previous signal in B; without one, discards all steps.
     fn note_replaced(&mut self, before: Option<&Arc<BenchSignal>>) {
         match before {
             Some(before) => self.editor.replaced(before),
@@ -166,14 +159,14 @@ impl SignalsPage {
         }
     }
 
-    /// Reads a file into a place.
+    /// Reads a file into a slot.
     pub(crate) fn read(&mut self, slot: Slot, source: Source, ctx: &Context) {
         let place = &mut self.places[slot.index()];
         source.path().display().to_string().clone_into(&mut place.path);
         place.read(source, ctx);
     }
 
-    /// Reads one file into the place that is free, or else into B; of several the first two into both.
+    /// Reads one file into the slot that is empty, or else into B. Of several files, the first two go into A and B.
     pub(crate) fn read_all(&mut self, sources: Vec<Source>, ctx: &Context) {
         let is_free = |slot: &Slot| self.signal(*slot).is_none();
         let mut wanted: Vec<Slot> = Slot::ALL.into_iter().filter(is_free).collect();
@@ -186,7 +179,7 @@ impl SignalsPage {
         }
     }
 
-    /// Has a signal made for a place.
+    /// Makes a signal for a slot in the background.
     pub(crate) fn make(
         &mut self,
         slot: Slot,
@@ -196,17 +189,17 @@ impl SignalsPage {
         self.places[slot.index()].make(ctx, work);
     }
 
-    /// Says why nothing came to a place.
+    /// Shows why a request for a slot failed.
     pub(crate) fn say(&mut self, slot: Slot, reason: String) {
         self.places[slot.index()].failure = Some(reason);
     }
 
-    /// Lets the pen feel a signal, or what is authored.
+    /// Lets the pen feel the signal in a slot; `None` lets it feel the authored texture.
     pub(crate) fn feel(&mut self, slot: Option<Slot>) {
         self.felt = slot.filter(|slot| self.signal(*slot).is_some());
     }
 
-    /// Makes B of A.
+    /// Makes signal B from A.
     pub(crate) fn make_b(&mut self, how: FromA, ctx: &Context) {
         let Some(first) = self.signal(Slot::A).map(Arc::clone) else { return };
         let (Remaking { rate, n_steps }, window_m) = (self.remaking, self.window_m());
@@ -221,41 +214,41 @@ impl SignalsPage {
         }
     }
 
-    /// What is to be kept as a texture: the signal, and the identifier of the texture that it lies over.
+    /// Signal to be kept as a texture, and the identifier of the texture that is added to the relief.
     pub(crate) fn kept(&self, slot: Slot) -> Option<(Arc<BenchSignal>, Option<String>)> {
         Some((Arc::clone(self.signal(slot)?), self.over.clone()))
     }
 
-    /// A texture of this name was kept.
+    /// Stores the name of a texture that was kept.
     pub(crate) fn note_kept(&mut self, name: &str) {
         self.last_kept = Some(name.to_owned());
     }
 
-    /// A signal is on its way to the output.
+    /// Remembers that a signal was sent to the output.
     pub(crate) fn note_playing(&mut self, slot: Slot) {
         self.playing = Some(Playing::new(slot));
     }
 
-    /// What painting could take back or make again.
+    /// Names of the next undo step and of the next redo step of the editor.
     pub(crate) fn painting_labels(&self) -> [Option<&'static str>; 2] {
         self.editor.labels()
     }
 
-    /// Takes the last change of B back.
+    /// Undoes the last change of B.
     pub(crate) fn undo(&mut self) {
         if let Some(then) = self.signal(Slot::B).map(Arc::clone).and_then(|now| self.editor.undo(&now)) {
             self.places[Slot::B.index()].put(then);
         }
     }
 
-    /// Makes it again.
+    /// Redoes the change of B that was undone last.
     pub(crate) fn redo(&mut self) {
         if let Some(then) = self.signal(Slot::B).map(Arc::clone).and_then(|now| self.editor.redo(&now)) {
             self.places[Slot::B.index()].put(then);
         }
     }
 
-    /// What painting made of B is there, and felt at once.
+    /// Puts an edited signal into B, where the pen feels it at once.
     fn take_painted(&mut self, painted: Result<Option<Arc<BenchSignal>>, String>) {
         match painted {
             Ok(Some(signal)) => {
@@ -267,7 +260,7 @@ impl SignalsPage {
         }
     }
 
-    /// Draws the page and returns what the user asked of the rest.
+    /// Draws the page; returns the requested commands.
     pub(crate) fn show(&mut self, ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         let mut commands = Vec::new();
         let t = tokens(ui.ctx());
@@ -318,7 +311,7 @@ impl SignalsPage {
         });
     }
 
-    /// A signal becomes a texture.
+    /// Draws the section that keeps a signal as a texture.
     fn keep_ui(&mut self, ui: &mut Ui, panel: &Panel<'_>, commands: &mut Vec<Command>) {
         let t = tokens(ui.ctx());
         let textures = panel.session.textures();
@@ -341,7 +334,7 @@ impl SignalsPage {
             let combo = ComboBox::from_id_salt("over").width(ui.available_width() - 8.0).truncate();
             let combo = combo.selected_text(shown).show_ui(ui, |ui| {
                 ui.selectable_value(&mut self.over, None, strings::NOTHING);
-                // One that changes along a path is played by its own textures.
+                // A texture that changes along a path is left out, because its own textures play it.
                 for texture in textures.iter().filter(|texture| texture.path.is_none()) {
                     ui.selectable_value(&mut self.over, Some(texture.id.clone()), &texture.name);
                 }
@@ -355,7 +348,7 @@ impl SignalsPage {
     }
 }
 
-/// What stands there before there is a signal.
+/// Draws the text shown before there is a signal.
 fn empty_ui(ui: &mut Ui) {
     let t = tokens(ui.ctx());
     ui.add_space(0.08 * ui.available_height());

@@ -1,32 +1,31 @@
-//! Which signal is played as it was recorded, as far as the output tells.
+//! Tracks which signal is being played at its own speed, as far as the output reports it.
 
-use super::slot::Slot;
+use crate::choices::signals::Slot;
 
-/// Frames in which an output says that it plays, or never will.
+/// Number of frames within which an output reports that it plays a signal.
 const PATIENCE_FRAMES: u32 = 60;
 
-/// A signal that is played as it was recorded.
+/// Signal that is played at its own speed.
 #[derive(Clone, Copy)]
 pub(super) struct Playing {
     slot: Slot,
-    /// Whether the output said so.
+    /// Whether the output has reported it.
     was_seen: bool,
-    /// How long it may take to.
+    /// Number of frames left for that report.
     frames_left: u32,
 }
 
 impl Playing {
-    /// A signal that is on its way to the output.
+    /// Signal that was just sent to the output.
     pub(super) fn new(slot: Slot) -> Self {
         Self { slot, was_seen: false, frames_left: PATIENCE_FRAMES }
     }
 
-    /// Which signal it is.
     pub(super) fn slot(self) -> Slot {
         self.slot
     }
 
-    /// A frame later; `None` once it is over. An output tells that it plays a block later than it was asked.
+    /// State one frame later; `None` once playing has ended. An output reports a signal one block after the request.
     pub(super) fn followed(self, plays_signal: bool) -> Option<Self> {
         let was_seen = self.was_seen || plays_signal;
         let frames_left = self.frames_left.saturating_sub(1);

@@ -1,40 +1,40 @@
-//! Files that become signals of the bench: recordings, profiles, and rows of photos or height maps.
+//! Files that become signals: recordings, profiles, and rows of photos or height maps.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use shagreen_core::profile::Profile;
-use shagreen_core::relief::Relief;
+use shagreen_core::texture::profile::Profile;
+use shagreen_core::texture::relief::Relief;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 use shagreen_formats::imported::Imported;
 use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
 use shagreen_formats::signal::{SignalHints, read_signal};
 
-use super::bench_signal::{BenchSignal, cut};
-use crate::import::source::Source;
-use crate::import::worker::sidecar_of;
+use crate::state::bench_signal::{BenchSignal, cut};
+use crate::state::source::Source;
+use crate::state::source::sidecar_of;
 use crate::strings::signals as strings;
 
 /// Endings of the names of files that become signals.
 pub(crate) const SIGNAL_ENDINGS: [&str; 5] = ["wav", "csv", "png", "jpg", "jpeg"];
 
-/// What a file does not say of itself.
+/// Information that a file does not contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Terms {
-    /// How fast a recording was stroked, or how fast a line is to be.
+    /// Tip speed of a recording, or the speed at which a profile is to be stroked.
     pub(crate) speed: MetersPerSecond,
-    /// How hard.
+    /// Normal force.
     pub(crate) force: Newtons,
-    /// Of a recording that does not say it: what a sample of 1.0 is, in m/s².
+    /// Of a recording without this information: acceleration of a sample of 1.0, in m/s².
     pub(crate) full_scale_mps2: Option<f64>,
-    /// Of a recording of several channels: the one that is the signal, from 0; `None` takes all for its axes.
+    /// Of a recording with several channels: the channel to use, from 0. `None` combines all channels as axes.
     pub(crate) channel: Option<usize>,
-    /// Of a line without a unit: the root mean square that it gets, in m/s².
+    /// Of a profile without a unit: its RMS level, in m/s².
     pub(crate) level_mps2: f64,
-    /// Of a picture: how much surface its width shows, in mm.
+    /// Of a picture: width of the surface that it shows, in mm.
     pub(crate) width_mm: f64,
-    /// Of a picture: the row from its upper edge; `None` is the one in the middle.
+    /// Of a picture: its row, counted from the upper edge. `None` is the middle row.
     pub(crate) row: Option<u32>,
 }
 
@@ -52,33 +52,31 @@ impl Default for Terms {
     }
 }
 
-/// What a file turned out to be, which decides on what has to be asked.
+/// Detected type of a file, which determines the information to ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FileKind {
     /// Samples in m/s².
     Recording,
-    /// Values over places, without a unit.
+    /// Values over position, without a unit.
     Profile,
     /// A photo or a height map.
     Picture,
 }
 
-/// A file as it was read: changed terms need no second look at the disk.
+/// File content in memory, so that changed information does not require reading the file again.
 #[derive(Clone, Debug)]
 pub(crate) struct BenchFile {
-    /// Its name.
     pub(crate) name: String,
-    /// What it is.
     pub(crate) kind: FileKind,
     bytes: Vec<u8>,
     sidecar: Option<Arc<[u8]>>,
 }
 
 impl BenchFile {
-    /// Reads a file, with the one beside it that says what its samples are.
+    /// Reads a file, and the sidecar file that describes its samples.
     ///
     /// # Errors
-    /// In words: it cannot be read.
+    /// A sentence: the file cannot be read.
     pub(super) fn read(source: &Source) -> Result<Self, String> {
         let (name, bytes) = (source.name(), source.bytes()?);
         let kind = if is_picture(&bytes) {
@@ -92,10 +90,10 @@ impl BenchFile {
         Ok(Self { name, kind, bytes, sidecar })
     }
 
-    /// The signal in it, on these terms.
+    /// Returns the signal in the file, interpreted with `terms`.
     ///
     /// # Errors
-    /// In words: what is in the file is no signal.
+    /// A sentence: the file does not contain a signal.
     pub(super) fn signal(&self, terms: &Terms) -> Result<Imported<BenchSignal>, String> {
         let name = without_ending(&self.name);
         match self.kind {
@@ -129,7 +127,7 @@ impl BenchFile {
     }
 }
 
-/// A line without a unit, at the level that it is to have.
+/// Profile without a unit, scaled to the level in `terms`.
 fn leveled(name: &str, profile: &Profile, terms: &Terms) -> Result<Imported<BenchSignal>, String> {
     let Imported { value: profile, warnings } = cut(profile, terms.speed)?;
     let relief = Relief::of_level(&profile, terms.level_mps2, terms.force);
@@ -145,7 +143,7 @@ fn without_ending(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{BenchFile, FileKind, Terms};
-    use crate::import::source::Source;
+    use crate::state::source::Source;
     use shagreen_core::units::MetersPerSecond;
     use shagreen_formats::wav::{SidecarV1, write_wav};
 
@@ -191,7 +189,7 @@ mod tests {
         let made = picture.signal(&terms).unwrap().value;
         assert!((made.profile.length_m() - 0.03).abs() < 1e-9 && made.profile.values().len() == 64);
         assert!((made.level_mps2() - 2.0).abs() < 1e-9);
-        for (row, expected) in [(Some(4), "rows 0 to 3"), (Some(0), "the same everywhere")] {
+        for (row, expected) in [(Some(4), "rows 0 to 3"), (Some(0), "the profile is constant")] {
             let reason = picture.signal(&Terms { row, ..terms }).unwrap_err();
             assert!(reason.contains(expected), "{reason}");
         }

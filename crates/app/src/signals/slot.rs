@@ -1,33 +1,24 @@
-//! One of the two places for signals: what lies there, where it came from, and what is being made for it.
+//! One of the two slots for signals: its signal, the file of that signal, and the background job for the slot.
 
 use std::sync::Arc;
 
 use egui::Context;
-use shagreen_core::spatial_spectrogram::ProfileFidelity;
+use shagreen_core::signals::spatial_spectrogram::ProfileFidelity;
 use shagreen_formats::imported::Imported;
 
 use super::analysis::{ByRate, by_rate, by_window};
-use super::bench_signal::BenchSignal;
 use super::known::Known;
 use super::reading::{BenchFile, Terms};
-use crate::background::{BrokenOff, Newest};
-use crate::import::source::Source;
+use crate::choices::signals::Slot;
+use crate::state::background::{BrokenOff, Newest};
+use crate::state::bench_signal::BenchSignal;
+use crate::state::source::Source;
 use crate::strings::signals as strings;
 
-/// Which place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slot {
-    /// The signal as it should be.
-    A,
-    /// What is compared with it, made of it, or painted.
-    B,
-}
-
 impl Slot {
-    /// Both, in their order.
+    /// Both slots, in their order.
     pub const ALL: [Self; 2] = [Self::A, Self::B];
 
-    /// Where it is in a list of both.
     pub(super) fn index(self) -> usize {
         match self {
             Self::A => 0,
@@ -35,7 +26,7 @@ impl Slot {
         }
     }
 
-    /// Its letter.
+    /// Letter of the slot.
     pub fn name(self) -> &'static str {
         match self {
             Self::A => "A",
@@ -44,67 +35,66 @@ impl Slot {
     }
 }
 
-/// What a worker came to.
+/// Result of a worker.
 pub(super) struct Made {
-    /// The file that it was read from, if it was.
+    /// File that the signal was read from, if any.
     file: Option<Arc<BenchFile>>,
     signal: Result<Imported<BenchSignal>, String>,
 }
 
-/// A place and what lies there.
+/// Slot and its signal.
 #[derive(Default)]
 pub(super) struct Place {
-    /// What is written in the field for a path.
+    /// Text in the path field.
     pub(super) path: String,
-    /// What the file does not say of itself.
+    /// Information that the file does not contain.
     pub(super) terms: Terms,
     file: Option<Arc<BenchFile>>,
     signal: Option<Arc<BenchSignal>>,
-    /// What is odd about it, in sentences.
+    /// Warnings about the signal, in sentences.
     pub(super) warnings: Vec<String>,
-    /// Why what was tried last came to nothing: what was there stays.
+    /// Why the last request failed. The previous signal is kept.
     pub(super) failure: Option<String>,
     making: Newest<Made>,
-    /// Whether what is being made is of a file that was not read before.
+    /// Whether a new file is being read.
     is_reading: bool,
     by_window: Known<Vec<ProfileFidelity>, 1>,
     by_rate: Known<ByRate, 1>,
 }
 
 impl Place {
-    /// The signal that lies there.
     pub(super) fn signal(&self) -> Option<&Arc<BenchSignal>> {
         self.signal.as_ref()
     }
 
-    /// The file that it was read from.
+    /// File that the signal was read from.
     pub(super) fn file(&self) -> Option<&BenchFile> {
         self.file.as_deref()
     }
 
-    /// What windows of each width keep of the signal, once that is known.
+    /// Fidelity of the spatial spectrogram for each window length, once computed.
     pub(super) fn by_window(&self) -> Option<&[ProfileFidelity]> {
         self.by_window.of(&[Arc::clone(self.signal.as_ref()?)])?.ok().map(Vec::as_slice)
     }
 
-    /// What the codec keeps of it, once that is known.
+    /// Fidelity of the signal at each bit rate of the codec, once computed.
     pub(super) fn by_rate(&self) -> Option<&ByRate> {
         self.by_rate.of(&[Arc::clone(self.signal.as_ref()?)])?.ok()
     }
 
-    /// Whether something is being made for this place.
+    /// Whether a signal is being made for this slot.
     pub(super) fn is_making(&self) -> bool {
         self.making.is_busy()
     }
 
-    /// Puts a signal there at once. What is being made for this place comes too late, and no file says anything of it.
+    /// Puts a signal into the slot at once. A job that is still running for the slot is discarded, and so is its file.
     pub(super) fn put(&mut self, signal: Arc<BenchSignal>) {
         (self.signal, self.failure, self.file) = (Some(signal), None, None);
         self.warnings.clear();
         (self.making, self.is_reading) = (Newest::default(), false);
     }
 
-    /// Nothing lies there any more.
+    /// Empties the slot.
     pub(super) fn clear(&mut self) {
         *self = Self { terms: self.terms, ..Self::default() };
     }
@@ -122,7 +112,8 @@ impl Place {
         });
     }
 
-    /// Makes the signal of the file once more, on the terms as they are now; another file that is being read comes first.
+    /// Makes the signal from its file again, with the present information. Does nothing while another file is being
+    /// read.
     pub(super) fn read_again(&mut self, ctx: &Context) {
         if self.is_reading {
             return;
@@ -134,7 +125,7 @@ impl Place {
         });
     }
 
-    /// Has a signal made in the background.
+    /// Makes a signal in the background.
     pub(super) fn make(
         &mut self,
         ctx: &Context,
@@ -146,7 +137,7 @@ impl Place {
         });
     }
 
-    /// Takes in what the worker came to; returns whether another signal lies there.
+    /// Takes over the result of the worker; returns whether the slot has a new signal.
     pub(super) fn collect(&mut self, ctx: &Context) -> bool {
         let Some(outcome) = self.making.collect(ctx) else { return false };
         self.is_reading = false;
@@ -160,7 +151,7 @@ impl Place {
             }
             Err(reason) => {
                 self.failure = Some(reason);
-                // What it needs can be said, and it is tried again.
+                // The user can add the missing information and try again.
                 if self.signal.is_none() {
                     self.file = file;
                 }
@@ -169,14 +160,14 @@ impl Place {
         }
     }
 
-    /// Has worked out what windows keep of the signal.
+    /// Requests the fidelity for each window length.
     pub(super) fn ask_for_windows(&mut self, ctx: &Context) {
         if let Some(signal) = &self.signal {
             self.by_window.follow([Arc::clone(signal)], ctx, |[signal]| by_window(signal));
         }
     }
 
-    /// Has worked out what the codec keeps of it.
+    /// Requests the fidelity at each bit rate of the codec.
     pub(super) fn ask_for_rates(&mut self, ctx: &Context) {
         if let Some(signal) = &self.signal {
             self.by_rate.follow([Arc::clone(signal)], ctx, |[signal]| by_rate(signal));
@@ -187,8 +178,8 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::Place;
-    use crate::import::source::Source;
-    use crate::signals::bench_signal::tests::tone;
+    use crate::state::bench_signal::tests::tone;
+    use crate::state::source::Source;
     use std::sync::Arc;
     use std::time::{Duration, Instant};
 

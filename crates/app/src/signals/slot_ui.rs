@@ -1,56 +1,58 @@
-//! The card of a place: what lies there, where the next comes from, and its way to the hand.
+//! Card of a slot: its signal, the source of the next one, and buttons that play or feel it.
 
 use egui::{Align, Button, ComboBox, DragValue, Frame, Key, Label, Layout, RichText, TextEdit, Ui};
-use shagreen_core::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::bitrate::Bitrate;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
+use super::Remaking;
 use super::number_ui::number_ui;
 use super::reading::{FileKind, Terms};
-use super::slot::{Place, Slot};
-use super::{FromA, Remaking, SignalsCommand};
+use super::slot::Place;
+use crate::choices::signals::FromA;
+use crate::choices::signals::Slot;
 use crate::command::Command;
-use crate::import::source::paths_in;
+use crate::command::signals::SignalsCommand;
+use crate::look::theme::{RADIUS, tokens};
+use crate::state::source::paths_in;
 use crate::strings::signals as strings;
-use crate::theme::{RADIUS, tokens};
 
-/// Speeds of strokes that can be given, in mm/s.
+/// Range of tip speeds, in mm/s.
 const SPEEDS_MM_PER_S: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
-/// Forces, in N.
+/// Range of normal forces, in N.
 const FORCES_N: std::ops::RangeInclusive<f64> = 0.05..=10.0;
-/// Widths of pictures, in mm.
+/// Range of picture widths, in mm.
 const WIDTHS_MM: std::ops::RangeInclusive<f64> = 1.0..=2000.0;
-/// Levels, in m/s².
+/// Range of RMS levels, in m/s².
 const LEVELS_MPS2: std::ops::RangeInclusive<f64> = 0.01..=100.0;
-/// Rows of pictures that can be asked for: one that there is not is said.
+/// Highest row of a picture that can be entered. A row that does not exist is reported.
 const MAX_ROW: f64 = 100_000.0;
-/// What a sample of 1.0 can be, in m/s².
+/// Range of accelerations of a sample of 1.0, in m/s².
 const FULL_SCALES_MPS2: std::ops::RangeInclusive<f64> = 0.001..=10_000.0;
-/// Channels that can be asked for: one that there is not is said.
+/// Highest channel that can be entered. A channel that does not exist is reported.
 const MAX_CHANNEL: f64 = 64.0;
-/// Steps of refinement that can be asked for.
+/// Maximum number of Griffin-Lim iterations.
 const MAX_REFINEMENTS: usize = 200;
 
-/// What the user asked of a place.
+/// Requests of the user about a slot.
 #[derive(Default)]
 pub(super) struct Asked {
-    /// Commands for the rest.
     pub(super) commands: Vec<Command>,
-    /// Another reading of the file.
+    /// Whether the signal is to be made from its file again.
     pub(super) is_again: bool,
-    /// Nothing is to lie there.
+    /// Whether the slot is to be emptied.
     pub(super) is_cleared: bool,
 }
 
-/// What becomes of the signal in a place at the moment.
+/// Present use of the signal in a slot.
 #[derive(Clone, Copy)]
 pub(super) struct State {
-    /// The pen feels it.
+    /// Whether the pen feels it.
     pub(super) is_felt: bool,
-    /// It is played as it was recorded.
+    /// Whether it is played at its own speed.
     pub(super) is_playing: bool,
 }
 
-/// Draws the card of a place.
+/// Draws the card of a slot.
 pub(super) fn place_ui(ui: &mut Ui, slot: Slot, place: &mut Place, state: State) -> Asked {
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
@@ -70,7 +72,7 @@ pub(super) fn place_ui(ui: &mut Ui, slot: Slot, place: &mut Place, state: State)
     asked
 }
 
-/// The letter, the name, and the buttons that need a signal.
+/// Draws the letter, the name, and the buttons that need a signal.
 fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Asked) {
     let State { is_felt, is_playing } = state;
     let t = tokens(ui.ctx());
@@ -126,7 +128,7 @@ fn facts_ui(ui: &mut Ui, place: &Place) {
     ui.add(Label::new(RichText::new(said).small().color(t.text_weak)).truncate().selectable(false));
 }
 
-/// Where the next signal comes from.
+/// Draws the sources of the next signal.
 fn source_ui(ui: &mut Ui, slot: Slot, place: &mut Place, asked: &mut Asked) {
     ui.horizontal(|ui| {
         let heard = Button::new(strings::TAKE_HEARD);
@@ -153,7 +155,7 @@ fn source_ui(ui: &mut Ui, slot: Slot, place: &mut Place, asked: &mut Asked) {
     });
 }
 
-/// What the file does not say of itself; returns whether something else was said.
+/// Draws fields for information that the file does not contain; returns whether any has changed.
 fn terms_ui(ui: &mut Ui, slot: Slot, place: &mut Place) -> bool {
     let Some(kind) = place.file().map(|file| file.kind) else { return false };
     let terms = &mut place.terms;
@@ -195,7 +197,7 @@ fn terms_ui(ui: &mut Ui, slot: Slot, place: &mut Place) -> bool {
     *terms != before
 }
 
-/// What a recording may not say: which channel is the signal, and what a sample of 1.0 is.
+/// Draws fields that a recording may need: its channel, and the acceleration of a sample of 1.0.
 fn recording_ui(ui: &mut Ui, slot: Slot, terms: &mut Terms) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -217,7 +219,7 @@ fn number(ui: &mut Ui, slot: Slot, name: &str, help: &str, value: DragValue<'_>)
     number_ui(ui, name, &format!("{name} {}", slot.name()), help, value);
 }
 
-/// How B is made of A; returns what was asked for.
+/// Draws the ways to make B from A; returns the requested command.
 pub(super) fn remaking_ui(ui: &mut Ui, remaking: &mut Remaking, window_mm: f64) -> Option<Command> {
     let mut asked = None;
     ui.horizontal(|ui| {
@@ -247,7 +249,7 @@ pub(super) fn remaking_ui(ui: &mut Ui, remaking: &mut Remaking, window_mm: f64) 
     asked.map(|how| Command::Signals(SignalsCommand::MakeB(how)))
 }
 
-/// The color that a place has everywhere.
+/// Color of a slot throughout the window.
 pub(super) fn slot_color(ui: &Ui, slot: Slot) -> egui::Color32 {
     let t = tokens(ui.ctx());
     match slot {

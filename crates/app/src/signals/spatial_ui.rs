@@ -1,51 +1,52 @@
-//! The spatial spectrogram that is painted: the pointer over it, and what comes of that.
+//! Spatial spectrogram that the pointer edits with the tool of the editor.
 
 use std::f32::consts::TAU;
 use std::sync::Arc;
 
 use egui::{CursorIcon, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2};
 use egui_plot::{PlotPoint, PlotResponse, PlotTransform};
-use shagreen_core::spatial_spectrogram::edit::Region;
+use shagreen_core::signals::spatial_spectrogram::edit::Region;
 use shagreen_formats::figure::{Figure, Map};
 
-use super::bench_signal::BenchSignal;
-use super::editor::{Editor, Tool};
-use super::slot::Slot;
+use super::editor::Editor;
+use crate::choices::signals::Slot;
+use crate::choices::signals::Tool;
 use crate::command::Command;
-use crate::drag::dragged_to;
 use crate::figure_ui::figure_head_ui;
-use crate::map_plot::labeled_map_plot;
+use crate::look::drag::dragged_to;
+use crate::look::map_plot::labeled_map_plot;
+use crate::look::theme::tokens;
+use crate::state::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
-use crate::theme::tokens;
 
-/// Corners of the outline of a brush.
+/// Number of vertices of a brush outline.
 const N_CORNERS: usize = 48;
 
-/// The part of a line that is shown, in mm; `None` shows all of it.
+/// Range of positions that is shown, in mm; `None` shows all.
 pub(super) type ShownMm = Option<(f64, f64)>;
 
-/// Least length that is shown, in mm.
+/// Minimum length that is shown, in mm.
 const LEAST_SHOWN_MM: f64 = 1.0;
-/// How much a point of scrolling zooms.
+/// Zoom per point of scrolling, as the natural logarithm of the factor.
 const ZOOM_PER_POINT: f64 = 0.004;
 
-/// Where a rectangle was begun, and which part of the lines is shown.
+/// First corner of a rectangle, and the range of positions that is shown.
 #[derive(Default)]
 pub(super) struct Spatial {
     from: Option<(f64, f64)>,
     pub(super) shown_mm: ShownMm,
 }
 
-/// What came of a frame.
+/// Result of one frame.
 #[derive(Default)]
 pub(super) struct Shown {
-    /// A figure is to be saved.
+    /// Command that saves the figure.
     pub(super) save: Option<Command>,
-    /// What was painted, where something was.
+    /// Result of an edit in this frame. The inner `None` means that the signal has not changed.
     pub(super) painted: Option<Result<Option<Arc<BenchSignal>>, String>>,
 }
 
-/// Draws a map over places, which scrolling zooms; returns what the user asked of it, and the map on the screen.
+/// Draws a map over position, which scrolling zooms; returns the requested command and the map on the screen.
 pub(super) fn places_map_ui(
     ui: &mut Ui,
     slot: Slot,
@@ -57,7 +58,7 @@ pub(super) fn places_map_ui(
     let save = figure_head_ui(ui, figure, stem);
     let Figure::Map(map) = &**figure else { return (save, None) };
     let plot = labeled_map_plot(ui, strings::map_name(slot), map);
-    // A sheet may lie over it.
+    // A sheet may cover the map.
     let pointed = ui.input(|i| i.pointer.hover_pos()).filter(|_| plot.response.contains_pointer());
     if let Some(pos) = pointed {
         let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
@@ -69,7 +70,7 @@ pub(super) fn places_map_ui(
     (save, Some(plot))
 }
 
-/// The part that is shown after so many points of scrolling at a place: that stays where it is.
+/// Range that is shown after `scrolled` points of scrolling at `at_mm`; that position stays where it is.
 fn zoomed((from, to): (f64, f64), length_mm: f64, at_mm: f64, scrolled: f64) -> ShownMm {
     let factor = (-ZOOM_PER_POINT * scrolled).exp();
     let shown = (factor * (to - from)).max(LEAST_SHOWN_MM.min(length_mm));
@@ -81,7 +82,7 @@ fn zoomed((from, to): (f64, f64), length_mm: f64, at_mm: f64, scrolled: f64) -> 
     Some((from, from + shown))
 }
 
-/// Draws the spectrogram of `signal` and lets the tool of the editor work on it.
+/// Draws the spectrogram of `signal`, and lets the tool of the editor work on it.
 pub(super) fn spatial_ui(
     ui: &mut Ui,
     figure: &Arc<Figure>,
@@ -139,7 +140,7 @@ pub(super) fn spatial_ui(
     shown
 }
 
-/// The place in m and spatial frequency in 1/m under a pointer, on the map.
+/// Position in m and spatial frequency in 1/m at a screen position, limited to the map.
 fn on_map(transform: &PlotTransform, map: &Map, length_mm: f64, pos: Pos2) -> (f64, f64) {
     let value = transform.value_from_position(pos);
     let within = |x: f64, (low, high): (f64, f64), least: f64, most: f64| {
@@ -148,8 +149,8 @@ fn on_map(transform: &PlotTransform, map: &Map, length_mm: f64, pos: Pos2) -> (f
     (1e-3 * within(value.x, map.x, 0.0, length_mm), 1e3 * within(value.y, map.y, 0.0, f64::INFINITY))
 }
 
-/// Between two corners, whichever they are. What reaches an end of the line takes along the windows whose middle lies beyond it,
-/// and what reaches the upper edge of the map all frequencies above.
+/// Region between two corners in any order. At an end of the signal it includes the windows centered beyond that end.
+/// At the upper edge of the map it includes all higher frequencies.
 fn region(from: (f64, f64), to: (f64, f64), (end_m, top_per_m): (f64, f64)) -> Region {
     let reaching = |a: f64, b: f64, end: f64, before: f64| {
         let (low, high) = (a.min(b), a.max(b));
@@ -173,7 +174,8 @@ fn outline_region(ui: &Ui, area: Rect, transform: &PlotTransform, from: (f64, f6
     ui.painter_at(area).rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
 }
 
-/// How far a brush reaches around a point: octaves are as far up as down, which on an even axis they are not.
+/// Draws the extent of a brush around a point. It is symmetric in octaves, and therefore not on a linear frequency
+/// axis.
 fn outline_brush(ui: &Ui, area: Rect, transform: &PlotTransform, editor: &Editor, at: (f64, f64)) {
     let corner = |i: usize| {
         let (up, across) = (TAU * i as f32 / N_CORNERS as f32).sin_cos();
@@ -181,7 +183,7 @@ fn outline_brush(ui: &Ui, area: Rect, transform: &PlotTransform, editor: &Editor
         on_screen(transform, (place_m, at.1 * (editor.radius_octaves * f64::from(up)).exp2()))
     };
     let painter = ui.painter_at(area);
-    // Light within dark is seen on every color of the map.
+    // A light line on a dark one is visible on every color of the map.
     let corners: Vec<Pos2> = (0..=N_CORNERS).map(corner).collect();
     painter.line(corners.clone(), Stroke::new(3.0, egui::Color32::from_black_alpha(160)));
     painter.line(corners, Stroke::new(1.5, egui::Color32::WHITE));

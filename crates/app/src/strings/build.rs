@@ -1,168 +1,111 @@
-//! Every word of the workspace Build and of saving a figure.
+//! Build workspace, and saving a figure.
 
 use std::collections::BTreeSet;
 
-use shagreen_core::mds::Ties;
-use shagreen_core::ratings::{Rating, RelevanceVote};
-use shagreen_core::selection::Method;
-use shagreen_core::sorting::Sort;
-use shagreen_core::space_build::{FeatureKind, PlacedBy, Step};
+use shagreen_core::people::mds::Ties;
+use shagreen_core::people::ratings::{Rating, RelevanceVote};
+use shagreen_core::people::sorting::Sort;
+use shagreen_core::space::selection::Method;
+use shagreen_core::space::space_build::{FeatureKind, PlacedBy, Step};
 
-/// Heading of the column of judgments and options.
-pub const MADE_OF: &str = "Made of";
-/// Heading of the sortings.
+// Inputs.
+pub const MADE_OF: &str = "Inputs";
 pub const SORTING: &str = "Sorting";
-/// Heading of the ratings.
 pub const RATINGS: &str = "Ratings";
-/// Heading of the votes.
 pub const VOTES: &str = "Relevance votes";
-/// What sortings are.
-pub const SORTING_HELP: &str = "A CSV table: who put which textures into one group. Required.";
-/// What ratings are.
+pub const SORTING_HELP: &str =
+    "CSV table of the groups into which each participant sorted the textures. Required.";
 pub const RATINGS_HELP: &str =
-    "A CSV table: how each texture was rated between two adjectives, 0 to 100. Required.";
-/// What votes are.
-pub const VOTES_HELP: &str = "A CSV table: which adjectives people found relevant. Without it, all count.";
-/// Hint in the field for a path.
+    "CSV table of ratings: each texture between two adjectives, 0 to 100. Required.";
+pub const VOTES_HELP: &str =
+    "CSV table of the adjectives that participants found relevant. Without it, all adjectives count.";
 pub const PATH_HINT: &str = "Path of a CSV file…";
-/// The menu that saves a figure.
 pub const SAVE: &str = "Save";
-/// Its accessible name.
+
+/// Accessible name of the menu that saves the figure of this title.
 pub fn save(title: &str) -> String {
     format!("Save {title}")
 }
-/// Nothing was read yet.
+
 pub const NOTHING_YET: &str = "none yet";
-/// Nothing was read, and nothing has to be.
 pub const OPTIONAL: &str = "optional";
-/// Files are being read.
 pub const READING: &str = "Reading…";
-/// Lets a simulated panel judge.
-pub const SIMULATE: &str = "Try with a simulated panel";
-/// What a simulated panel is.
-pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate by the places, attributes and physics of the library's textures, with noise. For trying the way, never for conclusions.";
-/// Who may be written in several ways.
+pub const SIMULATE: &str = "Try with simulated raters";
+pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate the textures from their library positions, attributes and physical quantities, with noise. For trying the workflow only, never for conclusions.";
 pub const PARTICIPANTS: &str = "participants";
-/// Name of what a simulated panel said.
 pub const SIMULATED_PANEL: &str = "simulated raters";
-/// Heading of the options.
-pub const OPTIONS: &str = "How it is made";
-/// Option: dimensions of the perceptual space.
+
+// Options.
+pub const OPTIONS: &str = "Options";
 pub const DIMENSIONS: &str = "Dimensions";
-/// What the option does.
-pub const DIMENSIONS_HELP: &str =
-    "Dimensions of the perceptual space. Stress falls with each; adjectives find more room.";
-/// Option: ties.
+pub const DIMENSIONS_HELP: &str = "Number of dimensions of the perceptual space (multidimensional scaling). More dimensions lower the stress and fit the adjectives better.";
 pub const TIES: &str = "Ties";
-/// What the option does.
-pub const TIES_HELP: &str = "What becomes of pairs that were sorted equally alike: they may lie at different distances (primary), or get one (secondary).";
-/// Option: the first axis.
-pub const FIRST_AXIS: &str = "Axis across";
-/// Option: the second axis.
-pub const SECOND_AXIS: &str = "Axis up";
-/// What the options do.
-pub const AXIS_HELP: &str = "The adjective pairs that become the axes. Automatic: rough to smooth and hard to soft where they were rated, else the pair closest to each dimension.";
-/// An option is left to the program.
+pub const TIES_HELP: &str = "Treatment of pairs with equal similarity: primary lets their distances differ, secondary makes their distances equal.";
+pub const FIRST_AXIS: &str = "X axis";
+pub const SECOND_AXIS: &str = "Y axis";
+pub const AXIS_HELP: &str = "Adjective pair that becomes this axis. Automatic takes rough to smooth and hard to soft if they were rated, else the pair that correlates best with each dimension.";
 pub const AUTOMATIC: &str = "automatic";
-/// Option: features.
 pub const FEATURES: &str = "Features";
-/// What the option does.
-pub const FEATURES_HELP: &str = "What is taken from the vibrations to predict where a texture lies.";
-/// Option: selection.
+pub const FEATURES_HELP: &str = "Vibration features that predict the position of a texture.";
 pub const SELECTION: &str = "Selection";
-/// What the option does.
-pub const SELECTION_HELP: &str = "How features are chosen and weighed.";
-/// Option: placement.
-pub const PLACEMENT: &str = "Places";
-/// What the option does.
-pub const PLACEMENT_HELP: &str = "Textures lie where people felt them, or where their features predict; automatic takes, axis by axis, what is likely nearer to what people feel.";
-/// Option: axes at right angles.
-pub const ORTHOGONAL: &str = "Second axis at right angles";
-/// What the option does.
-pub const ORTHOGONAL_HELP: &str = "Turns the second axis, so that a move along one is none along the other.";
-/// Option: permutations.
+pub const SELECTION_HELP: &str = "Method that selects and weights the features.";
+pub const PLACEMENT: &str = "Positions";
+pub const PLACEMENT_HELP: &str = "Source of the positions: perceived (from the judgments) or predicted (from the features). Automatic chooses for each axis the one that is likely closer to perception.";
+pub const ORTHOGONAL: &str = "Orthogonal axes";
+pub const ORTHOGONAL_HELP: &str = "Rotates the second axis to a right angle with the first, so that a move along one leaves the other unchanged.";
 pub const PERMUTATIONS: &str = "Permutations";
-/// What the option does.
-pub const PERMUTATIONS_HELP: &str =
-    "How often places are exchanged to see how well chance predicts. More take longer; 0 tests nothing.";
-/// Option: seed.
+pub const PERMUTATIONS_HELP: &str = "Number of permutations of the positions in the test against chance prediction. More take longer; 0 skips the test.";
 pub const SEED: &str = "Seed";
-/// What the option does.
-pub const SEED_HELP: &str = "Start of all that is random: the same seed gives the same space.";
-/// Builds.
+pub const SEED_HELP: &str = "Seed of the random numbers: the same seed gives the same space.";
+
+// Building.
 pub const BUILD_SPACE: &str = "Build the space";
-/// Builds again, since something has changed.
 pub const BUILD_AGAIN: &str = "Build again";
-/// Stops building.
 pub const CANCEL: &str = "Cancel";
-/// What cancelling does.
-pub const CANCEL_HELP: &str = "Drops what is being built. What was built before stays.";
-/// Building was cancelled and comes to rest.
+pub const CANCEL_HELP: &str = "Stops the build. The previous space stays.";
 pub const STOPPING: &str = "Stopping…";
-/// Something is missing before a space can be built.
-pub const NEEDS_BOTH: &str = "Needs sorting and ratings.";
-/// Judgments or options are not those of the space that is shown.
-pub const CHANGED: &str = "Changed since this space was built.";
-/// The worker is gone.
-pub const BROKEN: &str = "Building broke off; try other options, or part of the judgments.";
-/// Heading before a space is built.
+pub const NEEDS_BOTH: &str = "Sorting and ratings are required.";
+pub const CHANGED: &str = "Library, judgments or options have changed since this space was built.";
+pub const BROKEN: &str = "The build stopped unexpectedly; try other options, or part of the judgments.";
+
+// Before a space is built.
 pub const EMPTY_TITLE: &str = "From judgments to a space";
-/// What to do before a space is built.
 pub const EMPTY_STEPS: [&str; 3] = [
-    "People sort the textures into groups by how they feel, and rate each between pairs of adjectives.",
-    "Give both tables on the left, or drop them here. A simulated panel shows the way without them.",
-    "Build the space, look at its figures and at how far it can be believed, then use it.",
+    "Participants sort the textures into groups by feel, and rate each one between pairs of adjectives.",
+    "Enter the path of both tables on the left, or drop the files here. Simulated raters need no tables.",
+    "Build the space, check its figures and validation, then use it.",
 ];
-/// What a table of sortings looks like, in words.
-pub const SORTING_EXAMPLE_TITLE: &str = "Sorting: one line for each texture of each sort";
-/// What a table of sortings looks like.
+pub const SORTING_EXAMPLE_TITLE: &str = "Sorting: one row for each texture of each sort";
 pub const SORTING_EXAMPLE: &str = "participant,trial,groups,texture,group\np01,1,3,cork,a";
-/// What a table of ratings looks like, in words.
-pub const RATINGS_EXAMPLE_TITLE: &str = "Ratings: one line for each texture and person, 0 to 100";
-/// What a table of ratings looks like.
+pub const RATINGS_EXAMPLE_TITLE: &str = "Ratings: one row for each participant and texture, 0 to 100";
 pub const RATINGS_EXAMPLE: &str = "participant,texture,rough-smooth,hard-soft\np01,cork,41,70.5";
-/// Below the examples.
-pub const EXAMPLE_NOTE: &str =
-    "Textures go by their id in the library. A texture whose group or rating is left empty was not judged.";
-/// Heading of the sentences on how far a space can be believed.
-pub const VERDICT: &str = "How far it can be believed";
-/// Before there is a verdict.
-pub const NO_VERDICT: &str =
-    "Once a space is built, this column says how far it can be believed, in sentences.";
-/// Puts a space to use.
+pub const EXAMPLE_NOTE: &str = "Textures are identified by their id in the library. An empty group or rating means that the texture was not judged.";
+
+// Validation and use.
+pub const VERDICT: &str = "Validation";
+pub const NO_VERDICT: &str = "The validation summary appears here after you build a space.";
 pub const USE_SPACE: &str = "Use this space";
-/// What using a space does.
-pub const USE_HELP: &str = "Gives the textures their places and ratings of this space. Undo brings the old ones back; “Save as…” in Author writes them into a file, with the report.";
-/// Above the button that puts a space to use.
-pub const USE_NOTE: &str = "Undo brings the old places back.";
-/// The space is in use.
+pub const USE_HELP: &str = "Gives the textures the positions and ratings of this space. Undo restores the old ones. “Save as…” in the Author workspace writes them to a file, with the report.";
+pub const USE_NOTE: &str = "Undo restores the old positions.";
 pub const IN_USE: &str = "In use";
-/// Goes to the workspace where the space is felt.
-pub const GO_TO_AUTHOR: &str = "Feel it in Author";
-/// Accessible name of the choice of figures.
+pub const GO_TO_AUTHOR: &str = "Open in Author";
+
+// Figures.
 pub const FIGURES: &str = "Figures";
-/// Saves the picture of a figure.
 pub const SAVE_SVG: &str = "Save SVG…";
-/// Saves the picture of a figure as pixels.
 pub const SAVE_PNG: &str = "Save PNG…";
-/// Saves the numbers of a figure.
 pub const SAVE_CSV: &str = "Save CSV…";
-/// Heading of the sheet that saves a figure.
 pub const SAVE_TITLE: &str = "Save figure";
-/// Accessible name of the field of the path of a figure.
-pub const SAVE_PATH: &str = "Path of the figure's file";
-/// Hint in the field of the path of a figure.
+pub const SAVE_PATH: &str = "Path of the figure file";
 pub const SAVE_HINT: &str = "/path/to/figure";
-/// Shown while files hover over the window.
-pub const DROP_HERE: &str = "Drop sortings, ratings or votes";
-/// What can be dropped.
-pub const DROP_KINDS: &str = "CSV tables of what people sorted, rated and voted";
-/// How many textures the library has.
+pub const DROP_HERE: &str = "Drop sorting, ratings or votes";
+pub const DROP_KINDS: &str = "CSV tables of sorting, ratings and relevance votes";
+
 pub fn of_the_library(n_textures: usize) -> String {
     format!("{n_textures} textures of the open library")
 }
 
-/// Accessible name of the field for the path of a table.
+/// Accessible name of the path field of a table.
 pub fn path_of(what: &str) -> String {
     format!("Path of the table: {}", what.to_lowercase())
 }
@@ -172,7 +115,7 @@ pub fn read(what: &str) -> String {
     format!("Read {}", what.to_lowercase())
 }
 
-/// Accessible name of the button that takes a table away.
+/// Accessible name of the button that removes a table.
 pub fn remove(what: &str) -> String {
     format!("Remove {}", what.to_lowercase())
 }
@@ -185,14 +128,14 @@ fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-/// Sortings in figures.
+/// Numbers of participants, sorts and textures.
 pub fn sorting(sorts: &[Sort]) -> String {
     let participants = n_of(sorts.iter().map(|sort| &sort.participant));
     let textures = n_of(sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| &p.texture)));
     [count(participants, "participant"), count(sorts.len(), "sort"), count(textures, "texture")].join(", ")
 }
 
-/// Ratings in figures.
+/// Numbers of participants, ratings, textures and adjective pairs.
 pub fn ratings(ratings: &[Rating]) -> String {
     let participants = n_of(ratings.iter().map(|rating| &rating.participant));
     let textures = n_of(ratings.iter().map(|rating| &rating.texture));
@@ -206,7 +149,7 @@ pub fn ratings(ratings: &[Rating]) -> String {
     parts.join(", ")
 }
 
-/// Votes in figures.
+/// Numbers of participants, votes and adjectives.
 pub fn votes(votes: &[RelevanceVote]) -> String {
     let participants = n_of(votes.iter().map(|vote| &vote.participant));
     let adjectives = n_of(votes.iter().map(|vote| &vote.adjective));
@@ -214,7 +157,7 @@ pub fn votes(votes: &[RelevanceVote]) -> String {
         .join(", ")
 }
 
-/// Names of textures that were judged but are not in the library.
+/// Warning about judged textures without an entry in the library.
 pub fn not_in_library(names: &[&str]) -> String {
     let more = names.len().saturating_sub(3);
     let and_more = if more > 0 { format!(" and {more} more") } else { String::new() };
@@ -224,21 +167,20 @@ pub fn not_in_library(names: &[&str]) -> String {
     )
 }
 
-/// A step of building.
+/// Progress of the build: number and name of the step.
 pub fn step(step: Step) -> String {
     let what = match step {
-        Step::Sorting => "putting sorts together",
+        Step::Sorting => "pooling sorts",
         Step::Scaling => "scaling the perceptual space",
         Step::Adjectives => "fitting adjectives",
-        Step::Features => "stroking textures",
-        Step::Axis(0) => "predicting the axis across",
-        Step::Axis(_) => "predicting the axis up",
-        Step::Stability => "drawing participants anew",
+        Step::Features => "computing features",
+        Step::Axis(0) => "predicting the x axis",
+        Step::Axis(_) => "predicting the y axis",
+        Step::Stability => "bootstrapping participants",
     };
     format!("{} of {}: {what}", step.index() + 1, Step::COUNT)
 }
 
-/// How ties are treated.
 pub fn ties(ties: Ties) -> &'static str {
     match ties {
         Ties::Primary => "primary",
@@ -246,17 +188,15 @@ pub fn ties(ties: Ties) -> &'static str {
     }
 }
 
-/// What is taken from vibrations.
 pub fn features(kind: FeatureKind) -> &'static str {
     match kind {
-        FeatureKind::Mfcc => "cepstra (means)",
-        FeatureKind::MfccFrames => "cepstra (frames, paper)",
+        FeatureKind::Mfcc => "MFCC (means)",
+        FeatureKind::MfccFrames => "MFCC (frames, paper)",
         FeatureKind::Physical => "physical",
-        FeatureKind::MfccAndPhysical => "cepstra and physical",
+        FeatureKind::MfccAndPhysical => "MFCC and physical",
     }
 }
 
-/// How features are chosen.
 pub fn selection(method: Method) -> &'static str {
     match method.id() {
         "paper" => "as in the paper",
@@ -265,44 +205,44 @@ pub fn selection(method: Method) -> &'static str {
     }
 }
 
-/// Where textures lie.
 pub fn placement(placement: Option<PlacedBy>) -> &'static str {
     match placement {
         None => AUTOMATIC,
-        Some(PlacedBy::Felt) => "as felt",
-        Some(PlacedBy::Predicted) => "as predicted",
+        Some(PlacedBy::Felt) => "perceived",
+        Some(PlacedBy::Predicted) => "predicted",
     }
 }
 
-/// Name of a figure on its tab, by the name that serves for files.
+/// Tab label of a figure, from its file name.
 pub fn figure(name: &str) -> &str {
     match name {
         "stress" => "Stress",
         "perceptual-space" => "Perceptual",
         "correlations" => "Correlations",
         "adjectives" => "Adjectives",
-        "predicted-1" => "Predicted across",
-        "predicted-2" => "Predicted up",
+        "predicted-1" => "Predicted x",
+        "predicted-2" => "Predicted y",
         "authoring-space" => "Authoring",
         "shepard" => "Shepard",
         other => other,
     }
 }
 
-/// What a figure's file will hold.
 pub fn to_save(title: &str, format: &str) -> String {
     match format {
-        "CSV" => format!("The numbers of “{title}” go into one CSV file."),
-        _ => format!("“{title}” goes into one {format} file."),
+        "CSV" => format!("Saves the numbers of “{title}” in CSV format."),
+        _ => format!("Saves “{title}” in {format} format."),
     }
 }
 
-/// A file of the same kind is there.
+/// Question before a figure of the same kind is replaced.
 pub fn exists(format: &str) -> String {
-    format!("There is such a {format} file at this path already. Replace it, or choose another path.")
+    format!("A figure of this kind ({format}) exists at this path. Replace it, or choose another path.")
 }
 
-/// Why a file of another kind is not replaced.
+/// Why an existing file is not replaced by a figure.
 pub fn no_figure(format: &str) -> String {
-    format!("Choose another path: what is there is no {format} file of such a figure, so it is not replaced.")
+    format!(
+        "Choose another path: the file there is not a figure of this kind ({format}) and is not replaced."
+    )
 }

@@ -1,16 +1,12 @@
-//! Words of the gallery.
+//! Gallery of example projects.
 
-/// Opens it.
 pub const GALLERY: &str = "Gallery…";
-/// Its title.
 pub const TITLE: &str = "Gallery";
-/// What it is.
 pub const HELP: &str =
-    "Projects to hear, take apart and begin from. All stand on the starter library; nobody rated them.";
-/// Leaves it.
+    "Example projects to feel, study and start from. All use the starter library; nobody rated them.";
 pub const CLOSE: &str = "Close";
 
-/// Accessible name of a project.
+/// Accessible name of a project of the gallery.
 pub fn open(title: &str) -> String {
     format!("Open {title}")
 }

@@ -1,58 +1,60 @@
-//! Words of the tour and of the sheet of shortcuts.
+//! Tour and shortcut sheet.
 
-use crate::tour::Step;
+use crate::choices::tour::Step;
 
-/// The menu of help.
 pub const HELP: &str = "Help";
-/// Opens the sheet of shortcuts.
 pub const SHORTCUTS: &str = "Shortcuts";
-/// Begins the tour.
 pub const TOUR: &str = "Tour";
-/// Leaves a sheet.
 pub const CLOSE: &str = "Close";
-/// Goes to the next step.
+pub const FIND_COMMAND: &str = "Find a command";
+pub const NO_COMMAND: &str = "No command contains these words.";
+pub const PALETTE: &str = "Commands";
+pub const GUIDE: &str = "Guide";
 pub const NEXT: &str = "Next";
-/// Ends the tour.
 pub const DONE: &str = "Done";
-/// Ends the tour before its end.
 pub const SKIP: &str = "Skip tour";
-/// Keys that are no commands, and what they do.
+
+/// Keys and pointer actions that are not commands, with what they do.
 pub const MORE_KEYS: [(&str, &str); 6] = [
-    ("Arrow keys", "Move the selected point (Shift: bigger steps)"),
-    ("Tab", "Go to the next control"),
-    ("Ctrl with + - 0", "Everything larger, smaller, as usual"),
+    ("Arrow keys", "Move the selected point (Shift: larger steps)"),
+    ("Tab", "Move to the next control"),
+    ("Ctrl with + - 0", "Enlarge, shrink or reset the interface"),
     ("Wheel over the space", "Zoom"),
-    ("Right or middle button", "Move the view of the space"),
-    ("Wheel over the pad", "Force of mouse and hand"),
+    ("Right or middle button", "Pan the view of the space"),
+    ("Wheel over the pad", "Change the force of the mouse and the automatic stroke"),
 ];
 
-/// The heading and the words of a step.
+/// Heading and text of a step.
 pub fn step(step: Step) -> [&'static str; 2] {
     match step {
         Step::Drag => [
             "Drag the point",
-            "Each place in this space is a texture: rough to the left, smooth to the right, hard below, soft above. Drag the \
-             point, or click one of the pictures.",
+            "Each point of this space is a texture: rough on the left, smooth on the right, hard at the bottom, soft at the \
+             top. Drag the point, or click one of the pictures.",
         ],
         Step::Stroke => [
             "Feel it",
-            "Stroke the large picture here with the mouse or a pen, or press Stroke and the hand does it. Devices… says where it plays: \
-             to headphones at first, to a voice coil when you have one.",
+            "Stroke the large picture here with the mouse or a pen, or press Stroke for an automatic stroke. Devices… sets the \
+             output: headphones at first, a voice coil when you have one.",
         ],
         Step::Blend => [
-            "See what it is made of",
-            "Name it here, set its place in numbers, and see the textures that say most about it with their shares. S lets one \
-             of them be heard alone.",
+            "See its contributions",
+            "Name the texture here, set its position in numbers, and see the textures that contribute most, with their weights. \
+             S plays one of them alone.",
         ],
         Step::Keep => [
-            "Keep it",
-            "File saves the project, exports what you hear as WAV, and opens the gallery. Add, below, makes another texture to \
-             compare with. Everything can be undone.",
+            "Save it",
+            "File saves the project, exports the current texture as WAV, and opens the gallery. Add, below, creates another \
+             texture to compare with. Every edit can be undone.",
         ],
     }
 }
 
-/// How far the tour is.
 pub fn progress(number: usize, n_steps: usize) -> String {
     format!("{number} of {n_steps}")
+}
+
+/// Command that exports the texture in a format.
+pub fn export_as(format: &str) -> String {
+    format!("Export the texture as {format}")
 }

@@ -1,44 +1,40 @@
-//! Words about the map behind the canvas.
+//! Color map behind the canvas.
 
-use shagreen_core::heat_map::Quantity;
+use shagreen_core::space::heat_map::Quantity;
 
-/// Accessible name of the choice.
 pub const MAP: &str = "Map behind the space";
-/// The map is being worked out.
-pub const WAITING: &str = "working out…";
+pub const WAITING: &str = "computing…";
 
-/// The name of a map; `None` shows none.
+/// Name of a map; `None` is no map.
 pub fn name(quantity: Option<Quantity>) -> &'static str {
     match quantity {
         None => "No map",
         Some(Quantity::Level) => "Level",
         Some(Quantity::Centroid) => "Spectral centroid",
-        Some(Quantity::Roughness) => "Predicted place",
-        Some(Quantity::Distance) => "Thin places",
+        Some(Quantity::Roughness) => "Predicted x",
+        Some(Quantity::Distance) => "Texture distance",
     }
 }
 
-/// What a map shows.
 pub fn help(quantity: Option<Quantity>) -> &'static str {
     match quantity {
-        None => "Colors behind the space show what is authored where",
+        None => "Colors a quantity of the interpolated texture at every point of the space",
         Some(Quantity::Level) => {
-            "How strong the texture of each point is at the speed and force of the hand, by its model"
+            "Level of the texture at each point, from its model, in dB re 1 m/s², at the speed and force of the stroke"
         }
         Some(Quantity::Centroid) => {
-            "Where the middle of the spectrum lies between 20 and 500 Hz at the speed and force of the hand, by the model"
+            "Spectral centroid of the model between 20 and 500 Hz, at the speed and force of the stroke"
         }
         Some(Quantity::Roughness) => {
-            "The place along the first axis (0 is its left end, in this space the rough one) that level and centroid alone predict: where it differs from the axis, vibration \
-             does not tell the whole. A prediction from signals, no rating"
+            "Position along the x axis (0 is its left end, the rough end in this space) predicted from level and spectral centroid \
+             alone. Where it differs from the actual position, vibration does not determine it alone. A prediction from signals, not a rating"
         }
         Some(Quantity::Distance) => {
-            "How far the nearest real texture is: far from all, what is authored is a guess"
+            "Distance to the nearest measured texture, in points of the axes (0 to 100). Far from all textures, the interpolated one is a guess"
         }
     }
 }
 
-/// A value with its unit.
 pub fn value(quantity: Quantity, value: f64) -> String {
     match quantity {
         // Rounded first, so that nothing reads "-0 dB".
@@ -49,7 +45,7 @@ pub fn value(quantity: Quantity, value: f64) -> String {
     }
 }
 
-/// The scale, as a screen reader says it.
+/// Color scale for a screen reader.
 pub fn scale(title: &str, low: &str, high: &str) -> String {
     format!("{title}, from {low} to {high}")
 }

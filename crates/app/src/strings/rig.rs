@@ -1,27 +1,27 @@
-//! Words about what is remembered of the machine.
+//! Stored device setup that cannot be used.
 
 use std::ops::RangeInclusive;
 
-/// The actuator of last time cannot be had.
+/// The stored actuator cannot be used.
 pub fn no_actuator(reason: &str) -> String {
     format!(
-        "No output was opened: the actuator of last time cannot be had ({reason}). Choose it again in “Devices…”, or another, or none."
+        "No output was opened: the last used actuator is unavailable ({reason}). Choose an actuator, or none, in “Devices…”."
     )
 }
 
-/// What the settings say of the actuator cannot be read.
+/// The stored actuator cannot be read from the settings.
 pub fn unreadable(path: &str, reason: &str) -> String {
     format!(
-        "No output was opened, for the settings do not tell what hangs on it: choose the actuator in “Devices…”, then an output ({path}: {reason})"
+        "No output was opened: the settings do not say which actuator is connected. Choose the actuator in “Devices…”, then an output ({path}: {reason})"
     )
 }
 
-/// A built-in profile is gone.
+/// The stored actuator refers to a built-in profile that does not exist.
 pub fn unknown_profile(id: &str) -> String {
-    format!("this version has no profile “{id}”")
+    format!("this version has no built-in profile “{id}”")
 }
 
-/// What drives the actuator is not known.
+/// The stored voltage at full scale is out of range.
 pub fn full_scale_out_of_range(volts: f64, range: RangeInclusive<f64>) -> String {
-    format!("{volts} V at full scale are not within {} to {} V", range.start(), range.end())
+    format!("the voltage at full scale, {volts} V, is outside {} to {} V", range.start(), range.end())
 }

@@ -1,34 +1,48 @@
-//! Words of signals that are saved.
+//! Export of signals as WAV.
 
-/// The entry of the menu.
 pub const EXPORT: &str = "Export as WAV…";
-/// What that does.
-pub const EXPORT_HELP: &str = "What is heard, stroked steadily for 5 s, as samples in m/s²";
-/// Nothing can be exported.
-pub const NOTHING: &str = "Nothing is heard that may be shown";
-/// What is to be exported is not ready.
-pub const PREPARING: &str = "What is to be exported is still being prepared; try again in a moment";
-/// The title of the sheet that saves a signal.
+pub const EXPORT_HELP: &str = "Exports the current texture, stroked steadily for 5 s, as samples in m/s²";
+pub const NOTHING: &str = "No signal to export: nothing plays, or a blind comparison hides it";
+pub const EXPORT_TEXTURE: &str = "Export texture";
+pub const NO_MODEL: &str =
+    "This interpolation mode mixes signals and makes no texture; choose Field or Parametric to export one";
+pub const SAVE_TEXTURE_TITLE: &str = "Export texture";
+pub const SAVE_TEXTURE_PATH: &str = "Path of the texture file";
+pub const SAVE_TEXTURE_HINT: &str = "/path/to/texture";
+pub const PREPARING: &str = "The texture is still being computed; try again in a moment";
 pub const SAVE_TITLE: &str = "Export as WAV";
-/// Accessible name of the field for its path.
-pub const SAVE_PATH: &str = "Path of the signal's file";
-/// Hint in the field for its path.
+pub const SAVE_PATH: &str = "Path of the signal file";
 pub const SAVE_HINT: &str = "/path/to/texture.wav";
-/// There is a signal at the path.
-pub const EXISTS: &str = "There is a signal at this path already. Replace it, or choose another path.";
-/// Why a file of another kind is not replaced.
-pub const NO_SIGNAL: &str = "Choose another path: what is there, or the .json beside it, is no signal of Shagreen, so it is not replaced.";
+pub const EXISTS: &str = "A signal exists at this path. Replace it, or choose another path.";
+pub const NO_SIGNAL: &str = "Choose another path: the file there, or the .json of the same name, is not a Shagreen signal and is not replaced.";
 
-/// What is saved.
+/// Summary of the rendered signal that is saved.
 pub fn to_save(secs: f64, mm_per_s: f64, force_n: f64, rate_hz: u32) -> String {
     format!(
-        "{secs:.0} s, stroked steadily at {mm_per_s:.0} mm/s and {force_n:.2} N as the hand is set (a recorded stroke by its mean), go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s², and players clip what is above; the .json beside it says what was rendered."
+        "Saves {secs:.0} s as a WAV file at {rate_hz} Hz, stroked steadily at {mm_per_s:.0} mm/s and {force_n:.2} N: the settings of the automatic stroke, or the mean of a recorded stroke. A sample of 1 is 1 m/s²; players clip higher values. A .json file of the same name describes the rendering."
     )
 }
 
-/// What is saved of a signal of the bench.
+/// Summary of the signal of the Signals workspace that is saved.
 pub fn bench_to_save(name: &str, secs: f64, rate_hz: u32) -> String {
     format!(
-        "{name}: {secs:.2} s at its own speed go into a WAV file of {rate_hz} Hz. A sample of 1 is 1 m/s², and players clip what is above; the .json beside it says what it is."
+        "Saves {secs:.2} s of {name} at its own speed as a WAV file at {rate_hz} Hz. A sample of 1 is 1 m/s²; players clip higher values. A .json file of the same name describes the signal."
     )
+}
+
+/// Summary of the texture that is exported.
+pub fn texture_to_save(name: &str, format: &str, lost: &[String]) -> String {
+    let lost =
+        if lost.is_empty() { String::new() } else { format!(" Not in the file: {}.", lost.join("; ")) };
+    format!("Saves \"{name}\" as {format}.{lost}")
+}
+
+/// Question before a file of the same format is replaced.
+pub fn texture_exists(format: &str) -> String {
+    format!("A {format} exists at this path. Replace it, or choose another path.")
+}
+
+/// Reason why a file of another kind is not replaced.
+pub fn no_texture(format: &str) -> String {
+    format!("Choose another path: the file there is not a {format} and is not replaced.")
 }

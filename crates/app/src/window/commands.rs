@@ -1,30 +1,32 @@
-//! Commands that are carried out after a frame.
+//! Execution of commands after a frame.
 
 use std::sync::Arc;
 
 use shagreen_formats::actuator_toml::built_in_actuators;
 
 use super::Window;
+use crate::author::texture_sheet::TextureSheet;
 use crate::command::Command;
-use crate::devices::DevicesSheet;
-use crate::edit::Edit;
-use crate::history::Gesture;
-use crate::kept_path::kept_path;
 use crate::panel::Panel;
-use crate::save::SaveSheet;
 use crate::session::OutputChoice;
+use crate::session::kept_path::kept_path;
 use crate::sheets::Sheet;
-use crate::texture_sheet::TextureSheet;
-use crate::tour::Tour;
+use crate::sheets::devices::DevicesSheet;
+use crate::sheets::guide_sheet::GuideSheet;
+use crate::sheets::palette::PaletteSheet;
+use crate::sheets::save::SaveSheet;
+use crate::state::edit::Edit;
+use crate::state::history::Gesture;
+use crate::window::tour::Tour;
 use crate::workspace::Workspace;
 
 impl Window {
-    /// Does what was asked for.
+    /// Executes a command.
     pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
         match command {
             Command::File(command) => self.carry_out_file(command, ctx),
             Command::Edit(edit) => {
-                // What is changed is what is heard.
+                // Edits apply to the selected texture, so that texture must be audible.
                 self.compare.end();
                 if matches!(edit, Edit::AddTextures(_)) {
                     self.library.show_all();
@@ -35,6 +37,8 @@ impl Window {
             Command::OpenTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::new(id))),
             Command::RenameTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::to_rename(id))),
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
+            Command::OpenPalette => self.sheet = Sheet::Palette(PaletteSheet::default()),
+            Command::OpenGuide => self.sheet = Sheet::Guide(Box::new(GuideSheet::new())),
             Command::BeginTour => (self.workspace, self.tour) = (Workspace::Author, Tour::begun()),
             Command::Stroke(command) => self.carry_out_stroke(command, ctx),
             Command::ReadPhoto(source) => self.photo.read(source, self.project.texture().key, ctx),
@@ -42,11 +46,11 @@ impl Window {
             Command::ShowMap(quantity) => self.map = quantity,
             Command::Compare(command) => self.compare.carry_out(command),
             Command::Signals(command) => self.carry_out_signals(command, ctx),
-            Command::Undo if self.painting_labels()[0].is_some() => self.signals.undo(),
+            Command::Undo if self.painting_labels()[0].is_some() => self.pages.signals.undo(),
             Command::Undo => {
                 self.history.undo(&mut self.project);
             }
-            Command::Redo if self.painting_labels()[1].is_some() => self.signals.redo(),
+            Command::Redo if self.painting_labels()[1].is_some() => self.pages.signals.redo(),
             Command::Redo => {
                 self.history.redo(&mut self.project);
             }
@@ -105,7 +109,7 @@ impl Window {
             Command::Import(sources) => self.sheet.import(sources, ctx),
             Command::ImportHere(sources) => self.sheet.import_here(sources, ctx),
             Command::Show(workspace) => self.workspace = workspace,
-            Command::ReadJudgments(sources) => self.build.read(sources, ctx),
+            Command::ReadJudgments(sources) => self.pages.build.read(sources, ctx),
             Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
             Command::SaveFigure(figure) => {
                 self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.exports_folder));

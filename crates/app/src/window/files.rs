@@ -1,35 +1,34 @@
-//! Commands about files: what is open comes and goes, and nothing is lost unasked.
+//! Commands about files: opening, saving and leaving projects. Unsaved changes are never discarded without asking.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use egui::{Context, ViewportCommand};
-use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::id_from_name;
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
+use shagreen_studio::export;
+use shagreen_studio::open::{Opened, open};
+use shagreen_studio::project::new_project;
+
 use super::Window;
 use crate::command::{Command, FileCommand};
-use crate::document::{Came, Read, read_file};
-use crate::edit::Edit;
-use crate::file_menu::kept_inside;
-use crate::gallery_sheet::GallerySheet;
-use crate::history::History;
-use crate::leaving::Leave;
-use crate::open_sheet::OpenSheet;
 use crate::panel::Panel;
-use crate::save::SaveSheet;
 use crate::sheets::Sheet;
+use crate::sheets::gallery_sheet::GallerySheet;
+use crate::sheets::open_sheet::OpenSheet;
+use crate::sheets::save::SaveSheet;
+use crate::state::document::Came;
+use crate::state::edit::Edit;
+use crate::state::history::History;
+use crate::state::leave::Leave;
+use crate::state::texture_file::TextureFile;
 use crate::strings;
-
-/// A project as a new one begins.
-pub fn new_project() -> Project {
-    Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), strings::NEW_TEXTURE)
-}
+use crate::window::file_menu::kept_inside;
 
 impl Window {
-    /// Once a frame, before anything is drawn: what threads have read and written, and whether the system wants to close
-    /// the window.
+    /// Takes in opened and saved files, and requests of the system to close the window, once a frame before drawing.
     pub(super) fn collect_files(&mut self, ctx: &Context) {
         if let Some(came) = self.files.document.collect() {
             self.take_file(came, ctx);
@@ -44,11 +43,11 @@ impl Window {
         }
     }
 
-    /// Does what was asked for about files.
     pub(super) fn carry_out_file(&mut self, command: FileCommand, ctx: &Context) {
         match command {
             FileCommand::New => match self.files.settings.template.clone() {
-                // It is read first, and what is open is left once it is there: it may be changed meanwhile.
+                // The template is read before the open project is left, because that project may change in the
+                // meantime.
                 Some(template) => {
                     self.files.is_beginning = true;
                     self.files.document.open(template, ctx);
@@ -83,6 +82,19 @@ impl Window {
                     Err(reason) => self.session.say(reason),
                 }
             }
+            FileCommand::ExportTexture(format) => {
+                let compared = self.compared_texture();
+                let entry = self.session.texture_entry(&self.project, compared.as_deref());
+                match (entry, export::format(format)) {
+                    (Ok(entry), Some(format)) => {
+                        let path = self.exports_folder.join(&entry.id).with_extension(format.ending());
+                        let texture = TextureFile { entry: Arc::new(entry), format };
+                        self.sheet = Sheet::Save(SaveSheet::texture(texture, &path));
+                    }
+                    (Err(reason), _) => self.session.say(reason),
+                    (Ok(_), None) => {}
+                }
+            }
             FileCommand::KeepLibraryInside => {
                 if let Some(edit) = kept_inside(&self.project) {
                     self.carry_out(Command::Edit(edit), ctx);
@@ -110,7 +122,7 @@ impl Window {
     }
 
     fn take_file(&mut self, came: Came, ctx: &Context) {
-        // What is saved meanwhile ends no reading.
+        // The end of a save operation does not end the reading of a template.
         let is_read = matches!(came, Came::Opened(..) | Came::NotOpened(_));
         let is_beginning = is_read && std::mem::take(&mut self.files.is_beginning);
         match came {
@@ -119,7 +131,7 @@ impl Window {
                 if matches!(&self.sheet, Sheet::Save(sheet) if sheet.is_of_project()) {
                     self.sheet = Sheet::Closed;
                 }
-                // It may have been changed while it was written; then the question comes again.
+                // If the project was changed while it was written, the user is asked again.
                 if let Some(leave) = self.files.after_saving.take() {
                     self.leave(leave, ctx);
                 }
@@ -131,14 +143,14 @@ impl Window {
                     _ => self.session.say(strings::document::not_saved(&reason)),
                 }
             }
-            Came::Opened(Read::Project(imported), path) => {
+            Came::Opened(Opened::Project(imported), path) => {
                 self.files.waiting = Some((imported, (!is_beginning).then_some(path)));
                 self.leave(Leave::Open, ctx);
             }
-            Came::Opened(Read::Library(_), path) if is_beginning => {
+            Came::Opened(Opened::Library(_), path) if is_beginning => {
                 self.begin_as_usual(&strings::document::is_library(&path.display().to_string()), ctx);
             }
-            Came::Opened(Read::Library(imported), _) => {
+            Came::Opened(Opened::Library(imported), _) => {
                 self.sheet = Sheet::Closed;
                 let Imported { value, warnings } = *imported;
                 self.say_warnings(&warnings);
@@ -153,15 +165,15 @@ impl Window {
         }
     }
 
-    /// A new project begins as where no other was chosen to begin with; that one may be had again later.
+    /// Begins a new project without the template. The template stays selected, because it may become readable again.
     fn begin_as_usual(&mut self, reason: &str, ctx: &Context) {
         self.session.say(strings::document::no_template(reason));
         self.leave(Leave::New, ctx);
     }
 
-    /// Leaves the project that is open, where nothing is lost by it; asks first otherwise.
+    /// Leaves the open project, or asks first if it has unsaved changes.
     fn leave(&mut self, leave: Leave, ctx: &Context) {
-        // It may have been changed since the last frame.
+        // The project may have changed since the last frame.
         self.files.document.follow(&self.project, self.history.revision());
         if self.files.document.is_changed() {
             self.sheet = Sheet::Leaving(leave);
@@ -190,7 +202,7 @@ impl Window {
         }
     }
 
-    /// Another project takes the place of the one that is open.
+    /// Replaces the open project.
     fn begin(&mut self, project: Project, path: Option<PathBuf>) {
         self.files.begin(&project, path);
         self.show_project(project);
@@ -206,18 +218,18 @@ impl Window {
         self.sheet = Sheet::Closed;
     }
 
-    /// Opens what was left behind. Only one at a time: the others stay where they are, and are offered by the next window.
+    /// Opens a recovered project. The other leftovers remain, and the next window offers them.
     fn recover(&mut self, index: usize) {
         let Sheet::Recovered(leftovers) = &mut self.sheet else { return };
-        match read_file(&leftovers[index].path()) {
-            Ok(Read::Project(imported)) => {
+        match open(&leftovers[index].path()) {
+            Ok(Opened::Project(imported)) => {
                 let leftover = leftovers.remove(index);
                 self.files.begin_recovered(leftover);
                 self.show_project(imported.value);
                 self.say_warnings(&imported.warnings);
             }
-            Ok(Read::Library(_)) => {}
-            // It stays where it is.
+            Ok(Opened::Library(_)) => {}
+            // The leftover remains.
             Err(error) => self.session.say(format!("{error:#}")),
         }
     }
@@ -236,7 +248,8 @@ impl Window {
         self.sheet = Sheet::Save(SaveSheet::project(&self.project, &path));
     }
 
-    /// The folder where files are looked for first: that of the project, else of the last one, else where the program is.
+    /// Default folder for files: that of the project, otherwise that of the most recent project, otherwise the current
+    /// folder.
     pub(super) fn usual_folder(&self) -> PathBuf {
         let of_recent = self.files.settings.recent.first().map(PathBuf::as_path);
         let folder = self.files.document.path().or(of_recent).and_then(Path::parent).filter(|f| f.is_dir());

@@ -1,4 +1,4 @@
-//! What came of prompts and photos.
+//! Results of prompts and photos.
 
 use std::sync::Arc;
 
@@ -8,16 +8,17 @@ use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
 
 use super::Window;
-use crate::authored_panel::next_color;
+use crate::author::authored_panel::next_color;
+use crate::author::prompt::{axis_names, has_still};
 use crate::command::Command;
-use crate::edit::Edit;
+use crate::command::prompt::PromptCommand;
 use crate::panel::Panel;
-use crate::prompt::{PromptCommand, axis_names, has_still};
+use crate::state::edit::Edit;
 use crate::strings::prompt as words;
 use crate::workspace::Workspace;
 
 impl Window {
-    /// Begins what was asked for; what was described is remembered.
+    /// Executes a command about prompts, and records the prompt in the settings.
     pub(super) fn carry_out_prompt(&mut self, command: PromptCommand, ctx: &Context) {
         let interrupts = matches!(command, PromptCommand::Make { .. } | PromptCommand::Another);
         if self.prompts.is_busy() && interrupts {
@@ -28,9 +29,9 @@ impl Window {
         }
     }
 
-    /// What was made becomes an authored texture, or the one that it was made for anew.
+    /// Adds the generated texture, or replaces the one that it was generated for.
     pub(super) fn collect_prompt(&mut self, ctx: &Context) {
-        // Nothing is put under a hand that is dragging, nor below a sheet, nor into a comparison.
+        // Results wait while the user drags, a sheet is open, another workspace is visible, or a blind comparison runs.
         let is_free = !self.was_holding || ctx.text_edit_focused();
         if !is_free || self.sheet.is_open() || self.workspace != Workspace::Author || self.compare.is_hidden()
         {

@@ -1,16 +1,17 @@
-//! The rig that is remembered from one start to the next.
+//! Device setup that is kept between program starts.
 
 use egui::Context;
 use shagreen_device::output::NULL_ID;
 
 use super::Window;
-use crate::files::Files;
-use crate::rig::Rig;
-use crate::rig_memory::{remembered, restored, with_pen_of};
 use crate::session::{OutputChoice, Session};
+use crate::state::files::Files;
+use crate::state::rig::Rig;
+use crate::state::rig_memory::{remembered, restored, with_pen_of};
 
-/// Opens the output as it was left: the one that was chosen last unless `output` says another, and none in its place. On a
-/// first start it is `output`. Without the limits of what hangs on it none is opened.
+/// Opens `output` if it names one, otherwise the stored output, otherwise the system default. If a named or stored
+/// output is unavailable, no other one is opened. If the stored device setup is unreadable, the limits of the actuator
+/// are unknown and no output is opened.
 pub(super) fn open_as_left(session: &mut Session, output: OutputChoice, files: &Files, ctx: &Context) {
     if let Some(problem) = files.settings_problem() {
         session.say(problem.to_owned());
@@ -26,8 +27,8 @@ pub(super) fn open_as_left(session: &mut Session, output: OutputChoice, files: &
 }
 
 impl Window {
-    /// Remembers how the output is opened, what hangs on it, and which pen is held. Where it is not known for which output
-    /// that was set, only the pen is remembered: the next output may be somebody's headphones.
+    /// Stores the device setup. If it is unknown for which output the user set it, only the pen is stored: the next
+    /// output may be headphones.
     pub(super) fn remember_rig(&mut self, rig: &Rig) {
         let output = if rig.opens_unlike(self.session.rig()) { self.output_of_rig() } else { None };
         let before = self.files.settings.rig.as_ref();
@@ -37,8 +38,8 @@ impl Window {
         });
     }
 
-    /// The output that the rig is set for: the one that is remembered, else the one that the system prefers. One that was
-    /// only named for this start is not remembered, so neither is what is set for it.
+    /// Output that the device setup applies to: the stored one, otherwise the open one unless it is the silent output.
+    /// `None` for an output that was given at program start, which is not stored.
     fn output_of_rig(&self) -> Option<String> {
         if self.is_output_given {
             return None;
@@ -47,7 +48,7 @@ impl Window {
         left.or_else(|| self.session.output_id().filter(|id| *id != NULL_ID).map(str::to_owned))
     }
 
-    /// Once a frame: remembers the output that was chosen, once it is open, with the rig that it is opened with.
+    /// Stores an output that the user selected, with its device setup, as soon as it is open. Called once a frame.
     pub(super) fn remember_output(&mut self) {
         let is_open = |id: &mut String| self.session.output_id() == Some(id.as_str());
         if let Some(id) = self.asked_output.take_if(is_open) {

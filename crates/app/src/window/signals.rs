@@ -1,4 +1,4 @@
-//! Commands about the signals of the bench.
+//! Execution of commands of the Signals workspace.
 
 use std::sync::Arc;
 
@@ -7,58 +7,46 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::library::ReliefSource;
 
 use super::Window;
+use crate::choices::signals::Slot;
 use crate::command::Command;
-use crate::compare::{CompareCommand, Side};
-use crate::edit::Edit;
-use crate::open_sheet::OpenSheet;
+use crate::command::signals::SignalsCommand;
 use crate::panel::Panel;
-use crate::save::{SIGNAL_RATE_HZ, SignalFile};
 use crate::sheets::Sheet;
-use crate::signals::bench_signal::BenchSignal;
-use crate::signals::{SignalsCommand, Slot};
+use crate::sheets::open_sheet::OpenSheet;
+use crate::state::bench_signal::BenchSignal;
+use crate::state::edit::Edit;
+use crate::state::signal_file::{SIGNAL_RATE_HZ, SignalFile};
 use crate::strings::signals as strings;
 
 impl Window {
-    /// Does what was asked for about signals.
     pub(super) fn carry_out_signals(&mut self, command: SignalsCommand, ctx: &Context) {
         match command {
             SignalsCommand::AskWhatToOpen(slot) => {
                 self.sheet = Sheet::Open(OpenSheet::of_signals(slot, &self.usual_folder(), ctx));
             }
             SignalsCommand::Read(slot, source) => {
-                // The place says what came of it.
+                // The slot shows the result.
                 self.sheet = Sheet::Closed;
-                self.signals.read(slot, source, ctx);
+                self.pages.signals.read(slot, source, ctx);
             }
-            SignalsCommand::ReadAll(sources) => self.signals.read_all(sources, ctx),
+            SignalsCommand::ReadAll(sources) => self.pages.signals.read_all(sources, ctx),
             SignalsCommand::TakeHeard(slot) => self.take_heard(slot, ctx),
-            SignalsCommand::Feel(slot) => self.signals.feel(slot),
+            SignalsCommand::Feel(slot) => self.pages.signals.feel(slot),
             SignalsCommand::Play(slot) => {
-                if let Some(signal) = self.signals.signal(slot) {
+                if let Some(signal) = self.pages.signals.signal(slot) {
                     self.session.play_samples(signal.profile.values(), signal.rate());
-                    self.signals.note_playing(slot);
+                    self.pages.signals.note_playing(slot);
                 }
             }
-            SignalsCommand::MakeB(how) => self.signals.make_b(how, ctx),
+            SignalsCommand::MakeB(how) => self.pages.signals.make_b(how, ctx),
             SignalsCommand::Keep(slot) => self.keep_relief(slot, ctx),
         }
     }
 
-    /// What the keys of comparing mean where signals are compared; `None` where they mean nothing.
-    pub(super) fn of_signals(command: Command) -> Option<Command> {
-        let Command::Compare(CompareCommand::Hear(side)) = command else { return Some(command) };
-        let slot = match side {
-            Side::A => Slot::A,
-            Side::B => Slot::B,
-            Side::X => return None,
-        };
-        Some(Command::Signals(SignalsCommand::Feel(Some(slot))))
-    }
-
-    /// What is authored becomes a signal, stroked as the hand is set.
+    /// Renders the audible texture as a signal, at the speed and force of the automatic stroke.
     fn take_heard(&mut self, slot: Slot, ctx: &Context) {
-        // What is authored is heard again, if a signal was felt.
-        self.signals.feel(None);
+        // The authored texture must be audible again if a signal was playing.
+        self.pages.signals.feel(None);
         self.follow_project(ctx);
         let compared = self.compared_texture();
         let contact = self.pad.contact(&self.session);
@@ -66,15 +54,15 @@ impl Window {
             Ok(file) => {
                 let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                 let name = panel.heard_name();
-                self.signals.make(slot, ctx, move || rendered(&name, file));
+                self.pages.signals.make(slot, ctx, move || rendered(&name, file));
             }
-            Err(reason) => self.signals.say(slot, reason),
+            Err(reason) => self.pages.signals.say(slot, reason),
         }
     }
 
-    /// A signal becomes a texture of the list.
+    /// Adds a signal to the list of textures, as a relief.
     fn keep_relief(&mut self, slot: Slot, ctx: &Context) {
-        let Some((signal, over)) = self.signals.kept(slot) else { return };
+        let Some((signal, over)) = self.pages.signals.kept(slot) else { return };
         let over = over.and_then(|id| self.session.index_of(&id));
         let entry = signal.relief().and_then(|relief| {
             let is_restricted = !signal.restricted.is_empty();
@@ -88,15 +76,15 @@ impl Window {
         });
         match entry {
             Ok(entry) => {
-                self.signals.note_kept(&entry.name);
+                self.pages.signals.note_kept(&entry.name);
                 self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx);
             }
-            Err(reason) => self.signals.say(slot, reason),
+            Err(reason) => self.pages.signals.say(slot, reason),
         }
     }
 }
 
-/// The signal of what was heard.
+/// Renders a signal and converts it to an acceleration profile.
 fn rendered(name: &str, file: SignalFile) -> Result<BenchSignal, String> {
     let samples = file.samples().map_err(|error| error.to_string())?;
     let samples: Vec<f64> = samples.into_iter().map(f64::from).collect();

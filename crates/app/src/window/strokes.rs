@@ -1,16 +1,16 @@
-//! Commands about strokes that are recorded on the pad.
+//! Execution of commands about stroke recordings.
 
 use egui::Context;
 
 use super::Window;
-use crate::open_sheet::OpenSheet;
-use crate::recorded_stroke::StrokeCommand;
-use crate::save::{SaveSheet, StrokeFile};
+use crate::command::stroke::StrokeCommand;
 use crate::sheets::Sheet;
+use crate::sheets::open_sheet::OpenSheet;
+use crate::sheets::save::SaveSheet;
+use crate::state::stroke_file::StrokeFile;
 use crate::strings::stroke as strings;
 
 impl Window {
-    /// Does what was asked for about strokes.
     pub(super) fn carry_out_stroke(&mut self, command: StrokeCommand, ctx: &Context) {
         match command {
             StrokeCommand::Record if self.session.recording().is_some() => self.session.end_recording(),
@@ -31,7 +31,7 @@ impl Window {
         }
     }
 
-    /// A stroke that was read becomes the one that the hand can repeat.
+    /// Takes in a stroke recording that was read.
     pub(super) fn collect_strokes(&mut self) {
         match self.strokes.collect() {
             Some(Ok((stroke, mut warnings))) => {

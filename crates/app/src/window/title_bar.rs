@@ -1,21 +1,22 @@
-//! The bar at the top: files, workspaces, undo, and what is always at hand.
+//! Title bar: file menu, workspaces, undo, output and help.
 
 use egui::{RichText, Ui};
 
 use super::Window;
 use crate::command::Command;
-use crate::file_menu::{MenuState, file_menu};
+use crate::look::theme::tokens;
 use crate::strings;
-use crate::theme::tokens;
+use crate::window::file_menu::{MenuState, file_menu};
 use crate::workspace::Workspace;
 
 impl Window {
-    /// What painting could take back or make again, where signals are painted: it comes before what was done to the project.
+    /// Names of the undo and redo steps of the spectrogram editor in the Signals workspace. They take precedence over
+    /// edits of the project.
     pub(super) fn painting_labels(&self) -> [Option<&'static str>; 2] {
-        if self.workspace == Workspace::Signals { self.signals.painting_labels() } else { [None; 2] }
+        if self.workspace == Workspace::Signals { self.pages.signals.painting_labels() } else { [None; 2] }
     }
 
-    /// Draws the bar and returns what the user asked of it.
+    /// Draws the title bar and returns the commands of the user.
     pub(super) fn title_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         ui.horizontal_centered(|ui| {
@@ -38,8 +39,8 @@ impl Window {
             for workspace in Workspace::ALL {
                 let command = Command::Show(workspace);
                 let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
-                let tab = ui.selectable_label(self.workspace == workspace, workspace.name());
-                if tab.on_hover_text(format!("{} ({keys})", workspace.help())).clicked() {
+                let tab = ui.selectable_label(self.workspace == workspace, workspace.info().name);
+                if tab.on_hover_text(format!("{} ({keys})", workspace.info().help)).clicked() {
                     commands.push(command);
                 }
             }
@@ -79,13 +80,15 @@ impl Window {
     }
 }
 
-/// The menu of help.
 fn help_menu(ui: &mut Ui) -> Option<Command> {
     let mut asked = None;
     ui.menu_button(strings::help::HELP, |ui| {
-        for (name, command) in
-            [(strings::help::TOUR, Command::BeginTour), (strings::help::SHORTCUTS, Command::OpenShortcuts)]
-        {
+        for (name, command) in [
+            (strings::help::GUIDE, Command::OpenGuide),
+            (strings::help::PALETTE, Command::OpenPalette),
+            (strings::help::TOUR, Command::BeginTour),
+            (strings::help::SHORTCUTS, Command::OpenShortcuts),
+        ] {
             if ui.button(name).clicked() {
                 asked = Some(command);
             }

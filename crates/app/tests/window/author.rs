@@ -1,4 +1,4 @@
-//! The workspace Author, used as a person would: controls found by name, the point dragged, the texture heard.
+//! The Author workspace: drags of the point, and the resulting sliders, weights and output signal.
 
 use std::time::{Duration, Instant};
 
@@ -7,11 +7,11 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings;
-use shagreen_core::blend::Mode;
+use shagreen_core::texture::blend::Mode;
 
 use crate::support::{Author, author, choose_mode, click, drag, unnamed_controls, wait, window};
 
-/// Lets the texture sound for a while.
+/// Runs frames for some seconds in real time.
 fn listen(harness: &mut Author, seconds: f64) {
     let start = Instant::now();
     while start.elapsed().as_secs_f64() < seconds {
@@ -72,7 +72,7 @@ fn no_control_is_without_a_name() {
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 }
 
-/// The negative control: a slider that nobody named is found.
+/// Negative control: a slider without an accessible name is found.
 #[test]
 fn a_control_without_a_name_is_found() {
     let harness = Harness::builder().with_accessibility_check(false).build_ui(|ui| {
@@ -81,8 +81,8 @@ fn a_control_without_a_name_is_found() {
     assert_eq!(unnamed_controls(&harness).len(), 1);
 }
 
-/// The main job: drag the point, and sliders, weights and sound follow. In a mode in which a texture is itself at its
-/// own place.
+/// Main use: a drag of the point changes sliders, weights and output signal. The interpolation mode does not smooth
+/// textures at their own positions.
 #[test]
 fn dragging_the_point_changes_sliders_weights_and_sound() {
     let mut harness = author();
@@ -105,10 +105,10 @@ fn dragging_the_point_changes_sliders_weights_and_sound() {
     assert_eq!(parents(&harness)[0].0, "Brick");
     listen(&mut harness, 1.0);
     let loud = window(&harness).session().scope().rms(0.6);
-    // By their models a factor of about fifty lies between the two.
+    // The models differ in level by a factor of about fifty.
     assert!(quiet > 1e-3 && loud > 5.0 * quiet, "glass {quiet} m/s², brick {loud} m/s²");
 
-    // The spectrum that is shown is that of what sounds: its level is that of the model, within the noise of 0.6 s.
+    // The shown spectrum is that of the output signal: its level equals that of the model, within the noise of 0.6 s.
     let spectra = window(&harness).session().spectra();
     let steps = spectra.frequencies.windows(2).map(|f| f[1].0 - f[0].0);
     let power: f64 = steps.zip(&spectra.blend).map(|(df, p)| df * p).sum();
@@ -148,7 +148,8 @@ fn a_whole_drag_is_one_step_of_undo() {
     assert_eq!(window(&harness).project().texture().at, start);
 }
 
-/// A slow window gets the end of a drag, the release and the way to the next thing in one frame: the release counts.
+/// In a slow window, the end of a drag, the release and a later movement arrive in one frame. The position of the
+/// release counts.
 #[test]
 fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
     let mut harness = author();
@@ -182,7 +183,8 @@ fn a_drag_ends_where_it_was_let_go_however_slow_the_window_is() {
     assert_eq!(window(&harness).project().texture().at, start, "one step of undo");
 }
 
-/// Where textures are not smoothed, a click on one is that texture, wholly, and undo takes it back: the sliders that show the place do not round it.
+/// In a mode without smoothing, a click on a texture gives exactly that texture, and undo reverts it. The sliders must
+/// not round its position.
 #[test]
 fn a_click_on_a_texture_is_that_texture_and_can_be_undone() {
     for name in ["Cardboard", "Felt", "Glass", "Brick"] {
@@ -214,7 +216,7 @@ fn the_keyboard_moves_the_point_and_starts_the_hand() {
     harness.key_press(Key::Space);
     harness.run_steps(2);
     assert!(window(&harness).session().hand_is_running());
-    // While text is written, a space is a space.
+    // While a text field has the focus, the space key types a space.
     harness.get_by_role_and_label(Role::TextInput, strings::NAME).focus();
     harness.run_steps(2);
     harness.key_press(Key::Space);

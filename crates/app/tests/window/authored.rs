@@ -1,12 +1,12 @@
-//! Many authored textures: made, told apart, compared, kept and brought back; the map behind them, and the view.
+//! Several authored textures: creating, selecting, comparing, snapshots, heat maps and the view.
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::strings;
 use shagreen_app::strings::{authored as words, compare, map, view};
-use shagreen_core::blend::Mode;
-use shagreen_core::heat_map::Quantity;
+use shagreen_core::space::heat_map::Quantity;
+use shagreen_core::texture::blend::Mode;
 
 use crate::support::{
     self, Author, author, choose, choose_mode, click, drag, says, unnamed_controls, wait, wait_for_field,
@@ -27,7 +27,7 @@ fn key(harness: &mut Author, modifiers: Modifiers, key: Key) {
     harness.run_steps(3);
 }
 
-/// Opens the menu of what has this name, and takes an entry of it.
+/// Opens the context menu of a widget and clicks an entry.
 fn take_of_menu(harness: &mut Author, name: &str, entry: &str) {
     harness.get_by_label(name).click_secondary();
     harness.run_steps(3);
@@ -35,12 +35,12 @@ fn take_of_menu(harness: &mut Author, name: &str, entry: &str) {
     harness.run_steps(2);
 }
 
-/// What is heard at the moment: its parents and their weights.
+/// Library indices and weights of the contributing textures.
 fn heard(harness: &Author) -> Vec<(usize, f64)> {
     window(harness).session().authored().expect("it is shown").parents.clone()
 }
 
-/// Two textures far apart, in a mode in which each is blended of three: the second is selected.
+/// Two distant authored textures, in a mode with three contributing textures. The second one is selected.
 fn two() -> Author {
     let mut harness = author();
     choose_mode(&mut harness, Mode::Shared);
@@ -58,7 +58,7 @@ fn textures_are_made_selected_and_taken_away() {
     let colors: Vec<u8> = window(&harness).project().authored.iter().map(|texture| texture.color).collect();
     assert_ne!(colors[0], colors[1], "they are told apart");
     assert_eq!(window(&harness).project().texture().blend.mode, Mode::Shared, "blended as the one before");
-    // On the canvas and in the list.
+    // Selection on the canvas, then in the list.
     let second = heard(&harness);
     let first = window(&harness).project().authored[0].clone();
     harness.get_by_label(&words::on_canvas(&first.name)).click();
@@ -73,7 +73,7 @@ fn textures_are_made_selected_and_taken_away() {
     assert_eq!(window(&harness).project().selected, 1);
     assert_eq!(heard(&harness), second);
 
-    // There and back is no step.
+    // Two selections that cancel each other form no undo step.
     key(&mut harness, Modifiers::COMMAND, Key::Z);
     assert_eq!(slider(&harness, strings::ROUGH_SMOOTH), 50.0);
     key(&mut harness, Modifiers::COMMAND, Key::Z);
@@ -84,7 +84,7 @@ fn slider(harness: &Author, name: &str) -> f64 {
     harness.get_by_role_and_label(Role::Slider, name).accesskit_node().numeric_value().unwrap()
 }
 
-/// A texture that is not selected is dragged at once: it is selected by that, and the drag goes on.
+/// A drag of an unselected texture selects and moves it.
 #[test]
 fn another_texture_is_dragged_without_being_selected_first() {
     let mut harness = two();
@@ -131,7 +131,7 @@ fn a_texture_has_a_color_tags_and_notes_and_each_is_one_step() {
         key(&mut harness, Modifiers::COMMAND, Key::Z);
         assert_ne!(window(&harness).project().texture(), &before, "{step} {left}");
     }
-    assert_eq!(window(&harness).project().texture(), shagreen_app::window::new_project().texture());
+    assert_eq!(window(&harness).project().texture(), shagreen_studio::project::new_project().texture());
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn a_copy_and_a_snapshot_keep_what_was() {
     assert!(window(&harness).project().snapshots.is_empty());
 }
 
-/// A and B are heard by keys and buttons under the same stroke; what is heard blind is nowhere shown.
+/// Keys and buttons play A and B under the same stroke. A blind comparison shows nothing that identifies the texture.
 #[test]
 fn two_textures_are_compared() {
     let mut harness = two();
@@ -179,13 +179,13 @@ fn two_textures_are_compared() {
     assert!(!says(&harness, "dB re 1 m/s²"), "nor its level");
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     click(&mut harness, &compare::x_is("A"));
-    assert!(says(&harness, " of 1 right, p = "));
+    assert!(says(&harness, " of 1 correct, p = "));
     click(&mut harness, compare::BLIND);
     click(&mut harness, &compare::hear("A"));
     assert!(window(&harness).session().authored().is_none(), "nobody sees which it is");
     click(&mut harness, compare::BLIND);
     assert!(heard(&harness) == first, "revealed");
-    // What is changed is what is heard.
+    // An edit ends the comparison, because it applies to the selected texture.
     slide(&mut harness, strings::ROUGH_SMOOTH, 81.0);
     assert_ne!(heard(&harness), first);
     let first_name = words::on_canvas(&window(&harness).project().authored[0].name.clone());
@@ -194,7 +194,7 @@ fn two_textures_are_compared() {
     assert_eq!(heard(&harness), first, "they have changed sides");
 }
 
-/// A neighbor is heard by itself from its card, and the blend again by the same button, or by undo.
+/// The card of a contributing texture solos it. The same button and undo end solo.
 #[test]
 fn a_neighbor_is_heard_alone() {
     let mut harness = author();
@@ -214,7 +214,7 @@ fn a_neighbor_is_heard_alone() {
     assert_eq!(support::solo(&harness), Some(parent), "undone");
 }
 
-/// A state that was kept becomes a texture, and what became of it is compared with it.
+/// A snapshot becomes a texture and is compared with the present state.
 #[test]
 fn a_snapshot_becomes_a_texture_of_its_own() {
     let mut harness = author();
@@ -244,7 +244,7 @@ fn maps_are_worked_out_and_shown_with_their_scale() {
         });
     }
     choose(&mut harness, map::MAP, map::name(None));
-    assert!(!says(&harness, "Thin places, from"));
+    assert!(!says(&harness, "Texture distance, from"));
 }
 
 #[test]
@@ -252,7 +252,7 @@ fn the_view_comes_nearer_moves_and_shows_everything_again() {
     let mut harness = author();
     let cork = |h: &Author| h.get_by_label("Go to Cork").rect().center();
     let before = cork(&harness);
-    // The wheel keeps what is under the pointer where it is.
+    // Zooming with the wheel keeps the position under the pointer.
     harness.hover_at(before);
     harness.run_steps(2);
     for _ in 0..4 {

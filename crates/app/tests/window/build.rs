@@ -1,4 +1,4 @@
-//! The workspace Build, used as a person would: judgments given, a space built, looked at, saved, used and undone.
+//! The Build workspace: reading judgments, building, viewing, saving and using a space, and undo.
 
 use std::path::Path;
 
@@ -7,9 +7,9 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings::{self, build, import};
 use shagreen_app::workspace::Workspace;
-use shagreen_core::panel::{PanelConfig, simulated_ratings, simulated_sorts};
+use shagreen_core::people::panel::{PanelConfig, simulated_ratings, simulated_sorts};
 use shagreen_core::space::LabelSource;
-use shagreen_core::space_build::FeatureKind;
+use shagreen_core::space::space_build::FeatureKind;
 use shagreen_formats::library::read_library;
 use shagreen_formats::ratings_csv::ratings_csv;
 use shagreen_formats::sorting_csv::sorting_csv;
@@ -20,15 +20,15 @@ use crate::support::{
     wait, window, words, write_into,
 };
 
-/// Goes to the workspace.
+/// Window in the Build workspace.
 fn builder() -> Author {
     let mut harness = author();
-    click(&mut harness, strings::BUILD);
+    click(&mut harness, Workspace::Build.info().name);
     assert_eq!(window(&harness).workspace(), Workspace::Build);
     harness
 }
 
-/// A simulated panel judges, and a space is made of it in the quickest way.
+/// Space built from simulated raters, with the fastest options.
 fn built() -> Author {
     let mut harness = builder();
     click(&mut harness, build::SIMULATE);
@@ -44,7 +44,7 @@ fn built() -> Author {
     harness
 }
 
-/// Puts the space to use and goes where it is felt.
+/// Uses the built space and shows the Author workspace.
 fn use_space(harness: &mut Author) {
     click(harness, build::USE_SPACE);
     harness.run_steps(2);
@@ -57,14 +57,14 @@ fn set_number(harness: &mut Author, name: &str, value: f64) {
     harness.run_steps(2);
 }
 
-/// Saves the figure that is shown, in this file.
+/// Saves the shown figure to a file.
 fn save(harness: &mut Author, button: &str, path: &Path) {
     click(harness, button);
     harness.run_steps(2);
     enter_path(harness, build::SAVE_PATH, path);
 }
 
-/// Types a path into the field of a table, and reads it.
+/// Types a path into the field of a table and reads the file.
 fn read(harness: &mut Author, what: &str, path: &Path) {
     let field = build::path_of(what);
     write_into(harness, &field, &path.display().to_string());
@@ -73,7 +73,7 @@ fn read(harness: &mut Author, what: &str, path: &Path) {
     harness.run_steps(2);
 }
 
-/// The main job: from judgments to a space that is felt, and back.
+/// Main use: from judgments to a space in use, and back.
 #[test]
 fn a_space_is_built_looked_at_used_and_undone() {
     let mut harness = built();
@@ -86,7 +86,7 @@ fn a_space_is_built_looked_at_used_and_undone() {
         assert!(says(&harness, &figure.title()), "{name} is not shown");
         assert!(figure.title().contains("simulated raters"), "{}", figure.title());
     }
-    assert!(says(&harness, "nested cross-validation") && says(&harness, "nobody felt anything"));
+    assert!(says(&harness, "nested cross-validation") && says(&harness, "no person felt the textures"));
 
     let before = window(&harness).session().library().clone();
     let (space_before, source_before) =
@@ -103,7 +103,7 @@ fn a_space_is_built_looked_at_used_and_undone() {
     }
     assert!(session.library().space_report.is_some());
 
-    // It is felt: the blend at the point is of the new neighbors, and sounds.
+    // The interpolated texture has the new contributing textures and is audible.
     click(&mut harness, build::GO_TO_AUTHOR);
     assert_eq!(window(&harness).workspace(), Workspace::Author);
     click(&mut harness, strings::HAND_START);
@@ -120,7 +120,7 @@ fn a_space_is_built_looked_at_used_and_undone() {
     assert_eq!(window(&harness).session().label_source(), "simulated raters");
 }
 
-/// The figures are crowded: every texture has its name there, and a dot that is pointed at says it with its numbers.
+/// The scatter plots are dense: almost every texture is labeled, and pointing at a dot shows its name and numbers.
 #[test]
 fn dots_of_a_figure_have_names_and_say_them() {
     let mut harness = built();
@@ -149,7 +149,7 @@ fn dots_of_a_figure_have_names_and_say_them() {
     }
 }
 
-/// Tables of sortings and ratings, whose participants are called as people are, or as simulated ones.
+/// Tables of sortings and ratings with participants of this name prefix, for human or simulated raters.
 fn tables(prefix: &str) -> [Vec<u8>; 2] {
     let library = starter_library().unwrap();
     let placed = library.textures.iter().map(|t| (t.id.clone(), t.at().unwrap()));
@@ -173,7 +173,7 @@ fn tables(prefix: &str) -> [Vec<u8>; 2] {
     [sorting_csv(&sorts), ratings_csv(&ratings)]
 }
 
-/// Tables dropped on the workspace are known by their columns; who judged is known by the names of the participants.
+/// The columns identify dropped tables, and the names of the participants identify simulated raters.
 #[test]
 fn dropped_tables_become_a_space_that_says_who_judged() {
     for (prefix, source) in [("person ", "human ratings"), ("simulated-", "simulated raters")] {
@@ -234,7 +234,7 @@ fn figures_and_the_library_are_saved_and_nothing_else_is_replaced() {
     }
     assert!(std::fs::read_to_string(&svg).unwrap().contains("simulated raters"));
     assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y,source\n"));
-    // Another file is left alone, and the folder is remembered.
+    // A different kind of file is not overwritten, and the folder is remembered.
     save(&mut harness, build::SAVE_SVG, &csv);
     wait(&mut harness, "it refuses", |h| says(h, &build::no_figure("SVG")));
     assert!(std::fs::read_to_string(&csv).unwrap().starts_with("series,label,x,y,source\n"));
@@ -276,7 +276,7 @@ fn a_bad_table_says_why_and_nothing_is_lost() {
     read(&mut harness, build::RATINGS, &folder.path().join("nowhere.csv"));
     assert!(says(&harness, "cannot be read"));
 
-    // A texture that the library has not is named, and building says so too.
+    // An unknown texture is named when the table is read, and again when building fails.
     let unknown = folder.path().join("unknown.csv");
     std::fs::write(&unknown, "participant,texture,rough-smooth,hard-soft\np1,cork,3,4\np1,moon-dust,5,6\n")
         .unwrap();
@@ -303,8 +303,8 @@ fn building_can_be_cancelled_and_what_was_built_stays() {
     assert!(window(&harness).build().is_building());
     click(&mut harness, build::CANCEL);
     assert!(!window(&harness).build().is_building());
-    // Work looks up many times a second, so it may have stopped before the next frame. Until then it says that it stops,
-    // and takes no second press.
+    // The job checks for cancellation many times a second, so it may have stopped before the next frame. Until then the
+    // button is disabled.
     if says(&harness, build::STOPPING) {
         assert!(harness.get_by_label(build::CANCEL).accesskit_node().is_disabled());
     }
@@ -315,12 +315,12 @@ fn building_can_be_cancelled_and_what_was_built_stays() {
     assert!(harness.query_by_label(build::BUILD_AGAIN).is_some(), "it can be tried again");
 }
 
-/// Everything that a space is made of is seen without scrolling, with judgments read and with none.
+/// All build options are visible without scrolling, with and without judgments.
 #[test]
 fn nothing_of_the_options_is_cut_off() {
     for size in [[1280.0, 720.0], [1000.0, 700.0]] {
         let mut harness = author_on(starter_library().unwrap(), size);
-        click(&mut harness, strings::BUILD);
+        click(&mut harness, Workspace::Build.info().name);
         for is_read in [false, true] {
             if is_read {
                 click(&mut harness, build::SIMULATE);

@@ -1,9 +1,9 @@
-//! The sheet of devices, as a person would use it.
+//! The devices sheet.
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::rig::{Mounted, Rig};
+use shagreen_app::state::rig::{Mounted, Rig};
 use shagreen_app::strings::devices as strings;
 use shagreen_core::actuator::Actuator;
 use shagreen_formats::actuator_toml::{built_in_actuators, write_actuator};
@@ -37,7 +37,7 @@ fn an_actuator_is_chosen_equalized_and_limits_the_output() {
     let mut harness = opened();
     choose(&mut harness, strings::ACTUATOR, "Haptuator Mark II-D");
     wait(&mut harness, "it is taken over", |h| rig(h).actuator().is_some());
-    assert!(says(&harness, "65 Hz, Q 4.1") && says(&harness, "1.41 V rms for long, 4.5 V at most"));
+    assert!(says(&harness, "65 Hz, Q 4.1") && says(&harness, "1.41 V rms continuous, 4.5 V peak"));
     wait(&mut harness, "the output is open again", |h| window(h).session().status().is_some());
     let drive = rig(&harness).drive().unwrap();
     assert!(drive.inverse.is_some() && drive.budget.is_some());
@@ -53,7 +53,7 @@ fn an_actuator_without_a_response_is_named_and_can_be_left() {
     let mut harness = opened();
     choose(&mut harness, strings::ACTUATOR, "Haptuator MM1C");
     wait(&mut harness, "what to do is said", |h| says(h, "calibrate"));
-    // What drove another actuator does not drive this one.
+    // The drive signal of another actuator is not used for this one.
     wait(&mut harness, "the output is closed", |h| window(h).session().is_output_released());
     assert!(window(&harness).session().status().is_none());
     choose(&mut harness, strings::ACTUATOR, "Haptuator Mark II-D");
@@ -66,7 +66,7 @@ fn a_sheet_that_is_opened_again_knows_the_profile_that_was_read() {
     let path = folder.path().join("mine.toml");
     let built_in = built_in_actuators().unwrap();
     let known = built_in.into_iter().find(|a| a.name == "Haptuator Mark II-D").unwrap();
-    // Of the same id as one of the program's.
+    // It has the same id as a built-in profile.
     let mine = Actuator { name: "Mine".to_owned(), ..known };
     std::fs::write(&path, write_actuator(&mine)).unwrap();
     let mut harness = opened();

@@ -1,16 +1,16 @@
-//! Points that become textures of their own: what is heard, locked, extrapolated and said of it.
+//! Interpolated textures: level, pinning, extrapolation and messages.
 
 use std::time::{Duration, Instant};
 
 use egui::Shape;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::edit::Edit;
+use shagreen_app::state::edit::Edit;
 use shagreen_app::strings;
-use shagreen_core::authoring::{Authored, Outside, Weights};
-use shagreen_core::blend::Mode;
-use shagreen_core::plane::Plane;
+use shagreen_core::space::authoring::{Authored, Outside, Weights};
 use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::Contact;
 use shagreen_formats::library::{Library, Place};
 use shagreen_formats::starter::starter_library;
@@ -42,7 +42,7 @@ fn move_to(harness: &mut Author, rough_smooth: f64, hard_soft: f64) {
     set(harness, strings::HARD_SOFT, hard_soft);
 }
 
-/// Level in m/s² of the spectrum of the blend that is shown.
+/// Level of the shown spectrum of the mixture, in m/s².
 fn shown_level_mps2(harness: &Author) -> f64 {
     let spectra = window(harness).session().spectra();
     let steps = spectra.frequencies.windows(2).map(|f| f[1].0 - f[0].0);
@@ -53,7 +53,7 @@ fn on_canvas(harness: &Author) -> Vec<String> {
     painted(harness, strings::CANVAS).iter().filter_map(words).collect()
 }
 
-/// The texture of the point is heard: at the level of its model, as its spectrum shows, in both modes that make one.
+/// In both modes that interpolate a texture, the output signal and the shown spectrum have the level of its model.
 #[test]
 fn what_is_made_is_heard_and_shown() {
     let mut harness = author();
@@ -63,7 +63,7 @@ fn what_is_made_is_heard_and_shown() {
         move_to(&mut harness, rough_smooth, 45.0);
         let model = authored(&harness).model.expect("a texture was made");
         let level_mps2 = Plane::new(&model).at(Contact::from_mm_per_s_and_n(100.0, 0.8)).level_mps2;
-        // Nothing touches: then the spectrum is that of the hand as it is set.
+        // Without contact, the spectrum is computed for the speed and force of the automatic stroke.
         let ratio = shown_level_mps2(&harness) / level_mps2;
         assert!(
             (0.8..1.2).contains(&ratio),
@@ -83,7 +83,7 @@ fn what_is_made_is_heard_and_shown() {
     }
 }
 
-/// All textures have a say, of which three have cards, and the rest a line.
+/// All textures contribute; three have cards and the others one line.
 #[test]
 fn a_field_shows_its_three_largest_parents_and_counts_the_rest() {
     let mut harness = author();
@@ -98,17 +98,17 @@ fn a_field_shows_its_three_largest_parents_and_counts_the_rest() {
     assert!(harness.query_by_label(&card(&field.parents[3])).is_none());
     let rest: f64 = field.parents[3..].iter().map(|(_, weight)| weight).sum();
     assert!(says(&harness, &strings::more_parents(22, 100.0 * rest)));
-    // Filled triangles are of modes that blend their corners.
+    // Modes that interpolate within a triangle fill it.
     let is_filled = |h: &Author| {
         painted(h, strings::CANVAS).iter().any(|s| matches!(s, Shape::Mesh(m) if m.indices.len() == 3))
     };
     assert!(!is_filled(&harness));
     choose_mode(&mut harness, Mode::Shared);
     assert!(is_filled(&harness) && authored(&harness).parents.len() == 3);
-    assert!(!says(&harness, "more, together"));
+    assert!(!says(&harness, "more, total"));
 }
 
-/// Exact where it is locked, smoothed otherwise; both can be undone by name.
+/// A pinned texture is exact, others are smoothed. Undo reverts pinning.
 #[test]
 fn a_locked_texture_is_met_exactly() {
     let mut harness = author();
@@ -128,32 +128,32 @@ fn a_locked_texture_is_met_exactly() {
     assert!((level(&harness) / exact_mps2 - 1.0).abs() < 0.15, "{} for {exact_mps2}", level(&harness));
     click(&mut harness, strings::UNDO);
     assert!(!is_locked(&harness, wood));
-    // The menu of the texture on the canvas does the same.
+    // The context menu of the texture on the canvas also pins it.
     harness.get_by_label(&strings::go_to("Felt")).click_secondary();
     harness.run_steps(3);
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     click(&mut harness, &strings::lock("Felt", true));
     let felt = window(&harness).session().textures().iter().position(|t| t.name == "Felt").unwrap();
     assert!(is_locked(&harness, felt));
-    // Near it, both sound.
+    // Near a pinned texture, both the texture and the field play.
     let at = window(&harness).session().space().position(felt).unwrap();
     move_to(&mut harness, at.rough_smooth, at.hard_soft - 4.0);
     let (locked, share) = authored(&harness).lock.expect("the circle of felt");
     assert!(locked == felt && share > 0.1 && share < 0.9, "{share}");
     wait(&mut harness, "both are loaded", |h| window(h).session().n_loaded() >= 2);
-    // Other modes know no locks, and lose none.
+    // Other modes ignore pins and keep them.
     choose_mode(&mut harness, Mode::Power);
     assert!(!is_locked(&harness, felt));
     choose_mode(&mut harness, Mode::Field);
     assert!(is_locked(&harness, felt));
 }
 
-/// Outside the outline: the nearest point of it, or as far as the field supports.
+/// Outside the convex hull the point is clamped to it, or the field is extrapolated as far as it allows.
 #[test]
 fn beyond_the_textures_only_where_that_is_asked_for() {
     let mut harness = author();
     wait_for_field(&mut harness);
-    // A little outside of the outline, which ends at the softest texture.
+    // A little outside the hull, of which the softest texture is a corner.
     move_to(&mut harness, 99.0, 99.0);
     let clamped = authored(&harness);
     assert!(clamped.location.clamped && !clamped.is_extrapolated);
@@ -179,7 +179,7 @@ fn beyond_the_textures_only_where_that_is_asked_for() {
     assert_eq!(authored(&harness), clamped);
 }
 
-/// Natural neighbors are more than three, and a choice of one mode only.
+/// Natural-neighbor weights use more than three textures, and only the parametric mode offers them.
 #[test]
 fn natural_neighbors_are_a_choice_of_the_parametric_mode() {
     let mut harness = author();
@@ -198,7 +198,7 @@ fn natural_neighbors_are_a_choice_of_the_parametric_mode() {
     assert!(on_canvas(&harness).iter().any(|text| text == strings::JUMPS || text == strings::JUMPS_HERE));
 }
 
-/// Ten times as long as a person drags without a rest: nothing piles up, and nothing is lost.
+/// A drag ten times as long as usual: loaded textures do not accumulate, and none leak.
 #[test]
 fn a_long_drag_keeps_nothing() {
     let mut harness = author();
@@ -217,7 +217,7 @@ fn a_long_drag_keeps_nothing() {
         most = most.max(window(&harness).session().n_loaded());
     }
     let n_before = window(&harness).session().n_loaded();
-    // The one that sounds, and one on its way.
+    // The playing texture and the next one.
     assert!(most <= 2 && n_before <= 2, "up to {most} textures were loaded");
     let took_secs = start.elapsed().as_secs_f64();
     let status = window(&harness).session().status().unwrap();
@@ -228,7 +228,7 @@ fn a_long_drag_keeps_nothing() {
     assert!(window(&harness).session().scope().rms(0.2) > 1e-3, "it still sounds");
 }
 
-/// Copies of the starter library's textures all over the square.
+/// Copies of the textures of the starter library, spread over the whole space.
 fn thousand() -> Library {
     let mut library = starter_library().unwrap();
     let textures = library.textures.clone();
@@ -246,7 +246,7 @@ fn thousand() -> Library {
     library
 }
 
-/// A field over a thousand textures takes its time; the window does not, and says what it waits for.
+/// A field over a thousand textures is computed without blocking the window, which shows a notice.
 #[test]
 fn a_thousand_textures_do_not_hold_the_window_up() {
     let mut harness = author_on(thousand(), [1280.0, 720.0]);
@@ -273,5 +273,5 @@ fn a_thousand_textures_do_not_hold_the_window_up() {
     assert!(slowest < Duration::from_millis(FRAME_LIMIT_MS), "a frame took {slowest:?}");
 }
 
-/// Tests run a slow build, beside others.
+/// Generous, because tests use an unoptimized build and run in parallel.
 const FRAME_LIMIT_MS: u64 = 400;

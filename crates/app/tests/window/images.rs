@@ -1,6 +1,7 @@
-//! What the window looks like: parts of it against reference images, in both themes.
+//! Parts of the window compared with reference images, in both themes.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test -p shagreen-app --test window images` takes new ones, to be looked at before they are kept.
+//! `UPDATE_SNAPSHOTS=1 cargo test -p shagreen-app --test window images` writes new references. Inspect them before
+//! committing.
 
 mod raster;
 
@@ -10,13 +11,13 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, pos2};
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{SnapshotOptions, SnapshotResults, try_image_snapshot_options};
-use shagreen_app::scope::view::View;
-use shagreen_app::signals::Slot;
-use shagreen_app::signals::page::View as Tab;
+use shagreen_app::choices::scope::View;
+use shagreen_app::choices::signals::Slot;
+use shagreen_app::choices::signals::View as Tab;
 use shagreen_app::strings;
 use shagreen_app::strings::{authored, compare, document, gallery, map, scope, signals};
-use shagreen_core::blend::Mode;
-use shagreen_core::heat_map::Quantity;
+use shagreen_core::space::heat_map::Quantity;
+use shagreen_core::texture::blend::Mode;
 use shagreen_formats::gallery::GALLERY;
 
 use self::raster::Raster;
@@ -24,10 +25,10 @@ use crate::support::{self, Author, begin, choose, choose_mode, click, says, wait
 use image::RgbaImage;
 use image::imageops::crop_imm;
 
-/// Letters are drawn with more or less of a pixel on other processors.
+/// Tolerated number of different pixels: other processors rasterize letters slightly differently.
 const PIXELS_APART: usize = 12;
 
-/// The window on the second project of the gallery, with pictures of its textures and its field.
+/// Window on the second project of the gallery, after its pictures and its field are loaded.
 fn drawn() -> Author {
     let project = GALLERY[1].read().unwrap();
     let mut harness = support::drawn_by(Raster::default(), begin(project), [1280.0, 720.0]);
@@ -41,10 +42,10 @@ fn drawn() -> Author {
     harness
 }
 
-/// What is in an area of the window while nothing is pointed at.
+/// Image of an area of the window, with the pointer away from all widgets.
 fn part(harness: &mut Author, area: Rect) -> RgbaImage {
     harness.hover_at(pos2(700.0, 705.0));
-    // Nothing moves any more.
+    // Time for all animations to end.
     harness.run_steps(30);
     let image = harness.render().unwrap();
     let area = area.intersect(Rect::from_min_max(pos2(0.0, 0.0), pos2(1280.0, 720.0)));
@@ -56,7 +57,7 @@ fn options() -> SnapshotOptions {
     SnapshotOptions::new().max_failed_pixels(PIXELS_APART)
 }
 
-/// Compares what is in an area of the window with the reference image of this name.
+/// Compares an area of the window with the reference image of this name.
 fn look(harness: &mut Author, results: &mut SnapshotResults, name: &str, area: Rect) {
     results.add(try_image_snapshot_options(&part(harness, area), name, &options()));
 }
@@ -137,7 +138,7 @@ fn sheets_and_menus_look_as_they_were_approved() {
     results.unwrap();
 }
 
-/// Waves of a length in mm in packs of 10 mm, as a table.
+/// CSV table of wave packets of 10 mm at intervals of 20 mm, with a wavelength in mm.
 fn packs(wave_mm: f64) -> String {
     let value = |i: u32| {
         let mm = 0.05 * f64::from(i);
@@ -174,7 +175,7 @@ fn the_bench_looks_as_it_was_approved() {
     results.unwrap();
 }
 
-/// The negative control: a button more is found in the picture of the column.
+/// Negative control: an additional button in the column is detected.
 #[test]
 fn a_window_that_looks_different_is_found() {
     let mut harness = drawn();
@@ -183,7 +184,7 @@ fn a_window_that_looks_different_is_found() {
     std::fs::copy(Path::new("tests/snapshots").join(reference), folder.path().join(reference)).unwrap();
     let options = options().output_path(folder.path());
     let before = part(&mut harness, COLUMN);
-    // Whoever takes new references takes this one as well.
+    // When references are updated, this one may change too.
     let is_taking = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
     assert!(try_image_snapshot_options(&before, "textures_dark", &options).is_ok() || is_taking);
     click(&mut harness, authored::KEEP);

@@ -1,4 +1,4 @@
-//! Importing, as a person would: files dropped on the window, questions answered, the texture accepted, heard, undone.
+//! Import: dropping files, answering questions, fitting, adding the texture, playing it, and undo.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -7,10 +7,10 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings::{self, import};
-use shagreen_core::blend::Mode;
-use shagreen_core::plane::Plane;
-use shagreen_core::render::{RenderPlan, render};
 use shagreen_core::space::LabelSource;
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::render::{RenderPlan, render};
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
@@ -26,8 +26,8 @@ fn starter(id: &str) -> TextureEntry {
     library.textures[library.index_of(id).expect("a texture of the starter library")].clone()
 }
 
-/// A simulated recording of a starter texture: back and forth at many speeds and forces. The unit of acceleration is
-/// not stated.
+/// Simulated recording of a starter texture, stroked back and forth at many speeds and forces. The unit of acceleration
+/// is not stated.
 fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
     let prepared = Plane::new(&starter(id).model).prepare();
     let speed_mm_per_s = |t: f64| 20.0 + 180.0 * (0.9 * t).sin().powi(2);
@@ -43,7 +43,7 @@ fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
     text
 }
 
-/// Drops a recording and answers what is asked, until it is fitted.
+/// Drops a recording and answers the questions, until it is fitted.
 fn import_recording(harness: &mut Author, name: &str, text: &str) {
     drop_files(harness, &[(name, text.as_bytes())]);
     let unit = import::answer_of("acceleration_unit");
@@ -54,7 +54,7 @@ fn import_recording(harness: &mut Author, name: &str, text: &str) {
     });
 }
 
-/// The main job: a recording is dropped, its unit said, its fit looked at, and the texture joins the list and sounds.
+/// Main use: drop a recording, state its unit, inspect the fit, add the texture and play it.
 #[test]
 fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     let mut harness = author();
@@ -76,10 +76,10 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
     click(&mut harness, import::NEXT_SEGMENT);
     assert!(harness.query_by_label_contains("segment 2 of").is_some());
 
-    // What is dropped finds its place, unless that is not wanted.
+    // Recordings get predicted positions unless the user turns that off.
     click(&mut harness, import::PLACE_THEM);
     click(&mut harness, &import::add(1));
-    // The list scrolls to what is new.
+    // The list scrolls to the new texture.
     harness.run_steps(60);
     assert!(window(&harness).import().is_none(), "the sheet closes");
     let after = names(&harness);
@@ -120,7 +120,8 @@ fn a_dropped_recording_lands_near_the_texture_it_was_made_of() {
     assert!(harness.query_by_label("Go to Rug").is_some(), "it is on the canvas");
 }
 
-/// Another rate is another fit, and one that cannot be blended says so; heard alone, the output follows its rate.
+/// Another model rate requires another fit. A texture that cannot be interpolated says so. When it is soloed, the
+/// output uses its rate.
 #[test]
 fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
     let mut harness = author();
@@ -131,7 +132,7 @@ fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
         let draft = batch.draft_of(batch.files()[0].id);
         draft.and_then(|d| d.fitted()).is_some_and(|f| f.report.rate.0 == 2000.0)
     });
-    assert!(harness.query_by_label_contains("cannot be blended").is_some());
+    assert!(harness.query_by_label_contains("cannot be interpolated").is_some());
     click(&mut harness, &import::add(1));
     harness.run_steps(60);
     let before = window(&harness).session().textures().len();
@@ -141,7 +142,7 @@ fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
     assert_eq!(solo(&harness), Some(before - 1));
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds at its own rate", |h| window(h).session().scope().rms(0.3) > 1e-3);
-    // Moved back into the space, the blend sounds again, at the rate of the space.
+    // A click on a texture of the space ends solo, and the output returns to the rate of the space.
     click(&mut harness, &strings::go_to("Brick"));
     wait(&mut harness, "the blend sounds", |h| window(h).session().scope().rms(0.3) > 0.2);
 }
@@ -163,7 +164,7 @@ fn a_file_that_cannot_be_used_says_why_and_nothing_is_lost() {
     assert!(harness.get_by_label(strings::UNDO).accesskit_node().is_disabled());
 }
 
-/// A library's textures join; where their places come from the same source they keep them.
+/// Textures of a dropped library are added. They keep their positions, because these have the same source.
 #[test]
 fn a_dropped_library_adds_its_textures_with_their_places() {
     let mut harness = author();
@@ -181,7 +182,7 @@ fn a_dropped_library_adds_its_textures_with_their_places() {
     assert!(harness.query_by_label("Go to My cork").is_some());
 }
 
-/// Nothing below a sheet changes while it is open, and every control of it has a name.
+/// Shortcuts change nothing while a sheet is open, and every control of the sheet has a name.
 #[test]
 fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
     let mut harness = author();
@@ -189,7 +190,7 @@ fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
     click(&mut harness, strings::IMPORT);
     harness.run_steps(2);
     let theme = harness.ctx.theme();
-    // First in the field of paths, then past it.
+    // The focus starts in the path field and then moves on.
     harness.get_by_role_and_label(Role::TextInput, import::PATHS).click();
     for (modifiers, key) in [
         (Modifiers::NONE, Key::ArrowRight),
@@ -231,7 +232,7 @@ fn the_sheet_is_reached_by_keyboard_and_every_control_has_a_name() {
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 }
 
-/// Saving asks before it replaces a library, replaces nothing else, and what it writes is the whole list.
+/// Saving asks before it replaces a library and refuses to replace other files. The saved file contains the whole list.
 #[test]
 fn the_library_is_saved_with_what_joined_it() {
     let mut harness = author();
@@ -243,12 +244,12 @@ fn the_library_is_saved_with_what_joined_it() {
     harness.get_by_role_and_label(Role::TextInput, import::SAVE_PATH).type_text(&path.display().to_string());
     harness.run_steps(2);
     harness.key_press(Key::Enter);
-    let refused = "is no Shagreen library";
+    let refused = "is not a readable Shagreen library";
     wait(&mut harness, "it refuses", |h| h.query_by_label_contains(refused).is_some());
     assert!(harness.query_by_label(import::REPLACE).is_none());
     assert_eq!(std::fs::read(&path).unwrap(), b"something else");
 
-    // The sheet has grown by the reason, and moves to the middle again.
+    // The sheet grows by the error message and is centered again.
     harness.run_steps(3);
     std::fs::write(&path, write_library(&Library::default())).unwrap();
     click(&mut harness, import::SAVE);
@@ -262,7 +263,7 @@ fn the_library_is_saved_with_what_joined_it() {
     assert_eq!(library.textures.len(), names(&harness).len());
 }
 
-/// A published texture says that it may not be passed on: in the sheet, in the list, and before it is saved.
+/// A published texture is marked as not redistributable: in the sheet, in the list, and before saving.
 #[test]
 fn a_published_texture_joins_and_is_marked_as_restricted() {
     let mut harness = author();
@@ -293,7 +294,7 @@ fn a_published_texture_joins_and_is_marked_as_restricted() {
     assert!(harness.query_by_label(&warning).is_some(), "saving warns");
 }
 
-/// What was typed stays with its files while they are put together and taken apart again.
+/// Typed names and tags are kept when files are combined and separated again.
 #[test]
 fn names_and_tags_stay_when_recordings_become_one_texture_and_back() {
     let mut harness = author();

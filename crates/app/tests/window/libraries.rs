@@ -1,23 +1,24 @@
-//! Another library is opened in the window: its places say whom they come from, and nothing is lost.
+//! Opening another library: its positions state their source, and nothing is lost.
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use shagreen_app::libraries::built_in_name;
 use shagreen_app::strings;
-use shagreen_core::authoring::Authored;
-use shagreen_core::blend::Mode;
+use shagreen_app::workspace::Workspace;
+use shagreen_core::space::authoring::Authored;
+use shagreen_core::texture::blend::Mode;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::Library;
+use shagreen_studio::library_names::built_in_name;
 
 use crate::support::{
     Author, author, author_on, choose_mode, click, drop_files, painted, says, shown, unnamed_controls, wait,
     window, words,
 };
 
-const NOBODY: &str = "Places: simulated raters, nobody felt them";
+const NOBODY: &str = "Positions: simulated raters, no human data";
 
-/// Takes an entry of the menu of libraries.
+/// Clicks an entry of the library menu.
 fn open(harness: &mut Author, name: &str) {
     click(harness, strings::LIBRARIES);
     harness.run_steps(2);
@@ -34,7 +35,7 @@ fn authored(harness: &Author) -> Authored {
     window(harness).session().authored().unwrap().clone()
 }
 
-/// What is written on the canvas.
+/// Texts on the canvas.
 fn names_on_canvas(harness: &Author) -> Vec<String> {
     painted(harness, strings::CANVAS).into_iter().filter_map(|shape| words(&shape)).collect()
 }
@@ -47,16 +48,16 @@ fn the_simulated_library_is_opened_and_says_so_wherever_its_places_are_shown() {
     harness.run_steps(3);
     let (point, before) = (window(&harness).project().texture().at, library(&harness));
     let (space, blend) = (window(&harness).session().space().clone(), authored(&harness));
-    assert!(says(&harness, "Places: physical labels") && !says(&harness, NOBODY));
+    assert!(says(&harness, "Positions: physical labels") && !says(&harness, NOBODY));
 
     open(&mut harness, built_in_name(BuiltIn::Simulated));
     let read = BuiltIn::Simulated.read().unwrap();
     assert_eq!(library(&harness), read);
     assert_eq!(window(&harness).project().texture().at, point, "the point is where it is");
     assert_ne!(authored(&harness).parents, blend.parents, "its neighbors are others");
-    // In the list, on the canvas and at the foot.
+    // In the list, on the canvas and in the status bar.
     assert!(says(&harness, NOBODY), "{:?}", shown(&harness));
-    assert!(shown(&harness).iter().any(|text| text == "Places: simulated raters"));
+    assert!(shown(&harness).iter().any(|text| text == "Positions: simulated raters"));
     assert!(says(&harness, "positions: simulated raters"));
     harness.get_by_label(&strings::go_to("Cork")).hover();
     wait(&mut harness, "the place says whom it is from", |h| says(h, "(simulated raters)"));
@@ -74,7 +75,7 @@ fn the_simulated_library_is_opened_and_says_so_wherever_its_places_are_shown() {
     assert_eq!(window(&harness).project().texture().at, point);
 }
 
-/// Opening the library that is open changes nothing and is no step of undo.
+/// Opening the open library changes nothing and forms no undo step.
 #[test]
 fn the_open_library_is_marked_and_opening_it_does_nothing() {
     let mut harness = author();
@@ -88,7 +89,7 @@ fn the_open_library_is_marked_and_opening_it_does_nothing() {
     assert_eq!(all, 2, "each of the program's once");
 }
 
-/// The library of a file can be left and opened again, with the textures that joined it.
+/// A library from a file can be left and reopened, with the added textures.
 #[test]
 fn a_library_that_was_open_is_offered_too() {
     let mut mine = BuiltIn::Starter.read().unwrap();
@@ -105,15 +106,15 @@ fn a_library_that_was_open_is_offered_too() {
     assert_eq!(window(&harness).session().textures().len(), 25);
 }
 
-/// Judgments that were given stay, and a space made before says that something has changed.
+/// Judgments stay loaded when another library is opened.
 #[test]
 fn judgments_survive_another_library() {
     let mut harness = author();
-    click(&mut harness, strings::BUILD);
+    click(&mut harness, Workspace::Build.info().name);
     let csv: &[u8] = b"participant,trial,groups,texture,group\np1,1,2,cork,a\np1,1,2,felt,b\n";
     drop_files(&mut harness, &[("sorting.csv", csv)]);
     wait(&mut harness, "it is read", |h| !window(h).build().judgments().is_reading());
-    click(&mut harness, strings::AUTHOR);
+    click(&mut harness, Workspace::Author.info().name);
     open(&mut harness, built_in_name(BuiltIn::Simulated));
     assert_eq!(window(&harness).build().judgments().sorting.values().len(), 1);
 }
@@ -134,7 +135,8 @@ fn every_texture_of_both_libraries_has_its_name_on_the_canvas() {
     }
 }
 
-/// In a window too small for all names, the one that is pointed at is there at once.
+/// In a window with too little room for all names, the name under the pointer or with the keyboard focus is shown at
+/// once.
 #[test]
 fn a_texture_that_is_pointed_at_always_has_its_name() {
     let mut heap = BuiltIn::Starter.read().unwrap();

@@ -1,6 +1,6 @@
-//! The window, used as a person would: controls found by name, pointer and keys, what is heard and seen. One program of
-//! tests, which is linked once.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may stop at what it did not expect")]
+//! Tests of the window through accessible names, the pointer, keys, and the output signal. They form one binary, which
+//! is linked once.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic on an unexpected result")]
 
 mod support;
 
@@ -9,6 +9,7 @@ mod authored;
 mod build;
 mod devices;
 mod field;
+mod help;
 mod images;
 mod import;
 mod libraries;

@@ -1,4 +1,4 @@
-//! Paths through the space: drawn, changed, played along a stroke, kept as textures.
+//! Paths through the space: drawing, editing, playing, and adding them to the list.
 
 use std::time::Duration;
 
@@ -7,9 +7,9 @@ use egui::{Key, Modifiers, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::strings;
 use shagreen_app::strings::path;
-use shagreen_core::drawn_path::DrawnPath;
 use shagreen_core::space::SpacePoint;
-use shagreen_core::texture_path::{Along, AtEnd};
+use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::{Along, AtEnd};
 
 use crate::support::{
     Author, author, choose, click, painted, solo, unnamed_controls, wait, wait_for_field, window, words,
@@ -23,7 +23,7 @@ fn drawn(harness: &Author) -> DrawnPath {
     window(harness).project().texture().path.clone().expect("a path")
 }
 
-/// Draws from brick to cotton, where it stays, in so many seconds.
+/// Draws a path from brick to cotton that takes `secs` seconds and holds at its end.
 fn draw_in_time(harness: &mut Author, secs: f64) {
     click(harness, path::PATH);
     click(harness, &strings::go_to("Brick"));
@@ -37,7 +37,7 @@ fn draw_in_time(harness: &mut Author, secs: f64) {
     assert!((set.length_secs - secs).abs() < 1e-9);
 }
 
-/// Draws from one texture by a second to a third.
+/// Draws a path freehand through three textures.
 fn draw(harness: &mut Author, [from, by, to]: [&str; 3]) {
     let places = [from, by, to].map(|name| center(harness, &strings::go_to(name)));
     harness.hover_at(places[0]);
@@ -70,7 +70,7 @@ fn a_path_is_drawn_changed_and_undone() {
     draw(&mut harness, ["Rough sawn wood", "Cardboard", "Felt"]);
     let first = drawn(&harness);
     assert_eq!(window(&harness).project().texture().at, point, "the point stays");
-    // A stroke on the screen begins and ends within a few points of the axes.
+    // A freehand path starts and ends within a few points of the axes.
     assert!(first.points.len() >= 3, "{:?}", first.points);
     assert!(first.points[0].distance(place(&harness, "Rough sawn wood")) < 2.0);
     assert!(first.points[first.points.len() - 1].distance(place(&harness, "Felt")) < 2.0);
@@ -79,11 +79,11 @@ fn a_path_is_drawn_changed_and_undone() {
     assert!(farthest < 2.0, "the corner is kept");
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 
-    // A click on a texture goes on to it.
+    // A click on a texture extends the path to it.
     click(&mut harness, &strings::go_to("Glass"));
     let longer = drawn(&harness);
     assert_eq!(longer.points.last(), Some(&place(&harness, "Glass")));
-    // Points are moved and deleted.
+    // Moves a point and deletes it.
     let (from, to) = (center(&harness, &path::point(1)), center(&harness, &strings::go_to("Denim")));
     harness.hover_at(from);
     harness.run_steps(2);
@@ -111,7 +111,7 @@ fn a_path_is_drawn_changed_and_undone() {
     click(&mut harness, path::CLEAR);
     assert_eq!(window(&harness).project().texture().path, None);
 
-    // Escape leaves: then the canvas moves the point again.
+    // Escape turns the path tool off, and clicks move the point again.
     harness.key_press(Key::Escape);
     harness.run_steps(2);
     click(&mut harness, &strings::go_to("Cork"));
@@ -119,7 +119,7 @@ fn a_path_is_drawn_changed_and_undone() {
     assert_eq!(window(&harness).project().texture().path, None);
 }
 
-/// The texture follows the path as the hand strokes, and the point is heard again when it stops.
+/// The texture follows the path during the stroke, and the point plays again afterwards.
 #[test]
 fn the_texture_follows_the_path() {
     let mut harness = author();
@@ -141,7 +141,7 @@ fn the_texture_follows_the_path() {
         std::thread::sleep(Duration::from_millis(5));
         let session = window(&harness).session();
         visited.push(session.path_point().unwrap());
-        // What is heard is the texture of that place.
+        // The audible texture is that of the path position.
         assert!(session.authored().unwrap().location.at.distance(visited[visited.len() - 1]) < 1e-6);
         assert!(session.n_loaded() <= 3, "{}", session.n_loaded());
         loudest = loudest.max(session.scope().rms(0.2));
@@ -153,7 +153,7 @@ fn the_texture_follows_the_path() {
     wait(&mut harness, "it stays at the end", |h| {
         h.state().as_ref().unwrap().session().scope().rms(0.2) > 1e-4
     });
-    // A brick is some ten times as loud as cotton.
+    // The level of brick is about ten times that of cotton.
     let quiet = {
         for _ in 0..40 {
             harness.step();
@@ -168,7 +168,7 @@ fn the_texture_follows_the_path() {
     assert!(window(&harness).session().authored().unwrap().location.at.distance(point) < 1e-9);
 }
 
-/// What is kept is a texture of the list with the path in it.
+/// Adding a path creates a texture of the list that contains the path.
 #[test]
 fn a_path_is_kept_as_a_texture() {
     let mut harness = author();
@@ -191,14 +191,14 @@ fn a_path_is_kept_as_a_texture() {
     assert_eq!(window(&harness).session().textures().len(), 25);
 }
 
-/// A path of the list that is heard alone changes along the stroke too.
+/// A soloed path of the list changes along the stroke too.
 #[test]
 fn a_kept_path_is_heard_along_the_stroke() {
     let mut harness = author();
     wait_for_field(&mut harness);
     draw_in_time(&mut harness, 1.0);
     click(&mut harness, path::KEEP);
-    // The list scrolls to what joined it.
+    // The list scrolls to the new texture.
     harness.run_steps(40);
     click(&mut harness, &strings::texture("New texture"));
     assert_eq!(solo(&harness), Some(25));

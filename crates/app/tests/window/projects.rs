@@ -1,4 +1,4 @@
-//! The project and its file: saved, opened, left, recovered after a crash; nothing is lost unasked.
+//! Project files: saving, opening, leaving and recovery. Unsaved changes are never discarded without asking.
 
 use std::path::{Path, PathBuf};
 
@@ -6,17 +6,17 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::Begin;
-use shagreen_app::document::{Read, read_file};
-use shagreen_app::files::Keeping;
-use shagreen_app::recovery::INTERVAL;
+use shagreen_app::choices::tour::Step;
+use shagreen_app::state::files::Keeping;
+use shagreen_app::state::recovery::INTERVAL;
 use shagreen_app::strings;
 use shagreen_app::strings::{document, gallery, help, import, signal};
-use shagreen_app::tour::Step;
-use shagreen_app::window::new_project;
 use shagreen_formats::gallery::GALLERY;
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_bytes;
 use shagreen_formats::wav::SidecarV1;
+use shagreen_studio::open::{self, Opened};
+use shagreen_studio::project::new_project;
 
 use crate::support::{
     Author, author, author_of, begin, click, drop_files, enter_path, says, unnamed_controls, wait,
@@ -25,7 +25,7 @@ use crate::support::{
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
 
-/// Gives the authored texture a name, and goes on to something else.
+/// Renames the authored texture and moves the focus away.
 fn rename(harness: &mut Author, name: &str) {
     write_into(harness, strings::NAME, name);
     harness.key_press(Key::Enter);
@@ -38,7 +38,7 @@ fn keys(harness: &mut Author, modifiers: Modifiers, key: Key) {
     harness.run_steps(3);
 }
 
-/// Takes an entry of the menu of files.
+/// Clicks an entry of the file menu.
 fn menu(harness: &mut Author, entry: &str) {
     click(harness, document::FILE);
     harness.run_steps(2);
@@ -47,7 +47,7 @@ fn menu(harness: &mut Author, entry: &str) {
     harness.run_steps(2);
 }
 
-/// Saves under this path by the sheet.
+/// Saves the project to a path in the save sheet.
 fn save_as(harness: &mut Author, path: &Path) {
     keys(harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     enter_path(harness, document::SAVE_PATH, path);
@@ -59,9 +59,9 @@ fn wait_until_saved(harness: &mut Author) {
 }
 
 fn project_in(path: &Path) -> Project {
-    match read_file(path).unwrap() {
-        Read::Project(imported) => imported.value,
-        Read::Library(_) => panic!("a project"),
+    match open::open(path).unwrap() {
+        Opened::Project(imported) => imported.value,
+        Opened::Library(_) => panic!("a project"),
     }
 }
 
@@ -87,7 +87,7 @@ fn a_project_is_saved_left_and_opened_again() {
     assert!(says(&harness, "Woods") && !says(&harness, "Woods •"));
     assert!(harness.query_by_label(document::SAVE_TITLE).is_none(), "the sheet is gone");
 
-    // Saving again asks nothing.
+    // Saving again needs no path.
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(63.0);
     harness.run_steps(3);
     assert!(says(&harness, "Woods •"));
@@ -124,7 +124,7 @@ fn nothing_is_left_unasked() {
         harness.run_steps(2);
         assert_eq!(window(&harness).project(), &project);
     }
-    // Who does not save after all does not leave, later neither.
+    // Canceling the save also cancels leaving, for later saves too.
     let kept = folder.path().join("kept.shagreen");
     menu(&mut harness, document::NEW);
     click(&mut harness, document::SAVE_FIRST);
@@ -137,7 +137,7 @@ fn nothing_is_left_unasked() {
     menu(&mut harness, document::NEW);
     rename(&mut harness, "Oak copy");
     let project = window(&harness).project().clone();
-    // Saving first asks for a name where there is none, and goes on after that.
+    // "Save first" asks for a path if there is none, and then leaves the project.
     menu(&mut harness, document::NEW);
     click(&mut harness, document::SAVE_FIRST);
     harness.run_steps(2);
@@ -151,7 +151,7 @@ fn nothing_is_left_unasked() {
     click(&mut harness, document::DO_NOT_SAVE);
     harness.run_steps(3);
     assert_eq!(window(&harness).project(), &project);
-    // Undone to what is saved, nothing would be lost.
+    // Undoing back to the saved state leaves no unsaved changes.
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(1.0);
     harness.run_steps(3);
     assert!(window(&harness).document().is_changed());
@@ -170,16 +170,16 @@ fn what_cannot_be_opened_or_saved_is_said_and_nothing_changes() {
     assert!(says(&harness, "the project is damaged") && says(&harness, "damaged.shagreen"));
     click(&mut harness, document::CANCEL);
     open(&mut harness, &folder.path().join("none.shagreen"));
-    assert!(says(&harness, document::CANNOT_READ));
+    assert!(says(&harness, "the file cannot be read"));
     click(&mut harness, document::CANCEL);
     assert_eq!(window(&harness).project(), &project);
 
     rename(&mut harness, "Oak copy");
-    // A file that is something else stays.
+    // Another kind of file is not overwritten.
     let notes = folder.path().join("notes.shagreen");
     std::fs::write(&notes, "my notes").unwrap();
     save_as(&mut harness, &notes);
-    wait(&mut harness, "it is refused", |h| says(h, "that is no project, and stays"));
+    wait(&mut harness, "it is refused", |h| says(h, "is not a project, and is not replaced"));
     assert_eq!(std::fs::read(&notes).unwrap(), b"my notes");
     enter_path(&mut harness, document::SAVE_PATH, &folder.path().join("no/x.shagreen"));
     wait(&mut harness, "it cannot be written", |h| says(h, "cannot write the file"));
@@ -207,7 +207,7 @@ fn a_library_is_opened_by_the_same_sheet_and_by_a_walk_through_folders() {
     keys(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(window(&harness).project().library, file);
 
-    // Beside the project it is known by its name, inside it goes along.
+    // A library file in the same folder is stored by its file name; an embedded library is part of the project.
     let beside = folder.path().join("woods/project.shagreen");
     save_as(&mut harness, &beside);
     wait_until_saved(&mut harness);
@@ -247,7 +247,7 @@ fn files_in(folder: &Path) -> Vec<PathBuf> {
     std::fs::read_dir(folder).map_or(Vec::new(), |all| all.map(|entry| entry.unwrap().path()).collect())
 }
 
-/// What a kill at any moment would leave behind is what was done up to [`INTERVAL`] before, and comes back.
+/// After a kill at any time, the state of at most [`INTERVAL`] before can be recovered.
 #[test]
 fn work_survives_a_crash() {
     let folder = tempfile::tempdir().unwrap();
@@ -262,7 +262,7 @@ fn work_survives_a_crash() {
     let begun = std::time::Instant::now();
     wait(&mut harness, "it is written", |_| has_it());
     assert!(begun.elapsed() < 2 * INTERVAL, "{:?}", begun.elapsed());
-    // The files as a kill would leave them; the lock of a program that is gone is free.
+    // Simulates the files after a kill, with the lock released.
     harness.run_steps(2);
     std::fs::create_dir(at("crashed")).unwrap();
     for path in files_in(&at("recovery")) {
@@ -290,7 +290,7 @@ fn work_survives_a_crash() {
     assert_eq!(left, Vec::<PathBuf>::new(), "what is saved needs no rescue");
     drop(harness);
 
-    // The program remembers the project.
+    // The settings contain the project as recent.
     let mut harness = author_of(kept(), SIZE);
     click(&mut harness, document::FILE);
     harness.run_steps(2);
@@ -314,7 +314,7 @@ fn what_was_left_can_be_discarded() {
     assert!(!recovery.join("1-1.shagreen").exists() && !recovery.join("1-1.lock").exists());
 }
 
-/// A newcomer is led through four places once, and can go through them again.
+/// The tour is shown once to new users and can be started again.
 #[test]
 fn the_first_steps_are_shown_once() {
     let folder = tempfile::tempdir().unwrap();
@@ -324,7 +324,7 @@ fn the_first_steps_are_shown_once() {
         let [heading, _] = help::step(step);
         assert!(says(&harness, heading) && says(&harness, &help::progress(number + 1, 4)), "{heading}");
         assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
-        // It does not stand in the way.
+        // The window stays usable during the tour.
         let value = 10.0 + 20.0 * number as f64;
         harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(value);
         harness.run_steps(3);
@@ -358,9 +358,9 @@ fn the_keys_are_shown_and_each_is_named() {
         close.bottom() < SIZE[1] && harness.get_by_label(help::SHORTCUTS).rect().top() > 0.0,
         "{close:?}"
     );
-    for command in shagreen_app::command::WITH_KEYS {
-        let label = command.label().expect("every command with a key says what it does");
-        assert!(says(&harness, label), "{label}");
+    for command in shagreen_app::command::LISTED {
+        let entry = command.entry().expect("every listed command has words");
+        assert!(entry.shortcut.is_none() || says(&harness, entry.label), "{}", entry.label);
     }
     click(&mut harness, help::CLOSE);
     harness.run_steps(2);
@@ -388,7 +388,8 @@ fn a_project_of_the_gallery_is_opened_and_heard() {
     assert!(says(&harness, document::LEAVE_TITLE), "what was changed is not lost");
 }
 
-/// New projects begin as a copy of the chosen one's file, and as usual while that cannot be had; nothing is left unasked.
+/// New projects are copies of the template, or default projects while the template is unreadable. Unsaved changes are
+/// never discarded without asking.
 #[test]
 fn new_projects_begin_like_a_chosen_one() {
     let folder = tempfile::tempdir().unwrap();
@@ -403,7 +404,7 @@ fn new_projects_begin_like_a_chosen_one() {
     wait(&mut harness, "a copy of it", |h| window(h).document().path().is_none());
     assert_eq!(window(&harness).project(), &saved);
     assert!(!window(&harness).document().is_changed());
-    // A copy: the file is not written to.
+    // The copy has no file, so the template is not overwritten.
     rename(&mut harness, "Ash copy");
     keys(&mut harness, Modifiers::COMMAND, Key::S);
     harness.run_steps(3);
@@ -421,7 +422,7 @@ fn new_projects_begin_like_a_chosen_one() {
     wait(&mut harness, "it begins as usual", |h| *window(h).project() == new_project());
     assert!(says(&harness, &document::no_template("")) && says(&harness, "Woods.shagreen"), "why is said");
 
-    // A library is no project to begin with, and what is opened next is no copy.
+    // A library cannot be a template, and a project opened afterwards is not a copy.
     std::fs::write(&path, starter_bytes()).unwrap();
     menu(&mut harness, document::NEW);
     wait(&mut harness, "why is said", |h| says(h, &document::is_library(&path.display().to_string())));
@@ -429,7 +430,8 @@ fn new_projects_begin_like_a_chosen_one() {
     open(&mut harness, &other);
     assert_eq!((window(&harness).project(), window(&harness).document().path()), (&saved, Some(&*other)));
 
-    // The choice was kept. What is changed while the project is read is not left unasked, and not asked about twice.
+    // The template stayed selected. Changes made while it is read are not discarded without asking, and the question
+    // appears once.
     std::fs::rename(&other, &path).unwrap();
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(63.0);
     let (key, modifiers) = (Key::N, Modifiers::COMMAND);
@@ -447,7 +449,7 @@ fn new_projects_begin_like_a_chosen_one() {
     assert_eq!(window(&harness).project(), &saved);
 }
 
-/// What was chosen to be larger is larger in the next window, within bounds.
+/// The zoom factor is stored and restored within bounds.
 #[test]
 fn the_scale_is_remembered() {
     let folder = tempfile::tempdir().unwrap();
@@ -465,7 +467,8 @@ fn the_scale_is_remembered() {
     });
 }
 
-/// What is heard goes into a file as the hand would stroke it, and the file says what it is.
+/// The audible texture is exported at the speed and force of the automatic stroke, and the sidecar describes the
+/// signal.
 #[test]
 fn what_is_heard_is_exported_as_a_signal() {
     let folder = tempfile::tempdir().unwrap();
@@ -494,13 +497,13 @@ fn what_is_heard_is_exported_as_a_signal() {
     let squares =
         samples.as_chunks::<4>().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes)).powi(2));
     let level = (squares.sum::<f64>() / 240_000.0).sqrt();
-    // As loud as the spectrum that is shown, within the noise of five seconds.
+    // The level equals that of the shown spectrum, within the noise of five seconds.
     let spectra = window(&harness).session().spectra();
     let steps = spectra.frequencies.windows(2).map(|f| f[1].0 - f[0].0);
     let modeled = steps.zip(&spectra.blend).map(|(df, p)| df * p).sum::<f64>().sqrt();
     assert!((level / modeled - 1.0).abs() < 0.15, "{level} m/s² for {modeled}");
 
-    // Somebody else's signal, which has no sidecar of ours, is left alone.
+    // A WAV file without a sidecar of Shagreen is not overwritten.
     let other = folder.path().join("recorded.wav");
     std::fs::copy(&path, &other).unwrap();
     menu(&mut harness, signal::EXPORT);
@@ -510,7 +513,7 @@ fn what_is_heard_is_exported_as_a_signal() {
     click(&mut harness, document::CANCEL);
     harness.run_steps(4);
 
-    // So is somebody else's file beside it.
+    // Neither is another kind of file at the path of the sidecar.
     let other = folder.path().join("other.wav");
     std::fs::write(folder.path().join("other.json"), "{\"mine\": 1}").unwrap();
     menu(&mut harness, signal::EXPORT);

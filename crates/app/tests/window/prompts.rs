@@ -1,9 +1,9 @@
-//! Surfaces that are described, and photos that find their place.
+//! Textures generated from prompts, and photos with predicted positions.
 
 use egui::accesskit::Role;
 use egui::{Key, Shape};
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::prompt::Origin;
+use shagreen_app::author::prompt::Origin;
 use shagreen_app::strings;
 use shagreen_app::strings::{import, prompt as words};
 use shagreen_formats::picture::encode_png;
@@ -14,7 +14,7 @@ use crate::support::{
     Author, author, click, drop_files, painted, says, unnamed_controls, wait, window, write_into,
 };
 
-/// Describes a surface, and waits until it was made.
+/// Generates a texture from a prompt and waits for it.
 fn describe(harness: &mut Author, prompt: &str) {
     let n = window(harness).project().authored.len();
     write_into(harness, words::FIELD, prompt);
@@ -44,7 +44,7 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     for said in ["Understood:", "procedural generator, seed 1", "nobody rated it"] {
         assert!(says(&harness, said), "{said}");
     }
-    // The outline is dashes; what it encloses is one shape as wide as twice the deviation.
+    // The contour of the ellipse is dashed; its filled area is one shape, as wide as two standard deviations.
     let width = |shape: &Shape| {
         matches!(shape, Shape::Path(path) if path.points.len() == 96)
             .then(|| f64::from(shape.visual_bounding_rect().width()))
@@ -60,7 +60,7 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     assert_eq!((window(&harness).project().authored.len(), other.key), (2, texture.key), "in its place");
     assert_ne!(other.picture, texture.picture);
 
-    // The sliders refine it; the ellipse stays where it was taken to lie.
+    // The sliders move the point, and the ellipse keeps the predicted position.
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(60.0);
     harness.run_steps(3);
     assert_eq!(window(&harness).project().texture().at.rough_smooth, 60.0);
@@ -78,18 +78,18 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
 fn words_that_say_nothing_are_answered_and_earlier_ones_come_back() {
     let mut harness = author();
     describe(&mut harness, "the meaning of life");
-    assert!(says(&harness, "any surface is as likely"));
+    assert!(says(&harness, "any surface is equally likely"));
     describe(&mut harness, "polished steel");
     let steel = window(&harness).project().texture().clone();
     click(&mut harness, words::EARLIER);
-    // The menu finds its place.
+    // Waits until the layout is complete.
     harness.run_steps(6);
     click(&mut harness, &words::earlier("polished steel", 1, false));
     wait(&mut harness, "it was made again", |h| window(h).project().authored.len() == 4);
     let again = window(&harness).project().texture();
     assert_eq!((again.at, &again.picture), (steel.at, &steel.picture), "the same words and seed");
     assert_eq!(again.name, "polished steel 2");
-    // An empty prompt is as likely to be any surface.
+    // An empty prompt is allowed and describes an arbitrary surface.
     write_into(&mut harness, words::FIELD, "x");
     harness.key_press(Key::Backspace);
     harness.run_steps(2);
@@ -132,7 +132,7 @@ fn photos_dropped_together_land_one_after_another_beside_other_files() {
         &[("one.png", &brick), ("bad.png", &brick[..300]), ("two.png", &glass), ("three.png", &brick)],
     );
     harness.run_steps(2);
-    // What is being made goes on, and says so.
+    // The present job continues, and a message says so.
     write_into(&mut harness, words::FIELD, "steel");
     harness.key_press(Key::Enter);
     wait(&mut harness, "one cannot be had twice", |h| says(h, words::STILL_BUSY));
@@ -142,7 +142,8 @@ fn photos_dropped_together_land_one_after_another_beside_other_files() {
     assert_eq!(names, ["one", "two", "three"]);
     assert!(!window(&harness).prompts().is_busy());
 
-    // After a stop nothing waits any more: what is dropped next is all that lands, beside what is imported.
+    // Stopping discards all waiting photos. Afterwards only the newly dropped photo is added, apart from the imported
+    // file.
     drop_files(&mut harness, &[("four.png", &brick), ("five.png", &glass), ("six.png", &brick)]);
     wait(&mut harness, "it is said how many wait", |h| says(h, &words::waiting(2)));
     click(&mut harness, words::STOP);

@@ -1,29 +1,29 @@
-//! Output, actuator and pen as they were left: they come back with the next window, and what is gone is said.
+//! Output, actuator and pen are restored in the next window, and unavailable devices are reported.
 
 use std::path::Path;
 
 use egui::Key;
 use shagreen_app::Begin;
-use shagreen_app::files::Keeping;
-use shagreen_app::rig::Rig;
 use shagreen_app::session::OutputChoice;
+use shagreen_app::state::files::Keeping;
+use shagreen_app::state::rig::Rig;
 use shagreen_app::strings::{self, devices};
-use shagreen_app::window::new_project;
 use shagreen_device::output::NULL_ID;
 use shagreen_formats::rig_settings::{ActuatorSettings, ProfileSettings, RigSettings};
 use shagreen_formats::settings::{Settings, read_settings, write_settings};
+use shagreen_studio::project::new_project;
 
 use crate::support::{Author, SILENT, author_of, begin, choose, click, says, wait, window, window_of};
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
 
-/// What a window opens with that keeps its settings in this folder.
+/// Initial content of a window that stores its settings in this folder.
 fn kept(folder: &Path, output: OutputChoice) -> Begin {
     let keeping = Keeping { settings: Some(folder.join("settings.json")), ..Keeping::default() };
     Begin { keeping, output, ..begin(new_project()) }
 }
 
-/// Settings of somebody who has seen the tour.
+/// Writes settings in which the tour has been seen.
 fn remember(folder: &Path, rig: Option<RigSettings>) {
     let settings = Settings { has_seen_tour: true, rig, ..Settings::default() };
     std::fs::write(folder.join("settings.json"), write_settings(&settings)).unwrap();
@@ -94,7 +94,7 @@ fn an_output_that_is_gone_is_said_and_none_is_opened_in_its_place() {
     wait(&mut harness, "it is remembered", |_| settings(folder.path()).output.as_deref() == Some(NULL_ID));
     drop(harness);
 
-    // Who says which output is meant is heard, and remembered by nobody.
+    // An output given at program start is used but not stored.
     remember(folder.path(), Some(gone.clone()));
     let mut harness = author_of(kept(folder.path(), null()), SIZE);
     harness.run_steps(5);
@@ -114,7 +114,7 @@ fn a_pen_that_is_gone_is_said() {
     assert!(says(&harness, &message), "{message}");
 }
 
-/// What is set for an output that was only named for this start is remembered for no other.
+/// The device setup for an output that was given at program start is not stored for another output.
 #[test]
 fn the_rig_of_one_output_is_not_remembered_for_another() {
     let folder = tempfile::tempdir().unwrap();
@@ -131,7 +131,7 @@ fn the_rig_of_one_output_is_not_remembered_for_another() {
     assert_eq!(RigSettings { pressure: None, ..left }, gone);
 }
 
-/// Chooses something in the sheet of devices.
+/// Selects an option in the devices sheet.
 fn in_devices(harness: &mut Author, name: &str, choice: &str) {
     click(harness, devices::OPEN);
     wait(harness, "the sheet opens", |h| says(h, devices::ACTUATOR));
@@ -147,11 +147,11 @@ fn is_refused(harness: &Author, words: &str) -> bool {
     session.is_output_released() && session.status().is_none() && says(harness, words)
 }
 
-/// What would be driven in the place of an actuator has other limits: until one is chosen, or none, nothing is driven, and
-/// the one that is remembered stays.
+/// Another actuator would have other limits. Until the user selects an actuator or none, nothing is driven, and the
+/// stored one is kept.
 #[test]
 fn without_its_actuator_no_output_is_opened() {
-    const WORDS: &str = "the actuator of last time";
+    const WORDS: &str = "the last used actuator is unavailable";
     let folder = tempfile::tempdir().unwrap();
     let profile = ProfileSettings::BuiltIn("gone".to_owned());
     let actuator = Some(ActuatorSettings { profile, load_g: None });
@@ -187,8 +187,8 @@ fn without_its_actuator_no_output_is_opened() {
     }
 }
 
-/// Settings that do not tell what hangs on the output are no first start: nothing is driven, and they are not written over
-/// unless somebody chooses an output.
+/// An unreadable device setup is not treated as a first start: nothing is driven, and the file is not overwritten until
+/// the user selects an output.
 #[test]
 fn settings_that_cannot_be_read_open_no_output_and_stay() {
     for text in [r#"{"has_seen_tour": true, "rig": {"output": "null", "channel": -1}}"#, "{\"recent\": []"] {

@@ -1,11 +1,11 @@
-//! The scope, used as a person would: views chosen, held, measured, saved.
+//! The scope: selecting views, freezing, measuring and saving.
 
 use std::path::Path;
 
 use egui::accesskit::Role;
 use egui::{Key, lerp, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use shagreen_app::scope::view::View;
+use shagreen_app::choices::scope::View;
 use shagreen_app::strings::{self, build, import, scope};
 use shagreen_formats::thresholds::ThresholdKind;
 
@@ -14,7 +14,7 @@ use crate::support::{
     words,
 };
 
-/// The window while the automatic hand strokes, and something has been heard for a while.
+/// Window with a running automatic stroke and some seconds of output signal.
 fn stroking() -> Author {
     let mut harness = author();
     click(&mut harness, strings::HAND_START);
@@ -23,7 +23,7 @@ fn stroking() -> Author {
     harness
 }
 
-/// What is drawn of this view.
+/// Shapes drawn in a view, as text.
 fn lines(harness: &Author, view: View) -> Vec<String> {
     painted(harness, scope::view(view)).iter().map(|shape| format!("{shape:?}")).collect()
 }
@@ -57,7 +57,7 @@ fn what_is_held_stays_and_sounds_on() {
     assert_ne!(lines(&harness, View::Waveform), held, "it runs again");
 }
 
-/// The plot has 250 ms, from its left to its right edge.
+/// The plot is 250 ms wide.
 #[test]
 fn a_drag_measures_and_a_click_ends_that() {
     let mut harness = stroking();
@@ -72,7 +72,7 @@ fn a_drag_measures_and_a_click_ends_that() {
     harness.drop_at(at(0.5));
     harness.run_steps(2);
     assert!(!says(&harness, "100.0 ms = 10.0 Hz"));
-    // Pointing reads the place and the value.
+    // Pointing at the plot shows time and value.
     harness.hover_at(at(0.5));
     harness.run_steps(2);
     let read: Vec<String> = painted(&harness, scope::view(View::Waveform)).iter().filter_map(words).collect();
@@ -80,7 +80,7 @@ fn a_drag_measures_and_a_click_ends_that() {
     assert!(read.iter().any(|text| text.starts_with(scope::PLAYED)), "{read:?}");
 }
 
-/// Saves the right view in this format at `path`.
+/// Saves the right view to `path` in this format.
 fn save(harness: &mut Author, format: &str, path: &Path) {
     harness.get_by_label(scope::SAVES[1]).click();
     harness.run_steps(3);
@@ -95,7 +95,7 @@ fn save(harness: &mut Author, format: &str, path: &Path) {
     harness.run_steps(2);
 }
 
-/// The height of the threshold at the lowest frequency, in the numbers that were saved.
+/// Detection threshold at the lowest frequency, from the saved numbers.
 fn threshold_db(path: &Path) -> f64 {
     let csv = std::fs::read_to_string(path).unwrap();
     let line = csv.lines().find(|line| line.starts_with(scope::THRESHOLD_LINE)).unwrap();

@@ -1,12 +1,12 @@
-//! The workspace Signals: two signals are put side by side, remade, compared, felt, painted and kept.
+//! The Signals workspace: loading, processing, comparing, feeling, editing and adding signals.
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, pos2};
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::signals::Slot;
-use shagreen_app::signals::bench_signal::BenchSignal;
-use shagreen_app::signals::editor::Tool;
-use shagreen_app::signals::page::View;
+use shagreen_app::choices::signals::Slot;
+use shagreen_app::choices::signals::Tool;
+use shagreen_app::choices::signals::View;
+use shagreen_app::state::bench_signal::BenchSignal;
 use shagreen_app::strings::{self, signals};
 use shagreen_app::workspace::Workspace;
 use shagreen_formats::wav::{SidecarV1, write_wav};
@@ -16,7 +16,7 @@ use crate::support::{
     wait_for_field, window,
 };
 
-/// The window with what is heard in A.
+/// Window with the audible texture as signal A.
 fn with_heard() -> Author {
     let mut harness = author();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
@@ -37,7 +37,7 @@ fn signal(harness: &Author, slot: Slot) -> &BenchSignal {
     window(harness).signals().signal(slot).expect("a signal")
 }
 
-/// The level of a signal between two shares of its length, in m/s².
+/// Level of a signal between two fractions of its length, in m/s².
 fn level(signal: &BenchSignal, from: f64, to: f64) -> f64 {
     let values = signal.profile.values();
     let at = |share: f64| (share * values.len() as f64) as usize;
@@ -64,17 +64,17 @@ fn what_is_heard_goes_through_the_codec_and_both_are_compared() {
     let page = window(&harness).signals();
     let compared = page.compared().unwrap().unwrap();
     let rates = page.by_rate(Slot::A).unwrap().unwrap();
-    // B is A at the lowest rate: what the curve says of it, the pair says too.
+    // B is A encoded at the lowest bit rate, so the curve and the pair have the same predicted d'.
     assert!((rates[0].d_prime - compared.d_prime).abs() < 1e-6);
     assert!(rates[0].d_prime > rates[4].d_prime && rates[0].snr_db < rates[4].snr_db);
-    assert!(says(&harness, &signals::d_prime(compared.d_prime)) && says(&harness, "nobody was asked"));
+    assert!(says(&harness, &signals::d_prime(compared.d_prime)) && says(&harness, "no human data"));
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 }
 
 #[test]
 fn signals_are_felt_in_turn_and_what_is_authored_comes_back() {
     let mut harness = with_heard();
-    // Waves of 1 mm: 100 Hz at the speed of the hand.
+    // Waves of 1 mm: 100 Hz at the speed of the automatic stroke.
     let wave = |mm: f64| (std::f64::consts::TAU * mm).sin();
     let rows: Vec<String> =
         (0..4000).map(|i| format!("{},{}", 0.02 * f64::from(i), wave(0.02 * f64::from(i)))).collect();
@@ -90,7 +90,7 @@ fn signals_are_felt_in_turn_and_what_is_authored_comes_back() {
     click(&mut harness, &signals::feel(Slot::A));
     assert_eq!(window(&harness).signals().felt(), Some(Slot::A));
     assert!(window(&harness).session().felt_name().is_some());
-    // The automatic hand feels it, too.
+    // The automatic stroke plays the signal, too.
     harness.key_press(Key::Space);
     wait(&mut harness, "something is felt", |h| window(h).session().scope().rms(0.1) > 0.01);
     harness.key_press(Key::Num2);
@@ -104,7 +104,7 @@ fn signals_are_felt_in_turn_and_what_is_authored_comes_back() {
     click(&mut harness, &signals::feel(Slot::A));
     assert_eq!(window(&harness).signals().felt(), None);
     click(&mut harness, &signals::feel(Slot::B));
-    // Elsewhere what is authored is felt.
+    // In another workspace the authored texture plays.
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
     harness.run_steps(3);
     assert!(window(&harness).session().felt_name().is_none());
@@ -126,10 +126,10 @@ fn a_spectrogram_is_painted_felt_at_once_and_taken_back() {
     let before = level(signal(&harness, Slot::A), 0.3, 0.6);
     drag(&mut harness, at(0.35, 0.1), at(0.55, 0.1));
     let painted = signal(&harness, Slot::B);
-    assert!(painted.name.ends_with("painted") && level(painted, 0.3, 0.6) > 1.2 * before);
+    assert!(painted.name.ends_with("edited") && level(painted, 0.3, 0.6) > 1.2 * before);
     assert_eq!(level(signal(&harness, Slot::A), 0.3, 0.6), before, "A stays as it is");
     assert_eq!(window(&harness).signals().felt(), Some(Slot::B), "it is felt at once");
-    // Undo is that of painting here, and one stroke is one step.
+    // Undo applies to the spectrogram editor here, and one stroke is one step.
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(2);
     assert_eq!(level(signal(&harness, Slot::B), 0.3, 0.6), before);
@@ -143,7 +143,7 @@ fn a_spectrogram_is_painted_felt_at_once_and_taken_back() {
     click(&mut harness, signals::tool(Tool::Copy));
     drag(&mut harness, at(0.3, 0.01), at(0.55, 0.99));
     let erased = level(signal(&harness, Slot::B), 0.75, 0.9);
-    // A click, which is short.
+    // A short click.
     harness.hover_at(at(0.7, 0.5));
     harness.run_steps(2);
     harness.drag_at(at(0.7, 0.5));
@@ -153,7 +153,7 @@ fn a_spectrogram_is_painted_felt_at_once_and_taken_back() {
     let length = signal(&harness, Slot::B).profile.length_m();
     click(&mut harness, signals::STRETCH);
     assert!((signal(&harness, Slot::B).profile.length_m() / length - 2.0).abs() < 0.02);
-    // Another signal in its place can be taken back, too.
+    // Undo also restores a replaced signal.
     click(&mut harness, signals::COPY_OF_A);
     assert_eq!(signal(&harness, Slot::B).name, signal(&harness, Slot::A).name);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
@@ -177,7 +177,7 @@ fn a_signal_is_kept_as_the_relief_of_a_texture() {
     assert!(alone.model.relief().is_some() && over.model.relief().is_some());
     assert!(over.model.clone().with_relief(None) == first.model);
     assert!(alone.id != over.id && over.place.is_none());
-    // Nothing was painted: undo is that of the project.
+    // Nothing was edited, so undo applies to the project.
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(3);
     assert_eq!(window(&harness).session().textures().len(), n_textures + 1);
@@ -190,17 +190,17 @@ fn files_are_opened_dropped_and_refused_with_a_reason() {
     let samples: Vec<f32> = (0..4000_u16).map(|i| f32::from(i % 9) * 0.1 - 0.4).collect();
     write_wav(&path, &samples, &SidecarV1::new(2000, 2.0, 1, "test")).unwrap();
     let mut harness = author();
-    click(&mut harness, signals::SIGNALS);
+    click(&mut harness, Workspace::Signals.info().name);
     assert!(says(&harness, signals::EMPTY_TITLE));
     enter_path(&mut harness, &signals::path_of(Slot::A), &path);
     wait_for(&mut harness, Slot::A);
     assert_eq!((signal(&harness, Slot::A).name.as_str(), signal(&harness, Slot::A).speed.0), ("carpet", 0.1));
-    // What is dropped goes where nothing is.
+    // A dropped file goes to the empty slot.
     let rows: Vec<String> = (0..500).map(|i| format!("{},{}", 0.1 * f64::from(i), i % 5)).collect();
     drop_files(&mut harness, &[("bumps.csv", rows.join("\n").as_bytes())]);
     wait_for(&mut harness, Slot::B);
     assert!((signal(&harness, Slot::B).profile.length_m() - 0.05).abs() < 1e-9);
-    // A file that is none leaves what was there.
+    // An invalid file leaves the slot unchanged.
     drop_files(&mut harness, &[("bumps.csv", b"hello")]);
     wait(&mut harness, "it is refused", |h| window(h).signals().failure(Slot::B).is_some());
     let reason = window(&harness).signals().failure(Slot::B).unwrap();
@@ -208,14 +208,14 @@ fn files_are_opened_dropped_and_refused_with_a_reason() {
     assert_eq!(signal(&harness, Slot::B).name, "bumps");
     click(&mut harness, &signals::remove(Slot::B));
     assert!(window(&harness).signals().signal(Slot::B).is_none());
-    // Played as it was recorded, until it is stopped.
+    // Plays at its own speed until it is stopped.
     click(&mut harness, &signals::play(Slot::A));
     let plays = |h: &Author| window(h).session().status().is_some_and(|status| status.plays_signal);
     wait(&mut harness, "it is played", plays);
     harness.run_steps(2);
     click(&mut harness, &signals::stop(Slot::A));
     wait(&mut harness, "it is stopped", |h| !plays(h));
-    // The sheet that walks through folders.
+    // The sheet with the folder view.
     click(&mut harness, &signals::open(Slot::B));
     enter_path(&mut harness, strings::document::OPEN_PATH, &path);
     wait_for(&mut harness, Slot::B);

@@ -1,11 +1,11 @@
-//! Strokes on the pad: recorded with the mouse, repeated by the hand, saved, and read again.
+//! Stroke recordings: recording with the mouse, repeating, saving and opening.
 
 use std::time::Duration;
 
 use egui::accesskit::Role;
 use egui::{Key, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use shagreen_app::recorded_stroke::RecordedStroke;
+use shagreen_app::state::recorded_stroke::RecordedStroke;
 use shagreen_app::strings::{self, stroke};
 use shagreen_device::touch::Touch;
 use shagreen_formats::stroke::{PressUnit, Stroke};
@@ -16,7 +16,7 @@ use crate::support::{
     wait, window,
 };
 
-/// Strokes the pad to the right for about half a second.
+/// Strokes to the right on the pad for about half a second.
 fn stroke_pad(harness: &mut Author) {
     let middle = harness.get_by_role_and_label(Role::Canvas, strings::PAD).rect().center();
     let from = middle - vec2(90.0, 0.0);
@@ -33,7 +33,7 @@ fn stroke_pad(harness: &mut Author) {
     harness.run_steps(2);
 }
 
-/// A window in which a stroke was recorded.
+/// Window with a stroke recording.
 fn recorded() -> Author {
     let mut harness = author();
     click(&mut harness, stroke::RECORD);
@@ -58,7 +58,7 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
     click(&mut harness, stroke::RECORD);
     harness.run_steps(2);
     assert!(window(&harness).session().recording().is_some_and(|(samples, secs)| {
-        // What is idle before the first touch does not count.
+        // Time before the first touch is not recorded.
         samples.is_empty() && secs.is_none()
     }));
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
@@ -70,11 +70,11 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
     let (samples, secs) = (recorded.samples(), recorded.track().duration_secs());
     assert!(samples[0].touching && samples[0].time_secs == 0.0 && secs > 0.5, "{secs} s");
     assert_eq!(samples.iter().filter(|sample| !sample.touching).count(), 1, "the lift at its end");
-    // 180 points are 60 mm.
+    // 180 points correspond to 60 mm.
     let way_m = samples[samples.len() - 1].x_m - samples[0].x_m;
     assert!((way_m - 0.06).abs() < 0.003, "{way_m} m");
 
-    // It is chosen at once, and the sliders are factors of it.
+    // The recording is selected at once, and the sliders scale its tempo and force.
     assert!(says(&harness, stroke::RECORDED));
     for name in [stroke::TEMPO, stroke::FORCE] {
         let slider = harness.get_by_role_and_label(Role::Slider, name);
@@ -93,7 +93,7 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
     harness.get_by_role_and_label(Role::Slider, stroke::FORCE).set_value_accesskit(50.0);
     wait(&mut harness, "it presses half as hard", |h| (touch(h).contact.force_n - 0.4).abs() < 0.01);
 
-    // A person takes over, and gives it back.
+    // A person takes over, and the automatic stroke continues afterwards.
     let middle = harness.get_by_role_and_label(Role::Canvas, strings::PAD).rect().center();
     harness.hover_at(middle);
     harness.run_steps(2);
@@ -105,7 +105,7 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
     wait(&mut harness, "it stops", |h| touch(h).contact.force_n == 0.0);
     assert!(!window(&harness).session().hand_is_running());
 
-    // Another path is another hand.
+    // Selecting another path gives an ordinary automatic stroke.
     choose(&mut harness, strings::HAND_PATH, strings::CIRCLE);
     assert!(harness.query_by_role_and_label(Role::Slider, strings::HAND_SPEED).is_some());
 }
@@ -136,13 +136,13 @@ fn a_stroke_is_saved_and_read_again_where_it_is_dropped_or_opened() {
     harness.run_steps(3);
     let bytes = std::fs::read(&path).unwrap();
     assert_eq!(bytes, first.csv());
-    // What `shagreen render --stroke` reads is the same.
+    // `shagreen render --stroke` reads the same file.
     let imported = read_stroke_csv(&bytes).unwrap();
     assert_eq!(imported.warnings, Vec::<String>::new());
     let Stroke::Pen { samples, press_unit: PressUnit::Newtons } = imported.value else { panic!("a pen") };
     assert_eq!(samples.len(), first.samples().len());
 
-    // Another takes its place, and where nothing touches it stays.
+    // A new recording replaces the stroke; a recording without a touch does not.
     click(&mut harness, stroke::RECORD);
     stroke_pad(&mut harness);
     click(&mut harness, stroke::FINISH);
@@ -155,7 +155,7 @@ fn a_stroke_is_saved_and_read_again_where_it_is_dropped_or_opened() {
     click(&mut harness, stroke::FINISH);
     assert_eq!(window(&harness).session().n_strokes(), 2);
 
-    // Known by its header, whatever its name.
+    // The header identifies a stroke, whatever the file name.
     drop_files(&mut harness, &[("notes.txt", &bytes)]);
     wait(&mut harness, "it is read", |h| window(h).session().n_strokes() == 3);
     assert_eq!(session_stroke(&harness).samples().len(), first.samples().len());
@@ -172,7 +172,7 @@ fn a_stroke_is_saved_and_read_again_where_it_is_dropped_or_opened() {
     assert!(!says(&harness, stroke::OPEN_TITLE), "the sheet is closed");
 }
 
-/// The hand repeats but one, and says so of the others.
+/// Only one stroke is repeated, and a message names the others.
 #[test]
 fn of_several_strokes_that_are_dropped_one_is_repeated() {
     let mut harness = author();
@@ -190,7 +190,7 @@ fn of_several_strokes_that_are_dropped_one_is_repeated() {
     }
 }
 
-/// The negative control: a table with acceleration is imported as before.
+/// Negative control: a table with acceleration is still imported.
 #[test]
 fn a_recording_that_is_dropped_is_imported() {
     let mut harness = author();
@@ -205,7 +205,7 @@ fn a_recording_that_is_dropped_is_imported() {
 #[test]
 fn the_row_above_the_pad_is_not_cut_off() {
     for size in [[1280.0, 720.0], [960.0, 600.0]] {
-        let mut harness = author_of(begin(shagreen_app::window::new_project()), size);
+        let mut harness = author_of(begin(shagreen_studio::project::new_project()), size);
         for recorded in [false, true] {
             if recorded {
                 let table = b"t_s,x_mm,y_mm,force_n\n0,0,0,1\n1,20,0,1\n";

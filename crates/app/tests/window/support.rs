@@ -1,4 +1,4 @@
-//! What the tests of the window share: the window on the starter library, and a person's moves.
+//! Shared helpers of the tests: the window on the starter library, and input of a user.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,50 +9,51 @@ use egui::{DroppedFile, Key, Modifiers, Shape};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use shagreen_app::Begin;
-use shagreen_app::blend_choice::mode_entry;
-use shagreen_app::files::Keeping;
+use shagreen_app::author::blend_choice::mode_entry;
 use shagreen_app::session::OutputChoice;
+use shagreen_app::state::files::Keeping;
 use shagreen_app::strings;
-use shagreen_app::window::{Window, new_project};
-use shagreen_core::blend::Mode;
+use shagreen_app::window::Window;
+use shagreen_core::texture::blend::Mode;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::{Project, ProjectLibrary};
+use shagreen_studio::project::new_project;
 
-/// The silent output, as people choose it.
+/// Label of the silent output.
 pub(crate) const SILENT: &str = "No output (silent, real clock)";
 
-/// The program under test; there is a window after the first frame.
+/// Test harness; the window exists after the first frame.
 pub(crate) type Author = Harness<'static, Option<Window>>;
 
-/// The window on the starter library, playing to the silent output with a real clock.
+/// Window on the starter library with the silent output, which runs in real time.
 pub(crate) fn author() -> Author {
     author_of(begin(new_project()), [1280.0, 720.0])
 }
 
-/// The window on a library, of this size in points, playing to the silent output with a real clock.
+/// Window on a library with the silent output, which runs in real time; `size` is in points.
 pub(crate) fn author_on(library: Library, size: [f32; 2]) -> Author {
     let library = ProjectLibrary::Inside(library.into());
     author_of(begin(Project { library, ..new_project() }), size)
 }
 
-/// What a window opens with that keeps nothing and plays to the silent output.
+/// Initial content with the silent output, which stores nothing.
 pub(crate) fn begin(project: Project) -> Begin {
     Begin { project, path: None, output: OutputChoice::Id("null".to_owned()), keeping: Keeping::default() }
 }
 
-/// The window that opens with this, of this size in points.
+/// Window with this initial content and an open output; `size` is in points.
 pub(crate) fn author_of(begin: Begin, size: [f32; 2]) -> Author {
     let mut harness = window_of(begin, size);
     wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
     harness
 }
 
-/// The same after its first frame, whether or not an output opens.
+/// Window after its first frame, with or without an open output; `size` is in points.
 pub(crate) fn window_of(begin: Begin, size: [f32; 2]) -> Author {
     opened(Harness::builder().with_size(size), begin)
 }
 
-/// The same, drawn by a renderer.
+/// The same with a renderer.
 pub(crate) fn drawn_by(renderer: impl TestRenderer + 'static, begin: Begin, size: [f32; 2]) -> Author {
     opened(Harness::builder().with_size(size).renderer(renderer), begin)
 }
@@ -72,18 +73,18 @@ pub(crate) fn window(harness: &Author) -> &Window {
     harness.state().as_ref().expect("a window after the first frame")
 }
 
-/// The texture that is heard alone, by its place in the list.
+/// Index of the soloed texture.
 pub(crate) fn solo(harness: &Author) -> Option<usize> {
     window(harness).session().solo(window(harness).project())
 }
 
-/// Whether the texture at this place of the list is locked.
+/// Whether the texture with this index is pinned.
 pub(crate) fn is_locked(harness: &Author, texture: usize) -> bool {
     let id = &window(harness).session().textures()[texture].id;
     window(harness).project().texture().blend.is_locked(id)
 }
 
-/// Runs frames in real time until `done`; what takes five minutes will not come, however busy the machine.
+/// Runs frames in real time until `done`. Fails after five minutes, which suffice even on a busy machine.
 #[track_caller]
 pub(crate) fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> bool) {
     let start = Instant::now();
@@ -97,7 +98,7 @@ pub(crate) fn wait(harness: &mut Author, what: &str, done: impl Fn(&Author) -> b
     }
 }
 
-/// All words on the screen that a screen reader finds.
+/// All texts that a screen reader finds.
 pub(crate) fn shown(harness: &Author) -> Vec<String> {
     let nodes = harness.root().children_recursive();
     nodes.filter_map(|n| n.accesskit_node().value().or(n.accesskit_node().label())).collect()
@@ -107,7 +108,7 @@ pub(crate) fn says(harness: &Author, words: &str) -> bool {
     shown(harness).iter().any(|text| text.contains(words))
 }
 
-/// What is painted on the canvas of this name.
+/// Shapes painted on the canvas with this name.
 pub(crate) fn painted(harness: &Author, canvas: &str) -> Vec<Shape> {
     let canvas = harness.get_by_role_and_label(Role::Canvas, canvas).rect();
     let (mut found, mut left) = (Vec::new(), Vec::new());
@@ -116,7 +117,7 @@ pub(crate) fn painted(harness: &Author, canvas: &str) -> Vec<Shape> {
         match shape {
             Shape::Vec(parts) => left.extend(parts),
             Shape::Noop => {}
-            // Where text stands, not how far it reaches.
+            // The position of a text, without its size.
             shape => {
                 let at = if let Shape::Text(text) = &shape {
                     text.pos
@@ -132,18 +133,18 @@ pub(crate) fn painted(harness: &Author, canvas: &str) -> Vec<Shape> {
     found
 }
 
-/// The words of a shape, where it is text.
+/// Content of a text shape.
 pub(crate) fn words(shape: &Shape) -> Option<String> {
     if let Shape::Text(text) = shape { Some(text.galley.text().to_owned()) } else { None }
 }
 
-/// Presses the control of this name.
+/// Clicks the widget with this name.
 pub(crate) fn click(harness: &mut Author, name: &str) {
     harness.get_by_label(name).click();
     harness.run_steps(2);
 }
 
-/// Presses at one place, moves and lets go at another.
+/// Drags from one position to another.
 pub(crate) fn drag(harness: &mut Author, from: egui::Pos2, to: egui::Pos2) {
     harness.hover_at(from);
     harness.run_steps(2);
@@ -157,7 +158,7 @@ pub(crate) fn drag(harness: &mut Author, from: egui::Pos2, to: egui::Pos2) {
     harness.run_steps(2);
 }
 
-/// Opens a choice and takes one of it.
+/// Opens a combo box and selects an option.
 pub(crate) fn choose(harness: &mut Author, name: &str, choice: &str) {
     harness.get_by_role_and_label(Role::ComboBox, name).click();
     harness.run_steps(3);
@@ -165,21 +166,21 @@ pub(crate) fn choose(harness: &mut Author, name: &str, choice: &str) {
     harness.run_steps(3);
 }
 
-/// Takes a mode in the menu of modes.
+/// Selects an interpolation mode.
 pub(crate) fn choose_mode(harness: &mut Author, mode: Mode) {
     choose(harness, strings::BLEND_MODE, &mode_entry(mode));
     assert_eq!(window(harness).project().texture().blend.mode, mode);
 }
 
-/// Waits until the field is there.
+/// Waits until the field is computed.
 pub(crate) fn wait_for_field(harness: &mut Author) {
     wait(harness, "the field is there", |h| !window(h).session().is_preparing());
     harness.run_steps(2);
 }
 
-/// Types into the field of this name instead of what it says.
+/// Replaces the text in the field with this name.
 pub(crate) fn write_into(harness: &mut Author, name: &str, text: &str) {
-    // A sheet that was just closed lets go of the keyboard some frames later.
+    // A closed sheet releases the keyboard focus some frames later.
     harness.run_steps(4);
     harness.get_by_role_and_label(Role::TextInput, name).focus();
     harness.run_steps(2);
@@ -189,14 +190,14 @@ pub(crate) fn write_into(harness: &mut Author, name: &str, text: &str) {
     harness.run_steps(2);
 }
 
-/// The same with a path, and takes it.
+/// Replaces the text in a field by a path and confirms it.
 pub(crate) fn enter_path(harness: &mut Author, name: &str, path: &Path) {
     write_into(harness, name, &path.display().to_string());
     harness.key_press(Key::Enter);
     harness.run_steps(2);
 }
 
-/// Controls that a keyboard or screen reader reaches but that have no name.
+/// Focusable widgets without an accessible name.
 pub(crate) fn unnamed_controls<State>(harness: &Harness<'_, State>) -> Vec<String> {
     let is_control = |role: Role| {
         matches!(
@@ -218,7 +219,7 @@ pub(crate) fn unnamed_controls<State>(harness: &Harness<'_, State>) -> Vec<Strin
     unnamed.map(|n| format!("{:?} at {:?}", n.accesskit_node().role(), n.rect())).collect()
 }
 
-/// A file in memory, as a windowing system would hand it over.
+/// File in memory, as passed by the window system.
 #[derive(Debug)]
 struct InMemory {
     path: PathBuf,
@@ -235,7 +236,7 @@ impl DroppedFile for InMemory {
     }
 }
 
-/// Drops files of these names and bytes on the window.
+/// Drops files with these names and contents on the window.
 pub(crate) fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
     let handles = files.iter().map(|(name, bytes)| {
         Arc::new(InMemory { path: PathBuf::from(name), bytes: bytes.to_vec() }) as egui::DroppedFileHandle

@@ -1,31 +1,31 @@
-//! The list of textures: found by filters, starred, looked at, renamed, duplicated and removed.
+//! The list of textures: filters, stars, details, renaming, duplicating and deleting.
 
 use std::sync::Arc;
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use shagreen_app::library_filter::{End, Region};
+use shagreen_app::choices::textures::{End, Region};
+use shagreen_app::look::theme::{LIBRARY_WIDTH, STAGE_HEIGHTS};
 use shagreen_app::strings::edits::starred;
 use shagreen_app::strings::{self, import, textures as words};
-use shagreen_app::theme::{LIBRARY_WIDTH, STAGE_HEIGHTS};
-use shagreen_app::window::new_project;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Attribute, Attributes, Provenance};
 use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
+use shagreen_studio::project::new_project;
 
 use crate::support::{
     Author, author, author_of, author_on, begin, click, says, shown, solo, unnamed_controls, window,
 };
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
-/// Height of the row at the foot of the window, in points.
+/// Height of the status bar, in points.
 const STATUS: f32 = 32.0;
-/// What the tests' own panel leaves free around the window's content, in points: in a real window there is as much more.
+/// Margin around the window's content in the test harness, in points; a real window has this additional room.
 const AROUND: f32 = 8.0;
 
-/// Names of the textures that are listed, from above.
+/// Names of the listed textures, from top to bottom.
 fn listed(harness: &Author) -> Vec<String> {
     let textures = window(harness).session().textures().iter();
     let row = |name: &str| Some(harness.query_by_label(&strings::texture(name))?.rect().top());
@@ -41,7 +41,7 @@ fn with(harness: &Author, is_meant: impl Fn(usize) -> bool) -> Vec<String> {
     textures.filter(|(i, _)| is_meant(*i)).map(|(_, texture)| texture.name.clone()).collect()
 }
 
-/// Opens the menu of filters while `n_on` of them are on, takes an entry and closes the menu.
+/// Toggles a filter while `n_on` filters are on: opens the menu, clicks an entry and closes the menu.
 fn filter(harness: &mut Author, n_on: usize, entry: &str) {
     click(harness, &words::filter(n_on));
     harness.run_steps(3);
@@ -51,7 +51,7 @@ fn filter(harness: &mut Author, n_on: usize, entry: &str) {
     assert!(harness.query_by_label(entry).is_none(), "the menu closes");
 }
 
-/// Opens the menu of a texture by its button, and takes an entry.
+/// Opens the menu of a texture by its button and clicks an entry.
 fn take(harness: &mut Author, texture: &str, entry: &str) {
     click(harness, &words::more(texture));
     harness.run_steps(3);
@@ -87,7 +87,7 @@ fn tags_narrow_the_list_and_are_counted() {
     filter(&mut harness, 0, &words::tag("fabric", fabric.len()));
     assert_eq!(listed(&harness), fabric);
     assert!(says(&harness, &words::count(fabric.len(), 25)));
-    // Every tag that is chosen must be there.
+    // Only textures with all selected tags are listed.
     let directional = has(&harness, &["directional"]).len();
     filter(&mut harness, 1, &words::tag("directional", directional));
     assert_eq!(listed(&harness), both);
@@ -113,7 +113,7 @@ fn parts_of_the_space_narrow_the_list() {
     assert!(!near.is_empty() && near.len() < 25);
     filter(&mut harness, 1, words::NEAR_POINT);
     assert_eq!(listed(&harness), near);
-    // It goes with the point.
+    // The filter follows the point.
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(95.0);
     harness.run_steps(3);
     let point = window(&harness).project().texture().at;
@@ -156,7 +156,7 @@ fn what_matches_nothing_can_be_cleared() {
     assert!(harness.query_by_label(&words::filter(0)).is_some() && says(&harness, &words::count(25, 25)));
 }
 
-/// Typed letter by letter and undone as one; what is no name is refused with a word.
+/// Typing a name is one undo step, and an invalid name is refused with a message.
 #[test]
 fn a_texture_is_renamed_in_one_step() {
     let mut harness = author();
@@ -189,7 +189,7 @@ fn a_texture_is_duplicated_and_its_copy_removed() {
     harness.run_steps(3);
     assert!(harness.get_by_label(words::REMOVE).accesskit_node().is_disabled(), "the library stays whole");
     click(&mut harness, words::DUPLICATE);
-    // The list shows all again and scrolls to what is new.
+    // The list shows all textures again and scrolls to the new one.
     harness.run_steps(60);
     assert_eq!(listed(&harness).len(), 26);
     let (original, copy) = {
@@ -244,7 +244,7 @@ fn the_details_say_what_is_known_and_draw_it() {
     assert_eq!((copy.license.as_str(), copy.provenance), ("CC-BY-4.0", Provenance::Restricted));
 }
 
-/// What is removed while its details are open takes them along; simulated raters are called simulated.
+/// Deleting a texture closes its details. Positions from simulated raters are labeled as simulated.
 #[test]
 fn the_details_of_a_simulated_place_say_so() {
     let library = ProjectLibrary::BuiltIn(BuiltIn::Simulated);
@@ -262,7 +262,8 @@ fn the_details_of_a_simulated_place_say_so() {
     assert!(window(&harness).project().joined.is_empty());
 }
 
-/// Nothing needs a right click: the button of a row is reached by the keyboard, and its menu has everything.
+/// Everything is possible without a right click: the keyboard reaches the button of a row, and its menu has all
+/// entries.
 #[test]
 fn the_menu_of_a_texture_is_reached_by_the_keyboard() {
     let mut harness = author();
@@ -284,7 +285,7 @@ fn the_menu_of_a_texture_is_reached_by_the_keyboard() {
     assert!(window(&harness).project().starred.contains("glass"));
 }
 
-/// Beside five authored textures there is room for five of the list, and no word of the column is cut off.
+/// With five authored textures, at least five textures of the list are visible, and no label of the column is cut off.
 #[test]
 fn five_textures_are_seen_beside_five_authored_ones() {
     let authored = (1..=5).map(|key| Arc::new(AuthoredTexture::new(key, &format!("Mine {key}")))).collect();

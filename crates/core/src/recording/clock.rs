@@ -1,42 +1,41 @@
-//! When the rows of a recording were really taken.
+//! Clock of a recording: the times of its rows.
 
+use crate::dsp::spectrum::median;
 use crate::recording::{Fault, Finding, MAX_RATE_HZ, MIN_RATE_HZ, RawClock, Where};
-use crate::spectrum::median;
 
-/// A step longer than this many usual ones is a gap: a row is missing.
+/// Number of usual sampling intervals above which an interval is a gap.
 const GAP_STEPS: f64 = 1.5;
-/// Steps that differ from the usual one by no more than this share are regular: the sine of highest frequency that a
-/// model keeps, two fifths of the rate, is then right within 5 %.
+/// Maximum relative deviation of a regular sampling interval. It keeps the error of a sine at the highest frequency of
+/// a model, two fifths of the rate, below 5 %.
 const REGULAR_SHARE: f64 = 0.02;
-/// Above this share of rows with a repeated or backward time, or of gaps, the timestamps are no clock.
+/// Share of rows with repeated or backward timestamps, or of gaps, above which the timestamps are not a clock.
 const BAD_SHARE: f64 = 0.05;
-/// Above this share of a step, half of the steps are no steps.
+/// Median relative deviation of the sampling intervals above which the timestamps are not a clock.
 const BAD_JITTER_SHARE: f64 = 0.5;
-/// Times that are rounded to more than this share of a step cannot tell rows apart.
+/// Rounding of the timestamps, relative to the sampling interval, above which rows cannot be distinguished.
 const COARSE_SHARE: f64 = 0.25;
-/// A change of the rate over the recording that is worth a word.
+/// Relative change of the rate over the recording above which drift is reported.
 const DRIFT_SHARE: f64 = 1e-3;
-/// A change of the rate over the recording that is resampled away.
+/// Relative change of the rate over the recording above which the columns are resampled.
 const DRIFT_RESAMPLED_SHARE: f64 = 0.01;
-/// A rate nearer to a whole number of Hz than this share is that number: what is left is rounding of the times.
+/// Relative distance to an integer in Hz below which a rate is rounded to it; the rest is rounding of the timestamps.
 const WHOLE_RATE_SHARE: f64 = 1e-6;
 
-/// Rows in the order of time.
+/// Rows in order of time.
 pub(super) struct Timeline {
-    /// Samples a second.
+    /// Sample rate in Hz.
     pub(super) rate_hz: f64,
-    /// Rows that are kept, ascending.
+    /// Indices of the rows in use, ascending.
     pub(super) rows: Vec<usize>,
-    /// Their times in seconds from the first, strictly ascending.
+    /// Times of these rows in seconds from the first, strictly ascending.
     pub(super) times: Vec<f64>,
-    /// Whether the rows are samples of the regular clock as they are.
+    /// Whether the rows are samples of a regular clock without resampling.
     pub(super) regular: bool,
-    /// A step longer than this, in seconds, is a gap.
+    /// Interval in seconds above which there is a gap.
     pub(super) gap_secs: f64,
 }
 
-/// What is found in a clock without the columns that it is for: what it is, what is wrong with it, and whether a
-/// recording can be made by it.
+/// Checks a clock without its columns; returns findings, and faults that prevent its use.
 pub fn check_clock(clock: &RawClock) -> (Vec<Finding>, Vec<Fault>) {
     let n_rows = if let RawClock::Times(times) = clock { times.len() } else { usize::MAX };
     let (mut findings, mut faults) = (Vec::new(), Vec::new());
@@ -49,7 +48,7 @@ pub fn check_clock(clock: &RawClock) -> (Vec<Finding>, Vec<Fault>) {
     (findings, faults)
 }
 
-/// The timeline of `n_rows` rows; none where there is no clock in it.
+/// Timeline of `n_rows` rows; `None` if the clock is unusable.
 pub(super) fn read_clock(
     clock: RawClock,
     n_rows: usize,
@@ -80,7 +79,7 @@ fn check_rate(rate_hz: f64, faults: &mut Vec<Fault>) {
     }
 }
 
-/// How many rows something concerns, and where it was first.
+/// Counts affected rows and keeps the time of the first.
 #[derive(Default)]
 pub(super) struct Count {
     n_rows: usize,
@@ -93,7 +92,7 @@ impl Count {
         self.first_secs.get_or_insert(secs);
     }
 
-    /// Nothing where nothing was counted.
+    /// Extent of the affected rows, or `None` if there are none.
     pub(super) fn found(&self, of_rows: usize) -> Option<Where> {
         self.first_secs.map(|first_secs| Where { n_rows: self.n_rows, of_rows, first_secs })
     }
@@ -107,7 +106,7 @@ fn read_times(
 ) -> Option<Timeline> {
     let Some(start) = written.iter().copied().find(|time| time.is_finite()) else {
         if !written.is_empty() {
-            faults.push(Fault::BadClock { reason: "no time is a number".to_owned() });
+            faults.push(Fault::BadClock { reason: "no timestamp is a number".to_owned() });
         }
         return None;
     };
@@ -144,12 +143,12 @@ fn read_times(
     let rate_hz = whole_where_near(1.0 / usual_secs);
     if let Some(reason) = bad_clock(&steps, usual_secs, of_rows, repeated, backward) {
         let hint = if written_to(&times) > COARSE_SHARE * usual_secs {
-            ", the times are rounded too much"
+            ", the timestamps are rounded too coarsely"
         } else {
             ""
         };
         let mean_rate_hz = steps.len() as f64 / times[times.len() - 1];
-        let reason = format!("{reason}{hint}, {mean_rate_hz:.1} rows a second in all");
+        let reason = format!("{reason}{hint}, {mean_rate_hz:.1} rows per second on average");
         faults.push(Fault::BadClock { reason });
         return None;
     }
@@ -179,7 +178,7 @@ fn read_times(
     Some(Timeline { rate_hz, rows, times, regular, gap_secs })
 }
 
-/// Mean of the steps that are no gaps. The median alone would be a multiple of what the times are rounded to.
+/// Mean of the intervals that are not gaps. The median alone would be a multiple of the timestamps' rounding.
 fn usual_step(steps: &[f64]) -> f64 {
     let limit = GAP_STEPS * median(steps.to_vec());
     let (sum, n) =
@@ -192,7 +191,7 @@ fn whole_where_near(rate_hz: f64) -> f64 {
     if (rate_hz - whole).abs() <= WHOLE_RATE_SHARE * rate_hz { whole } else { rate_hz }
 }
 
-/// What makes times no clock.
+/// Reason why the timestamps are not a clock, if any.
 fn bad_clock(
     steps: &[f64],
     usual_secs: f64,
@@ -204,24 +203,24 @@ fn bad_clock(
     let off_order = repeated.map_or(0, |at| at.n_rows) + backward.map_or(0, |at| at.n_rows);
     if off_order as f64 > BAD_SHARE * of_rows as f64 {
         let share = percent(off_order, of_rows);
-        return Some(format!("{share:.0} % of the rows have the time of the row before or an earlier one"));
+        return Some(format!("{share:.0} % of the rows repeat a timestamp or go back in time"));
     }
     let n_gaps = steps.iter().filter(|step| **step > GAP_STEPS * usual_secs).count();
-    // One gap in a short recording is a gap.
+    // A single gap in a short recording is allowed.
     if n_gaps > 1 && n_gaps as f64 > BAD_SHARE * steps.len() as f64 {
         let (share, millis) = (percent(n_gaps, steps.len()), 1e3 * usual_secs);
         return Some(format!(
-            "steps differ too much, {share:.0} % of them are gaps, the others {millis:.3} ms"
+            "sampling intervals are too irregular: {share:.0} % of them are gaps, the others {millis:.3} ms"
         ));
     }
     let jitter_secs = median(steps.iter().map(|step| (step - usual_secs).abs()).collect());
     (jitter_secs > BAD_JITTER_SHARE * usual_secs).then(|| {
         let share = 100.0 * jitter_secs / usual_secs;
-        format!("half of the steps are off by more than {share:.0} %")
+        format!("half of the sampling intervals deviate by more than {share:.0} %")
     })
 }
 
-/// What the times are rounded to, in seconds: the largest power of ten that they are multiples of; 0 below 0.1 µs.
+/// Rounding unit of the timestamps in seconds: the largest power of ten that divides all of them; 0 below 0.1 µs.
 fn written_to(times: &[f64]) -> f64 {
     let powers = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7];
     let whole = |power: f64| {
@@ -233,14 +232,14 @@ fn written_to(times: &[f64]) -> f64 {
     powers.into_iter().find(|power| whole(*power)).map_or(0.0, f64::recip)
 }
 
-/// Change of the usual step from the first to the last quarter of the recording, as a share of it.
+/// Relative change of the mean interval from the first to the last quarter of the recording.
 fn drift(steps: &[f64], gap_secs: f64) -> f64 {
     let quarter = steps.len() / 4;
     let mean = |part: &[f64]| {
         let inner: Vec<f64> = part.iter().copied().filter(|step| *step <= gap_secs).collect();
         inner.iter().sum::<f64>() / inner.len() as f64
     };
-    // Below this the noise of rounded times is as large as a drift.
+    // With fewer intervals, rounding of the timestamps is as large as a drift.
     if quarter < 1000 {
         return 0.0;
     }

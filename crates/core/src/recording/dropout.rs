@@ -1,43 +1,35 @@
-//! Rows in which an axis of acceleration was not really measured: glitches, stuck, clipped or held.
+//! Rows without a valid measurement on an acceleration axis: spikes, stuck, clipped or repeated values.
 
+use crate::recording::axis::Axis;
 use crate::recording::clock::{Count, Timeline};
 use crate::recording::spike::mark_spikes;
 use crate::recording::{Fault, Finding, MIN_RATE_HZ};
 
-/// Least length of a stretch of equal values that is suspicious, in seconds and in rows.
+/// Minimum duration of a suspicious run of equal values, in seconds and in rows.
 const STUCK_SECS: f64 = 0.02;
 const STUCK_ROWS: usize = 20;
-/// Longer than this many times the usual long runs of the signal itself: coarse converters repeat values, too.
+/// Minimum length of a suspicious run relative to the signal's own long runs; coarse converters repeat values, too.
 const STUCK_RUNS: f64 = 4.0;
-/// Below this many runs the signal has no behavior of its own to compare with.
+/// Number of runs below which the signal gives no own reference length.
 const FEW_RUNS: usize = 100;
-/// Least rows at the largest value that are clipping: two where the range of the sensor is known, three elsewhere.
+/// Minimum number of rows at the extreme value that count as clipping; one less if the sensor's full scale is known.
 const CLIPPED_ROWS: usize = 3;
-/// As near to the known range as a 12-bit converter's last step.
+/// Fraction of the full scale that counts as full scale: the last step of a 12-bit converter.
 const FULL_SCALE_SHARE: f64 = 1.0 - 1.0 / 2048.0;
-/// The largest value is at least so many steps of the converter away from the middle: in fewer, equal neighbors are usual.
+/// Minimum signal range in converter steps for clipping; in a smaller range, equal neighbors are common.
 const CLIPPED_STEPS: f64 = 16.0;
-/// How abruptly, in steps of the converter, a clipped wave reaches and leaves its largest value. A round one does by few.
+/// Minimum jump into and out of a clipped run, in converter steps; a rounded peak has smaller steps.
 const CLIPPED_EDGE_STEPS: f64 = 4.0;
-/// Spread of run lengths, over their mean, below which values are held by a clock. Of chance repeats it is near one.
+/// Ratio of standard deviation to mean of the run lengths, below which values are held by a clock. For random repeats
+/// it is near one.
 const HELD_SPREAD: f64 = 0.35;
-/// Least mean run length that is a hold.
+/// Minimum mean run length of held values.
 const HELD_ROWS: f64 = 1.5;
-/// At most this force in N, or this speed in m/s, is rest: a sensor that feels nothing may well not change.
+/// Force in N and speed in m/s up to which the tip rests; a sensor without input may well be constant.
 const REST_FORCE_N: f64 = 0.02;
 const REST_SPEED_MPS: f64 = 1e-3;
 
-/// An axis to look at, and what the tip did meanwhile; all in the order of the file.
-pub(super) struct Axis<'a> {
-    /// Its name in findings.
-    pub(super) column: &'a str,
-    /// Its values in m/s².
-    pub(super) values: &'a [f64],
-    /// Where it saturates, in m/s², where that is known.
-    pub(super) full_scale_mps2: Option<f64>,
-}
-
-/// Equal values in a row, as places in the timeline.
+/// Run of equal values, as indices into the timeline.
 struct Run {
     start: usize,
     end: usize,
@@ -50,8 +42,8 @@ impl Run {
     }
 }
 
-/// Marks rows of the timeline as unusable (`usable` is by place in it) and says why. `at_rest` tells whether the tip did
-/// nothing in a row.
+/// Marks rows of the timeline as unusable and reports them. `usable` is indexed by place in the timeline; `at_rest`
+/// returns whether the tip rests in a row.
 pub(super) fn mark_dropouts(
     axis: &Axis<'_>,
     timeline: &Timeline,
@@ -64,7 +56,7 @@ pub(super) fn mark_dropouts(
     let of_rows = axis.values.len();
     let step = converter_step(&runs(axis.values, timeline, &[]));
     let is_spike = mark_spikes(axis, timeline, step, usable, findings);
-    // A glitch is beyond what the sensor clips at, and says nothing of its range.
+    // A spike exceeds the clipping level and says nothing about the sensor's range.
     let runs = runs(axis.values, timeline, &is_spike);
     let mut clipped = Count::default();
     let mut clipped_value = 0.0_f64;
@@ -105,21 +97,21 @@ pub(super) fn mark_dropouts(
     }
 }
 
-/// What is wrong with axes of acceleration that never change, in whatever unit.
+/// Returns a fault if all axes of acceleration are constant; their unit does not matter.
 pub fn check_signal(axes: &[Vec<f64>]) -> Option<Fault> {
     let values: Option<Vec<f64>> = axes.iter().map(|axis| dead_value(axis.iter().copied())).collect();
     let values = values.filter(|values| !values.is_empty())?;
     Some(Fault::NoSignal { is_zero: values.iter().all(|value| *value == 0.0) })
 }
 
-/// The value of an axis that never changes. Rows that lack a value say nothing of it.
+/// Value of a constant axis; missing values are ignored.
 pub(super) fn dead_value(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut finite = values.filter(|value| value.is_finite());
     let (first, second) = (finite.next()?, finite.next()?);
     (first == second && finite.all(|value| value == first)).then_some(first)
 }
 
-/// Runs of equal finite values; NaN is in no run, nor is a place that is left out.
+/// Runs of equal finite values; NaN and places in `is_left_out` belong to no run.
 fn runs(values: &[f64], timeline: &Timeline, is_left_out: &[bool]) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for (place, row) in timeline.rows.iter().enumerate() {
@@ -135,7 +127,7 @@ fn runs(values: &[f64], timeline: &Timeline, is_left_out: &[bool]) -> Vec<Run> {
     runs
 }
 
-/// The smallest difference between two values that occur.
+/// Smallest difference between two values that occur.
 fn converter_step(runs: &[Run]) -> f64 {
     let mut values: Vec<f64> = runs.iter().map(|run| run.value).collect();
     values.sort_by(f64::total_cmp);
@@ -148,7 +140,7 @@ fn extremes(runs: &[Run]) -> [f64; 2] {
     })
 }
 
-/// Whether a run is the cut-off top of a wave.
+/// Whether a run is the clipped top of a wave.
 fn is_clipped_run(
     runs: &[Run],
     run_idx: usize,
@@ -172,7 +164,7 @@ fn is_clipped_run(
     edge(before) + edge(runs.get(run_idx + 1)) >= CLIPPED_EDGE_STEPS * step
 }
 
-/// Length of a run that is suspicious in this signal.
+/// Minimum length of a suspicious run in this signal, in rows.
 fn stuck_rows(runs: &[Run], rate_hz: f64) -> usize {
     let mut lengths: Vec<usize> = runs.iter().map(Run::len).collect();
     lengths.sort_unstable();
@@ -181,9 +173,9 @@ fn stuck_rows(runs: &[Run], rate_hz: f64) -> usize {
     (limit.ceil() as usize).max(STUCK_ROWS)
 }
 
-/// Mean length of runs that a clock made, if one did.
+/// Mean run length if values are held by a clock.
 fn held_rows(runs: &[Run], limit: usize) -> Option<f64> {
-    // The first and last are cut, and stuck ones say nothing of the clock.
+    // The first and the last run are cut off, and stuck runs say nothing about the clock.
     let inner = runs.get(1..runs.len().saturating_sub(1))?;
     let lengths: Vec<f64> = inner.iter().map(|run| run.len() as f64).filter(|n| *n < limit as f64).collect();
     if lengths.len() < FEW_RUNS / 2 {
@@ -194,7 +186,7 @@ fn held_rows(runs: &[Run], limit: usize) -> Option<f64> {
     (mean >= HELD_ROWS && variance.sqrt() <= HELD_SPREAD * mean).then_some(mean)
 }
 
-/// Whether the tip does nothing at this speed and force, as far as they are measured.
+/// Whether the tip rests at this speed and force, as far as they are measured.
 pub(super) fn is_rest(speed_mps: Option<f64>, force_n: Option<f64>) -> bool {
     speed_mps.is_some_and(|speed| speed.abs() <= REST_SPEED_MPS)
         || force_n.is_some_and(|force| force.abs() <= REST_FORCE_N)

@@ -1,93 +1,94 @@
-//! Why a recording as a file holds it cannot be used.
+//! Faults: reasons why a recording cannot be used.
 
 use std::fmt;
 
 use crate::recording::Finding;
-use crate::recording::missing::SPEED;
+use crate::recording::bounds::SPEED;
+use crate::recording::finding::micro;
 
-/// Lowest rate that a model can be fitted at.
+/// Lowest sample rate at which a model can be fitted, in Hz.
 pub const MIN_RATE_HZ: f64 = 500.0;
-/// Highest rate of a recording.
+/// Highest sample rate of a recording, in Hz.
 pub const MAX_RATE_HZ: f64 = 48_000.0;
-/// Shortest recording that says anything, in seconds of usable samples.
+/// Shortest usable recording, in seconds of valid samples.
 pub const MIN_USABLE_SECS: f64 = 0.1;
 
-/// Something that keeps a recording from being used.
+/// Fault that prevents the use of a recording.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {
-    /// There is no row at all, or only one.
+    /// The recording has fewer than two rows.
     TooFewRows {
-        /// How many there are.
+        /// Number of rows.
         n_rows: usize,
     },
     /// There is no axis of acceleration.
     NoAcceleration,
-    /// Nobody measured or said the speed.
+    /// There is no speed: no column, and no constant.
     NoSpeed,
-    /// Nobody measured or said the force.
+    /// There is no force: no column, and no constant.
     NoForce,
-    /// A column has another number of rows than the clock, or than the first axis of acceleration.
+    /// A column has another number of rows than the clock or the first axis of acceleration.
     UnequalColumns {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// Its rows.
+        /// Number of rows of the column.
         n_rows: usize,
-        /// The rows of the recording.
+        /// Number of rows of the recording.
         of_rows: usize,
     },
-    /// The rate is below [`MIN_RATE_HZ`].
+    /// The sample rate is below [`MIN_RATE_HZ`].
     RateTooLow {
-        /// The rate, in Hz.
+        /// Sample rate in Hz.
         rate_hz: f64,
     },
-    /// The rate is above [`MAX_RATE_HZ`], or no number.
+    /// The sample rate is above [`MAX_RATE_HZ`] or not finite.
     RateTooHigh {
-        /// The rate, in Hz.
+        /// Sample rate in Hz.
         rate_hz: f64,
     },
-    /// The timestamps are no clock: what happened between the rows cannot be worked out.
+    /// The timestamps do not form a clock, so the samples cannot be interpolated.
     BadClock {
-        /// What is wrong with them.
+        /// What is wrong with the timestamps.
         reason: String,
     },
-    /// A quantity that was said to be constant has no meaning.
+    /// A constant quantity is out of range.
     BadConstant {
-        /// The quantity, with its unit.
+        /// Name of the quantity, with its unit.
         what: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
-        /// The highest that it can have.
+        /// Highest valid value.
         most: f64,
     },
-    /// No axis of acceleration ever changes.
+    /// All axes of acceleration are constant.
     NoSignal {
         /// Whether all of them are 0.
         is_zero: bool,
     },
-    /// Positions change faster than anything that could have been measured.
+    /// The positions imply an impossible tip speed.
     ImpossibleSpeed {
-        /// The highest speed, in m/s.
+        /// Highest tip speed, in m/s.
         most_mps: f64,
     },
-    /// Too little is left of the recording when what cannot be used is taken away.
+    /// The valid samples are too short after unusable ones are removed.
     NothingUsable {
-        /// What is left, in seconds.
+        /// Duration of the valid samples, in seconds.
         usable_secs: f64,
     },
 }
 
-/// All that keeps a recording from being used, and what else was found on the way, which is not part of the sentence.
+/// Faults of a recording, and the findings so far; the error message lists the faults only.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct RecordingError {
-    /// At least one.
+    /// Faults, at least one.
     pub faults: Vec<Fault>,
-    /// What else is not as it should be.
+    /// Findings collected before the conversion stopped.
     pub findings: Vec<Finding>,
 }
 
 impl Fault {
-    /// A short name that scripts can look for.
+    /// Short name, stable for scripts.
     pub fn name(&self) -> &'static str {
         match self {
             Self::TooFewRows { .. } => "too few rows",
@@ -107,7 +108,7 @@ impl Fault {
 }
 
 impl Fault {
-    /// Whether it is the reason that too little is usable, so that this needs not be said.
+    /// Whether this fault explains why too little is usable, so that [`Fault::NothingUsable`] is redundant.
     pub(super) fn leaves_nothing(&self) -> bool {
         matches!(self, Self::NoSignal { .. } | Self::RateTooHigh { .. } | Self::TooFewRows { .. })
     }
@@ -117,48 +118,56 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.name())?;
         match self {
-            Self::TooFewRows { n_rows } => write!(f, "{n_rows} rows are no recording"),
-            Self::NoAcceleration => write!(f, "a recording needs one to three axes of acceleration"),
-            Self::NoSpeed => write!(f, "record the speed or the positions too, or say the constant speed"),
-            Self::NoForce => write!(f, "record the normal force too, or say the constant force"),
+            Self::TooFewRows { n_rows } => {
+                write!(f, "a recording needs at least 2 rows with different times, got {n_rows}")
+            }
+            Self::NoAcceleration => write!(f, "a recording needs one to three columns of acceleration"),
+            Self::NoSpeed => write!(f, "add a column of speed or positions, or give a constant speed"),
+            Self::NoForce => write!(f, "add a column of normal force, or give a constant force"),
             Self::UnequalColumns { column, n_rows, of_rows } => {
-                write!(f, "{column} has {n_rows} rows, the recording {of_rows}")
+                write!(
+                    f,
+                    "{column} has {n_rows} rows, but the recording has {of_rows}; all columns need the same number of rows"
+                )
             }
             Self::RateTooLow { rate_hz } => {
                 write!(
                     f,
-                    "{} Hz, a model needs at least {MIN_RATE_HZ} Hz; correct the unit of time or the rate if one is wrong, else record faster",
+                    "{} Hz, a model needs at least {MIN_RATE_HZ} Hz; correct the unit of time or the rate if one is wrong, or else record at a higher rate",
                     tenths(*rate_hz)
                 )
             }
             Self::RateTooHigh { rate_hz } => {
                 write!(
                     f,
-                    "{} Hz, at most {MAX_RATE_HZ} Hz are read; correct the unit of time or the rate if one is wrong, else resample the recording",
+                    "{} Hz, at most {MAX_RATE_HZ} Hz is supported; correct the unit of time or the rate if one is wrong, or else resample the recording",
                     tenths(*rate_hz)
                 )
             }
             Self::BadClock { reason } => {
-                write!(f, "{reason}; record with a clock of the sensor, or state the rate if it is known")
+                write!(
+                    f,
+                    "{reason}; record the timestamps of the sensor, or give the sample rate if it is known"
+                )
             }
             Self::BadConstant { what, value, most } => {
-                write!(f, "{what} is {}, needs a number from 0 to {most}", micro(*value))
+                write!(f, "{what} is {}; it must lie between 0 and {most}", micro(*value))
             }
             Self::NoSignal { is_zero } => {
-                let value = if *is_zero { "is 0" } else { "has one value" };
+                let value = if *is_zero { "is 0" } else { "has the same value" };
                 write!(f, "acceleration {value} in every row; check the sensor, its cable and the column")
             }
             Self::ImpossibleSpeed { most_mps } => {
                 write!(
                     f,
-                    "by its positions the tip reaches {most_mps:.0} m/s, at most {} m/s can be; correct the unit of the positions or of time",
+                    "the tip speed computed from the positions reaches {most_mps:.0} m/s, but at most {} m/s is possible; correct the unit of the positions or of time",
                     SPEED.most
                 )
             }
             Self::NothingUsable { usable_secs } => {
                 write!(
                     f,
-                    "{usable_secs:.3} s are left without what cannot be used, needs at least {MIN_USABLE_SECS} s; record longer, or correct what was found"
+                    "only {usable_secs:.3} s are usable, at least {MIN_USABLE_SECS} s are needed; record longer, or correct the reported problems"
                 )
             }
         }
@@ -172,12 +181,7 @@ impl fmt::Display for RecordingError {
     }
 }
 
-/// Rounded to tenths, so that a measured rate reads as a person says it.
+/// Rounds to tenths, for readable sample rates in messages.
 fn tenths(value: f64) -> f64 {
     (10.0 * value).round() / 10.0
-}
-
-/// Rounded to millionths, so that a converted number has no dust.
-pub(super) fn micro(value: f64) -> f64 {
-    (1e6 * value).round() * 1e-6
 }

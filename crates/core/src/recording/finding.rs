@@ -1,158 +1,156 @@
-//! What is not as it should be in a recording, by name.
+//! Findings: problems in a recording that do not prevent its use.
 
 use std::fmt;
 
-use crate::recording::fault::micro;
-
-/// How much of a recording something concerns, and where it happens first.
+/// Extent of a finding, and its first occurrence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Where {
-    /// How many rows.
+    /// Number of affected rows.
     pub n_rows: usize,
-    /// Of how many.
+    /// Number of all rows.
     pub of_rows: usize,
-    /// Time of the first, in seconds from the start of the recording.
+    /// Time of the first affected row, in seconds from the start of the recording.
     pub first_secs: f64,
 }
 
-/// Something about a recording that its owner should know. None of it was mended silently: what a finding does to the
-/// data is part of its sentence.
+/// Problem in a recording that its user should know about. Nothing is repaired silently: the message states what was
+/// done to the data.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// Rows have the same time as the row before; the first of each is kept.
+    /// Rows repeat the timestamp of the row before; the first row of each timestamp is kept.
     RepeatedTimes(Where),
-    /// Rows are earlier than the row before; they are left out.
+    /// Rows have an earlier timestamp than the row before; they are left out.
     BackwardTimes(Where),
-    /// Rows are missing: stretches longer than one and a half steps of the clock. Nothing is put in their place.
+    /// Rows are missing: intervals longer than 1.5 sampling intervals. The gaps are not filled.
     Gaps {
-        /// Where the rows after gaps are.
+        /// Rows after gaps.
         at: Where,
-        /// Length of the longest, in seconds.
+        /// Longest gap, in seconds.
         longest_secs: f64,
     },
-    /// The clock jitters; the columns were resampled to the regular clock at its mean rate.
+    /// The sampling intervals vary; the columns were resampled to a regular clock at the mean rate.
     Jitter {
-        /// 95th percentile of the deviation of a step from the middle one, as a share of it.
+        /// 95th percentile of the deviation from the usual sampling interval, relative to it.
         share: f64,
-        /// The regular rate in Hz.
+        /// Regular sample rate in Hz.
         rate_hz: f64,
     },
-    /// The clock runs slower or faster at the end than at the beginning.
+    /// The clock drifts: the sampling interval changes over the recording.
     Drift {
-        /// Change of the step from the first to the last quarter, as a share of it.
+        /// Relative change of the sampling interval from the first to the last quarter.
         share: f64,
     },
-    /// Values are missing or not numbers; those rows are left out.
+    /// Values are missing or not finite; these rows are left out.
     NotANumber {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// Where.
+        /// Affected rows.
         at: Where,
     },
-    /// Values are larger than anything that could have been measured; those rows are left out.
+    /// Values exceed every possible measurement; these rows are left out.
     Impossible {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// Where.
+        /// Affected rows.
         at: Where,
-        /// The largest magnitude that is taken, in `unit`.
+        /// Largest valid magnitude, in `unit`.
         most: f64,
-        /// The SI unit of the column.
+        /// SI unit of the column.
         unit: &'static str,
     },
-    /// Glitches: a few rows far above everything around them, that do not ring as what a tip feels does. Left out.
+    /// Spikes: a few rows far above their surroundings, without the ringing of a mechanical event. They are left out.
     Spikes {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// How many glitches.
+        /// Number of spikes.
         n: usize,
-        /// Their rows.
+        /// Affected rows.
         at: Where,
-        /// The value of the highest, in m/s².
+        /// Value of the highest spike, in m/s².
         value: f64,
-        /// How many robust standard deviations it is away from what is around it.
+        /// Height of this spike in robust standard deviations of the surrounding signal.
         times: f64,
     },
-    /// A column of speed, position or force has values in some of the rows only, as a slower sensor has; straight lines
-    /// were put between them.
+    /// A column of speed, position or force has values in some rows only, because its sensor is slower. The values
+    /// between were interpolated linearly.
     SlowerTrack {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The mean rate of its values, in Hz.
+        /// Mean rate of the values, in Hz.
         rate_hz: f64,
     },
-    /// A column does not change for suspiciously long: the sensor, or its cable, was stuck. Left out.
+    /// A column is constant for suspiciously long: the sensor or its cable was stuck. These rows are left out.
     Stuck {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// Where.
+        /// Affected rows.
         at: Where,
     },
-    /// A column of acceleration holds each value for several rows: the sensor was slower than the file.
+    /// An acceleration column repeats each value for several rows: the sensor was slower than the file.
     Held {
-        /// The column.
+        /// Name of the column.
         column: String,
         /// Mean number of rows with the same value.
         n_rows: f64,
-        /// The rate that the sensor seems to have had, in Hz.
+        /// Estimated sample rate of the sensor, in Hz.
         true_rate_hz: f64,
     },
-    /// An axis of acceleration never changes; it is not one of the axes.
+    /// An axis of acceleration is constant; it is ignored.
     DeadAxis {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// The value it has, in m/s².
+        /// Constant value, in m/s².
         value: f64,
     },
-    /// The signal stays at its largest value: the sensor or the converter was driven over its range. Left out.
+    /// The signal stays at its extreme value: the sensor or the converter was overdriven. These rows are left out.
     Clipped {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// Where.
+        /// Affected rows.
         at: Where,
-        /// The value it stays at, in the unit of the column.
+        /// Extreme value, in the unit of the column.
         value: f64,
     },
-    /// Several axes became one by DFT321.
+    /// Several axes were combined into one by DFT321.
     AxesCombined {
-        /// How many.
+        /// Number of axes.
         n_axes: usize,
     },
-    /// Speeds have a sign; their magnitude was taken.
+    /// Speeds are negative in some rows; their absolute value was used.
     SignedSpeed(Where),
-    /// Force is below zero, and not just about it.
+    /// Forces are negative beyond sensor drift in some rows.
     SignedForce(Where),
-    /// Speeds that no hand strokes a surface at: their unit may be wrong.
+    /// The tip speed is implausible for a stroke; its unit may be wrong.
     ImplausibleSpeed {
-        /// Median while the tip moves, in m/s.
+        /// Median speed while the tip moves, in m/s.
         median_mps: f64,
     },
-    /// Forces that no stylus is pressed with: their unit may be wrong.
+    /// The force is implausible for a stylus; its unit may be wrong.
     ImplausibleForce {
-        /// The highest, in N.
+        /// Highest force, in N.
         most_n: f64,
     },
-    /// Stretches too short to say anything about low frequencies; they are left out.
+    /// Segments too short to contain low frequencies; they are left out.
     Fragments {
-        /// How many.
+        /// Number of segments.
         n: usize,
-        /// Their length in all, in seconds.
+        /// Total duration, in seconds.
         seconds: f64,
     },
-    /// Speed was worked out from positions.
+    /// The speed was computed from positions.
     SpeedFromPositions,
-    /// A quantity was said to be constant, not measured.
+    /// A quantity was given as a constant and not measured.
     Constant {
-        /// The quantity, with its unit.
+        /// Name of the quantity, with its unit.
         what: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
     },
 }
 
 impl Finding {
-    /// A short name that scripts can look for.
+    /// Short name, stable for scripts.
     pub fn name(&self) -> &'static str {
         match self {
             Self::RepeatedTimes(_) => "repeated timestamps",
@@ -190,67 +188,84 @@ impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.name())?;
         match self {
-            Self::RepeatedTimes(at) => write!(f, "{at}; the first row of each time was kept"),
-            Self::BackwardTimes(at) => write!(f, "{at}; those rows were left out"),
+            Self::RepeatedTimes(at) => write!(f, "{at}; the first row of each timestamp was kept"),
+            Self::BackwardTimes(at) => write!(f, "{at}; these rows were left out"),
             Self::Gaps { at, longest_secs } => {
-                write!(f, "{at}, the longest {longest_secs:.3} s; nothing was put in their place")
+                write!(f, "{at}, the longest {longest_secs:.3} s; they were not filled")
             }
             Self::Jitter { share, rate_hz } => write!(
                 f,
-                "steps of the clock differ by {:.0} %; the columns were resampled to {rate_hz:.1} Hz",
+                "sampling intervals deviate by {:.0} % (95th percentile); the columns were resampled to {rate_hz:.1} Hz",
                 100.0 * share
             ),
             Self::Drift { share } => {
-                write!(f, "the step of the clock changes by {:.2} % from beginning to end", 100.0 * share)
+                write!(
+                    f,
+                    "the sampling interval changes by {:.2} % from the first to the last quarter",
+                    100.0 * share
+                )
             }
             Self::Held { column, n_rows, true_rate_hz } => write!(
                 f,
-                "{column} holds each value for {n_rows:.1} rows; its true rate seems to be {true_rate_hz:.0} Hz"
+                "{column} repeats each value for {n_rows:.1} rows on average; its true sample rate seems to be {true_rate_hz:.0} Hz"
             ),
             Self::DeadAxis { column, value } => {
-                write!(f, "{column} is {value} in every row; it was not taken as an axis")
+                write!(f, "{column} is {value} in every row; this axis was ignored")
             }
-            Self::NotANumber { column, at } => write!(f, "{column}, {at}; those rows were left out"),
+            Self::NotANumber { column, at } => write!(f, "{column}, {at}; these rows were left out"),
             Self::Impossible { column, at, most, unit } => write!(
                 f,
-                "{column} is beyond {most} {unit}, {at}; those rows were left out; where they are many, the unit is wrong"
+                "{column} exceeds {most} {unit}, {at}; these rows were left out; if there are many, check the unit"
             ),
             Self::Spikes { column, n, at, value, times } => {
-                let glitches = if *n == 1 { "1 glitch" } else { &format!("{n} glitches") };
+                let glitches =
+                    if *n == 1 { "1 electrical glitch" } else { &format!("{n} electrical glitches") };
                 write!(
                     f,
-                    "{glitches} of the electronics in {column}, up to {value:.1} m/s², {times:.0} times what is around, {at}; left out"
+                    "{glitches} in {column}, up to {value:.1} m/s², {times:.0} standard deviations of the surrounding signal, {at}; left out"
                 )
             }
             Self::SlowerTrack { column, rate_hz } => {
-                write!(f, "{column} has values at {rate_hz:.1} Hz only; straight lines were put between them")
+                write!(
+                    f,
+                    "{column} has values at {rate_hz:.1} Hz only; the rows between were interpolated linearly"
+                )
             }
             Self::Stuck { column, at } => write!(f, "{column} does not change, {at}; left out"),
             Self::Clipped { column, at, value } => {
                 write!(f, "{column} stays at {value:.4}, {at}; left out")
             }
-            Self::AxesCombined { n_axes } => write!(f, "{n_axes} axes became one by DFT321"),
-            Self::SignedSpeed(at) => write!(f, "below 0 in {at}; the magnitude was taken"),
+            Self::AxesCombined { n_axes } => write!(f, "{n_axes} axes were combined by DFT321"),
+            Self::SignedSpeed(at) => write!(f, "negative in {at}; the absolute value was used"),
             Self::SignedForce(at) => write!(
                 f,
-                "below 0 in {at}; the tip counts as lifted there; check the zero and the direction of the sensor"
+                "negative in {at}; the tip counts as lifted there; check the zero and the sign of the sensor"
             ),
             Self::ImplausibleSpeed { median_mps } => write!(
                 f,
-                "half of the time that the tip moves it is slower than {:.3} mm/s, the other half faster; hands stroke at 10 to 1000 mm/s, check the unit",
+                "the median speed of the moving tip is {:.3} mm/s; strokes usually have 10 to 1000 mm/s, check the unit",
                 1e3 * median_mps
             ),
             Self::ImplausibleForce { most_n } => {
-                write!(f, "it reaches {most_n:.0} N; a stylus is pressed with up to 10 N, check the unit")
-            }
-            Self::Fragments { n, seconds } => {
                 write!(
                     f,
-                    "{n} stretches between what is left out, {seconds:.3} s in all, are too short to use"
+                    "the force reaches {most_n:.0} N; a stylus is pressed with up to 10 N, check the unit"
                 )
             }
-            Self::SpeedFromPositions => write!(f, "the file has no speed; it follows from the positions"),
-            Self::Constant { what, value } => write!(f, "{what} was taken as {} throughout", micro(*value)),
+            Self::Fragments { n, seconds } => {
+                write!(f, "{n} segments between rows left out, {seconds:.3} s in total, are too short to use")
+            }
+            Self::SpeedFromPositions => {
+                write!(f, "the file has no speed; it was computed from the positions")
+            }
+            Self::Constant { what, value } => {
+                write!(f, "{what} was set to {} for the whole recording", micro(*value))
+            }
         }
     }
+}
+
+/// Rounds to millionths, which removes rounding errors of unit conversions.
+pub(super) fn micro(value: f64) -> f64 {
+    (1e6 * value).round() * 1e-6
 }

@@ -1,34 +1,36 @@
-//! From the rows of a file to one regular clock.
+//! Conversion of a file's rows to a recording with a regular clock.
 
 use std::slice::from_mut;
 
-use crate::dft321::dft321;
+use crate::dsp::dft321::dft321;
+use crate::recording::axis::Axis;
+use crate::recording::bounds::{ACCELERATION, FORCE, POSITION, SPEED};
 use crate::recording::clock::{Count, Timeline, read_clock};
-use crate::recording::dropout::{Axis, check_signal, dead_value, is_rest, mark_dropouts};
-use crate::recording::missing::{ACCELERATION, FORCE, POSITION, SPEED, fill_slower, mark_missing};
+use crate::recording::dropout::{check_signal, dead_value, is_rest, mark_dropouts};
+use crate::recording::missing::{fill_slower, mark_missing};
 use crate::recording::motion::speed_from_positions;
 use crate::recording::plausible::check_plausible;
+use crate::recording::segment::MIN_FORCE;
 use crate::recording::stretch::{Stretch, fast, lay_out, slow};
 use crate::recording::{
     Fault, Finding, MIN_USABLE_SECS, RawClock, RawMotion, RawRecording, RawTrack, Recording, RecordingError,
     Where,
 };
-use crate::segment::MIN_FORCE;
 use crate::units::Hertz;
 
-/// A force below zero in more than this share of the rows is no chance.
+/// Share of rows with negative force above which they are reported.
 const SIGNED_SHARE: f64 = 0.01;
 
 impl Recording {
-    /// The recording on one regular clock, and what was not as it should be in it.
+    /// Converts the rows of a file to a recording with a regular clock, and reports findings.
     ///
-    /// A regular clock stays as it is: rows are samples. On a jittered one, acceleration is interpolated by polynomials of
-    /// high degree, speed and force by straight lines, and never across a gap. Acceleration keeps its mean, gravity
-    /// included. Rows that are stuck, clipped or lack a value are not in [`Recording::usable`]. Where speed, positions or
-    /// force stand in only some of the rows, at 25 Hz or more, straight lines lie between their values.
+    /// On a regular clock, rows are used as samples. On an irregular clock, acceleration is interpolated by polynomials
+    /// of high degree, speed and force linearly, and never across a gap. Acceleration keeps its mean, including
+    /// gravity. Rows that are stuck, clipped or lack a value are excluded from [`Recording::usable`]. Speed, positions
+    /// or force from slower sensors, at 25 Hz or more, are interpolated linearly.
     ///
     /// # Errors
-    /// [`RecordingError`] with everything that keeps it from being used.
+    /// [`RecordingError`] with every fault found.
     pub fn from_raw(raw: RawRecording) -> Result<(Self, Vec<Finding>), RecordingError> {
         let (mut findings, mut faults) = (Vec::new(), Vec::new());
         let n_rows = raw.acceleration_mps2.first().map_or(0, Vec::len);
@@ -55,7 +57,7 @@ impl Recording {
         let force_rows = column_of(&force_n);
         let names = axis_names(acceleration_mps2.len());
         let mut axes: Vec<(String, Vec<f64>)> = names.into_iter().zip(acceleration_mps2).collect();
-        // Before rows are marked: what a dead axis lacks is no loss.
+        // This precedes the check for missing values: values missing in a constant axis do not matter.
         axes.retain(|(name, values)| {
             let dead = dead_value(timeline.rows.iter().map(|row| values[*row]));
             findings.extend(dead.map(|value| Finding::DeadAxis { column: name.clone(), value }));
@@ -86,7 +88,7 @@ impl Recording {
         else {
             return Err(RecordingError { faults, findings });
         };
-        // What carries no signal on any axis has no stretch that could be used.
+        // Without an axis that carries a signal, no segment is usable.
         let stretches = if acceleration_mps2.is_empty() { Vec::new() } else { stretches };
         let usable_secs =
             stretches.iter().map(|stretch| stretch.samples.len()).sum::<usize>() as f64 / timeline.rate_hz;
@@ -115,7 +117,7 @@ impl Recording {
             let axes: Vec<Vec<f64>> =
                 acceleration_mps2.iter().map(|values| fast(values, &timeline, stretch)).collect();
             let axes: Vec<&[f64]> = axes.iter().map(Vec::as_slice).collect();
-            // The axes are cut to one stretch, so they have one length.
+            // All axes are cut to the same segment, so they have the same length.
             if let Ok(combined) = dft321(&axes) {
                 recording.acceleration_mps2[at.clone()].copy_from_slice(&combined);
             }
@@ -145,7 +147,7 @@ fn rows_of_speed(motion: &RawMotion) -> Option<&[f64]> {
     if let RawMotion::Speed(track) = motion { column_of(track) } else { None }
 }
 
-/// What is wrong with the columns before a number in them is looked at.
+/// Checks the columns for faults that do not depend on single values.
 fn check_columns(raw: &RawRecording, n_rows: usize, faults: &mut Vec<Fault>) {
     faults.extend(check_signal(&raw.acceleration_mps2));
     if raw.acceleration_mps2.is_empty() {
@@ -179,8 +181,8 @@ fn check_columns(raw: &RawRecording, n_rows: usize, faults: &mut Vec<Fault>) {
     faults.extend(unequal.map(|(column, n)| Fault::UnequalColumns { column, n_rows: n, of_rows: n_rows }));
 }
 
-/// What is wrong with a track of at most `most` in its SI unit; `what` names it in a usual unit, `per_si` of which are one
-/// of the SI unit.
+/// Checks a track whose constant may be at most `most` in its SI unit. `what` names it with a common unit, and `per_si`
+/// is the number of these units in one SI unit.
 fn check_track(
     track: &RawTrack,
     (what, per_si): (&'static str, f64),
@@ -197,7 +199,7 @@ fn check_track(
     }
 }
 
-/// What was said and not measured, or has to be known of what was measured.
+/// Reports constants, negative speeds and forces, and speeds computed from positions.
 fn say_motion(motion: &RawMotion, force: &RawTrack, timeline: &Timeline, findings: &mut Vec<Finding>) {
     match motion {
         RawMotion::Positions(_) => findings.push(Finding::SpeedFromPositions),
@@ -220,7 +222,7 @@ fn say_motion(motion: &RawMotion, force: &RawTrack, timeline: &Timeline, finding
     }
 }
 
-/// The rows of a column below `least`.
+/// Rows of a column below `least`.
 fn rows_below(values: &[f64], least: f64, timeline: &Timeline) -> Option<Where> {
     let mut below = Count::default();
     for (row, time) in timeline.rows.iter().zip(&timeline.times) {
@@ -235,7 +237,7 @@ fn track_of(track: &RawTrack, timeline: &Timeline, stretch: &Stretch) -> Vec<f64
     match track {
         RawTrack::Column(values) => slow(values, timeline, stretch),
         RawTrack::Constant(value) => vec![*value; stretch.samples.len()],
-        // A missing track is a fault, and there is no recording then.
+        // A missing track is a fault, so no recording is returned in this case.
         RawTrack::Missing => vec![f64::NAN; stretch.samples.len()],
     }
 }

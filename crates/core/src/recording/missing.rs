@@ -1,34 +1,18 @@
-//! Values that are not there, or cannot be: between those of a slower sensor, and elsewhere.
+//! Missing and impossible values, and linear interpolation of columns from slower sensors.
 
+use crate::dsp::spectrum::median;
 use crate::recording::Finding;
+use crate::recording::bounds::{Bound, MOST};
 use crate::recording::clock::{Count, Timeline};
-use crate::spectrum::median;
-use crate::texture::{FORCES_N, LEVELS_MPS2, SPEEDS_MPS};
 
-/// Largest magnitude, in any SI unit, that is a number between which others can lie.
-const MOST: f64 = 1e9;
-/// Rows a step, from which on a sensor is slower than the file and not one that lost values.
+/// Rows between values from which on a sensor counts as slower than the file rather than as losing values.
 const SLOW_ROWS: f64 = 1.5;
-/// Slowest sensor, in Hz, between whose values straight lines say what a hand did.
+/// Lowest sensor rate in Hz at which linear interpolation follows hand motion.
 const SLOWEST_HZ: f64 = 25.0;
-/// A time between two values that is longer than so many steps of their sensor is a gap.
+/// Number of sensor steps between two values above which the interval is a gap.
 const GAP_STEPS: f64 = 3.0;
 
-/// The largest magnitude that a quantity can have.
-pub(super) struct Bound {
-    /// In `unit`.
-    pub(super) most: f64,
-    /// The SI unit.
-    pub(super) unit: &'static str,
-}
-
-/// Above these a model cannot be rendered.
-pub(super) const ACCELERATION: Bound = Bound { most: *LEVELS_MPS2.end(), unit: "m/s²" };
-pub(super) const SPEED: Bound = Bound { most: *SPEEDS_MPS.end(), unit: "m/s" };
-pub(super) const FORCE: Bound = Bound { most: *FORCES_N.end(), unit: "N" };
-pub(super) const POSITION: Bound = Bound { most: MOST, unit: "m" };
-
-/// Marks rows where one of `columns` has no finite number, or one beyond `bound`.
+/// Marks rows in which one of `columns` has no finite value, or one beyond `bound`.
 pub(super) fn mark_missing(
     name: &str,
     bound: &Bound,
@@ -58,8 +42,8 @@ pub(super) fn mark_missing(
     }));
 }
 
-/// Puts straight lines between the values of sensors that were slower than the file, which left the rows between empty
-/// (NaN). Rows before the first value, behind the last and in gaps stay empty.
+/// Interpolates linearly between the values of slower sensors, whose columns are empty (NaN) in the rows between. Rows
+/// before the first value, after the last value and in gaps stay empty.
 pub(super) fn fill_slower(
     name: &str,
     columns: &mut [Vec<f64>],
@@ -75,7 +59,7 @@ pub(super) fn fill_slower(
     findings.extend(slowest_hz.map(|rate_hz| Finding::SlowerTrack { column: name.to_owned(), rate_hz }));
 }
 
-/// Fills one column; gives the rate of its sensor where that is slower than the file and fast enough.
+/// Interpolates one column; returns the sensor's rate if it is slower than the file and fast enough to interpolate.
 fn fill(values: &mut [f64], timeline: &Timeline) -> Option<f64> {
     let Timeline { rate_hz, rows, times, .. } = timeline;
     let known: Vec<usize> = (0..rows.len()).filter(|place| values[rows[*place]].abs() <= MOST).collect();
@@ -85,7 +69,7 @@ fn fill(values: &mut [f64], timeline: &Timeline) -> Option<f64> {
     let steps: Vec<f64> = known.windows(2).map(|pair| times[pair[1]] - times[pair[0]]).collect();
     let mut sorted = steps.clone();
     sorted.sort_by(f64::total_cmp);
-    // Steps may well be uneven, so the middle one says little of the long ones.
+    // Steps can be irregular, so that the median says little about the long ones.
     let upper_secs = sorted.get(3 * sorted.len() / 4).copied()?;
     let longest_secs = GAP_STEPS * upper_secs.min(SLOWEST_HZ.recip());
     let (sum, n) = steps
@@ -93,7 +77,8 @@ fn fill(values: &mut [f64], timeline: &Timeline) -> Option<f64> {
         .filter(|step| **step <= longest_secs)
         .fold((0.0, 0.0), |(sum, n), step| (sum + step, n + 1.0));
     let usual_secs: f64 = sum / n;
-    // Steps of one row are those of a sensor as fast as the file: what it lacks is lost. The mean counts a few long ones.
+    // A median step of one row means a sensor as fast as the file, whose missing values are lost. The mean would
+    // include a few long steps.
     if median(steps) * rate_hz <= SLOW_ROWS || usual_secs.is_nan() || usual_secs * SLOWEST_HZ > 1.0 + 1e-9 {
         return None;
     }
@@ -105,7 +90,7 @@ fn fill(values: &mut [f64], timeline: &Timeline) -> Option<f64> {
         }
         let (from, to) = (values[rows[before]], values[rows[after]]);
         for place in before + 1..after {
-            // Infinite or impossible is not empty.
+            // Infinite or impossible values are not empty.
             if values[rows[place]].is_nan() {
                 let share = (times[place] - times[before]) / step_secs;
                 values[rows[place]] = from + share * (to - from);

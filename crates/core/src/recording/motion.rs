@@ -1,20 +1,22 @@
-//! Speed along a path from the positions on it.
+//! Tip speed computed from positions.
 
 use std::f64::consts::{LN_2, TAU};
 
-/// Where the smoothing of positions has a gain of 1/√2, in Hz: hands do not change their speed faster.
+/// Cutoff frequency (gain 1/√2) of the position smoothing, in Hz; hand speed does not change faster.
 pub const SPEED_CUTOFF_HZ: f64 = 20.0;
-/// Standard deviations of the window that are looked at on either side.
+/// Half width of the smoothing window, in standard deviations.
 const WINDOW_DEVIATIONS: f64 = 4.0;
-/// Rate that speeds are worked out at, in Hz: 25 times [`SPEED_CUTOFF_HZ`], so straight lines between are right within 0.8 %.
+/// Rate at which speeds are computed, in Hz: 25 times [`SPEED_CUTOFF_HZ`], so that linear interpolation has an error
+/// below 0.8 %.
 const SPEED_RATE_HZ: f64 = 500.0;
 
-/// Speed in m/s at each of `times` (s, strictly ascending), from `positions` (m, one slice an axis) at the same times.
+/// Speed in m/s at each of `times` (s, strictly ascending), from `positions` (m, one slice for each axis) at these
+/// times.
 ///
-/// Around each time a straight line is fitted to each axis by least squares with Gaussian weights; the speed is the length
-/// of the vector of slopes. Away from the ends this is the derivative after a low-pass `exp(-(2πfσ)²/2)` without delay,
-/// with σ such that its gain at [`SPEED_CUTOFF_HZ`] is 1/√2; uneven times and ends need no more care. Zero where there
-/// are fewer than two times.
+/// At each time, a line is fitted to each axis by least squares with Gaussian weights. The speed is the norm of the
+/// slopes. Away from the ends this equals the derivative after a zero-delay low-pass filter `exp(-(2πfσ)²/2)`; σ gives
+/// a gain of 1/√2 at [`SPEED_CUTOFF_HZ`]. Irregular times and the ends need no special treatment. Zero if there are
+/// fewer than two times.
 pub fn speed_from_positions(times: &[f64], positions: &[&[f64]]) -> Vec<f64> {
     let sigma = LN_2.sqrt() / (TAU * SPEED_CUTOFF_HZ);
     let (Some(first), Some(last)) = (times.first(), times.last()) else { return Vec::new() };
@@ -40,7 +42,7 @@ fn speed_at(times: &[f64], positions: &[&[f64]], time: f64, sigma: f64) -> f64 {
     let reach = WINDOW_DEVIATIONS * sigma;
     let mut first = times.partition_point(|t| *t < time - reach);
     let mut end = times.partition_point(|t| *t <= time + reach);
-    // At a low rate the neighbors alone have to do.
+    // At a low rate, only the neighboring samples are available.
     if end - first < 3 {
         first = first.saturating_sub(1);
         end = (end + 1).min(times.len());
@@ -73,7 +75,7 @@ mod tests {
 
     #[test]
     fn straight_lines_have_their_speed_at_the_ends_too() {
-        // Uneven times.
+        // Irregular times.
         let times: Vec<f64> = (0..500).map(|i| f64::from(i) * 1e-3 + 2e-4 * f64::from(i % 3)).collect();
         let x: Vec<f64> = times.iter().map(|t| 1.0 + 0.3 * t).collect();
         let y: Vec<f64> = times.iter().map(|t| -0.4 * t).collect();
@@ -90,10 +92,11 @@ mod tests {
             let turn = TAU * SPEED_CUTOFF_HZ;
             let x: Vec<f64> = times.iter().map(|t| 0.01 * (turn * t).sin()).collect();
             let speeds = speed_from_positions(&times, &[&x]);
-            // Half a second is a whole number of cycles: the speed there is the largest. Lines between 500 Hz lose 0.8 %.
+            // Half a second is an integer number of cycles, where the speed is maximal. Interpolation from 500 Hz loses
+            // 0.8 %.
             let peak = speeds[rate as usize / 2];
             let expected = 0.01 * turn / 2.0_f64.sqrt();
-            assert!((peak / expected - 1.0).abs() < 0.01, "{peak} is not {expected} at {rate}");
+            assert!((peak / expected - 1.0).abs() < 0.01, "got {peak}, expected {expected} at {rate} Hz");
         }
     }
 }

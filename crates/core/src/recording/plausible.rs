@@ -1,18 +1,18 @@
-//! Speeds and forces that no hand has: then a unit may be wrong, and nothing else would tell.
+//! Plausibility checks of tip speed and force, which reveal wrong units.
 
-use crate::recording::missing::SPEED;
+use crate::dsp::spectrum::median;
+use crate::recording::bounds::SPEED;
 use crate::recording::{Fault, Finding, Recording};
-use crate::spectrum::median;
 
-/// Below this share of its highest speed a tip rests or turns.
+/// Fraction of the highest speed below which the tip rests or reverses.
 const MOVING_SHARE: f64 = 0.05;
-/// Median speeds in m/s between which hands stroke.
+/// Range of plausible median tip speeds, in m/s.
 const SLOWEST_MPS: f64 = 5e-4;
 const FASTEST_MPS: f64 = 5.0;
-/// Highest force in N that a stylus is pressed with, and much more.
+/// Highest plausible force on a stylus in N, with a wide margin.
 const STRONGEST_N: f64 = 100.0;
 
-/// Says what is implausible in the motion of a recording; gives what is impossible.
+/// Reports implausible motion as findings, and returns a fault if the motion is impossible.
 pub(super) fn check_plausible(recording: &Recording, findings: &mut Vec<Finding>) -> Option<Fault> {
     let inside = |values: &[f64]| -> Vec<f64> {
         recording.usable.iter().flat_map(|range| values[range.clone()].iter().copied()).collect()
@@ -24,7 +24,7 @@ pub(super) fn check_plausible(recording: &Recording, findings: &mut Vec<Finding>
     }
     let moving = speeds_mps.into_iter().filter(|speed| *speed > MOVING_SHARE * most_mps);
     let median_mps = median(moving.collect());
-    // A tip that never moves has no such speed, and there are no strokes then.
+    // A tip that never moves has no median speed; such a recording has no strokes.
     if median_mps.is_finite() && !(SLOWEST_MPS..=FASTEST_MPS).contains(&median_mps) {
         findings.push(Finding::ImplausibleSpeed { median_mps });
     }
@@ -37,8 +37,8 @@ pub(super) fn check_plausible(recording: &Recording, findings: &mut Vec<Finding>
 
 #[cfg(test)]
 mod tests {
+    use crate::maths::rng::lcg_noise;
     use crate::recording::{Fault, RawClock, RawMotion, RawRecording, RawTrack, Recording};
-    use crate::rng::lcg_noise;
     use crate::units::Hertz;
 
     const N_ROWS: usize = 2000;
@@ -53,7 +53,7 @@ mod tests {
         }
     }
 
-    /// The sentences on a motion and a force, but those on constants.
+    /// Messages about a motion and a force, without those about constants.
     fn sentences(motion: RawMotion, force_n: RawTrack) -> Vec<String> {
         let (_, findings) = Recording::from_raw(raw(motion, force_n)).expect("a recording");
         findings.iter().map(ToString::to_string).filter(|text| !text.starts_with("constant")).collect()
@@ -76,10 +76,10 @@ mod tests {
     fn others_are_said() {
         let steady = || RawTrack::Constant(1.0);
         for (speed, words) in [
-            (swing(0.0004), "slower than 0.2"),
-            (swing(30.0), "slower than 21"),
-            (RawTrack::Constant(0.0001), "slower than 0.100 mm/s"),
-            (RawTrack::Constant(6.0), "slower than 6000.000 mm/s"),
+            (swing(0.0004), "moving tip is 0.2"),
+            (swing(30.0), "moving tip is 21"),
+            (RawTrack::Constant(0.0001), "moving tip is 0.100 mm/s"),
+            (RawTrack::Constant(6.0), "moving tip is 6000.000 mm/s"),
         ] {
             let said = sentences(RawMotion::Speed(speed), steady());
             assert!(
@@ -88,7 +88,10 @@ mod tests {
             );
         }
         let said = sentences(RawMotion::Speed(RawTrack::Constant(0.1)), swing(980.0));
-        assert!(said.len() == 1 && said[0].starts_with("implausible force: it reaches 980 N"), "{said:?}");
+        assert!(
+            said.len() == 1 && said[0].starts_with("implausible force: the force reaches 980 N"),
+            "{said:?}"
+        );
     }
 
     #[test]
@@ -101,15 +104,12 @@ mod tests {
         let error = faults(RawMotion::Speed(RawTrack::Constant(200.0)), RawTrack::Constant(1.0));
         assert_eq!(
             error.to_string(),
-            "bad constant: speed in mm/s is 200000, needs a number from 0 to 100000"
+            "bad constant: speed in mm/s is 200000; it must lie between 0 and 100000"
         );
         let error = faults(RawMotion::Speed(RawTrack::Column(vec![200.0; N_ROWS])), RawTrack::Constant(1.0));
         assert_eq!(error.faults[0].name(), "nothing usable");
         let said = error.findings[0].to_string();
-        assert!(
-            said.contains("speed is beyond 100 m/s, 2000 of 2000 rows") && said.contains("unit"),
-            "{said}"
-        );
+        assert!(said.contains("speed exceeds 100 m/s, 2000 of 2000 rows") && said.contains("unit"), "{said}");
         let positions = (0..N_ROWS).map(|row| 0.2 * row as f64).collect();
         let error = faults(RawMotion::Positions(vec![positions]), RawTrack::Constant(1.0));
         assert!(matches!(error.faults[..], [Fault::ImpossibleSpeed { .. }]), "{error}");
@@ -124,10 +124,10 @@ mod tests {
         let speed = || RawMotion::Speed(RawTrack::Constant(0.1));
         let said = sentences(speed(), force(-0.5));
         assert!(
-            said.len() == 1 && said[0].starts_with("signed force: below 0 in 500 of 2000 rows"),
+            said.len() == 1 && said[0].starts_with("signed force: negative in 500 of 2000 rows"),
             "{said:?}"
         );
-        // The zero of a sensor drifts by as much.
+        // The zero of a sensor drifts by this much.
         assert_eq!(sentences(speed(), force(-0.04)), [""; 0]);
     }
 
@@ -150,8 +150,8 @@ mod tests {
         assert_eq!(
             said,
             [
-                "constant: speed in mm/s was taken as 70 throughout",
-                "constant: force in N was taken as 1.5 throughout"
+                "constant: speed in mm/s was set to 70 for the whole recording",
+                "constant: force in N was set to 1.5 for the whole recording"
             ]
         );
     }

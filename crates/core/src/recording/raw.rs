@@ -1,47 +1,47 @@
-//! A recording as a file holds it: columns in SI units on whatever clock there was.
+//! Recording as stored in a file: columns in SI units on the file's clock.
 
 use crate::units::Hertz;
 
-/// Columns of a file, converted to SI units and otherwise as they stand. Rows that lack a value have NaN there.
+/// Columns of a file, converted to SI units and otherwise unchanged. Rows with a missing value have NaN.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawRecording {
-    /// When the rows were taken.
+    /// Times of the rows.
     pub clock: RawClock,
-    /// One to three axes of acceleration in m/s², each with a value for every row.
+    /// One to three axes of acceleration in m/s², each with one value for every row.
     pub acceleration_mps2: Vec<Vec<f64>>,
-    /// How the tip moved.
+    /// Tip motion.
     pub motion: RawMotion,
     /// Normal force in N.
     pub force_n: RawTrack,
-    /// Acceleration at which the converter or the file saturates, in m/s², where that is known: clipping is looked for there.
+    /// Acceleration in m/s² at which the converter or the file saturates, if known; used to detect clipping.
     pub full_scale_mps2: Option<f64>,
 }
 
-/// When rows were taken.
+/// Times of the rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawClock {
-    /// Evenly, at a rate that was stated.
+    /// Equidistant, at a given sample rate.
     Rate(Hertz),
-    /// At these times in seconds, as written: they may repeat, go back or be missing (NaN).
+    /// Timestamps in seconds as stored: they can repeat, go back or be missing (NaN).
     Times(Vec<f64>),
 }
 
-/// How the tip moved along the surface.
+/// Tip motion along the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawMotion {
     /// Speed in m/s.
     Speed(RawTrack),
-    /// Position along one to three axes in m, each with a value for every row; speed follows from them.
+    /// Position along one to three axes in m, each with one value for every row; the speed is computed from it.
     Positions(Vec<Vec<f64>>),
 }
 
-/// A quantity of a recording.
+/// Quantity of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawTrack {
-    /// Not in the file, and nobody said it.
+    /// Neither in the file nor given as a constant.
     Missing,
-    /// The same all the time, as somebody said.
+    /// Constant value, given by the user.
     Constant(f64),
-    /// A value for every row.
+    /// One value for every row.
     Column(Vec<f64>),
 }

@@ -1,18 +1,19 @@
-//! Values between rows: from the times that rows were taken at to the regular clock.
+//! Interpolation of rows at irregular times to the regular clock.
 
-/// Rows on either side that the interpolating polynomial passes through.
+/// Number of rows on each side that the interpolating polynomial passes through.
 pub(super) const SIDE_ROWS: usize = 8;
 
-/// The polynomial of degree 15 through the eight rows on either side of `time`, at `time`.
+/// Value at `time` of the polynomial of degree 15 through the eight rows on each side.
 ///
-/// `times` ascend strictly; `after` is the first of them that is later than `time`, at least [`SIDE_ROWS`] from both ends.
-/// Barycentric form (J.-P. Berrut and L. N. Trefethen, "Barycentric Lagrange interpolation", 2004). In the middle of its
-/// rows the polynomial follows a sine of a fourth of the rate, on times that jitter by a fifth of a step, within 0.5 %.
+/// `times` must be strictly ascending. `after` is the index of the first time later than `time`, and at least
+/// [`SIDE_ROWS`] from both ends. Uses the barycentric form (J.-P. Berrut and L. N. Trefethen, "Barycentric Lagrange
+/// interpolation", 2004). For a sine at a quarter of the sample rate and a jitter of a fifth of a step, the error in
+/// the middle is below 0.5 %.
 pub(super) fn interpolate_local(times: &[f64], values: &[f64], after: usize, time: f64) -> f64 {
     let first = after - SIDE_ROWS;
     let nodes = &times[first..after + SIDE_ROWS];
     let (mut above, mut below) = (0.0, 0.0);
-    // Distances in steps keep the products of fifteen of them near one.
+    // Distances in units of steps keep the products of fifteen factors near one.
     let per_step = (nodes.len() - 1) as f64 / (nodes[nodes.len() - 1] - nodes[0]);
     for (i, node) in nodes.iter().enumerate() {
         let away = (time - node) * per_step;
@@ -32,7 +33,7 @@ pub(super) fn interpolate_local(times: &[f64], values: &[f64], after: usize, tim
     above / below
 }
 
-/// The straight line between the rows around `time`.
+/// Linear interpolation between the rows around `time`.
 pub(super) fn interpolate_line(times: &[f64], values: &[f64], after: usize, time: f64) -> f64 {
     let share = (time - times[after - 1]) / (times[after] - times[after - 1]);
     values[after - 1] + share * (values[after] - values[after - 1])
@@ -57,8 +58,9 @@ mod tests {
             let time = 10.0 + 20.0 * at;
             let after = times.partition_point(|t| *t <= time);
             let got = interpolate_local(&times, &times.iter().map(|t| sine(*t)).collect::<Vec<_>>(), after, time);
-            // The remainder is at most (2 pi f)^16 / 16! times the product of the sixteen distances: 0.003 on even times.
-            prop_assert!((got - sine(time)).abs() < 5e-3, "{got} is not {}", sine(time));
+            // The remainder is at most (2 pi f)^16 / 16! times the product of the sixteen distances: 0.003 for
+            // equidistant times.
+            prop_assert!((got - sine(time)).abs() < 5e-3, "got {got}, expected {}", sine(time));
         }
 
         #[test]
@@ -69,7 +71,7 @@ mod tests {
             let after = times.partition_point(|t| *t <= time);
             if after == SIDE_ROWS {
                 let got = interpolate_local(&times, &times.iter().map(|t| polynomial(*t)).collect::<Vec<_>>(), after, time);
-                // Rounding of values near ten, times a Lebesgue constant of two.
+                // Rounding errors of values near ten, times a Lebesgue constant of two.
                 prop_assert!((got - polynomial(time)).abs() < 1e-12);
             }
         }

@@ -1,61 +1,64 @@
-//! Glitches of the electronics: a few rows far above everything around them, that no tip can have felt.
+//! Detection of spikes (electrical glitches): a few rows far above their surroundings, which cannot be mechanical.
 //!
-//! What a tip feels rings: a tap or a bump sets the tool swinging, and that takes milliseconds to die away. A glitch is one
-//! to three rows wide, and its neighbors are as if it had not been. Where such events are many, or where there are as
-//! steadily more of them the smaller they are, they are what the surface is like, and nothing is left out.
+//! Mechanical events ring: a tap or a bump makes the tool oscillate, and the oscillation takes milliseconds to decay. A
+//! spike is one to three rows wide, and does not affect its neighbors. If such events are frequent, or if the number of
+//! events grows steadily towards smaller heights, they belong to the surface, and nothing is left out.
 
+use crate::dsp::spectrum::median;
 use crate::recording::Finding;
+use crate::recording::axis::Axis;
+use crate::recording::bounds::ACCELERATION;
 use crate::recording::clock::{Count, Timeline};
-use crate::recording::dropout::Axis;
-use crate::recording::missing::ACCELERATION;
-use crate::spectrum::median;
 
-/// Least height of a glitch, in robust standard deviations of what is around it.
+/// Minimum height of a spike, in robust standard deviations of its surroundings.
 const HEIGHT: f64 = 20.0;
-/// Below this rate in Hz a tap may be as narrow as a glitch.
+/// Sample rate in Hz below which a tap can be as narrow as a spike.
 const LEAST_RATE_HZ: f64 = 900.0;
-/// Most rows of a glitch.
+/// Maximum width of a spike, in rows.
 const WIDTH_ROWS: usize = 3;
-/// What is around a glitch stays below so many robust standard deviations, or below this share of its height: noise does
-/// by chance, and a tip that swings with a time constant of a millisecond does not, not even at 1 kHz.
+/// Calm limit of the surroundings: robust standard deviations, or a fraction of the spike's height if that is larger.
+/// Noise stays below it by chance. A ringing tip with a time constant of one millisecond does not, not even at 1 kHz.
 const CALM_HEIGHT: f64 = 4.0;
 const CALM_SHARE: f64 = 0.1;
-/// The root mean square behind it stays below half of that: a ring that is lost in the noise peak by peak is not lost there.
+/// Maximum root mean square after a spike, relative to the calm limit; it reveals ringing whose peaks are hidden in
+/// noise.
 const CALM_RMS: f64 = 0.5;
-/// How far around it is looked, in seconds and at least in rows.
+/// Range around a spike that must be calm, in seconds and at least in rows.
 const CALM_SECS: f64 = 0.002;
 const CALM_ROWS: usize = 5;
-/// What the level is worked out over: a block and one on either side, so that an onset is no glitch.
+/// Block length for the local level; a block and both neighbors are used, so that an onset is not a spike.
 const BLOCK_SECS: f64 = 0.05;
 const BLOCK_ROWS: usize = 32;
-/// Robust standard deviation of normal noise, over the median of its magnitude.
+/// Ratio of the robust standard deviation of normal noise to the median of its magnitude.
 const DEVIATION_PER_MEDIAN: f64 = 1.4826;
-/// Least height that counts among the smaller ones, and where these end and begin below a glitch, as shares of its height.
+/// Minimum height of smaller events, and the range of heights below a spike in which they are counted, as fractions of
+/// its height.
 const SMALLER_HEIGHT: f64 = 6.0;
 const SMALLER_TO: f64 = 1.0 / 1.5;
 const SMALLER_FROM: f64 = 0.1;
-/// Most of those for each glitch. Of a power law of heights with exponent n there are `10^n - 1.5^n`: 23 at the exponent
-/// of 1.4, and chance leaves the highest of it alone in a share `10^-n` of recordings.
+/// Maximum number of smaller events for each spike. For a power law of heights with exponent n, the number is
+/// `10^n - 1.5^n`: 23 for the exponent 1.4. By chance, the highest event of this law stands alone in a share `10^-n` of
+/// recordings.
 const SMALLER_SHARE: f64 = 1.0 / 3.0;
-/// Most glitches a second within so many seconds, before they are a texture: bumps of gratings come faster, and slower ones
-/// are wider than [`WIDTH_ROWS`].
+/// Pairs of time range in seconds and maximum number of spikes per second within it; above, they are a texture. Bumps
+/// of gratings are more frequent, and slower ones are wider than [`WIDTH_ROWS`].
 const NEAR: [(f64, f64); 2] = [(0.25, 10.0), (2.0, 4.0)];
-/// As many may always be near each other.
+/// Number of neighboring spikes that is always allowed.
 const FEW: usize = 3;
 
-/// Something sharp, as places in the timeline.
+/// Narrow event, as indices into the timeline.
 struct Event {
     start: usize,
     end: usize,
     peak: usize,
-    /// Over the robust standard deviation around it.
+    /// Height in robust standard deviations of the surroundings.
     height: f64,
-    /// Whether it is calm for [`CALM_SECS`] on either side.
+    /// Whether both sides are calm for [`CALM_SECS`].
     is_alone: bool,
 }
 
-/// Marks rows of glitches as unusable and says so; gives, by place, which they are. Places where `axis` has no number are
-/// passed over.
+/// Marks rows of spikes as unusable and reports them. Returns a flag for each place of the timeline. Places where
+/// `axis` has no number are skipped.
 pub(super) fn mark_spikes(
     axis: &Axis<'_>,
     timeline: &Timeline,
@@ -91,13 +94,13 @@ pub(super) fn mark_spikes(
     is_spike
 }
 
-/// A column by place, with the level around each.
+/// Column by place in the timeline, with the level around each place.
 struct Signal<'a> {
     timeline: &'a Timeline,
-    /// NaN where there is no number.
+    /// NaN for missing values.
     values: Vec<f64>,
     block_rows: usize,
-    /// Median of each block, and the robust standard deviation of the widest of it and its neighbors.
+    /// Median of each block, and the largest robust standard deviation of the block and its neighbors.
     levels: Vec<(f64, f64)>,
 }
 
@@ -116,7 +119,7 @@ impl<'a> Signal<'a> {
                 (middle, DEVIATION_PER_MEDIAN * median(off))
             })
             .collect();
-        // What a converter cannot tell apart is no level; `max` passes blocks without numbers over.
+        // The converter step is the lower limit of the level; `max` ignores blocks without numbers.
         let widest = |block: usize| {
             let around = &blocks[block.saturating_sub(1)..(block + 2).min(blocks.len())];
             around.iter().fold(step, |most, (_, deviation)| most.max(*deviation))
@@ -125,7 +128,7 @@ impl<'a> Signal<'a> {
         Self { timeline, values, block_rows, levels }
     }
 
-    /// How far a place is from the middle of its block; NaN where there is no number.
+    /// Distance of a value from the median of its block; NaN for missing values.
     fn off(&self, place: usize) -> f64 {
         (self.values[place] - self.levels[place / self.block_rows].0).abs()
     }
@@ -134,26 +137,26 @@ impl<'a> Signal<'a> {
         self.levels[place / self.block_rows].1
     }
 
-    /// Whether a place follows the one before it without a gap.
+    /// Whether a place follows the previous one without a gap.
     fn follows(&self, place: usize) -> bool {
         let times = &self.timeline.times;
         place > 0 && times[place] - times[place - 1] <= self.timeline.gap_secs
     }
 
-    /// Everything sharp from [`SMALLER_HEIGHT`] up, in order.
+    /// All narrow events of at least [`SMALLER_HEIGHT`], in order.
     fn events(&self) -> Vec<Event> {
         let is_high = |place: &usize| self.off(*place) > SMALLER_HEIGHT * self.deviation(*place);
         (0..self.values.len()).filter(is_high).filter_map(|place| self.event(place)).collect()
     }
 
-    /// The sharp event with its peak here, if there is one.
+    /// Narrow event with its peak at this place, if there is one.
     fn event(&self, peak: usize) -> Option<Event> {
         let (off, deviation) = (self.off(peak), self.deviation(peak));
         let calm = (CALM_HEIGHT * deviation).max(CALM_SHARE * off);
         let (mut start, mut end) = (peak, peak + 1);
         while start > 0 && self.follows(start) && self.off(start - 1) > calm {
             start -= 1;
-            // The first of equal ones is the peak.
+            // Of equal values, the first is the peak.
             if peak - start >= WIDTH_ROWS || self.off(start) >= off {
                 return None;
             }
@@ -168,7 +171,7 @@ impl<'a> Signal<'a> {
         let before = (0..start).rev().map(|place| (place, place + 1));
         let after = (end..self.values.len()).map(|place| (place, place));
         let sides = [self.n_calm(before, n_alone, calm), self.n_calm(after, n_alone, calm)];
-        // Between two gaps there is too little to be far above.
+        // Between two gaps there is too little signal for comparison.
         if sides == [None, None] || sides.iter().flatten().any(|n| *n < CALM_ROWS) {
             return None;
         }
@@ -180,8 +183,8 @@ impl<'a> Signal<'a> {
         Some(Event { start, end, peak, height: off / deviation, is_alone })
     }
 
-    /// How many places on one side are calm, up to `most`; nothing where a gap or an end comes first. Beside each of
-    /// `places` stands the later one of it and the one before it.
+    /// Number of calm places on one side, up to `most`; `None` if a gap or the end of the recording comes first. Each
+    /// item of `places` is a place and the later one of it and its predecessor.
     fn n_calm(&self, places: impl Iterator<Item = (usize, usize)>, most: usize, calm: f64) -> Option<usize> {
         let mut n = 0;
         for (place, later) in places.take(most) {
@@ -197,7 +200,7 @@ impl<'a> Signal<'a> {
     }
 }
 
-/// Which of the events are glitches.
+/// Selects the events that are spikes.
 fn spikes<'a>(events: &'a [Event], timeline: &Timeline) -> Vec<&'a Event> {
     let mut high: Vec<&Event> = events.iter().filter(|e| e.is_alone && e.height >= HEIGHT).collect();
     let times: Vec<f64> = high.iter().map(|event| timeline.times[event.peak]).collect();
@@ -215,7 +218,7 @@ fn spikes<'a>(events: &'a [Event], timeline: &Timeline) -> Vec<&'a Event> {
     let below = |height: f64| heights.partition_point(|h| *h < height);
     let mut tops: Vec<f64> = high.iter().map(|event| event.height).collect();
     tops.sort_by(f64::total_cmp);
-    // The lowest height that stands apart from the smaller ones; what is higher does all the more.
+    // Lowest height that is separated from the smaller events; higher events are separated even more.
     let least = tops.iter().enumerate().find(|(i, height)| {
         let n_smaller = below(SMALLER_TO * **height) - below(SMALLER_FROM * **height);
         n_smaller as f64 <= SMALLER_SHARE * (tops.len() - i) as f64

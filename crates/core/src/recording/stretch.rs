@@ -1,4 +1,4 @@
-//! Stretches of rows without gaps, and their samples on the regular clock.
+//! Gap-free segments of rows, and their samples on the regular clock.
 
 use std::ops::Range;
 
@@ -6,21 +6,21 @@ use crate::recording::clock::Timeline;
 use crate::recording::resample::{SIDE_ROWS, interpolate_line, interpolate_local};
 use crate::recording::{Fault, Finding};
 
-/// Shorter stretches are left out: they hold less than one cycle of 50 Hz.
+/// Minimum duration of a segment, in seconds: one cycle at 50 Hz.
 const FRAGMENT_SECS: f64 = 0.02;
-/// Most samples a row, over the whole recording, and more in all, that gaps may make of it: beyond, the times are wrong.
+/// Limits on the samples that gaps may add to a recording, relative and absolute; beyond them the timestamps are wrong.
 const SAMPLES_PER_ROW: usize = 3;
 const MORE_SAMPLES: usize = 1_000_000;
 
-/// A stretch of rows without gaps, and where its samples lie.
+/// Gap-free segment of rows, and its samples.
 pub(super) struct Stretch {
-    /// Places in the timeline.
+    /// Indices into the timeline.
     pub(super) places: Range<usize>,
     /// Samples of the regular clock.
     pub(super) samples: Range<usize>,
 }
 
-/// Cuts the usable rows at gaps and gives them their samples; with the number of samples in all.
+/// Splits the usable rows at gaps and assigns samples to each segment; also returns the total number of samples.
 pub(super) fn lay_out(
     timeline: &Timeline,
     usable: &[bool],
@@ -54,7 +54,7 @@ pub(super) fn lay_out(
             n_fragments += 1;
             fragment_samples += end - start;
         } else {
-            // A sample apart from the next one, so that two stretches never look like one.
+            // One sample remains between neighboring segments, so that two never look like one.
             next_free = samples.end + 1;
             stretches.push(Stretch { places: start..end, samples });
         }
@@ -68,7 +68,7 @@ pub(super) fn lay_out(
     Some((stretches, n_samples))
 }
 
-/// The samples that rows without a gap give, from `next_free` up.
+/// Samples of gap-free rows, starting at `next_free` or later.
 fn samples_of(timeline: &Timeline, places: Range<usize>, next_free: usize) -> Range<usize> {
     let place_of = |place: usize| timeline.times[place] * timeline.rate_hz;
     if timeline.regular {
@@ -78,18 +78,18 @@ fn samples_of(timeline: &Timeline, places: Range<usize>, next_free: usize) -> Ra
     if places.len() < 2 * SIDE_ROWS {
         return next_free..next_free;
     }
-    // From the row that has enough before it to the one that has enough behind.
+    // From the row with enough rows before it to the row with enough rows after it.
     let first = (place_of(places.start + SIDE_ROWS - 1).ceil() as usize).max(next_free);
     let last = place_of(places.end - SIDE_ROWS).floor() as usize;
     first..(last + 1).max(first)
 }
 
-/// A column that vibrates, on the samples of a stretch.
+/// Acceleration column at the samples of a segment, by polynomial interpolation.
 pub(super) fn fast(values: &[f64], timeline: &Timeline, stretch: &Stretch) -> Vec<f64> {
     on_samples(values, timeline, stretch, interpolate_local)
 }
 
-/// A column that moves as hands do, on the samples of a stretch.
+/// Speed, position or force column at the samples of a segment, by linear interpolation.
 pub(super) fn slow(values: &[f64], timeline: &Timeline, stretch: &Stretch) -> Vec<f64> {
     on_samples(values, timeline, stretch, interpolate_line)
 }
@@ -111,7 +111,7 @@ fn on_samples(
         while after < times.len() && times[after] <= time {
             after += 1;
         }
-        // Rounding at the edges must not reach beyond the rows.
+        // Rounding errors at the ends must not leave the rows.
         interpolate(times, &values, after.clamp(SIDE_ROWS, times.len() - SIDE_ROWS), time)
     };
     stretch.samples.clone().map(at).collect()

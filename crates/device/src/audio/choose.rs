@@ -1,12 +1,12 @@
-//! Which of the streams that a device offers to open.
+//! Choice of the stream format to open.
 
 use cpal::{SampleFormat, SupportedStreamConfigRange};
 
 use crate::engine::ChannelMask;
-use crate::output::{OpenOptions, USUAL_RATE_HZ};
+use crate::output_options::{OpenOptions, USUAL_RATE_HZ};
 
-/// The kind of stream and the rate to open: all wanted channels if possible, no more than that if possible, the rate
-/// nearest to the preferred, the best format.
+/// Returns the stream format and the rate to open. The criteria, in order: all wanted channels if possible, the rate
+/// closest to the preferred one, as few other channels as possible, the best sample format.
 pub(super) fn choose(
     configs: &[SupportedStreamConfigRange],
     options: OpenOptions,
@@ -31,12 +31,12 @@ pub(super) fn choose(
         })
 }
 
-/// Two at least: streams of one channel are rarer, and often made of two.
+/// At least two channels: mono formats are rarer, and the system often emulates them with two channels.
 fn channels_to_open(mask: ChannelMask) -> usize {
     mask.n_wanted().max(2)
 }
 
-/// Which formats can be played, best first.
+/// Rank of a playable sample format, best first; `None` if it cannot be played.
 fn rank_of(format: SampleFormat) -> Option<u8> {
     match format {
         SampleFormat::F32 => Some(0),
@@ -60,7 +60,7 @@ mod tests {
         SupportedStreamConfigRange::new(channels, low_hz, high_hz, SupportedBufferSize::Unknown, format)
     }
 
-    /// Channels, rate and format of what is chosen.
+    /// Channels, rate and format of the chosen stream.
     fn chosen(
         configs: &[SupportedStreamConfigRange],
         options: OpenOptions,
@@ -96,7 +96,7 @@ mod tests {
             chosen(&[range(8, 44_100, 44_100, SampleFormat::U16)], OPTIONS),
             Some((8, 44_100, SampleFormat::U16))
         );
-        // The rate comes before the format.
+        // The rate has priority over the sample format.
         let configs = [range(2, 8000, 8000, SampleFormat::F32), range(2, 48_000, 48_000, SampleFormat::I16)];
         assert_eq!(chosen(&configs, OPTIONS), Some((2, 48_000, SampleFormat::I16)));
     }

@@ -1,53 +1,55 @@
-//! When the samples of an input were taken, by our clock.
+//! Estimation of the times at which input samples were recorded, in the host's clock.
 //!
-//! Each callback says when the first of its samples was taken, often too late and never too early, and the device's clock
-//! runs a little faster or slower than ours. So the earliest of each second is kept, and a line is laid through them.
+//! Each callback reports the time of its first sample, often too late and never too early. The device's clock runs
+//! slightly faster or slower than the host's. The estimator therefore keeps the earliest time of each second and fits a
+//! line.
 
-/// Stretch of which the earliest time is kept, in seconds of the device.
+/// Length of the interval whose earliest time is kept, in seconds of device time.
 const STRETCH_SECS: f64 = 1.0;
-/// With fewer stretches than this the device's clock is taken to run as ours: the line would follow their noise.
+/// Number of intervals below which the drift is assumed to be zero, because a fit would follow the timing noise.
 const LEAST_STRETCHES: f64 = 4.0;
 
-/// When samples were taken: `first_secs + (1 + drift) · idx / rate`, in seconds of our clock.
+/// Sample times `first_secs + (1 + drift) · idx / rate`, in seconds of the host's clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SampleTimes {
-    /// When sample 0 was taken, in seconds.
+    /// Time of sample 0, in seconds.
     pub(super) first_secs: f64,
-    /// By how much of itself the device's second is longer than ours: -1e-3 to 1e-3 for any real one.
+    /// Relative excess of the device's second over the host's second; within ±1e-3 for real devices.
     pub(super) drift: f64,
 }
 
 impl SampleTimes {
-    /// How many samples had been taken at a time in seconds, whole or not; negative before the first.
+    /// Returns the fractional sample index at a time in seconds; negative before the first sample.
     pub(super) fn index_at(&self, secs: f64, rate_hz: f64) -> f64 {
         (secs - self.first_secs) / (1.0 + self.drift) * rate_hz
     }
 }
 
-/// The running fit: a bounded number of sums, whatever the length of the recording.
+/// Running least-squares fit of the sample times, with a fixed number of sums for any recording length.
 ///
-/// The line is as good as the earliest times of the stretches: where these are off by `s` (standard deviation), the first
-/// sample of a recording of `n` stretches is off by about `2 s / √n`, and the last as much. What every callback is late by is
-/// not seen. Before [`LEAST_STRETCHES`] the drift is left out: off by 0.4 ms at most for a clock that is 100 ppm off.
+/// Let `s` be the standard deviation of the earliest times of the intervals. For a recording of `n` intervals, the
+/// error at the first and the last sample is about `2 s / √n`. A delay that all callbacks share is not detected. Before
+/// [`LEAST_STRETCHES`] intervals the drift is zero, an error of at most 0.4 ms for a clock that is 100 ppm off.
 #[derive(Clone, Debug)]
 pub(super) struct SampleClock {
     rate_hz: f64,
-    /// Which stretch, the place of the earliest in device seconds, and how late it was against a device of no drift.
+    /// Current interval: its number, the device time of the earliest report in seconds, and that report's offset in
+    /// seconds.
     stretch: Option<(f64, f64, f64)>,
     earliest_secs: f64,
     n: f64,
     mean: [f64; 2],
-    /// Sums of the squares of the places, and of the products of places and lateness, around their means.
+    /// Sum of squared device times, and sum of products of device time and offset, both around their means.
     sums: [f64; 2],
 }
 
 impl SampleClock {
-    /// For a device of a rate in Hz, before its first sample.
+    /// An estimator before the first sample, for a device rate in Hz.
     pub(super) fn new(rate_hz: f64) -> Self {
         Self { rate_hz, stretch: None, earliest_secs: f64::INFINITY, n: 0.0, mean: [0.0; 2], sums: [0.0; 2] }
     }
 
-    /// Sample `idx` was taken at `secs` of our clock, or before. Times that are no numbers are not heard.
+    /// Records that sample `idx` was recorded at or before `secs` of the host's clock. Non-finite times are ignored.
     pub(super) fn note(&mut self, idx: u64, secs: f64) {
         let place_secs = idx as f64 / self.rate_hz;
         let late_secs = secs - place_secs;
@@ -71,7 +73,7 @@ impl SampleClock {
         }
     }
 
-    /// What is known so far; nothing before the first sample.
+    /// Returns the current estimate, or `None` before the first sample.
     pub(super) fn times(&self) -> Option<SampleTimes> {
         let [mean_place, mean_late] = self.mean;
         let [squares, products] = self.sums;
@@ -96,14 +98,14 @@ impl SampleClock {
 mod tests {
     use super::{SampleClock, SampleTimes};
 
-    /// What a device of 44.1 kHz says whose clock is so far off, for so long: blocks of 441 samples, up to milliseconds late.
-    /// The first sample is taken at 2 s.
+    /// Simulates a device at 44.1 kHz with a given drift and duration: blocks of 441 samples, reported up to
+    /// milliseconds late. The first sample is recorded at 2 s.
     fn recorded(drift: f64, secs: f64) -> SampleClock {
         let mut clock = SampleClock::new(44_100.0);
         let mut state = 1_u64;
         for block in 0..(secs * 100.0) as u64 {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            // Half a millisecond in the mean, seldom five.
+            // The delay is exponentially distributed with a mean of 0.5 ms; it rarely reaches 5 ms.
             let late_secs = -5e-4 * ((state >> 11) as f64 / 2_f64.powi(53) + 1e-300).ln();
             clock.note(441 * block, 2.0 + (1.0 + drift) * 0.01 * block as f64 + late_secs);
         }
@@ -115,7 +117,7 @@ mod tests {
         for drift in [-200e-6, -3e-6, 0.0, 80e-6, 200e-6] {
             for secs in [6.0, 16.0, 600.0, 7200.0] {
                 let times = recorded(drift, secs).times().unwrap();
-                // The earliest of a hundred is 5 µs late in the mean, and as much more or less.
+                // The earliest of 100 delays has a mean and a standard deviation of 5 µs.
                 assert!((times.first_secs - 2.0).abs() < 4e-5, "{drift} in {secs} s: {times:?}");
                 for share in [0.0, 0.5, 1.0] {
                     let idx = share * secs * 44_100.0;
@@ -125,7 +127,7 @@ mod tests {
                 }
             }
         }
-        // The lowest offset alone, over ten minutes of a device that is 80 ppm fast: what this is for.
+        // Control: the smallest offset alone fails over ten minutes on a device whose clock is 80 ppm fast.
         let fast = recorded(-80e-6, 600.0);
         assert!((fast.earliest_secs - 2.0).abs() > 0.045);
     }

@@ -1,23 +1,23 @@
-//! What an engine is made for.
+//! Configuration of an engine.
 
 use shagreen_synth::budget::Budget;
 use shagreen_synth::drive::{DriveConfig, Inverse, MAX_LOOK_AHEAD_SECS};
 use shagreen_synth::equalizer::Resonance;
 
-/// The channels of a device that get the signal; the others are silent.
+/// Set of device channels that get the signal; the others are silent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelMask(u64);
 
 impl ChannelMask {
-    /// The first two, or the only one of a device with one.
+    /// The first two channels, or the only channel of a mono device.
     pub const FIRST_TWO: Self = Self(0b11);
 
-    /// One channel, counted from zero, below 64.
+    /// Mask of one channel, counted from zero, below 64.
     pub fn only(channel_idx: usize) -> Self {
         Self(if channel_idx < 64 { 1 << channel_idx } else { 0 })
     }
 
-    /// These channels and those of `other`.
+    /// Union of this mask and `other`.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
@@ -28,95 +28,96 @@ impl ChannelMask {
         channel_idx < 64 && self.0 >> channel_idx & 1 == 1
     }
 
-    /// Channels that a device must have for the lowest of these.
+    /// Channels that a device needs for the lowest channel of the mask.
     pub(crate) fn n_least(self) -> usize {
         if self.0 == 0 { 1 } else { self.0.trailing_zeros() as usize + 1 }
     }
 
-    /// Channels that a device must have for all of these.
+    /// Channels that a device needs for all channels of the mask.
     pub(crate) fn n_wanted(self) -> usize {
         (64 - self.0.leading_zeros() as usize).max(1)
     }
 }
 
-/// What an engine is made for: it does not change while it lives.
+/// Configuration of an engine, constant during its lifetime.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EngineConfig {
-    /// Rate of every texture, in Hz, 200 to 4000.
+    /// Sample rate of every texture, in Hz, 200 to 4000.
     pub model_rate_hz: f32,
-    /// Rate of the device, in Hz, at least the model's.
+    /// Sample rate of the device, in Hz, at least the model's rate.
     pub device_rate_hz: f32,
-    /// What the noise depends on: same seed, same samples.
+    /// Seed of the noise: the same seed gives the same samples.
     pub seed: u64,
-    /// How acceleration becomes the drive of the actuator.
+    /// Conversion of acceleration to actuator drive.
     pub drive: DriveConfig,
     /// The channels that get the signal.
     pub channels: ChannelMask,
 }
 
-/// Why there can be no such engine.
+/// Reasons why a configuration is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConfigError {
-    /// The renderer has no such rate.
-    #[error("the model's rate is {model_rate_hz} Hz; it must be 200 to 4000 Hz")]
+    /// The model's rate is outside the renderer's range.
+    #[error("the model's sample rate is {model_rate_hz} Hz; it must be 200 to 4000 Hz")]
     ModelRate {
-        /// Rate that was asked for, in Hz.
+        /// Requested rate, in Hz.
         model_rate_hz: f32,
     },
-    /// The device is slower than the model.
-    #[error("the device's rate is {device_rate_hz} Hz; it must be at least the model's {model_rate_hz} Hz")]
+    /// The device's rate is below the model's rate.
+    #[error("the device's sample rate is {device_rate_hz} Hz; it must be at least {model_rate_hz} Hz")]
     DeviceRate {
-        /// Rate that was asked for, in Hz.
+        /// Requested rate, in Hz.
         device_rate_hz: f32,
         /// The model's rate, in Hz.
         model_rate_hz: f32,
     },
-    /// The full scale is not a positive number with a finite inverse.
+    /// The full scale is not a positive number with a finite reciprocal.
     #[error("the full scale is {full_scale} {unit}; it must be a positive number")]
     FullScale {
-        /// Full scale that was asked for.
+        /// Requested full scale.
         full_scale: f32,
-        /// Its unit: that of acceleration, or of voltage where the actuator's response is known.
+        /// Its unit: m/s², or V if the actuator's response is known.
         unit: &'static str,
     },
-    /// The ceiling is not a share.
+    /// The ceiling is not a fraction of full scale.
     #[error("the limiter's ceiling is {ceiling}; it must be between 0 and 1")]
     Ceiling {
-        /// Ceiling that was asked for.
+        /// Requested ceiling, as a fraction of full scale.
         ceiling: f32,
     },
-    /// The limiter cannot see so far.
+    /// The look-ahead is out of range.
     #[error("the limiter's look-ahead is {look_ahead_secs} s; it must be 0 to {MAX_LOOK_AHEAD_SECS} s")]
     LookAhead {
-        /// Look-ahead that was asked for, in seconds.
+        /// Requested look-ahead, in seconds.
         look_ahead_secs: f32,
     },
-    /// The budget of the coil's heat has no meaning.
+    /// The coil's thermal limit is invalid.
     #[error(
-        "the coil stands a share of {rms} of the full scale over {time_secs} s; both must be positive numbers"
+        "the coil's thermal limit is {rms} of full scale (RMS) over {time_secs} s; both must be positive"
     )]
     Budget {
-        /// Root mean square that was asked for, as a share of the full scale.
+        /// Requested RMS, as a fraction of full scale.
         rms: f32,
-        /// Its time constant, in seconds.
+        /// Thermal time constant, in seconds.
         time_secs: f32,
     },
-    /// The actuator's response cannot be undone.
+    /// The actuator's response cannot be inverted.
     #[error(
-        "the actuator's response cannot be undone: resonance {frequency_hz} Hz, Q {q}, gain {gain_mps2_per_volt} m/s² for \
-         a volt, from {lowest_hz} Hz on; all must be positive, and the frequencies below half the device's {rate_hz} Hz"
+        "the actuator's response cannot be inverted: resonance {frequency_hz} Hz, Q {q}, gain {gain_mps2_per_volt} \
+         m/s² per volt, lowest frequency {lowest_hz} Hz; all must be positive, and both frequencies below half the \
+         device's {rate_hz} Hz"
     )]
     Response {
-        /// Resonance that was asked for, in Hz.
+        /// Requested resonance frequency, in Hz.
         frequency_hz: f64,
-        /// Its quality.
+        /// Requested quality factor.
         q: f64,
-        /// Gain far above it, in m/s² for a volt.
+        /// Requested gain far above the resonance, in m/s² per volt.
         gain_mps2_per_volt: f64,
-        /// Lowest frequency to be reproduced, in Hz.
+        /// Requested lowest reproduced frequency, in Hz.
         lowest_hz: f64,
-        /// The device's rate, in Hz.
+        /// The device's sample rate, in Hz.
         rate_hz: f32,
     },
 }

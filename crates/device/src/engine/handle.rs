@@ -1,4 +1,4 @@
-//! The half of an engine that stays with whoever is in charge.
+//! Control half of an engine, for use outside the audio callback.
 
 use std::time::Instant;
 
@@ -17,68 +17,68 @@ use crate::status::Status;
 use crate::texture::OwnedTexture;
 use crate::track::Track;
 
-/// Why a texture was not loaded.
+/// Reasons why a texture was not loaded.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadReason {
-    /// The texture has another rate than the engine renders at.
-    #[error("the texture is at {texture_rate_hz} Hz, the engine renders at {model_rate_hz} Hz")]
+    /// The texture's sample rate differs from the engine's.
+    #[error("the texture's sample rate is {texture_rate_hz} Hz; the engine renders at {model_rate_hz} Hz")]
     Rate {
-        /// The texture's rate, in Hz.
+        /// The texture's sample rate, in Hz.
         texture_rate_hz: f32,
-        /// The engine's, in Hz.
+        /// The engine's model rate, in Hz.
         model_rate_hz: f32,
     },
-    /// Every slot is taken: unload one first, and let it fade.
-    #[error("all {SLOTS} places for textures are taken")]
+    /// All slots are in use. Unload a texture and wait until it has faded out.
+    #[error("all {SLOTS} texture slots are in use; unload a texture first")]
     NoSlot,
-    /// The output takes no more at the moment: try again after its next block.
-    #[error("the output is busy with what it was given before")]
+    /// The command queue is full. Try again after the next block.
+    #[error("the output's command queue is full; try again after its next block")]
     RingFull,
 }
 
-/// A texture that was not loaded, given back.
+/// Error that returns the texture that was not loaded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{reason}")]
 pub struct LoadError {
-    /// Why it was not.
+    /// Reason for the failure.
     pub reason: LoadReason,
     /// The texture.
     pub texture: OwnedTexture,
 }
 
-/// Why a mix was not taken; what sounded before goes on.
+/// Reasons why a mix was rejected. The previous mix stays active.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MixError {
     /// A texture of the mix is not loaded.
     #[error("texture {id} of the mix is not loaded")]
     NotLoaded {
-        /// Which one.
+        /// Id of the texture.
         id: TextureId,
     },
-    /// A weight is not a share.
+    /// A weight is outside 0..1.
     #[error("the weight of texture {id} is {weight}; it must be between 0 and 1")]
     Weight {
-        /// Of which texture.
+        /// Id of the texture.
         id: TextureId,
-        /// The weight.
+        /// The invalid weight.
         weight: f32,
     },
 }
 
-/// What the handle knows of a slot.
+/// State of a slot as the handle knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Slot {
     Empty,
     Loaded,
-    /// To be unloaded as soon as the ring has room to say so.
+    /// To be unloaded as soon as the command queue has room.
     Unwanted,
-    /// On its way out: back with [`Handle::collect`].
+    /// Fading out; [`Handle::collect`] gets it back.
     Leaving,
 }
 
-/// The half of an engine that is not in the callback: no call of it ever waits.
+/// Control half of an engine. None of its methods waits.
 #[derive(Debug)]
 pub struct Handle {
     config: EngineConfig,
@@ -117,20 +117,20 @@ impl Handle {
         }
     }
 
-    /// From now on the status tells how the device is doing.
+    /// Adds the device's state to [`Handle::status`] from now on.
     pub(crate) fn watch(&mut self, monitor: Monitor) {
         self.monitor = Some(monitor);
     }
 
-    /// What the engine was made for.
+    /// Configuration of the engine.
     pub fn config(&self) -> EngineConfig {
         self.config
     }
 
-    /// Sends a texture to the engine; it sounds once a mix names it.
+    /// Sends a texture to the engine. It plays once a mix contains it.
     ///
     /// # Errors
-    /// [`LoadError`] says why not, and gives the texture back.
+    /// [`LoadError`] gives the reason and returns the texture.
     pub fn load(&mut self, texture: OwnedTexture) -> Result<TextureId, LoadError> {
         let (texture_rate_hz, model_rate_hz) = (texture.rate_hz(), self.config.model_rate_hz);
         if texture_rate_hz != model_rate_hz {
@@ -149,15 +149,15 @@ impl Handle {
         Ok(id)
     }
 
-    /// Fades a texture out, if it sounds, and lets it come back to be freed by [`Handle::collect`]. One that is not
-    /// loaded is left alone.
+    /// Fades a texture out if it is playing. [`Handle::collect`] frees it afterwards. Does nothing if the texture is
+    /// not loaded.
     pub fn unload(&mut self, id: TextureId) {
         let Some(slot) = self.slots.get_mut(usize::from(id)).filter(|slot| **slot == Slot::Loaded) else {
             return;
         };
         *slot = Slot::Unwanted;
-        // The mix goes first: a texture that it names would never fade, and the number may soon be that of another
-        // texture, which must not take over the weight.
+        // The texture leaves the mix first. Otherwise it would never fade, and a new texture with the same id could
+        // inherit its weight.
         for parent in self.orders.controls.mix.parents.iter_mut().filter(|parent| parent.id == id) {
             parent.weight = 0.0;
         }
@@ -165,12 +165,12 @@ impl Handle {
         self.send_unloads();
     }
 
-    /// Whether texture `id` is loaded and not on its way out.
+    /// Whether texture `id` is loaded and not being unloaded.
     pub fn is_loaded(&self, id: TextureId) -> bool {
         self.slots.get(usize::from(id)) == Some(&Slot::Loaded)
     }
 
-    /// Frees what the engine is done with, and says how many things that were.
+    /// Frees objects that the engine has returned. Returns their number.
     pub fn collect(&mut self) -> usize {
         let mut n_freed = 0;
         while let Ok(returned) = self.returned.pop() {
@@ -185,15 +185,15 @@ impl Handle {
         n_freed
     }
 
-    /// What the engine was told last.
+    /// The controls that were set last.
     pub fn controls(&self) -> Controls {
         self.orders.controls
     }
 
-    /// Tells the engine all at once.
+    /// Sets all controls at once.
     ///
     /// # Errors
-    /// [`MixError`] where the mix is not one; nothing is changed then.
+    /// [`MixError`] if the mix is invalid; nothing changes in this case.
     pub fn set_controls(&mut self, controls: Controls) -> Result<(), MixError> {
         for parent in controls.mix.parents.iter().filter(|parent| parent.weight != 0.0) {
             if !(0.0..=1.0).contains(&parent.weight) {
@@ -208,21 +208,21 @@ impl Handle {
         Ok(())
     }
 
-    /// Fades to other textures or weights.
+    /// Fades to a new mix.
     ///
     /// # Errors
-    /// [`MixError`] where it is not a mix of loaded textures; nothing is changed then.
+    /// [`MixError`] if the mix is invalid or contains a texture that is not loaded; nothing changes in this case.
     pub fn set_mix(&mut self, mix: Mix) -> Result<(), MixError> {
         self.set_controls(Controls { mix, ..self.orders.controls })
     }
 
-    /// Fades to another gain, or to silence.
+    /// Fades to a new gain, or to silence.
     pub fn set_drive(&mut self, drive: Drive) {
         self.orders.controls.drive = drive;
         self.publish();
     }
 
-    /// Landings sound like this from now on.
+    /// Sets the tap transient of future contact onsets.
     pub fn set_tap(&mut self, tap: Tap) {
         self.orders.controls.tap = tap;
         self.publish();
@@ -234,21 +234,22 @@ impl Handle {
         self.publish();
     }
 
-    /// Says when a person's hand takes over from the input by itself; never where it is `None`.
+    /// Sets when live input takes over automatically; with `None` it never does.
     pub fn set_takeover(&mut self, takeover: Option<Takeover>) {
         self.orders.controls.takeover = takeover;
         self.publish();
     }
 
-    /// Plays a stroke from its start, and makes it the input.
+    /// Plays a stroke once from its start and selects it as the input.
     ///
     /// # Errors
-    /// Gives the track back while the output is busy: try again after its next block.
+    /// Returns the track if the command queue is full. Try again after the next block.
     pub fn play_track(&mut self, track: Track) -> Result<(), Track> {
         self.send_track(track, Input::Track)
     }
 
-    /// Plays a stroke from its start and again and again, and makes it the input; [`Handle::set_input`] changes how.
+    /// Plays a stroke repeatedly from its start and selects it as the input. [`Handle::set_input`] changes the
+    /// repetition.
     ///
     /// # Errors
     /// As [`Handle::play_track`].
@@ -256,11 +257,11 @@ impl Handle {
         self.send_track(track, Input::Repeat(repeat))
     }
 
-    /// Plays a signal in the place of the texture, once that, or the signal that is played, has faded. Muting silences it,
-    /// the limits of the actuator hold.
+    /// Plays a signal instead of the texture, after the texture or the current signal has faded out. Muting and the
+    /// actuator's limits apply to it; the gain does not.
     ///
     /// # Errors
-    /// Gives the signal back while the output is busy: try again after its next block.
+    /// Returns the signal if the command queue is full. Try again after the next block.
     pub fn play_signal(&mut self, signal: Signal) -> Result<(), Signal> {
         if self.commands.is_full() {
             return Err(signal);
@@ -269,25 +270,26 @@ impl Handle {
         Ok(())
     }
 
-    /// Lets the signal fade that is played, if one is; one that is sent later is played.
+    /// Fades out the current signal and cancels queued ones. Signals that are sent later are played.
     pub fn stop_signal(&mut self) {
         self.orders.n_stops = self.orders.n_stops.wrapping_add(1);
         self.publish();
     }
 
-    /// A way in for a person's touches, for whoever reads a stylus. There are [`super::LIVE_INPUTS`]: the first that touches
-    /// or is near counts, until it says itself that it is no more, or says nothing for [`Takeover::stale_secs`].
+    /// Takes an input for live touches, for the reader of a stylus; `None` if all [`super::LIVE_INPUTS`] are taken. The
+    /// first stylus that touches or is near is followed until it reports leaving, or sends nothing for
+    /// [`Takeover::stale_secs`].
     pub fn take_live_input(&mut self) -> Option<LiveInput> {
         self.live.pop()
     }
 
-    /// Ends the silence that a sample that was not finite has latched: a person has looked.
+    /// Ends the silence that a non-finite sample has latched. Only a person's action may lead to this call.
     pub fn reset_limiter(&mut self) {
         self.orders.n_resets = self.orders.n_resets.wrapping_add(1);
         self.publish();
     }
 
-    /// How the engine and its device are doing.
+    /// Current state of the engine and its device.
     pub fn status(&mut self) -> Status {
         let mut status = *self.status.read();
         if let Some(monitor) = &self.monitor {
@@ -296,13 +298,13 @@ impl Handle {
         status
     }
 
-    /// Why the device is lost, if it is.
+    /// Returns the reason why the device is lost, or `None`.
     pub fn loss(&mut self) -> Option<&DeviceError> {
         self.monitor.as_mut()?.loss()
     }
 
-    /// Takes the oldest waiting samples of the signal in m/s² at the device's rate, before gain and limiter, and says
-    /// how many. What nobody takes is dropped, newest first: read all that waits and show the end of it.
+    /// Takes the oldest queued samples of the signal, in m/s² at the device's rate, before gain and limiter. Returns
+    /// their number. If the queue is full, the newest samples are dropped: read the whole queue and display its end.
     pub fn read_scope(&mut self, out: &mut [f32]) -> usize {
         self.scope.pop_partial_slice(out).0.len()
     }
@@ -322,7 +324,7 @@ impl Handle {
 
     fn send_unloads(&mut self) {
         for idx in 0..SLOTS {
-            // What does not fit goes with the next `collect`.
+            // Unloads that do not fit are sent at the next `collect`.
             if self.slots[idx] == Slot::Unwanted && !self.commands.is_full() {
                 self.send(Command::Unload(idx as TextureId));
                 self.slots[idx] = Slot::Leaving;
@@ -330,9 +332,9 @@ impl Handle {
         }
     }
 
-    /// Sends a command into a ring that was just seen to have room, which nobody else can have filled since.
+    /// Sends a command into a queue that was just checked for room. Only this sender can fill it.
     fn send(&mut self, command: Command) {
         let sent = self.commands.push(command);
-        assert!(sent.is_ok(), "a ring with one sender lost the room that it had");
+        assert!(sent.is_ok(), "bug: the command queue is full right after a check for room");
     }
 }

@@ -1,6 +1,6 @@
-//! Ramps, and what is shown of the signal.
+//! Gain ramps, and level meters for display.
 
-/// A gain that takes a set number of frames to any new value.
+/// A gain that changes linearly to any new value in a fixed number of frames.
 #[derive(Clone, Debug)]
 pub(super) struct Ramp {
     n_frames: u32,
@@ -21,17 +21,17 @@ impl Ramp {
         Self { n_frames: n_frames.max(1), value, target: value, step: 0.0, n_left: 0 }
     }
 
-    /// Goes to a value at once.
+    /// Sets a value without a ramp.
     pub(super) fn jump(&mut self, value: f32) {
         *self = Self::at(value, self.n_frames);
     }
 
-    /// Whether it has arrived at a value.
+    /// Whether the ramp has reached a value.
     pub(super) fn is_at(&self, value: f32) -> bool {
         self.n_left == 0 && self.value == value
     }
 
-    /// Starts towards `target`, unless it already is on its way there.
+    /// Starts a ramp to `target`, unless one to this target is already running.
     pub(super) fn aim(&mut self, target: f32) {
         if target != self.target {
             self.target = target;
@@ -40,16 +40,16 @@ impl Ramp {
         }
     }
 
-    /// The value at the last frame.
+    /// Value at the last frame.
     pub(super) fn value(&self) -> f32 {
         self.value
     }
 
-    /// The value at the next frame.
+    /// Value at the next frame.
     pub(super) fn next(&mut self) -> f32 {
         if self.n_left > 0 {
             self.n_left -= 1;
-            // The last step lands on the target, whatever rounding did before.
+            // The last step sets the target exactly, whatever the rounding before.
             self.value = if self.n_left == 0 { self.target } else { self.value + self.step };
         }
         self.value
@@ -58,12 +58,12 @@ impl Ramp {
 
 /// Time constant of the level, in seconds.
 const LEVEL_SECS: f32 = 0.05;
-/// Highest mean square that is told, in (m/s²)²: far above anything real, and far enough below the largest number.
+/// Highest mean square of the meter, in (m/s²)²: far above real signals, and safely below overflow.
 const HIGHEST_SQUARE: f32 = 1e36;
-/// Time constant of the fall of the peak, in seconds.
+/// Time constant of the peak's decay, in seconds.
 const PEAK_SECS: f32 = 0.3;
 
-/// Level of the signal and peak of the output.
+/// Meter for the level of the signal and the peak of the output.
 #[derive(Clone, Debug)]
 pub(super) struct Meter {
     rate_hz: f32,
@@ -76,36 +76,36 @@ impl Meter {
         Self { rate_hz, mean_square: 0.0, peak: 0.0 }
     }
 
-    /// Takes a stretch of the signal in m/s².
+    /// Updates the level with a segment of the signal in m/s².
     pub(super) fn note_signal(&mut self, samples: &[f32]) {
         let share = 1.0 - self.left_after(samples.len(), LEVEL_SECS);
         let mean = samples.iter().map(|x| x * x).sum::<f32>() / samples.len().max(1) as f32;
-        // Squares of samples that can still be limited may overflow: the level stands at its highest, and comes down again.
+        // The square of a finite sample may overflow. The mean is therefore clamped, and the level recovers afterwards.
         self.mean_square += share * (mean.min(HIGHEST_SQUARE) - self.mean_square);
-        // Nothing below can be felt, and numbers that small are slow.
+        // Smaller values cannot be felt, and subnormal numbers are slow.
         if self.mean_square < 1e-20 {
             self.mean_square = 0.0;
         }
     }
 
-    /// Takes the same stretch as the device gets it.
+    /// Updates the peak with a segment of the drive signal.
     pub(super) fn note_output(&mut self, samples: &[f32]) {
         let highest = samples.iter().fold(0.0_f32, |highest, x| highest.max(x.abs()));
         let fallen = self.peak * self.left_after(samples.len(), PEAK_SECS);
         self.peak = if fallen < 1e-9 { highest } else { fallen.max(highest) };
     }
 
-    /// Root mean square in m/s².
+    /// RMS of the signal, in m/s².
     pub(super) fn level(&self) -> f32 {
         self.mean_square.sqrt()
     }
 
-    /// Share of the full scale.
+    /// Peak as a fraction of full scale.
     pub(super) fn peak(&self) -> f32 {
         self.peak
     }
 
-    /// Forgets what was not a number.
+    /// Clears level and peak.
     pub(super) fn reset(&mut self) {
         (self.mean_square, self.peak) = (0.0, 0.0);
     }
@@ -124,7 +124,7 @@ mod tests {
         let mut ramp = Ramp::new(4);
         ramp.aim(1.0);
         assert_eq!([ramp.next(), ramp.next()], [0.25, 0.5]);
-        // The same aim again does not start it anew.
+        // The same target again does not restart the ramp.
         ramp.aim(1.0);
         assert_eq!([ramp.next(), ramp.next(), ramp.next()], [0.75, 1.0, 1.0]);
         ramp.aim(0.0);
@@ -165,7 +165,7 @@ mod tests {
                 meter.note_signal(&vec![0.0; block]);
                 meter.note_output(&vec![0.0; block]);
             }
-            // A second later: exp(-10) of the level, exp(-3.3) of the peak.
+            // After one second, the level has decayed by exp(-10) and the peak by exp(-3.3).
             assert!(meter.level() < 1e-3 && (meter.peak() - 0.5 * (-1.0_f32 / 0.3).exp()).abs() < 1e-3);
         }
     }

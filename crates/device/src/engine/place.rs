@@ -1,20 +1,20 @@
-//! Where the tip is between two reports of it.
+//! Estimation of the tip position between two stylus reports.
 
 use shagreen_synth::contact::Place;
 
-/// Share of what a place is off that is made up for in a tick: reports come at their own times, and a step would click.
+/// Fraction of the position error that is corrected in a tick. Reports arrive irregularly, and a step would click.
 const CATCH_UP: f64 = 0.25;
-/// How much a new velocity counts.
+/// Weight of a new velocity in the velocity estimate.
 const SMOOTHING: f64 = 0.5;
-/// Further off than this, in m, the tip is somewhere else.
+/// Position error, in m, above which the tip is treated as having jumped.
 const LOST_M: f64 = 0.03;
-/// How long a tip is thought to go on, in s: what it went too far it has to come back.
+/// Longest extrapolation of the motion, in s. An overshoot has to be reversed.
 const MOST_AHEAD_SECS: f64 = 0.02;
 
-/// A place along one axis, that follows reports without steps.
+/// Position along one axis, tracked from reports without steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FollowedPlace {
-    /// Where the tip was reported last, in m, when, in s, and how fast it went there, in m/s along the axis.
+    /// Last reported position in m, its time in s, and the smoothed velocity in m/s along the axis.
     reported_m: f64,
     reported_secs: f64,
     velocity_mps: f64,
@@ -23,26 +23,26 @@ pub(super) struct FollowedPlace {
 }
 
 impl FollowedPlace {
-    /// The tip was at a place at a time, and went there from the one before.
+    /// Records a reported position at a time, reached by motion from the last report.
     pub(super) fn report(&mut self, place_m: f64, secs: f64) {
         let step_secs = secs - self.reported_secs;
         if step_secs > 0.0 {
             let velocity_mps = (place_m - self.reported_m) / step_secs;
-            // Times of reports are rough, and two of them make rough speeds.
+            // Report times have jitter, so the velocity from two reports is noisy.
             self.velocity_mps += SMOOTHING * (velocity_mps - self.velocity_mps);
         }
         (self.reported_m, self.reported_secs) = (place_m, secs);
     }
 
-    /// The tip is at a place at a time, and did not go there.
+    /// Records a position at a time, reached by a jump.
     pub(super) fn begin(&mut self, place_m: f64, secs: f64) {
         let n_jumps = self.n_jumps;
         *self = Self { reported_m: place_m, reported_secs: secs, velocity_mps: 0.0, place_m, n_jumps };
         self.jump();
     }
 
-    /// The place at a time, a tick of `step_secs` after it was asked for last. The tip goes on as far as `speed_mps` lets it:
-    /// where nothing is reported any more, that has gone to zero.
+    /// Returns the position at a time, one tick of `step_secs` after the last call. The tip is extrapolated with a
+    /// velocity of at most `speed_mps`, which is zero once reports have stopped.
     pub(super) fn at(&mut self, secs: f64, step_secs: f64, speed_mps: f64) -> f64 {
         let velocity_mps = self.velocity_mps.min(speed_mps).max(-speed_mps);
         let wanted_m =
@@ -53,17 +53,17 @@ impl FollowedPlace {
         self.place_m
     }
 
-    /// The next place is not gone to from the last.
+    /// Marks the next position as reached by a jump.
     pub(super) fn jump(&mut self) {
         self.n_jumps = self.n_jumps.wrapping_add(1);
     }
 
-    /// The tip is here.
+    /// Sets the position.
     pub(super) fn set(&mut self, place_m: f64) {
         self.place_m = place_m;
     }
 
-    /// Where it was asked for last.
+    /// Position at the last call.
     pub(super) fn place(&self) -> Place {
         Place { x_m: self.place_m, n_jumps: self.n_jumps }
     }
@@ -75,7 +75,7 @@ mod tests {
 
     const TICK_SECS: f64 = 0.005;
 
-    /// Reports at 133 Hz, each a little late and by turns: the place goes on evenly, and is nowhere far from the tip.
+    /// Reports at 133 Hz with delay and jitter: the position moves evenly and stays close to the tip.
     #[test]
     fn a_steady_tip_is_followed_evenly() {
         let mut place = FollowedPlace::default();
@@ -83,7 +83,7 @@ mod tests {
         for tick in 1..400 {
             let now = TICK_SECS * f64::from(tick);
             while next_report + 0.003 <= now {
-                // Places in steps of 10 µm, times a little off.
+                // Positions are quantized to 10 µm, and times have jitter.
                 let rough_secs = next_report + [0.0, 4e-4, -3e-4][n as usize % 3];
                 place.report((0.08 * next_report * 1e5).round() / 1e5, rough_secs);
                 n += 1;
@@ -114,7 +114,7 @@ mod tests {
         place.begin(0.02, 1.0);
         for tick in 0..20 {
             let at = place.at(1.0 + TICK_SECS * f64::from(tick), TICK_SECS, 1.0);
-            assert!((at - 0.02).abs() < 1e-12, "it goes to {at}");
+            assert!((at - 0.02).abs() < 1e-12, "the position moves to {at}");
         }
         place.set(0.05);
         assert!((place.place().x_m - 0.05).abs() < 1e-12);

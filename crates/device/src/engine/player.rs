@@ -1,4 +1,4 @@
-//! What moves over the texture, at any moment of the engine's clock.
+//! Tip motion over the texture at each time of the engine's clock.
 
 use std::mem::{Discriminant, discriminant};
 
@@ -12,65 +12,65 @@ use crate::live::TimedTouch;
 use crate::touch::{Touch, mix_contacts};
 use crate::track::Track;
 
-/// Speed of the landings that taps were measured at, in m/s. Recordings do not say it; this is a light tap by hand.
+/// Impact speed at which tap transients were measured, in m/s. Recordings do not state it; this is a light tap by hand.
 const USUAL_LANDING_MPS: f32 = 0.1;
-/// How much weaker or stronger than measured a landing may be: estimates of its speed are rough.
+/// Range of the strength relative to the measured tap. Estimates of the impact speed are rough.
 const STRENGTHS: (f32, f32) = (0.1, 3.0);
-/// Two landings are at least this far apart, in seconds: what comes sooner is a switch that chatters.
+/// Shortest time between two contact onsets, in seconds. An earlier one is contact bounce.
 const CHATTER_SECS: f64 = 0.030;
-/// A live landing is still played where the input is switched to the person's this much later, in seconds.
+/// Longest age in seconds at which a live contact onset is still played after a switch to live input.
 const PATIENCE_SECS: f64 = 0.030;
 
-/// The tip has landed.
+/// Contact onset of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Landing {
-    /// When it is to be heard, on the stream's clock.
+    /// Time at which its tap transient starts, on the stream's clock, in seconds.
     pub(super) stream_secs: f64,
-    /// How hard, over the landing that the tap was measured at.
+    /// Strength relative to the measured tap.
     pub(super) strength: f32,
 }
 
-/// The input, its clock, and the fade from the input before.
+/// The input with its clock, and the fade from the previous input.
 #[derive(Debug)]
 pub(super) struct Player {
-    /// What was asked for.
+    /// Requested input.
     chosen: Input,
     takeover: Option<Takeover>,
-    /// Whether the person's hand is followed in the place of what was chosen.
+    /// Whether live input has taken over from the requested input.
     has_taken_over: bool,
-    /// Seconds since the engine began; it goes on where the stream's clock starts again.
+    /// Seconds since the engine started. A restart of the stream's clock does not affect it.
     clock_secs: f64,
     stream_secs: f64,
     input_start_secs: f64,
-    /// How far the automatic hand has come, in m.
+    /// Distance along the automatic stroke, in m.
     distance_m: f64,
-    /// Where a stroke that is repeated has come to, in its own time.
+    /// Position within a repeated stroke, in the stroke's own seconds.
     track_secs: f64,
     live: Touch,
     live_secs: f64,
-    /// Where along a relief the tip is.
+    /// Tip position along a relief.
     place: FollowedPlace,
-    /// What was followed in the last tick.
+    /// Kind of the input in the last tick.
     last_kind: Discriminant<Input>,
-    /// Which stylus said so, and whether it touches or is near.
+    /// Index of the stylus that is followed; below, whether it touches or is near.
     live_stylus_idx: usize,
     live_is_near: bool,
-    /// When it was last near, on the engine's clock.
+    /// Time when it was last near, on the engine's clock.
     near_secs: f64,
     track: Option<Box<Track>>,
     touch: Touch,
     fade_from: Contact,
     fade_start_secs: f64,
-    /// A landing of the person that has not been played: when it was reported on the engine's clock, and how hard.
+    /// Live contact onset that is not yet played: its report time on the engine's clock, and its strength.
     live_landing: Option<(f64, f32)>,
     track_landing: Option<Landing>,
-    /// Whether the tip is down where the stroke has come to: going on from there is no landing.
+    /// Whether the tip touches at the current position of the stroke. Resuming there is not a contact onset.
     track_is_down: bool,
     last_landing_secs: f64,
 }
 
 impl Player {
-    /// Nothing on the pad.
+    /// A player with a lifted tip.
     pub(super) fn new() -> Self {
         Self {
             chosen: Input::Lifted,
@@ -99,8 +99,8 @@ impl Player {
         }
     }
 
-    /// Fades to another input. The automatic hand, or a stroke that is repeated, goes on from where it is when only its
-    /// numbers change.
+    /// Fades to another input. An automatic stroke or a repeated stroke continues from its position if only its
+    /// parameters change.
     pub(super) fn set_input(&mut self, input: Input) {
         if input == self.chosen {
             return;
@@ -117,19 +117,18 @@ impl Player {
         }
     }
 
-    /// Says when the person's hand takes over by itself.
+    /// Sets when live input takes over automatically.
     pub(super) fn set_takeover(&mut self, takeover: Option<Takeover>) {
         self.takeover = takeover;
         self.look_for_a_hand();
     }
 
-    /// What is followed.
+    /// The input that is followed.
     pub(super) fn input(&self) -> Input {
         if self.has_taken_over { Input::Live } else { self.chosen }
     }
 
-    /// Takes a stroke, to be played from its start while the input is [`Input::Track`] or [`Input::Repeat`]; gives back the
-    /// one before.
+    /// Sets the stroke for [`Input::Track`] and [`Input::Repeat`], played from its start. Returns the previous stroke.
     pub(super) fn play(&mut self, track: Box<Track>) -> Option<Box<Track>> {
         if is_track(self.chosen) {
             self.fade_chosen();
@@ -138,8 +137,8 @@ impl Player {
         self.track.replace(track)
     }
 
-    /// Takes what the person did `age_secs` ago with one of the styluses. Whatever is near first is the hand until it says
-    /// that it is no more, or says nothing for long: the system moves and presses a mouse along with a pen.
+    /// Records a touch of one stylus, `age_secs` old. The first stylus that is near is followed until it reports
+    /// leaving or stops sending, because the system also moves and presses a mouse when a pen does.
     pub(super) fn report(&mut self, stylus_idx: usize, timed: TimedTouch, age_secs: f64) {
         let TimedTouch { touch, landing_mps, is_near, .. } = timed;
         let stale_secs = f64::from(self.takeover.unwrap_or(Takeover::USUAL).stale_secs);
@@ -170,7 +169,7 @@ impl Player {
         self.look_for_a_hand();
     }
 
-    /// The landing that is to be played next, if there is one; `stream_secs` is the stream's clock at the next frame.
+    /// Returns the next contact onset to play, if any. `stream_secs` is the stream's clock at the next frame.
     pub(super) fn take_landing(&mut self, stream_secs: f64) -> Option<Landing> {
         let landing = match self.input() {
             Input::Live => self.live_landing.take().and_then(|(reported_secs, strength)| {
@@ -185,22 +184,22 @@ impl Player {
         (!is_chatter).then_some(landing)
     }
 
-    /// The stream's clock starts at zero again.
+    /// Restarts the stream's clock at zero.
     pub(super) fn restart_clock(&mut self) {
         self.stream_secs = 0.0;
     }
 
-    /// The touch of the last tick.
+    /// Touch of the last tick.
     pub(super) fn touch(&self) -> Touch {
         self.touch
     }
 
-    /// Since the input began, in seconds.
+    /// Time since the input started, in seconds.
     pub(super) fn input_secs(&self) -> f64 {
         self.clock_secs - self.input_start_secs
     }
 
-    /// Follows the person's hand where it has taken over, and what was chosen where it has gone.
+    /// Switches to live input if it takes over, and back to the requested input when it has ended.
     fn look_for_a_hand(&mut self) {
         let has_taken_over = self.takeover.is_some_and(|takeover| {
             let secs = if self.live_is_near { takeover.stale_secs } else { takeover.lifted_secs };
@@ -215,7 +214,7 @@ impl Player {
         }
     }
 
-    /// Fades to what was chosen, where that is followed.
+    /// Starts a fade to the requested input, unless live input has taken over.
     fn fade_chosen(&mut self) {
         if !self.has_taken_over {
             self.fade();
@@ -231,11 +230,11 @@ impl Player {
         self.input_start_secs = self.clock_secs;
         (self.distance_m, self.track_secs) = (0.0, 0.0);
         self.place.jump();
-        // What a person's hand does in its place is none of the stroke's.
+        // A live touch that has taken over does not belong to the stroke.
         self.track_is_down = !self.has_taken_over && self.touch.contact.force_n > 0.0;
     }
 
-    /// What the input says, `step_secs` after it was asked last.
+    /// Returns the touch of the input, `step_secs` after the last call.
     fn asked(&mut self, step_secs: f64) -> Touch {
         match self.input() {
             Input::Lifted => self.touch.lifted(),
@@ -267,7 +266,7 @@ impl Player {
     }
 }
 
-/// Whether a stroke that was given is followed.
+/// Whether an input plays a track.
 fn is_track(input: Input) -> bool {
     matches!(input, Input::Track | Input::Repeat(_))
 }
@@ -306,7 +305,7 @@ impl ContactSource for Player {
             Input::Live => {
                 self.place.at(self.clock_secs, step_secs, f64::from(touch.contact.speed_mps));
             }
-            // A tip that leaves does so where it is.
+            // A lifting tip keeps its position.
             Input::Lifted => {}
             _ => self.place.set(f64::from(touch.x_m)),
         }

@@ -1,11 +1,11 @@
-//! A signal in the place of the texture: the texture fades, the signal plays, the texture comes back.
+//! Playback of a signal instead of the texture: the texture fades out, the signal plays, the texture fades in.
 
 use shagreen_synth::drive::Driven;
 
 use super::meter::Ramp;
 use crate::signal::Signal;
 
-/// A signal, and how many wishes to end signals were older than it.
+/// A signal with the number of stop requests that were sent before it.
 #[derive(Debug)]
 struct Wanted {
     signal: Box<Signal>,
@@ -13,17 +13,17 @@ struct Wanted {
 }
 
 impl Wanted {
-    /// Whether one of `n_stops` wishes came after it. A signal may arrive before what was wished ahead of it.
+    /// Whether one of `n_stops` requests was sent after the signal. A signal may arrive before earlier stop requests.
     fn is_stopped(&self, n_stops: u32) -> bool {
         n_stops.wrapping_sub(self.n_stops).cast_signed() > 0
     }
 }
 
-/// What plays signals.
+/// Player of signals.
 #[derive(Debug)]
 pub(super) struct SignalPlayer {
     playing: Option<Wanted>,
-    /// What is played from its beginning once `playing` has faded.
+    /// Signal to start after `playing` has faded out.
     next: Option<Wanted>,
     next_frame: usize,
     played: Option<Box<Signal>>,
@@ -32,7 +32,7 @@ pub(super) struct SignalPlayer {
 }
 
 impl SignalPlayer {
-    /// Nothing is played; fades take so many frames.
+    /// A player without a signal, with a fade length in frames.
     pub(super) fn new(fade_frames: u32) -> Self {
         Self {
             playing: None,
@@ -44,8 +44,8 @@ impl SignalPlayer {
         }
     }
 
-    /// Takes a signal that was sent after `n_stops` wishes to end signals, to be played once the texture, or the signal
-    /// before, has faded; gives back one that it takes the place of unheard.
+    /// Takes a signal that was sent after `n_stops` stop requests. It plays after the texture or the previous signal
+    /// has faded out. Returns a signal that it replaces before that one has started.
     pub(super) fn play(&mut self, signal: Box<Signal>, n_stops: u32) -> Option<Box<Signal>> {
         let wanted = Wanted { signal, n_stops };
         let unheard = if self.next_frame > 0 {
@@ -58,7 +58,8 @@ impl SignalPlayer {
         unheard.map(|wanted| wanted.signal)
     }
 
-    /// Lets the signals fade that are older than the last of `n_stops` wishes; gives back those that nobody has heard.
+    /// Fades out the signal that the last of `n_stops` requests applies to. Returns stopped signals that have not
+    /// started.
     pub(super) fn follow(&mut self, n_stops: u32) -> [Option<Box<Signal>>; 2] {
         let is_stopped = |wanted: &mut Wanted| wanted.is_stopped(n_stops);
         let waiting = self.next.take_if(is_stopped);
@@ -70,12 +71,12 @@ impl SignalPlayer {
         [waiting, unheard].map(|wanted| wanted.map(|wanted| wanted.signal))
     }
 
-    /// Whether there is a signal, or the texture has not begun to come back.
+    /// Whether a signal is playing or waiting.
     pub(super) fn is_playing(&self) -> bool {
         self.playing.is_some()
     }
 
-    /// Puts the signal in the place of the texture's samples, and says what they are now.
+    /// Replaces the texture's samples by the signal's. Returns the kind of the resulting samples.
     pub(super) fn replace(&mut self, mono: &mut [f32]) -> Driven {
         self.texture.aim(if self.playing.is_some() { 0.0 } else { 1.0 });
         if let Some(Wanted { signal, .. }) = self.playing.as_ref().filter(|_| self.texture.is_at(0.0)) {
@@ -101,7 +102,7 @@ impl SignalPlayer {
         Driven::Acceleration
     }
 
-    /// The signal that has ended, to be freed.
+    /// Takes the signal that has ended, to be freed.
     pub(super) fn take_played(&mut self) -> Option<Box<Signal>> {
         self.played.take()
     }

@@ -1,4 +1,4 @@
-//! The textures that the callback holds.
+//! Table of the textures that the callback holds.
 
 use shagreen_synth::renderer::{TextureId, Textures};
 use shagreen_synth::texture::Texture;
@@ -6,7 +6,7 @@ use shagreen_synth::texture::Texture;
 use super::SLOTS;
 use crate::texture::OwnedTexture;
 
-/// A table of textures, some of which are on their way out.
+/// A table of textures, with flags for those that are being retired.
 #[derive(Debug)]
 pub(super) struct Slots {
     textures: [Option<Box<OwnedTexture>>; SLOTS],
@@ -18,7 +18,8 @@ impl Slots {
         Self { textures: [const { None }; SLOTS], retired: [false; SLOTS] }
     }
 
-    /// Puts a texture into slot `id`; gives back what lay there, or the texture itself where there is no such slot.
+    /// Puts a texture into slot `id`. Returns the previous texture of the slot, or the texture itself if there is no
+    /// such slot.
     pub(super) fn put(&mut self, id: TextureId, texture: Box<OwnedTexture>) -> Option<Box<OwnedTexture>> {
         let idx = usize::from(id);
         let (Some(slot), Some(retired)) = (self.textures.get_mut(idx), self.retired.get_mut(idx)) else {
@@ -28,7 +29,7 @@ impl Slots {
         slot.replace(texture)
     }
 
-    /// Texture `id` is to be given back as soon as nothing of it sounds.
+    /// Marks texture `id` to be returned once no voice uses it.
     pub(super) fn retire(&mut self, id: TextureId) {
         if self.texture(id).is_some()
             && let Some(retired) = self.retired.get_mut(usize::from(id))
@@ -41,7 +42,7 @@ impl Slots {
         self.retired.get(usize::from(id)).is_some_and(|&retired| retired)
     }
 
-    /// Empties slot `id`.
+    /// Takes the texture out of slot `id`.
     pub(super) fn take(&mut self, id: TextureId) -> Option<Box<OwnedTexture>> {
         let idx = usize::from(id);
         if let Some(retired) = self.retired.get_mut(idx) {

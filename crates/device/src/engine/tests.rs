@@ -1,4 +1,4 @@
-//! Both halves together, block by block.
+//! Tests of engine and handle together, block by block.
 
 mod relief;
 mod signals;
@@ -31,14 +31,14 @@ const CONFIG: EngineConfig = EngineConfig {
 
 const HAND: Hand = Hand { path: Path::Line, speed_mps: 0.8, force_n: 0.9, extent_m: 0.06 };
 
-/// One channel of the next frames, in blocks of a given size over a buffer of nonsense.
+/// Renders the next frames of one channel, in blocks of a given size over a buffer of NaN.
 fn play(engine: &mut Engine, n_frames: usize, block: usize) -> Vec<f32> {
     let mut out = vec![f32::NAN; n_frames];
     out.chunks_mut(block).for_each(|block| engine.process(block, 1));
     out
 }
 
-/// An engine on whose one texture the hand moves.
+/// An engine with one texture and an automatic stroke.
 fn stroking(config: EngineConfig, level_mps2: f32) -> (Handle, Engine) {
     let (mut handle, engine) = new(config).unwrap();
     let id = handle.load(white(level_mps2)).unwrap();
@@ -87,7 +87,7 @@ fn output_does_not_depend_on_the_size_of_blocks() {
 fn channels_get_what_they_should() {
     let channels = ChannelMask::only(1).and(ChannelMask::only(3));
     let (_handle, mut engine) = stroking(EngineConfig { channels, ..CONFIG }, 1.0);
-    // Six samples too many for whole frames.
+    // The buffer has six samples more than whole frames.
     let mut out = vec![f32::NAN; 9600 * 7 + 6];
     engine.process(&mut out, 7);
     let (_handle, mut engine) = stroking(CONFIG, 1.0);
@@ -116,11 +116,11 @@ fn muting_and_resuming_is_a_ramp() {
     assert!(out[12_960..24_000].iter().all(|&x| x == 0.0) && peak(&out[30_000..]) > 0.01);
     let step = |x: &[f32], i: usize| (x[i + 1] - x[i]).abs();
     for i in 0..out.len() - 1 {
-        // Gain moves by at most 1 in 960 frames (20 ms), and never above 1.
+        // The gain moves by at most 1 in 960 frames (20 ms) and never exceeds 1.
         let allowed = step(&free, i) + free[i].abs().max(free[i + 1].abs()) / 960.0 + 1e-7;
         assert!(step(&out, i) <= allowed, "at {i}: {} above {allowed}", step(&out, i));
     }
-    assert_eq!(out[36_960..], free[36_960..], "as if nothing had been");
+    assert_eq!(out[36_960..], free[36_960..], "the signal must match the uninterrupted one");
 }
 
 #[test]
@@ -143,16 +143,16 @@ fn a_texture_unloaded_while_it_sounds_is_freed_after_its_fade() {
     while handle.collect() == 0 {
         fade.extend(play(&mut engine, 240, 240));
         n_blocks += 1;
-        assert!(n_blocks < 100, "never freed");
+        assert!(n_blocks < 100, "the texture is never freed");
     }
-    // 20 ms of fade from the next tick on, at 5 ms a tick and a block; one more to see that it is over.
+    // The fade takes 20 ms from the next tick on, with 5 ms per tick and per block; one more block detects its end.
     assert!((4..=6).contains(&n_blocks), "{n_blocks} blocks");
-    assert!(peak(&fade[..480]) > 0.01, "cut off");
+    assert!(peak(&fade[..480]) > 0.01, "the fade is cut off");
     assert_eq!(handle.set_mix(Mix::solo(0)), Err(MixError::NotLoaded { id: 0 }));
-    // Its number may be taken again, but not its place in the mix.
+    // The id may be reused, but the new texture must not inherit the weight.
     assert_eq!(handle.load(white(5.0)).unwrap(), 0);
     play(&mut engine, 48_000, 240);
-    // The resampler's filter rings on with e^-36 a second.
+    // The resampler's filter decays by e^-36 per second.
     assert!(peak(&play(&mut engine, 9600, 240)) < 1e-12);
 }
 
@@ -220,12 +220,12 @@ fn what_finds_no_way_back_waits_in_its_slot_or_is_leaked_and_counted() {
     play(&mut engine, 1, 1);
     play(&mut engine, 1, 1);
     assert_eq!(handle.status().leaked, 0);
-    // The way back is full; the rest of the textures wait where they are. A replaced track cannot.
+    // The return queue is full, so the other textures stay in their slots. A replaced track cannot stay.
     for _ in 0..4 {
         handle.play_track(track(3)).unwrap();
     }
     play(&mut engine, 1, 1);
-    assert_eq!(handle.status().leaked, 3, "the first replaced none");
+    assert_eq!(handle.status().leaked, 3, "the first track replaces none");
     assert_eq!(handle.collect(), RETURNED);
     play(&mut engine, 1, 1);
     assert_eq!(handle.collect(), SLOTS - RETURNED);
@@ -253,7 +253,7 @@ fn refuses_textures_of_another_rate_and_mixes_that_are_none() {
 
 #[test]
 fn nonsense_latches_silence_until_a_person_resets_it() {
-    // Louder than numbers go.
+    // The level exceeds the range of `f32`.
     let (mut handle, mut engine) = stroking(CONFIG, f32::MAX);
     let out = play(&mut engine, 24_000, 256);
     assert!(out.iter().all(|x| x.is_finite() && x.abs() <= 1.0));
@@ -261,13 +261,13 @@ fn nonsense_latches_silence_until_a_person_resets_it() {
     assert_eq!(peak(&out[12_000..]), 0.0);
     let good = handle.load(white(1.0)).unwrap();
     handle.set_mix(Mix::solo(good)).unwrap();
-    assert_eq!(peak(&play(&mut engine, 24_000, 256)), 0.0, "still latched");
+    assert_eq!(peak(&play(&mut engine, 24_000, 256)), 0.0, "silence must still be latched");
     assert!(handle.status().tripped);
     handle.reset_limiter();
     let out = play(&mut engine, 24_000, 256);
     let status = handle.status();
     assert!(!status.tripped && peak(&out) > 0.01 && status.level_mps2.is_finite() && status.level_mps2 > 0.1);
-    // A reset of what has not tripped changes nothing.
+    // Without latched silence, a reset changes nothing.
     let (_other, mut undisturbed) = stroking(CONFIG, 1.0);
     let (mut handle, mut engine) = stroking(CONFIG, 1.0);
     play(&mut engine, 1000, 256);
@@ -284,7 +284,7 @@ fn the_ceiling_is_never_exceeded_and_bent_samples_are_counted() {
     assert!(peak(&out) <= 0.25 && peak(&out) > 0.2);
     let status = handle.status();
     let bent = out.iter().filter(|x| x.abs() > 0.2).count() as u64;
-    // A sample bent by less than a rounding error stays at the knee.
+    // A sample that is limited by less than a rounding error stays at the knee.
     assert!(status.limited_samples.abs_diff(bent) <= 2, "{} {bent}", status.limited_samples);
     assert!(status.peak <= 0.25 && status.peak > 0.2);
 }
@@ -297,11 +297,11 @@ fn the_scope_shows_the_signal_before_gain_and_limiter() {
     let out = play(&mut engine, 9600, 256);
     let mut scope = vec![f32::NAN; 20_000];
     assert_eq!(handle.read_scope(&mut scope), 9600);
-    // After the gain has arrived: m/s² times the gain over the full scale.
+    // After the gain ramp, the output is m/s² × gain / full scale.
     for (drawn, played) in scope[960..9600].iter().zip(&out[960..]) {
         assert!((drawn * 0.5 / 1000.0 - played).abs() < 1e-9);
     }
-    // What nobody draws is dropped and no fault.
+    // Unread samples are dropped, which is not an error.
     play(&mut engine, 2 * SCOPE, 256);
     let mut scope = vec![f32::NAN; 3 * SCOPE];
     assert_eq!(handle.read_scope(&mut scope), SCOPE);
@@ -316,7 +316,8 @@ fn the_status_tells_what_is_played() {
     let status = handle.status();
     assert_eq!(status.frames_played, 48_000);
     assert_eq!(status.touch.contact, Contact { speed_mps: 0.8, force_n: 0.9 });
-    // The texture's level is the smaller of speed and force; 50 ms of it are 50 samples: within five standard errors.
+    // The texture's level is the smaller of speed and force. 50 ms are 50 model samples; the bound is five standard
+    // errors.
     assert!((status.level_mps2 / 0.8 - 1.0).abs() < 0.5, "{}", status.level_mps2);
     assert!((status.input_secs - 1.0).abs() < 0.006, "{}", status.input_secs);
     assert!(status.peak > 0.05 && !status.tripped && status.limited_samples == 0);
@@ -340,7 +341,7 @@ fn live_touches_sound_and_fall_silent_when_they_end() {
     assert!(status.touch == touch && status.level_mps2 > 0.3, "{status:?}");
     play(&mut engine, 48_000, 480);
     let status = handle.status();
-    // The meter alone takes most of the second: exp(-0.8 s / 50 ms) of the mean square.
+    // The meter dominates the decay: exp(-0.8 s / 50 ms) of the mean square.
     assert!(status.touch.contact.speed_mps < 1e-9 && status.level_mps2 < 1e-3, "{status:?}");
     while live.send(touch, Instant::now()).is_ok() {}
     assert_eq!(live.send(touch, Instant::now()), Err(touch));
@@ -370,7 +371,7 @@ fn a_texture_and_the_mix_that_names_it_arrive_together() {
     handle.set_input(Input::Hand(Hand { path: Path::Circle, ..HAND }));
     let stop = Arc::new(AtomicBool::new(false));
     let stopped = Arc::clone(&stop);
-    // As fast as it goes, so that blocks begin at every moment of what the handle does.
+    // Blocks run as fast as possible, so that they start at every moment of the handle's actions.
     let callback = std::thread::spawn(move || {
         while !stopped.load(Ordering::Relaxed) {
             engine.process(&mut [0.0; 48], 1);
@@ -386,9 +387,9 @@ fn a_texture_and_the_mix_that_names_it_arrive_together() {
     for _ in 0..30 {
         let id = handle.load(white(1.0)).unwrap();
         handle.set_mix(Mix::solo(id)).unwrap();
-        wait(&mut handle, "sound", &|handle| handle.status().level_mps2 > 0.1);
+        wait(&mut handle, "output", &|handle| handle.status().level_mps2 > 0.1);
         handle.unload(id);
-        wait(&mut handle, "the way back", &|handle| handle.collect() == 1);
+        wait(&mut handle, "the return of the texture", &|handle| handle.collect() == 1);
         wait(&mut handle, "silence", &|handle| handle.status().level_mps2 < 0.05);
     }
     assert_eq!(handle.status().leaked, 0);
@@ -402,7 +403,7 @@ fn landed(force_n: f32) -> Touch {
     Touch { contact: Contact { speed_mps: 0.0, force_n }, ..Touch::default() }
 }
 
-/// A silent texture under a person's hand, with landings that sound.
+/// A silent texture with live input and tap transients.
 fn tapping() -> (Handle, Engine, crate::live::LiveInput) {
     let (mut handle, engine) = new(CONFIG).unwrap();
     handle.set_tap(WOOD);
@@ -422,7 +423,7 @@ fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
         let expected = 0.5 * (-80.0 * t).exp() * (std::f64::consts::TAU * 200.0 * t).sin();
         assert!((f64::from(*x) - expected).abs() < 1e-5, "{x} for {expected} at {t}");
     }
-    // Held down it is no new landing; lifted and landed faster it is, and as much stronger.
+    // Holding the tip down is not a contact onset. Lifting and touching faster is one, and proportionally stronger.
     live.send(landed(0.6), Instant::now()).unwrap();
     assert!(peak(&play(&mut engine, 48_000, 480)) < 1e-2);
     live.send(Touch::default(), Instant::now()).unwrap();
@@ -431,7 +432,7 @@ fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
     let strong = play(&mut engine, 4800, 480);
     assert!((peak(&strong) / peak(&out) - 1.5).abs() < 1e-3);
     assert!(handle.status().latency.n_touches == 4);
-    // Nonsense and chatter are not.
+    // Invalid impact speeds and contact bounce are not.
     play(&mut engine, 48_000, 480);
     for landing in [f32::NAN, f32::INFINITY, -1.0] {
         for _ in 0..10 {
@@ -456,11 +457,11 @@ fn a_hand_that_takes_over_is_heard_from_the_first_sample_of_the_next_block() {
     let expected = 0.5 * (-80.0 / 48_000.0_f64).exp() * (std::f64::consts::TAU * 200.0 / 48_000.0).sin();
     assert!((f64::from(out[1]) - expected).abs() < 1e-5, "{} for {expected}", out[1]);
     assert!(handle.status().follows_live && handle.status().touch == landed(0.5));
-    // The hand goes on a while after it is let go, and a pen that is near takes it up before it lands.
+    // Live input continues for a while after release, and a pen that is near takes over before it touches.
     live.send(Touch::default(), Instant::now()).unwrap();
     play(&mut engine, 48_000, 480);
     assert!(!handle.status().follows_live);
-    assert_eq!(handle.status().touch.contact.force_n, 0.9, "the hand's");
+    assert_eq!(handle.status().touch.contact.force_n, 0.9, "the force must be that of the automatic stroke");
     live.hover(landed(0.5), Instant::now()).unwrap();
     play(&mut engine, 4800, 480);
     assert!(handle.status().follows_live && handle.status().touch.contact.force_n == 0.0);
@@ -480,5 +481,5 @@ fn landings_of_a_stroke_do_not_depend_on_blocks() {
     }
     let (mut handle, mut engine) = stroking(CONFIG, 1.0);
     handle.play_track(track(200)).unwrap();
-    assert_ne!(play(&mut engine, 48_000, 256), whole, "without its landings");
+    assert_ne!(play(&mut engine, 48_000, 256), whole, "tap transients must change the output");
 }

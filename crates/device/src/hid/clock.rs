@@ -1,20 +1,20 @@
-//! When a report was made: by the device's own clock while that can be trusted, else by when it arrived.
+//! Time stamps of reports: by the device's own clock while it is plausible, otherwise by arrival time.
 //!
-//! The device's clock has none of the jitter of the way to us, and speed is a difference of places over a difference of
-//! times. But some devices send a clock that stands still or runs at another rate than they declare: it is held against
-//! the times of arrival, and given up for good where it disagrees. Without a clock the times of arrival are laid on the
-//! even beat that pens report at, as far as they have one.
+//! The device's clock is free of transport jitter, which matters because speed is a difference of positions over a
+//! difference of times. Some devices send a clock that stands still or has an undeclared rate. The clock is therefore
+//! compared with the arrival times and permanently ignored if it disagrees. Without a clock, the arrival times are
+//! fitted to the constant report rate of pens, if there is one.
 
 mod beat;
 
 use self::beat::Beat;
 
-/// Furthest that the device's clock may be from the times of arrival, in s: more than the way to us may jitter.
+/// Largest deviation of the device's clock from the arrival times, in s; it exceeds the transport jitter.
 const MAX_DISAGREEMENT_SECS: f64 = 0.050;
-/// So many disagreements end the trust. A pause longer than a round of the clock is one too.
+/// Number of disagreements after which the clock is ignored.
 const MAX_DISAGREEMENTS: u32 = 3;
 
-/// The times of one device's reports.
+/// Time stamps for the reports of one device.
 #[derive(Clone, Debug)]
 pub struct ReportClock {
     round_secs: Option<f64>,
@@ -25,20 +25,20 @@ pub struct ReportClock {
 
 #[derive(Clone, Copy, Debug)]
 struct Last {
-    /// All in s.
+    /// All values in s.
     arrival: f64,
     reading: Option<f64>,
     time: f64,
 }
 
 impl ReportClock {
-    /// For a device whose clock starts over after `round_secs`; `None` if it has no clock.
+    /// For a device whose clock wraps around after `round_secs`; `None` if it has no clock.
     pub fn new(round_secs: Option<f64>) -> Self {
         Self { round_secs, n_disagreements: 0, beat: Beat::new(), last: None }
     }
 
-    /// The time of a report in s, on the clock of `arrival_secs` and never before the report ahead of it. By the times of
-    /// arrival it is never after its own.
+    /// Returns the time of a report in s, on the clock of `arrival_secs` and never before the previous report. Without
+    /// the device's clock, it is never after the arrival time.
     pub fn time_secs(&mut self, arrival_secs: f64, reading_secs: Option<f64>) -> f64 {
         let beat_secs = self.beat.time_secs(arrival_secs);
         let time_secs = match self.last {
@@ -52,7 +52,7 @@ impl ReportClock {
         time_secs
     }
 
-    /// What the device's own clock says, as far as it can be trusted.
+    /// Returns the time by the device's own clock, or `None` if that clock is absent or ignored.
     fn by_clock_secs(&mut self, last: Last, arrival_secs: f64, reading_secs: Option<f64>) -> Option<f64> {
         let is_trusted = self.n_disagreements < MAX_DISAGREEMENTS;
         let round_secs = self.round_secs.filter(|_| is_trusted)?;
@@ -61,7 +61,7 @@ impl ReportClock {
         if (time_secs - arrival_secs).abs() <= MAX_DISAGREEMENT_SECS {
             return Some(time_secs);
         }
-        // After a pause anything goes: only what happens between reports that follow each other counts.
+        // After a pause the clock may have wrapped around. Only consecutive reports count as a disagreement.
         if arrival_secs - last.arrival <= MAX_DISAGREEMENT_SECS {
             self.n_disagreements += 1;
         }
@@ -73,7 +73,7 @@ impl ReportClock {
 mod tests {
     use super::ReportClock;
 
-    /// Steps of 5 ms that arrive with a jitter of up to 4 ms, by a clock of 0.1 ms that starts over each 6.5536 s.
+    /// Steps of 5 ms that arrive with a jitter of up to 4 ms, and a clock that wraps around every 6.5536 s.
     fn arrival_and_reading(i: u32) -> (f64, f64) {
         let time = f64::from(i) * 0.005;
         (10.0 + time + 0.001 * f64::from(i % 5), (3.0 + time).rem_euclid(6.5536))
@@ -88,7 +88,7 @@ mod tests {
                 clock.time_secs(arrival, Some(reading))
             })
             .collect();
-        // 20 s: three rounds.
+        // 20 s are three wraparounds.
         for pair in times.windows(2) {
             assert!((pair[1] - pair[0] - 0.005).abs() < 1e-9);
         }
@@ -103,7 +103,7 @@ mod tests {
                 let (arrival, _) = arrival_and_reading(i);
                 let time = clock.time_secs(arrival, reading);
                 assert!(time <= arrival, "{i}");
-                // The reports that have no delay are its own beat.
+                // The undelayed reports define the report interval.
                 assert!(i < 128 || (time - before - 0.005).abs() < 1e-4, "{i}: {}", time - before);
                 before = time;
             }
@@ -120,7 +120,7 @@ mod tests {
                 let before = time;
                 time = clock.time_secs(arrival, Some((f64::from(i) * 0.005 * rate).rem_euclid(6.5536)));
                 assert!(time >= before, "{rate}");
-                // Then the beat is at most a jitter ahead.
+                // Afterwards, the fitted time is at most the jitter before the arrival time.
                 if i > 100 {
                     assert!((-1e-12..0.005).contains(&(arrival - time)), "{rate} {i}");
                 }

@@ -1,23 +1,23 @@
-//! What a HID device says about its reports: the report descriptor.
+//! Parser for HID report descriptors, in which a device declares its reports.
 //!
-//! The parser is ours because the published ones panic on malformed descriptors, and a device can send anything. It is
-//! total: any bytes give a [`Descriptor`] or one [`DescriptorError`], in time and memory bounded by the length of the
-//! bytes. What real devices get wrong without harm is a [`DescriptorWarning`] instead: an item that means nothing is
-//! skipped, and a main item without a usage is padding. Reference: USB Device Class Definition for HID 1.11.
+//! This is a parser of our own because published ones panic on malformed descriptors, and a device can send any bytes.
+//! It is total: any bytes give a [`Descriptor`] or one [`DescriptorError`], in time and memory bounded by their length.
+//! Harmless errors of real devices are a [`DescriptorWarning`] instead: a meaningless item is skipped, and a main item
+//! without a usage is padding. Reference: USB Device Class Definition for HID 1.11.
 
 mod items;
 mod state;
 
 use crate::hid::descriptor::state::State;
 
-/// Longest descriptor that is read, in bytes: as much as Linux takes.
+/// Longest descriptor in bytes, the limit of Linux.
 pub const MAX_DESCRIPTOR_BYTES: usize = 4096;
-/// Longest report that a descriptor may declare, in bytes: as much as Linux takes.
+/// Longest report that a descriptor may declare, in bytes, the limit of Linux.
 pub const MAX_REPORT_BYTES: u32 = 16_384;
-/// Deepest nesting of collections, and most states that are pushed.
+/// Deepest nesting of collections, and largest size of the stack of pushed global items.
 pub const MAX_DEPTH: usize = 64;
 
-/// What a field or collection means: usage page and usage.
+/// Usage page and usage id: the meaning of a field or collection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Usage(pub u32);
 
@@ -32,141 +32,141 @@ impl Usage {
         (self.0 >> 16) as u16
     }
 
-    /// The usage within its page.
+    /// The usage id within its page.
     pub const fn id(self) -> u16 {
         self.0 as u16
     }
 }
 
-/// The way that a report goes.
+/// Type of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ReportKind {
-    /// From the device.
+    /// Input report, from the device.
     Input,
-    /// To the device.
+    /// Output report, to the device.
     Output,
-    /// Asked for, either way.
+    /// Feature report, on request in either direction.
     Feature,
 }
 
-/// Fields that belong together.
+/// Collection of related fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Collection {
-    /// What they are.
+    /// Meaning of the collection.
     pub usage: Usage,
-    /// 0 physical, 1 application, 2 logical; others are rare.
+    /// Type: 0 physical, 1 application, 2 logical; others are rare.
     pub kind: u8,
-    /// The collection around this one, as an index into [`Descriptor::collections`].
+    /// Enclosing collection, as an index into [`Descriptor::collections`].
     pub parent: Option<usize>,
 }
 
-/// Fields of one main item: `count` equal ones in a row.
+/// Fields of one main item: `count` adjacent fields of equal size.
 #[expect(clippy::struct_excessive_bools, reason = "the flags of a main item are independent bits")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// The innermost collection around them, as an index into [`Descriptor::collections`].
+    /// Innermost enclosing collection, as an index into [`Descriptor::collections`].
     pub collection: Option<usize>,
-    /// Place of the first bit, counted from the first byte of the report as it is read: its id, if there is one.
+    /// Position of the first bit in the report as it is read, including the report id if there is one.
     pub bit_offset: u32,
-    /// Bits of each.
+    /// Size of each field in bits.
     pub bit_size: u32,
-    /// How many.
+    /// Number of fields.
     pub count: u32,
-    /// Whether it is padding.
+    /// Whether the fields are constant (padding).
     pub is_constant: bool,
-    /// Whether each field has its own usage; else each holds the number of a usage (an array, as of keys).
+    /// Whether each field has its own usage; otherwise each field holds a usage number (an array, as for keys).
     pub is_variable: bool,
-    /// Whether it tells changes and not places.
+    /// Whether the values are changes instead of positions.
     pub is_relative: bool,
-    /// Whether a value outside of the logical range means that there is none.
+    /// Whether a value outside the logical range means "no value".
     pub has_null: bool,
     /// Lowest value.
     pub logical_min: i64,
     /// Highest value.
     pub logical_max: i64,
-    /// What the lowest value stands for, in [`Self::unit`] times ten to the [`Self::unit_exponent`].
+    /// Physical value of `logical_min`, in [`Self::unit`] times ten to the power of [`Self::unit_exponent`].
     pub physical_min: i64,
-    /// What the highest value stands for.
+    /// Physical value of `logical_max`, in the same unit.
     pub physical_max: i64,
-    /// The unit, in nibbles; zero is none.
+    /// Unit code, in nibbles; zero is no unit.
     pub unit: u32,
-    /// The power of ten of the unit.
+    /// Power of ten of the unit.
     pub unit_exponent: i32,
     usages: Vec<(Usage, Usage)>,
 }
 
-/// A report.
+/// A report with its fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
-    /// The way it goes.
+    /// Type of the report.
     pub kind: ReportKind,
-    /// Its first byte, where reports have an id.
+    /// Report id, its first byte, if the device uses report ids.
     pub id: Option<u8>,
-    /// Its length in bits, id included.
+    /// Length in bits, including the id.
     pub n_bits: u32,
-    /// Its fields in their order, padding included.
+    /// Fields in order, including padding.
     pub fields: Vec<Field>,
 }
 
-/// A descriptor.
+/// A parsed report descriptor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Descriptor {
-    /// The collections in the order in which they begin.
+    /// Collections in the order in which they begin.
     pub collections: Vec<Collection>,
-    /// The reports in the order in which they are first mentioned.
+    /// Reports in the order of their first field.
     pub reports: Vec<Report>,
-    /// What is wrong without harm.
+    /// Harmless errors.
     pub warnings: Vec<DescriptorWarning>,
 }
 
-/// Something odd at a place of a descriptor.
+/// A harmless error in a descriptor, with its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} at byte {offset}")]
 pub struct DescriptorWarning {
-    /// Where the item starts, in bytes.
+    /// Position of the item, in bytes.
     pub offset: usize,
-    /// What is odd, and what was made of it.
+    /// The error, and how the parser treats it.
     pub what: &'static str,
 }
 
-/// Why bytes are no report descriptor.
+/// Reasons why bytes are not a valid report descriptor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DescriptorError {
-    /// No bytes.
+    /// There are no bytes.
     #[error("the report descriptor is empty; get a complete copy")]
     Empty,
-    /// Too many bytes.
+    /// There are too many bytes.
     #[error(
-        "the report descriptor has {n_bytes} bytes, more than {MAX_DESCRIPTOR_BYTES}; check that it is one"
+        "the report descriptor has {n_bytes} bytes, the limit is {MAX_DESCRIPTOR_BYTES}; check its source"
     )]
     TooLong {
-        /// How many.
+        /// Number of bytes.
         n_bytes: usize,
     },
-    /// The last item is cut off.
-    #[error("the item at byte {offset} of the report descriptor is cut off; get a complete copy")]
+    /// The last item is truncated.
+    #[error("the report descriptor is truncated in the item at byte {offset}; get a complete copy")]
     CutOff {
-        /// Where the item starts, in bytes.
+        /// Position of the item, in bytes.
         offset: usize,
     },
-    /// An item contradicts what is ahead of it.
-    #[error("byte {offset} of the report descriptor: {problem}; check that it is one")]
+    /// An item is invalid or contradicts earlier items.
+    #[error("report descriptor, byte {offset}: {problem}; check that it is a report descriptor")]
     Item {
-        /// Where the item starts, in bytes.
+        /// Position of the item, in bytes.
         offset: usize,
-        /// What is wrong.
+        /// The error.
         problem: &'static str,
     },
-    /// Nothing that a device could report.
-    #[error("the report descriptor declares no report; check that it is one")]
+    /// The descriptor declares no report.
+    #[error("the report descriptor declares no report; check that it is a report descriptor")]
     NoReport,
 }
 
-/// Reads a report descriptor.
+/// Parses a report descriptor.
 ///
 /// # Errors
-/// See [`DescriptorError`]; each names the byte.
+/// [`DescriptorError`] for invalid descriptors; it names the byte where that applies.
 pub fn parse(bytes: &[u8]) -> Result<Descriptor, DescriptorError> {
     if bytes.is_empty() {
         return Err(DescriptorError::Empty);
@@ -182,7 +182,7 @@ pub fn parse(bytes: &[u8]) -> Result<Descriptor, DescriptorError> {
 }
 
 impl Field {
-    /// The usage of the `index`th field; the last one stands for all that follow. `None` is padding.
+    /// The usage of field `index`; the last usage applies to all further fields. `None` is padding.
     pub fn usage(&self, index: u32) -> Option<Usage> {
         let mut left = index;
         for (first, last) in &self.usages {
@@ -195,7 +195,7 @@ impl Field {
         self.usages.last().map(|(_, last)| *last)
     }
 
-    /// The value of the `index`th field in a report, as it was read; `None` if the report is too short.
+    /// The raw value of field `index` in a report as it was read; `None` if the report is too short.
     pub fn value(&self, report: &[u8], index: u32) -> Option<i64> {
         if index >= self.count || self.bit_size == 0 || self.bit_size > 32 {
             return None;
@@ -211,26 +211,26 @@ impl Field {
 }
 
 impl Report {
-    /// Its length in bytes, id included.
+    /// Length in bytes, including the id.
     pub fn n_bytes(&self) -> usize {
         self.n_bits.div_ceil(8) as usize
     }
 }
 
 impl Descriptor {
-    /// The usages of the collections around a field, from the innermost out.
+    /// The collections around a field, innermost first.
     pub fn collections_of(&self, field: &Field) -> impl Iterator<Item = Collection> + '_ {
-        // A parent begins ahead of its children, so that this ends.
+        // A parent begins before its children, so the iteration ends.
         let collection = |index: Option<usize>| index.and_then(|index| self.collections.get(index)).copied();
         std::iter::successors(collection(field.collection), move |inner| collection(inner.parent))
     }
 
-    /// The application that a field belongs to: the outermost collection around it.
+    /// Usage of the outermost collection around a field: the application that it belongs to.
     pub fn application_of(&self, field: &Field) -> Option<Usage> {
         self.collections_of(field).last().map(|collection| collection.usage)
     }
 
-    /// Whether reports start with their id.
+    /// Whether reports start with a report id.
     pub fn has_report_ids(&self) -> bool {
         self.reports.iter().any(|report| report.id.is_some())
     }

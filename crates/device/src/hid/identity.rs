@@ -1,53 +1,53 @@
-//! Which pen is which: names that stay the same when a pen is plugged in again, and what to do when one is refused.
+//! Identity of pens: ids that stay the same after replugging, and instructions for refused access.
 
 use crate::error::{DeviceError, DeviceErrorKind};
 
-/// How a device is connected.
+/// Connection type of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HidBus {
-    /// A cable.
+    /// USB cable.
     Usb,
-    /// Without a cable.
+    /// Bluetooth.
     Bluetooth,
-    /// Built in.
+    /// I2C bus (built-in device).
     I2c,
-    /// Anything else.
+    /// Any other connection.
     Other,
 }
 
 /// A pen of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HidPen {
-    /// Name by which it is chosen: `hid:VENDOR:PRODUCT`, with the serial number if it has one. Two that would have the
-    /// same name are told apart by interface or, as a last resort, by path, which may change.
+    /// Id by which the pen is chosen: `hid:VENDOR:PRODUCT`, with the serial number if it has one. Pens with equal ids
+    /// get the interface number added or, as a last resort, the path, which may change.
     pub id: String,
-    /// Name to show.
+    /// Display name.
     pub name: String,
-    /// Vendor, as assigned by the USB forum.
+    /// Vendor id, assigned by the USB Implementers Forum.
     pub vendor_id: u16,
-    /// Product, as assigned by the vendor.
+    /// Product id, assigned by the vendor.
     pub product_id: u16,
     /// Serial number, if it has one.
     pub serial: Option<String>,
-    /// Interface of the device, if it has several.
+    /// Interface number, if the device has several interfaces.
     pub interface: Option<u8>,
-    /// Where the system has it now.
+    /// Current device path in the system.
     pub path: String,
-    /// How it is connected.
+    /// Connection type.
     pub bus: HidBus,
-    /// Whether it tells pressure; `None` if that is not known before it is opened.
+    /// Whether it reports pressure; `None` if this is unknown before the pen is opened.
     pub has_pressure: Option<bool>,
 }
 
-/// The pens with their names filled in, in the order of the names.
+/// Returns the pens with their ids set, sorted by id.
 pub fn with_ids(mut pens: Vec<HidPen>) -> Vec<HidPen> {
     pens.sort_by(|a, b| a.path.cmp(&b.path));
     pens.dedup_by(|b, a| a.path == b.path);
     for pen in &mut pens {
         pen.id = format!("hid:{:04x}:{:04x}", pen.vendor_id, pen.product_id);
         if let Some(serial) = pen.serial.as_deref().map(str::trim).filter(|serial| !serial.is_empty()) {
-            // A name is typed and stored: no spaces, no control characters.
+            // Ids are typed and stored, so they have no spaces or control characters.
             let plain = serial.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' });
             pen.id.push(':');
             pen.id.extend(plain.take(64));
@@ -59,7 +59,7 @@ pub fn with_ids(mut pens: Vec<HidPen>) -> Vec<HidPen> {
     pens
 }
 
-/// Adds what tells them apart to names that are there more than once.
+/// Appends a distinguishing suffix to ids that occur more than once.
 fn tell_apart(pens: &mut [HidPen], what: impl Fn(&HidPen) -> Option<String>) {
     let ids: Vec<String> = pens.iter().map(|pen| pen.id.clone()).collect();
     for pen in pens {
@@ -71,27 +71,27 @@ fn tell_apart(pens: &mut [HidPen], what: impl Fn(&HidPen) -> Option<String>) {
     }
 }
 
-/// File for the rule of [`udev_rule`].
+/// Path of the file for the rule of [`udev_rule`].
 pub const UDEV_RULES_FILE: &str = "/etc/udev/rules.d/70-shagreen-pen.rules";
 
-/// The line by which udev lets the person at the machine read the pen.
+/// The udev rule that lets the logged-in person read the pen.
 pub fn udev_rule(pen: &HidPen) -> String {
     let (vendor_id, product_id) = (pen.vendor_id, pen.product_id);
     let device = match pen.bus {
         HidBus::Usb => {
             format!("ATTRS{{idVendor}}==\"{vendor_id:04x}\", ATTRS{{idProduct}}==\"{product_id:04x}\"")
         }
-        // Only USB devices have such attributes; the others are known by the name of their parent.
+        // Only USB devices have these attributes; others are matched by the name of their parent device.
         _ => format!("KERNELS==\"*:{vendor_id:04X}:{product_id:04X}.*\""),
     };
     format!("KERNEL==\"hidraw*\", {device}, TAG+=\"uaccess\"")
 }
 
-/// The error of a pen that the system refuses, with what to do.
+/// Error for a pen whose access the system refuses, with instructions.
 pub(crate) fn denied(pen: &HidPen) -> DeviceError {
     let message = if cfg!(target_os = "linux") {
         format!(
-            "the system does not let you read the pen {} ({}). Write the line\n  {}\ninto {UDEV_RULES_FILE}, as by\n  echo '{}' | sudo tee {UDEV_RULES_FILE}\nthen run\n  sudo udevadm control --reload && sudo udevadm trigger\nand plug the pen in again",
+            "the system does not let you read the pen {} ({}). Write the line\n  {}\ninto {UDEV_RULES_FILE}, for example by\n  echo '{}' | sudo tee {UDEV_RULES_FILE}\nthen run\n  sudo udevadm control --reload && sudo udevadm trigger\nand plug the pen in again",
             pen.name,
             pen.path,
             udev_rule(pen),
@@ -99,7 +99,7 @@ pub(crate) fn denied(pen: &HidPen) -> DeviceError {
         )
     } else {
         format!(
-            "the system does not let this program read the pen {}; allow it in the system's settings for privacy (input monitoring), or use the system's driver",
+            "the system does not let this program read the pen {}; allow it in the system's privacy settings (input monitoring), or use the system's pen driver",
             pen.name
         )
     };
@@ -135,7 +135,7 @@ mod tests {
         assert_eq!(one, ["hid:056a:0374:8JH_01_".trim_end_matches('_')]);
         assert_eq!(one, ids(vec![pen("/dev/hidraw7", Some("8JH 01"), Some(0))]));
         assert_eq!(ids(vec![pen("/dev/hidraw3", Some("  "), None)]), ["hid:056a:0374"]);
-        // Listed once for each of its usages.
+        // The system lists a pen once for each of its usages.
         assert_eq!(ids(vec![pen("a", None, None), pen("a", None, None)]), ["hid:056a:0374"]);
     }
 

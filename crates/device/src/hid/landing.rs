@@ -1,38 +1,38 @@
-//! How fast a pen came down when it tapped: an estimate, since no pen measures it.
+//! Estimation of the impact speed of a pen's taps. No pen measures it, so the value is an estimate.
 //!
-//! Where a pen tells its height, the speed is that of the last heights ahead of the contact. Else it is told from how
-//! fast the force rises: at the beginning of a contact of stiffness `k`, a tip that comes down at `v` presses by
-//! `dF/dt = k v`. The stiffness of a hand's grip, the pen's tip and the pad in a row is not known for the pen at hand, so
-//! [`STIFFNESS_N_PER_M`] stands for all; and a pen reports each 4 to 8 ms, so that short taps are underestimated. The
-//! estimate orders taps by speed; its scale is nominal.
+//! If a pen reports its height, the speed comes from the last heights before the contact. Otherwise it comes from the
+//! rise of the force: at the start of a contact of stiffness `k`, a tip with impact speed `v` presses with
+//! `dF/dt = k v`. The stiffness of grip, pen tip and pad in series is unknown for the actual pen, so
+//! [`STIFFNESS_N_PER_M`] is used for all. A pen also reports only every 4 to 8 ms, so short taps are underestimated.
+//! The estimate ranks taps by speed; its scale is nominal.
 
 use std::collections::VecDeque;
 
-/// Stiffness taken for the contact of a pen with a pad, in N/m: a tip that gives by 0.4 mm under 4 N.
+/// Assumed stiffness of the contact of a pen with a pad, in N/m: 0.4 mm of deflection under 4 N.
 pub const STIFFNESS_N_PER_M: f64 = 1e4;
-/// Fastest landing that is told, in m/s: hands are slower.
+/// Highest impact speed that is returned, in m/s; hands are slower.
 const MAX_LANDING_MPS: f64 = 3.0;
 
-/// Reports of a contact that are waited for.
+/// Number of reports of a contact that the force-based estimate uses.
 const N_RISING: u32 = 3;
-/// Heights and forces further apart in time than this tell nothing, in s.
+/// Longest gap between heights or forces that an estimate uses, in s.
 const MAX_GAP_SECS: f64 = 0.050;
 
-/// A landing of the tip.
+/// Contact onset of the tip with its impact speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landing {
-    /// When the tip was first reported to touch, in s on the clock of the reports.
+    /// Time of the first report with contact, in s on the clock of the reports.
     pub time_secs: f64,
-    /// How fast it came down in m/s, estimated: see the module.
+    /// Impact speed in m/s, estimated as the module describes.
     pub speed_mps: f32,
-    /// Whether it was told from heights; else from the force.
+    /// Whether the estimate is based on heights; otherwise on the force.
     pub is_from_height: bool,
 }
 
-/// What is remembered from report to report.
+/// State of the impact speed estimate between reports.
 #[derive(Clone, Debug, Default)]
 pub struct LandingEstimator {
-    /// Times and heights of the last reports in the air.
+    /// Times and heights of the last reports without contact.
     heights: VecDeque<(f64, f64)>,
     last_in_air_secs: Option<f64>,
     contact: Option<Contact>,
@@ -49,7 +49,7 @@ struct Contact {
 }
 
 impl LandingEstimator {
-    /// Takes a report in; gives a landing once it can be told, which by force takes three reports.
+    /// Processes a report. Returns a contact onset once its speed is known; with force only, this takes three reports.
     pub fn report(
         &mut self,
         time_secs: f64,
@@ -83,12 +83,12 @@ impl LandingEstimator {
         landing
     }
 
-    /// Forgets everything: the device is gone, or another pen has come.
+    /// Clears the state, for a device that was unplugged or another pen.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// The first report of a contact.
+    /// Processes the first report of a contact.
     fn land(&mut self, time_secs: f64, force_n: f64) -> Option<Landing> {
         let recent = |(time, _): &&(f64, f64)| time_secs - time <= MAX_GAP_SECS;
         let (first, last) = (self.heights.iter().find(recent), self.heights.back());
@@ -99,7 +99,7 @@ impl LandingEstimator {
                 is_from_height: true,
             })
         });
-        // In the air there was no force; when the last report there was long ago, nothing is known of the rise.
+        // Without contact the force is zero. If the last report without contact is too old, the rise is unknown.
         let gap_secs = self.last_in_air_secs.map(|last| time_secs - last);
         let rise_nps =
             gap_secs.filter(|gap| (1e-4..=MAX_GAP_SECS).contains(gap)).map_or(0.0, |gap| force_n / gap);
@@ -131,7 +131,7 @@ impl Contact {
 mod tests {
     use super::{Landing, LandingEstimator, STIFFNESS_N_PER_M};
 
-    /// Landings of a pen that comes down at `speed_mps` from 1 cm, reporting each `step_secs`, and stays 50 ms.
+    /// Contact onsets of a pen that descends at `speed_mps` from 1 cm, reports every `step_secs`, and stays for 50 ms.
     fn landings(speed_mps: f64, step_secs: f64, tells_height: bool) -> Vec<Landing> {
         let mut estimator = LandingEstimator::default();
         let contact_secs = 0.01 / speed_mps;
@@ -140,7 +140,7 @@ mod tests {
             .filter_map(|i| {
                 let time = f64::from(i) * step_secs;
                 let depth_m = (time - contact_secs) * speed_mps;
-                // The tip yields for 20 ms and is then held.
+                // The tip deflects for 20 ms and is then held.
                 let force_n = STIFFNESS_N_PER_M * depth_m.clamp(0.0, 0.02 * speed_mps);
                 let height_m = tells_height.then_some((-depth_m).max(0.0));
                 estimator.report(time, height_m, force_n, depth_m > 0.0)
@@ -167,7 +167,7 @@ mod tests {
                 let found = landings(speed_mps, step_secs, false);
                 assert_eq!(found.len(), 1);
                 let share = f64::from(found[0].speed_mps) / speed_mps;
-                // At least one whole step lies in the rise.
+                // At least one whole step lies within the rise.
                 assert!(!found[0].is_from_height && (share - 1.0).abs() < 1e-5, "{share}");
             }
         }
@@ -190,7 +190,7 @@ mod tests {
         }
         estimator.forget();
         assert_eq!(estimator.report(0.2, None, 0.0, false), None);
-        // A long silence, then pressed already.
+        // After a long silence, the pen is already pressed.
         for i in 0..20 {
             assert_eq!(estimator.report(5.0 + f64::from(i) * 0.005, None, 2.0, true), None);
         }

@@ -1,7 +1,7 @@
-//! A pen that is read while it is used: it may be unplugged and plugged in again at any time.
+//! Live reading of a pen that may be unplugged and plugged in at any time.
 //!
-//! A thread of its own reads reports and sends touches to the engine and moments to the window. It waits for a pen that
-//! is not there, by its identity, and never takes another in its place.
+//! A dedicated thread reads reports and sends touches to the engine and pen samples to the window. It waits for a
+//! missing pen by its id and never uses another pen instead.
 
 mod reader;
 
@@ -21,93 +21,94 @@ use crate::live::LiveInput;
 use crate::pressure::PressureMap;
 use crate::urgency::run_before_others;
 
-/// Moments that wait for the window at most: at 1000 reports a second, four seconds.
+/// Capacity of the queue of pen samples to the window: four seconds at 1000 reports per second.
 pub const N_MOMENTS: usize = 4096;
-/// Longest that a report is waited for before commands are looked at, in s.
+/// Longest wait for a report before commands are processed.
 const READ_TIMEOUT: Duration = Duration::from_millis(20);
-/// How often a pen that is not there is looked for.
+/// Interval between two searches for a missing pen.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
 
 /// A device that sends reports.
 pub trait ReportSource: Send {
-    /// Its report descriptor.
+    /// Returns the report descriptor.
     ///
     /// # Errors
-    /// [`DeviceErrorKind::Lost`] if it is gone.
+    /// [`DeviceErrorKind::Lost`] if the device was disconnected.
     fn descriptor(&mut self) -> Result<Vec<u8>, DeviceError>;
 
-    /// Waits for a report for at most `timeout` and writes as much of it to `buffer` as there is room for: its length,
+    /// Waits for a report for at most `timeout`. Writes as much of it to `buffer` as fits. Returns its length in bytes,
     /// or zero if there was none.
     ///
     /// # Errors
-    /// [`DeviceErrorKind::Lost`] if the device is gone.
+    /// [`DeviceErrorKind::Lost`] if the device was disconnected.
     fn read(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, DeviceError>;
 }
 
-/// Where pens are plugged in.
+/// The system's list of connected pens.
 pub trait PenBus: Send {
-    /// The pens that are there now. None is opened.
+    /// Lists the connected pens. None is opened.
     ///
     /// # Errors
-    /// [`DeviceErrorKind::Unavailable`] if the system does not tell.
+    /// [`DeviceErrorKind::Unavailable`] if the system cannot list devices.
     fn list(&mut self) -> Result<Vec<HidPen>, DeviceError>;
 
     /// Opens a pen for reading.
     ///
     /// # Errors
-    /// [`DeviceErrorKind::Denied`] with what to do about it, [`DeviceErrorKind::NotFound`],
-    /// [`DeviceErrorKind::Busy`] or [`DeviceErrorKind::Backend`].
+    /// [`DeviceErrorKind::Denied`] with instructions, [`DeviceErrorKind::NotFound`], [`DeviceErrorKind::Busy`] or
+    /// [`DeviceErrorKind::Backend`].
     fn open(&mut self, pen: &HidPen) -> Result<Box<dyn ReportSource>, DeviceError>;
 }
 
-/// Which pen is read, and how.
+/// Choice of the pen, and settings for its reports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PenOptions {
-    /// Its name: [`HidPen::id`].
+    /// Id of the pen: [`HidPen::id`].
     pub id: String,
-    /// How reports become touches.
+    /// Conversion of reports to touches.
     pub tracking: TrackerOptions,
-    /// Width and height of its area in m, where the person gives them: for a pen that declares none, or wrong ones.
+    /// Width and height of the active area in m, set by the person for a pen that declares none or wrong ones.
     pub size_m: Option<[f64; 2]>,
 }
 
-/// What happened to a pen.
+/// Event in the connection to a pen.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PenNotice {
-    /// It is read from now on.
+    /// The pen is connected and being read.
     Connected {
         /// The pen.
         pen: HidPen,
-        /// Width and height of its area in m. Without it nothing can be felt, since there is no speed: ask the person.
+        /// Width and height of its active area in m. Without a size there is no speed and therefore no output: ask the
+        /// person.
         size_m: Option<[f64; 2]>,
-        /// Whether that size is likely wrong: see [`crate::hid::pen::PenFormat::is_size_doubtful`].
+        /// Whether that size is probably wrong: see [`crate::hid::pen::PenFormat::is_size_doubtful`].
         is_size_doubtful: bool,
-        /// Whether it tells pressure.
+        /// Whether it reports pressure.
         has_pressure: bool,
-        /// Force at full pressure in N, if it declares it; else the map of pressure is used.
+        /// Force at full pressure in N, if the pen declares it; otherwise the pressure map applies.
         full_n: Option<f64>,
     },
-    /// It went away; it is looked for and read again when it is back.
+    /// The pen was disconnected. It is searched for and read again when it returns.
     Lost(DeviceError),
-    /// It is not there or cannot be read; it is tried again each second. Told once for each reason.
+    /// The pen is missing or cannot be read. It is retried every second; each reason is reported once.
     Waiting(DeviceError),
 }
 
-/// How reading goes.
+/// State and counters of pen reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PenCounts {
     /// Whether a pen is being read.
     pub is_connected: bool,
-    /// Reports that were understood.
+    /// Number of decoded reports.
     pub n_reports: u64,
-    /// Reports that were none of the pen's, or nonsense.
+    /// Number of ignored reports, which are invalid or not from the pen.
     pub n_ignored: u64,
-    /// Moments that found no room on their way to the window.
+    /// Number of pen samples that were dropped because the queue to the window was full.
     pub n_dropped: u64,
 }
 
-/// Counters of both ends.
+/// Counters that both threads share.
 #[derive(Debug, Default)]
 struct Shared {
     is_connected: AtomicBool,
@@ -127,16 +128,16 @@ pub struct PenThread {
 }
 
 impl PenThread {
-    /// Starts to look for a pen and to read it; touches go to `live`, if there is an engine already.
+    /// Starts to search for a pen and to read it. Touches go to `live` if an engine exists already.
     ///
     /// # Errors
-    /// [`DeviceErrorKind::Unavailable`] if the system starts no thread.
+    /// [`DeviceErrorKind::Unavailable`] if the system cannot start a thread.
     pub fn start(
         bus: impl PenBus + 'static,
         options: PenOptions,
         live: Option<LiveInput>,
     ) -> Result<Self, DeviceError> {
-        // At most as many notices as a person can read; what finds no room was said before.
+        // The queue holds more notices than a person can read; later ones are dropped.
         let (notices_in, notices) = sync_channel(64);
         let (moments_in, moments) = RingBuffer::new(N_MOMENTS);
         let (commands, commands_out) = channel();
@@ -148,7 +149,7 @@ impl PenThread {
         });
         let thread = thread.map_err(|error| {
             let message =
-                format!("the system starts no thread to read the pen: {error}; close other programs");
+                format!("the system cannot start a thread to read the pen: {error}; close other programs");
             DeviceError::new(DeviceErrorKind::Unavailable, message)
         })?;
         Ok(Self { commands: Some(commands), moments, notices, shared, thread: Some(thread) })
@@ -159,34 +160,34 @@ impl PenThread {
         self.command(Command::Live(live));
     }
 
-    /// Takes another map for pressure from now on.
+    /// Sets the pressure map from now on.
     pub fn set_pressure_map(&self, map: PressureMap) {
         self.command(Command::Map(map));
     }
 
-    /// Takes `size_m` (width, height) for the area from now on; `None` is what the pen declares. A stroke in progress ends
-    /// where that is another than before, and goes on where it is not.
+    /// Sets the size (width, height) of the active area in m; `None` uses the size that the pen declares. A new size
+    /// ends a stroke in progress; the same size does not.
     pub fn set_size_m(&self, size_m: Option<[f64; 2]>) {
         self.command(Command::Size(size_m));
     }
 
-    /// Ends the thread, the tip lifted, and gives back the way into the engine that it had last, for the next pen; this
-    /// takes a few hundredths of a second. There is none where it was given none.
+    /// Lifts the tip and ends the thread, which takes a few hundredths of a second. Returns the engine's live input for
+    /// the next pen, or `None` if the thread never had one.
     pub fn finish(mut self) -> Option<LiveInput> {
         self.end()
     }
 
-    /// The oldest moment that has not been taken yet.
+    /// Takes the oldest pen sample from the queue.
     pub fn next_moment(&mut self) -> Option<PenMoment> {
-        self.moments.pop().ok() // Empty: there is none.
+        self.moments.pop().ok() // The queue is empty.
     }
 
-    /// The oldest notice that has not been taken yet.
+    /// Takes the oldest notice from the queue.
     pub fn next_notice(&self) -> Option<PenNotice> {
-        self.notices.try_recv().ok() // Empty: there is none.
+        self.notices.try_recv().ok() // The queue is empty.
     }
 
-    /// How reading goes.
+    /// Current state and counters.
     pub fn counts(&self) -> PenCounts {
         PenCounts {
             is_connected: self.shared.is_connected.load(Ordering::Relaxed),
@@ -198,7 +199,7 @@ impl PenThread {
 
     fn command(&self, command: Command) {
         if let Some(commands) = &self.commands {
-            commands.send(command).ok(); // The thread ends only with this handle.
+            commands.send(command).ok(); // The thread ends only after this handle.
         }
     }
 }
@@ -206,7 +207,7 @@ impl PenThread {
 impl PenThread {
     fn end(&mut self) -> Option<LiveInput> {
         drop(self.commands.take());
-        // A panic of a bus that is not ours has been printed by then.
+        // If a third-party `PenBus` panicked, the panic message has been printed already.
         self.thread.take()?.join().ok()?
     }
 }

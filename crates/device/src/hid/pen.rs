@@ -1,8 +1,9 @@
-//! Which reports of a device are of a pen, and what they say.
+//! Detection of pen reports in a descriptor, and their decoding.
 //!
-//! A report is of a pen if it has absolute X and Y and a tip, in an application collection that is a digitizer or a
-//! pen; or in another one (a maker's own, or a mouse) if it tells the pressure of a tip too. Touch screens and touch
-//! pads are none. A maker's copy of the usages of digitizers (usage page 0xFF0D) is read like the original.
+//! A report is a pen's report if it has absolute X and Y and a tip, in an application collection that is a digitizer or
+//! a pen. In another application collection (vendor-defined, or a mouse) it must also have a tip pressure. Touch
+//! screens and touch pads are not pens. Wacom's copy of the digitizer usages (usage page 0xFF0D) is read like the
+//! original.
 
 mod fields;
 mod known;
@@ -10,118 +11,118 @@ mod known;
 use crate::hid::descriptor::Descriptor;
 use crate::hid::pen::fields::{PenFields, Slot};
 
-/// One report of a pen, in SI units where the device states them.
-#[expect(clippy::struct_excessive_bools, reason = "a pen has so many independent switches")]
+/// One decoded pen report, in SI units where the device declares units.
+#[expect(clippy::struct_excessive_bools, reason = "the switches of a pen are independent")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PenReport {
-    /// Place from the left edge of the area, as a share of its width, 0..1.
+    /// Position from the left edge as a fraction of the active area's width, 0..1.
     pub x_share: f64,
-    /// Place from the upper edge of the area, as a share of its height, 0..1.
+    /// Position from the upper edge as a fraction of the active area's height, 0..1.
     pub y_share: f64,
-    /// Place from the left edge, in m, where the size of the area is known.
+    /// Position from the left edge in m, if the size of the area is known.
     pub x_m: Option<f64>,
-    /// Place from the upper edge, in m, where the size of the area is known.
+    /// Position from the upper edge in m, if the size of the area is known.
     pub y_m: Option<f64>,
-    /// How hard the tip is pressed, as a share of full pressure, 0..1.
+    /// Tip pressure as a fraction of full pressure, 0..1.
     pub pressure: Option<f64>,
-    /// How hard the tip is pressed in N, where the device declares it.
+    /// Tip force in N, if the device declares it.
     pub force_n: Option<f64>,
-    /// Whether the tip touches. A device without a switch for it touches where there is pressure.
+    /// Whether the tip touches. Without a tip switch, a pressure above zero counts as touching.
     pub tip: bool,
-    /// Whether the pen is near enough to be followed.
+    /// Whether the pen is in range of the sensor.
     pub in_range: bool,
-    /// The buttons on the barrel.
+    /// State of the two barrel buttons.
     pub barrel: [bool; 2],
-    /// Whether the other end touches, with its eraser.
+    /// Whether the eraser end touches.
     pub eraser: bool,
-    /// Whether the other end points down.
+    /// Whether the eraser end points down.
     pub inverted: bool,
     /// Tilt to the right, in rad.
     pub tilt_x_rad: Option<f64>,
     /// Tilt toward the person, in rad.
     pub tilt_y_rad: Option<f64>,
-    /// Direction in which the pen leans, in rad, as the device counts it.
+    /// Azimuth of the pen, in rad, in the device's convention.
     pub azimuth_rad: Option<f64>,
-    /// Angle between the pen and the surface, in rad.
+    /// Altitude: angle between pen and surface, in rad.
     pub altitude_rad: Option<f64>,
-    /// Turn of the barrel, in rad.
+    /// Rotation around the barrel's axis, in rad.
     pub twist_rad: Option<f64>,
-    /// Height above the surface in m, where the device states its unit.
+    /// Height above the surface in m, if the device declares its unit.
     pub distance_m: Option<f64>,
-    /// Reading of the device's own clock in s; it starts over after [`PenFormat::clock_round_secs`].
+    /// Time of the device's own clock in s; it wraps around after [`PenFormat::clock_round_secs`].
     pub clock_secs: Option<f64>,
-    /// Which of several pens it is, by number.
+    /// Index of the pen, for devices with several pens.
     pub transducer: Option<u32>,
-    /// Which pen it is, by its serial number.
+    /// Serial number of the pen.
     pub serial: Option<u32>,
 }
 
-/// Whether a device is known to be a pen although its descriptor declares none.
+/// Whether a device is a known pen although its descriptor declares none.
 pub fn is_known_pen(vendor_id: u16, product_id: u16) -> bool {
     known::is_known(vendor_id, product_id)
 }
 
 impl PenReport {
-    /// Whether either end touches.
+    /// Whether the tip or the eraser touches.
     pub fn touching(&self) -> bool {
         self.in_range && (self.tip || self.eraser)
     }
 }
 
-/// An axis of the area.
+/// An axis of the active area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenAxis {
-    /// Lowest number.
+    /// Lowest value.
     pub logical_min: i64,
-    /// Highest number.
+    /// Highest value.
     pub logical_max: i64,
-    /// Length of the area along it in m, where it is known.
+    /// Length of the area along this axis in m, if known.
     pub side_m: Option<f64>,
 }
 
-/// How pressure is told.
+/// Range of the pressure values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenPressure {
-    /// Bits of the field, which may be more than its numbers need.
+    /// Size of the field in bits, which may exceed what its values need.
     pub bits: u32,
-    /// Lowest number.
+    /// Lowest value.
     pub logical_min: i64,
-    /// Highest number.
+    /// Highest value.
     pub logical_max: i64,
-    /// The force at the highest number in N, where the device declares it.
+    /// Force at the highest value in N, if the device declares it.
     pub full_n: Option<f64>,
 }
 
-/// One sort of report of a pen.
+/// One type of report of a pen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PenFormat {
-    /// Its first byte, where reports have an id.
+    /// Report id, its first byte, if the device uses report ids.
     pub report_id: Option<u8>,
-    /// Length of the report in bytes, id included.
+    /// Length of the report in bytes, including the id.
     pub n_bytes: usize,
-    /// From left to right.
+    /// Axis from left to right.
     pub x: PenAxis,
-    /// From the upper edge down.
+    /// Axis from the upper edge down.
     pub y: PenAxis,
-    /// Whether the declared size is likely wrong: some tablets declare one length for both sides and for the pressure.
+    /// Whether the declared size is probably wrong: some tablets declare one value for both sides and for the pressure.
     pub is_size_doubtful: bool,
-    /// Pressure of the tip, if it is told.
+    /// Tip pressure, if it is reported.
     pub pressure: Option<PenPressure>,
-    /// Whether tilt is told, along two axes or as azimuth and altitude.
+    /// Whether tilt is reported, either along two axes or as azimuth and altitude.
     pub has_tilt: bool,
-    /// After how long the device's own clock starts over in s, if it has one.
+    /// Period after which the device's own clock wraps around in s, if there is one.
     pub clock_round_secs: Option<f64>,
     fields: PenFields,
 }
 
-/// What is needed to read the pen of a device.
+/// Decoder for the pen reports of a device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PenDecoder {
     formats: Vec<PenFormat>,
 }
 
 impl PenDecoder {
-    /// The pen that a descriptor declares, or `None` if it declares none.
+    /// Returns a decoder for the pen that a descriptor declares, or `None` if it declares none.
     pub fn of_descriptor(descriptor: &Descriptor) -> Option<Self> {
         let mut found: Vec<_> = descriptor
             .reports
@@ -132,12 +133,12 @@ impl PenDecoder {
                 Some(((rank, format.pressure.is_some(), format.size_m().is_some()), format))
             })
             .collect();
-        // A stable order: of equally good reports the first declared.
+        // The sort is stable: among equal ranks, the first declared report comes first.
         found.sort_by_key(|(rank, _)| std::cmp::Reverse(*rank));
         (!found.is_empty()).then(|| Self { formats: found.into_iter().map(|(_, format)| format).collect() })
     }
 
-    /// The pen of a device that is known by its vendor and product although its descriptor declares none; see
+    /// Returns a decoder for a pen that is known by vendor and product although its descriptor declares none; see
     /// [`is_known_pen`].
     pub fn of_known(vendor_id: u16, product_id: u16) -> Option<Self> {
         let (descriptor, not_a_pen) = known::descriptor(vendor_id, product_id)?;
@@ -148,23 +149,24 @@ impl PenDecoder {
         Some(decoder)
     }
 
-    /// The pen of a device: what its descriptor declares, else what is known of it.
+    /// Returns a decoder for the pen that the descriptor declares, or else for the known pen of this vendor and
+    /// product.
     pub fn of_device(descriptor: &Descriptor, identity: Option<(u16, u16)>) -> Option<Self> {
         Self::of_descriptor(descriptor)
             .or_else(|| identity.and_then(|(vendor_id, product_id)| Self::of_known(vendor_id, product_id)))
     }
 
-    /// All sorts of reports of the pen, the best first: there is at least one.
+    /// All types of reports of the pen, best first; at least one.
     pub fn formats(&self) -> &[PenFormat] {
         &self.formats
     }
 
-    /// The best sort of report.
+    /// The best type of report.
     pub fn best(&self) -> &PenFormat {
         &self.formats[0]
     }
 
-    /// The same with an area of `size_m` (width, height), if it is given, whatever the device declares.
+    /// Returns the decoder with an active area of `size_m` (width, height) instead of the declared one, unless `None`.
     #[must_use]
     pub fn with_size_m(mut self, size_m: Option<[f64; 2]>) -> Self {
         if let Some([width_m, height_m]) = size_m {
@@ -177,14 +179,14 @@ impl PenDecoder {
         self
     }
 
-    /// What a report says; `None` if it is none of the pen's, too short, or says nothing of a place.
+    /// Decodes a report. Returns `None` if it is not a pen report, too short, or without a position.
     ///
-    /// Reports may be longer than declared: some systems pad them to the longest.
+    /// Reports may be longer than declared, because some systems pad them to the longest report.
     pub fn decode(&self, report: &[u8]) -> Option<PenReport> {
         self.decode_with_format(report).map(|(_, report)| report)
     }
 
-    /// The same with the sort of report that it was.
+    /// As [`PenDecoder::decode`], together with the type of the report.
     pub fn decode_with_format(&self, report: &[u8]) -> Option<(&PenFormat, PenReport)> {
         let first = report.first();
         let format = self.formats.iter().find(|format| match format.report_id {
@@ -196,7 +198,7 @@ impl PenDecoder {
 }
 
 impl PenFormat {
-    /// Width and height of the area in m, where both are known.
+    /// Width and height of the active area in m, if both are known.
     pub fn size_m(&self) -> Option<[f64; 2]> {
         Some([self.x.side_m?, self.y.side_m?])
     }
@@ -237,7 +239,7 @@ impl PenFormat {
             azimuth_rad: quantity(&fields.azimuth),
             altitude_rad: quantity(&fields.altitude),
             twist_rad: quantity(&fields.twist),
-            // Some count it up, some down from zero.
+            // Some devices count the height up, some count down from zero.
             distance_m: quantity(&fields.distance).map(f64::abs),
             clock_secs: quantity(&fields.clock),
             transducer: number(&fields.transducer).map(|number| number as u32),
@@ -247,7 +249,7 @@ impl PenFormat {
 }
 
 impl PenAxis {
-    /// The share of the range below a number, pulled to 0..1.
+    /// Position of a value within the range, clamped to 0..1; `None` for an empty range.
     fn share(self, count: i64) -> Option<f64> {
         let counts = self.logical_max - self.logical_min;
         (counts > 0).then(|| ((count - self.logical_min) as f64 / counts as f64).clamp(0.0, 1.0))

@@ -1,4 +1,4 @@
-//! A pen whose reports were written down before: they come again in real time, over all that a real pen's go through.
+//! Replay of recorded pen reports in real time, through the same processing as a real pen's.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
@@ -7,19 +7,19 @@ use crate::error::{DeviceError, DeviceErrorKind};
 use crate::hid::identity::{HidBus, HidPen};
 use crate::hid::live::{PenBus, ReportSource};
 
-/// A report and when it comes, in seconds after the replay begins.
+/// A report with its time, in seconds after the start of the replay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReplayedReport {
-    /// When, in seconds.
+    /// Time in seconds.
     pub secs: f64,
-    /// The report.
+    /// Bytes of the report.
     pub bytes: Vec<u8>,
 }
 
-/// When a report came, and which of those that are replayed.
+/// Index of a replayed report, and the time at which it was delivered.
 pub type Came = (usize, Instant);
 
-/// A place where one pen is plugged in, which is no pen.
+/// A simulated list of connected pens with one replayed pen.
 #[derive(Debug)]
 pub struct ReplayBus {
     descriptor: Vec<u8>,
@@ -27,12 +27,12 @@ pub struct ReplayBus {
     came: Option<Sender<Came>>,
 }
 
-/// Id of a pen that is replayed.
+/// Id of a replayed pen.
 pub const REPLAY_ID: &str = "replay";
 
 impl ReplayBus {
-    /// A pen of this descriptor that sends these reports in the order of their times, once, and then is gone; and where it
-    /// says when each was taken.
+    /// A pen with this descriptor that sends the reports once, sorted by time, and then disconnects. The returned
+    /// receiver gets the delivery time of each report.
     pub fn new(descriptor: Vec<u8>, mut reports: Vec<ReplayedReport>) -> (Self, Receiver<Came>) {
         reports.sort_by(|a, b| a.secs.total_cmp(&b.secs));
         let (came, times) = channel();
@@ -59,7 +59,7 @@ impl PenBus for ReplayBus {
     }
 
     fn open(&mut self, _pen: &HidPen) -> Result<Box<dyn ReportSource>, DeviceError> {
-        let gone = || DeviceError::new(DeviceErrorKind::NotFound, "the replay is over");
+        let gone = || DeviceError::new(DeviceErrorKind::NotFound, "the replay has ended");
         Ok(Box::new(Replay {
             descriptor: std::mem::take(&mut self.descriptor),
             reports: std::mem::take(&mut self.reports),
@@ -86,7 +86,7 @@ impl ReportSource for Replay {
     fn read(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, DeviceError> {
         let begun = *self.begun.get_or_insert_with(Instant::now);
         let Some(report) = self.reports.get(self.next) else {
-            return Err(DeviceError::new(DeviceErrorKind::Lost, "the replay is over"));
+            return Err(DeviceError::new(DeviceErrorKind::Lost, "the replay has ended"));
         };
         let due = Duration::from_secs_f64(report.secs.max(0.0)).saturating_sub(begun.elapsed());
         if due > timeout {
@@ -96,32 +96,32 @@ impl ReportSource for Replay {
         std::thread::sleep(due);
         let length = report.bytes.len().min(buffer.len());
         buffer[..length].copy_from_slice(&report.bytes[..length]);
-        self.came.send((self.next, Instant::now())).ok(); // Nobody need listen.
+        self.came.send((self.next, Instant::now())).ok(); // The receiver may be dropped.
         self.next += 1;
         Ok(length)
     }
 }
 
-/// The report descriptor of a plain pen: 100 mm by 100 mm in hundredths of a millimeter, 4096 steps of pressure, tip and
-/// range; [`plain_report`] makes its reports.
+/// Report descriptor of a simple pen: 100 mm × 100 mm in units of 0.01 mm, 4096 pressure levels, tip and in-range
+/// switch. [`plain_report`] makes its reports.
 pub const PLAIN_PEN: &[u8] = &[
-    0x05, 0x0d, // page of digitizers
+    0x05, 0x0d, // usage page: digitizer
     0x09, 0x02, 0xa1, 0x01, // application: pen
     0x09, 0x20, 0xa1, 0x00, // physical: stylus
     0x09, 0x42, 0x09, 0x32, // tip, in range
-    0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x02, 0x81, 0x02, // a bit each
-    0x95, 0x06, 0x81, 0x03, // and six of nothing
+    0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x02, 0x81, 0x02, // one bit each
+    0x95, 0x06, 0x81, 0x03, // six bits of padding
     0x05, 0x01, 0x09, 0x30, 0x09, 0x31, // x, y
-    0x26, 0x10, 0x27, 0x46, 0xe8, 0x03, // 0..10000 are 0..1000
-    0x55, 0x0e, 0x65, 0x11, // hundredths of a centimeter
+    0x26, 0x10, 0x27, 0x46, 0xe8, 0x03, // logical 0..10000, physical 0..1000
+    0x55, 0x0e, 0x65, 0x11, // 0.01 cm
     0x75, 0x10, 0x95, 0x02, 0x81, 0x02, // 16 bits each
     0x05, 0x0d, 0x09, 0x30, // pressure
-    0x26, 0xff, 0x0f, 0x45, 0x00, 0x55, 0x00, 0x65, 0x00, // 0..4095 without a unit
+    0x26, 0xff, 0x0f, 0x45, 0x00, 0x55, 0x00, 0x65, 0x00, // 0..4095, no unit
     0x95, 0x01, 0x81, 0x02, // 16 bits
     0xc0, 0xc0,
 ];
 
-/// A report of [`PLAIN_PEN`]: place in mm from the upper left corner, pressure 0..1, whether the tip touches.
+/// A report of [`PLAIN_PEN`]: position in mm from the upper left corner, pressure 0..1, and whether the tip touches.
 pub fn plain_report(x_mm: f64, y_mm: f64, pressure: f64, touches: bool) -> Vec<u8> {
     let count = |value: f64, most: f64| (value.clamp(0.0, 1.0) * most).round() as u16;
     let [x0, x1] = count(x_mm / 100.0, 10_000.0).to_le_bytes();
@@ -171,7 +171,7 @@ mod tests {
         moments.extend(std::iter::from_fn(|| thread.next_moment()));
         let times: Vec<_> = times.try_iter().collect();
         assert!(is_lost && times.len() == 20 && moments.len() == 20, "{} {}", times.len(), moments.len());
-        // Never early.
+        // No report is early.
         for (i, came) in &times {
             assert!(came.duration_since(times[0].1).as_secs_f64() > 0.008 * *i as f64 - 0.002);
         }

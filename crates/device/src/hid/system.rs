@@ -1,6 +1,6 @@
-//! The HID devices of this machine, by the library `hidapi`.
+//! Access to the HID devices of this machine with the library `hidapi`.
 //!
-//! On Linux its backend in pure Rust is used: nothing of the system is linked.
+//! On Linux, its pure-Rust backend is used, which links no system library.
 
 use std::ffi::CString;
 use std::time::Duration;
@@ -13,7 +13,7 @@ use crate::hid::identity::{HidBus, HidPen, denied, with_ids};
 use crate::hid::live::{PenBus, ReportSource};
 use crate::hid::pen::{PenDecoder, is_known_pen};
 
-/// The pens that are plugged into this machine.
+/// The pens that are connected to this machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SystemPens;
 
@@ -24,20 +24,27 @@ impl PenBus for SystemPens {
     }
 
     fn open(&mut self, pen: &HidPen) -> Result<Box<dyn ReportSource>, DeviceError> {
-        let gone =
-            || DeviceError::new(DeviceErrorKind::NotFound, format!("the pen {} is not there", pen.name));
+        let gone = || {
+            DeviceError::new(
+                DeviceErrorKind::NotFound,
+                format!("the pen {} is not connected; plug it in", pen.name),
+            )
+        };
         let path = CString::new(pen.path.clone()).map_err(|_| gone())?;
         let api = HidApi::new().map_err(|error| unavailable(&error))?;
         let device = api.open_path(&path).map_err(|error| match opening_failed(&error) {
             DeviceErrorKind::Denied => denied(pen),
             DeviceErrorKind::NotFound => gone(),
-            kind => DeviceError::new(kind, format!("the pen {} cannot be opened: {error}", pen.name)),
+            kind => DeviceError::new(
+                kind,
+                format!("the pen {} cannot be opened: {error}; plug it in again", pen.name),
+            ),
         })?;
         Ok(Box::new(SystemPen { device, name: pen.name.clone() }))
     }
 }
 
-/// An open device.
+/// An open pen.
 struct SystemPen {
     device: HidDevice,
     name: String,
@@ -59,17 +66,18 @@ impl ReportSource for SystemPen {
 
 impl SystemPen {
     fn lost(&self, error: &HidError) -> DeviceError {
-        let message = format!("the pen {} is gone ({error}); plug it in again", self.name);
+        let message = format!("the pen {} is disconnected ({error}); plug it in again", self.name);
         DeviceError::new(DeviceErrorKind::Lost, message)
     }
 }
 
 fn unavailable(error: &HidError) -> DeviceError {
-    let message = format!("the system does not list its input devices: {error}; try again");
+    let message = format!("the system cannot list its input devices: {error}; try again");
     DeviceError::new(DeviceErrorKind::Unavailable, message)
 }
 
-/// What kept a device from being opened. The backends say it in words only, with the system's number where there is one.
+/// Maps an error at opening to its kind. The backends report it as text only, with the system's error number if there
+/// is one.
 fn opening_failed(error: &HidError) -> DeviceErrorKind {
     let words = error.to_string().to_lowercase();
     let has = |parts: &[&str]| parts.iter().any(|part| words.contains(part));
@@ -98,10 +106,10 @@ fn opening_failed(error: &HidError) -> DeviceErrorKind {
     }
 }
 
-/// A device as a pen, without opening it: by what the system tells of its descriptor.
+/// Returns a device as a pen, without opening it, from the descriptor or usages that the system lists.
 fn pen_of(device: &DeviceInfo) -> Option<HidPen> {
     let (vendor_id, product_id) = (device.vendor_id(), device.product_id());
-    let path = device.path().to_str().ok()?; // What has no name in text cannot be chosen.
+    let path = device.path().to_str().ok()?; // A path that is not text cannot be chosen.
     let decoder = declared_descriptor(path).map(|bytes| {
         descriptor::parse(&bytes)
             .ok()
@@ -109,7 +117,7 @@ fn pen_of(device: &DeviceInfo) -> Option<HidPen> {
     });
     let is_pen = match &decoder {
         Some(decoder) => decoder.is_some(),
-        // The digitizer page's digitizer and pen.
+        // Usages digitizer and pen of the digitizer page.
         None => {
             device.usage_page() == 0x0d && matches!(device.usage(), 1 | 2)
                 || is_known_pen(vendor_id, product_id)
@@ -129,7 +137,7 @@ fn pen_of(device: &DeviceInfo) -> Option<HidPen> {
         vendor_id,
         product_id,
         serial: text(device.serial_number()),
-        interface: u8::try_from(device.interface_number()).ok(), // -1 is none.
+        interface: u8::try_from(device.interface_number()).ok(), // -1 means none.
         path: path.to_owned(),
         bus: match device.bus_type() {
             BusType::Usb => HidBus::Usb,
@@ -141,11 +149,11 @@ fn pen_of(device: &DeviceInfo) -> Option<HidPen> {
     })
 }
 
-/// The descriptor of a device that is not open, where the system shows it.
+/// Returns the report descriptor of a device that is not open, if the system publishes it.
 fn declared_descriptor(path: &str) -> Option<Vec<u8>> {
     let node = path.strip_prefix("/dev/").filter(|node| node.starts_with("hidraw"))?;
     let file = format!("/sys/class/hidraw/{node}/device/report_descriptor");
-    std::fs::read(file).ok() // Not shown: then the usages that the system lists must do.
+    std::fs::read(file).ok() // Not published: the listed usages are used instead.
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! From the reports of a pen to touches.
+//! Conversion of pen reports to touches.
 
 use crate::hid::clock::ReportClock;
 use crate::hid::landing::{Landing, LandingEstimator};
@@ -9,34 +9,34 @@ use crate::touch::Touch;
 use crate::track::PenSample;
 use shagreen_synth::contact::Contact;
 
-/// How reports become touches.
+/// Settings for the conversion of reports to touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackerOptions {
-    /// How positions become a speed.
+    /// Speed estimator.
     pub speed_filter: SpeedFilter,
-    /// How pressure becomes a force, for a pen that declares none.
+    /// Conversion of pressure to force, for a pen that declares no force.
     pub pressure_map: PressureMap,
 }
 
-/// What a pen did at one moment.
+/// One pen sample: a report with the quantities derived from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenMoment {
-    /// When, in s: by the pen's own clock if it has one, else when the report arrived.
+    /// Time in s, by the pen's own clock if it has one, otherwise by the arrival of the report.
     pub time_secs: f64,
-    /// What the pen reported.
+    /// The decoded report.
     pub report: PenReport,
-    /// Place to the right of and above the middle of the area, in m, where its size is known and the pen in range.
+    /// Position right of and above the center of the active area, in m, if its size is known and the pen is in range.
     pub place_m: Option<[f64; 2]>,
-    /// Force in N, declared or by the map; zero while nothing touches.
+    /// Force in N, declared or from the pressure map; zero without contact.
     pub force_n: f64,
-    /// What the engine is told: lifted where the size of the area is not known, since then there is no speed.
+    /// Touch for the engine. It is lifted if the size of the area is unknown, because there is no speed then.
     pub touch: Touch,
-    /// A landing that can be told as of this report.
+    /// Contact onset that can be estimated with this report.
     pub landing: Option<Landing>,
 }
 
 impl PenMoment {
-    /// The moment as a sample of a stroke; `None` where there is no place in m.
+    /// Returns the sample of a stroke, or `None` without a position in m.
     pub fn sample(&self) -> Option<PenSample> {
         let [x_m, y_m] = self.place_m?;
         let touching = self.report.touching();
@@ -44,13 +44,13 @@ impl PenMoment {
     }
 }
 
-/// The samples of a stretch of moments, for [`crate::track::Track::new`]: out of range, or without a size, there are
-/// none.
+/// Converts pen samples to stroke samples, for [`crate::track::Track::new`]. Pen samples out of range or without a
+/// known size are skipped.
 pub fn stroke_samples(moments: &[PenMoment]) -> Vec<PenSample> {
     moments.iter().filter_map(PenMoment::sample).collect()
 }
 
-/// What is remembered from report to report.
+/// Converter of pen reports to touches, with its state between reports.
 #[derive(Clone, Debug)]
 pub struct PenTracker {
     decoder: PenDecoder,
@@ -62,7 +62,7 @@ pub struct PenTracker {
     last_pen: Option<Pen>,
 }
 
-/// Which pen it is, and which end.
+/// Identity of the pen: transducer index, serial number, and whether it is inverted.
 type Pen = (Option<u32>, Option<u32>, bool);
 
 impl PenTracker {
@@ -80,18 +80,18 @@ impl PenTracker {
         }
     }
 
-    /// What is read, and how.
+    /// The decoder of the reports.
     pub fn decoder(&self) -> &PenDecoder {
         &self.decoder
     }
 
-    /// Takes `map` for pressure from the next report on.
+    /// Sets the pressure map from the next report on.
     pub fn set_pressure_map(&mut self, map: PressureMap) {
         self.options.pressure_map = map;
     }
 
-    /// What the pen did by a report that arrived at `arrival_secs` (on any clock that does not go back); `None` if it
-    /// is no report of a pen.
+    /// Processes a report that arrived at `arrival_secs`, on any clock that does not decrease. Returns `None` if it is
+    /// not a pen report.
     pub fn report(&mut self, arrival_secs: f64, bytes: &[u8]) -> Option<PenMoment> {
         let (format, report) = self.decoder.decode_with_format(bytes)?;
         let size_m = format.size_m();
@@ -128,7 +128,7 @@ impl PenTracker {
         Some(PenMoment { time_secs, report, place_m, force_n, touch, landing })
     }
 
-    /// The touch when the pen is gone: lifted where it was last.
+    /// Returns the touch after the pen was disconnected: lifted at its last position.
     pub fn lift(&mut self) -> Touch {
         self.estimator.lift();
         self.landings.forget();

@@ -1,21 +1,21 @@
-//! What the numbers of a field stand for, in SI units: where a descriptor states it, and where that can be true.
+//! Physical quantities of a field in SI units, if the descriptor declares them and they are plausible.
 
 use crate::hid::descriptor::Field;
 
-/// Shortest and longest side of a pen's area that is believed, in m.
+/// Plausible range for the side length of an active area, in m.
 const SIDES_M: (f64, f64) = (0.01, 2.0);
-/// Lowest and highest full force of a pen that is believed, in N.
+/// Plausible range for the full force of a pen, in N.
 const FULL_FORCES_N: (f64, f64) = (0.5, 50.0);
-/// Longest round of a clock that is believed, in s; the shortest is [`SHORTEST_TICK_SECS`].
+/// Longest plausible period of a clock, in s; the shortest tick is [`SHORTEST_TICK_SECS`].
 const LONGEST_ROUND_SECS: f64 = 1e7;
-/// Shortest tick of a clock that is believed, in s.
+/// Shortest plausible tick of a clock, in s.
 const SHORTEST_TICK_SECS: f64 = 1e-7;
 /// Length of an inch, in m.
 const INCH_M: f64 = 0.0254;
-/// A slug times an inch over a second squared, in N: the force of the English system of HID.
+/// One slug inch per second squared in N: the unit of force in HID's English system.
 const SLUG_INCH_PER_S2_N: f64 = 14.593_903 * INCH_M;
 
-/// A straight line from the values of a field to a quantity.
+/// Linear map from the values of a field to a physical quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
     at_zero: f64,
@@ -23,18 +23,18 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// The quantity of a value.
+    /// Returns the quantity for a value.
     pub(crate) fn of(self, value: i64) -> f64 {
         self.at_zero + self.per_count * value as f64
     }
 
-    /// How much the quantity changes from one value to the next.
+    /// Change of the quantity from one value to the next.
     pub(crate) fn per_count(self) -> f64 {
         self.per_count
     }
 }
 
-/// What a unit is a unit of. The English and the SI system have a rotation variant each, for angles.
+/// Unit system of HID. The SI and the English system each have a rotation variant for angles.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum System {
     Centimeters,
@@ -53,7 +53,7 @@ fn system(unit: u32) -> Option<System> {
     }
 }
 
-/// The line through the ends of the logical and the physical range, times `factor` and the power of ten.
+/// Linear map through the ends of the logical and the physical range, times `factor` and the power of ten.
 fn scale(field: &Field, factor: f64) -> Option<Scale> {
     let counts = field.logical_max - field.logical_min;
     if counts <= 0 || field.physical_max <= field.physical_min {
@@ -69,22 +69,22 @@ fn is_within(value: f64, (low, high): (f64, f64)) -> bool {
     (low..=high).contains(&value)
 }
 
-/// The length of an axis in m, from its lowest to its highest value.
+/// Length of an axis in m, from its lowest to its highest value.
 ///
-/// Many descriptors state cubic inches (0x33) where they mean inches: the power of the length is not looked at.
+/// Many descriptors declare cubic inches (0x33) but mean inches, so the exponent of the length is ignored.
 pub(crate) fn side_m(field: &Field) -> Option<f64> {
     let meters = length_m(field.unit)?;
     let side_m = scale(field, meters)?.per_count * (field.logical_max - field.logical_min) as f64;
     is_within(side_m, SIDES_M).then_some(side_m)
 }
 
-/// A distance in m.
+/// Map to a distance in m.
 pub(crate) fn distance_scale(field: &Field) -> Option<Scale> {
     scale(field, length_m(field.unit)?)
 }
 
 fn length_m(unit: u32) -> Option<f64> {
-    // A length and nothing else: no mass, no time.
+    // The unit is a length alone, without mass or time.
     let is_length = unit & 0xf0 != 0 && unit & !0xff == 0;
     match system(unit)? {
         System::Centimeters if is_length => Some(0.01),
@@ -93,9 +93,9 @@ fn length_m(unit: u32) -> Option<f64> {
     }
 }
 
-/// A force in N.
+/// Map to a force in N.
 pub(crate) fn force_scale(field: &Field) -> Option<Scale> {
-    /// Length times mass over time squared.
+    /// Unit code of length × mass / time².
     const FORCE: u32 = 0xe110;
     let newtons = match system(field.unit)? {
         System::Centimeters if field.unit & !0xf == FORCE => 1e-5,
@@ -106,13 +106,14 @@ pub(crate) fn force_scale(field: &Field) -> Option<Scale> {
     is_within(scale.of(field.logical_max), FULL_FORCES_N).then_some(scale)
 }
 
-/// An angle in rad. Without a unit, a range that reaches to 180 or less is in degrees, and a longer one in hundredths.
+/// Map to an angle in rad. Without a unit, a range up to 360 is read as degrees, and a larger one as hundredths of a
+/// degree.
 pub(crate) fn angle_scale(field: &Field) -> Option<Scale> {
     let degree = 1_f64.to_radians();
     match system(field.unit) {
         Some(System::Radians) => scale(field, 1.0),
         Some(System::Degrees) => scale(field, degree),
-        // A length is no angle: the unit was left over from the field ahead, as happens.
+        // Some devices keep the unit of length of the previous field here, so it is ignored.
         _ => {
             let end = field.physical_max.abs().max(field.physical_min.abs()) as f64;
             let per_unit = if end <= 360.0 { degree } else { 0.01 * degree };
@@ -121,13 +122,13 @@ pub(crate) fn angle_scale(field: &Field) -> Option<Scale> {
     }
 }
 
-/// A time in s. A scan time without a unit counts tenths of a millisecond, as pens for Windows must.
+/// Map to a time in s. Without a unit, a scan time counts 0.1 ms, as Windows requires of pens.
 pub(crate) fn time_scale(field: &Field) -> Option<Scale> {
-    /// Time, and nothing else, in either system of units.
+    /// Unit code of time alone, in any unit system.
     const TIME: u32 = 0x1000;
     let scale = match field.unit {
         unit if unit & !0xf == TIME => scale(field, 1.0)?,
-        // Another unit was left over from the field ahead, as happens.
+        // Some devices keep another unit of the previous field here, so it is ignored.
         _ => Scale { at_zero: 0.0, per_count: 1e-4 },
     };
     let round_secs = scale.per_count * (field.logical_max - field.logical_min) as f64;
@@ -156,7 +157,7 @@ mod tests {
 
     fn check(found: Option<f64>, expected: f64) {
         let found = found.unwrap();
-        // Sums and products of a few numbers.
+        // The tolerance covers sums and products of a few numbers.
         assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1e-3), "{found} for {expected}");
     }
 
@@ -167,7 +168,7 @@ mod tests {
         check(side_m(&field((0, 32_767), (0, 10_000), 0x13, 0x0d)), 0.254);
         check(side_m(&field((0, 32_767), (0, 10_000), 0x33, 0x0d)), 0.254);
         check(side_m(&field((-100, 100), (0, 200), 0x11, 0x0f)), 0.2);
-        // No physical range is that of the numbers themselves.
+        // Without a physical range, the logical range applies.
         check(side_m(&field((0, 2000), (0, 0), 0x11, 0x0e)), 0.2);
     }
 
@@ -186,7 +187,7 @@ mod tests {
         check(Some(scale.of(4095)), 4.016);
         check(Some(scale.of(0)), 0.0);
         check(Some(scale.per_count()), 4.016 / 4095.0);
-        // 1 slug inch per second squared is a twelfth of a pound of force, 4.448222 N.
+        // One slug inch per second squared is 1/12 pound-force; one pound-force is 4.448222 N.
         let english = force_scale(&field((0, 1000), (0, 10), 0xe113, 0)).unwrap();
         assert!((english.of(1000) - 10.0 * 4.448_222 / 12.0).abs() < 1e-5);
         assert_eq!(force_scale(&field((0, 4095), (0, 4016), 0x11, 2)), None);

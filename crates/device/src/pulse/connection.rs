@@ -1,4 +1,4 @@
-//! A line to the server, and questions over it.
+//! Connection to the sound server, with requests and replies.
 
 use std::ffi::CString;
 use std::io::{Cursor, Read as _, Write as _};
@@ -12,26 +12,26 @@ use pulseaudio::protocol::{
     read_descriptor, write_command_message,
 };
 
-/// Why there is no answer.
+/// Reasons for a missing or failed reply.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
-    /// No server is named, or none listens there.
-    #[error("there is none here")]
+    /// No server is configured, or none listens there.
+    #[error("no sound server is running here")]
     NoServer,
-    /// It listens, and says nothing.
+    /// The connection failed or timed out.
     #[error("{0}")]
     Io(#[from] std::io::Error),
-    /// It says something else.
+    /// The server sent an error or an invalid message.
     #[error("{0}")]
     Protocol(#[from] ProtocolError),
 }
 
-/// How long a question may wait for its answer.
+/// Time limit for a reply.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Longest message that is believed, in bytes: lists of sinks are some kilobytes.
+/// Longest valid message, in bytes; lists of sinks are some kilobytes.
 const MAX_MESSAGE: u32 = 16 * 1024 * 1024;
 
-/// A message from the server: its number, what it is, and what follows for a reply.
+/// A message from the server: its sequence number, its command, and the payload of a reply.
 pub(super) struct Message {
     pub(super) seq: u32,
     pub(super) command: Command,
@@ -39,14 +39,14 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// What a reply says.
+    /// Decodes the payload of a reply.
     pub(super) fn reply<T: TagStructRead>(mut self, version: u16) -> Result<T, Failure> {
         let mut reader = TagStructReader::new(&mut self.payload, version);
         Ok(T::read(&mut reader, version)?)
     }
 }
 
-/// A line to the server of this session.
+/// A connection to the server of this session.
 pub(super) struct Connection {
     socket: UnixStream,
     version: u16,
@@ -55,14 +55,14 @@ pub(super) struct Connection {
 }
 
 impl Connection {
-    /// Calls the server that the environment names.
+    /// Connects to the server that the environment names.
     pub(super) fn open() -> Result<Self, Failure> {
         let path = socket_path().ok_or(Failure::NoServer)?;
         let socket = UnixStream::connect(path).map_err(|_| Failure::NoServer)?;
         socket.set_read_timeout(Some(PATIENCE))?;
         socket.set_write_timeout(Some(PATIENCE))?;
         let mut connection = Self { socket, version: MAX_VERSION, next_seq: 0, out: Vec::new() };
-        // Without a cookie a server that trusts this user answers all the same.
+        // Without a cookie, a server that trusts this user still replies.
         let cookie = cookie_paths().into_iter().find_map(|path| std::fs::read(path).ok()).unwrap_or_default();
         let auth = AuthParams { version: MAX_VERSION, supports_shm: false, supports_memfd: false, cookie };
         let reply: AuthReply = connection.ask(&Command::Auth(auth))?;
@@ -76,28 +76,28 @@ impl Connection {
         Ok(connection)
     }
 
-    /// A line on which all has been said that comes before a stream.
+    /// A connection after its handshake.
     #[cfg(test)]
     pub(super) fn of(socket: UnixStream) -> Self {
         Self { socket, version: MAX_VERSION, next_seq: 0, out: Vec::new() }
     }
 
-    /// Another end of the same line, to hang up by.
+    /// Returns a second handle to the socket, to close the connection with.
     pub(super) fn socket(&self) -> Result<UnixStream, Failure> {
         Ok(self.socket.try_clone()?)
     }
 
-    /// From now on waits as long as the server says nothing.
+    /// Removes the time limit for messages from the server.
     pub(super) fn wait_for_ever(&self) -> Result<(), Failure> {
         Ok(self.socket.set_read_timeout(None)?)
     }
 
-    /// The version that both speak.
+    /// Negotiated protocol version.
     pub(super) fn version(&self) -> u16 {
         self.version
     }
 
-    /// Says something, and gives it a number.
+    /// Sends a command. Returns its sequence number.
     pub(super) fn say(&mut self, command: &Command) -> Result<u32, Failure> {
         let seq = self.next_seq;
         self.next_seq = self.next_seq.wrapping_add(1);
@@ -105,7 +105,7 @@ impl Connection {
         Ok(seq)
     }
 
-    /// Asks something; what the server says meanwhile is not for anybody yet.
+    /// Sends a command and waits for its reply. Other messages in between are discarded.
     pub(super) fn ask<T: CommandReply>(&mut self, command: &Command) -> Result<T, Failure> {
         let seq = self.say(command)?;
         loop {
@@ -120,24 +120,24 @@ impl Connection {
         }
     }
 
-    /// The next message that makes sense.
+    /// Returns the next message that can be decoded.
     pub(super) fn next(&mut self) -> Result<Message, Failure> {
         loop {
             let descriptor = read_descriptor(&mut self.socket)?;
             if descriptor.length > MAX_MESSAGE {
-                return Err(ProtocolError::Invalid("a message of a strange length".into()).into());
+                return Err(ProtocolError::Invalid("a message exceeds the length limit".into()).into());
             }
             let mut bytes = vec![0; descriptor.length as usize];
             self.socket.read_exact(&mut bytes)?;
             let mut payload = Cursor::new(bytes);
-            // What this version of the protocol does not know is not for us.
+            // Commands unknown to this protocol version are skipped.
             if let Ok((seq, command)) = Command::read_tag_prefixed(&mut payload, self.version) {
                 return Ok(Message { seq, command, payload });
             }
         }
     }
 
-    /// Sends samples of stream `channel`.
+    /// Sends samples to stream `channel`.
     pub(super) fn send_samples(&mut self, channel: u32, samples: &[f32]) -> Result<(), Failure> {
         let descriptor = Descriptor {
             length: 4 * samples.len() as u32,
@@ -154,11 +154,11 @@ impl Connection {
     }
 }
 
-/// The socket that the environment names, or the usual one.
+/// The socket that the environment names, or the default one.
 fn socket_path() -> Option<PathBuf> {
     let env = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
     if let Some(server) = env("PULSE_SERVER") {
-        // A server on another machine is too far for a hand.
+        // Servers on other machines are ignored, because their latency is too high for touch.
         let server = server.into_string().ok()?;
         return server.split_whitespace().find_map(|s| s.strip_prefix("unix:")).map(PathBuf::from);
     }
@@ -167,7 +167,7 @@ fn socket_path() -> Option<PathBuf> {
     runtime.into_iter().chain(usual).map(|folder| folder.join("native")).find(|path| path.exists())
 }
 
-/// Where the secret of this user may lie.
+/// Possible locations of this user's authentication cookie.
 fn cookie_paths() -> Vec<PathBuf> {
     let home = |rest: &str| std::env::home_dir().map(|home| home.join(rest));
     let named = std::env::var_os("PULSE_COOKIE").map(PathBuf::from);

@@ -1,4 +1,4 @@
-//! A stream to one sink: samples when the server asks for them, silence for ever when it ends the stream.
+//! Playback stream to one sink: samples at the server's requests, permanent silence after the stream's end.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
@@ -15,30 +15,30 @@ use crate::edge::Edge;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Reporter;
 
-/// What stream to open.
+/// Parameters of a stream.
 #[derive(Clone, Copy)]
 pub(super) struct StreamKind {
-    /// Number of the sink.
+    /// Index of the sink.
     pub(super) sink: u32,
-    /// As many channels as the sink has, so that each is one of its own.
+    /// Number of channels of the sink, so that each stream channel maps to one sink channel.
     pub(super) channels: u8,
-    /// The sink's.
+    /// Channel map of the sink.
     pub(super) channel_map: ChannelMap,
     pub(super) rate_hz: u32,
-    /// Frames of the buffer that was asked for: the server asks for half of it at a time, and three of it are the latency
-    /// that it is given to share between itself, the sink and the line.
+    /// Requested buffer in frames. The server requests half of it at a time. Its total latency, shared by server, sink
+    /// and connection, is three buffers.
     pub(super) buffer_frames: u32,
 }
 
-/// Buffers that the server may hold in all. Two of them leave its sink no time of its own, and it runs dry; with four the
-/// hand is 5 ms later.
+/// Buffers that the server may hold in total. With two its sink has no time of its own and underruns; with four the
+/// latency rises by 5 ms.
 const BUFFERS_AHEAD: f64 = 3.0;
-/// Buffers that it asks for at once.
+/// Buffers that the server requests at a time.
 const BUFFERS_AT_ONCE: f64 = 0.5;
-/// How often the server is asked how late it is.
+/// Interval between two latency requests.
 const LATENCY_EVERY: Duration = Duration::from_millis(50);
 
-/// An open stream and what fills it.
+/// An open stream with the engine that fills it.
 pub(super) struct Playback {
     connection: Connection,
     edge: Edge,
@@ -56,7 +56,7 @@ pub(super) struct Playback {
 }
 
 impl Playback {
-    /// Opens the stream; nothing sounds before [`Playback::run`].
+    /// Creates the stream. It stays silent until [`Playback::run`].
     pub(super) fn start(
         mut connection: Connection,
         kind: StreamKind,
@@ -80,7 +80,7 @@ impl Playback {
             sink_index: Some(kind.sink),
             buffer_attr: BufferAttr {
                 target_length: buffer_bytes(BUFFERS_AHEAD),
-                // The clock never stops: what comes late is missing, not delayed.
+                // The stream clock never stops: late samples are dropped instead of delaying the stream.
                 pre_buffering: 0,
                 minimum_request_length: buffer_bytes(BUFFERS_AT_ONCE),
                 ..BufferAttr::default()
@@ -119,19 +119,19 @@ impl Playback {
         })
     }
 
-    /// Frames that the server asks for at a time.
+    /// Frames that the server requests at a time.
     pub(super) fn block_frames(&self) -> u32 {
         self.block_frames
     }
 
-    /// Plays until the stream or the line ends; it is lost where nobody is closing it.
+    /// Plays until the stream or the connection ends. The output is then lost, unless it is being closed.
     pub(super) fn run(mut self, is_closing: &AtomicBool) {
         let ended = self.play();
         if let Err(reason) = ended
             && !is_closing.load(Ordering::Relaxed)
         {
             let message = format!(
-                "the output `{}` is lost: {reason}; it stays silent until you open it again, or another that \
+                "the output `{}` is lost: {reason}; it stays silent until you open it again, or open another that \
                  `shagreen devices` lists",
                 self.id
             );
@@ -151,20 +151,20 @@ impl Playback {
                 Command::Error(error) => {
                     let error = ProtocolError::ServerError(error);
                     if message.seq == uncork {
-                        return Err(format!("the sound server does not start it ({error})"));
+                        return Err(format!("the sound server refuses to start it ({error})"));
                     }
-                    // It may go on; if not, this is why.
+                    // The stream may continue; if it ends, this error is the reason.
                     refusal = Some(error);
                 }
                 Command::Request(request) if request.channel == self.channel => {
-                    // What it may hold in all is all that it can want.
+                    // The request is clamped to the largest buffer of a server.
                     let requested = self.requested_bytes.saturating_add(request.length as usize);
                     self.requested_bytes = requested.min(MAX_MEMBLOCKQ_LENGTH);
                     self.fill().map_err(|failure| hung_up(&failure, refusal.as_ref()))?;
                 }
                 Command::Started(_) => self.has_started = true,
                 Command::Underflow(_) if self.has_started => self.reporter.shared.note_underrun(),
-                Command::PlaybackStreamKilled(_) => return Err("its sink is gone".to_owned()),
+                Command::PlaybackStreamKilled(_) => return Err("its sink was removed".to_owned()),
                 Command::PlaybackStreamMoved(params) => {
                     let sink = params.device_name.to_string_lossy().into_owned();
                     return Err(format!("the sound server has moved it to another sink, `{sink}`"));
@@ -178,14 +178,14 @@ impl Playback {
         }
     }
 
-    /// Sends what was asked for.
+    /// Sends the requested samples.
     fn fill(&mut self) -> Result<(), Failure> {
         let frame_bytes = 4 * self.n_channels;
         let frames = self.requested_bytes / frame_bytes;
         if frames == 0 {
             return Ok(());
         }
-        // Asked before the samples are sent, the server says how late they will be.
+        // Requested before the samples are sent, the latency applies to them.
         self.ask_latency()?;
         self.requested_bytes -= frames * frame_bytes;
         self.block.resize(frames * self.n_channels, 0.0);
@@ -206,7 +206,7 @@ impl Playback {
         if self.latency_asked.is_none_or(|(seq, _)| seq != message.seq) {
             return;
         }
-        // A latency that cannot be read is that of before.
+        // If the reply cannot be decoded, the previous latency stays.
         let Ok(reply) = message.reply::<PlaybackLatency>(self.connection.version()) else { return };
         let waiting_bytes = reply.write_offset.saturating_sub(reply.read_offset).max(0) as f64;
         let waiting_secs = waiting_bytes / (4.0 * self.n_channels as f64 * f64::from(self.rate_hz));
@@ -215,10 +215,10 @@ impl Playback {
     }
 }
 
-/// Why the line ended, with what the server refused before it did.
+/// Message about a closed connection, with an earlier error of the server if there was one.
 fn hung_up(failure: &Failure, refusal: Option<&ProtocolError>) -> String {
-    let refusal = refusal.map(|refusal| format!("; before that: {refusal}")).unwrap_or_default();
-    format!("the sound server has gone ({failure}{refusal})")
+    let refusal = refusal.map(|refusal| format!("; earlier error: {refusal}")).unwrap_or_default();
+    format!("the sound server has closed the connection ({failure}{refusal})")
 }
 
 #[cfg(test)]

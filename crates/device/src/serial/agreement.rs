@@ -1,49 +1,49 @@
-//! What host and receiver agree on: the rate, the window and the blocks that receiver and line can carry.
+//! Negotiation with a receiver: the rate, window and block size that receiver and serial line support.
 
 use std::time::Duration;
 
 use crate::error::{DeviceError, DeviceErrorKind};
-use crate::output::OpenOptions;
+use crate::output_options::OpenOptions;
 use crate::serial::SerialOptions;
 use crate::serial::frame::OVERHEAD;
 use crate::serial::message::{Configure, HelloReply, Mode, VERSION};
 use crate::serial::sender::Plan;
 
-/// Rate where nobody prefers another, in Hz.
+/// Default sample rate on a serial line, in Hz.
 pub const USUAL_SERIAL_RATE_HZ: u32 = 4000;
-/// Samples that are queued in the receiver, in seconds.
+/// Default length of the receiver's queue, in seconds.
 const WINDOW_SECS: f64 = 0.010;
-/// A fade in or out in the receiver, in seconds.
+/// Duration of a fade in the receiver, in seconds.
 const FADE_SECS: f64 = 0.003;
-/// Share of the line that may be used: the rest is for the clocks to differ, and for the host to be late.
+/// Largest fraction of the line's capacity to use; the rest allows for clock differences and delays of the host.
 const LINE_SHARE: f64 = 0.9;
-/// Bits on the line for a byte: with start and stop.
+/// Bits on the line per byte, including start and stop bit.
 const BITS_PER_BYTE: f64 = 10.0;
-/// Bytes of a status on the wire.
+/// Bytes of a status frame on the line.
 const STATUS_BYTES: f64 = 26.0;
-/// Smallest queue that can be worked with.
+/// Smallest usable queue of a receiver, in samples.
 const LEAST_BUFFER: u16 = 8;
 
-/// The receiver as the greeting told it.
+/// Capabilities of a receiver, from its hello reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReceiverInfo {
-    /// Its name, or nothing.
+    /// Name of the receiver; may be empty.
     pub name: String,
-    /// Its version of the protocol.
+    /// Protocol version of the receiver.
     pub version: u8,
     /// Whether it plays samples.
     pub has_stream: bool,
-    /// Whether it renders by itself.
+    /// Whether it renders textures itself.
     pub has_control: bool,
-    /// Whether it sends samples of an accelerometer.
+    /// Whether it sends accelerometer samples.
     pub has_sensor: bool,
-    /// Lowest rate, in Hz.
+    /// Lowest sample rate, in Hz.
     pub rate_min_hz: u16,
-    /// Highest rate, in Hz.
+    /// Highest sample rate, in Hz.
     pub rate_max_hz: u16,
-    /// Most samples that it queues.
+    /// Capacity of its queue, in samples.
     pub buffer: u16,
-    /// Most samples a frame.
+    /// Most samples in a frame.
     pub frame_max: u8,
 }
 
@@ -63,24 +63,24 @@ impl ReceiverInfo {
     }
 }
 
-/// Bits a second on a line that carries `rate_hz` in blocks of so many samples.
+/// Bits per second on a line that carries `rate_hz` in blocks of `block` samples.
 fn line_bits_per_sec(rate_hz: f64, block: f64) -> f64 {
-    // A byte for the run.
+    // The additional byte holds the run number.
     BITS_PER_BYTE * rate_hz / block * (2.0 * block + 1.0 + OVERHEAD as f64)
 }
 
-/// Samples a window, where the buffer is not asked for, and a block, at a rate.
+/// Window and block size in samples at a rate. `asked` is the requested window, if any.
 fn window_and_block(rate_hz: u32, asked: Option<u32>, info: &ReceiverInfo) -> (u16, u16) {
     let usual = (WINDOW_SECS * f64::from(rate_hz)) as u32;
     let window = asked.unwrap_or(usual).clamp(u32::from(LEAST_BUFFER), u32::from(info.buffer)) as u16;
-    // Two blocks and a half: while one is played, one waits, and one may be on its way.
+    // A window holds 2.5 blocks: one is playing, one is waiting, and one may be in transit.
     (window, (window * 2 / 5).clamp(1, u16::from(info.frame_max).min(120)))
 }
 
-/// What to play by.
+/// Chooses the playback parameters.
 ///
 /// # Errors
-/// - [`DeviceErrorKind::Unsupported`] where the receiver or the line cannot do what is asked.
+/// - [`DeviceErrorKind::Unsupported`] if the receiver or the line does not support the options.
 pub(super) fn agree(
     id: &str,
     info: &ReceiverInfo,
@@ -90,31 +90,31 @@ pub(super) fn agree(
     let refuse = |message: String| Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
     if info.version != VERSION {
         return refuse(format!(
-            "the receiver on `{id}` speaks version {} of the protocol, not {VERSION}; update its firmware or Shagreen",
+            "the receiver on `{id}` uses protocol version {}, not {VERSION}; update its firmware or Shagreen",
             info.version
         ));
     }
     let (has_mode, mode_name) = match serial.mode {
         Mode::Stream => (info.has_stream, "play samples"),
-        Mode::Control => (info.has_control, "render textures by itself"),
+        Mode::Control => (info.has_control, "render textures itself"),
     };
     if !has_mode {
-        return refuse(format!("the receiver on `{id}` cannot {mode_name}; ask for the other mode"));
+        return refuse(format!("the receiver on `{id}` cannot {mode_name}; choose the other mode"));
     }
     if info.buffer < LEAST_BUFFER || info.frame_max == 0 || info.buffer > 0x7FFF {
         return refuse(format!(
-            "the receiver on `{id}` queues {} samples, {} a frame; it must queue {LEAST_BUFFER} to 32767: change its firmware",
+            "the receiver on `{id}` queues {} samples, {} per frame; it must queue {LEAST_BUFFER} to 32767: change its firmware",
             info.buffer, info.frame_max
         ));
     }
     if !options.channels.contains(0) {
         return refuse(format!(
-            "the receiver on `{id}` has one channel, and that is not among those asked for"
+            "the receiver on `{id}` has one channel, which is not among the chosen ones; choose the first channel"
         ));
     }
     let rate_hz = choose_rate(id, info, options, serial)?;
     let (window, block) = window_and_block(rate_hz, options.buffer_frames, info);
-    // On a slow line, statuses take half of their way at most.
+    // On a slow line, status frames may use at most half of the return capacity.
     let report = f64::from(block / 2)
         .max(2.0 * BITS_PER_BYTE * STATUS_BYTES * f64::from(rate_hz) / f64::from(serial.baud));
     let rate = f64::from(rate_hz);
@@ -122,7 +122,7 @@ pub(super) fn agree(
         config: 1,
         mode: serial.mode,
         rate_hz: rate_hz as u16,
-        // As the limiter's ceiling becomes a sample, so that both are the same.
+        // The limiter's ceiling is converted like a sample, so that both ceilings are equal.
         ceiling: (options.drive.ceiling.clamp(0.0, 1.0) * 32_768.0).min(32_767.0) as u16,
         watchdog_ms: serial.watchdog_ms.max(10),
         window,
@@ -135,7 +135,7 @@ pub(super) fn agree(
     Ok(Plan { configure, block, stall })
 }
 
-/// Time that a block is on the line, in seconds.
+/// Transmission time of a block on the line, in seconds.
 pub(super) fn line_secs(plan: Plan, baud: u32) -> f64 {
     BITS_PER_BYTE * (2.0 * f64::from(plan.block) + 1.0 + OVERHEAD as f64) / f64::from(baud.max(1))
 }
@@ -155,7 +155,7 @@ fn choose_rate(
         serial.mode == Mode::Control || bits <= LINE_SHARE * f64::from(serial.baud)
     };
     let wished = options.preferred_rate_hz.unwrap_or_else(|| {
-        // As much as the line carries, in steps of 100 Hz, and no less than the textures need.
+        // The highest rate that the line carries, in steps of 100 Hz, but at least the textures' rate.
         let usual = USUAL_SERIAL_RATE_HZ.max(model_rate_hz).clamp(least, most.max(least));
         let steps = (model_rate_hz.max(least)..=usual).rev();
         steps
@@ -165,19 +165,19 @@ fn choose_rate(
     });
     if !(least..=most).contains(&wished) {
         return refuse(format!(
-            "the receiver on `{id}` plays {least} to {most} Hz, not {wished} Hz; ask for another rate"
+            "the receiver on `{id}` plays at {least} to {most} Hz, not {wished} Hz; choose another rate"
         ));
     }
     if wished < model_rate_hz {
         return refuse(format!(
-            "the receiver on `{id}` plays at {wished} Hz, the textures need {model_rate_hz} Hz; ask for a higher rate, or take other textures"
+            "the receiver on `{id}` plays at {wished} Hz, the textures need {model_rate_hz} Hz; choose a higher rate or other textures"
         ));
     }
     if !is_carried(wished) {
         let (_, block) = window_and_block(wished, options.buffer_frames, info);
         let needed = line_bits_per_sec(f64::from(wished), f64::from(block)) / LINE_SHARE;
         return refuse(format!(
-            "{} baud do not carry {wished} Hz to `{id}`: that takes {needed:.0} baud; ask for more on both sides (--baud)",
+            "{} baud is too slow for {wished} Hz to `{id}`, which needs {needed:.0} baud; raise it on both sides (--baud)",
             serial.baud
         ));
     }
@@ -189,8 +189,8 @@ mod tests {
     use super::{ReceiverInfo, agree, line_bits_per_sec};
     use crate::engine::ChannelMask;
     use crate::error::DeviceErrorKind;
-    use crate::output::OpenOptions;
     use crate::output::tests::OPTIONS;
+    use crate::output_options::OpenOptions;
     use crate::serial::SerialOptions;
     use crate::serial::message::Mode;
 
@@ -221,7 +221,7 @@ mod tests {
         let c = plan.configure;
         assert_eq!((c.rate_hz, c.window, plan.block, c.prefill, c.report, c.fade), (4000, 40, 16, 24, 8, 12));
         assert_eq!((c.ceiling, c.watchdog_ms, c.full_scale_cmps2), (29_491, 50, 1000));
-        // 250 frames of 40 bytes of 10 bits.
+        // 250 frames per second with 40 bytes of 10 bits each.
         assert_eq!(line_bits_per_sec(4000.0, 16.0), 100_000.0);
     }
 
@@ -238,7 +238,7 @@ mod tests {
         );
         let error = rate(57_600, OpenOptions { preferred_rate_hz: Some(8000), ..OPTIONS }).unwrap_err();
         assert!(error.contains("8000 Hz"), "{error}");
-        // Control is little.
+        // Control messages need little capacity.
         let serial = SerialOptions { baud: 19_200, mode: Mode::Control, ..SerialOptions::default() };
         let able = ReceiverInfo { has_control: true, ..info() };
         assert_eq!(agree("x", &able, OPTIONS, serial).unwrap().configure.rate_hz, 4000);
@@ -255,7 +255,7 @@ mod tests {
         assert!(agreed(ReceiverInfo { version: 2, ..info() }, OPTIONS).contains("version 2"));
         assert!(agreed(ReceiverInfo { has_stream: false, ..info() }, OPTIONS).contains("play samples"));
         assert!(agreed(ReceiverInfo { buffer: 0, ..info() }, OPTIONS).contains("queues 0"));
-        assert!(agreed(ReceiverInfo { frame_max: 0, ..info() }, OPTIONS).contains("0 a frame"));
+        assert!(agreed(ReceiverInfo { frame_max: 0, ..info() }, OPTIONS).contains("0 per frame"));
         assert!(agreed(ReceiverInfo { rate_max_hz: 800, ..info() }, OPTIONS).contains("1000 Hz"));
         assert!(agreed(ReceiverInfo { rate_min_hz: 9000, ..info() }, OPTIONS).contains("9000 to 8000 Hz"));
         let fast = OpenOptions { preferred_rate_hz: Some(16_000), ..OPTIONS };

@@ -1,4 +1,4 @@
-//! The thread that stands between the engine and the line.
+//! Thread between the engine and a serial line.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,30 +18,30 @@ use crate::serial::outbox::Outbox;
 use crate::serial::sender::{Counts, Plan, Sender, Source};
 use crate::urgency::run_before_others;
 
-/// Things heard that wait to be taken: four seconds of a sensor at 3.2 kHz.
+/// Capacity of the queue of messages: four seconds of a sensor at 3.2 kHz.
 const HEARD: usize = 128;
 
-/// What a receiver says beside the stream.
+/// Message of a receiver that does not concern the stream.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Heard {
-    /// Samples of its accelerometer.
+    /// Accelerometer samples.
     Sensor(SensorBlock),
-    /// Something is wrong with it, and it goes on.
+    /// A fault of the receiver, which continues.
     Warning(String),
 }
 
-/// Samples of a receiver's accelerometer.
+/// A block of accelerometer samples of a receiver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorBlock {
-    /// Index of the first, modulo 65536: what is missing between two blocks was lost.
+    /// Index of the first sample, modulo 65536; a gap between two blocks is a loss.
     pub seq: u16,
-    /// Samples a second.
+    /// Sample rate, in Hz.
     pub rate_hz: u16,
-    /// When the first was taken, in µs of the receiver's clock, modulo 2³².
+    /// Time of the first sample, in µs of the receiver's clock, modulo 2³².
     pub time_us: u32,
-    /// Acceleration of a count, in m/s².
+    /// Acceleration per count, in m/s².
     pub scale_mps2: f64,
-    /// The samples, in counts.
+    /// Samples, in counts.
     pub counts: Vec<i16>,
 }
 
@@ -53,7 +53,7 @@ pub(crate) struct SerialOutput {
 }
 
 impl SerialOutput {
-    /// Starts to play.
+    /// Starts playback.
     pub(super) fn start(
         id: &str,
         line: Line,
@@ -83,7 +83,8 @@ impl SerialOutput {
                 player.play(plan, &stopped);
             })
             .map_err(|error| {
-                let message = format!("the serial output cannot start: the system gives no thread ({error})");
+                let message =
+                    format!("the serial output cannot start: the system cannot start a thread ({error})");
                 DeviceError::new(DeviceErrorKind::Backend, message)
             })?;
         Ok((Self { stop, thread: Some(thread) }, heard_out))
@@ -94,7 +95,7 @@ impl Drop for SerialOutput {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
-            thread.join().ok(); // It has said so on its own thread, had it panicked.
+            thread.join().ok(); // A panic of the thread has been printed already.
         }
     }
 }
@@ -110,7 +111,7 @@ struct Player {
 }
 
 impl Player {
-    /// Plays until it is told to stop, or the line is gone: then there is silence, and nobody opens it again.
+    /// Plays until it is stopped or the port is lost. A lost port stays silent and is not reopened.
     fn play(&mut self, plan: Plan, stop: &AtomicBool) {
         let begun = Instant::now();
         let mut sender = Sender::new(plan, Duration::ZERO);
@@ -134,7 +135,7 @@ impl Player {
                 return self.reporter.lose(lost(&self.id, &error));
             }
         }
-        // Whatever becomes of it, the receiver's watchdog is there too.
+        // If this stop message is lost, the receiver's watchdog silences it.
         Sender::say_goodbye(&mut self.outbox);
         let line = &mut self.line;
         let _ = self.outbox.flush(begun.elapsed(), &mut |bytes| line.write(bytes));
@@ -148,7 +149,7 @@ impl Player {
     }
 }
 
-/// Passes on what is not about the stream; the error that ends the output, where it is one.
+/// Queues messages that do not concern the stream. Returns the error if the message ends the output.
 fn hear(id: &str, message: DeviceMessage<'_>, heard: &mut Producer<Heard>) -> Option<DeviceError> {
     let told = match message {
         DeviceMessage::Sensor { seq, rate_hz, time_us, scale_umps2, samples } => Heard::Sensor(SensorBlock {
@@ -161,23 +162,22 @@ fn hear(id: &str, message: DeviceMessage<'_>, heard: &mut Producer<Heard>) -> Op
         DeviceMessage::Fault { has_stopped, text } => {
             let text = String::from_utf8_lossy(&text[..text.len().min(MAX_FAULT)]).into_owned();
             if has_stopped {
-                let message = format!(
-                    "the receiver on `{id}` has stopped: {text}; put that right and open the output again"
-                );
+                let message =
+                    format!("the receiver on `{id}` has stopped: {text}; fix this and open the output again");
                 return Some(DeviceError::new(DeviceErrorKind::Lost, message));
             }
             Heard::Warning(text)
         }
         DeviceMessage::HelloReply(_) | DeviceMessage::Status(_) => return None,
     };
-    heard.push(told).ok(); // Nobody takes them: then the newest are dropped.
+    heard.push(told).ok(); // Full: the newest messages are dropped.
     None
 }
 
-/// An engine at this end of a line.
+/// An engine adapter with the latency of its serial line.
 struct LineEdge {
     edge: Edge,
-    /// How long the line and the receiver's queue take.
+    /// Latency of the line and the receiver's queue.
     line_latency: Duration,
 }
 

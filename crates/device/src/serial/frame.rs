@@ -1,43 +1,44 @@
-//! Frames on the wire: a header, a payload and a checksum, stuffed so that a zero byte ends a frame and nothing else.
+//! Framing of the serial protocol: header, payload and checksum, encoded so that a zero byte only ends a frame.
 //!
-//! A frame is `type`, `seq` (16 bits), payload, CRC (16 bits), all little-endian, stuffed by COBS (consistent overhead
-//! byte stuffing) and followed by one zero byte. Whoever lost the thread finds it at the next zero.
+//! A frame consists of `type`, `seq` (16 bits), payload and CRC (16 bits), all little-endian. It is encoded by COBS
+//! (consistent overhead byte stuffing) and followed by one zero byte. A receiver that has lost synchronization regains
+//! it at the next zero.
 
 use crc::{CRC_16_IBM_3740, Crc};
 
-/// Most bytes of a payload.
+/// Longest payload, in bytes.
 ///
-/// With header and checksum it stays below 254, so that the stuffing is always one byte, and every way to stuff gives the
-/// same bytes.
+/// Header, payload and checksum together stay below 254 bytes. COBS then always adds exactly one byte, and its encoding
+/// is unique.
 pub const MAX_PAYLOAD: usize = 248;
 /// Bytes before the payload: type and sequence number.
 const HEADER: usize = 3;
 /// Bytes of the checksum.
 const CHECKSUM: usize = 2;
-/// Most bytes of a frame before stuffing.
+/// Longest frame before encoding, in bytes.
 const MAX_PLAIN: usize = HEADER + MAX_PAYLOAD + CHECKSUM;
-/// Most bytes of a frame on the wire: stuffed, with its zero.
+/// Longest frame on the line, in bytes: encoded, with its final zero.
 pub const MAX_WIRE: usize = MAX_PLAIN + 2;
-/// Bytes on the wire beside the payload.
+/// Bytes on the line in addition to the payload.
 pub const OVERHEAD: usize = HEADER + CHECKSUM + 2;
 
-/// CRC-16/CCITT-FALSE. Every chip and every language has it, it costs two bytes of a frame of forty, and a frame is short:
-/// what it misses, one corrupted frame in 65536, is a click that the receiver's ceiling bounds.
+/// CRC-16/CCITT-FALSE, which is widely available in hardware and software. It takes two bytes of a typical frame of
+/// forty. It misses one corrupted frame in 65536, which causes a click that the receiver's ceiling limits.
 const CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_3740);
 
-/// A frame: what sort, which one, and what it says.
+/// A decoded frame: type, sequence number and payload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
-    /// Type of the message.
+    /// Message type.
     pub kind: u8,
-    /// Sequence number; what it counts depends on the type.
+    /// Sequence number; its meaning depends on the type.
     pub seq: u16,
-    /// What the message says, at most [`MAX_PAYLOAD`] bytes.
+    /// Payload, at most [`MAX_PAYLOAD`] bytes.
     pub payload: &'a [u8],
 }
 
-/// Writes a frame as it goes over the wire, with its closing zero, and returns its length; nothing is written, and the
-/// length is 0, where the payload is longer than [`MAX_PAYLOAD`].
+/// Encodes a frame for the line, with its final zero. Returns its length in bytes, or 0 if the payload is longer than
+/// [`MAX_PAYLOAD`].
 pub fn encode(frame: Frame<'_>, wire: &mut [u8; MAX_WIRE]) -> usize {
     if frame.payload.len() > MAX_PAYLOAD {
         return 0;
@@ -54,12 +55,12 @@ pub fn encode(frame: Frame<'_>, wire: &mut [u8; MAX_WIRE]) -> usize {
     stuffed + 1
 }
 
-/// Finds frames in bytes, however they are cut into pieces; needs no more memory than one frame.
+/// Streaming decoder that finds frames in bytes, in pieces of any size; it stores at most one frame.
 #[derive(Clone, Debug)]
 pub struct Decoder {
     bytes: [u8; MAX_WIRE],
     len: usize,
-    /// More bytes than any frame has: wait for the next zero.
+    /// Whether there were more bytes than any frame has; the decoder then waits for the next zero.
     is_overlong: bool,
     bad_frames: u16,
 }
@@ -71,12 +72,12 @@ impl Default for Decoder {
 }
 
 impl Decoder {
-    /// A decoder that has seen nothing.
+    /// A decoder without input.
     pub const fn new() -> Self {
         Self { bytes: [0; MAX_WIRE], len: 0, is_overlong: false, bad_frames: 0 }
     }
 
-    /// Takes the next byte; a frame, when it was the last of one whose checksum is right.
+    /// Processes the next byte. Returns a frame when it completes one with a correct checksum.
     pub fn push(&mut self, byte: u8) -> Option<Frame<'_>> {
         if byte != 0 {
             match self.bytes.get_mut(self.len) {
@@ -90,7 +91,7 @@ impl Decoder {
             self.note_bad();
             return None;
         }
-        // Zeros between frames are no frames.
+        // Repeated zeros between frames are ignored.
         if len == 0 {
             return None;
         }
@@ -102,20 +103,20 @@ impl Decoder {
         Some(Frame { kind, seq: u16::from_le_bytes([low, high]), payload: &self.bytes[HEADER..body] })
     }
 
-    /// Frames that were cut, corrupted or too long, modulo 65536.
+    /// Number of truncated, corrupted or overlong frames, modulo 65536.
     pub fn bad_frames(&self) -> u16 {
         self.bad_frames
     }
 
-    /// A frame whose payload does not say what its type should is bad too.
+    /// Counts a bad frame; a frame with an invalid payload counts too.
     pub(crate) fn note_bad(&mut self) {
         self.bad_frames = self.bad_frames.wrapping_add(1);
     }
 }
 
-/// Unstuffs a frame in place and checks it; the length of header and payload where it is right.
+/// Decodes a frame in place and checks its CRC. Returns the length of header and payload if it is correct.
 fn unstuff(stuffed: &mut [u8]) -> Option<usize> {
-    let len = cobs::decode_in_place(stuffed).ok()?; // Cut or corrupted, which is counted.
+    let len = cobs::decode_in_place(stuffed).ok()?; // Truncated or corrupted: counted as a bad frame.
     let body = len.checked_sub(CHECKSUM).filter(|&body| (HEADER..=HEADER + MAX_PAYLOAD).contains(&body))?;
     let checksum = u16::from_le_bytes([stuffed[body], stuffed[body + 1]]);
     (CRC.checksum(&stuffed[..body]) == checksum).then_some(body)
@@ -144,7 +145,7 @@ mod tests {
         found
     }
 
-    /// The stuffing as its paper tells it: each run of bytes that are not zero, after its length and one.
+    /// Reference implementation of COBS: each run of nonzero bytes, preceded by its length plus one.
     fn slow_stuffing(plain: &[u8]) -> Vec<u8> {
         let runs = plain.split(|&byte| byte == 0);
         runs.flat_map(|run| std::iter::once(run.len() as u8 + 1).chain(run.iter().copied())).collect()
@@ -167,7 +168,7 @@ mod tests {
         assert_eq!(long.len(), MAX_PAYLOAD + OVERHEAD);
         assert_eq!(frames(&mut Decoder::new(), &long), [(1, 0xFFFF, vec![7; MAX_PAYLOAD])]);
         assert!(wire(1, 1, &[7; MAX_PAYLOAD + 1]).is_empty());
-        // One byte more than any frame, and no more memory for a thousand.
+        // One byte more than the longest frame, and a thousand bytes within the same memory.
         for n in [MAX_WIRE + 1, 1000] {
             let mut decoder = Decoder::new();
             let mut bytes = vec![5; n];

@@ -1,4 +1,4 @@
-//! The first words on a line: who is there?
+//! Handshake with a receiver on a serial line.
 
 use std::io;
 use std::time::{Duration, Instant, SystemTime};
@@ -11,17 +11,17 @@ use crate::serial::line::Line;
 use crate::serial::message::{DeviceMessage, HostMessage, VERSION, from_device, write_to_device};
 use crate::serial::outbox::Outbox;
 
-/// How often hello is said.
+/// Interval between two hello messages.
 const AGAIN: Duration = Duration::from_millis(100);
 
-/// Says hello until the receiver answers.
+/// Sends hello messages until the receiver replies. Returns its capabilities.
 ///
 /// # Errors
-/// - [`DeviceErrorKind::Unavailable`] where nothing does in time.
-/// - [`DeviceErrorKind::Lost`] where the port goes away.
+/// - [`DeviceErrorKind::Unavailable`] if there is no reply in time.
+/// - [`DeviceErrorKind::Lost`] if the port is disconnected.
 pub(super) fn greet(id: &str, line: &mut Line, serial: SerialOptions) -> Result<ReceiverInfo, DeviceError> {
     let begun = Instant::now();
-    // Another for each opening, and never 0: an answer to somebody before is none to this.
+    // The nonce is new at each opening and never 0, so replies to earlier hosts are ignored.
     let since_epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
     let nonce = (since_epoch.as_micros() as u16) | 1;
     let mut outbox = Outbox::new();
@@ -59,17 +59,18 @@ fn nobody(id: &str, serial: SerialOptions, n_bytes: usize, n_frames: usize) -> D
     let baud = serial.baud;
     let why = if n_bytes == 0 {
         format!(
-            "nothing answers within {secs:.1} s: check that this is the right port, that the microcontroller has power and \
-             runs firmware for this protocol, that its RX is on our TX and its ground on ours, and that it listens at {baud} baud"
+            "no reply within {secs:.1} s: check that this is the right port, that the microcontroller has power and \
+             runs firmware for this protocol, that its RX is connected to the host's TX, that both share a ground, \
+             and that it runs at {baud} baud"
         )
     } else if n_frames == 0 {
         format!(
-            "{n_bytes} bytes came and no frame in them: check that both sides are at {baud} baud, and that the firmware speaks \
-             this protocol and prints nothing else"
+            "{n_bytes} bytes arrived, but no valid frame: check that both sides use {baud} baud, and that the firmware \
+             implements this protocol and prints nothing else"
         )
     } else {
         format!(
-            "it sends and does not answer within {secs:.1} s: check the wire from our TX to its RX, and its firmware"
+            "it sends frames but no reply in {secs:.1} s: check its firmware and the wire from the host's TX to its RX"
         )
     };
     DeviceError::new(DeviceErrorKind::Unavailable, format!("no receiver on the serial port `{id}`: {why}"))
@@ -77,7 +78,7 @@ fn nobody(id: &str, serial: SerialOptions, n_bytes: usize, n_frames: usize) -> D
 
 pub(super) fn lost(id: &str, error: &io::Error) -> DeviceError {
     let message = format!(
-        "the serial output `{id}` is lost: {error}; plug it in again and open it again, or another that `shagreen devices` lists"
+        "the serial output `{id}` is lost: {error}; plug it in and open it again, or open another that `shagreen devices` lists"
     );
     DeviceError::new(DeviceErrorKind::Lost, message)
 }

@@ -1,4 +1,4 @@
-//! The open port: reading waits a little, writing never does.
+//! Open serial port with a short read timeout and non-blocking writes.
 
 use std::io;
 use std::time::Duration;
@@ -7,31 +7,32 @@ use serialport::SerialPort;
 
 use crate::error::{DeviceError, DeviceErrorKind};
 
-/// How long reading waits for a byte: how late what is due by time may be.
+/// Read timeout, which is also the largest delay of timed actions.
 const READ_WAIT: Duration = Duration::from_millis(2);
 
-/// A serial port that is ours.
+/// A serial port that is open exclusively.
 pub(super) struct Line {
     port: Box<dyn SerialPort>,
-    /// The same port, opened so that it takes what it has room for: a write to `port` may wait for ever.
+    /// The same port, opened for non-blocking writes; a write to `port` may block indefinitely.
     #[cfg(unix)]
     writer: std::fs::File,
 }
 
 impl Line {
-    /// Opens a port by the system's name.
+    /// Opens a port by its system name.
     ///
     /// # Errors
-    /// - [`DeviceErrorKind::NotFound`], [`DeviceErrorKind::Busy`], [`DeviceErrorKind::Denied`] where it is so.
-    /// - [`DeviceErrorKind::Unsupported`] where it is no serial port, or has no such baud rate.
+    /// - [`DeviceErrorKind::NotFound`], [`DeviceErrorKind::Busy`] or [`DeviceErrorKind::Denied`] if the port is
+    ///   missing, in use or refused.
+    /// - [`DeviceErrorKind::Unsupported`] if it is not a serial port or does not support the baud rate.
     pub(super) fn open(id: &str, port: &str, baud: u32) -> Result<Self, DeviceError> {
         #[cfg(unix)]
         let writer = open_writer(port).map_err(|error| explain_io(id, &error))?;
-        // The pseudo terminals of macOS refuse every rate.
+        // Pseudoterminals of macOS reject every baud rate.
         let baud_to_set = if cfg!(target_os = "macos") && port.starts_with("/dev/ttys") { 0 } else { baud };
         let builder = serialport::new(port, baud_to_set).timeout(READ_WAIT).dtr_on_open(true);
         let mut port = builder.open().map_err(|error| explain(id, baud, &error))?;
-        // What is not there on every port: a pseudo terminal has no such wires, and some have no buffers to clear.
+        // Failures are ignored: a pseudoterminal has no RTS wire, and some ports have no buffers to clear.
         let _ = port.write_request_to_send(true);
         let _ = port.clear(serialport::ClearBuffer::All);
         Ok(Self {
@@ -41,23 +42,23 @@ impl Line {
         })
     }
 
-    /// Reads what there is, or nothing after a short wait.
+    /// Reads the available bytes, or none after a short timeout.
     ///
     /// # Errors
-    /// What the system says of a port that is gone.
+    /// The system's error if the port is disconnected.
     pub(super) fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         match self.port.read(bytes) {
-            // There was something to read, and then there was not: so does a line that has been cut.
+            // Data was signaled but none is there: the port was disconnected.
             Ok(0) => Err(io::ErrorKind::UnexpectedEof.into()),
             Err(error) if super::outbox::is_no_room(&error) => Ok(0),
             read => read,
         }
     }
 
-    /// Writes what there is room for.
+    /// Writes as many bytes as the port accepts.
     ///
     /// # Errors
-    /// As for [`Line::read`]; without room, one of the kinds that [`super::outbox::Outbox::flush`] takes for that.
+    /// As for [`Line::read`]. If the port accepts none, one of the kinds that [`super::outbox::Outbox::flush`] expects.
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         #[cfg(unix)]
         return io::Write::write(&mut self.writer, bytes);
@@ -82,7 +83,7 @@ fn explain_io(id: &str, error: &io::Error) -> DeviceError {
 
 fn explain(id: &str, baud: u32, error: &serialport::Error) -> DeviceError {
     let (kind, advice) = match error.kind() {
-        // On a system with files it has been opened once already, so it is there.
+        // On Unix the port was opened once already, so it exists and is in use.
         serialport::ErrorKind::NoDevice if cfg!(unix) => advice_on(io::ErrorKind::ResourceBusy),
         serialport::ErrorKind::NoDevice => advice_on(io::ErrorKind::NotFound),
         serialport::ErrorKind::Io(kind) => advice_on(kind),
@@ -97,18 +98,18 @@ fn explain(id: &str, baud: u32, error: &serialport::Error) -> DeviceError {
 fn advice_on(kind: io::ErrorKind) -> (DeviceErrorKind, &'static str) {
     match kind {
         io::ErrorKind::NotFound => {
-            (DeviceErrorKind::NotFound, "plug it in, or take another: `shagreen devices` lists them")
+            (DeviceErrorKind::NotFound, "plug it in, or choose another one that `shagreen devices` lists")
         }
         io::ErrorKind::ResourceBusy => {
             (DeviceErrorKind::Busy, "close the program that uses it and try again")
         }
         io::ErrorKind::PermissionDenied => (
             DeviceErrorKind::Denied,
-            "give yourself the right to it (on Linux: join the group that owns it, often dialout, and log in again)",
+            "grant yourself access to it (on Linux: join the group that owns it, often dialout, and log in again)",
         ),
         _ => (
             DeviceErrorKind::Unsupported,
-            "name a serial port (`shagreen devices` lists them) and a baud rate that it has",
+            "choose a serial port that `shagreen devices` lists and a baud rate that it supports",
         ),
     }
 }

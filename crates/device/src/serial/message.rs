@@ -1,228 +1,229 @@
-//! What the frames of the serial protocol say, both ways. Every number is little-endian.
+//! Messages of the serial protocol in both directions. All numbers are little-endian.
 
 mod payload;
 
 use self::payload::{Reader, Writer};
 use crate::serial::frame::{Frame, MAX_PAYLOAD, MAX_WIRE, encode};
 
-/// Version of the protocol that is spoken here.
+/// Protocol version of this implementation.
 pub const VERSION: u8 = 1;
-/// Most samples of one [`HostMessage::Samples`].
+/// Most samples in a [`HostMessage::Samples`].
 pub const MAX_SAMPLES: usize = 120;
-/// Most samples of one [`DeviceMessage::Sensor`].
+/// Most samples in a [`DeviceMessage::Sensor`].
 pub const MAX_SENSOR_SAMPLES: usize = (MAX_PAYLOAD - 10) / 2;
-/// Most bytes of a receiver's name.
+/// Longest name of a receiver, in bytes.
 pub const MAX_NAME: usize = 32;
-/// Most bytes of a fault's text.
+/// Longest text of a fault, in bytes.
 pub const MAX_FAULT: usize = 64;
 
-/// Who renders.
+/// Rendering mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// The host renders and streams samples.
     #[default]
     Stream,
-    /// The host sends what the hand does, the receiver renders.
+    /// The host sends speed and force, and the receiver renders.
     Control,
 }
 
-/// How the receiver is to play. It may take smaller numbers of samples than it was asked for, never a higher ceiling.
+/// Playback settings for a receiver. It may use smaller numbers of samples than requested, but never a higher ceiling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Configure {
-    /// Number of this configuration, not 0: the status names it, so that the host knows that it arrived.
+    /// Number of this configuration, not 0. The status repeats it, so that the host knows that the configuration
+    /// arrived.
     pub config: u8,
-    /// Who renders.
+    /// Rendering mode.
     pub mode: Mode,
-    /// Samples a second.
+    /// Sample rate, in Hz.
     pub rate_hz: u16,
-    /// Highest magnitude of a sample that is ever played.
+    /// Largest magnitude of any played sample.
     pub ceiling: u16,
-    /// Silence after this long without samples or control, in ms.
+    /// Time without samples or controls after which the receiver becomes silent, in ms.
     pub watchdog_ms: u16,
-    /// Most samples that are queued.
+    /// Most samples in the queue.
     pub window: u16,
-    /// Samples that are queued before playing begins.
+    /// Samples in the queue at which playback starts.
     pub prefill: u16,
-    /// Samples from one status to the next.
+    /// Samples between two status messages.
     pub report: u16,
-    /// Samples of a fade, in or out.
+    /// Length of a fade, in samples.
     pub fade: u16,
     /// Acceleration at a sample of 32767, in cm/s².
     pub full_scale_cmps2: u16,
 }
 
-/// What the hand does, for a receiver that renders.
+/// Contact and texture for a receiver that renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Control {
-    /// Speed of the tip in tenths of mm/s.
+    /// Tip speed, in units of 0.1 mm/s.
     pub speed_dmmps: u16,
-    /// Force of the tip in mN.
+    /// Normal force, in mN.
     pub force_mn: u16,
-    /// Number of the texture; [`NO_TEXTURE`] is none.
+    /// Id of the texture, or [`NO_TEXTURE`].
     pub texture: u16,
     /// Gain in thousandths; 0 is silence.
     pub gain_permille: u16,
 }
 
-/// Number of no texture.
+/// Texture id that means no texture.
 pub const NO_TEXTURE: u16 = 0xFFFF;
 
-/// Samples as they lie in a frame.
+/// Samples in the encoding of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleBytes<'a>(&'a [u8]);
 
 impl<'a> SampleBytes<'a> {
-    /// How many there are.
+    /// Number of samples.
     pub fn len(self) -> usize {
         self.0.len() / 2
     }
 
-    /// Whether there is none.
+    /// Whether there are no samples.
     pub fn is_empty(self) -> bool {
         self.0.is_empty()
     }
 
-    /// One after the other.
+    /// Iterates over the samples.
     pub fn iter(self) -> impl Iterator<Item = i16> + 'a {
         self.0.chunks_exact(2).map(|pair| i16::from_le_bytes([pair[0], pair[1]]))
     }
 }
 
-/// What the host says.
+/// Message from the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HostMessage<'a> {
-    /// Somebody new is there: fall silent, forget the configuration, and say who you are.
+    /// A new host is connected: fall silent, discard the configuration, and reply with the capabilities.
     Hello {
-        /// Comes back in the answer.
+        /// Nonce that the reply repeats.
         nonce: u16,
-        /// The host's version of the protocol.
+        /// Protocol version of the host.
         version: u8,
     },
-    /// Play like this from now on.
+    /// New playback settings.
     Configure(Configure),
     /// Samples of a run.
     Samples {
-        /// Index of the first, modulo 65536.
+        /// Index of the first sample, modulo 65536.
         seq: u16,
-        /// The run that they belong to.
+        /// Run number of the samples.
         run: u8,
         /// The samples, at least one.
         samples: SampleBytes<'a>,
     },
-    /// What the hand does.
+    /// Contact and texture for a receiver that renders.
     Control {
-        /// Counts these messages, modulo 65536.
+        /// Message counter, modulo 65536.
         seq: u16,
-        /// The run that it belongs to.
+        /// Run number of the message.
         run: u8,
-        /// What it does.
+        /// Contact and texture.
         control: Control,
     },
-    /// Fade out and drop what is queued.
+    /// Fade out and discard the queue.
     Stop,
-    /// Send a status.
+    /// Request for a status.
     Ping {
-        /// Comes back in the status.
+        /// Number that the status repeats.
         id: u16,
     },
 }
 
-/// How far a receiver is.
+/// Playback state of a receiver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RunState {
-    /// It has no configuration, or has been reset since.
+    /// No configuration, or a reset since the last one.
     #[default]
     Unconfigured,
-    /// It waits for the first samples or control of its run.
+    /// Waiting for the first samples or controls of the run.
     Armed,
-    /// It has samples, too few to begin.
+    /// Filling the queue; too few samples to start.
     Filling,
-    /// It plays.
+    /// Playing.
     Playing,
 }
 
-/// How a receiver is doing.
+/// Status of a receiver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DeviceStatus {
-    /// Index of the sample that it expects next, modulo 65536; means nothing while it is [`RunState::Armed`].
+    /// Index of the next expected sample, modulo 65536; undefined in the state [`RunState::Armed`].
     pub seq: u16,
-    /// Number of its configuration; 0 is none.
+    /// Number of the configuration; 0 for none.
     pub config: u8,
-    /// Number of its run: only samples that carry it are played.
+    /// Number of the current run; only samples with this number are played.
     pub run: u8,
-    /// How far it is.
+    /// Playback state.
     pub state: RunState,
-    /// Samples that it would take now.
+    /// Number of samples that fit into the queue now.
     pub free: u16,
-    /// Samples that it has and has not played yet.
+    /// Number of samples in the queue.
     pub queued: u16,
-    /// Samples that its clock has counted since it was configured, modulo 2³²: silence too.
+    /// Ticks of the sample clock since the configuration, including silence, modulo 2³².
     pub clock: u32,
-    /// Runs that ended for want of samples, modulo 65536.
+    /// Number of runs that ended by an underrun, modulo 65536.
     pub underruns: u16,
-    /// Frames that were cut or corrupted, modulo 65536.
+    /// Number of truncated or corrupted frames, modulo 65536.
     pub bad_frames: u16,
-    /// Samples and controls that came too late, twice, too early or for another run, modulo 65536.
+    /// Number of samples and controls that were late, repeated, too early or of another run, modulo 65536.
     pub dropped: u16,
-    /// The last ping that arrived.
+    /// Number of the last received ping.
     pub ping: u16,
 }
 
-/// Who a receiver is and what it can do.
+/// Identity and capabilities of a receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HelloReply<'a> {
-    /// The nonce of the hello that this answers; 0 right after a reset.
+    /// Nonce of the answered hello; 0 right after a reset.
     pub nonce: u16,
-    /// Its version of the protocol.
+    /// Protocol version of the receiver.
     pub version: u8,
     /// Whether it plays samples.
     pub has_stream: bool,
-    /// Whether it renders by itself.
+    /// Whether it renders textures itself.
     pub has_control: bool,
     /// Whether it sends [`DeviceMessage::Sensor`].
     pub has_sensor: bool,
-    /// Lowest rate, in Hz.
+    /// Lowest sample rate, in Hz.
     pub rate_min_hz: u16,
-    /// Highest rate, in Hz.
+    /// Highest sample rate, in Hz.
     pub rate_max_hz: u16,
-    /// Most samples that it queues.
+    /// Capacity of its queue, in samples.
     pub buffer: u16,
-    /// Most samples a frame.
+    /// Most samples in a frame.
     pub frame_max: u8,
-    /// Its name, UTF-8, at most [`MAX_NAME`] bytes.
+    /// Name, UTF-8, at most [`MAX_NAME`] bytes.
     pub name: &'a [u8],
 }
 
-/// What the receiver says.
+/// Message from the receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeviceMessage<'a> {
-    /// Who it is.
+    /// Identity and capabilities.
     HelloReply(HelloReply<'a>),
-    /// How it is doing.
+    /// Status.
     Status(DeviceStatus),
-    /// Samples of its accelerometer.
+    /// Accelerometer samples.
     Sensor {
-        /// Index of the first, modulo 65536.
+        /// Index of the first sample, modulo 65536.
         seq: u16,
-        /// Samples a second.
+        /// Sample rate, in Hz.
         rate_hz: u16,
-        /// When the first was taken, in µs of any clock of its own, modulo 2³².
+        /// Time of the first sample, in µs of the receiver's own clock, modulo 2³².
         time_us: u32,
-        /// Acceleration of a count, in µm/s².
+        /// Acceleration per count, in µm/s².
         scale_umps2: u32,
         /// The samples.
         samples: SampleBytes<'a>,
     },
-    /// Something is wrong with it.
+    /// A fault of the receiver.
     Fault {
-        /// Whether it has stopped for good; else it goes on.
+        /// Whether the receiver has stopped permanently; otherwise it continues.
         has_stopped: bool,
-        /// What is wrong, UTF-8, at most [`MAX_FAULT`] bytes.
+        /// Description, UTF-8, at most [`MAX_FAULT`] bytes.
         text: &'a [u8],
     },
 }
 
-/// A payload does not hold what its type should.
+/// Error of a payload that does not match its message type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Malformed;
 
@@ -241,11 +242,11 @@ const HAS_STREAM: u8 = 1;
 const HAS_CONTROL: u8 = 2;
 const HAS_SENSOR: u8 = 4;
 
-/// What a frame from the host says; nothing where its type is unknown, which later versions may send.
+/// Decodes a frame from the host. Returns `None` for an unknown type, which later protocol versions may send.
 ///
 /// # Errors
-/// [`Malformed`] where the payload is too short or holds a number that means nothing. Longer ones are taken: later
-/// versions may add to the end.
+/// [`Malformed`] if the payload is too short or holds an invalid value. Longer payloads are accepted, because later
+/// versions may append fields.
 pub fn from_host(frame: Frame<'_>) -> Result<Option<HostMessage<'_>>, Malformed> {
     let mut r = Reader::new(frame.payload);
     let seq = frame.seq;
@@ -261,7 +262,7 @@ pub fn from_host(frame: Frame<'_>) -> Result<Option<HostMessage<'_>>, Malformed>
     Ok(Some(message))
 }
 
-/// What a frame from the receiver says; nothing where its type is unknown, which later versions may send.
+/// Decodes a frame from the receiver. Returns `None` for an unknown type, which later protocol versions may send.
 ///
 /// # Errors
 /// [`Malformed`] as for [`from_host`].
@@ -284,7 +285,7 @@ pub fn from_device(frame: Frame<'_>) -> Result<Option<DeviceMessage<'_>>, Malfor
     Ok(Some(message))
 }
 
-/// Writes a message of the host as it goes over the wire, and returns its length.
+/// Encodes a message of the host for the line. Returns its length in bytes.
 pub fn write_to_device(message: HostMessage<'_>, wire: &mut [u8; MAX_WIRE]) -> usize {
     let mut w = Writer::new();
     let (kind, seq) = match message {
@@ -315,7 +316,8 @@ pub fn write_to_device(message: HostMessage<'_>, wire: &mut [u8; MAX_WIRE]) -> u
     encode(Frame { kind, seq, payload: w.payload() }, wire)
 }
 
-/// Writes samples as [`HostMessage::Samples`], at most [`MAX_SAMPLES`] of them, and returns the length on the wire.
+/// Encodes samples as [`HostMessage::Samples`], at most [`MAX_SAMPLES`] of them. Returns the length on the line in
+/// bytes.
 pub fn write_samples(seq: u16, run: u8, samples: &[i16], wire: &mut [u8; MAX_WIRE]) -> usize {
     let mut w = Writer::new();
     w.u8(run);
@@ -323,8 +325,8 @@ pub fn write_samples(seq: u16, run: u8, samples: &[i16], wire: &mut [u8; MAX_WIR
     encode(Frame { kind: SAMPLES, seq, payload: w.payload() }, wire)
 }
 
-/// Writes samples of an accelerometer as [`DeviceMessage::Sensor`], at most [`MAX_SENSOR_SAMPLES`] of them, and returns
-/// the length on the wire.
+/// Encodes accelerometer samples as [`DeviceMessage::Sensor`], at most [`MAX_SENSOR_SAMPLES`] of them. Returns the
+/// length on the line in bytes.
 pub fn write_sensor(
     (seq, rate_hz, time_us, scale_umps2): (u16, u16, u32, u32),
     samples: &[i16],
@@ -338,7 +340,7 @@ pub fn write_sensor(
     encode(Frame { kind: SENSOR, seq, payload: w.payload() }, wire)
 }
 
-/// Writes a message of the receiver as it goes over the wire, and returns its length.
+/// Encodes a message of the receiver for the line. Returns its length in bytes.
 pub fn write_to_host(message: DeviceMessage<'_>, wire: &mut [u8; MAX_WIRE]) -> usize {
     let mut w = Writer::new();
     let (kind, seq) = match message {

@@ -1,38 +1,38 @@
-//! What waits to be written: bounded, and never for long.
+//! Bounded write queue of a serial line.
 
 use std::io;
 use std::time::Duration;
 
 use crate::serial::frame::MAX_WIRE;
 
-/// Bytes that may wait.
+/// Capacity in bytes.
 const SIZE: usize = 1024;
-/// What the line has not taken within this time is dropped.
+/// Age at which unwritten bytes are dropped.
 const LONGEST: Duration = Duration::from_millis(20);
 
-/// Frames on their way to the line.
+/// Frames that wait to be written.
 #[derive(Debug)]
 pub(super) struct Outbox {
     bytes: [u8; SIZE],
     len: usize,
-    /// Since when something waits.
+    /// Time since which bytes wait.
     since: Option<Duration>,
-    /// A frame may have been cut off: the next begins after a zero.
+    /// Whether the last frame may be incomplete; the next one then starts with a zero byte.
     is_cut: bool,
 }
 
 impl Outbox {
-    /// With nothing in it. What another program wrote before may be half a frame.
+    /// An empty queue. Its first frame starts with a zero byte, because another program may have left half a frame.
     pub(super) fn new() -> Self {
         Self { bytes: [0; SIZE], len: 0, since: None, is_cut: true }
     }
 
-    /// Whether any frame fits.
+    /// Whether a frame of any length fits.
     pub(super) fn has_room(&self) -> bool {
         self.len + 1 + MAX_WIRE <= SIZE
     }
 
-    /// Takes a frame if it fits; whether it does.
+    /// Queues a frame if it fits. Returns whether it does.
     pub(super) fn push(&mut self, frame: &[u8]) -> bool {
         if self.len + 1 + frame.len() > SIZE {
             return false;
@@ -46,16 +46,16 @@ impl Outbox {
         true
     }
 
-    /// Drops what waits.
+    /// Discards all queued bytes.
     pub(super) fn clear(&mut self) {
         self.is_cut |= self.len > 0;
         (self.len, self.since) = (0, None);
     }
 
-    /// Gives the line what it takes now, and drops what it has not taken for too long.
+    /// Writes as many bytes as the line accepts, and discards bytes that have waited too long.
     ///
     /// # Errors
-    /// What the line says, but for that it has no room.
+    /// Errors of the line, except that it accepts no bytes now.
     pub(super) fn flush(
         &mut self,
         now: Duration,
@@ -82,7 +82,7 @@ impl Outbox {
     }
 }
 
-/// Whether an error of reading or writing only says that nothing can be done now.
+/// Whether an I/O error only means that the operation would block.
 pub(super) fn is_no_room(error: &io::Error) -> bool {
     use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
     matches!(error.kind(), Interrupted | TimedOut | WouldBlock)

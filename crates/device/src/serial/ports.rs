@@ -1,64 +1,68 @@
-//! Serial ports: which there are, and which one a name means.
+//! Serial ports: listing, and resolving an id to a port.
 
 use crate::error::{DeviceError, DeviceErrorKind};
 
-/// What the id of every serial output begins with.
+/// Prefix of the ids of serial outputs.
 pub const ID_PREFIX: &str = "serial:";
-/// What the name of a port begins with that is known by its maker, product and serial number.
+/// Prefix of port names that identify a USB port by vendor, product and serial number.
 const USB_PREFIX: &str = "usb-";
 
-/// How a serial port is connected.
+/// Connection type of a serial port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SerialPortKind {
-    /// By USB, from a maker and product.
+    /// USB.
     Usb {
-        /// Number of the maker.
+        /// Vendor id.
         vendor_id: u16,
-        /// The maker's number of the product.
+        /// Product id, assigned by the vendor.
         product_id: u16,
     },
-    /// On the bus of the machine.
+    /// Bus of the machine, such as PCI.
     Pci,
-    /// By Bluetooth.
+    /// Bluetooth.
     Bluetooth,
-    /// The system does not say.
+    /// Unknown to the system.
     Unknown,
 }
 
 /// One serial port of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SerialPortInfo {
-    /// Id by which it is opened as an output: `serial:usb-VVVV-PPPP-SERIAL` where that is one port and no other, which
-    /// stays the same when it is plugged in elsewhere; else `serial:` and the port's name.
+    /// Id by which it is opened as an output. If vendor, product and serial number are unique, it is
+    /// `serial:usb-VVVV-PPPP-SERIAL`, which does not depend on the USB socket. Otherwise it is `serial:` and the port's
+    /// name.
     pub id: String,
-    /// The system's name of the port, today.
+    /// Current system name of the port.
     pub port: String,
-    /// Name to show: that of the product where it is known.
+    /// Display name: the product name if known, otherwise the port's name.
     pub name: String,
-    /// How it is connected.
+    /// Connection type.
     pub kind: SerialPortKind,
 }
 
-/// The serial ports of this machine, by id. None is opened.
+/// Lists the serial ports of this machine, sorted by id. None is opened.
 ///
 /// # Errors
-/// - [`DeviceErrorKind::Backend`] where the system does not give its list.
+/// - [`DeviceErrorKind::Backend`] if the system cannot list them.
 pub fn list_serial_ports() -> Result<Vec<SerialPortInfo>, DeviceError> {
     let ports = serialport::available_ports().map_err(|error| {
-        DeviceError::new(DeviceErrorKind::Backend, format!("the serial ports cannot be listed: {error}"))
+        DeviceError::new(
+            DeviceErrorKind::Backend,
+            format!("the serial ports cannot be listed: {error}; try again"),
+        )
     })?;
     Ok(describe(ports))
 }
 
-/// The system's name of the port that an output's id means now; the id may lack its `serial:`.
+/// Returns the current system name of the port with an id; the prefix `serial:` is optional.
 ///
 /// # Errors
-/// - [`DeviceErrorKind::NotFound`] where nothing by that maker, product and serial number is plugged in.
-/// - [`DeviceErrorKind::Backend`] where the system does not give its list.
+/// - [`DeviceErrorKind::NotFound`] if no USB port with this vendor, product and serial number is connected.
+/// - [`DeviceErrorKind::Backend`] if the system cannot list ports.
 pub(super) fn resolve(id: &str) -> Result<String, DeviceError> {
     let name = id.strip_prefix(ID_PREFIX).unwrap_or(id);
     if !name.starts_with(USB_PREFIX) {
-        // A name of the system: whether it is there, opening it says.
+        // This is a system name; opening the port checks whether it exists.
         return Ok(name.into());
     }
     resolve_among(name, list_serial_ports()?)
@@ -68,14 +72,14 @@ fn resolve_among(name: &str, ports: Vec<SerialPortInfo>) -> Result<String, Devic
     let found = ports.into_iter().find(|port| port.id.strip_prefix(ID_PREFIX) == Some(name));
     found.map(|port| port.port).ok_or_else(|| {
         let message = format!(
-            "there is no serial port `{ID_PREFIX}{name}` now; plug it in, or take another: `shagreen devices` lists them"
+            "no serial port `{ID_PREFIX}{name}` is connected; plug it in, or choose one that `shagreen devices` lists"
         );
         DeviceError::new(DeviceErrorKind::NotFound, message)
     })
 }
 
 fn describe(mut ports: Vec<serialport::SerialPortInfo>) -> Vec<SerialPortInfo> {
-    // On macOS a port has two names, of which the one for calling out does not wait for a carrier.
+    // On macOS a port has two names; the one for outgoing connections (`cu`) does not wait for a carrier.
     let names: Vec<String> = ports.iter().map(|port| port.port_name.clone()).collect();
     ports.retain(|port| match port.port_name.strip_prefix("/dev/tty.") {
         Some(rest) => !names.contains(&format!("/dev/cu.{rest}")),
@@ -95,7 +99,7 @@ fn describe(mut ports: Vec<serialport::SerialPortInfo>) -> Vec<SerialPortInfo> {
     described
 }
 
-/// What a port by USB is known by, wherever it is plugged in.
+/// Name of a USB port that does not depend on its socket.
 fn usb_key(port: &serialport::SerialPortInfo) -> Option<String> {
     let serialport::SerialPortType::UsbPort(usb) = &port.port_type else { return None };
     let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };

@@ -1,12 +1,12 @@
-//! The receiver's side: what a microcontroller does with the bytes that arrive and the samples that are due.
+//! Receiver side of the serial protocol, as run by a microcontroller.
 //!
-//! It has no clock, no memory to ask for and nothing to wait for: bytes go in by [`Receiver::receive`], a sample comes
-//! out at every tick of the sample clock by [`Receiver::tick`], and frames to send by [`Receiver::transmit`]. Every
-//! number is an integer, so that the same bytes and ticks give the same samples in any language;
-//! `examples/serial-receiver-c` is the same in C.
+//! It needs no clock, no memory allocation and no waiting. Bytes enter by [`Receiver::receive`]. [`Receiver::tick`]
+//! returns one sample per tick of the sample clock, and [`Receiver::transmit`] returns frames to send. All numbers are
+//! integers, so the same bytes and ticks give the same samples in every language; `examples/serial-receiver-c`
+//! implements the same in C.
 //!
-//! What it never does: play above the ceiling, play what is not of the present run, jump at a gap (it fades out, and in
-//! again), play on when samples or control stop.
+//! It never plays above the ceiling and never plays samples of another run. It never jumps at a gap but fades out and
+//! in, and it stops when samples or controls stop.
 //!
 //! ```
 //! use shagreen_device::serial::receiver::{About, Receiver};
@@ -15,7 +15,7 @@
 //! for byte in [0x03, 0x01, 0x01, 0x02, 0x01] {
 //!     receiver.receive(byte);
 //! }
-//! assert_eq!(receiver.tick(0), 0, "nothing is configured, nothing is played");
+//! assert_eq!(receiver.tick(0), 0, "an unconfigured receiver is silent");
 //! ```
 
 mod queue;
@@ -27,25 +27,25 @@ use crate::serial::message::{
     RunState, SampleBytes, VERSION, from_host, write_to_host,
 };
 
-/// What a receiver says of itself.
+/// Identity and capabilities of a receiver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
     /// Whether it plays samples.
     pub has_stream: bool,
-    /// Whether it renders by itself.
+    /// Whether it renders textures itself.
     pub has_control: bool,
-    /// Whether it sends samples of an accelerometer.
+    /// Whether it sends accelerometer samples.
     pub has_sensor: bool,
-    /// Lowest rate, in Hz.
+    /// Lowest sample rate, in Hz.
     pub rate_min_hz: u16,
-    /// Highest rate, in Hz.
+    /// Highest sample rate, in Hz.
     pub rate_max_hz: u16,
-    /// Its name.
+    /// Name of the receiver.
     pub name: &'static str,
 }
 
 impl About {
-    /// A receiver that plays samples of any usual rate, and has no name.
+    /// A receiver without a name that plays samples at 1 to 16 kHz.
     pub const STREAM: Self = Self {
         has_stream: true,
         has_control: false,
@@ -56,7 +56,7 @@ impl About {
     };
 }
 
-/// Before the first configuration.
+/// Settings before the first configuration.
 const UNCONFIGURED: Configure = Configure {
     config: 0,
     mode: Mode::Stream,
@@ -70,40 +70,40 @@ const UNCONFIGURED: Configure = Configure {
     full_scale_cmps2: 0,
 };
 
-/// A receiver that queues at most `N` samples.
+/// A receiver with a queue of at most `N` samples.
 #[derive(Clone, Debug)]
 pub struct Receiver<const N: usize> {
     about: About,
     decoder: Decoder,
-    /// How to play; a configuration of number 0 is none, and only says how to fade out.
+    /// Playback settings. With configuration number 0 the receiver is unconfigured, and they only control the fade-out.
     settings: Configure,
     queue: Queue<N>,
     run: u8,
-    /// Whether the run has begun to be played.
+    /// Whether playback of the run has started.
     is_playing: bool,
-    /// Whether it fades out: it does so to the end, whatever arrives.
+    /// Whether a fade-out is in progress; it always runs to its end.
     is_falling: bool,
-    /// Present gain, in steps of a fade.
+    /// Current gain, in steps of a fade.
     gain: u16,
-    /// The sample that is faded.
+    /// Sample to which the gain applies.
     held: i16,
     control: Control,
     control_seq: Option<u16>,
-    /// Ticks since samples or control arrived.
+    /// Ticks since the last samples or controls.
     unfed_ticks: u32,
     ticks_to_report: u16,
     clock: u32,
     underruns: u16,
     dropped: u16,
     ping: u16,
-    /// The nonce of a hello that is not answered yet.
+    /// Nonce of a hello that still needs a reply.
     hello_due: Option<u16>,
     is_status_due: bool,
     fault_due: Option<(bool, &'static str)>,
 }
 
 impl<const N: usize> Receiver<N> {
-    /// A receiver right after a reset: it says hello by itself.
+    /// A receiver right after a reset; it sends a hello reply without a request.
     pub const fn new(about: About) -> Self {
         Self {
             about,
@@ -129,9 +129,9 @@ impl<const N: usize> Receiver<N> {
         }
     }
 
-    /// Takes the next byte from the line. Cost: that of one frame when it ends one, else a few instructions.
+    /// Processes the next byte from the line. Cost: that of one frame at its last byte, otherwise a few instructions.
     pub fn receive(&mut self, byte: u8) {
-        // What a message borrows from the decoder, the rest of the receiver takes: so the decoder is taken out.
+        // The message borrows from the decoder while the receiver is modified, so the decoder is moved out temporarily.
         let mut decoder = core::mem::take(&mut self.decoder);
         if let Some(frame) = decoder.push(byte) {
             match from_host(frame) {
@@ -143,9 +143,9 @@ impl<const N: usize> Receiver<N> {
         self.decoder = decoder;
     }
 
-    /// The next sample to play, at a tick of the sample clock; `rendered` is what the receiver itself has rendered for
-    /// [`Receiver::control`], and counts in [`Mode::Control`] only. Call it at the configured rate, or at any rate while
-    /// there is none.
+    /// Returns the next sample to play, at a tick of the sample clock. `rendered` is the sample that the receiver
+    /// itself renders for [`Receiver::control`]; it is used in [`Mode::Control`] only. Call this at the configured
+    /// rate, or at any rate while there is no configuration.
     pub fn tick(&mut self, rendered: i16) -> i16 {
         let settings = self.settings;
         if settings.config != 0 {
@@ -181,8 +181,8 @@ impl<const N: usize> Receiver<N> {
         faded.clamp(-ceiling, ceiling) as i16
     }
 
-    /// Writes the next frame that is to be sent, and returns its length: 0 is none. The newest status replaces one that
-    /// has not been sent.
+    /// Encodes the next frame to send. Returns its length in bytes, or 0 if there is none. A newer status replaces an
+    /// unsent one.
     pub fn transmit(&mut self, wire: &mut [u8; MAX_WIRE]) -> usize {
         if let Some(nonce) = self.hello_due.take() {
             return write_to_host(DeviceMessage::HelloReply(self.hello_reply(nonce)), wire);
@@ -198,17 +198,17 @@ impl<const N: usize> Receiver<N> {
         0
     }
 
-    /// How it is to play, while it is configured.
+    /// Playback settings, or `None` without a configuration.
     pub fn settings(&self) -> Option<Configure> {
         (self.settings.config != 0).then_some(self.settings)
     }
 
-    /// What to render, while the run is one of control.
+    /// Contact and texture to render, or `None` outside a run in [`Mode::Control`].
     pub fn control(&self) -> Option<Control> {
         (self.settings.mode == Mode::Control && self.is_playing).then_some(self.control)
     }
 
-    /// How it is doing.
+    /// Current status.
     pub fn status(&self) -> DeviceStatus {
         let settings = self.settings;
         let queued = self.queue.len() as u16;
@@ -237,7 +237,7 @@ impl<const N: usize> Receiver<N> {
         }
     }
 
-    /// Tells the host that something is wrong, and where `has_stopped`, plays nothing until it is configured again.
+    /// Reports a fault to the host. With `has_stopped`, the receiver is silent until it is configured again.
     pub fn fault(&mut self, has_stopped: bool, text: &'static str) {
         self.fault_due = Some((has_stopped, text));
         if has_stopped {
@@ -245,7 +245,7 @@ impl<const N: usize> Receiver<N> {
         }
     }
 
-    /// The sample clock stood still: what is queued is old, and is dropped.
+    /// Discards the queue, for use after the sample clock has stood still.
     pub fn skip(&mut self) {
         self.end_run();
     }
@@ -316,7 +316,7 @@ impl<const N: usize> Receiver<N> {
         self.settings.config != 0 && self.settings.mode == mode
     }
 
-    /// A status is due every so many ticks.
+    /// Schedules a status every `report` ticks.
     fn report(&mut self, settings: Configure) {
         self.ticks_to_report -= 1;
         if self.ticks_to_report == 0 {
@@ -324,7 +324,7 @@ impl<const N: usize> Receiver<N> {
         }
     }
 
-    /// Ends the run when nothing has fed it for too long.
+    /// Ends the run if there were no samples or controls for too long.
     fn watch(&mut self, settings: Configure) {
         if !self.is_playing && !self.queue.has_begun() {
             return;
@@ -351,8 +351,8 @@ impl<const N: usize> Receiver<N> {
         self.end_run();
     }
 
-    /// Drops what is queued and fades out. Only what carries the number of the next run will be played, so nothing that
-    /// is on its way is.
+    /// Discards the queue and fades out. Only samples with the number of the next run are played afterwards, so samples
+    /// in transit are not.
     fn end_run(&mut self) {
         self.run = self.run.wrapping_add(1);
         self.queue.clear();

@@ -1,7 +1,7 @@
-//! The host's side of an open line, without the line and the clock: bytes and times go in, frames come out.
+//! Host side of an open serial connection, independent of port and clock: it takes bytes and times and returns frames.
 //!
-//! The receiver's clock is the master: samples are rendered when its last status has room for them, never ahead. So
-//! nothing that waits here is old, and a receiver that was away gets what is current.
+//! The receiver's clock is the master. Samples are rendered only when the last status has room for them. No stale
+//! samples therefore wait on the host, and a receiver that was interrupted gets current ones.
 
 use std::time::Duration;
 
@@ -12,41 +12,41 @@ use crate::serial::message::{
 };
 use crate::serial::outbox::Outbox;
 
-/// How long until what was not answered is said again.
+/// Time after which an unacknowledged message is repeated.
 const REPEAT: Duration = Duration::from_millis(20);
-/// How often a receiver that has fallen silent is asked.
+/// Interval of pings to a silent receiver.
 const PING: Duration = Duration::from_millis(10);
-/// How much faster than agreed a receiver's clock may be: beyond that it is not a clock.
+/// Largest ratio of the receiver's clock rate to the agreed rate.
 const FASTEST: f64 = 1.25;
 
-/// Where the samples come from.
+/// Source of samples and controls.
 pub(super) trait Source {
     /// Renders the next samples.
     fn render(&mut self, out: &mut [i16]);
 
-    /// What the hand does at the end of what was rendered.
+    /// Returns contact and texture at the end of the rendered samples.
     fn control(&self) -> Control;
 }
 
-/// What was agreed.
+/// Negotiated playback parameters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
-    /// How the receiver is to play; its number is given anew each time.
+    /// Settings for the receiver; each configuration gets a new number.
     pub(super) configure: Configure,
-    /// Samples a frame.
+    /// Samples per frame.
     pub(super) block: u16,
-    /// A receiver that says nothing for so long is asked whether it is there.
+    /// Silence of the receiver after which it is pinged.
     pub(super) stall: Duration,
 }
 
-/// What has gone wrong so far, on both sides of the line.
+/// Error counters of both sides of the line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub(super) underruns: u64,
     pub(super) bad_frames: u64,
 }
 
-/// Says the right thing at the right time.
+/// State machine of the host side.
 #[derive(Debug)]
 pub(super) struct Sender {
     plan: Plan,
@@ -54,7 +54,7 @@ pub(super) struct Sender {
     own_bad_frames: u16,
     counts: Counts,
     config: u8,
-    /// The last status of this configuration.
+    /// Last status with the current configuration.
     status: Option<DeviceStatus>,
     /// Index of the next sample.
     seq: u16,
@@ -64,13 +64,13 @@ pub(super) struct Sender {
     last_samples: Duration,
     last_order: Option<Duration>,
     is_stalled: bool,
-    /// The run that a stop was to end, and when it was sent.
+    /// Run that a stop message should end, with the time of that message.
     stopped_run: Option<(u8, Duration)>,
     pings: u16,
-    /// Samples that may be rendered, by the host's own clock.
+    /// Samples that may be rendered according to the host's own clock.
     allowance: f64,
     allowed_at: Duration,
-    /// Samples that the receiver's clock has counted and that have not been rendered for control.
+    /// Ticks of the receiver's clock that are not yet rendered in control mode.
     due_for_control: u32,
     control_seq: u16,
     control_age: u32,
@@ -78,7 +78,7 @@ pub(super) struct Sender {
 }
 
 impl Sender {
-    /// Right after the greeting, at a time of any clock.
+    /// A sender after the handshake, at a time of any clock.
     pub(super) fn new(plan: Plan, now: Duration) -> Self {
         Self {
             plan,
@@ -104,19 +104,19 @@ impl Sender {
         }
     }
 
-    /// What has gone wrong so far.
+    /// Error counters so far.
     pub(super) fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// Takes what arrived; `hear` gets what is not about the stream.
+    /// Processes received bytes. `hear` gets the messages that do not concern the stream.
     pub(super) fn receive(&mut self, bytes: &[u8], now: Duration, hear: &mut dyn FnMut(DeviceMessage<'_>)) {
         let mut decoder = std::mem::take(&mut self.decoder);
         for &byte in bytes {
             let Some(frame) = decoder.push(byte) else { continue };
             match from_device(frame) {
                 Ok(Some(DeviceMessage::Status(status))) => self.note_status(status, now),
-                // A receiver that says hello by itself has been reset.
+                // An unrequested hello reply means that the receiver was reset.
                 Ok(Some(DeviceMessage::HelloReply(reply))) if reply.nonce == 0 => self.configure_anew(),
                 Ok(Some(message)) => hear(message),
                 Ok(None) => {}
@@ -129,7 +129,7 @@ impl Sender {
         self.decoder = decoder;
     }
 
-    /// Says what is to be said now. Renders at most what the receiver takes.
+    /// Queues the messages that are due now. Renders at most as many samples as the receiver accepts.
     pub(super) fn poll(&mut self, now: Duration, source: &mut dyn Source, outbox: &mut Outbox) {
         self.allow(now);
         let Some(status) = self.status else {
@@ -145,7 +145,7 @@ impl Sender {
             self.is_stalled = false;
             self.stop(now, status, outbox);
         }
-        // What follows a stop must not be taken for what it was to end.
+        // Samples sent before the new run starts could be taken for the run that the stop ends.
         if let Some((run, since)) = self.stopped_run
             && status.run == run
         {
@@ -161,7 +161,7 @@ impl Sender {
         }
     }
 
-    /// A last word: whoever closes the line falls silent first.
+    /// Queues a final stop message, so that the receiver is silent before the line closes.
     pub(super) fn say_goodbye(outbox: &mut Outbox) {
         let mut wire = [0; MAX_WIRE];
         let len = write_to_device(HostMessage::Stop, &mut wire);
@@ -171,7 +171,7 @@ impl Sender {
 
     fn note_status(&mut self, status: DeviceStatus, now: Duration) {
         if status.config != self.config || status.state == RunState::Unconfigured {
-            // It has been reset, unless this was on its way while it was configured.
+            // The receiver was reset, unless this status was sent before the configuration arrived.
             if self.status.is_some() {
                 self.configure_anew();
             }
@@ -179,7 +179,7 @@ impl Sender {
         }
         if let Some(last) = self.status {
             let n_ticks = status.clock.wrapping_sub(last.clock);
-            // A line that changes the order of frames brings old news. After silence, any news is good.
+            // Reordered frames may deliver an old status, which is ignored. After a stall, every status is accepted.
             if n_ticks.cast_signed() < 0 && !self.is_stalled {
                 return;
             }
@@ -202,7 +202,7 @@ impl Sender {
         }
     }
 
-    /// Nothing is heard: end what may still be on its way, and ask.
+    /// Handles a silent receiver: stops what may still be in transit, and pings.
     fn wait_for_life(&mut self, now: Duration, status: DeviceStatus, outbox: &mut Outbox) {
         if !self.is_stalled {
             self.is_stalled = true;
@@ -216,14 +216,14 @@ impl Sender {
     }
 
     fn stop(&mut self, now: Duration, status: DeviceStatus, outbox: &mut Outbox) {
-        // A run that has ended already has nothing to stop.
+        // A run that has already ended needs no stop.
         if self.stopped_run.is_none_or(|(run, _)| run == status.run) {
             self.stopped_run = Some((status.run, now));
             self.order(now, Duration::ZERO, HostMessage::Stop, outbox);
         }
     }
 
-    /// Says something, unless something was said within `pause`; whether it did.
+    /// Sends a message unless one was sent within `pause`. Returns whether it was queued.
     fn order(
         &mut self,
         now: Duration,
@@ -240,7 +240,7 @@ impl Sender {
         outbox.push(&wire[..len])
     }
 
-    /// Lets time pass for the allowance: however much room a receiver claims, it gets no more than a clock can play.
+    /// Updates the allowance: whatever room a receiver claims, it gets no more samples than its clock can play.
     fn allow(&mut self, now: Duration) {
         let elapsed_secs = now.saturating_sub(self.allowed_at).as_secs_f64();
         self.allowed_at = now;
@@ -252,14 +252,14 @@ impl Sender {
     fn stream(&mut self, now: Duration, status: DeviceStatus, source: &mut dyn Source, outbox: &mut Outbox) {
         let Configure { window, rate_hz, .. } = self.plan.configure;
         let block = self.plan.block;
-        // Nothing can be on its way for so long: it was lost, or it waits somewhere and is old when it arrives.
+        // Samples cannot be in transit for so long: they are lost or would be stale on arrival.
         let window_secs = f64::from(window) / f64::from(rate_hz);
         let longest = (self.plan.stall * 4 / 5).max(Duration::from_secs_f64(2.0 * window_secs));
         let is_overdue = now.saturating_sub(self.last_samples) > longest;
         loop {
             let begin = if status.state == RunState::Armed { self.run_begin } else { status.seq };
             let in_flight = self.seq.wrapping_sub(begin);
-            // More than the window: it expects what was never sent.
+            // More than a window: the receiver expects samples that were never sent.
             if in_flight > window || in_flight > 0 && is_overdue {
                 self.stop(now, status, outbox);
                 return;

@@ -1,12 +1,12 @@
-//! The accelerometer of a receiver, as what listens to a measurement.
+//! Accelerometer of a serial receiver, as the sensor of a measurement.
 
 use rtrb::Consumer;
 
 use super::Heard;
 use crate::error::{DeviceError, DeviceErrorKind};
-use crate::measure::Sensor;
+use crate::sensor::Sensor;
 
-/// A receiver's accelerometer.
+/// Accelerometer of a serial receiver.
 #[derive(Debug)]
 pub struct SerialSensor {
     heard: Consumer<Heard>,
@@ -16,20 +16,20 @@ pub struct SerialSensor {
 }
 
 impl SerialSensor {
-    /// What a connection hears: [`super::Connection::heard`].
+    /// A sensor that reads a connection's messages: [`super::Connection::heard`].
     pub fn new(heard: Consumer<Heard>) -> Self {
         Self { heard, rate_hz: 0.0, next_seq: None, n_lost: 0 }
     }
 }
 
 impl Sensor for SerialSensor {
-    /// Zero before the first block.
+    /// Sample rate in Hz; zero before the first block.
     fn rate_hz(&self) -> f64 {
         self.rate_hz
     }
 
-    /// In m/s²: the receiver says what a count is. What was lost on the line is made up for by the last sample, so that
-    /// what follows keeps its time, and [`Sensor::check`] says so.
+    /// Appends samples in m/s², converted with the receiver's scale. Each lost sample is replaced by the last one
+    /// before it, so that later samples keep their time; [`Sensor::check`] reports the loss.
     fn read(&mut self, out: &mut Vec<f32>) {
         while let Ok(heard) = self.heard.pop() {
             let Heard::Sensor(block) = heard else { continue };
@@ -47,12 +47,12 @@ impl Sensor for SerialSensor {
 
     fn check(&self) -> Result<(), DeviceError> {
         if self.heard.is_abandoned() {
-            let message = "the receiver with the sensor is gone; connect it and measure again";
+            let message = "the receiver with the sensor is disconnected; connect it and measure again";
             return Err(DeviceError::new(DeviceErrorKind::Lost, message));
         }
         if self.n_lost > 0 {
             let message = format!(
-                "{} samples of the sensor were lost on the serial line; use a faster line or a shorter cable, and measure again",
+                "{} samples of the sensor were lost on the serial line; use a higher baud rate or a shorter cable, and measure again",
                 self.n_lost
             );
             return Err(DeviceError::new(DeviceErrorKind::Backend, message));
@@ -94,6 +94,6 @@ mod tests {
         assert_eq!(samples[4..], [4.0, 4.0, -1.0]);
         assert!(sensor.check().unwrap_err().message().contains("2 samples"));
         drop(told);
-        assert!(sensor.check().unwrap_err().message().contains("gone"));
+        assert!(sensor.check().unwrap_err().message().contains("disconnected"));
     }
 }

@@ -52,7 +52,7 @@ fn a_lift_is_force_zero_at_its_report() {
     assert!(before.contact.speed_mps > 0.05);
     assert_eq!(track.touch_at(0.020).contact, Contact::LIFTED);
     assert_eq!(track.touch_at(0.029).contact, Contact::LIFTED);
-    // The next stroke begins at rest, wherever the last one ended.
+    // The next stroke starts at rest, wherever the last one ended.
     assert_eq!(track.touch_at(0.030).contact, Contact { speed_mps: 0.0, force_n: 0.5 });
 }
 
@@ -71,11 +71,11 @@ fn a_long_gap_is_held_decays_and_lifts() {
     for time_secs in [0.241, 0.3, 0.499] {
         assert_eq!(track.touch_at(time_secs).contact, Contact::LIFTED, "at {time_secs}");
     }
-    // No speed from the jump across the gap.
+    // The jump across the gap causes no speed.
     assert_eq!(track.touch_at(0.5).contact.speed_mps, 0.0);
 }
 
-/// A table of few rows is a stroke like any other, whatever its intervals.
+/// A table with long intervals is a stroke like any other.
 #[test]
 fn a_slow_recording_is_one_stroke_and_a_longer_gap_in_it_lifts() {
     for interval_secs in [0.04, 0.06, 0.1, 1.0] {
@@ -86,7 +86,7 @@ fn a_slow_recording_is_one_stroke_and_a_longer_gap_in_it_lifts() {
         let track = Track::new(&samples).unwrap();
         for step in 10..380 {
             let touch = track.touch_at(0.1 * interval_secs * f64::from(step));
-            // The filter has found the speed after ten reports; before that it rises.
+            // The filter settles within ten reports; before that the speed rises.
             assert!(
                 step < 100 || (touch.contact.speed_mps - 0.08).abs() < 0.004,
                 "{touch:?} of {interval_secs}"
@@ -122,7 +122,7 @@ fn bad_samples_are_named() {
         error(&[PenSample { force_n: -0.1, ..good }]),
         TrackError::NegativeForce { index: 0, force_n: -0.1 }
     );
-    // Milliseconds taken for seconds.
+    // Milliseconds mistaken for seconds.
     assert_eq!(
         error(&[sample(0.0, 0.0), sample(8000.0, 0.0)]),
         TrackError::TooLong { duration_secs: 8000.0 }

@@ -1,4 +1,4 @@
-//! What the gates of the callback share: an actuator, and a texture.
+//! Actuator and texture for the tests of the audio callback.
 
 use shagreen_device::synth::budget::Budget;
 use shagreen_device::synth::drive::{DriveConfig, Inverse};
@@ -7,7 +7,7 @@ use shagreen_device::synth::relief::Relief;
 use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 use shagreen_device::texture::OwnedTexture;
 
-/// An actuator with everything that can stand before one.
+/// An actuator that uses every stage of the output.
 pub(crate) const DRIVE: DriveConfig = DriveConfig {
     inverse: Some(Inverse {
         resonance: Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 },
@@ -19,7 +19,7 @@ pub(crate) const DRIVE: DriveConfig = DriveConfig {
     budget: Some(Budget { rms: 0.3, time_secs: 5.0 }),
 };
 
-/// White noise whose level grows with speed and force, over waves of 0.64 mm that lie along x.
+/// White noise whose level grows with speed, with a relief of waves of 0.64 mm along x.
 pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
     let mut lsf = [0.0; MAX_ORDER];
     (lsf[0], lsf[1]) = (1.0, 2.0);

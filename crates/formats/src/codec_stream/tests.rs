@@ -1,11 +1,11 @@
 use std::sync::{Arc, OnceLock};
 
 use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::books::Codebooks;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::quality::snr_db;
-use shagreen_core::rng::lcg_noise;
+use shagreen_core::maths::rng::lcg_noise;
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::books::Codebooks;
+use shagreen_core::signals::codec::coded::Coded;
+use shagreen_core::signals::quality::snr_db;
 
 use super::{CodecStreamError, HEADER_BYTES, HEADER_CRC, read_stream, write_stream};
 use crate::codec_tables::built_in_codebooks;
@@ -15,7 +15,7 @@ fn books() -> &'static Arc<Codebooks> {
     BOOKS.get_or_init(|| Arc::new(built_in_codebooks().unwrap()))
 }
 
-/// A signal of 26 frames, the last of them half full.
+/// A signal of 26 frames, the last half full.
 fn signal() -> Vec<f64> {
     let mut last = 0.0;
     let smoothed = |x: f64| {
@@ -38,11 +38,11 @@ fn a_stream_is_read_as_it_was_written_and_has_its_bits() {
         assert!(read.warnings.is_empty());
         assert_eq!((read.value.rate, &read.value.frames), (rate, &coded.frames));
         assert_eq!(read.value.n_samples, 1020);
-        // Three whole blocks, and two frames that are filled up to a byte.
+        // Three whole blocks, and two frames padded to a whole byte.
         let n_bits = rate.allocation().n_bits() as usize;
         assert_eq!((coded.frames.len(), coded.n_bits()), (26, 26 * n_bits as u64));
         assert_eq!(bytes.len(), HEADER_BYTES + 3 * (n_bits + 2) + (2 * n_bits).div_ceil(8) + 2);
-        // A scale in 24 bits.
+        // The scale is stored as `f32`, with 24 significant bits.
         let (there, back) = (coded.decode(books()), read.value.decode(books()));
         assert!(snr_db(&there, &back) > 120.0);
     }
@@ -59,7 +59,11 @@ fn what_is_no_stream_is_named() {
     assert_eq!(read_stream(&damaged), Err(CodecStreamError::Header));
     let mut later = bytes.clone();
     later[4] = 2;
-    assert_eq!(read_stream(&later), Err(CodecStreamError::Header), "a damaged byte is no later version");
+    assert_eq!(
+        read_stream(&later),
+        Err(CodecStreamError::Header),
+        "a damaged version byte is not a newer version"
+    );
     let check = HEADER_CRC.checksum(&later[..20]).to_le_bytes();
     later[20..24].copy_from_slice(&check);
     assert_eq!(read_stream(&later), Err(CodecStreamError::Version { found: 2 }));
@@ -79,19 +83,19 @@ fn what_is_cut_off_damaged_or_follows_is_said() {
     let bytes = write_stream(&coded).unwrap();
     let cut = read_stream(&bytes[..HEADER_BYTES + 65 + 30]).unwrap();
     assert_eq!((cut.value.frames.len(), cut.value.n_samples), (8, 320));
-    assert_eq!(cut.warnings, ["the stream is cut off: 8 of 26 frames are there"]);
+    assert_eq!(cut.warnings, ["the stream is truncated: it holds 8 of 26 frames"]);
     let mut damaged = bytes.clone();
     damaged[HEADER_BYTES + 65 + 7] ^= 1;
     damaged.extend([1, 2, 3]);
     let damaged = read_stream(&damaged).unwrap();
     assert!((0..26).all(|i| damaged.value.frames[i].is_none() == (8..16).contains(&i)));
     assert_eq!(damaged.warnings.len(), 2);
-    // Blocks that change places are not taken for each other.
+    // Swapped blocks are detected.
     let mut swapped = bytes.clone();
     let (first, second) = swapped[HEADER_BYTES..].split_at_mut(65);
     first.swap_with_slice(&mut second[..65]);
     assert!(read_stream(&swapped).unwrap().value.frames[..16].iter().all(Option::is_none));
-    // What was lost stays lost.
+    // Lost frames stay lost.
     let lost = read_stream(&write_stream(&damaged.value).unwrap()).unwrap();
     assert_eq!(lost.value.frames, damaged.value.frames);
     let silent = Coded::encode(&[], Bitrate::Kbps1_75, books()).unwrap();
@@ -99,7 +103,7 @@ fn what_is_cut_off_damaged_or_follows_is_said() {
 }
 
 proptest! {
-    /// Whatever is done to a stream, reading it ends in an error that says what to do, or in a signal within its limit.
+    /// However a stream is damaged, reading it returns an error that says what to do, or a signal within its limit.
     #[test]
     fn any_damage_is_an_error_or_within_the_limit(
         rate in 0_usize..5,

@@ -1,8 +1,8 @@
-//! The colors of maps.
+//! The color map of [`crate::figure::Map`].
 
-/// The color of a map at a share of its range, 0..1, as red, green and blue: from dark blue by gray to yellow, which readers
-/// of any color vision tell apart, and which gets lighter all the way (after cividis, J. Nuñez, C. Anderton and R. Renslow
-/// 2018).
+/// Returns the sRGB color of a value, given as a fraction of the range, 0..1. The map runs from dark blue through gray
+/// to yellow with increasing lightness, so readers with color vision deficiency can read it (after cividis, J. Nuñez,
+/// C. Anderton and R. Renslow 2018).
 pub fn map_color(share: f32) -> [u8; 3] {
     const STOPS: [[f32; 3]; 5] = [
         [0.0, 34.0, 78.0],

@@ -1,8 +1,8 @@
-//! Where the labels of points go, so that they can be read.
+//! Placement of point labels without overlap.
 
 /// Height of a label in pixels.
 const HEIGHT: f64 = 12.0;
-/// Width of a character in pixels, about.
+/// Approximate width of a character in pixels.
 const CHARACTER: f64 = 5.6;
 /// Distance of a label from its point, in pixels.
 const GAP: f64 = 6.0;
@@ -24,8 +24,8 @@ impl Frame {
     }
 }
 
-/// Offset in pixels of the upper left corner of each label from its point, within a picture of this size. A label goes to
-/// the side on which it covers least; `points` are all that should stay free, labels being those of the first ones.
+/// Returns the offset in pixels from each labeled point to the upper left corner of its label, in an image of this
+/// `size`. Each label takes the side with the least overlap. `points` are the dots to keep free.
 pub(super) fn offsets(
     labels: &[(&str, (f64, f64))],
     points: &[(f64, f64)],

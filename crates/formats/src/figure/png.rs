@@ -1,4 +1,4 @@
-//! Figures as pictures of pixels: the SVG of a figure, drawn by resvg with a font that comes along.
+//! PNG export of figures: resvg rasterizes the SVG with an embedded font.
 
 use std::sync::Arc;
 
@@ -7,28 +7,28 @@ use resvg::usvg::{Options, Tree, fontdb};
 
 use crate::figure::{Figure, figure_svg};
 
-/// Pixels of the picture for one of the SVG: sharp on paper and on dense screens.
+/// Image pixels per SVG pixel: sharp in print and on high-density screens.
 const PIXELS: f32 = 2.0;
 
-/// Why a figure was not drawn.
+/// Why a figure was not rasterized.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PngError {
-    /// The SVG was not understood.
-    #[error("the figure could not be drawn as pixels ({0}); save it as SVG")]
+    /// The SVG renderer rejected the SVG.
+    #[error("cannot render the figure as PNG ({0}); save it as SVG")]
     Svg(#[from] resvg::usvg::Error),
-    /// There is no room for the pixels.
-    #[error("there is no memory for a picture of {0} pixels; save the figure as SVG")]
+    /// There is not enough memory for the image.
+    #[error("not enough memory for an image of {0} pixels; save the figure as SVG")]
     Memory(u64),
-    /// The pixels could not be written as PNG.
-    #[error("the pixels could not be written as PNG ({0}); save the figure as SVG")]
+    /// The image could not be encoded as PNG.
+    #[error("cannot encode the figure as PNG ({0}); save it as SVG")]
     Encode(String),
 }
 
-/// A figure as PNG, two pixels for each of its SVG.
+/// Renders a figure as PNG, with two image pixels per SVG pixel.
 ///
 /// # Errors
-/// [`PngError`] where the SVG is not understood, or there is no memory for its pixels or their file.
+/// [`PngError`] if the SVG is rejected, or memory for the image or its file is insufficient.
 pub fn figure_png(figure: &Figure) -> Result<Vec<u8>, PngError> {
     let mut fonts = fontdb::Database::new();
     fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
@@ -52,7 +52,7 @@ mod tests {
     use super::figure_png;
     use crate::figure::{Figure, Table};
 
-    /// The picture has the size of the SVG twice over, and ink where words and numbers stand.
+    /// The image has twice the size of the SVG, and dark pixels where there is text.
     #[test]
     fn a_figure_becomes_pixels_with_its_words() {
         let figure = |title: &str| {

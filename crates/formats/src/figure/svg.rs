@@ -1,4 +1,4 @@
-//! Figures as pictures: SVG, one or a page of them.
+//! SVG export of figures, singly or as a page.
 
 use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
 use plotters::coord::Shift;
@@ -17,17 +17,17 @@ use crate::figure::color_map::map_color;
 use crate::figure::labels::offsets;
 use crate::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone};
 
-/// Size of a figure by itself, in pixels.
+/// Size of a single figure, in pixels.
 const SIZE: (u32, u32) = (760, 620);
-/// Size of a figure of a page, in pixels.
+/// Size of a figure on a page, in pixels.
 const PANEL: (u32, u32) = (600, 500);
-/// Figures beside each other on a page.
+/// Figures per row of a page.
 const COLUMNS: usize = 2;
-/// Height of the lines above a page, in pixels.
+/// Height of the page header, in pixels.
 const HEAD: u32 = 100;
-/// Height of a row of a table, in pixels.
+/// Height of a table row, in pixels.
 const ROW: i32 = 24;
-/// Colors of a map: more cannot be told apart, and cells of one color beside each other are one rectangle.
+/// Colors of a map: finer steps are indistinguishable, and adjacent cells of equal color form one rectangle.
 const N_COLORS: u32 = 64;
 
 const INK: RGBColor = RGBColor(0x22, 0x2B, 0x2F);
@@ -37,12 +37,12 @@ const WEAK: RGBColor = RGBColor(0x6B, 0x77, 0x7D);
 type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
-/// A figure by itself.
+/// Renders a single figure as SVG.
 pub fn figure_svg(figure: &Figure) -> String {
     drawn(SIZE, |page| panel(page, figure))
 }
 
-/// Figures on a page, under a title and a sentence that says what they rest on.
+/// Renders figures on one page, under a title and a subtitle that states their data source; `"; "` separates its lines.
 pub fn page_svg(title: &str, subtitle: &str, figures: &[Figure]) -> String {
     let n_rows = figures.len().div_ceil(COLUMNS);
     let size = (COLUMNS as u32 * PANEL.0, HEAD + n_rows as u32 * PANEL.1);
@@ -65,8 +65,8 @@ fn drawn(size: (u32, u32), draw: impl FnOnce(&Page<'_>) -> Drawn) -> String {
         let page = SVGBackend::with_string(&mut svg, size).into_drawing_area();
         let done =
             page.fill(&plotters::style::WHITE).and_then(|()| draw(&page)).and_then(|()| page.present());
-        // Memory takes all text, and every range is made of finite numbers that differ.
-        assert!(done.is_ok(), "a figure can always be drawn: {done:?}");
+        // Writing to a string cannot fail, and every range consists of distinct finite numbers.
+        assert!(done.is_ok(), "cannot draw the figure: {done:?}");
     }
     svg
 }
@@ -117,7 +117,7 @@ fn draw_chart(page: &Page<'_>, chart: &Chart, title: &str) -> Drawn {
     }
 }
 
-/// Draws what a chart shows on its axes.
+/// Draws the series, labels and legend of a chart.
 fn draw_series<'a, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
     page: &Page<'_>,
     mut context: ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, RangedCoordf64>>,
@@ -193,7 +193,7 @@ fn draw_series<'a, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
     Ok(())
 }
 
-/// Draws a map: rectangles of the colors of its cells, and what the colors stand for at the right.
+/// Draws a map: a rectangle per run of cells of equal color, and a color scale at the right.
 fn draw_map(page: &Page<'_>, map: &Map, title: &str) -> Drawn {
     let (page, key) = page.split_horizontally(page.dim_in_pixel().0.saturating_sub(96));
     let mut context = ChartBuilder::on(&page)
@@ -239,7 +239,7 @@ fn draw_map(page: &Page<'_>, map: &Map, title: &str) -> Drawn {
     Ok(())
 }
 
-/// Which of the colors stands for a share of the range.
+/// Index of the map color for a fraction of the range.
 fn shade(share: f64) -> u32 {
     (share * f64::from(N_COLORS - 1)).round() as u32
 }
@@ -249,7 +249,7 @@ fn shade_color(shade: u32) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
-/// The corner of a picture of this size with the fewest points in it.
+/// Returns the corner with the fewest points, for the legend.
 fn free_corner(points: &[(f64, f64)], (width, height): (f64, f64)) -> SeriesLabelPosition {
     let n_near = |right: bool, bottom: bool| {
         let near = |x: f64, length: f64, far: bool| if far { x > 0.62 * length } else { x < 0.42 * length };
@@ -273,7 +273,7 @@ fn draw_table(page: &Page<'_>, table: &Table, title: &str) -> Drawn {
     let rights = || (1..).map(|column| 28 + first + step * column);
     let at_right = |size: f64, tone: RGBColor| text(size, tone).pos(Pos::new(HPos::Right, VPos::Top));
     for (right, name) in rights().zip(&table.columns) {
-        // Both poles of a pair, one above the other.
+        // A column name is split at hyphens, so the two poles of an attribute stand on two lines.
         for (line, pole) in (0..).zip(name.split_inclusive('-')) {
             page.draw_text(pole, &at_right(12.0, WEAK), (right, 44 + 14 * line))?;
         }

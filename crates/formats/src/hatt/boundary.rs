@@ -1,10 +1,10 @@
-//! The boundary of files that do not have one.
+//! Boundary models for files that have none.
 
-use shagreen_core::boundary::{BoundaryModel, boundary};
+use shagreen_core::texture::boundary::{BoundaryModel, boundary};
 use shagreen_core::texture::{MIN_NODE_DISTANCE, PublishedNode};
 use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
 
-/// Whether there is a node at every corner of the rectangle from zero to `highest`.
+/// Returns whether there is a node at every corner of the rectangle from zero to `highest`.
 pub(super) fn is_closed(nodes: &[PublishedNode], highest: Contact) -> bool {
     let corner = |speed_share: f64, force_share: f64| Contact {
         speed: MetersPerSecond(speed_share * highest.speed.0),
@@ -14,14 +14,14 @@ pub(super) fn is_closed(nodes: &[PublishedNode], highest: Contact) -> bool {
     corners.iter().all(|corner| is_near(nodes, *corner, highest, MIN_NODE_DISTANCE))
 }
 
-/// Adds the boundary up to `highest` by the published rule, but where a node is already.
+/// Adds the boundary models up to `highest` by the published rule, except where a node already exists.
 pub(super) fn close(nodes: &mut Vec<PublishedNode>, highest: Contact) {
     let inside: Vec<PublishedNode> =
         nodes.iter().filter(|node| node.speed.0 > 0.0 && node.force.0 > 0.0).cloned().collect();
     let measured: Vec<Contact> =
         inside.iter().map(|node| Contact { speed: node.speed, force: node.force }).collect();
     for BoundaryModel { at, copy_of, silent } in boundary(&measured, highest) {
-        // Twice the least, so that what is added is never refused for what was there.
+        // Twice the minimum node distance, so that an added node never conflicts with an existing one.
         if !is_near(nodes, at, highest, 2.0 * MIN_NODE_DISTANCE) {
             let copy = &inside[copy_of];
             let variance = if silent { 0.0 } else { copy.variance };

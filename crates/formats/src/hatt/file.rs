@@ -1,12 +1,12 @@
-//! The numbers of a file as they stand there, checked one by one and against each other.
+//! The numbers of a HaTT file, checked individually and against each other.
 
 use roxmltree::Node;
-use shagreen_core::lsf::{ar_from_lsf, lsf_from_ar};
+use shagreen_core::dsp::lsf::{ar_from_lsf, lsf_from_ar};
 
 use crate::hatt::HattError;
 use crate::hatt::xml::{is_named, line_of, list, named, numbers, scalar, text};
 
-/// What a file says, in its own units.
+/// The contents of a file, in the units of the file.
 pub(super) struct HattFile {
     pub(super) index: Option<u32>,
     pub(super) material: Option<String>,
@@ -16,13 +16,13 @@ pub(super) struct HattFile {
     pub(super) speed_max_mm_per_s: Option<f64>,
     pub(super) force_max_n: Option<f64>,
     pub(super) models: Vec<HattModel>,
-    /// Three model numbers each, as the file counts them.
+    /// Three model numbers per triangle, as the file counts them.
     pub(super) triangles: Vec<[f64; 3]>,
 }
 
 /// A model at one speed and force.
 pub(super) struct HattModel {
-    /// Its number in the file, usually from one.
+    /// Model number in the file, usually from one.
     pub(super) number: f64,
     pub(super) speed_mm_per_s: f64,
     pub(super) force_n: f64,
@@ -32,21 +32,22 @@ pub(super) struct HattModel {
     pub(super) gain: f64,
 }
 
-/// Elements inside these say nothing about the whole file.
+/// Elements inside a model do not describe the whole file.
 const MODEL: &str = "model";
-/// Units of the format, by the element that states them.
+/// Units of the format, by the element that states them, with accepted spellings.
 const UNITS: [(&str, &str, &[&str]); 3] = [
     ("AccelUnits", "m/s^2", &["m/s^2", "m/s2", "m/s²", "m/s**2", "m.s^-2", "m*s^-2"]),
     ("SpeedUnits", "mm/s", &["mm/s", "mm.s^-1", "mm*s^-1"]),
     ("ForceUnits", "N", &["n", "newton", "newtons"]),
 ];
-/// Most that coefficients may differ from those of their line spectral frequencies before it is said: fifty times what
-/// six decimals make of published models.
+/// Largest difference between filter coefficients and those from the line spectral frequencies that raises no warning:
+/// fifty times the effect of rounding to six decimals in published models.
 const COEFFICIENT_TOLERANCE: f64 = 1e-3;
-/// Most that two spellings of one speed (mm/s), force (N) may differ: their decimals are rounded.
+/// Largest difference between two statements of one speed (mm/s) or force (N) that raises no warning; decimals are
+/// rounded.
 const LIST_TOLERANCE: f64 = 1e-3;
 
-/// The numbers under the root of a document.
+/// Reads the numbers below the root element of a document.
 pub(super) fn read_file(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Result<HattFile, HattError> {
     if !is_named(root, "modelSet") {
         return Err(HattError::Format { found: root.tag_name().name().chars().take(40).collect() });
@@ -58,7 +59,9 @@ pub(super) fn read_file(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Resul
                 let found = found.chars().take(40).collect();
                 return Err(HattError::Unit { element, found, expected: unit });
             }
-            None => warnings.push(format!("{element} is missing; taken for {unit}, as the format has it")),
+            None => {
+                warnings.push(format!("{element} is missing; {unit} is assumed, as the format specifies"));
+            }
         }
     }
     let of_root = |name: &'static str| scalar(root, name, MODEL);
@@ -74,7 +77,7 @@ pub(super) fn read_file(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Resul
     let triangles = triangles(root, warnings)?;
     check_count("numTri", of_root("numTri")?, triangles.len(), warnings);
     Ok(HattFile {
-        // Kept for the name of its origin only.
+        // The number is only used in the origin text, so an invalid one is ignored.
         index: root.attribute("texture").and_then(|value| value.trim().parse().ok()),
         material: text(root, "material", MODEL).map(str::to_owned),
         created_by: text(root, super::CREATED_BY, MODEL).map(str::to_owned),
@@ -87,10 +90,10 @@ pub(super) fn read_file(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Resul
     })
 }
 
-/// Says where a count and what is there differ.
+/// Warns if a stated count differs from the actual one.
 fn check_count(element: &str, stated: Option<f64>, found: usize, warnings: &mut Vec<String>) {
     if let Some(stated) = stated.filter(|stated| *stated != found as f64) {
-        warnings.push(format!("{element} says {stated}, {found} are there; those are used"));
+        warnings.push(format!("{element} states {stated}, but the file holds {found}; the latter is used"));
     }
 }
 
@@ -121,7 +124,7 @@ fn models(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Result<Vec<HattMode
             ar_lsf: frequencies(*node, ["ARlsf", "ARcoeff"], number, &mut coefficients_off)?
                 .filter(|lsf| !lsf.is_empty())
                 .ok_or_else(|| missing("ARlsf", *node))?,
-            // A model without a moving average is a plain predictor.
+            // A model without a moving average is a pure AR model.
             ma_lsf: frequencies(*node, ["MAlsf", "MAcoeff"], number, &mut coefficients_off)?
                 .unwrap_or_default(),
             variance: required("var", scalar(*node, "var", "")?)?,
@@ -133,12 +136,12 @@ fn models(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Result<Vec<HattMode
             check_count(element, Some(listed.len() as f64), models.len(), warnings);
         }
         off.warn(warnings, |n, most, first| {
-            format!("{element} differs from {n} models by up to {most:.3}, first from model {first}; the models are right")
+            format!("{element} differs from {n} models by up to {most:.3}, first from model {first}; the values of the models are used")
         });
     }
     coefficients_off.warn(warnings, |n, most, first| {
         format!(
-            "coefficients of {n} filters differ from their line spectral frequencies by up to {most:.4}, first in model {first}; the frequencies are used"
+            "coefficients of {n} filters differ from their line spectral frequencies by up to {most:.4}, first in model {first}; the line spectral frequencies are used"
         )
     });
     let mut seen: Vec<f64> = models.iter().map(|model| model.number).collect();
@@ -153,8 +156,8 @@ fn missing(element: &'static str, node: Node<'_, '_>) -> HattError {
     HattError::Missing { element, line: line_of(node) }
 }
 
-/// The line spectral frequencies of a filter, which are what is rendered; from its coefficients where there are none,
-/// and `None` where there are no coefficients either.
+/// Returns the line spectral frequencies of a filter, computed from its coefficients if the file has none; `None` if
+/// there are no coefficients either.
 fn frequencies(
     model: Node<'_, '_>,
     [lsf_name, coefficient_name]: [&'static str; 2],
@@ -163,12 +166,12 @@ fn frequencies(
 ) -> Result<Option<Vec<f64>>, HattError> {
     let lsf = list(model, lsf_name, "")?;
     let mut coefficients = list(model, coefficient_name, "")?;
-    // The leading one is usual and says nothing.
+    // A leading coefficient of one is common and carries no information.
     if coefficients.first() == Some(&1.0) && (lsf.is_empty() || coefficients.len() > lsf.len()) {
         coefficients.remove(0);
     }
     if !lsf.is_empty() {
-        // Longer filters are refused as a model; their coefficients are not worth the time.
+        // Longer filters are rejected later with the model, so their coefficients are not compared.
         if !coefficients.is_empty() && lsf.len() <= super::MAX_ORDER {
             let of_lsf = ar_from_lsf(&lsf);
             let at = |filter: &[f64], k: usize| filter.get(k).copied().unwrap_or(0.0);
@@ -181,7 +184,7 @@ fn frequencies(
     if coefficients.is_empty() {
         return Ok(None);
     }
-    // A search over a grid for each root: longer filters than any that can be rendered are not worth it.
+    // Finding each root takes a grid search, so filters above the maximum order are skipped.
     let found = Some(&coefficients).filter(|c| c.len() <= super::MAX_ORDER).and_then(|c| lsf_from_ar(c));
     found.map(Some).ok_or_else(|| HattError::Unstable {
         element: coefficient_name,
@@ -190,7 +193,7 @@ fn frequencies(
     })
 }
 
-/// How many things are off, by how much at most, and in which model first.
+/// Number of differences, their maximum, and the number of the first model with one.
 #[derive(Default)]
 struct Off {
     n: usize,
@@ -223,7 +226,7 @@ fn triangles(root: Node<'_, '_>, warnings: &mut Vec<String>) -> Result<Vec<[f64;
     }
     let (triangles, rest) = corners.as_chunks::<3>();
     if !rest.is_empty() {
-        warnings.push("the last triangle has fewer than three models".into());
+        warnings.push("the last triangle has fewer than three models; it is ignored".into());
     }
     Ok(triangles.to_vec())
 }

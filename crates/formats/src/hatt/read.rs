@@ -1,4 +1,4 @@
-//! From the numbers of a file to a texture.
+//! Conversion of the numbers of a HaTT file to a texture.
 
 use std::f64::consts::PI;
 
@@ -11,17 +11,18 @@ use crate::hatt::{HattError, HattTexture, xml};
 use crate::imported::Imported;
 use crate::library::Provenance;
 
-/// Share of the plane that the triangles of a file may miss before it is said: corners have rounded decimals.
+/// Fraction of the speed-force plane that the file's triangles may miss without a warning; corners have rounded
+/// decimals.
 const COVERAGE_TOLERANCE: f64 = 1e-3;
-/// Below this highest speed in mm/s the unit is most likely another one.
+/// Maximum speed in mm/s below which the file is probably in another unit.
 const SLOW_MM_PER_S: f64 = 1.0;
-/// Most that six decimals move a frequency.
+/// Largest change of a frequency by rounding to six decimals.
 const SIX_DECIMALS: f64 = 1e-6;
 
-/// Reads a texture. Its pictures, which a file names, are not looked at.
+/// Reads a texture. The pictures that a file names are ignored.
 ///
-/// Line spectral frequencies count, coefficients only where there are none; triangles are made anew; a file without the
-/// models of the boundary gets them by the published rule. What is odd in the file is a warning.
+/// Line spectral frequencies take precedence; coefficients are used only without them. The triangulation is computed
+/// again. A file without boundary models gets them by the published rule. Inconsistencies in the file become warnings.
 ///
 /// # Errors
 /// See [`HattError`].
@@ -29,7 +30,7 @@ pub fn read_hatt(bytes: &[u8]) -> Result<Imported<HattTexture>, HattError> {
     let mut warnings = Vec::new();
     let (text, is_latin) = xml::decode(bytes)?;
     if is_latin {
-        warnings.push("the file is not UTF-8; its text is taken for Latin-1".to_owned());
+        warnings.push("the file is not valid UTF-8; its text is read as Latin-1".to_owned());
     }
     let document = xml::parse(&text)?;
     let mut file = read_file(document.root_element(), &mut warnings)?;
@@ -40,14 +41,14 @@ pub fn read_hatt(bytes: &[u8]) -> Result<Imported<HattTexture>, HattError> {
     let fastest_mm_per_s = highest.speed.mm_per_s();
     if fastest_mm_per_s < SLOW_MM_PER_S {
         warnings.push(format!(
-            "the highest speed is {fastest_mm_per_s:.3} mm/s, slower than any stroke: if the speeds are in m/s, convert them"
+            "the highest speed is {fastest_mm_per_s:.3} mm/s, too slow for a stroke; if the speeds are in m/s, convert them to mm/s"
         ));
     }
     if !is_closed(&nodes, highest) {
         let n_before = nodes.len();
         close(&mut nodes, highest);
         warnings.push(format!(
-            "the file does not reach from zero to its highest speed and force; {} models of the boundary are added",
+            "the file does not cover speeds and forces from zero to its maximum; {} boundary models are added",
             nodes.len() - n_before
         ));
     }
@@ -55,7 +56,7 @@ pub fn read_hatt(bytes: &[u8]) -> Result<Imported<HattTexture>, HattError> {
     let provenance = if file.created_by.is_some() { Provenance::Free } else { Provenance::Restricted };
     let name = file.material.unwrap_or_default();
     if name.is_empty() {
-        warnings.push("the material has no name".to_owned());
+        warnings.push("the file has no material name".to_owned());
     }
     let value = HattTexture { name, index: file.index, provenance, created_by: file.created_by, model };
     Ok(Imported { value, warnings })
@@ -72,7 +73,7 @@ fn node(model: &HattModel) -> PublishedNode {
     }
 }
 
-/// The highest speed and force: those of the models, or what the file says where that is more.
+/// Returns the maximum speed and force: those of the models, or the stated ones if higher.
 fn highest(file: &HattFile, nodes: &[PublishedNode], warnings: &mut Vec<String>) -> Contact {
     let of_nodes = Contact {
         speed: MetersPerSecond(nodes.iter().map(|node| node.speed.0).fold(0.0, f64::max)),
@@ -81,7 +82,8 @@ fn highest(file: &HattFile, nodes: &[PublishedNode], warnings: &mut Vec<String>)
     let mut decide = |element: &str, stated: Option<f64>, found: f64| match stated {
         Some(stated) if stated > found * (1.0 + MIN_NODE_DISTANCE) => stated,
         Some(stated) if stated < found * (1.0 - MIN_NODE_DISTANCE) => {
-            warnings.push(format!("{element} says {stated}, models go up to {found}; that is used"));
+            warnings
+                .push(format!("{element} states {stated}, but the models reach {found}; the latter is used"));
             found
         }
         _ => found,
@@ -89,7 +91,7 @@ fn highest(file: &HattFile, nodes: &[PublishedNode], warnings: &mut Vec<String>)
     let speed_mm_per_s = decide("maxSpeed", file.speed_max_mm_per_s, of_nodes.speed.mm_per_s());
     let force_n = decide("maxForce", file.force_max_n, of_nodes.force.0);
     Contact {
-        // Unchanged where it is that of a model: conversion there and back leaves dust.
+        // The model's own value is kept unchanged, because converting units twice adds rounding errors.
         speed: if speed_mm_per_s == of_nodes.speed.mm_per_s() {
             of_nodes.speed
         } else {
@@ -99,12 +101,12 @@ fn highest(file: &HattFile, nodes: &[PublishedNode], warnings: &mut Vec<String>)
     }
 }
 
-/// Line spectral frequencies of the moving average that changes nothing, `B(z) = 1`: evenly spaced.
+/// Line spectral frequencies of the neutral moving average `B(z) = 1`: evenly spaced.
 pub(super) fn neutral_moving_average(order: usize) -> Vec<f64> {
     (1..=order).map(|k| PI * k as f64 / (order + 1) as f64).collect()
 }
 
-/// Takes moving averages away that change nothing in any model: the published form has them, and rendering them costs.
+/// Removes the moving averages if all are neutral: published files contain them, and rendering them costs time.
 fn drop_neutral_moving_average(models: &mut [HattModel]) {
     let is_neutral = |model: &HattModel| {
         let neutral = neutral_moving_average(model.ma_lsf.len());
@@ -117,12 +119,12 @@ fn drop_neutral_moving_average(models: &mut [HattModel]) {
     }
 }
 
-/// Looks whether the triangles of the file make sense. They are not used: the published ones are not quite Delaunay's.
+/// Checks the triangles of the file. They are not used: the published triangulation deviates slightly from Delaunay.
 fn check_triangles(file: &HattFile, highest: Contact, warnings: &mut Vec<String>) {
     if file.triangles.is_empty() {
         return;
     }
-    // Sorted once: a file may name many triangles.
+    // Sorted once, because a file may have many triangles.
     let mut models: Vec<_> = file.models.iter().collect();
     models.sort_by(|a, b| a.number.total_cmp(&b.number));
     let place = |number: f64| {
@@ -139,10 +141,11 @@ fn check_triangles(file: &HattFile, highest: Contact, warnings: &mut Vec<String>
         }
     }
     if n_bad > 0 {
-        warnings.push(format!("{n_bad} triangles name models that are not there; triangles are made anew"));
+        warnings
+            .push(format!("{n_bad} triangles refer to missing models; the triangulation is computed again"));
     } else if (covered - 1.0).abs() > COVERAGE_TOLERANCE {
         warnings.push(format!(
-            "the triangles cover {:.1} % of the plane of speed and force; they are made anew",
+            "the triangles cover {:.1} % of the speed-force plane; the triangulation is computed again",
             100.0 * covered
         ));
     }

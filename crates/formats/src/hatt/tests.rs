@@ -1,11 +1,11 @@
-//! Files are made up here, by a recipe and in several spellings: nothing of the published ones is in them.
+//! These tests generate synthetic files in several spellings; they contain nothing from published files.
 
 use std::fmt::Write as _;
 
 use proptest::prelude::{Strategy, prop_assert, proptest};
-use shagreen_core::ar::{comparison_frequencies, psd, response};
-use shagreen_core::lsf::ar_from_lsf;
-use shagreen_core::rng::Random;
+use shagreen_core::dsp::ar::{comparison_frequencies, psd, response};
+use shagreen_core::dsp::lsf::ar_from_lsf;
+use shagreen_core::maths::rng::Random;
 use shagreen_core::texture::{GrainNode, Interpolation, PublishedNode, TextureModel};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
@@ -13,7 +13,7 @@ use super::{HattError, HattTexture, read_hatt, write_hatt};
 use crate::imported::Imported;
 use crate::library::{Provenance, TextureEntry};
 
-/// How lists of numbers are spelled.
+/// How a file spells lists of numbers.
 #[derive(Clone, Copy, Debug)]
 enum Spelling {
     Spaces,
@@ -50,14 +50,14 @@ impl Spelling {
     }
 }
 
-/// Frequencies of a filter, apart from each other, of the recipe's number `seed`.
+/// Random line spectral frequencies of a filter, kept apart from each other; `seed` selects them.
 fn lsf(order: usize, seed: u64) -> Vec<f64> {
     let mut random = Random::new(seed);
     let step = std::f64::consts::PI / (order + 1) as f64;
     (1..=order).map(|k| (1e6 * step * (k as f64 + 0.7 * (random.uniform() - 0.5))).round() / 1e6).collect()
 }
 
-/// The nodes of a made-up texture: a full boundary by hand, three models inside.
+/// The nodes of a synthetic texture: a complete boundary and three models inside.
 fn nodes(order: usize, ma_order: usize) -> Vec<PublishedNode> {
     let places = [
         (0.0, 0.0, 0.0),
@@ -79,7 +79,7 @@ fn nodes(order: usize, ma_order: usize) -> Vec<PublishedNode> {
     places.into_iter().enumerate().map(node).collect()
 }
 
-/// A file of these nodes, as the format is described.
+/// Writes a file of these nodes in the format's layout.
 fn file(nodes: &[PublishedNode], spelling: Spelling) -> String {
     let strings = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>();
     let speeds: Vec<f64> = nodes.iter().map(|n| n.speed.mm_per_s()).collect();
@@ -120,16 +120,16 @@ fn read(text: &str) -> Imported<HattTexture> {
     read_hatt(text.as_bytes()).unwrap()
 }
 
-/// One-sided density of a published node by its definition.
+/// One-sided PSD of a published node, computed from its definition.
 fn density(node: &PublishedNode, frequencies: &[Hertz]) -> Vec<f64> {
     let rate = Hertz(1000.0);
     let poles = psd(&ar_from_lsf(&node.ar_lsf), node.gain * node.gain * node.variance, rate, frequencies);
-    // |B|² is one over the density of the predictor with its coefficients.
+    // |B|² is the reciprocal of the PSD of an AR model with the same coefficients.
     let zeros = response(&ar_from_lsf(&node.ma_lsf), rate, frequencies);
     poles.iter().zip(zeros).map(|(p, (re, im))| p / (re * re + im * im)).collect()
 }
 
-/// Largest difference of two densities in dB.
+/// Largest difference of two PSDs in dB.
 fn worst_db(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (10.0 * (a / b).log10()).abs()).fold(0.0, f64::max)
 }
@@ -160,21 +160,21 @@ fn coefficients_stand_in_for_missing_frequencies() {
     let texture = read(&text).value;
     for (read, made) in texture.model.published_nodes().iter().zip(&nodes) {
         let pairs = read.ar_lsf.iter().zip(&made.ar_lsf).chain(read.ma_lsf.iter().zip(&made.ma_lsf));
-        // Roots are found to the last bit of coefficients that have all digits.
+        // The coefficients have all digits, so the roots are exact up to rounding.
         assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9));
     }
     let unstable = text.replacen("<ARcoeff>1", "<ARcoeff>1 9", 1);
     assert!(matches!(read_hatt(unstable.as_bytes()), Err(HattError::Unstable { order: 9, .. })));
 }
 
-/// Reads a change of the usual file; some warning must hold the text.
+/// Reads the usual file after a change; one warning must contain `expected`.
 #[track_caller]
 fn check_warning(change: impl Fn(String) -> String, expected: &str) {
     let imported = read(&change(file(&nodes(6, 4), Spelling::Spaces)));
     assert!(imported.warnings.iter().any(|w| w.contains(expected)), "{expected:?}: {:?}", imported.warnings);
 }
 
-/// Speeds in m/s where mm/s is stated.
+/// A file that gives speeds in m/s but states mm/s.
 fn in_meters_per_second(_: String) -> String {
     let mut slow = nodes(6, 4);
     for node in &mut slow {
@@ -188,21 +188,21 @@ fn what_is_odd_is_said_and_used() {
     let replace = |from: &'static str, to: &'static str| move |text: String| text.replacen(from, to, 1);
     check_warning(replace("<AccelUnits>m/s^2</AccelUnits>", ""), "AccelUnits is missing");
     check_warning(replace("<mu>0.25</mu>", ""), "mu is missing");
-    check_warning(replace("<numMod>7", "<numMod>9"), "numMod says 9, 7 are there");
-    check_warning(replace("<numARCoeff>6", "<numARCoeff>7"), "numARCoeff says 7");
-    check_warning(replace("<numMACoeff>4", "<numMACoeff>6"), "numMACoeff says 6");
+    check_warning(replace("<numMod>7", "<numMod>9"), "numMod states 9, but the file holds 7");
+    check_warning(replace("<numARCoeff>6", "<numARCoeff>7"), "numARCoeff states 7");
+    check_warning(replace("<numMACoeff>4", "<numMACoeff>6"), "numMACoeff states 6");
     check_warning(
         replace("<speedList>0 200", "<speedList>0 190"),
         "speedList differs from 1 models by up to 10.000",
     );
-    check_warning(replace("<forceList>0 ", "<forceList>"), "forceList says 6, 7 are there");
+    check_warning(replace("<forceList>0 ", "<forceList>"), "forceList states 6, but the file holds 7");
     check_warning(replace("<modNum>2", "<modNum>3"), "same modNum");
     check_warning(replace("<ARcoeff>1 ", "<ARcoeff>1 0.5 "), "coefficients of 1 filters differ");
-    check_warning(replace("<maxSpeed>200", "<maxSpeed>150"), "maxSpeed says 150");
-    check_warning(replace("<maxSpeed>200", "<maxSpeed>240"), "models of the boundary are added");
-    check_warning(replace("<material>Made Up</material>", ""), "no name");
+    check_warning(replace("<maxSpeed>200", "<maxSpeed>150"), "maxSpeed states 150");
+    check_warning(replace("<maxSpeed>200", "<maxSpeed>240"), "boundary models are added");
+    check_warning(replace("<material>Made Up</material>", ""), "no material name");
     check_warning(in_meters_per_second, "the highest speed is 0.200 mm/s");
-    check_warning(replace("<mu>", "<tri>1 2 9</tri><mu>"), "1 triangles name models that are not there");
+    check_warning(replace("<mu>", "<tri>1 2 9</tri><mu>"), "1 triangles refer to missing models");
     check_warning(replace("<mu>", "<tri>1 2 3</tri><mu>"), "cover 50.0 %");
     check_warning(replace("<mu>", "<tri>1 2 3</tri><tri>2 3 4</tri><tri>2</tri><mu>"), "fewer than three");
     let whole = replace("<mu>", "<numTri>2</numTri><tri>1 2 3</tri><tri>2 3 4</tri><mu>");
@@ -229,7 +229,7 @@ fn check_error(from: &str, to: &str, expected: &str) {
 
 #[test]
 fn what_cannot_be_used_is_refused_with_the_place() {
-    check_error("<SpeedUnits>mm/s", "<SpeedUnits>m/s", "SpeedUnits is m/s, this program reads mm/s");
+    check_error("<SpeedUnits>mm/s", "<SpeedUnits>m/s", "SpeedUnits is m/s, but this program reads mm/s");
     check_error("<AccelUnits>m/s^2", "<AccelUnits>g", "AccelUnits is g");
     check_error("<SampleRate>1000</SampleRate>", "", "SampleRate is missing");
     check_error("<SampleRate>1000", "<SampleRate>1 2", "SampleRate in line 5 has 2 numbers");
@@ -237,7 +237,11 @@ fn what_cannot_be_used_is_refused_with_the_place() {
     check_error("<SampleRate>1000", "<SampleRate>1e999", "not a finite number");
     check_error("<SampleRate>1000", "<SampleRate>44100", "44100");
     check_error("<SampleRate>1000", "<SampleRate>0", "200 and 4000 Hz, got 0; correct SampleRate");
-    check_error("<mu>0.25", "<mu>-5", "friction coefficient is -5; it must not be negative; correct mu");
+    check_error(
+        "<mu>0.25",
+        "<mu>-5",
+        "friction coefficient is -5; it must be finite and not negative; correct mu",
+    );
     check_error("<var>0</var>", "<var>-1</var>", "variance");
     check_error("<var>0</var>", "", "var is missing");
     check_error("<gain value=\"2\"/>", "", "gain is missing");
@@ -246,7 +250,7 @@ fn what_cannot_be_used_is_refused_with_the_place() {
     check_error("</modelSet>", "", "XML");
     check_error("<?xml version=\"1.0\"?>\n<modelSet texture=\"42\">", "<other>", "XML");
     let message = read_hatt(b"<html/>").unwrap_err().to_string();
-    assert!(message.contains("\"html\", not a \"modelSet\""), "{message}");
+    assert!(message.contains("root element is \"html\", not \"modelSet\""), "{message}");
     let message = read_hatt(b"<modelSet><SampleRate>1</SampleRate></modelSet>").unwrap_err().to_string();
     assert!(message.contains("model is missing"), "{message}");
     assert!(read_hatt(b"\xFF\xFE<").unwrap_err().to_string().contains("UTF-16"));
@@ -256,7 +260,7 @@ fn what_cannot_be_used_is_refused_with_the_place() {
 fn files_without_a_boundary_get_one() {
     let inside = &nodes(6, 4)[4..];
     let imported = read(&file(inside, Spelling::Values));
-    assert!(imported.warnings[0].contains("models of the boundary are added"), "{:?}", imported.warnings);
+    assert!(imported.warnings[0].contains("boundary models are added"), "{:?}", imported.warnings);
     let all = imported.value.model.published_nodes();
     assert_eq!(&all[..3], inside);
     let at = |v: f64, f: f64| {
@@ -264,7 +268,7 @@ fn files_without_a_boundary_get_one() {
             |n: &&PublishedNode| (n.speed.mm_per_s() - v).abs() < 1e-9 && (n.force.0 - f).abs() < 1e-9;
         all.iter().find(is_there)
     };
-    // Silence on the axes, and a copy of the nearest in the far corner: (150, 0.5) by far.
+    // Silent models on the axes, and a copy of the nearest model, (150, 0.5), in the far corner.
     for (v, f) in [(0.0, 0.0), (40.0, 0.0), (120.0, 0.0), (150.0, 0.0), (0.0, 0.5), (0.0, 1.75), (0.0, 2.0)] {
         assert_eq!(at(v, f).unwrap().variance, 0.0, "{v} mm/s, {f} N");
     }
@@ -277,9 +281,9 @@ fn published_files_are_restricted_and_ours_are_not() {
     let restricted = read(&file(&nodes(6, 4), Spelling::Spaces)).value.into_entry("a");
     assert_eq!(restricted.provenance, Provenance::Restricted);
     assert_eq!(restricted.origin, "HaTT texture 42, restricted");
-    assert!(restricted.license.contains("not to be passed on"));
+    assert!(restricted.license.contains("redistribution requires written approval"));
     let again = read_hatt(&write_hatt(&restricted, "x").unwrap()).unwrap().value;
-    assert_eq!(again.provenance, Provenance::Restricted, "what is restricted stays so");
+    assert_eq!(again.provenance, Provenance::Restricted, "a restricted texture stays restricted");
     let ours = TextureEntry { provenance: Provenance::Free, license: String::new(), ..restricted };
     let back = read_hatt(&write_hatt(&ours, "shagreen 0.1").unwrap()).unwrap().value;
     assert_eq!((back.provenance, back.created_by.as_deref()), (Provenance::Free, Some("shagreen 0.1")));
@@ -297,7 +301,7 @@ fn a_published_texture_comes_back_as_it_was() {
     for (read, made) in imported.value.model.published_nodes().iter().zip(model.published_nodes()) {
         assert_eq!((read.ar_lsf.clone(), read.ma_lsf.clone()), (made.ar_lsf.clone(), made.ma_lsf.clone()));
         assert_eq!((read.variance, read.gain, read.force), (made.variance, made.gain, made.force));
-        // Through mm/s and back: the last bit of a double.
+        // Conversion to mm/s and back may change the last bit.
         assert!((read.speed.0 - made.speed.0).abs() < 1e-15);
     }
 }
@@ -321,14 +325,15 @@ proptest! {
         let imported = read_hatt(&write_hatt(&entry, "test").unwrap()).unwrap();
         prop_assert!(imported.warnings.is_empty(), "{:?}", imported.warnings);
         let read = imported.value.model;
-        // The moving average of the file changes nothing, and is not kept.
+        // The neutral moving average of the file is removed.
         prop_assert!(read.ma_order() == 0);
         let frequencies = comparison_frequencies(Hertz(1000.0), 200);
-        let plane = shagreen_core::plane::Plane::new(&model);
+        let plane = shagreen_core::texture::plane::Plane::new(&model);
         for (published, node) in read.published_nodes().iter().zip(model.nodes()) {
             let grain = plane.at(Contact { speed: node.speed, force: node.force });
             let expected = grain.psd(&frequencies);
-            // The published figure is 0.1 dB; six decimals of frequencies at least 0.03 rad apart do a tenth of it.
+            // The published accuracy is 0.1 dB. Rounding frequencies at least 0.03 rad apart to six decimals causes a
+            // tenth of it.
             let worst = worst_db(&density(published, &frequencies), &expected);
             prop_assert!(worst < 0.01, "{worst} dB");
         }

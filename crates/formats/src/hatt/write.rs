@@ -1,11 +1,11 @@
-//! From a texture to a file of the toolkit.
+//! Conversion of a texture to a HaTT file.
 
 use std::fmt::Write as _;
 
-use shagreen_core::ar::power_gain;
-use shagreen_core::lsf::ar_from_lsf;
+use shagreen_core::dsp::ar::power_gain;
+use shagreen_core::dsp::lsf::ar_from_lsf;
+use shagreen_core::maths::triangulation::{Triangulation, TriangulationError};
 use shagreen_core::texture::{Grain, GrainNode, Interpolation, PublishedNode, TextureModel};
-use shagreen_core::triangulation::{Triangulation, TriangulationError};
 use shagreen_core::units::Contact;
 
 use crate::hatt::boundary::close;
@@ -13,31 +13,32 @@ use crate::hatt::read::neutral_moving_average;
 use crate::hatt::{CREATED_BY, RESTRICTED_TERMS};
 use crate::library::{Provenance, TextureEntry, frequencies};
 
-/// Why a texture is not written.
+/// Why a texture cannot be written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HattWriteError {
-    /// The nodes have no triangles.
-    #[error("the speeds and forces of texture \"{id}\" have no triangles ({source}); correct its nodes")]
+    /// The nodes cannot be triangulated.
+    #[error("cannot triangulate the speeds and forces of texture \"{id}\" ({source}); correct its nodes")]
     Triangles {
         /// Identifier of the texture.
         id: String,
-        /// What is wrong.
+        /// Why the triangulation failed.
         source: TriangulationError,
     },
 }
 
-/// Writes a texture; `created_by` is the program with its version, by which a reader knows that the file is none of the
-/// published ones. A restricted texture gets its terms in a comment and no such mark: it stays restricted when it is read
-/// again.
+/// Serializes a texture. `created_by` is the program with its version; a reader takes it as the mark of a file that is
+/// not one of the published ones. A restricted texture gets its terms of use in a comment and no such mark, so it stays
+/// restricted when it is read again.
 ///
-/// A measured texture becomes what the published renderer expects: a moving average two orders below the predictor,
-/// which changes nothing (`B(z) = 1`), gain 1, the variance of the excitation, and the models of the boundary. Spectra and
-/// levels at the nodes stay; between them the published renderer interpolates variances where Shagreen interpolates
-/// levels, and a landing has no place in the format. The renderer that was published supposes 1000 Hz and at most 24
-/// coefficients; rate and order are written as they are.
+/// A measured texture is converted to what the published renderer expects: a neutral moving average (`B(z) = 1`) two
+/// orders below the AR order, gain 1, the variance of the excitation, and the boundary models. Spectra and levels at
+/// the nodes stay the same. Between nodes the published renderer interpolates variances, whereas Shagreen interpolates
+/// levels. The format has no tap transients. The published renderer assumes 1000 Hz and at most 24 coefficients; rate
+/// and order are written unchanged.
 ///
-/// Coefficients have 20 decimals, line spectral frequencies 6 (more where two lie close), model numbers count from one.
+/// Coefficients have 20 decimals. Line spectral frequencies have 6, or more if two are close. Model numbers start at
+/// one.
 ///
 /// # Errors
 /// See [`HattWriteError`].
@@ -67,29 +68,29 @@ pub fn write_hatt(entry: &TextureEntry, created_by: &str) -> Result<Vec<u8>, Hat
     Ok(out.finish())
 }
 
-/// Sentences on what of a texture [`write_hatt`] cannot keep.
+/// Lists the properties of a texture that [`write_hatt`] cannot store.
 pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
     let mut lost = Vec::new();
     if let Some(interpolation) = entry.model.interpolation() {
         let between = match interpolation {
             Interpolation::Barycentric => "levels",
-            Interpolation::RadialBasis => "a radial basis",
+            Interpolation::RadialBasis => "radial basis functions",
         };
         lost.push(format!(
-            "how {between} are interpolated between nodes: the format interpolates variances, which is up to some dB louder there"
+            "the interpolation of {between} between nodes: the format interpolates variances, which can raise the level there by some dB"
         ));
     }
     if entry.path.is_some() {
-        lost.push("how it changes along the stroke: only its beginning is written".to_owned());
+        lost.push("the changes along the stroke: only the start is written".to_owned());
     }
     if entry.model.tap().is_some() {
-        lost.push("the tap of a landing".to_owned());
+        lost.push("the tap transient".to_owned());
     }
     if entry.model.relief().is_some() {
         lost.push("the relief".to_owned());
     }
     if entry.place.is_some() {
-        lost.push("the place in the space".to_owned());
+        lost.push("the position in the space".to_owned());
     }
     if entry.picture.is_some() {
         lost.push("the picture".to_owned());
@@ -167,7 +168,7 @@ fn write_model(out: &mut Lines, number: usize, node: &PublishedNode) {
     out.close("model");
 }
 
-/// The text of an XML file, an element a line.
+/// The text of an XML file, one element per line.
 struct Lines {
     text: String,
 }
@@ -177,15 +178,15 @@ impl Lines {
         Self { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<modelSet>\n".to_owned() }
     }
 
-    /// An element with text, or none where there is no text.
+    /// Writes an element per text; none if there is no text.
     fn line(&mut self, element: &str, text: impl IntoIterator<Item = String>) {
         for text in text {
-            // Memory takes all text.
+            // Writing to a string cannot fail.
             let _ = writeln!(self.text, "<{element}>{text}</{element}>");
         }
     }
 
-    /// A list of numbers: one element `value` each, as published files have it.
+    /// Writes a list of numbers with one element `value` per number, as published files do.
     fn list(&mut self, element: &str, numbers: impl IntoIterator<Item = String>) {
         let values: Vec<String> =
             numbers.into_iter().map(|number| format!("<value>{number}</value>")).collect();
@@ -193,7 +194,7 @@ impl Lines {
         let _ = writeln!(self.text, "<{element}>{values}</{element}>");
     }
 
-    /// `text` has no two hyphens in a row.
+    /// Writes a comment; `text` must not contain two hyphens in a row.
     fn comment(&mut self, text: &str) {
         let _ = writeln!(self.text, "<!-- {text} -->");
     }
@@ -212,7 +213,7 @@ impl Lines {
     }
 }
 
-/// Text for XML: what has a meaning there is spelled out, what cannot stand there is left out.
+/// Escapes text for XML; characters that XML forbids become spaces.
 fn escaped(text: &str) -> String {
     let spelled = |c: char| match c {
         '&' => "&amp;".to_owned(),

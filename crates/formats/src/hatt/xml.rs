@@ -1,4 +1,4 @@
-//! Elements and numbers of an XML document, however they are nested: bounded before and while it is parsed.
+//! Elements and numbers of an XML document at any nesting, with size limits before and during parsing.
 
 use std::borrow::Cow;
 
@@ -6,15 +6,15 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::hatt::HattError;
 
-/// Longest file, in bytes: files of the published toolkit have some hundred thousand.
+/// Maximum file size in bytes; files of the published toolkit have some hundred thousand.
 const MAX_BYTES: usize = 64 << 20;
-/// Most elements and texts, and most attributes, at about a hundred bytes each while the file is read. Published files
-/// have some ten thousand.
+/// Maximum number of elements and texts, and of attributes; each takes about a hundred bytes while parsing. Published
+/// files have some ten thousand.
 const MAX_NODES: u32 = 300_000;
-/// Most attributes of one element: comparing all with all, as a parser must, stays cheap.
+/// Maximum number of attributes of one element, because the parser compares all pairs.
 const MAX_ATTRIBUTES: usize = 64;
 
-/// The text of a file and whether it had to be taken for Latin-1.
+/// Decodes a file; returns its text and whether it was read as Latin-1.
 pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), HattError> {
     let refused = |reason: &str| Err(HattError::Xml { reason: reason.to_owned() });
     if bytes.len() > MAX_BYTES {
@@ -26,12 +26,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), HattError> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok((Cow::Borrowed(text), false)),
-        // Every byte is a letter there; it concerns names only, for numbers are ASCII.
+        // Every byte is a Latin-1 character. This only affects names, because numbers are ASCII.
         Err(_) => Ok((Cow::Owned(bytes.iter().copied().map(char::from).collect()), true)),
     }
 }
 
-/// The document of a text.
+/// Parses a text as XML.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, HattError> {
     let refused = |reason: String| HattError::Xml { reason };
     let has_crowd = |part: &str| part.bytes().filter(|byte| *byte == b'=').count() > MAX_ATTRIBUTES;
@@ -44,19 +44,19 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, HattError> {
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     Document::parse_with_options(text.trim_start(), options).map_err(|error| match error {
         roxmltree::Error::DtdDetected => refused(
-            "it declares a document type, which could pull in other files; remove the <!DOCTYPE …>".into(),
+            "it declares a document type, which could load other files; remove the <!DOCTYPE …>".into(),
         ),
         roxmltree::Error::NodesLimitReached => refused(format!("it has more than {MAX_NODES} elements")),
         error => refused(error.to_string()),
     })
 }
 
-/// Whether an element has this name; letter case and name spaces do not count.
+/// Returns whether an element has this name, ignoring case and namespaces.
 pub(super) fn is_named(node: Node<'_, '_>, name: &str) -> bool {
     node.is_element() && node.tag_name().name().eq_ignore_ascii_case(name)
 }
 
-/// What stands for `name` in `parent`: elements of that name at any depth, but not inside an element `except`.
+/// Returns the elements `name` at any depth of `parent`, but not inside an element `except`.
 pub(super) fn named<'a, 'i>(parent: Node<'a, 'i>, name: &str, except: &str) -> Vec<Node<'a, 'i>> {
     let mut found = Vec::new();
     let mut next = parent.first_child();
@@ -70,14 +70,13 @@ pub(super) fn named<'a, 'i>(parent: Node<'a, 'i>, name: &str, except: &str) -> V
     found
 }
 
-/// The next node outside `node` and inside `within`, in the order of the document.
+/// Returns the next node outside `node` and inside `within`, in document order.
 fn following<'a, 'i>(node: Node<'a, 'i>, within: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
     node.ancestors().take_while(|ancestor| *ancestor != within).find_map(|ancestor| ancestor.next_sibling())
 }
 
-/// All words of an element in the order of the document: those of its texts, and of attributes `value` inside it. Where
-/// there are none, those of all its attributes. Words are parted by white space, commas and semicolons, and may stand in
-/// brackets.
+/// Returns all words of an element in document order: those of its texts and of `value` attributes inside it, or else
+/// those of all its attributes. White space, commas, semicolons and brackets separate words.
 pub(super) fn words<'a>(node: Node<'a, '_>) -> Vec<&'a str> {
     let mut texts: Vec<&'a str> = Vec::new();
     for inner in node.descendants() {
@@ -101,12 +100,12 @@ pub(super) fn words<'a>(node: Node<'a, '_>) -> Vec<&'a str> {
     split(&attributes)
 }
 
-/// The numbers of an element, see [`words`].
+/// Parses the numbers of an element, see [`words`].
 pub(super) fn numbers(node: Node<'_, '_>) -> Result<Vec<f64>, HattError> {
     words(node).into_iter().map(|word| number(word, node)).collect()
 }
 
-/// A finite number that stands in `node`.
+/// Parses a finite number in `node`.
 pub(super) fn number(word: &str, node: Node<'_, '_>) -> Result<f64, HattError> {
     word.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| HattError::Number {
         element: node.tag_name().name().to_owned(),
@@ -115,12 +114,12 @@ pub(super) fn number(word: &str, node: Node<'_, '_>) -> Result<f64, HattError> {
     })
 }
 
-/// The line of a node, from one. Costs a look through the file: for errors only.
+/// Returns the line of a node, from one. This scans the file, so call it only for errors.
 pub(super) fn line_of(node: Node<'_, '_>) -> u32 {
     node.document().text_pos_at(node.range().start).row
 }
 
-/// The text of a single element, trimmed; `None` where it is missing or empty.
+/// Returns the trimmed text of a single element; `None` if it is missing or empty.
 pub(super) fn text<'a>(parent: Node<'a, '_>, name: &str, except: &str) -> Option<&'a str> {
     let of_element = |node: Node<'a, '_>| {
         let attribute = node.attributes().find(|a| a.name().eq_ignore_ascii_case("value")).map(|a| a.value());
@@ -134,7 +133,7 @@ pub(super) fn text<'a>(parent: Node<'a, '_>, name: &str, except: &str) -> Option
     named(parent, name, except).first().copied().and_then(of_element).or_else(attribute)
 }
 
-/// A single number, as an element or as an attribute of `parent`; `None` where it is missing.
+/// Returns a single number, from an element or an attribute of `parent`; `None` if it is missing.
 pub(super) fn scalar(parent: Node<'_, '_>, name: &str, except: &str) -> Result<Option<f64>, HattError> {
     match named(parent, name, except).first() {
         Some(node) => match numbers(*node)?[..] {
@@ -155,7 +154,7 @@ pub(super) fn scalar(parent: Node<'_, '_>, name: &str, except: &str) -> Result<O
     }
 }
 
-/// The numbers of all elements `name`, one after the other; as an attribute of `parent` where there is no element.
+/// Returns the numbers of all elements `name` in sequence, or of the attribute of `parent` if there is no element.
 pub(super) fn list(parent: Node<'_, '_>, name: &str, except: &str) -> Result<Vec<f64>, HattError> {
     let nodes = named(parent, name, except);
     let mut values = Vec::new();

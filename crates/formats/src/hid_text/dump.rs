@@ -1,15 +1,15 @@
-//! Text of `usbhid-dump`.
+//! Text format of `usbhid-dump`.
 
 use crate::hid_text::{Damage, HidRecording, add_report, bytes_of_hex, index_of, lines, short, time};
 
-/// What follows a heading.
+/// The kind of bytes below a heading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Descriptor,
     Stream,
 }
 
-/// Device, part and the text of the time of a heading such as `001:005:000:STREAM 1234567.123456`.
+/// Splits a heading such as `001:005:000:STREAM 1234567.123456` into device, part and time text.
 pub(super) fn heading(line: &str) -> Option<(&str, Part, &str)> {
     let (head, time) = line.split_once(char::is_whitespace)?;
     let (device, part) = head.rsplit_once(':')?;
@@ -51,16 +51,17 @@ pub(super) fn read(text: &str) -> (Vec<HidRecording>, Vec<Damage>) {
         match (&mut block, bytes_of_hex(text)) {
             (Some(Block { bytes: Ok(bytes), .. }), Some(more)) => bytes.extend(more),
             (Some(Block { bytes: Err(_), .. }), _) => {}
-            // What the program says between two blocks.
+            // A message of the program between two blocks.
             (_, None)
                 if text.split_whitespace().count() > 1
                     && text.starts_with(char::is_alphabetic)
                     && !is_cut(text) => {}
             (Some(block), _) => {
-                block.bytes = Err(format!("below it is \"{}\", which is no row of bytes", short(text)));
+                block.bytes = Err(format!("\"{}\" below it is not a row of hexadecimal bytes", short(text)));
             }
             (None, _) => {
-                damages.push(Damage { line, problem: format!("\"{}\" is below no heading", short(text)) });
+                damages
+                    .push(Damage { line, problem: format!("\"{}\" has no heading above it", short(text)) });
             }
         }
     }
@@ -68,7 +69,7 @@ pub(super) fn read(text: &str) -> (Vec<HidRecording>, Vec<Damage>) {
     (devices, damages)
 }
 
-/// Whether a line is a row of bytes that was damaged: most of its words are bytes.
+/// Returns whether a line is a damaged row of bytes: at least half of its words are bytes.
 fn is_cut(text: &str) -> bool {
     let n_bytes =
         text.split_whitespace().filter(|word| word.len() == 2 && bytes_of_hex(word).is_some()).count();
@@ -79,7 +80,7 @@ impl Block<'_> {
     fn end(self, devices: &mut Vec<HidRecording>) -> Result<(), String> {
         let bytes = self.bytes?;
         if bytes.is_empty() {
-            return Err("there are no bytes below it".to_owned());
+            return Err("no bytes follow it".to_owned());
         }
         let index = index_of(devices, self.device);
         match self.part {

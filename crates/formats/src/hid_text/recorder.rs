@@ -1,8 +1,8 @@
-//! Text of `hid-recorder`.
+//! Text format of `hid-recorder`.
 
 use crate::hid_text::{Damage, HidRecording, add_report, bytes_of_hex, index_of, lines, short, time};
 
-/// Whether a line is of such a file: a letter and a colon, then what belongs there.
+/// Returns whether a line is a valid `R:` or `E:` line, which identify the format.
 pub(super) fn is_line(line: &str) -> bool {
     match split(line) {
         Some(('R', rest)) => counted_bytes(rest).is_ok(),
@@ -24,7 +24,7 @@ pub(super) fn read(text: &str) -> (Vec<HidRecording>, Vec<Damage>) {
                 let index = index_of(&mut devices, &current);
                 take(&mut devices[index], letter, rest)
             }
-            None => Err(format!("\"{}\" is no line of such a recording", short(text))),
+            None => Err(format!("\"{}\" is not a line of a hid-recorder file", short(text))),
         };
         if let Err(problem) = taken {
             damages.push(Damage { line, problem });
@@ -33,7 +33,7 @@ pub(super) fn read(text: &str) -> (Vec<HidRecording>, Vec<Damage>) {
     (devices, damages)
 }
 
-/// The letter of a line and what follows its colon.
+/// Splits a line into its letter and the text after the colon.
 fn split(line: &str) -> Option<(char, &str)> {
     let (letter, rest) = line.split_once(':')?;
     let mut letters = letter.chars();
@@ -50,36 +50,36 @@ fn take(device: &mut HidRecording, letter: char, rest: &str) -> Result<(), Strin
             let (time_secs, bytes) = event(rest)?;
             add_report(device, time_secs, bytes)?;
         }
-        // Where it is plugged in, and what later versions may add.
+        // The connection path, and lines that later versions may add.
         _ => {}
     }
     Ok(())
 }
 
-/// Time, number of bytes, bytes.
+/// Parses a time, a number of bytes, and the bytes.
 fn event(rest: &str) -> Result<(f64, Vec<u8>), String> {
-    let (time_text, rest) = rest.split_once(char::is_whitespace).ok_or("there is a time and nothing else")?;
+    let (time_text, rest) = rest.split_once(char::is_whitespace).ok_or("the line ends after the time")?;
     Ok((time(time_text)?, counted_bytes(rest.trim())?))
 }
 
-/// A number of bytes, and so many bytes.
+/// Parses a number of bytes, and that many bytes.
 fn counted_bytes(rest: &str) -> Result<Vec<u8>, String> {
-    let (count, bytes) = rest.split_once(char::is_whitespace).ok_or("there are no bytes")?;
-    let count: usize = count.parse().map_err(|_| format!("\"{}\" is no number of bytes", short(count)))?;
-    let bytes = bytes_of_hex(bytes).ok_or("what should be bytes is not hexadecimal")?;
+    let (count, bytes) = rest.split_once(char::is_whitespace).ok_or("the bytes are missing")?;
+    let count: usize = count.parse().map_err(|_| format!("\"{}\" is not a number of bytes", short(count)))?;
+    let bytes = bytes_of_hex(bytes).ok_or("the bytes are not hexadecimal")?;
     if bytes.len() == count {
         Ok(bytes)
     } else {
-        Err(format!("it announces {count} bytes and has {}", bytes.len()))
+        Err(format!("the line states {count} bytes but has {}", bytes.len()))
     }
 }
 
-/// Bus, vendor and product, in hexadecimal.
+/// Parses bus, vendor and product, in hexadecimal.
 fn identity(rest: &str) -> Result<(u16, u16), String> {
     let numbers: Vec<u16> =
-        rest.split_whitespace().filter_map(|word| u16::from_str_radix(word, 16).ok()).collect(); // Others are missed below.
+        rest.split_whitespace().filter_map(|word| u16::from_str_radix(word, 16).ok()).collect(); // An invalid word changes the count.
     match numbers[..] {
         [_, vendor_id, product_id] => Ok((vendor_id, product_id)),
-        _ => Err(format!("\"{}\" is no bus, vendor and product", short(rest))),
+        _ => Err(format!("\"{}\" is not a bus, vendor and product", short(rest))),
     }
 }

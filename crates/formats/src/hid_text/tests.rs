@@ -93,14 +93,14 @@ fn several_devices_in_one_file() {
 #[test]
 fn damaged_lines_are_left_out_with_a_warning() {
     for (damage, part) in [
-        ("E: 2.0 3 02 91", "line 10 was left out: it announces 3 bytes and has 2"),
-        ("E: 2.0 3 02 91 zz", "line 10 was left out: what should be bytes is not hexadecimal"),
-        ("E: 2.0", "line 10 was left out: there is a time and nothing else"),
-        ("E: soon 1 02", "line 10 was left out: \"soon\" is no time"),
-        ("E: nan 1 02", "line 10 was left out: \"nan\" is no time"),
-        ("E: 0.5 1 02", "line 10 was left out: time goes back, from 1.123456 s to 0.5 s"),
-        ("I: 3 056a", "line 10 was left out: \"3 056a\" is no bus"),
-        ("nonsense", "line 10 was left out: \"nonsense\""),
+        ("E: 2.0 3 02 91", "line 10 is ignored: the line states 3 bytes but has 2"),
+        ("E: 2.0 3 02 91 zz", "line 10 is ignored: the bytes are not hexadecimal"),
+        ("E: 2.0", "line 10 is ignored: the line ends after the time"),
+        ("E: soon 1 02", "line 10 is ignored: \"soon\" is not a time"),
+        ("E: nan 1 02", "line 10 is ignored: \"nan\" is not a time"),
+        ("E: 0.5 1 02", "line 10 is ignored: the time decreases from 1.123456 s to 0.5 s"),
+        ("I: 3 056a", "line 10 is ignored: \"3 056a\" is not a bus"),
+        ("nonsense", "line 10 is ignored: \"nonsense\""),
     ] {
         let found = read_hid_text(format!("{RECORDER}{damage}\nE: 3.0 1 07\n").as_bytes()).unwrap();
         assert_eq!(found.warnings.len(), 1, "{damage}");
@@ -110,11 +110,11 @@ fn damaged_lines_are_left_out_with_a_warning() {
     let found =
         read_hid_text(format!("{DUMP}\n001:005:000:STREAM 1234568.0\n 02 9Q E0\n").as_bytes()).unwrap();
     assert_eq!((found.value[0].reports.len(), found.warnings.len()), (2, 1));
-    assert!(found.warnings[0].contains("no row of bytes"), "{}", found.warnings[0]);
-    // Many damages are counted.
+    assert!(found.warnings[0].contains("not a row of hexadecimal bytes"), "{}", found.warnings[0]);
+    // Further damaged lines are only counted.
     let many = read_hid_text(format!("{RECORDER}{}", "E: 1 2 3\n".repeat(1000)).as_bytes()).unwrap();
     assert_eq!(many.warnings.len(), 21);
-    assert_eq!(many.warnings[20], "980 more lines were left out");
+    assert_eq!(many.warnings[20], "980 more lines are ignored");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Anchors of a file and nodes of a model, both ways.
+//! Conversion between the anchors of a file and the nodes of a model.
 
 use serde_json::{Map, Value};
 use shagreen_core::texture::{
@@ -7,19 +7,19 @@ use shagreen_core::texture::{
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 
 use crate::library::LibraryError;
+use crate::library::numbers::{CONVERSION_DIGITS, DIGITS, digits, frequencies};
 use crate::library::v1::AnchorV1;
-use crate::library::write::{CONVERSION_DIGITS, DIGITS, digits, frequencies};
 
-/// Words for the ways of interpolation; where there is none, it is the first.
+/// Identifiers of the interpolation modes; the first is the default.
 const BARYCENTRIC: &str = "barycentric";
 const RADIAL_BASIS: &str = "radial_basis";
 const PUBLISHED: &str = "published";
 
-/// Nodes that are read and not checked yet.
+/// Nodes that are read but not validated.
 pub(super) struct UncheckedGrain(Grain);
 
 impl UncheckedGrain {
-    /// The model of these nodes.
+    /// Validates the nodes and returns the model.
     pub(super) fn model(self, rate: Hertz, mu: Option<f64>) -> Result<TextureModel, TextureModelError> {
         match self.0 {
             Grain::Measured { nodes, interpolation } => {
@@ -30,7 +30,8 @@ impl UncheckedGrain {
     }
 }
 
-/// The nodes of a texture; `unknown` becomes the unknown fields of each, or stays empty where there are none.
+/// Converts the anchors of a texture to nodes. `unknown` receives the unknown fields of each node; it stays empty if
+/// there are none.
 pub(super) fn grain(
     id: &str,
     interpolation: Option<&str>,
@@ -87,8 +88,8 @@ pub(super) fn grain(
     Ok(UncheckedGrain(grain))
 }
 
-/// What is left of an anchor whose numbers were taken: fields that nobody knows, and known ones that mean nothing for
-/// its kind of interpolation.
+/// The rest of an anchor after its numbers are taken: unknown fields, and known ones that its interpolation mode does
+/// not use.
 fn without_meaning(anchor: AnchorV1) -> Map<String, Value> {
     let mut rest = anchor.unknown;
     let numbers = [("level_mps2", anchor.level_mps2), ("variance", anchor.variance), ("gain", anchor.gain)];
@@ -99,7 +100,7 @@ fn without_meaning(anchor: AnchorV1) -> Map<String, Value> {
     rest
 }
 
-/// The word for the way of interpolation; `None` where it goes without saying.
+/// Identifier of the interpolation mode; `None` for the default.
 pub(super) fn interpolation_word(model: &TextureModel) -> Option<&'static str> {
     match model.interpolation() {
         Some(Interpolation::Barycentric) => None,
@@ -108,9 +109,9 @@ pub(super) fn interpolation_word(model: &TextureModel) -> Option<&'static str> {
     }
 }
 
-/// The anchors of a model, with the unknown fields of each.
+/// Converts the nodes of a model to anchors, with the unknown fields of each.
 pub(super) fn anchors(model: &TextureModel, unknown: &[Map<String, Value>]) -> Vec<AnchorV1> {
-    // Where nodes were added or taken away, nobody knows which unknown fields belong to which.
+    // If nodes were added or removed, the unknown fields cannot be assigned to nodes and are dropped.
     let unknown_at = |index: usize| match unknown.get(index) {
         Some(fields) if unknown.len() == model.n_nodes() => Map::clone(fields),
         _ => Map::new(),

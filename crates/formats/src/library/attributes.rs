@@ -1,38 +1,38 @@
-//! How a texture is rated on any number of attributes, of which two may be the axes of a space.
+//! Attribute values of a texture; two of the attributes may be the axes of a space.
 
 use serde_json::Value;
 use shagreen_core::space::LabelSource;
 
+use crate::library::numbers::{DIGITS, digits};
 use crate::library::v1::{AttributeV1, AttributesV1};
-use crate::library::write::{DIGITS, digits};
 use crate::library::{LibraryError, USUAL_AXES, Unknown};
 
-/// A texture's values on attributes, which always say where they come from.
+/// Attribute values of a texture with their label source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attributes {
-    /// What they were derived from.
+    /// What the values were derived from.
     pub source: LabelSource,
-    /// The values, in the order of the axes of the space that they belong to. Names are unique.
+    /// The values, in the axis order of their space. Names are unique.
     pub values: Vec<Attribute>,
 }
 
-/// A value on one attribute.
+/// The value of one attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute {
-    /// Name of the attribute: its two poles with a hyphen between them, as `rough-smooth`.
+    /// Name of the attribute: its two poles joined by a hyphen, such as `rough-smooth`.
     pub name: String,
     /// 0 at the first pole, 100 at the second.
     pub value: f64,
 }
 
 impl Attributes {
-    /// The value on the attribute of this name.
+    /// Returns the value of the attribute with this name.
     pub fn get(&self, name: &str) -> Option<f64> {
         self.values.iter().find(|attribute| attribute.name == name).map(|attribute| attribute.value)
     }
 }
 
-/// The attributes of a file, checked.
+/// Converts and validates the attributes of a file.
 pub(crate) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Result<Attributes, LibraryError> {
     let source = LabelSource::from_id(&wire.label_source)
         .ok_or_else(|| LibraryError::LabelSource { id: id.to_owned(), found: wire.label_source })?;
@@ -48,7 +48,7 @@ pub(crate) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Resul
             return Err(failed("its value is not between 0 and 100"));
         }
         if values.iter().any(|other| other.name == name) {
-            return Err(failed("it is there twice"));
+            return Err(failed("it is listed twice"));
         }
         values.push(Attribute { name, value });
         unknown.values.push(more);
@@ -56,10 +56,10 @@ pub(crate) fn read(id: &str, wire: AttributesV1, unknown: &mut Unknown) -> Resul
     Ok(Attributes { source, values })
 }
 
-/// The attributes as a file has them.
+/// Converts attributes to the form of a file.
 pub(crate) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 {
     let n_values = attributes.values.len();
-    // What is not known of values belongs to them only as long as they are the same.
+    // Unknown fields are only kept while the number of values is unchanged.
     let more = |i: usize| unknown.values.get(i).filter(|_| unknown.values.len() == n_values).cloned();
     let wire = |(i, a): (usize, &Attribute)| AttributeV1 {
         name: a.name.clone(),
@@ -73,7 +73,7 @@ pub(crate) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 
     }
 }
 
-/// The names of the axes, as a file has them.
+/// Validates the axis names of a file.
 pub(crate) fn axes(wire: Option<Vec<String>>) -> Result<Option<[String; 2]>, LibraryError> {
     let Some(names) = wire else { return Ok(None) };
     let axes: [String; 2] = names.try_into().map_err(|_| LibraryError::Axes)?;
@@ -81,7 +81,7 @@ pub(crate) fn axes(wire: Option<Vec<String>>) -> Result<Option<[String; 2]>, Lib
     if is_empty || axes[0].eq_ignore_ascii_case(&axes[1]) { Err(LibraryError::Axes) } else { Ok(Some(axes)) }
 }
 
-/// The names of the axes that a space was built on, where they are not the usual ones.
+/// Returns the axis names in a space report, if they differ from [`USUAL_AXES`].
 pub(super) fn axes_of_report(report: &Value) -> Option<[String; 2]> {
     let names = [0, 1].map(|axis| report["axes"][axis]["name"].as_str());
     let [Some(first), Some(second)] = names else { return None };
@@ -90,12 +90,12 @@ pub(super) fn axes_of_report(report: &Value) -> Option<[String; 2]> {
     (is_sound && !is_usual(&names)).then_some(names)
 }
 
-/// Whether these are [`USUAL_AXES`], whatever their case.
+/// Returns whether these are [`USUAL_AXES`], ignoring case.
 pub(crate) fn is_usual(names: &[String; 2]) -> bool {
     names.iter().zip(USUAL_AXES).all(|(name, usual)| name.eq_ignore_ascii_case(usual))
 }
 
-/// What a file says of how its space was made: an object, or nothing.
+/// Validates the space report of a file, which must be an object if present.
 pub(super) fn report(wire: Option<Value>) -> Result<Option<Value>, LibraryError> {
     match wire {
         None | Some(Value::Object(_)) => Ok(wire),

@@ -1,32 +1,33 @@
-//! Textures that join a library, and what was authored in its space as an entry of its own.
+//! Adding textures to a library: merging entries, and library entries for paths and reliefs.
 
 use std::sync::Arc;
 
-use shagreen_core::relief::Relief;
-use shagreen_core::space::LabelSource;
+use shagreen_core::space::texture_path::TexturePath;
+use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::texture::relief::Relief;
 use shagreen_core::texture::{TextureModel, TextureModelError};
-use shagreen_core::texture_path::TexturePath;
 use shagreen_core::units::Hertz;
 
 use crate::library::{Library, Provenance, TextureEntry, free_id, id_from_name};
 
-/// What stands for terms that nobody stated, in the form of the SPDX.
+/// SPDX identifier for terms of use that nobody stated.
 const UNKNOWN_TERMS: &str = "LicenseRef-unknown";
-/// Samples a second of a texture that is a relief alone: a relief is played up to half of them, and more is not felt.
+/// Sample rate of a texture that consists of a relief alone. A relief is rendered up to half of it, and higher
+/// frequencies are not perceived.
 const RELIEF_RATE: Hertz = Hertz(2000.0);
 
-/// What a relief was made of.
+/// The terms of use of the data from which a relief was made.
 #[derive(Clone, Copy, Debug)]
 pub struct ReliefSource<'a> {
-    /// The terms of that; empty where nobody stated any.
+    /// Stated terms of use; empty if nobody stated any.
     pub terms: &'a [String],
-    /// Whether it may not be passed on.
+    /// Whether the data must not be redistributed.
     pub is_restricted: bool,
 }
 
 impl Library {
-    /// Adds textures. One whose identifier is taken gets another: it may have been made for a library that has none of this
-    /// name.
+    /// Appends textures. An entry whose identifier is taken gets a new one, because it may have been made for another
+    /// library.
     pub fn join(&mut self, entries: &[Arc<TextureEntry>]) {
         for entry in entries {
             let mut entry = TextureEntry::clone(entry);
@@ -35,9 +36,9 @@ impl Library {
         }
     }
 
-    /// The entry of a path through the space of the textures at these indices, with an identifier that is free in this
-    /// library. It owes something to each of them: it has the terms of all, and may not be passed on where one may not.
-    /// So many of its keys are extrapolated.
+    /// Returns the library entry of a path through the space, interpolated from the textures at the indices `of`. Its
+    /// identifier is unused in this library. The entry carries the terms of use of all these textures, and is
+    /// restricted if one of them is. `n_extrapolated` keys of the path are extrapolated.
     pub fn entry_of_path(
         &self,
         name: &str,
@@ -45,41 +46,79 @@ impl Library {
         of: &[usize],
         n_extrapolated: usize,
     ) -> TextureEntry {
-        let owed = || of.iter().filter_map(|index| self.textures.get(*index));
-        let is_restricted = owed().any(|texture| texture.provenance == Provenance::Restricted);
-        let mut sources: Vec<&str> = Vec::new();
-        for source in owed().filter_map(TextureEntry::label_source).map(LabelSource::label) {
-            if !sources.contains(&source) {
-                sources.push(source);
-            }
-        }
-        let places = match &sources[..] {
-            [] => String::new(),
-            some => format!(", whose places come from {}", some.join(" and ")),
-        };
         let guessed = match n_extrapolated {
             0 => String::new(),
             n => format!(
-                " {n} of its {} textures are extrapolated: nothing was measured there.",
+                " {n} of its {} textures are extrapolated, beyond all measurements.",
                 path.keys().len()
             ),
         };
         let first = path.keys()[0].model.clone();
-        let id = free_id(&id_from_name(name), |id| self.index_of(id).is_some());
+        let entry = self.entry_interpolated_from(name, first, of);
         TextureEntry {
-            license: all_terms(&owed().map(|texture| self.license_of(texture)).collect::<Vec<_>>()),
-            origin: format!("Authored as a path through the space of \"{}\"{places}.{guessed}", self.name),
-            provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
+            origin: format!(
+                "Authored as a path through the space of \"{}\"{}.{guessed}",
+                self.name,
+                self.position_sources(of)
+            ),
             path: Some(path),
-            ..TextureEntry::new(id, name, first)
+            ..entry
         }
     }
 
-    /// The entry of a relief, felt over the texture at an index or alone, with an identifier that is free in this library and the
-    /// terms of both. It has no place: it was not felt where the other texture lies.
+    /// Returns the library entry of a model that was interpolated at a point of the space, from the textures at the
+    /// indices `of`. Identifier, terms and restriction are those of [`Library::entry_of_path`]. It has no position,
+    /// because nobody rated it.
+    pub fn entry_of_point(
+        &self,
+        name: &str,
+        at: SpacePoint,
+        model: TextureModel,
+        of: &[usize],
+    ) -> TextureEntry {
+        TextureEntry {
+            origin: format!(
+                "Authored at {at} in the space of \"{}\"{}.",
+                self.name,
+                self.position_sources(of)
+            ),
+            ..self.entry_interpolated_from(name, model, of)
+        }
+    }
+
+    /// An entry with an unused identifier, and with the terms of use of all textures that contributed.
+    fn entry_interpolated_from(&self, name: &str, model: TextureModel, of: &[usize]) -> TextureEntry {
+        let owed = || of.iter().filter_map(|index| self.textures.get(*index));
+        let is_restricted = owed().any(|texture| texture.provenance == Provenance::Restricted);
+        let id = free_id(&id_from_name(name), |id| self.index_of(id).is_some());
+        TextureEntry {
+            license: all_terms(&owed().map(|texture| self.license_of(texture)).collect::<Vec<_>>()),
+            provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
+            ..TextureEntry::new(id, name, model)
+        }
+    }
+
+    /// Where the positions of the textures at these indices come from, as a clause; empty if none has a position.
+    fn position_sources(&self, of: &[usize]) -> String {
+        let mut sources: Vec<&str> = Vec::new();
+        let labeled = of.iter().filter_map(|index| self.textures.get(*index)?.label_source());
+        for source in labeled.map(LabelSource::label) {
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        match &sources[..] {
+            [] => String::new(),
+            some => format!(", with positions from {}", some.join(" and ")),
+        }
+    }
+
+    /// Returns the library entry of a relief, alone or added to the texture at the index `over`. Its identifier is
+    /// unused in this library, and it carries the terms of use of both. It has no position, because the position of the
+    /// other texture does not describe it.
     ///
     /// # Errors
-    /// [`TextureModelError`], which no relief has.
+    /// [`TextureModelError`], which a valid relief never causes.
     pub fn entry_of_relief(
         &self,
         name: &str,
@@ -95,7 +134,7 @@ impl Library {
         let Some(texture) = over.and_then(|index| self.textures.get(index)) else {
             return Ok(TextureEntry {
                 license: all_terms(&terms),
-                origin: "A relief from the workspace Signals.".to_owned(),
+                origin: "A relief from the Signals workspace.".to_owned(),
                 provenance: if source.is_restricted { Provenance::Restricted } else { Provenance::Free },
                 ..TextureEntry::new(id, name, TextureModel::of_relief(relief, RELIEF_RATE)?)
             });
@@ -104,7 +143,7 @@ impl Library {
         terms.insert(0, self.license_of(texture));
         Ok(TextureEntry {
             license: all_terms(&terms),
-            origin: format!("A relief from the workspace Signals, over \"{}\".", texture.name),
+            origin: format!("A relief from the Signals workspace, over \"{}\".", texture.name),
             provenance: if is_restricted { Provenance::Restricted } else { Provenance::Free },
             picture: texture.picture.clone(),
             ..TextureEntry::new(id, name, texture.model.clone().with_relief(Some(relief)))
@@ -112,7 +151,7 @@ impl Library {
     }
 }
 
-/// Terms that have to be kept together, as an SPDX expression; those that nobody stated are named as unknown.
+/// Combines terms of use that all apply, as an SPDX expression; unstated ones become an explicit unknown.
 fn all_terms(licenses: &[&str]) -> String {
     let mut distinct: Vec<&str> = Vec::new();
     for license in licenses.iter().map(|l| if l.is_empty() { UNKNOWN_TERMS } else { l }) {
@@ -123,7 +162,7 @@ fn all_terms(licenses: &[&str]) -> String {
     if distinct.len() < 2 {
         return distinct.concat();
     }
-    // AND binds tighter than OR.
+    // In SPDX expressions, AND binds tighter than OR.
     let part = |license: &&str| {
         if license.contains(" OR ") { format!("({license})") } else { (*license).to_owned() }
     };
@@ -136,10 +175,10 @@ mod tests {
 
     use super::{Library, Provenance, ReliefSource};
     use crate::starter::starter_library;
-    use shagreen_core::profile::Profile;
-    use shagreen_core::relief::Relief;
     use shagreen_core::space::SpacePoint;
-    use shagreen_core::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
+    use shagreen_core::space::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
+    use shagreen_core::texture::profile::Profile;
+    use shagreen_core::texture::relief::Relief;
     use shagreen_core::units::Newtons;
 
     fn path(library: &Library) -> TexturePath {
@@ -186,7 +225,7 @@ mod tests {
         assert_eq!(bound.license, "(MIT OR Apache-2.0) AND CC-BY-4.0");
         assert!(bound.origin.contains("from physical labels"), "{}", bound.origin);
         assert_eq!((bound.id.as_str(), bound.provenance), ("way", Provenance::Restricted));
-        // What has no say is owed nothing.
+        // A texture without weight in the path imposes no terms.
         assert_eq!(library.entry_of_path("Way", path(&library), &[0, 1], 0).provenance, Provenance::Free);
     }
 }

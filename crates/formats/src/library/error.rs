@@ -1,80 +1,80 @@
-//! Why bytes are not a library.
+//! Errors of reading a texture library.
 
 use shagreen_core::space::SpacePointError;
+use shagreen_core::space::texture_path::TexturePathError;
 use shagreen_core::texture::TextureModelError;
-use shagreen_core::texture_path::TexturePathError;
 
 use crate::library::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 use crate::own_json::HeaderFault;
 
-/// Why bytes are not a library.
+/// Why bytes are not a texture library.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LibraryError {
-    /// Not JSON, cut off, or a field is missing or of the wrong kind.
+    /// Not JSON, truncated, or a field is missing or of the wrong type.
     #[error("the library is damaged{}: {reason}; restore it from a copy", in_texture(.texture.as_ref()))]
     Damaged {
-        /// What the parser says, with line and column.
+        /// The parser's message, with line and column.
         reason: String,
-        /// Identifier of the texture, where the damage is inside one.
+        /// Identifier of the texture that contains the damage, if known.
         texture: Option<String>,
     },
-    /// The file is JSON but of another kind.
+    /// The file is JSON of another format.
     #[error("this is not a texture library: `format` is {found}, not \"{FORMAT}\"; choose another file")]
     Format {
-        /// What the field `format` holds.
+        /// Value of the `format` field.
         found: String,
     },
     /// `version` is not of the form `major.minor`.
     #[error(
-        "the version {found} of the library is not of the form \"{VERSION_MAJOR}.{VERSION_MINOR}\"; restore it from a copy"
+        "the version {found} of the library is not of the form \"{VERSION_MAJOR}.{VERSION_MINOR}\"; restore the library from a copy"
     )]
     Version {
-        /// What the field `version` holds.
+        /// Value of the `version` field.
         found: String,
     },
-    /// The file is of another major version.
+    /// The file has an unsupported major version.
     #[error(
-        "the library has version {found}, this program reads {VERSION_MAJOR}.x; open it with the Shagreen that wrote it, or a newer one"
+        "the library has version {found}, but this program reads {VERSION_MAJOR}.x; open it with the version of Shagreen that wrote it, or a newer one"
     )]
     Major {
         /// The version of the file.
         found: String,
     },
-    /// The axes are not two attributes.
+    /// `axes` is not two different attribute names.
     #[error(
-        "`axes` must be the names of two attributes that differ; correct them, or leave them out for rough-smooth and hard-soft"
+        "`axes` must be two different attribute names; correct them, or remove `axes` to use rough-smooth and hard-soft"
     )]
     Axes,
-    /// The report on the space is no object.
-    #[error("`space_report` is not an object; leave it out, or build the space again")]
+    /// The space report is not an object.
+    #[error("`space_report` is not an object; remove it, or build the space again")]
     Report,
-    /// A value on an attribute has no meaning.
-    #[error("texture \"{id}\": the attribute \"{name}\" cannot be used: {reason}; correct it")]
+    /// An attribute value is invalid.
+    #[error("texture \"{id}\": the attribute \"{name}\" is invalid: {reason}; correct it")]
     Attribute {
         /// Identifier of the texture.
         id: String,
         /// Name of the attribute.
         name: String,
-        /// Why.
+        /// Why it is invalid.
         reason: &'static str,
     },
-    /// A quantity has another unit.
+    /// A quantity has an unsupported unit.
     #[error(
-        "the library gives {quantity} in {found}, this program reads {expected}; convert the numbers and the unit"
+        "the library gives {quantity} in {found}, but this program reads {expected}; convert the numbers and the unit"
     )]
     Unit {
         /// The quantity.
         quantity: &'static str,
         /// The unit in the file.
         found: String,
-        /// The unit that is read.
+        /// The supported unit.
         expected: &'static str,
     },
-    /// An identifier is empty or has white space.
-    #[error("texture number {number} has the id \"{id}\"; give it one that is not empty and has no spaces")]
+    /// An identifier is empty or contains white space.
+    #[error("texture number {number} has the id \"{id}\"; use an id that is not empty and has no spaces")]
     Id {
-        /// Place in the file, from one.
+        /// Position in the file, from one.
         number: usize,
         /// The identifier.
         id: String,
@@ -85,23 +85,23 @@ pub enum LibraryError {
         /// The identifier.
         id: String,
     },
-    /// A texture's numbers are no model.
-    #[error("texture \"{id}\" cannot be used: {source}; correct or remove it")]
+    /// The numbers of a texture do not form a valid model.
+    #[error("texture \"{id}\" is invalid: {source}; correct or remove it")]
     Model {
         /// Identifier of the texture.
         id: String,
         /// What is wrong.
         source: TextureModelError,
     },
-    /// A texture's position is outside the space.
-    #[error("texture \"{id}\" has no valid place: {source}; correct or remove its `space`")]
+    /// The position of a texture is outside the space.
+    #[error("the position of texture \"{id}\" is invalid: {source}; correct or remove its `space`")]
     Place {
         /// Identifier of the texture.
         id: String,
         /// What is wrong.
         source: SpacePointError,
     },
-    /// A position does not say where it comes from in a word that is known.
+    /// A label source is unknown.
     #[error(
         "texture \"{id}\" has the label source \"{found}\"; it must be human, simulated, physical or estimated"
     )]
@@ -111,58 +111,58 @@ pub enum LibraryError {
         /// The word in the file.
         found: String,
     },
-    /// A word of the format is not one that is known.
+    /// A field holds an unknown word.
     #[error("texture \"{id}\" has the {field} \"{found}\"; it must be {expected}")]
     Word {
         /// Identifier of the texture.
         id: String,
-        /// The field.
+        /// Name of the field.
         field: &'static str,
         /// The word in the file.
         found: String,
-        /// The words that are known.
+        /// The permitted words.
         expected: &'static str,
     },
-    /// An anchor lacks a number that its texture's interpolation needs.
-    #[error("anchor {index} of texture \"{id}\" has no {field}; correct or remove the texture")]
+    /// An anchor lacks a number that the texture's interpolation mode needs.
+    #[error("anchor {index} of texture \"{id}\" has no {field}; add it, or remove the texture")]
     Anchor {
         /// Identifier of the texture.
         id: String,
-        /// Place among the anchors, from zero.
+        /// Index of the anchor, from zero.
         index: usize,
-        /// The field.
+        /// Name of the missing field.
         field: &'static str,
     },
-    /// A relief is none.
-    #[error("the relief of texture \"{id}\" cannot be played: {reason}")]
+    /// A relief is invalid.
+    #[error("the relief of texture \"{id}\" is invalid: {reason}; correct or remove it")]
     Relief {
         /// Identifier of the texture.
         id: String,
-        /// Why.
+        /// Why it is invalid.
         reason: String,
     },
-    /// A landing is no decaying oscillation.
-    #[error("the tap of texture \"{id}\" has {field} {value}; {needs}")]
+    /// A tap transient is not a decaying oscillation.
+    #[error("the tap transient of texture \"{id}\" has {field} {value}; {needs}")]
     Tap {
         /// Identifier of the texture.
         id: String,
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// The value in the file.
         value: f64,
-        /// What it must be.
+        /// The permitted range.
         needs: &'static str,
     },
-    /// A path is no way.
-    #[error("the path of texture \"{id}\" cannot be used: {source}; correct or remove it")]
+    /// A path is invalid.
+    #[error("the path of texture \"{id}\" is invalid: {source}; correct or remove it")]
     Path {
         /// Identifier of the texture.
         id: String,
         /// What is wrong.
         source: TexturePathError,
     },
-    /// A picture is not usable.
-    #[error("the picture of texture \"{id}\" cannot be used: {reason}; correct or remove it")]
+    /// A picture is invalid.
+    #[error("the picture of texture \"{id}\" is invalid: {reason}; correct or remove it")]
     Picture {
         /// Identifier of the texture.
         id: String,

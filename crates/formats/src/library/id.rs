@@ -1,6 +1,6 @@
-//! Names and identifiers of textures that join a library: made from the names of files, unique.
+//! Unique names and identifiers for textures that are added to a library, derived from file names.
 
-/// The name that a file suggests: without its ending, with spaces between words, beginning with a capital letter.
+/// Derives a name from a file name: without extension, with spaces between words, and capitalized.
 pub fn name_from_file(file_name: &str) -> String {
     let stem = file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem);
     let words = stem.replace(['_', '-'], " ");
@@ -11,26 +11,26 @@ pub fn name_from_file(file_name: &str) -> String {
     }
 }
 
-/// The identifier that a name suggests: its letters and digits in lower case, all else as single hyphens.
+/// Derives an identifier from a name: letters and digits in lower case, everything else as single hyphens.
 pub fn id_from_name(name: &str) -> String {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let id = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
     if id.is_empty() { "texture".to_owned() } else { id }
 }
 
-/// `id` where it is free, else `id-2`, `id-3` and so on.
+/// Returns `id` if it is free, else `id-2`, `id-3` and so on.
 pub fn free_id(id: &str, is_taken: impl Fn(&str) -> bool) -> String {
     first_free(id, '-', is_taken)
 }
 
-/// `name` where nothing has it, else `name 2`, `name 3` and so on.
+/// Returns `name` if it is free, else `name 2`, `name 3` and so on.
 pub fn free_name(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
     first_free(name, ' ', is_taken)
 }
 
 fn first_free(word: &str, separator: char, is_taken: impl Fn(&str) -> bool) -> String {
     let numbered = (2_u64..).map(|n| format!("{word}{separator}{n}"));
-    // The numbers do not run out before the memory does.
+    // The numbers cannot run out before the memory does.
     std::iter::once(word.to_owned()).chain(numbered).find(|word| !is_taken(word)).unwrap_or_default()
 }
 

@@ -1,17 +1,16 @@
-//! Paths of a file and paths of the program, both ways.
+//! Conversion of texture paths from and to the library format.
 
 use shagreen_core::space::SpacePoint;
-use shagreen_core::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
+use shagreen_core::space::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
 use shagreen_core::units::Hertz;
 
 use crate::library::anchors::{anchors, grain};
-use crate::library::read::tap;
-use crate::library::relief;
+use crate::library::numbers::{CONVERSION_DIGITS, DIGITS, decimals, digits};
 use crate::library::v1::{KeyV1, PathV1, TapV1};
-use crate::library::write::{CONVERSION_DIGITS, DIGITS, decimals, digits, tap as tap_v1};
 use crate::library::{LibraryError, Unknown, UnknownOfKey};
+use crate::library::{relief, tap};
 
-/// The path of a texture.
+/// Converts and validates the path of a texture.
 pub(super) fn read(
     id: &str,
     wire: PathV1,
@@ -25,16 +24,16 @@ pub(super) fn read(
         expected,
     };
     let along =
-        Along::from_id(&wire.along).ok_or_else(|| word("path along", &wire.along, "distance or time"))?;
+        Along::from_id(&wire.along).ok_or_else(|| word("path.along", &wire.along, "distance or time"))?;
     let at_end = AtEnd::from_id(&wire.at_end)
-        .ok_or_else(|| word("path at_end", &wire.at_end, "hold, turn or repeat"))?;
+        .ok_or_else(|| word("path.at_end", &wire.at_end, "hold, turn or repeat"))?;
     unknown.path = wire.unknown;
     let key = |(index, wire): (usize, KeyV1)| {
-        let id = &format!("{id}, point {} of its path", index + 1);
+        let id = &format!("{id}, key {} of its path", index + 1);
         let mut left = UnknownOfKey { key: wire.unknown, ..UnknownOfKey::default() };
         let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
             .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
-        let tap = wire.tap.map(|wire| tap(id, wire, &mut left.tap)).transpose()?;
+        let tap = wire.tap.map(|wire| tap::read(id, wire, &mut left.tap)).transpose()?;
         let relief = wire.relief.map(|wire| relief::read(id, wire, &mut left.relief)).transpose()?;
         let model = grain(id, None, wire.anchors, &mut left.anchors)?
             .model(rate, wire.mu)
@@ -51,9 +50,9 @@ pub(super) fn read(
     TexturePath::new(along, at_end, keys).map_err(|source| LibraryError::Path { id: id.to_owned(), source })
 }
 
-/// The path as a file has it.
+/// Converts a path to the form of a file.
 pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
-    // Where keys were added or taken away, nobody knows which unknown fields belong to which.
+    // If keys were added or removed, the unknown fields cannot be assigned to keys and are dropped.
     let left_at = |index: usize| match unknown.keys.get(index) {
         Some(left) if unknown.keys.len() == path.keys().len() => left.clone(),
         _ => UnknownOfKey::default(),
@@ -67,7 +66,7 @@ pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
             hard_soft: decimals(key.stop.at.hard_soft),
             stop: key.is_stop,
             mu: key.model.friction().map(|mu| digits(mu, DIGITS)),
-            tap: key.model.tap().map(|of| TapV1 { unknown: tap, ..tap_v1(of) }),
+            tap: key.model.tap().map(|of| TapV1 { unknown: tap, ..tap::write(of) }),
             anchors: anchors(&key.model, &of_anchors),
             relief: key.model.relief().map(|of| relief::write(of, &of_relief)),
         }

@@ -1,19 +1,19 @@
-//! Whether what a texture was made from may be passed on.
+//! Redistribution status of a texture.
 
-/// Whether a texture may be passed on.
+/// Whether a texture may be redistributed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Provenance {
-    /// As its licence says.
+    /// Redistribution follows its license.
     #[default]
     Free,
-    /// Made from data that may not be passed on, as the published models of the Penn Haptic Texture Toolkit: for the
-    /// person who imported it alone.
+    /// Made from data that must not be redistributed, such as the published models of the Penn Haptic Texture Toolkit;
+    /// only for the person who imported it.
     Restricted,
 }
 
 impl Provenance {
-    /// The warning before textures leave this machine, in a file or a package, from the names of those that are
-    /// restricted. `None` where none is.
+    /// Returns a warning to show before textures are saved or exported, from the names of the restricted ones; `None`
+    /// if none is restricted.
     pub fn warning(restricted: &[&str]) -> Option<String> {
         const NAMED: usize = 5;
         let shown = restricted[..restricted.len().min(NAMED)].join(", ");
@@ -24,7 +24,7 @@ impl Provenance {
         let (are, them) = if restricted.len() == 1 { ("is", "it") } else { ("are", "them") };
         (!restricted.is_empty()).then(|| {
             format!(
-                "{shown}{more} {are} made from restricted data, for non-profit research and not to be passed on: leave {them} out of what you share"
+                "{shown}{more} {are} made from restricted data, for non-profit research only, which must not be redistributed; remove {them} from files that you share"
             )
         })
     }

@@ -1,4 +1,4 @@
-//! From bytes to a library.
+//! Conversion of bytes to a library.
 
 use std::collections::HashSet;
 
@@ -6,31 +6,29 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 use shagreen_core::space::{LabelSource, SpacePoint};
-use shagreen_core::tap::Tap;
 use shagreen_core::units::Hertz;
 
 use crate::imported::Imported;
 use crate::library::anchors::grain;
-use crate::library::v1::{LibraryV1, PictureV1, SpaceV1, TapV1, TextureV1, UnitsV1};
-use crate::library::write::{RESTRICTED, UNITS};
+use crate::library::v1::{LibraryV1, PictureV1, RESTRICTED, SpaceV1, TextureV1, UNITS, UnitsV1};
 use crate::library::{
     FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, Unknown,
     UnknownOfLibrary, VERSION_MAJOR, VERSION_MINOR,
 };
-use crate::library::{attributes, path, relief};
+use crate::library::{attributes, path, relief, tap};
 use crate::own_json::{Header, HeaderFault, minor_version};
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 
 /// Reads a library.
 ///
-/// Pictures are unpacked only when they are shown, by [`picture::decode`]; one whose head is damaged is kept, and warned
-/// of.
+/// Pictures are decoded only for display, by [`picture::decode`]. A picture with a damaged header is kept, with a
+/// warning.
 ///
 /// # Errors
 /// See [`LibraryError`]; every number is checked.
 pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
     let minor = minor_version(bytes, FORMAT, VERSION_MAJOR).map_err(|fault| match fault {
-        // The parser's own words say more than the head's: which texture it is.
+        // The full parser's message is more specific than the header's: it names the texture.
         HeaderFault::Damaged(reason) => damaged(reason, bytes),
         fault => fault.into(),
     })?;
@@ -38,7 +36,7 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
     checked(wire, minor)
 }
 
-/// The library of a part of another file.
+/// Converts a library that is part of another file.
 ///
 /// # Errors
 /// Those of [`read_library`].
@@ -51,7 +49,7 @@ fn checked(wire: LibraryV1, minor: u32) -> Result<Imported<Library>, LibraryErro
     let mut warnings = Vec::new();
     if minor > VERSION_MINOR {
         warnings.push(format!(
-            "the library has version {VERSION_MAJOR}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}: what is new in it is kept but has no effect"
+            "the library has version {VERSION_MAJOR}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}; fields that this program does not know are kept but have no effect"
         ));
     }
     check_units(&wire.units)?;
@@ -75,7 +73,7 @@ fn checked(wire: LibraryV1, minor: u32) -> Result<Imported<Library>, LibraryErro
         }
     }
     let space_report = attributes::report(wire.space_report)?;
-    // Before 1.3 only the report said it.
+    // Before version 1.3 only the space report held the axis names.
     let axes =
         attributes::axes(wire.axes)?.or_else(|| space_report.as_ref().and_then(attributes::axes_of_report));
     let library = Library {
@@ -93,10 +91,10 @@ fn checked(wire: LibraryV1, minor: u32) -> Result<Imported<Library>, LibraryErro
     Ok(Imported { value: library, warnings })
 }
 
-/// The error of the parser, with the texture in which it arose where the rest is sound enough to tell.
+/// Returns the parser's error, with the texture that contains it if the file is intact enough to tell.
 fn damaged(reason: String, bytes: &[u8]) -> LibraryError {
     let texture = serde_json::from_slice::<Value>(bytes).ok().and_then(|value| {
-        // Not JSON at all: the parser's line and column must do.
+        // If the file is not JSON, the parser's line and column locate the error.
         let textures = value.get("textures")?.as_array()?;
         let bad = textures.iter().find(|t| serde_json::from_value::<TextureV1>((*t).clone()).is_err())?;
         Some(bad.get("id")?.as_str()?.to_owned())
@@ -128,7 +126,7 @@ pub(crate) fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
         }
     });
     let provenance = wire.provenance.map(|word| provenance(&id, word)).transpose()?.unwrap_or_default();
-    let tap = wire.tap.map(|wire| tap(&id, wire, &mut unknown.tap)).transpose()?;
+    let tap = wire.tap.map(|wire| tap::read(&id, wire, &mut unknown.tap)).transpose()?;
     let relief = wire.relief.map(|wire| relief::read(&id, wire, &mut unknown.relief)).transpose()?;
     let rate = Hertz(wire.rate_hz);
     let path = wire.path.map(|wire| path::read(&id, wire, rate, &mut unknown)).transpose()?;
@@ -162,31 +160,9 @@ fn provenance(id: &str, word: String) -> Result<Provenance, LibraryError> {
             id: id.to_owned(),
             field: "provenance",
             found: word,
-            expected: "restricted, or left out",
+            expected: "restricted or absent",
         }),
     }
-}
-
-pub(super) fn tap(
-    id: &str,
-    wire: TapV1,
-    unknown: &mut serde_json::Map<String, Value>,
-) -> Result<Tap, LibraryError> {
-    *unknown = wire.unknown;
-    for (field, value, is_fine, needs) in [
-        ("frequency_hz", wire.frequency_hz, wire.frequency_hz > 0.0, "it must be above zero"),
-        ("decay_per_s", wire.decay_per_s, wire.decay_per_s > 0.0, "it must be above zero"),
-        ("amplitude_mps2", wire.amplitude_mps2, wire.amplitude_mps2 >= 0.0, "it must not be below zero"),
-    ] {
-        if !is_fine {
-            return Err(LibraryError::Tap { id: id.to_owned(), field, value, needs });
-        }
-    }
-    Ok(Tap {
-        frequency: Hertz(wire.frequency_hz),
-        decay_per_sec: wire.decay_per_s,
-        amplitude_mps2: wire.amplitude_mps2,
-    })
 }
 
 pub(crate) fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Place, LibraryError> {
@@ -205,10 +181,13 @@ pub(crate) fn picture(id: &str, wire: PictureV1, unknown: &mut Unknown) -> Resul
     })?;
     let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
     if !(fits(wire.width) && fits(wire.height)) {
-        return Err(failed(format!("{} x {} pixels are not 1 to {MAX_SIDE} each", wire.width, wire.height)));
+        return Err(failed(format!(
+            "its size is {} x {} pixels, but each side must be 1 to {MAX_SIDE}",
+            wire.width, wire.height
+        )));
     }
     if wire.millimeters <= 0.0 {
-        return Err(failed(format!("it covers {} mm", wire.millimeters)));
+        return Err(failed(format!("its width is {} mm, but must be greater than zero", wire.millimeters)));
     }
     let bytes =
         STANDARD.decode(&wire.base64).map_err(|error| failed(format!("its base64 is damaged ({error})")))?;

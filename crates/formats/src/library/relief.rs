@@ -1,17 +1,17 @@
-//! What lies at each place of a texture, in a file.
+//! Conversion of reliefs (acceleration profiles over tip position) from and to the library format.
 
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
-use shagreen_core::profile::Profile;
-use shagreen_core::relief::Relief;
+use shagreen_core::texture::profile::Profile;
+use shagreen_core::texture::relief::Relief;
 use shagreen_core::units::Newtons;
 
 use crate::library::LibraryError;
+use crate::library::numbers::{CONVERSION_DIGITS, DIGITS, digits};
 use crate::library::v1::ReliefV1;
-use crate::library::write::{CONVERSION_DIGITS, DIGITS, digits};
 
-/// The relief of the texture of this identifier.
+/// Converts and validates the relief of the texture with this identifier.
 pub(super) fn read(
     id: &str,
     wire: ReliefV1,
@@ -24,7 +24,7 @@ pub(super) fn read(
     Ok(Arc::new(relief))
 }
 
-/// The relief as a file has it.
+/// Converts a relief to the form of a file.
 pub(super) fn write(relief: &Relief, unknown: &Map<String, Value>) -> ReliefV1 {
     let profile = relief.profile();
     ReliefV1 {

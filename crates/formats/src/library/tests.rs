@@ -123,7 +123,7 @@ fn unknown_fields_of_a_path_survive() {
 #[test]
 fn a_landing_is_not_below_zero() {
     let tap = json!({"frequency_hz": 200.0, "decay_per_s": 90.0, "amplitude_mps2": -3.0});
-    check_error(|v| v["textures"][0]["tap"] = tap.clone(), &["amplitude_mps2", "-3", "below zero"]);
+    check_error(|v| v["textures"][0]["tap"] = tap.clone(), &["amplitude_mps2", "-3", "negative"]);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn other_kinds_and_versions_are_refused_with_the_reason() {
     check_error(|v| v["version"] = json!("0.9"), &["version 0.9"]);
     check_error(|v| v["version"] = json!(1.0), &["not of the form"]);
     check_error(|v| v["units"]["speed"] = json!("m/s"), &["speed in m/s", "reads mm/s"]);
-    // A higher major version may look different everywhere else, and is still refused for its version.
+    // A file of a higher major version is rejected for its version, whatever else it contains.
     let alien = br#"{"format": "shagreen-library", "version": "7.1", "textures": 5}"#;
     assert!(matches!(read_library(alien), Err(LibraryError::Major { .. })));
 }
@@ -194,7 +194,7 @@ fn numbers_that_are_none_are_refused() {
 #[test]
 fn every_truncation_is_an_error() {
     let bytes = write_library(&small());
-    // Without the line feed at its end the file is still whole.
+    // Without its final line feed the file is still complete.
     for end in 0..bytes.len() - 1 {
         assert!(read_library(&bytes[..end]).is_err(), "cut at {end} of {}", bytes.len());
     }
@@ -249,7 +249,7 @@ proptest! {
             bytes[at] = *byte;
         }
         if let Ok(imported) = read_library(&bytes) {
-            // Whatever was read can be written and read again.
+            // Any value that was read can be written and read again.
             assert!(read_library(&write_library(&imported.value)).is_ok());
         }
     }

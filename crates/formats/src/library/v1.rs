@@ -1,4 +1,4 @@
-//! The wire format of a library, versions 1.0 to 1.6.
+//! File format of a library, versions 1.0 to 1.6.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -27,7 +27,7 @@ pub(crate) struct LibraryV1 {
     pub(super) space_report: Option<Value>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
-    // Last, so that what is said about the library stands before the long part.
+    // Last, so that the library's metadata precedes the long list.
     pub(super) textures: Vec<TextureV1>,
 }
 
@@ -166,7 +166,7 @@ pub(super) struct TapV1 {
     pub(super) unknown: Map<String, Value>,
 }
 
-/// Measured with a level; published, since 1.1, with the fields after it instead.
+/// An anchor: a measured one has a level. A published one (since 1.1) has variance, gain and MA frequencies instead.
 #[derive(Serialize, Deserialize)]
 pub(super) struct AnchorV1 {
     pub(super) speed_mm_per_s: f64,
@@ -194,3 +194,16 @@ pub(crate) struct PictureV1 {
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
 }
+
+/// Identifier of [`crate::library::Provenance::Restricted`].
+pub(super) const RESTRICTED: &str = "restricted";
+
+/// Quantities of the format and their units, in the order of [`UnitsV1`].
+pub(super) const UNITS: [(&str, &str); 6] = [
+    ("speed", "mm/s"),
+    ("force", "N"),
+    ("acceleration", "m/s^2"),
+    ("rate", "Hz"),
+    ("lsf", "rad"),
+    ("length", "mm"),
+];

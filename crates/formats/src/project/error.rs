@@ -1,4 +1,4 @@
-//! Why bytes are not a project.
+//! Errors of reading a project.
 
 use std::io;
 use std::path::PathBuf;
@@ -12,126 +12,128 @@ use crate::project::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProjectError {
-    /// Not JSON, cut off, or a field is missing or of the wrong kind.
+    /// Not JSON, truncated, or a field is missing or of the wrong type.
     #[error("the project is damaged: {reason}; restore it from a copy")]
     Damaged {
-        /// What the parser says, with line and column.
+        /// The parser's message, with line and column.
         reason: String,
     },
-    /// The file is JSON but of another kind.
+    /// The file is JSON of another format.
     #[error("this is not a project: `format` is {found}, not \"{FORMAT}\"; choose another file")]
     Format {
-        /// What the field `format` holds.
+        /// Value of the `format` field.
         found: String,
     },
     /// `version` is not of the form `major.minor`.
     #[error(
-        "the version {found} of the project is not of the form \"{VERSION_MAJOR}.{VERSION_MINOR}\"; restore it from a copy"
+        "the version {found} of the project is not of the form \"{VERSION_MAJOR}.{VERSION_MINOR}\"; restore the project from a copy"
     )]
     Version {
-        /// What the field `version` holds.
+        /// Value of the `version` field.
         found: String,
     },
-    /// The file is of another major version.
+    /// The file has an unsupported major version.
     #[error(
-        "the project has version {found}, this program reads {VERSION_MAJOR}.x; open it with the Shagreen that wrote it, or a newer one"
+        "the project has version {found}, but this program reads {VERSION_MAJOR}.x; open it with the version of Shagreen that wrote it, or a newer one"
     )]
     Major {
         /// The version of the file.
         found: String,
     },
-    /// Lengths or times have another unit.
+    /// Lengths or times have an unsupported unit.
     #[error(
-        "the project gives {quantity} in {found}, this program reads {expected}; convert the numbers and the unit"
+        "the project gives {quantity} in {found}, but this program reads {expected}; convert the numbers and the unit"
     )]
     Unit {
         /// The quantity.
         quantity: &'static str,
         /// The unit in the file.
         found: String,
-        /// The unit that is read.
+        /// The supported unit.
         expected: &'static str,
     },
-    /// The program has no library of this name.
+    /// The named built-in library does not exist.
     #[error(
-        "the project is made of the program's library \"{found}\", which this Shagreen does not have; open it with a newer one"
+        "the project uses the built-in library \"{found}\", which this version of Shagreen does not have; use a newer version"
     )]
     BuiltIn {
-        /// The name.
+        /// The name in the file.
         found: String,
     },
-    /// A library of the program cannot be read.
-    #[error("the library \"{id}\" of the program is damaged ({reason}); install Shagreen again")]
+    /// A built-in library cannot be read.
+    #[error("the built-in library \"{id}\" is damaged ({reason}); reinstall Shagreen")]
     DamagedBuiltIn {
-        /// Which.
+        /// Identifier of the library.
         id: &'static str,
         /// What is wrong.
         reason: String,
     },
-    /// The file of the library is not to be had.
+    /// The library file cannot be read.
     #[error(
-        "the library of the project cannot be read ({source}); put it back where the project expects it: {}",
+        "the library of the project cannot be read ({source}); put the file back where the project expects it: {}",
         path.display()
     )]
     LibraryFile {
-        /// Where it should be.
+        /// Expected path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         #[source]
         source: io::Error,
     },
-    /// The library of the project, or a texture that joined it, is none.
-    #[error("the library of the project cannot be used: {source}{}", at(.path.as_ref()))]
+    /// The library of the project, or an added texture, is invalid.
+    #[error("the library of the project is invalid: {source}{}", at(.path.as_ref()))]
     Library {
-        /// Its file, where it has one.
+        /// Path of the library file, if there is one.
         path: Option<PathBuf>,
         /// What is wrong.
         #[source]
         source: LibraryError,
     },
-    /// `library` does not say where the library is.
+    /// `library` states no location.
     #[error(
         "`library` must have one of \"built_in\", \"file\" and \"inside\"; restore the project from a copy"
     )]
     NoLibrary,
-    /// A word is not one that is known.
+    /// A field holds an unknown word.
     #[error("\"{name}\" has the {field} \"{found}\"; it must be {expected}")]
     Word {
         /// Name of the authored texture.
         name: String,
-        /// The field.
+        /// Name of the field.
         field: &'static str,
         /// The word in the file.
         found: String,
-        /// The words that are known.
+        /// The permitted words.
         expected: &'static str,
     },
-    /// A place is outside the space.
-    #[error("\"{name}\" has no valid place: {source}; correct it, or take the texture out of the project")]
+    /// A position is outside the space.
+    #[error(
+        "the position of \"{name}\" is invalid: {source}; correct it, or remove the texture from the project"
+    )]
     Place {
         /// Name of the authored texture.
         name: String,
         /// What is wrong.
         source: SpacePointError,
     },
-    /// A number has no meaning.
+    /// A number is out of range.
     #[error("\"{name}\" has {field} {value}; {needs}")]
     Number {
         /// Name of the authored texture.
         name: String,
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// The value in the file.
         value: f64,
-        /// What it must be.
+        /// The permitted range.
         needs: &'static str,
     },
     /// Two authored textures have the same key.
     #[error("\"{first}\" and \"{second}\" have the same key {key}; give one of them another number")]
     Key {
-        /// Name of the one.
+        /// Name of the first texture.
         first: String,
-        /// Name of the other.
+        /// Name of the second texture.
         second: String,
         /// The key.
         key: u32,

@@ -1,4 +1,4 @@
-//! From bytes to a project.
+//! Conversion of bytes to a project.
 
 use std::collections::HashMap;
 use std::io;
@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sha2::{Digest as _, Sha256};
-use shagreen_core::authoring::{Outside, Weights};
-use shagreen_core::blend::Mode;
-use shagreen_core::drawn_path::DrawnPath;
 use shagreen_core::space::SpacePoint;
-use shagreen_core::texture_path::{Along, AtEnd};
+use shagreen_core::space::authoring::{Outside, Weights};
+use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::{Along, AtEnd};
+use shagreen_core::texture::blend::Mode;
 
 use crate::built_in::BuiltIn;
 use crate::imported::Imported;
@@ -29,7 +29,7 @@ use crate::project::{
     VERSION_MAJOR, VERSION_MINOR,
 };
 
-/// Reads a project that lies in `folder`; `read` gives the bytes of another file, where its library is one.
+/// Reads a project that lies in `folder`; `read` returns the bytes of its library file, if it has one.
 ///
 /// # Errors
 /// See [`ProjectError`]; every number is checked.
@@ -42,7 +42,7 @@ pub fn read_project(
     let mut warnings = Vec::new();
     if minor > VERSION_MINOR {
         warnings.push(format!(
-            "the project has version {VERSION_MAJOR}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}: what is new in it is kept but has no effect"
+            "the project has version {VERSION_MAJOR}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}; fields that this program does not know are kept but have no effect"
         ));
     }
     let damaged = |error: serde_json::Error| ProjectError::Damaged { reason: error.to_string() };
@@ -67,7 +67,7 @@ pub fn read_project(
     check_keys(&authored)?;
     if authored.is_empty() {
         warnings.push(
-            "the project has no authored texture: a new one stands at the middle of the space".to_owned(),
+            "the project has no authored texture; a new one is added at the center of the space".to_owned(),
         );
         authored.push(Arc::new(AuthoredTexture::new(1, "New texture")));
     }
@@ -148,7 +148,7 @@ fn library(
     }
 }
 
-/// A library that is a file of its own.
+/// Reads a library from a separate file.
 fn library_file(
     path: PathBuf,
     read: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
@@ -170,7 +170,7 @@ fn library_file(
 fn placed_space(wire: PlacedSpaceV1) -> Result<PlacedSpace, LibraryError> {
     let mut textures = Vec::with_capacity(wire.textures.len());
     for texture in wire.textures {
-        // What is not known of places that were worked out here is not kept.
+        // Unknown fields of positions that were computed in the project are dropped.
         let mut unknown = Unknown::default();
         let place = place(&texture.id, texture.space, &mut unknown)?;
         let of_wire = |wire| attributes::read(&texture.id, wire, &mut unknown);
@@ -224,11 +224,11 @@ fn blend(name: &str, wire: BlendV1) -> Result<BlendChoice, ProjectError> {
     let word =
         |field, found: String, expected| ProjectError::Word { name: name.to_owned(), field, found, expected };
     let mode = Mode::from_id(&wire.mode)
-        .ok_or_else(|| word("blend mode", wire.mode, "field, parametric, shared, power or paper"))?;
+        .ok_or_else(|| word("blend.mode", wire.mode, "field, parametric, shared, power or paper"))?;
     let weights: Weights = of_word(WEIGHTS, &wire.weights)
-        .ok_or_else(|| word("blend weights", wire.weights, "barycentric or natural"))?;
+        .ok_or_else(|| word("blend.weights", wire.weights, "barycentric or natural"))?;
     let outside: Outside = of_word(OUTSIDES, &wire.outside)
-        .ok_or_else(|| word("blend outside", wire.outside, "clamped or extrapolated"))?;
+        .ok_or_else(|| word("blend.outside", wire.outside, "clamped or extrapolated"))?;
     Ok(BlendChoice { mode, weights, outside, locked: wire.locked })
 }
 
@@ -244,14 +244,14 @@ fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<DrawnPath, ProjectError> 
         expected,
     };
     let along =
-        Along::from_id(&wire.along).ok_or_else(|| word("path along", &wire.along, "distance or time"))?;
+        Along::from_id(&wire.along).ok_or_else(|| word("path.along", &wire.along, "distance or time"))?;
     let at_end = AtEnd::from_id(&wire.at_end)
-        .ok_or_else(|| word("path at_end", &wire.at_end, "hold, turn or repeat"))?;
+        .ok_or_else(|| word("path.at_end", &wire.at_end, "hold, turn or repeat"))?;
     for (field, value) in [("length_mm", wire.length_mm), ("length_s", wire.length_s)] {
-        // Compared so that what is no number is refused too.
+        // This form of the comparison also rejects NaN.
         if !(value > 0.0 && value.is_finite()) {
             let name = name.to_owned();
-            return Err(ProjectError::Number { name, field, value, needs: "it must be above zero" });
+            return Err(ProjectError::Number { name, field, value, needs: "it must be greater than zero" });
         }
     }
     let point = |[rs, hs]: [f64; 2]| {

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use shagreen_core::authoring::{Outside, Weights};
-use shagreen_core::blend::Mode;
-use shagreen_core::drawn_path::DrawnPath;
+use shagreen_core::space::authoring::{Outside, Weights};
+use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::{Along, AtEnd};
 use shagreen_core::space::{LabelSource, SpacePoint};
-use shagreen_core::texture_path::{Along, AtEnd};
+use shagreen_core::texture::blend::Mode;
 
 use super::{
     AuthoredTexture, BlendChoice, LibraryFile, Project, ProjectError, ProjectLibrary, read_project,
@@ -29,7 +29,7 @@ fn nothing(_: &Path) -> io::Result<Vec<u8>> {
     Err(io::ErrorKind::NotFound.into())
 }
 
-/// A project that uses everything.
+/// A project that uses every feature.
 fn full() -> Project {
     let library = starter_library().unwrap();
     let path = DrawnPath {
@@ -96,15 +96,14 @@ fn what_is_written_is_read_back() {
     assert_eq!(back(&inside), inside);
 }
 
-/// Files that the program did not write open with everything that is in them, and nothing of them is lost when they are
-/// written again.
+/// Files of every version open with all their contents, and writing them again loses nothing.
 #[test]
 fn every_version_opens() {
     let bytes = include_bytes!("../../../../vectors/project/1.0.shagreen");
     let read = read_project(bytes, Path::new("/somewhere"), &nothing).unwrap();
     assert_eq!(read.warnings, Vec::<String>::new());
     let project = read.value;
-    let [first, second] = &project.authored[..] else { panic!("two textures") };
+    let [first, second] = &project.authored[..] else { panic!("not two textures") };
     assert_eq!((first.key, first.name.as_str(), first.at), (3, "First", at(12.5, 87.25)));
     assert_eq!((first.blend.mode, first.blend.outside), (Mode::Shared, Outside::Clamped));
     assert_eq!((second.at, second.color, second.notes.as_str()), (at(100.0 / 3.0, 0.0), 6, "noted"));
@@ -116,7 +115,7 @@ fn every_version_opens() {
         (Along::Distance, AtEnd::Hold, 0.08, 3)
     );
     assert_eq!((project.selected, project.solo.as_deref()), (1, Some("cork")));
-    let [snapshot] = &project.snapshots[..] else { panic!("one snapshot") };
+    let [snapshot] = &project.snapshots[..] else { panic!("not one snapshot") };
     assert_eq!((snapshot.blend.mode, snapshot.blend.weights), (Mode::Power, Weights::Natural));
     let space = project.space.as_ref().unwrap();
     assert_eq!((space.textures[0].id.as_str(), space.textures[0].place.at), ("cork", at(40.0, 60.0)));
@@ -129,7 +128,7 @@ fn every_version_opens() {
     assert_eq!(written["of_a_later_version"], json!({ "kept": [1, 2, 3] }));
 }
 
-/// A project and the library in its folder may be moved together; what changed meanwhile is told.
+/// A project and the library in its folder may be moved together; a changed library raises a warning.
 #[test]
 fn a_library_beside_the_project_is_found_where_both_went() {
     let bytes = write_library(&starter_library().unwrap());
@@ -146,20 +145,20 @@ fn a_library_beside_the_project_is_found_where_both_went() {
     };
     let moved = read_project(&written, other, &read_there).unwrap();
     assert!(moved.warnings.is_empty());
-    let ProjectLibrary::File(found) = &moved.value.library else { panic!("a file") };
+    let ProjectLibrary::File(found) = &moved.value.library else { panic!("not a file") };
     assert_eq!(found.library, starter_library().unwrap());
-    // Written where it is not below, it says where it is.
+    // Outside the project's folder, the path is absolute.
     let far = write_project(&project, Path::new("/elsewhere"), BY);
     let wire: Value = serde_json::from_slice(&far).unwrap();
     assert_eq!(wire["library"]["file"], "/somewhere/libraries/woods.json");
-    // Another library under the same name is told.
+    // Another library under the same name raises a warning.
     let mut changed = starter_library().unwrap();
     changed.textures.truncate(3);
     let changed = write_library(&changed);
     let read = read_project(&written, other, &|_| Ok(changed.clone())).unwrap();
     assert!(read.warnings[0].contains("was changed since"), "{:?}", read.warnings);
     let missing = read_project(&written, other, &nothing).unwrap_err().to_string();
-    assert!(missing.contains("put it back") && missing.contains("woods.json"), "{missing}");
+    assert!(missing.contains("put the file back") && missing.contains("woods.json"), "{missing}");
     let none = read_project(&written, other, &|_| Ok(b"{}".to_vec())).unwrap_err().to_string();
     assert!(none.contains("not a texture library") && none.contains("woods.json"), "{none}");
 }
@@ -171,7 +170,7 @@ fn changed(change: impl FnOnce(&mut Value)) -> Result<(Project, Vec<String>), Pr
     Ok((read.value, read.warnings))
 }
 
-/// Words of an error, and what brings it about.
+/// Part of an error text, and the change that causes the error.
 type Fault = (&'static str, fn(&mut Value));
 
 #[test]
@@ -185,11 +184,11 @@ fn each_fault_is_named() {
         ("library \"other\"", |wire| wire["library"] = json!({"built_in": "other"})),
         ("one of \"built_in\"", |wire| wire["library"] = json!({})),
         ("cannot be read", |wire| wire["library"] = json!({"file": "none.json"})),
-        ("no valid place", |wire| wire["authored"][1]["rough_smooth"] = json!(101)),
-        ("no valid place", |wire| wire["authored"][1]["path"]["points"][0] = json!([0, -1])),
-        ("blend mode \"x\"", |wire| wire["authored"][1]["blend"]["mode"] = json!("x")),
-        ("weights \"x\"", |wire| wire["authored"][1]["blend"]["weights"] = json!("x")),
-        ("outside \"x\"", |wire| wire["authored"][1]["blend"]["outside"] = json!("x")),
+        ("the position of", |wire| wire["authored"][1]["rough_smooth"] = json!(101)),
+        ("the position of", |wire| wire["authored"][1]["path"]["points"][0] = json!([0, -1])),
+        ("blend.mode \"x\"", |wire| wire["authored"][1]["blend"]["mode"] = json!("x")),
+        ("blend.weights \"x\"", |wire| wire["authored"][1]["blend"]["weights"] = json!("x")),
+        ("blend.outside \"x\"", |wire| wire["authored"][1]["blend"]["outside"] = json!("x")),
         ("color 8", |wire| wire["authored"][0]["color"] = json!(8)),
         ("same key 7", |wire| wire["authored"][0]["key"] = json!(7)),
         ("length_mm 0", |wire| wire["authored"][1]["path"]["length_mm"] = json!(0)),

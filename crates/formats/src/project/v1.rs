@@ -1,4 +1,4 @@
-//! The wire format of a project, version 1.0.
+//! File format of a project, version 1.0.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,7 +33,7 @@ pub(super) struct ProjectV1 {
     pub(super) snapshots: Vec<AuthoredV1>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) space: Option<PlacedSpaceV1>,
-    // The long parts last, so that what somebody made stands before what it is made of.
+    // Large parts last, so that the authored textures precede their source data.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) joined: Vec<TextureV1>,
     pub(super) library: ProjectLibraryV1,
@@ -47,7 +47,7 @@ pub(super) struct UnitsV1 {
     pub(super) unknown: Map<String, Value>,
 }
 
-/// One of the three.
+/// Exactly one of `built_in`, `file` and `inside`; `sha256` belongs to `file`.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct ProjectLibraryV1 {
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,12 +1,13 @@
-//! From a project to bytes, always the same for the same project.
+//! Conversion of a project to bytes; the same project always gives the same bytes.
 
 use std::path::{Component, Path};
 
 use serde_json::Map;
-use shagreen_core::authoring::{Outside, Weights};
+use shagreen_core::space::authoring::{Outside, Weights};
 
 use crate::layout;
-use crate::library::write::{CONVERSION_DIGITS, digits, picture, place, texture, wire as library_wire};
+use crate::library::numbers::{CONVERSION_DIGITS, digits};
+use crate::library::write::{picture, place, texture, wire as library_wire};
 use crate::library::{Unknown, attributes};
 use crate::placed_space::{PlacedSpace, PlacedTexture};
 use crate::project::v1::{
@@ -18,18 +19,20 @@ use crate::project::{
 
 /// Quantities of the format and their units, in the order of [`UnitsV1`].
 pub(super) const UNITS: [(&str, &str); 2] = [("length", "mm"), ("time", "s")];
-/// Words for the neighbors that have a say.
+/// Identifiers of the weightings.
 pub(super) const WEIGHTS: [(Weights, &str); 2] =
     [(Weights::Barycentric, "barycentric"), (Weights::Natural, "natural")];
-/// Words for what happens outside the hull.
+/// Identifiers of the behaviors outside the convex hull.
 pub(super) const OUTSIDES: [(Outside, &str); 2] =
     [(Outside::Clamped, "clamped"), (Outside::Extrapolated, "extrapolated")];
 
-/// An anchor of a library inside stands on one line: it lies in project, library, library, textures, texture, anchors.
+/// Nesting depth up to which values get their own lines. Each anchor of an embedded library (in project, library,
+/// library, textures, texture, anchors) fills one line.
 const OPEN_DEPTH: usize = 6;
 
-/// Writes a project that is to lie in `folder`, by the program of this name. What the library holds is written as
-/// [`crate::library::write_library`] does; places of authored textures in full, so that reading it back gives the same.
+/// Serializes a project that will lie in `folder`; `created_by` names the program. The library is written as by
+/// [`crate::library::write_library`]. Positions of authored textures have full precision, so reading restores them
+/// exactly.
 pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<u8> {
     let [length, time] = UNITS.map(|(_, unit)| unit.to_owned());
     let wire = ProjectV1 {
@@ -69,11 +72,11 @@ fn library(library: &ProjectLibrary, folder: &Path) -> ProjectLibraryV1 {
     }
 }
 
-/// The path of a library as a project in `folder` has it: relative where it lies in there, so that both may be moved
-/// together, with slashes as on every system.
+/// Returns the path of a library as a project in `folder` stores it: relative if it lies inside, so that both can be
+/// moved together, with slashes on every system.
 fn path_from(folder: &Path, file: &LibraryFile) -> String {
     match file.path.strip_prefix(folder) {
-        // What is below no folder at all is still absolute.
+        // Without a project folder the path stays absolute.
         Ok(inside) if inside.is_relative() => {
             let parts = inside.components().map(Component::as_os_str);
             parts.map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/")

@@ -1,4 +1,4 @@
-//! What the columns of a table, or the channels of a WAV file, are.
+//! Meaning of the columns of a table or the channels of a WAV file.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use shagreen_core::units::{MetersPerSecond, Newtons};
 
 use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit};
 
-/// What parts the columns of a table.
+/// The column separator of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
     /// `,`
@@ -19,33 +19,33 @@ pub enum Separator {
     Spaces,
 }
 
-/// A column of a table.
+/// A reference to a column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Column {
-    /// By its name in the header, whole or without its unit, whatever the case.
+    /// Name in the header, with or without its unit, ignoring case.
     Name(String),
-    /// By its place, from 1.
+    /// Column number, from 1.
     Number(usize),
 }
 
-/// What a channel of a WAV file holds.
+/// Contents of a WAV channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
     /// An axis of acceleration.
     Acceleration,
-    /// The speed of the tip.
+    /// The tip speed.
     Speed,
     /// The normal force.
     Force,
-    /// Something else.
+    /// Other data.
     Unused,
 }
 
-/// What is known of a file's columns or channels. `None` everywhere is a good start: the reader guesses what can be told
-/// from the file, says so, and asks for the rest.
+/// Known facts about the columns or channels of a file. Start with `None` everywhere: the reader guesses what the file
+/// implies, reports it, and asks for the rest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnMap {
-    /// What parts the columns.
+    /// The column separator.
     pub separator: Option<Separator>,
     /// Whether numbers have a decimal comma.
     pub decimal_comma: Option<bool>,
@@ -53,49 +53,50 @@ pub struct ColumnMap {
     pub header: Option<bool>,
     /// The time column.
     pub time: Option<Column>,
-    /// Its unit.
+    /// Unit of the time column.
     pub time_unit: Option<TimeUnit>,
-    /// Rate in Hz of a table without a time column. Where it is stated, a time column that is not named in `time` is not used.
+    /// Sample rate in Hz of a table without a time column. If it is stated, a time column that `time` does not name is
+    /// not used.
     pub rate_hz: Option<f64>,
     /// One to three columns of acceleration.
     pub acceleration: Option<Vec<Column>>,
-    /// Their unit; in a WAV file, the unit of `full_scale`.
+    /// Unit of acceleration; in a WAV file, the unit of `full_scale`.
     pub acceleration_unit: Option<AccelerationUnit>,
-    /// How many of `acceleration_unit` one count of a table is; 1 where it is not stated.
+    /// Acceleration of one ADC count of a table, in `acceleration_unit`; 1 if not stated.
     pub per_count: Option<f64>,
-    /// Acceleration, in `acceleration_unit`, of a WAV sample of 1.0; in a table the range of the sensor, where known.
+    /// Acceleration of a WAV sample of 1.0, in `acceleration_unit`; in a table, the range of the sensor if known.
     pub full_scale: Option<f64>,
     /// The speed column.
     pub speed: Option<Column>,
-    /// Its unit; in a WAV file, the unit of `speed_full_scale`.
+    /// Unit of speed; in a WAV file, the unit of `speed_full_scale`.
     pub speed_unit: Option<SpeedUnit>,
-    /// Speed, in `speed_unit`, of a WAV sample of 1.0.
+    /// Speed of a WAV sample of 1.0, in `speed_unit`.
     pub speed_full_scale: Option<f64>,
-    /// Speed throughout, where it was not measured.
+    /// Constant speed, if it was not measured.
     pub constant_speed: Option<MetersPerSecond>,
-    /// One to three columns of position, that speed follows from.
+    /// One to three columns of position, from which speed is computed.
     pub positions: Option<Vec<Column>>,
-    /// Their unit.
+    /// Unit of position.
     pub position_unit: Option<PositionUnit>,
     /// The column of normal force.
     pub force: Option<Column>,
-    /// Its unit; in a WAV file, the unit of `force_full_scale`.
+    /// Unit of force; in a WAV file, the unit of `force_full_scale`.
     pub force_unit: Option<ForceUnit>,
-    /// Force, in `force_unit`, of a WAV sample of 1.0.
+    /// Force of a WAV sample of 1.0, in `force_unit`.
     pub force_full_scale: Option<f64>,
     /// Whether pressing makes the force more negative.
     pub pressing_is_negative: Option<bool>,
-    /// Normal force throughout, where it was not measured.
+    /// Constant normal force, if it was not measured.
     pub constant_force: Option<Newtons>,
-    /// What each channel of a WAV file is.
+    /// Contents of each WAV channel.
     pub channels: Option<Vec<Channel>>,
 }
 
 impl Separator {
-    /// All of them.
+    /// All separators.
     pub const ALL: &[Self] = &[Self::Comma, Self::Semicolon, Self::Tab, Self::Spaces];
 
-    /// How it is written in a map.
+    /// Name in a column map.
     pub fn name(self) -> &'static str {
         match self {
             Self::Comma => "comma",
@@ -105,7 +106,7 @@ impl Separator {
         }
     }
 
-    /// The separator of a name, or the character itself.
+    /// Parses a separator name or character.
     pub fn parse(text: &str) -> Option<Self> {
         match text {
             "," => Some(Self::Comma),
@@ -118,10 +119,10 @@ impl Separator {
 }
 
 impl Channel {
-    /// All of them.
+    /// All kinds of channels.
     pub const ALL: &[Self] = &[Self::Acceleration, Self::Speed, Self::Force, Self::Unused];
 
-    /// How it is written in a map.
+    /// Name in a column map.
     pub fn name(self) -> &'static str {
         match self {
             Self::Acceleration => "acceleration",
@@ -131,8 +132,8 @@ impl Channel {
         }
     }
 
-    /// The channel of a name; `x`, `y` and `z` are axes of acceleration, and so is what begins with that word, as
-    /// rendered signals have it.
+    /// Parses a channel name. `x`, `y` and `z` are axes of acceleration, and so is any name that begins with
+    /// "acceleration", as in rendered signals.
     pub fn parse(text: &str) -> Option<Self> {
         match text {
             _ if text.starts_with(Self::Acceleration.name()) => Some(Self::Acceleration),
@@ -143,7 +144,7 @@ impl Channel {
 }
 
 impl Column {
-    /// A column by its place where the text is a whole number, else by its name.
+    /// Parses a whole number as a column number, other text as a column name.
     pub fn parse(text: &str) -> Self {
         text.trim().parse().map_or_else(|_| Self::Name(text.trim().to_owned()), Self::Number)
     }

@@ -1,4 +1,4 @@
-//! From a table to columns in SI units, by a map and by what can be told from names and numbers.
+//! Conversion of a table to columns in SI units, by a column map and by names and numbers in the table.
 
 mod axes;
 mod tracks;
@@ -15,10 +15,10 @@ use crate::recording::told::{goes_on, likely_time_unit, other_time_unit, rate_of
 use crate::recording::units::{AccelerationUnit, TimeUnit};
 use crate::recording::{RecordingFile, RecordingFileError};
 
-/// Rates that differ by less than this share are the same: clocks are not exact.
+/// Relative difference below which two sample rates count as equal, because clocks are inexact.
 const SAME_RATE_SHARE: f64 = 0.01;
 
-/// Reads the recording out of a table.
+/// Converts a table to a recording.
 pub(super) fn recording_of_table(table: Table, map: &ColumnMap) -> Result<RecordingFile, RecordingFileError> {
     let meanings: Vec<Option<Meaning>> =
         table.names.iter().map(|name| if table.header { meaning_of(name) } else { None }).collect();
@@ -56,12 +56,12 @@ struct Reading {
     inquiry: Inquiry,
     table: Table,
     meanings: Vec<Option<Meaning>>,
-    /// Columns that were taken for something.
+    /// Columns that have been assigned a quantity.
     used: Vec<usize>,
 }
 
 impl Reading {
-    /// The place of a column that a map names.
+    /// Index of the column that a map refers to.
     fn place(&self, column: &Column) -> Result<usize, RecordingFileError> {
         let names = &self.table.names;
         let found = match column {
@@ -81,7 +81,7 @@ impl Reading {
                 Column::Name(_) => format!("column {column}"),
                 Column::Number(_) => column.to_string(),
             };
-            RecordingFileError::Map { problem: format!("there is no {missing}; there are {names}") }
+            RecordingFileError::Map { problem: format!("there is no {missing}; the columns are {names}") }
         })
     }
 
@@ -89,17 +89,17 @@ impl Reading {
         columns.iter().map(|column| self.place(column)).collect()
     }
 
-    /// Columns of a meaning, in the order of the file.
+    /// Columns with a meaning, in file order.
     fn meant(&self, is: impl Fn(Meaning) -> bool) -> Vec<usize> {
         let meanings = self.meanings.iter().enumerate();
         meanings.filter(|(_, meaning)| meaning.is_some_and(&is)).map(|(place, _)| place).collect()
     }
 
-    /// What a column is called in a map.
+    /// The reference to a column in a map.
     fn column(&self, place: usize) -> Column {
         let name = &self.table.names[place];
         let named = Column::Name(name.clone());
-        // Of two columns of one name, the name means the first.
+        // If two columns have the same name, the name refers to the first.
         if self.table.header && !name.is_empty() && self.place(&named).is_ok_and(|found| found == place) {
             named
         } else {
@@ -111,25 +111,22 @@ impl Reading {
         places.iter().map(|place| self.table.names[*place].as_str()).collect::<Vec<_>>().join(", ")
     }
 
-    /// Takes the values of a column out of the table, in the SI unit: a table may be large, and a column is one thing.
+    /// Moves the values of a column out of the table and converts them to SI units; a table may be large, and a column
+    /// has one meaning.
     fn take(&mut self, place: usize, si: f64) -> Result<Vec<f64>, RecordingFileError> {
         self.used.push(place);
         let cells = self.table.not_numbers[place];
         let n_rows = self.table.columns[place].len();
-        // Read again with the map that this reading comes to, the file must fare the same: a guess counts as if stated.
+        // Reading the file again with the resulting map must give the same outcome, so a guess counts as stated.
         if self.table.decimal_comma && 2 * cells.n > n_rows {
             let is_stated = self.inquiry.map.decimal_comma.is_some();
             let problem = format!(
-                "{}, {} of {n_rows} cells of {:?} are no numbers, the first in line {}; {}, or say the separator",
-                if is_stated {
-                    "by decimal_comma = true"
-                } else {
-                    "with the decimal commas that there seem to be"
-                },
+                "{}, {} of {n_rows} cells of {:?} are not numbers, the first in line {}; {}, or state the separator",
+                if is_stated { "with decimal_comma = true" } else { "with the guessed decimal commas" },
                 cells.n,
                 self.table.names[place],
                 cells.first_line,
-                if is_stated { "take it away" } else { "say decimal_comma = false" },
+                if is_stated { "remove that setting" } else { "set decimal_comma = false" },
             );
             return Err(if is_stated {
                 RecordingFileError::Map { problem }
@@ -146,7 +143,7 @@ impl Reading {
         }
         let mut values = std::mem::take(&mut self.table.columns[place]);
         if values.is_empty() {
-            let problem = format!("{} cannot be two things", self.column(place));
+            let problem = format!("{} cannot hold two quantities; assign it to one", self.column(place));
             return Err(RecordingFileError::Map { problem });
         }
         for value in &mut values {
@@ -167,9 +164,12 @@ impl Reading {
                 });
                 let by_times_hz = unit.map(|unit| rate_of(&self.table.columns[*place], unit.si()));
                 let differs = by_times_hz.filter(|hz| (hz / rate_hz - 1.0).abs() > SAME_RATE_SHARE);
-                let more = differs.map(|hz| format!("; its times say {hz:.1} Hz, the map {rate_hz} Hz"));
+                let more =
+                    differs.map(|hz| format!("; its times give {hz:.1} Hz, the column map {rate_hz} Hz"));
                 let more = more.unwrap_or_default();
-                self.inquiry.warnings.push(format!("{name:?} is not used, since the rate was stated{more}"));
+                self.inquiry
+                    .warnings
+                    .push(format!("{name:?} is not used, because the sample rate is stated{more}"));
                 self.used.push(*place);
             }
             return Ok(Some(RawClock::Rate(Hertz(rate_hz))));
@@ -177,12 +177,13 @@ impl Reading {
         let meant = self.meant(|meaning| matches!(meaning, Meaning::Time(_)));
         let Some(place) = named.or(meant.first().copied()) else {
             if !self.table.header && self.table.names.len() > 1 && goes_on(&self.table.columns[0]) {
-                let text = "which column is time is not stated; column 1 goes on evenly".to_owned();
+                let text = "the time column is not stated; column 1 always increases".to_owned();
                 if self.inquiry.guess(Ask::Time, "1", &[], text) {
                     return Ok(Some(self.times(0)));
                 }
             }
-            let text = "there is no time column, and the rate is not stated; give the rate in Hz".to_owned();
+            let text =
+                "there is no time column, and the sample rate is not stated; state it in Hz".to_owned();
             self.inquiry.ask(Ask::RateHz, &[], text);
             return Ok(None);
         };
@@ -215,7 +216,7 @@ impl Reading {
         }
         let si = self.inquiry.map.time_unit.map_or(1.0, TimeUnit::si);
         let start = self.table.columns[place].iter().copied().find(|time| time.is_finite()).unwrap_or(0.0);
-        // Taken from the start, times of an epoch keep their digits.
+        // Times relative to the start keep their precision even if they count from 1970.
         self.used.push(place);
         RawClock::Times(self.table.columns[place].iter().map(|time| (time - start) * si).collect())
     }

@@ -1,4 +1,4 @@
-//! From the channels of a WAV file to columns in SI units.
+//! Conversion of the channels of a WAV file to columns in SI units.
 
 use shagreen_core::recording::{Fault, RawClock, RawMotion, RawRecording, RawTrack, check_clock};
 use shagreen_core::units::Hertz;
@@ -12,7 +12,7 @@ use crate::recording::units::{AccelerationUnit, ForceUnit, SpeedUnit};
 use crate::recording::wav::{WavSamples, read_wav};
 use crate::recording::{RecordingFile, RecordingFileError};
 
-/// Reads the recording out of a WAV file.
+/// Converts a WAV file to a recording.
 pub(super) fn recording_of_wav(
     bytes: &[u8],
     sidecar: Option<&[u8]>,
@@ -25,10 +25,11 @@ pub(super) fn recording_of_wav(
     let trace = sidecar.map(|bytes| read_sidecar(bytes, rate_hz, &mut inquiry)).transpose()?.flatten();
     name_columns(&mut inquiry);
     let stated = inquiry.map.rate_hz;
-    inquiry.map.rate_hz = inquiry.settle("the rate", stated, Some(rate_hz), |rate| format!("{rate} Hz"));
+    inquiry.map.rate_hz =
+        inquiry.settle("the sample rate", stated, Some(rate_hz), |rate| format!("{rate} Hz"));
     let rate_hz = inquiry.map.rate_hz.unwrap_or(rate_hz);
     let clock = RawClock::Rate(Hertz(rate_hz));
-    // Channels are emptied as they are taken.
+    // The number of samples is kept, because channels are emptied when they are used.
     let n_samples = channels.first().map_or(0, Vec::len);
     let faults: Vec<Fault> = check_clock(&clock).1;
     let Some(kinds) = channel_kinds(&mut inquiry, channels.len())? else {
@@ -38,17 +39,18 @@ pub(super) fn recording_of_wav(
     let place = |wanted: Channel| kinds.iter().position(|kind| *kind == wanted);
     let (speed, force) = (place(Channel::Speed), place(Channel::Force));
     if !(1..=3).contains(&axes.len()) {
-        let problem = format!("a recording has one to three channels of acceleration, not {}", axes.len());
+        let problem = format!("a recording needs one to three channels of acceleration, not {}", axes.len());
         return Err(RecordingFileError::Map { problem });
     }
 
     let unit_names: Vec<&str> = AccelerationUnit::ALL.iter().map(|unit| unit.name()).collect();
     if inquiry.map.acceleration_unit.is_none() {
-        let text = "a WAV file does not say the unit of acceleration, and there is no sidecar that does";
+        let text =
+            "a WAV file does not state the unit of acceleration, and there is no sidecar file that does";
         inquiry.ask(Ask::AccelerationUnit, &unit_names, text.to_owned());
     }
     if inquiry.map.full_scale.is_none() {
-        let text = "the acceleration of a sample of 1.0, the full scale, is not stated; give it in the unit of acceleration";
+        let text = "the full scale, the acceleration of a sample of 1.0, is not stated; give it in the unit of acceleration";
         inquiry.ask(Ask::FullScale, &[], text.to_owned());
     }
     let unit = inquiry.map.acceleration_unit.map_or(1.0, AccelerationUnit::si);
@@ -67,8 +69,7 @@ pub(super) fn recording_of_wav(
     } else if let Some(trace) = &trace {
         on_clock(&trace.time_s, &trace.speed_mm_per_s, 1e-3, n_samples, rate_hz)
     } else {
-        let text =
-            "neither a channel nor a sidecar says the speed; say the constant speed, such as \"100 mm/s\"";
+        let text = "neither a channel nor a sidecar file gives the speed; state a constant speed such as \"100 mm/s\"";
         inquiry.ask(Ask::Speed, &[], text.to_owned());
         RawTrack::Missing
     };
@@ -86,8 +87,7 @@ pub(super) fn recording_of_wav(
     } else if let Some(trace) = &trace {
         on_clock(&trace.time_s, &trace.force_n, 1.0, n_samples, rate_hz)
     } else {
-        let text =
-            "neither a channel nor a sidecar says the normal force; say the constant force, such as \"1 N\"";
+        let text = "neither a channel nor a sidecar file gives the normal force; state a constant force such as \"1 N\"";
         inquiry.ask(Ask::Force, &[], text.to_owned());
         RawTrack::Missing
     };
@@ -97,13 +97,13 @@ pub(super) fn recording_of_wav(
         acceleration_mps2,
         motion: RawMotion::Speed(speed_mps),
         force_n,
-        // Floats may go beyond 1.0; integers cannot.
+        // Float samples may exceed 1.0; integers clip there.
         full_scale_mps2: (!float).then_some(full_scale_mps2),
     };
     inquiry.close(Some(raw), faults)
 }
 
-/// Says which columns of a map a WAV file cannot have.
+/// Warns about columns in the map, because a WAV file has channels instead.
 fn name_columns(inquiry: &mut Inquiry) {
     let map = &inquiry.map;
     let named = [
@@ -115,19 +115,20 @@ fn name_columns(inquiry: &mut Inquiry) {
     ];
     let named: Vec<&str> = named.iter().filter(|(_, is_named)| *is_named).map(|(key, _)| *key).collect();
     if !named.is_empty() {
-        let text = format!("the map names columns ({}), a WAV file has channels instead", named.join(", "));
+        let text =
+            format!("the column map names columns ({}), but a WAV file has channels", named.join(", "));
         inquiry.warnings.push(text);
     }
 }
 
-/// What the channels are; nothing where that has to be asked.
+/// Returns the contents of the channels; `None` if the user must state them.
 fn channel_kinds(
     inquiry: &mut Inquiry,
     n_channels: usize,
 ) -> Result<Option<Vec<Channel>>, RecordingFileError> {
     if let Some(kinds) = inquiry.map.channels.clone() {
         if kinds.len() != n_channels {
-            let problem = format!("{} channels are named, the file has {n_channels}", kinds.len());
+            let problem = format!("{} channels are named, but the file has {n_channels}", kinds.len());
             return Err(RecordingFileError::Map { problem });
         }
         return Ok(Some(kinds));
@@ -137,12 +138,12 @@ fn channel_kinds(
         1 => inquiry.map.channels = Some(vec![Channel::Acceleration]),
         3 => {
             let text =
-                "what the three channels are is not stated; taken for the axes of acceleration".to_owned();
+                "the contents of the three channels are not stated; they are read as the axes of acceleration".to_owned();
             inquiry.guess(Ask::Channels, &all, &[], text);
         }
         _ => {
             let text = format!(
-                "what the {n_channels} channels are is not stated; list acceleration, speed, force or unused for each"
+                "the contents of the {n_channels} channels are not stated; list acceleration, speed, force or unused for each"
             );
             inquiry.ask(Ask::Channels, &[], text);
         }
@@ -150,16 +151,16 @@ fn channel_kinds(
     Ok(inquiry.map.channels.clone())
 }
 
-/// What a sample of 1.0 of a channel of speed or force is, in its unit.
+/// Value of a sample of 1.0 in a speed or force channel, in its unit.
 fn track_scale(inquiry: &mut Inquiry, samples: &[f64], float: bool, what: Ask) -> f64 {
     let stated = |map: &ColumnMap| match what {
         Ask::SpeedFullScale => map.speed_full_scale,
         _ => map.force_full_scale,
     };
     if stated(&inquiry.map).is_none() {
-        let text = "what a sample of 1.0 is in that channel is not stated".to_owned();
+        let text = "the value of a sample of 1.0 in that channel is not stated".to_owned();
         if float && largest(samples) > 1.0 {
-            let text = format!("{text}; the samples go beyond 1.0, so they are in the unit itself");
+            let text = format!("{text}; samples exceed 1.0, so they are in the unit itself");
             inquiry.guess(what, "1", &[], text);
         } else {
             inquiry.ask(what, &[], text);
@@ -176,7 +177,7 @@ fn scaled(samples: &mut Vec<f64>, si: f64) -> Vec<f64> {
     samples
 }
 
-/// A trace on the clock of the samples: straight lines between, its ends held.
+/// Resamples a trace at the times of the samples: linear interpolation, with its end values held.
 fn on_clock(times: &[f64], values: &[f64], si: f64, n_samples: usize, rate_hz: f64) -> RawTrack {
     let mut after = 0;
     let at = |sample: usize| {

@@ -1,4 +1,4 @@
-//! What is asked while a file is read.
+//! Questions that arise while a file is read.
 
 use shagreen_core::recording::{Fault, RawRecording, check_signal};
 
@@ -6,7 +6,7 @@ use crate::recording::column_map::ColumnMap;
 use crate::recording::question::{Ask, Question};
 use crate::recording::{NeedsAnswers, RecordingFile, RecordingFileError};
 
-/// The map as it becomes complete, and what had to be asked for it.
+/// The map as it is completed, with the questions so far.
 pub(super) struct Inquiry {
     pub(super) map: ColumnMap,
     pub(super) questions: Vec<Question>,
@@ -18,13 +18,13 @@ impl Inquiry {
         Self { map, questions: Vec::new(), warnings: Vec::new() }
     }
 
-    /// Asks without a guess.
+    /// Adds a question without a guess.
     pub(super) fn ask(&mut self, what: Ask, choices: &[&str], text: String) {
         let choices = choices.iter().map(|&choice| choice.to_owned()).collect();
         self.questions.push(Question { what, guess: None, choices, text });
     }
 
-    /// Asks, and goes on with a guess; gives false, and asks only, where the map cannot hold the guess.
+    /// Adds a question and applies a guess. Returns false, without a guess, if the map rejects it.
     pub(super) fn guess(&mut self, what: Ask, guess: &str, choices: &[&str], text: String) -> bool {
         let taken = self.map.answer(what, guess).is_ok();
         let choices = choices.iter().map(|&choice| choice.to_owned()).collect();
@@ -32,7 +32,8 @@ impl Inquiry {
         taken
     }
 
-    /// What the map states counts more than what the file does; where they differ, that is said. `name` writes a value down.
+    /// Combines a stated and a found value: the map takes precedence over the file, and a difference raises a warning.
+    /// `name` formats a value.
     pub(super) fn settle<T: PartialEq>(
         &mut self,
         what: &str,
@@ -44,20 +45,21 @@ impl Inquiry {
             && ours != theirs
         {
             let (ours, theirs) = (name(ours), name(theirs));
-            self.warnings
-                .push(format!("the file says that {what} is {theirs}, the map says {ours}, which counts"));
+            self.warnings.push(format!(
+                "in the file, {what} is {theirs}; the column map states {ours}, which is used"
+            ));
         }
         by_map.or(by_file)
     }
 
-    /// The recording, where nothing is left to be answered.
+    /// Returns the recording if every question has a guess.
     pub(super) fn close(
         self,
         raw: Option<RawRecording>,
         mut faults: Vec<Fault>,
     ) -> Result<RecordingFile, RecordingFileError> {
         let Self { map, questions, warnings } = self;
-        // Nothing else is worth saying first.
+        // A missing signal is the first fault to report.
         if let Some(fault) = raw.as_ref().and_then(|raw| check_signal(&raw.acceleration_mps2)) {
             faults.insert(0, fault);
         }

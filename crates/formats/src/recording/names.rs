@@ -1,8 +1,8 @@
-//! What the name of a column says.
+//! Meaning of column names.
 
 use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit, letters};
 
-/// What a column is by its name, with its unit where the name has one.
+/// The quantity that a column name denotes, with its unit if stated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meaning {
     Time(Option<TimeUnit>),
@@ -13,12 +13,12 @@ pub(super) enum Meaning {
     Axis,
     /// Normal force.
     Force(Option<ForceUnit>),
-    /// Force along z, which is usually the normal one.
+    /// Force along z, usually the normal force.
     ForceZ(Option<ForceUnit>),
 }
 
-/// The meaning of a name such as `t`, `Time (ms)`, `acc_x [g]`, `Speed in cm/s`, `speed_mm_per_s`; none where it has a unit
-/// that is none of its quantity, which would be silently wrong by a factor.
+/// Parses a name such as `t`, `Time (ms)`, `acc_x [g]`, `Speed in cm/s`, `speed_mm_per_s`. Returns `None` for an
+/// unknown unit, which would otherwise cause a silent scaling error.
 pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
     if let Some((word, unit)) = name.split_once(['[', '(']) {
         let word = word.trim_end();
@@ -43,13 +43,13 @@ pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
     })
 }
 
-/// Words of a name beyond which it is a sentence and says nothing.
+/// Maximum number of words in a column name; a longer text is prose.
 const MAX_WORDS: usize = 20;
 
-/// A name has a unit that is none of its quantity.
+/// A name has a unit that does not belong to its quantity.
 struct WrongUnit;
 
-/// The unit of a name, where it has one.
+/// The unit in a name, if there is one.
 fn unit<T>(text: &str, parse: impl Fn(&str) -> Option<T>) -> Result<Option<T>, WrongUnit> {
     if text.is_empty() { Ok(None) } else { parse(text).map(Some).ok_or(WrongUnit) }
 }
@@ -148,7 +148,7 @@ mod tests {
             ("time in ms", Some(Meaning::Time(Some(TimeUnit::Milliseconds)))),
             ("TIME IN [S]", Some(Meaning::Time(Some(TimeUnit::Seconds)))),
             ("x in mm", Some(Meaning::Position(Some(PositionUnit::Millimeters)))),
-            // Inches are not read.
+            // Inches are not supported.
             ("x in", None),
             ("force in lbf", None),
             ("acc_x [V]", None),

@@ -1,4 +1,4 @@
-//! What a file does not say of itself, and how it is answered.
+//! Facts that a file does not state, and the answers to them.
 
 use std::fmt;
 
@@ -7,79 +7,79 @@ use shagreen_core::units::{MetersPerSecond, Newtons};
 use crate::recording::column_map::{Channel, Column, ColumnMap, Separator};
 use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit};
 
-/// What is asked. Its name is the key of the map that answers it.
+/// A question. Its name is the key in the column map that answers it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Ask {
-    /// What parts the columns.
+    /// The column separator.
     Separator,
     /// Whether numbers have a decimal comma.
     DecimalComma,
     /// Whether the first row names the columns.
     Header,
-    /// Which column is time.
+    /// The time column.
     Time,
     /// The unit of time.
     TimeUnit,
-    /// The rate in Hz.
+    /// The sample rate in Hz.
     RateHz,
-    /// Which columns are acceleration.
+    /// The acceleration columns.
     Acceleration,
     /// The unit of acceleration.
     AccelerationUnit,
-    /// How many units of acceleration one count of a table is.
+    /// Acceleration of one ADC count of a table.
     PerCount,
-    /// The acceleration of a WAV sample of 1.0.
+    /// Acceleration of a WAV sample of 1.0.
     FullScale,
-    /// Which column is speed, or the constant speed, or the positions that it follows from.
+    /// The speed column, a constant speed, or the position columns to compute it from.
     Speed,
     /// The unit of speed.
     SpeedUnit,
-    /// The speed of a WAV sample of 1.0.
+    /// Speed of a WAV sample of 1.0.
     SpeedFullScale,
-    /// Which columns are positions.
+    /// The position columns.
     Positions,
-    /// The unit of positions.
+    /// The unit of position.
     PositionUnit,
-    /// Which column is the normal force, or the constant force.
+    /// The column of normal force, or a constant force.
     Force,
     /// The unit of force.
     ForceUnit,
-    /// The force of a WAV sample of 1.0.
+    /// Force of a WAV sample of 1.0.
     ForceFullScale,
     /// Whether pressing makes the force more negative.
     PressingIsNegative,
-    /// What the channels of a WAV file are.
+    /// Contents of the WAV channels.
     Channels,
 }
 
-/// Something that a file does not say.
+/// A fact that a file does not state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// What is asked.
     pub what: Ask,
-    /// What the reader went on with, in the words of [`ColumnMap::answer`]; without one it could not go on.
+    /// The answer that the reader assumed, in the form of [`ColumnMap::answer`]; without a guess it could not continue.
     pub guess: Option<String>,
-    /// Answers that make sense, in the words of [`ColumnMap::answer`]; where there are none, a number is asked for.
+    /// Plausible answers, in the form of [`ColumnMap::answer`]; empty if a number is needed.
     pub choices: Vec<String>,
-    /// The question as a sentence, with why the guess was made.
+    /// The question as a sentence, with the reason for the guess.
     pub text: String,
 }
 
-/// An answer that is none.
+/// Why an answer is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{key} cannot be {answer:?}; give {needs}")]
 pub struct AnswerError {
-    /// The key of the map.
+    /// The key in the column map.
     pub key: &'static str,
-    /// What was said.
+    /// The given answer.
     pub answer: String,
-    /// What is needed.
+    /// What is needed instead.
     pub needs: String,
 }
 
 impl Ask {
-    /// All of them.
+    /// All questions.
     pub const ALL: &[Self] = &[
         Self::Separator,
         Self::DecimalComma,
@@ -103,12 +103,12 @@ impl Ask {
         Self::Channels,
     ];
 
-    /// The question that a key of the map answers.
+    /// Returns the question that a key of the column map answers.
     pub fn from_key(key: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|ask| ask.key() == key)
     }
 
-    /// The key of the map that answers it.
+    /// The key in the column map.
     pub fn key(self) -> &'static str {
         match self {
             Self::Separator => "separator",
@@ -136,12 +136,12 @@ impl Ask {
 }
 
 impl ColumnMap {
-    /// Puts the answer to a question into the map. Lists are parted by commas; a column is its name or its place from 1;
-    /// a speed or force may also be a number with its unit, such as `100 mm/s` or `1 N`, for a constant. A constant and a
-    /// column exclude each other: the later answer counts.
+    /// Stores the answer to a question. Commas separate list items. A column is its name or its number from 1. A speed
+    /// or force may also be a constant, a number with its unit such as `100 mm/s` or `1 N`. A constant and a column
+    /// exclude each other: the later answer applies.
     ///
     /// # Errors
-    /// [`AnswerError`]; the map is then as it was.
+    /// [`AnswerError`]; the map is then unchanged.
     pub fn answer(&mut self, what: Ask, answer: &str) -> Result<(), AnswerError> {
         let answer = answer.trim();
         let error = |needs: String| AnswerError { key: what.key(), answer: answer.to_owned(), needs };
@@ -166,7 +166,7 @@ impl ColumnMap {
         };
         let column = || {
             if answer.is_empty() {
-                Err(error("the name of a column or its place from 1".to_owned()))
+                Err(error("a column name, or a column number from 1".to_owned()))
             } else {
                 Ok(Some(Column::parse(answer)))
             }
@@ -176,11 +176,11 @@ impl ColumnMap {
             if (1..=3).contains(&columns.len()) && !answer.is_empty() {
                 Ok(Some(columns))
             } else {
-                Err(error("one to three columns, parted by commas".to_owned()))
+                Err(error("one to three columns, separated by commas".to_owned()))
             }
         };
         let needs =
-            |example: &str| format!("a column, or a number from 0 up with its unit, such as {example:?}");
+            |example: &str| format!("a column, or a number of at least 0 with its unit, such as {example:?}");
         match what {
             Ask::Separator => self.separator = named!(Separator),
             Ask::DecimalComma => self.decimal_comma = flag()?,
@@ -235,7 +235,7 @@ impl ColumnMap {
     }
 }
 
-/// A number from 0 up with its unit, in the SI unit.
+/// Parses a non-negative number with its unit; returns the value in SI units.
 fn quantity(text: &str, si: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
     let (number, unit) = text.split_at(end);
@@ -243,7 +243,8 @@ fn quantity(text: &str, si: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     Some(number * si(unit)?).filter(|value| value.is_finite())
 }
 
-/// Whether a text that is no [`quantity`] looks like one: a number that is no place of a column, or one with a word.
+/// Returns whether a text that is not a [`quantity`] looks like one: a number that is not a column number, or a number
+/// and a word.
 fn is_bad_quantity(text: &str) -> bool {
     if let Ok(number) = text.parse::<f64>() {
         return !text.parse::<usize>().is_ok_and(|place| place > 0) && !number.is_nan();
@@ -256,7 +257,7 @@ impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.what.key(), self.text)?;
         match &self.guess {
-            Some(guess) => write!(f, "; taken as {guess}"),
+            Some(guess) => write!(f, "; assumed: {guess}"),
             None if self.choices.is_empty() => Ok(()),
             None => write!(f, " ({})", self.choices.join(" | ")),
         }

@@ -1,7 +1,9 @@
-//! What the `.json` beside a WAV file says: ours ([`crate::wav::SidecarV1`]) or one written by hand.
+//! The `.json` sidecar file next to a WAV file: one of this program ([`crate::wav::SidecarV1`]), or one written by
+//! hand.
 //!
-//! Beside `units` (of acceleration), `full_scale` and `channels` it may have `speed_unit`, `speed_full_scale`, `force_unit` and
-//! `force_full_scale`, `speed_mm_per_s` and `force_n`; `acceleration_unit` is `units` under the name that a map has for it.
+//! Besides `units` (of acceleration), `full_scale` and `channels` it may have `speed_unit`, `speed_full_scale`,
+//! `force_unit`, `force_full_scale`, `speed_mm_per_s` and `force_n`. `acceleration_unit`, the key of a column map, is
+//! an alias of `units`.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +17,7 @@ use crate::recording::inquiry::Inquiry;
 use crate::recording::units::{AccelerationUnit, ForceUnit, SpeedUnit};
 use crate::wav::{FORMAT, TraceV1, VERSION};
 
-/// The keys that say something of the samples; what else the file holds is not ours to judge.
+/// The keys that describe the samples; other keys are ignored.
 #[derive(Default, Deserialize)]
 struct Wire {
     format: Option<String>,
@@ -36,7 +38,7 @@ struct Wire {
     trace: Option<TraceV1>,
 }
 
-/// Keys that a sidecar written by hand may have: those of [`Wire`].
+/// Permitted keys of a sidecar written by hand: those of [`Wire`].
 const KEYS: [&str; 16] = [
     "format",
     "version",
@@ -56,8 +58,8 @@ const KEYS: [&str; 16] = [
     "trace",
 ];
 
-/// What a sidecar adds to the map, where the map does not say otherwise; and the trace of speed and force. `rate_hz` is
-/// that of the WAV file.
+/// Adds the facts of a sidecar to the map unless the map states them; returns the trace of speed and force. `rate_hz`
+/// is the sample rate of the WAV file.
 pub(super) fn read_sidecar(
     bytes: &[u8],
     rate_hz: f64,
@@ -69,13 +71,13 @@ pub(super) fn read_sidecar(
         let major = |version: &str| version.split('.').next().unwrap_or("").to_owned();
         let version = wire.version.unwrap_or_default();
         if major(&version) != major(VERSION) {
-            return Err(error(format!("it has version {version:?}, this program reads {VERSION}")));
+            return Err(error(format!("it has version {version:?}, but this program reads {VERSION}")));
         }
     } else {
         name_unknown(bytes, inquiry);
     }
     if let Some(stated) = wire.rate_hz.filter(|stated| *stated != rate_hz) {
-        let text = format!("the sidecar says {stated} Hz, the WAV file {rate_hz} Hz, which counts");
+        let text = format!("the sidecar file states {stated} Hz, the WAV file {rate_hz} Hz, which is used");
         inquiry.warnings.push(text);
     }
     settle_units(
@@ -96,8 +98,7 @@ pub(super) fn read_sidecar(
     })?;
     settle_scale(inquiry, "force_full_scale", wire.force_full_scale, |map| &mut map.force_full_scale)?;
     let channel = |name: &String| {
-        Channel::parse(&name.to_lowercase())
-            .ok_or_else(|| error(format!("the channel {name:?} is not known")))
+        Channel::parse(&name.to_lowercase()).ok_or_else(|| error(format!("the channel {name:?} is unknown")))
     };
     let channels = wire.channels.map(|names| names.iter().map(channel).collect::<Result<Vec<_>, _>>());
     let stated = inquiry.map.channels.take();
@@ -105,7 +106,7 @@ pub(super) fn read_sidecar(
         inquiry.settle("the list of channels", stated, channels.transpose()?, |channels| {
             channels.iter().map(|channel| channel.name()).collect::<Vec<_>>().join(", ")
         });
-    // What was measured counts more than what was said, unless the map says otherwise.
+    // A measured channel takes precedence over a stated constant, unless the map says otherwise.
     let has = |map: &ColumnMap, kind: Channel| map.channels.iter().flatten().any(|channel| *channel == kind);
     if !has(&inquiry.map, Channel::Speed) {
         let (stated, said) =
@@ -122,7 +123,7 @@ pub(super) fn read_sidecar(
     let n = trace.time_s.len();
     let ascends = trace.time_s.windows(2).all(|pair| pair[0] <= pair[1]);
     if trace.speed_mm_per_s.len() != n || trace.force_n.len() != n || !ascends {
-        return Err(error("the columns of the trace differ in length, or its times go back".to_owned()));
+        return Err(error("the columns of the trace differ in length, or its times decrease".to_owned()));
     }
     Ok(Some(trace))
 }
@@ -131,16 +132,16 @@ fn error(reason: String) -> RecordingFileError {
     RecordingFileError::Sidecar { reason }
 }
 
-/// Names the keys of a sidecar written by hand that say nothing: they may be misspelled.
+/// Warns about unknown keys in a sidecar written by hand, because they may be misspelled.
 fn name_unknown(bytes: &[u8], inquiry: &mut Inquiry) {
     #[expect(clippy::zero_sized_map_values, reason = "serde_json reads an object as a map only")]
-    // A list has no keys.
+    // A list has no keys, so it raises no warning.
     let keys: BTreeMap<String, IgnoredAny> = serde_json::from_slice(bytes).unwrap_or_default();
     let unknown: Vec<String> =
         keys.keys().filter(|key| !KEYS.contains(&key.as_str())).map(|key| format!("{key:?}")).collect();
     if !unknown.is_empty() {
         let text = format!(
-            "the sidecar has keys that are not known and say nothing: {}; known are {}",
+            "the sidecar file has unknown keys, which are ignored: {}; known keys are {}",
             unknown.join(", "),
             KEYS.join(", ")
         );
@@ -148,7 +149,7 @@ fn name_unknown(bytes: &[u8], inquiry: &mut Inquiry) {
     }
 }
 
-/// The unit of a quantity in the map, or in the sidecar.
+/// The unit of a quantity, from the map or the sidecar.
 fn settle_units<T: Copy + PartialEq>(
     inquiry: &mut Inquiry,
     what: &str,
@@ -157,8 +158,7 @@ fn settle_units<T: Copy + PartialEq>(
     text: Option<String>,
     slot: impl Fn(&mut ColumnMap) -> &mut Option<T>,
 ) -> Result<(), RecordingFileError> {
-    let unknown =
-        |text: &str| error(format!("the unit of {what} is {text:?}, which is no unit that is known"));
+    let unknown = |text: &str| error(format!("the unit of {what} is {text:?}, which is not a known unit"));
     let unit = text.map(|text| parse(&text).ok_or_else(|| unknown(&text))).transpose()?;
     let stated = *slot(&mut inquiry.map);
     let settled = inquiry.settle(&format!("the unit of {what}"), stated, unit, |unit| name(*unit).to_owned());
@@ -166,7 +166,7 @@ fn settle_units<T: Copy + PartialEq>(
     Ok(())
 }
 
-/// A full scale in the map, or in the sidecar.
+/// A full scale, from the map or the sidecar.
 fn settle_scale(
     inquiry: &mut Inquiry,
     key: &str,
@@ -174,7 +174,7 @@ fn settle_scale(
     slot: impl Fn(&mut ColumnMap) -> &mut Option<f64>,
 ) -> Result<(), RecordingFileError> {
     if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
-        return Err(error(format!("{key} is {value}, needs a number above 0")));
+        return Err(error(format!("{key} is {value}, but must be a number above 0")));
     }
     let stated = *slot(&mut inquiry.map);
     let settled = inquiry.settle(key, stated, value, f64::to_string);

@@ -1,4 +1,4 @@
-//! Tables of numbers in any dialect: text to columns.
+//! Tables of numbers in any CSV dialect: conversion of text to columns.
 
 use std::borrow::Cow;
 
@@ -6,40 +6,41 @@ use crate::csv_text::{self, stated_delimiter, text_with_odd_letters};
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::{ColumnMap, Separator};
 
-/// More columns than any sensor has.
+/// Maximum number of columns, more than any sensor has.
 const MAX_COLUMNS: usize = 1000;
-/// Lines that a dialect is told from.
+/// Number of lines used to detect the dialect.
 const SNIFFED_LINES: usize = 50;
 
-/// Cells of a column that are text where a number should be.
+/// Text cells in a column of numbers.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct NotNumbers {
-    /// How many.
+    /// Number of such cells.
     pub(super) n: usize,
-    /// The line of the first, from one.
+    /// Line of the first, from one.
     pub(super) first_line: usize,
 }
 
-/// A table: columns of one length, with NaN where there is no number.
+/// A table: columns of equal length, with NaN for missing numbers.
 #[derive(Debug)]
 pub(super) struct Table {
     /// Names as written, with the unit of a second header line in brackets; `column 1` and so on without a header.
     pub(super) names: Vec<String>,
-    /// Values.
+    /// The values.
     pub(super) columns: Vec<Vec<f64>>,
-    /// Text cells, by column.
+    /// Text cells per column.
     pub(super) not_numbers: Vec<NotNumbers>,
-    /// What parts the columns.
+    /// The column separator.
     pub(super) separator: Separator,
     /// Whether numbers have a decimal comma.
     pub(super) decimal_comma: bool,
     /// Whether there is a header.
     pub(super) header: bool,
-    /// Sentences for people.
+    /// Sentences for the user.
     pub(super) warnings: Vec<String>,
 }
 
-/// Text of bytes: UTF-8, or UTF-16 with a byte order mark; odd letters (of a header in another encoding) are replaced.
+/// Decodes bytes: UTF-8, or UTF-16 with a byte order mark. Invalid characters, as of a header in another encoding, are
+/// replaced.
 fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>, RecordingFileError> {
     let text = text_with_odd_letters(bytes);
     if text.contains('\0') {
@@ -49,7 +50,7 @@ fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>, RecordingFileError> {
     Ok(text)
 }
 
-/// Lines that hold something.
+/// The lines that are neither empty nor comments.
 fn content(text: &str) -> impl Iterator<Item = &str> {
     text.lines().map(str::trim_end).filter(|line| !line.trim().is_empty() && !line.starts_with('#'))
 }
@@ -57,7 +58,7 @@ fn content(text: &str) -> impl Iterator<Item = &str> {
 fn separator_of(text: &str) -> Separator {
     let lines: Vec<&str> = content(text).take(SNIFFED_LINES).collect();
     let last = lines.last().copied().unwrap_or("");
-    // The last of the lines is a row of numbers; a header may hold any character.
+    // The last of these lines is a row of numbers, whereas a header may contain any character.
     if last.contains(';') {
         Separator::Semicolon
     } else if last.contains('\t') {
@@ -69,13 +70,13 @@ fn separator_of(text: &str) -> Separator {
     }
 }
 
-/// Whether every comma of a line stands inside a number, and at least one does.
+/// Returns whether a line has commas, and each of them is inside a number.
 fn has_decimal_commas(line: &str, separators: &[char]) -> bool {
     let mut fields = line.split(separators).filter(|field| field.contains(',')).peekable();
     fields.peek().is_some() && fields.all(|field| number(field.trim_matches('"'), true).is_some())
 }
 
-/// The number in a field; NaN where it says that there is none.
+/// Parses a number; NaN for a missing-value mark, `None` for other text.
 pub(super) fn number(field: &str, decimal_comma: bool) -> Option<f64> {
     match field {
         "" | "-" | "NA" | "N/A" | "null" | "NULL" | "None" => Some(f64::NAN),
@@ -84,7 +85,7 @@ pub(super) fn number(field: &str, decimal_comma: bool) -> Option<f64> {
     }
 }
 
-/// Reads a table; the map may say its dialect.
+/// Reads a table; the map may state its dialect.
 pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, RecordingFileError> {
     let text = text_of(bytes)?;
     let (stated, text) = stated_delimiter(&text);
@@ -120,7 +121,7 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
     let mut record = csv::StringRecord::new();
     let (mut n_short, mut first_short, mut n_lacking) = (0, 0, 0);
     let (mut has_units, mut n_words) = (false, 0);
-    // Text in memory with rows of any length: there is nothing left that the parser could refuse.
+    // The text is in memory and rows may have any length, so the parser has no error left to return.
     while reader.read_record(&mut record).unwrap_or(false) {
         let line = record.position().map_or(0, |position| position.line() as usize);
         if record.iter().all(str::is_empty) {
@@ -136,7 +137,7 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
                 continue;
             }
         } else if table.header && is_words && table.columns.first().is_some_and(Vec::is_empty) {
-            // One line can hold units. Were each added to the names, prose would take time by the square of its length.
+            // Only one line can hold units. Appending every such line to the names would take quadratic time for prose.
             if std::mem::replace(&mut has_units, true) {
                 n_words += 1;
                 continue;
@@ -158,7 +159,7 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
         if record.len() < table.names.len() {
             n_short += 1;
             n_lacking += table.names.len() - record.len();
-            // Else a short file could ask for any amount of memory.
+            // Otherwise a short file could request any amount of memory.
             if n_lacking > text.len() {
                 let n_columns = table.names.len();
                 let problem = format!("too many lines have fewer values than the {n_columns} columns");
@@ -170,24 +171,24 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
     }
     if table.columns.first().is_none_or(Vec::is_empty) {
         let problem = format!(
-            "the table has no rows of numbers where columns are parted by {}; if they are parted otherwise, say the separator{}",
+            "the table has no rows of numbers with the separator {}; if its separator is another one, state it{}",
             separator.name(),
             comma_hint(map)
         );
         return Err(RecordingFileError::Table { problem, line: None });
     }
     if n_words > 0 {
-        table.warnings.push(format!("{n_words} lines of words before the numbers are left out"));
+        table.warnings.push(format!("{n_words} lines of text before the numbers are ignored"));
     }
     if n_short > 0 {
         table.warnings.push(format!(
-            "{n_short} lines have fewer values than columns, first line {first_short}; what they lack counts as missing"
+            "{n_short} lines have fewer values than columns, first line {first_short}; the absent values count as missing"
         ));
     }
     Ok(table)
 }
 
-/// What may be wrong where a map says that numbers have a decimal comma.
+/// A suggestion if the map states a decimal comma.
 fn comma_hint(map: &ColumnMap) -> &'static str {
     if map.decimal_comma == Some(true) {
         "; decimal_comma = true may be wrong, or needs the separator stated"
@@ -196,7 +197,7 @@ fn comma_hint(map: &ColumnMap) -> &'static str {
     }
 }
 
-/// Runs of spaces and tabs as one tab each, none at the ends of lines.
+/// Replaces runs of spaces and tabs by one tab each, and removes them at the ends of lines.
 fn single_tabs(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
@@ -219,14 +220,15 @@ impl Table {
         line: usize,
     ) -> Result<(), RecordingFileError> {
         if first.len() > MAX_COLUMNS {
-            let problem = format!("{} columns, at most {MAX_COLUMNS} are read", first.len());
+            let problem =
+                format!("the table has {} columns, but at most {MAX_COLUMNS} are supported", first.len());
             return Err(RecordingFileError::Table { problem, line: Some(line) });
         }
         self.header = header;
         let name =
             |(i, field): (usize, &str)| if header { field.to_owned() } else { format!("column {}", i + 1) };
         self.names = first.iter().enumerate().map(name).collect();
-        // Columns without a name at the end are trailing separators.
+        // Nameless columns at the end come from trailing separators.
         while header && self.names.len() > 1 && self.names.last().is_some_and(String::is_empty) {
             self.names.pop();
         }
@@ -235,7 +237,7 @@ impl Table {
         Ok(())
     }
 
-    /// Room for as many rows as the text can hold: a full one takes a byte for each column at least.
+    /// Reserves memory for as many rows as the text can hold; a full row takes at least one byte per column.
     fn reserve(&mut self, text: &str) {
         let n_lines = text.bytes().filter(|byte| matches!(byte, b'\n' | b'\r')).count() + 1;
         let n_rows = n_lines.min(text.len() / self.columns.len() + 1);

@@ -1,4 +1,4 @@
-//! Readers of recordings from outside; what they share.
+//! Tests of the recording readers, and their shared helpers.
 
 mod answers;
 mod channels;
@@ -33,7 +33,7 @@ fn open(bytes: &[u8], answers: &[(Ask, &str)]) -> Vec<Ask> {
     }
 }
 
-/// A WAV file with an odd chunk ahead of its samples.
+/// A WAV file with an extra chunk before its samples.
 fn wav(tag: u16, channels: u16, bits: u16, data: &[u8]) -> Vec<u8> {
     let block = channels * bits.div_ceil(8);
     let mut bytes = b"RIFF\0\0\0\0WAVEjunk\x03\0\0\0abc\0fmt \x10\0\0\0".to_vec();
@@ -50,14 +50,14 @@ fn wav(tag: u16, channels: u16, bits: u16, data: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// A file of the shared data, where it is beside the checkout.
+/// Reads a file of the shared data, if that folder exists next to the checkout.
 fn shared(file: &str) -> Option<Vec<u8>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let bytes = std::fs::read(root.join("../shared/data").join(file)).ok();
     if bytes.is_none() {
-        #[expect(clippy::print_stdout, reason = "a test says that it skipped")]
+        #[expect(clippy::print_stdout, reason = "a skipped test reports it")]
         {
-            println!("skipped: ../shared/data/{file} is not there");
+            println!("skipped: ../shared/data/{file} does not exist");
         }
     }
     bytes
@@ -72,7 +72,7 @@ fn real_files_are_refused_with_all_their_reasons() {
         ),
         ("recordings/force-press-slide/Material_Wood_raw_1.csv", &["no acceleration", "\"Ft\"", "bad clock"]),
         ("wav-oddities/phone_eh.wav", &["acceleration_unit", "full_scale"]),
-        ("wav-oddities/wav_bad_fact.wav", &["does not say what its samples are"]),
+        ("wav-oddities/wav_bad_fact.wav", &["has no valid format chunk"]),
     ] {
         let Some(bytes) = shared(file) else { continue };
         let message = read_recording(file, &bytes, None, &ColumnMap::default()).unwrap_err().to_string();

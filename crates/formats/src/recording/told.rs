@@ -1,22 +1,24 @@
-//! What numbers tell of themselves: units, by physics.
+//! Plausibility rules that infer units from the numbers themselves.
 
+use shagreen_core::dsp::spectrum::median;
 use shagreen_core::recording::{MAX_RATE_HZ, MIN_RATE_HZ};
-use shagreen_core::spectrum::median;
 
 use crate::recording::units::{AccelerationUnit, ForceUnit, TimeUnit};
 
-/// Rates that a recording can have, in Hz, where only the unit of time decides.
+/// Plausible sample rates in Hz, if only the unit of time is unknown.
 const LIKELY_RATES_HZ: [f64; 2] = [20.0, 48_500.0];
-/// How near to gravity the mean vector is, and how much smaller what moves is, where gravity tells the unit.
+/// Relative deviation of the mean vector from gravity below which it reveals the unit of acceleration.
 const GRAVITY_SHARE: f64 = 0.06;
+/// Largest standard deviation of the acceleration relative to its mean vector for that test.
 const MOVING_SHARE: f64 = 0.5;
 
-/// A tip that presses with less touches nothing, in N.
+/// Force in N below which a tip is not in contact.
 const TOUCH_N: f64 = 0.02;
-/// What is well above zero, as a share of the largest, and what is a good part of the time.
+/// Fraction of the largest magnitude that counts as clearly nonzero, and fraction of the samples that counts as a
+/// substantial part.
 const ALTERNATING_SHARE: f64 = 0.1;
 
-/// Largest magnitude of the numbers.
+/// Largest magnitude of the finite numbers.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().filter(|value| value.is_finite()).fold(0.0, |most: f64, value| most.max(value.abs()))
 }
@@ -25,18 +27,18 @@ pub(super) fn median_of(values: &[f64]) -> f64 {
     median(values.iter().copied().filter(|value| value.is_finite()).collect())
 }
 
-/// Whether a column of numbers only goes up.
+/// Returns whether a column strictly increases.
 pub(super) fn goes_on(values: &[f64]) -> bool {
     values.len() > 2 && values.windows(2).all(|pair| pair[1] > pair[0])
 }
 
-/// The unit of times that gives a rate that recordings have, and why, where there is only one.
+/// Returns the only unit of time that gives a plausible sample rate, with the reason; `None` if there are several.
 pub(super) fn likely_time_unit(times: &[f64]) -> Option<(TimeUnit, String)> {
     let first = times.iter().copied().find(|time| time.is_finite())?;
-    // Seconds since 1970 of the years 2001 to 2065.
+    // Unix times of the years 2001 to 2065, in seconds.
     let epoch = TimeUnit::ALL.iter().find(|unit| (1e9..3e9).contains(&(first * unit.si())));
     if let Some(unit) = epoch {
-        return Some((*unit, format!("{first} is a date, counted in {}", unit.name())));
+        return Some((*unit, format!("{first} is a Unix time in {}", unit.name())));
     }
     let step = middle_step(times);
     let [low, high] = LIKELY_RATES_HZ;
@@ -48,22 +50,22 @@ pub(super) fn likely_time_unit(times: &[f64]) -> Option<(TimeUnit, String)> {
     }
     Some((
         unit,
-        format!("the middle step is {step:.6}, which is {:.1} Hz in {}", rate_hz(&unit), unit.name()),
+        format!("the median step is {step:.6}, which gives {:.1} Hz in {}", rate_hz(&unit), unit.name()),
     ))
 }
 
-/// The middle step of times; NaN where there is none.
+/// Median positive step of times; NaN if there is none.
 fn middle_step(times: &[f64]) -> f64 {
     let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
     median(steps.filter(|step| *step > 0.0 && step.is_finite()).collect())
 }
 
-/// The rate in Hz of times in a unit of `si` seconds.
+/// Sample rate in Hz of times whose unit is `si` seconds.
 pub(super) fn rate_of(times: &[f64], si: f64) -> f64 {
     1.0 / (si * middle_step(times))
 }
 
-/// What is odd about times in a unit in which they have a rate that no recording has, where they have one in another.
+/// Returns a warning if the sample rate of times is implausible in this unit but plausible in another.
 pub(super) fn other_time_unit(times: &[f64], unit: TimeUnit) -> Option<String> {
     let is_rate = |rate_hz: f64| (MIN_RATE_HZ..=MAX_RATE_HZ).contains(&rate_hz);
     let rate_hz = rate_of(times, unit.si());
@@ -76,12 +78,12 @@ pub(super) fn other_time_unit(times: &[f64], unit: TimeUnit) -> Option<String> {
         .map(|(other, rate_hz)| format!("{rate_hz:.1} Hz in {}", other.name()))
         .collect();
     let hint =
-        format!("mean {rate_hz:.1} Hz in {}, and {}; check the unit of time", unit.name(), others.join(", "));
+        format!("give {rate_hz:.1} Hz in {}, but {}; check the unit of time", unit.name(), others.join(", "));
     (!others.is_empty()).then_some(hint)
 }
 
-/// Whether numbers of a force can be nothing but newtons: no counts, no shares of a range, and in other units too light to
-/// touch anything.
+/// Returns whether force values can only be newtons: neither counts nor fractions of full scale, and too low for
+/// contact in any other unit.
 pub(super) fn is_newtons(values: &[f64]) -> bool {
     let most = largest(values);
     let is_counts = values.iter().all(|value| value.fract() == 0.0 || value.is_nan());
@@ -89,7 +91,7 @@ pub(super) fn is_newtons(values: &[f64]) -> bool {
     most > 1.0 && !is_counts && lighter.into_iter().all(|unit| most * unit.si() < TOUCH_N)
 }
 
-/// Whether a force is well above and well below zero for a good part of the time each.
+/// Returns whether a force is clearly positive and clearly negative for a substantial part of the time each.
 pub(super) fn alternates(values: &[f64]) -> bool {
     let least = ALTERNATING_SHARE * largest(values);
     let n_above = values.iter().filter(|value| **value > least).count();
@@ -97,7 +99,8 @@ pub(super) fn alternates(values: &[f64]) -> bool {
     n_above.min(n_below) as f64 > ALTERNATING_SHARE * values.len() as f64
 }
 
-/// The unit in which the mean of three axes is as long as gravity while the rest is small, and that length.
+/// Returns the unit in which the mean vector of three axes has the length of gravity and the variation is small, with
+/// that length.
 pub(super) fn unit_by_gravity(axes: &[&[f64]], scale: f64) -> Option<(AccelerationUnit, f64)> {
     let [x, y, z] = axes else { return None };
     let moments = |axis: &[f64]| {

@@ -1,6 +1,7 @@
-//! Units that recordings come in.
+//! Units of recording files.
 
-/// Letters and digits of a unit, lower case: what is left of `m/s²`, `m/s^2`, `(m/s2)`, `m s⁻²` is the same or an alias.
+/// Letters and digits of a unit in lower case. Spellings such as `m/s²`, `m/s^2`, `(m/s2)` and `m s⁻²` give the same
+/// text or an alias.
 pub(super) fn letters(text: &str) -> String {
     text.chars()
         .filter_map(|c| match c {
@@ -22,20 +23,20 @@ macro_rules! unit {
         }
 
         impl $name {
-            /// All of them.
+            /// All units of this quantity.
             pub const ALL: &[Self] = &[$(Self::$unit),+];
 
-            /// How it is written in a map.
+            /// Name in a column map.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$unit => $text,)+ }
             }
 
-            /// One of it, in the SI unit.
+            /// One unit, in the SI unit.
             pub fn si(self) -> f64 {
                 match self { $(Self::$unit => $si,)+ }
             }
 
-            /// The unit that is meant by a text such as [`Self::name`] or a usual other way to write it.
+            /// Parses [`Self::name`] or another common spelling.
             pub fn parse(text: &str) -> Option<Self> {
                 let text = letters(text);
                 Self::ALL.iter().copied().find(|unit| match unit {

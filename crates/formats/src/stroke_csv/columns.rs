@@ -1,9 +1,9 @@
-//! Which column of a table is what.
+//! Assignment of the columns of a stroke table.
 
 use crate::stroke::PressUnit;
 use crate::stroke_csv::StrokeCsvError;
 
-/// What a table holds.
+/// The quantities in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Speed and force.
@@ -18,7 +18,7 @@ pub(super) enum TimeUnit {
     Milliseconds,
 }
 
-/// Places of the columns in a row of `n`.
+/// Indices of the columns in a row of `n`.
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
     pub(super) n: usize,
@@ -26,13 +26,13 @@ pub(super) struct Columns {
     pub(super) time: usize,
     pub(super) time_unit: Option<TimeUnit>,
     pub(super) touching: Option<usize>,
-    /// Whether no recording of acceleration has columns of these names.
+    /// Whether no acceleration recording has columns of these names.
     pub(super) are_of_a_stroke_only: bool,
-    /// Speed and force, or x, y and pressure or force.
+    /// Indices of speed and force, or of x, y and pressure or force.
     values: Vec<usize>,
 }
 
-/// What a header can name.
+/// Quantities that a header can name.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Name {
     Time,
@@ -45,15 +45,12 @@ enum Name {
 }
 
 impl Columns {
-    /// The columns that a header names.
+    /// Assigns the columns that a header names.
     pub(super) fn from_header(header: &csv::StringRecord) -> Result<Self, StrokeCsvError> {
         let mut names = Vec::new();
         for field in header {
             let (name, unit) = name_of(field).ok_or_else(|| StrokeCsvError::Header {
-                problem: format!(
-                    "the column \"{}\" is not known",
-                    field.chars().take(40).collect::<String>()
-                ),
+                problem: format!("the column \"{}\" is unknown", field.chars().take(40).collect::<String>()),
             })?;
             names.push((name, unit));
         }
@@ -92,7 +89,7 @@ impl Columns {
         })
     }
 
-    /// The columns of a table without a header.
+    /// Assigns the columns of a table without a header.
     pub(super) fn by_count(n: usize) -> Result<Self, StrokeCsvError> {
         let (kind, values) = match n {
             3 => (Kind::Contacts, vec![1, 2]),
@@ -105,7 +102,7 @@ impl Columns {
         Ok(Self { n, kind, time: 0, time_unit: None, touching: None, are_of_a_stroke_only: false, values })
     }
 
-    /// Names and places of the values that a row has beside its time.
+    /// Names and indices of the values in a row, without its time.
     pub(super) fn named_values(&self) -> impl Iterator<Item = (&'static str, usize)> + '_ {
         let names: &[&'static str] = match self.kind {
             Kind::Contacts => &["speed", "force"],
@@ -115,7 +112,7 @@ impl Columns {
         names.iter().copied().zip(self.values.iter().copied())
     }
 
-    /// The columns in the order of a table without a header.
+    /// Describes the columns of a table without a header.
     pub(super) fn in_words(&self) -> &'static str {
         match self.kind {
             Kind::Contacts => "time, speed in mm/s, force in N",
@@ -124,7 +121,7 @@ impl Columns {
     }
 }
 
-/// The meaning of a column name such as `t`, `Time (ms)`, `x_mm` or `force_n`.
+/// Parses a column name such as `t`, `Time (ms)`, `x_mm` or `force_n`.
 fn name_of(field: &str) -> Option<(Name, Option<TimeUnit>)> {
     let lower = field.to_lowercase();
     let mut words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
@@ -138,7 +135,7 @@ fn name_of(field: &str) -> Option<(Name, Option<TimeUnit>)> {
         "touching" | "touch" | "tip" | "on" => Name::Touching,
         _ => return None,
     };
-    // A unit other than the one that is read would be silently wrong by a factor.
+    // An unsupported unit is rejected, because it would cause a silent scaling error.
     let units: Vec<&str> = words.collect();
     let unit = units.concat();
     match (name, unit.as_str()) {

@@ -5,7 +5,7 @@ use proptest::prelude::{any, prop, proptest};
 fn contacts(text: &str) -> Vec<TimedContact> {
     match read_stroke_csv(text.as_bytes()).unwrap().value {
         Stroke::Contacts(contacts) => contacts,
-        Stroke::Pen { .. } => panic!("a pen"),
+        Stroke::Pen { .. } => panic!("a pen stroke, not contacts"),
     }
 }
 
@@ -43,14 +43,14 @@ fn strokes_of_unicode_text_are_read() {
     let expected = read_stroke_csv(b"t_s,speed,force\n0,50,0.5\n").unwrap();
     assert_eq!(read_stroke_csv(&wide).unwrap(), expected);
     let error = read_stroke_csv(b"t_s,speed,force\n0,50,\xff\n").unwrap_err().to_string();
-    assert!(error.contains("line 2 is no UTF-8 text"), "{error}");
+    assert!(error.contains("line 2 is not valid UTF-8"), "{error}");
 }
 
 #[test]
 fn pen_positions_with_pressure_or_force() {
     let pen = |text: &str| match read_stroke_csv(text.as_bytes()).unwrap().value {
         Stroke::Pen { samples, press_unit } => (samples, press_unit),
-        Stroke::Contacts(_) => panic!("contacts"),
+        Stroke::Contacts(_) => panic!("contacts, not a pen stroke"),
     };
     let (samples, unit) = pen("t_ms,x,y,pressure\n0,10,20,0.5\n8,11,20,0\n");
     assert_eq!(unit, PressUnit::FullScale);
@@ -82,7 +82,7 @@ fn damage_is_named_with_its_line() {
     check_error("NaN,50,1\n", "time in line 1 is \"NaN\"");
     check_error("t,speed,force\n0,50,inf\n", "force in line 2");
     check_error("t,speed,force\n0,-50,1\n", "speed in line 2 is -50");
-    check_error("t,x,y,pressure\n0,1,1,512\n", "needs 0 to 1");
+    check_error("t,x,y,pressure\n0,1,1,512\n", "must be 0 to 1");
     check_error("t,speed,force\n1,50,1\n1,50,1\n", "line 3");
     let back = read_stroke_csv(b"t,speed,force\n1,50,1\n0,50,1\n").unwrap_err();
     assert_eq!(back, StrokeCsvError::TimeGoesBack { line: 3, before: 1.0, time: 0.0 });
@@ -115,10 +115,12 @@ fn what_is_written_is_read_again() {
             })
             .collect();
         let read = read_stroke_csv(stroke_csv(&samples, press_unit).as_bytes()).unwrap();
-        let Stroke::Pen { samples: again, press_unit: again_unit } = read.value else { panic!("no pen") };
+        let Stroke::Pen { samples: again, press_unit: again_unit } = read.value else {
+            panic!("not a pen stroke")
+        };
         assert_eq!((again_unit, again.len(), read.warnings.len()), (press_unit, 200, 0));
         for (a, b) in samples.iter().zip(&again) {
-            // A product with a thousand and one with a thousandth.
+            // The conversion multiplies by 1e3 and by 1e-3.
             assert!((a.x_m - b.x_m).abs() < 1e-16 && (a.y_m - b.y_m).abs() < 1e-16);
             assert_eq!((a.time_secs, a.press, a.touching), (b.time_secs, b.press, b.touching));
         }

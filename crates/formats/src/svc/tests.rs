@@ -53,7 +53,7 @@ fn damage_is_named_with_its_line() {
 fn more_samples_than_announced_are_used_with_a_warning() {
     let recording = read_svc(RAW.replacen('3', "2", 1).as_bytes()).unwrap();
     assert_eq!(recording.value.n_samples(), 3);
-    assert!(recording.warnings[0].contains("announces 2"));
+    assert!(recording.warnings[0].contains("first line states 2"));
 }
 
 #[test]
@@ -78,7 +78,7 @@ proptest! {
                 bytes[at] = *byte;
             }
             if let Ok(read) = read_svc(&bytes) {
-                // Whatever was read is in order, and is mapped or refused.
+                // Samples that were read are in order, and the mapping accepts or rejects them.
                 let _ = pen_samples(&read.value, &PenMapping::of(read.value.flavor));
             }
         }

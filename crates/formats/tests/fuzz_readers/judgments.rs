@@ -1,4 +1,4 @@
-//! Tables of judgments and places: small good files, and what must hold of what is read from changed ones.
+//! Tables of judgments and positions: small valid files, and properties of the results from mutated ones.
 
 use shagreen_core::space::LabelSource;
 use shagreen_formats::places_csv::{Scale, read_places};
@@ -28,7 +28,7 @@ pub(crate) fn places_seeds() -> Vec<Vec<u8>> {
     [plain, by_poles, stray].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
-/// Tables that are small and ask for much: many columns, many lines, many names.
+/// Small tables that request much memory or time: many columns, many lines, many names.
 pub(crate) fn table_bombs() -> Vec<Vec<u8>> {
     let columns = |first: &str| {
         format!("{first},{}\n", (0..100_000).map(|i| i.to_string()).collect::<Vec<_>>().join(","))
@@ -41,11 +41,11 @@ pub(crate) fn table_bombs() -> Vec<Vec<u8>> {
     [",".repeat(1 << 20), "\n".repeat(1 << 20), wide, long, sorts, places].map(String::into_bytes).to_vec()
 }
 
-/// What was read can be written, and read again as the same.
+/// The result can be written, and reading it again gives the same.
 pub(crate) fn read_a_sorting(bytes: &[u8]) -> Result<(), String> {
     let Ok(table) = read_sorting_csv(bytes) else { return Ok(()) };
     let mut sorts = table.sorts;
-    // A sort of nothing has no line.
+    // An empty sort has no line.
     sorts.retain(|sort| !sort.placements.is_empty());
     if sorts.is_empty() {
         return Ok(());
@@ -57,7 +57,7 @@ pub(crate) fn read_a_sorting(bytes: &[u8]) -> Result<(), String> {
 pub(crate) fn read_some_ratings(bytes: &[u8]) -> Result<(), String> {
     let votes = read_relevance_csv(bytes);
     if let Some(vote) = votes.iter().flatten().find(|vote| vote.participant.is_empty()) {
-        return Err(format!("nobody voted: {vote:?}"));
+        return Err(format!("a vote has no participant: {vote:?}"));
     }
     let Ok(ratings) = read_ratings_csv(bytes) else { return Ok(()) };
     let again = read_ratings_csv(&ratings_csv(&ratings)).map_err(|error| error.to_string())?;

@@ -1,15 +1,15 @@
-//! Every reader takes whatever comes: no panic, no hang, no more memory than [`MEMORY_FACTOR`] times the input and
+//! Every reader withstands any input: no panic, no hang, and no more memory than [`MEMORY_FACTOR`] times the input plus
 //! [`MEMORY_BYTES`].
 //!
-//! Good files are changed by a seed ([`mutate`]), the same inputs in the same order every time. As a test all readers
-//! together take about [`SECS`]; `SHAGREEN_FUZZ_INPUTS` asks for a number of inputs a reader instead, which
-//! `scripts/fuzz` sets to a million.
+//! Valid files are mutated by a seeded generator ([`mutate`]), with the same inputs in the same order every time. As a
+//! test, all readers together take about [`SECS`]. `SHAGREEN_FUZZ_INPUTS` requests a number of inputs per reader
+//! instead, which `scripts/fuzz` sets to a million.
 
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
     clippy::print_stderr,
-    reason = "a test may stop at what it did not expect, and says what it did"
+    reason = "a test may panic on an unexpected result, and reports what it did"
 )]
 
 mod judgments;
@@ -24,7 +24,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use std::{env, fs, process, thread};
 
-use shagreen_core::rng::{Random, derive_seed};
+use shagreen_core::maths::rng::{Random, derive_seed};
 use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::read_recording;
 use shagreen_formats::stroke_csv::read_stroke_csv;
@@ -34,27 +34,27 @@ use crate::memory::peak_of;
 use crate::mutate::mutate;
 use crate::readers::{READERS, Reader};
 
-/// Seed of all inputs.
+/// Random seed of all inputs.
 const SEED: u64 = 3;
-/// Time of all readers together, in a test.
-const SECS: f64 = 60.0;
-/// Longest that a reader may take for one input.
+/// Time for all readers together in a test, in s.
+const SECS: f64 = 10.0;
+/// Maximum time of a reader for one input.
 const LONGEST: Duration = Duration::from_secs(5);
-/// A reader that takes this long never ends.
+/// Time after which a reader counts as an endless loop.
 const NEVER: Duration = Duration::from_secs(30);
-/// Memory that a reader may use, by the length of its input.
+/// Permitted memory of a reader, in bytes per byte of its input.
 const MEMORY_FACTOR: usize = 10;
-/// Memory that a reader may use for any input.
+/// Permitted memory of a reader for any input, in bytes.
 const MEMORY_BYTES: usize = 64 << 20;
 
-/// What a reader did wrong, with what.
+/// A violated property, with the input that caused it.
 #[derive(Debug)]
 struct Failure {
     what: String,
     input: Vec<u8>,
 }
 
-/// Reads one input and says what was wrong.
+/// Reads one input; returns the violated property as an error.
 fn read_one(reader: &Reader, input: &[u8]) -> Result<(), String> {
     let timed = || {
         let start = Instant::now();
@@ -75,7 +75,7 @@ fn read_one(reader: &Reader, input: &[u8]) -> Result<(), String> {
     if peak > most {
         return Err(format!("memory: {peak} bytes for an input of {}", input.len()));
     }
-    // A machine may be busy with other things once, not every time.
+    // The measurement is repeated, because the machine may be busy once but not every time.
     for _ in 0..3 {
         if took <= LONGEST {
             return Ok(());
@@ -85,7 +85,7 @@ fn read_one(reader: &Reader, input: &[u8]) -> Result<(), String> {
     Err(format!("hang: {took:?} for an input of {} bytes", input.len()))
 }
 
-/// Reads inputs until there are `n_inputs` or the time is over. Returns how many there were.
+/// Reads inputs until there are `n_inputs` or the time is over. Returns the number of inputs.
 fn fuzz(reader: &Reader, n_inputs: Option<u64>, secs: f64) -> Result<u64, Box<Failure>> {
     let seeds = (reader.seeds)();
     for seed in &seeds {
@@ -117,7 +117,7 @@ fn fuzz(reader: &Reader, n_inputs: Option<u64>, secs: f64) -> Result<u64, Box<Fa
     })
 }
 
-/// Input number `index` of a reader: a function of its name and number alone.
+/// Input number `index` of a reader, determined by the reader's name and the number alone.
 fn input(reader: &Reader, seeds: &[Vec<u8>], index: u64) -> Vec<u8> {
     let mut random = Random::new(derive_seed(SEED, &format!("{} {index}", reader.name)));
     let mut bytes = mutate(seeds, &mut random);
@@ -127,7 +127,7 @@ fn input(reader: &Reader, seeds: &[Vec<u8>], index: u64) -> Vec<u8> {
     bytes
 }
 
-/// Ends the program where a reader does not come back: nothing else can end it.
+/// Aborts the program if a reader does not return; nothing else can stop it.
 fn watch(name: &str, current: &AtomicU64, is_over: &AtomicU64) {
     let (mut seen, mut since) = (0, Instant::now());
     while is_over.load(Ordering::Relaxed) == 0 {
@@ -136,7 +136,7 @@ fn watch(name: &str, current: &AtomicU64, is_over: &AtomicU64) {
         if index != seen {
             (seen, since) = (index, Instant::now());
         } else if since.elapsed() > NEVER {
-            eprintln!("hang: {name} does not come back from input {index}");
+            eprintln!("hang: {name} does not return from input {index}");
             process::abort();
         }
     }
@@ -148,8 +148,8 @@ fn every_reader_takes_whatever_comes() {
     let only = env::var("SHAGREEN_FUZZ_READER").ok();
     let readers: Vec<&Reader> =
         READERS.iter().filter(|r| only.as_ref().is_none_or(|only| r.name == only)).collect();
-    assert!(!readers.is_empty(), "there is no reader {only:?}");
-    // Panics are caught and told once.
+    assert!(!readers.is_empty(), "no reader has the name {only:?}");
+    // Panics are caught and reported once.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let mut failures = Vec::new();
@@ -168,7 +168,7 @@ fn every_reader_takes_whatever_comes() {
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
-/// A small file may unpack to a large picture, and a short text to deep nesting: nothing a change of a few bytes finds.
+/// A small file may decode to a large picture, and a short text to deep nesting; random mutations do not find these.
 #[test]
 fn what_is_made_to_be_large_is_refused() {
     for reader in READERS {
@@ -180,7 +180,7 @@ fn what_is_made_to_be_large_is_refused() {
     }
 }
 
-/// Files of some MB whose cells are as short as can be.
+/// Files of several MB with the shortest possible cells.
 #[test]
 fn dense_tables_are_read_in_the_same_bounds() {
     const N_ROWS: usize = 700_000;

@@ -1,12 +1,12 @@
-//! Inputs that are nearly right: seeded changes to bytes, tokens, brackets and numbers of good files.
+//! Nearly valid inputs: seeded changes to bytes, tokens, brackets and numbers of valid files.
 
 use std::ops::Range;
 
-use shagreen_core::rng::Random;
+use shagreen_core::maths::rng::Random;
 
-/// Longest input made.
+/// Maximum length of an input, in bytes.
 const MAX_BYTES: usize = 1 << 18;
-/// What stands in for a number: the ends of every type, and what is none.
+/// Replacements for a number: limits of every type, and invalid numbers.
 const NUMBERS: [&str; 22] = [
     "nan",
     "NaN",
@@ -31,11 +31,11 @@ const NUMBERS: [&str; 22] = [
     "3.1415926535897932",
     "",
 ];
-/// What opens, with what closes it.
+/// Opening brackets with their closing ones.
 const BRACKETS: [(u8, u8); 5] = [(b'{', b'}'), (b'[', b']'), (b'<', b'>'), (b'"', b'"'), (b'\n', b'\n')];
-/// What parsers go down into, one level each.
+/// Texts that nest a parser one level deeper each.
 const NESTS: [&str; 6] = ["[", "{\"a\":", "<a>", "<a b=\"", "a.", "\"\""];
-/// Words that mean something somewhere.
+/// Words with a special meaning in some format.
 const WORDS: [&str; 12] = [
     "null",
     "true",
@@ -51,10 +51,10 @@ const WORDS: [&str; 12] = [
     "\r\n",
 ];
 
-/// A changed copy of one of `seeds`.
+/// Returns a mutated copy of one of `seeds`.
 pub(crate) fn mutate(seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let mut bytes = seeds[below(random, seeds.len())].clone();
-    // Mostly a change or two: what differs too much is refused at the door.
+    // Mostly one or two changes, because inputs with many are rejected early.
     let most = 1 << below(random, 4);
     let n_changes = 1 + below(random, most);
     for _ in 0..n_changes {
@@ -65,7 +65,7 @@ pub(crate) fn mutate(seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// A number from zero to below `n`; zero where `n` is.
+/// A random number below `n`; zero if `n` is zero.
 fn below(random: &mut Random, n: usize) -> usize {
     (random.next_u64() % (n.max(1) as u64)) as usize
 }
@@ -106,7 +106,7 @@ fn change(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
             replace(bytes, at..at, nest.as_bytes());
         }
         13 => replace(bytes, at..at, WORDS[below(random, WORDS.len())].as_bytes()),
-        // The ends of whole numbers in binary files.
+        // Limits of integers in binary files.
         14 => {
             let value =
                 [0, 1, 0x7F, 0xFF, 0xFFFF, 0x7FFF_FFFF, u32::MAX, 1 << below(random, 32)][below(random, 8)];
@@ -125,7 +125,7 @@ fn replace(bytes: &mut Vec<u8>, range: Range<usize>, with: &[u8]) {
     bytes.splice(range, with.iter().copied());
 }
 
-/// Replaces a token near a random place by another; now and then every one that reads the same.
+/// Replaces the token near a random offset.
 fn replace_all(
     bytes: &mut Vec<u8>,
     near: impl Fn(&[u8], usize) -> Range<usize>,
@@ -136,14 +136,14 @@ fn replace_all(
     replace(bytes, range, with);
 }
 
-/// A short stretch anywhere, or now and then a long one.
+/// A short random range, or sometimes a long one.
 fn stretch(len: usize, random: &mut Random) -> Range<usize> {
     let start = below(random, len);
     let longest = if below(random, 4) == 0 { len } else { 64 };
     start..(start + below(random, longest)).min(len)
 }
 
-/// The first run of bytes of a kind from `at` on; empty at the end where there is none.
+/// The first run of matching bytes from `at` on; an empty range at the end if there is none.
 fn run_near(bytes: &[u8], at: usize, is_of: impl Fn(&u8) -> bool) -> Range<usize> {
     let start = bytes[at..].iter().position(&is_of).map_or(bytes.len(), |skip| at + skip);
     let len = bytes[start..].iter().position(|byte| !is_of(byte)).unwrap_or(bytes.len() - start);
@@ -158,7 +158,7 @@ fn word_near(bytes: &[u8], at: usize) -> Range<usize> {
     run_near(bytes, at, u8::is_ascii_alphabetic)
 }
 
-/// From the next opening bracket to what closes it, or to the end.
+/// The range from the next opening bracket to its closing one, or to the end.
 fn bracketed(bytes: &[u8], at: usize) -> Range<usize> {
     let Some(start) = (at..bytes.len()).find(|i| BRACKETS.iter().any(|(open, _)| *open == bytes[*i])) else {
         return bytes.len()..bytes.len();
@@ -178,7 +178,7 @@ fn bracketed(bytes: &[u8], at: usize) -> Range<usize> {
     start..bytes.len()
 }
 
-/// Gives every chunk of a PNG the checksum of its bytes, so that what is inside is looked at.
+/// Recomputes the checksum of every PNG chunk, so that the decoder reads its contents.
 pub(crate) fn repair_png(bytes: &mut [u8]) {
     let mut at = 8;
     while let Some(length) = bytes.get(at..at + 4).and_then(|b| <[u8; 4]>::try_from(b).ok()) {
@@ -191,7 +191,7 @@ pub(crate) fn repair_png(bytes: &mut [u8]) {
     }
 }
 
-/// CRC-32 of ISO 3309, bit by bit: inputs are short.
+/// CRC-32 of ISO 3309, bit by bit, because inputs are short.
 fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |sum, byte| {
         (0..8).fold(sum ^ u32::from(*byte), |sum, _| (sum >> 1) ^ (0xEDB8_8320 & (sum & 1).wrapping_neg()))

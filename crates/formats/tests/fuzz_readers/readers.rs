@@ -1,4 +1,4 @@
-//! The readers, each with small good files to start from. A new reader is an entry in [`READERS`].
+//! The readers, each with small valid files as seeds. To add a reader, add an entry to [`READERS`].
 
 use shagreen_formats::hatt::{read_hatt, write_hatt};
 use shagreen_formats::library::{read_library, write_library};
@@ -23,17 +23,17 @@ use crate::signals::{
     profile_seeds, read_a_profile, read_a_stream, repair_stream, stream_bombs, stream_seeds,
 };
 
-/// A reader and where its inputs come from.
+/// A reader, and the source of its inputs.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader {
     pub(crate) name: &'static str,
-    /// Good files, a few kB each.
+    /// Valid files, a few kB each.
     pub(crate) seeds: fn() -> Vec<Vec<u8>>,
-    /// Makes checksums right again, so that changes are looked at.
+    /// Recomputes checksums, so that the reader accepts mutated data.
     pub(crate) repair: Option<fn(&mut [u8])>,
-    /// Files that are small and ask for much.
+    /// Small files that request much memory or time.
     pub(crate) bombs: fn() -> Vec<Vec<u8>>,
-    /// Reads. An error of the reader is well; a broken promise about what it read is not, and is given back.
+    /// Reads the input. An error of the reader is fine; a violated property of its result is returned as an error.
     pub(crate) read: fn(&[u8]) -> Result<(), String>,
 }
 
@@ -157,11 +157,15 @@ fn read_a_library(bytes: &[u8]) -> Result<(), String> {
     let Ok(imported) = read_library(bytes) else { return Ok(()) };
     let written = write_library(&imported.value);
     let again =
-        read_library(&written).map_err(|error| format!("what was read cannot be written: {error}"))?;
-    if write_library(&again.value) == written { Ok(()) } else { Err("written twice, it differs".into()) }
+        read_library(&written).map_err(|error| format!("the written library cannot be read: {error}"))?;
+    if write_library(&again.value) == written {
+        Ok(())
+    } else {
+        Err("writing the library twice gives different bytes".into())
+    }
 }
 
-/// A file of two measured models, as this program writes it, and one as others may write it.
+/// A file of two measured models as this program writes it, and one as other programs may write it.
 fn hatt_seeds() -> Vec<Vec<u8>> {
     let mut texture = starter_library().unwrap().textures.swap_remove(0);
     let nodes = texture.model.nodes()[..2].to_vec();
@@ -199,7 +203,7 @@ fn read_a_hatt(bytes: &[u8]) -> Result<(), String> {
     let mut entry = imported.value.into_entry("fuzz");
     entry.provenance = shagreen_formats::library::Provenance::Free;
     let written = write_hatt(&entry, "fuzz").map_err(|error| error.to_string())?;
-    read_hatt(&written).map(|_| ()).map_err(|error| format!("what was read cannot be written: {error}"))
+    read_hatt(&written).map(|_| ()).map_err(|error| format!("the written texture cannot be read: {error}"))
 }
 
 fn svc_seeds() -> Vec<Vec<u8>> {
@@ -212,7 +216,7 @@ fn svc_seeds() -> Vec<Vec<u8>> {
 fn read_an_svc(bytes: &[u8]) {
     if let Ok(imported) = read_svc(bytes) {
         let mapping = PenMapping::of(PenFlavor::Raw);
-        // Whether its numbers make sense is not what is asked here.
+        // Whether the mapping accepts the numbers does not matter here.
         let _ = pen_samples(&imported.value, &mapping);
     }
 }
@@ -234,7 +238,7 @@ fn csv_bombs() -> Vec<Vec<u8>> {
 }
 
 fn read_a_stroke(bytes: &[u8]) {
-    // An error is as well.
+    // An error is fine too.
     let _ = read_stroke_csv(bytes);
 }
 
@@ -249,13 +253,13 @@ fn sidecar_seeds() -> Vec<Vec<u8>> {
 }
 
 fn read_a_sidecar(bytes: &[u8]) {
-    // An error is as well.
+    // An error is fine too.
     let _ = serde_json::from_slice::<SidecarV1>(bytes);
 }
 
 fn materials_seeds() -> Vec<Vec<u8>> {
     let text = include_str!("../../../../assets/starter/materials.toml");
-    // The head and the first two materials.
+    // The header and the first two materials.
     let end = text.match_indices("[[material]]").nth(2).map_or(text.len(), |(at, _)| at);
     vec![text.as_bytes()[..end].to_vec()]
 }
@@ -270,7 +274,7 @@ fn toml_bombs() -> Vec<Vec<u8>> {
 }
 
 fn read_some_materials(bytes: &[u8]) {
-    // An error is as well.
+    // An error is fine too.
     let _ = read_materials(bytes);
 }
 
@@ -283,7 +287,7 @@ fn jpeg_seeds() -> Vec<Vec<u8>> {
     vec![encode_jpeg(&rgb(16, 16), 20.0).unwrap().bytes, encode_jpeg(&rgb(40, 24), 20.0).unwrap().bytes]
 }
 
-/// Two heads that announce pictures as large as can be, baseline and progressive.
+/// Two headers that state the largest possible pictures, baseline and progressive.
 fn jpeg_bombs() -> Vec<Vec<u8>> {
     let large = |change: fn(&mut [u8])| {
         let mut bytes = encode_jpeg(&rgb(16, 16), 20.0).unwrap().bytes;
@@ -295,7 +299,7 @@ fn jpeg_bombs() -> Vec<Vec<u8>> {
     vec![large(|_| {}), large(|frame| frame[1] = 0xC2)]
 }
 
-/// The size in the head, so that the reader does not stop at a picture of another size.
+/// The size in the header, so that the reader does not stop at a size mismatch.
 fn jpeg_size(bytes: &[u8]) -> Option<(u32, u32)> {
     let frame = bytes.windows(2).position(|pair| pair[0] == 0xFF && (0xC0..=0xC2).contains(&pair[1]))?;
     let side = |at: usize| Some(u32::from(u16::from_be_bytes([*bytes.get(at)?, *bytes.get(at + 1)?])));
@@ -321,7 +325,7 @@ fn png_seeds() -> Vec<Vec<u8>> {
     ]
 }
 
-/// Pictures of nothing as large as can be: some kB that unpack to hundreds of MB.
+/// Empty pictures of the largest size: some kB that decode to hundreds of MB.
 fn png_bombs() -> Vec<Vec<u8>> {
     vec![png(&image::DynamicImage::new_luma8(4096, 4096)), png(&image::DynamicImage::new_rgba16(4096, 4096))]
 }
@@ -337,7 +341,7 @@ fn read_a_picture(bytes: &[u8], width: u32, height: u32, format: PictureFormat) 
     let picture = Picture { width, height, millimeters: 20.0, format, bytes: bytes.to_vec() };
     let head_is_sound = check(&picture).is_ok();
     match decode(&picture) {
-        Ok(_) if !head_is_sound => Err("a picture with a damaged head was unpacked".into()),
+        Ok(_) if !head_is_sound => Err("a picture with a damaged header was decoded".into()),
         _ => Ok(()),
     }
 }

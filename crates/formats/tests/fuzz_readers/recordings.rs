@@ -1,18 +1,18 @@
-//! Readers of recordings, each up to the regular clock.
+//! Readers of recordings, including resampling to a uniform sample rate.
 
 use shagreen_core::recording::Recording;
 use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::{ColumnMap, RecordingFile, RecordingFileError, read_recording};
 
-/// Rows of the seeds: a little more than a recording needs.
+/// Number of rows of the seeds, slightly more than a recording needs.
 const N_ROWS: u32 = 120;
-/// Answers to all that a table may ask.
+/// Answers to all questions about a table.
 const TABLE_MAP: &str = "time_unit = \"ms\"\nacceleration_unit = \"g\"\nspeed_unit = \"mm/s\"\n\
     position_unit = \"mm\"\nforce_unit = \"N\"\npressing_is_negative = false\n";
-/// Answers to all that a WAV file of one or three channels may ask.
+/// Answers to all questions about a WAV file with one or three channels.
 const WAV_MAP: &str = "acceleration_unit = \"m/s^2\"\nfull_scale = 20\nconstant_speed = \"100 mm/s\"\n\
     constant_force = \"1 N\"\n";
-/// What is beside a WAV file of five channels.
+/// Sidecar of a WAV file with five channels.
 const FIVE_CHANNELS: &str = r#"{"units": "g", "full_scale": 20, "channels": ["x", "y", "z", "speed", "force"],
     "speed_units": "mm/s", "speed_full_scale": 400, "force_units": "N", "force_full_scale": 5}"#;
 
@@ -61,7 +61,7 @@ pub(crate) fn table_bombs() -> Vec<Vec<u8>> {
         ",".repeat(1 << 20).into_bytes(),
         "\n".repeat(1 << 20).into_bytes(),
         "0,1,2\n".repeat(1 << 17).into_bytes(),
-        // Lines that lack nearly all of their values, in many columns.
+        // Lines with almost all values missing, in many columns.
         format!("{wide}\n{}", "1\n".repeat(1 << 18)).into_bytes(),
         format!("{wide}\n{}", format!("1{}\n", ",".repeat(999)).repeat(1000)).into_bytes(),
         format!("t_ms,a_g,v [mm/s]\n{}", digits(1 << 18, 3)).into_bytes(),
@@ -77,7 +77,7 @@ struct Wav {
     tag: u16,
     channels: u16,
     bits: u16,
-    /// The size that the head of the samples states, where it is not their length.
+    /// Size that the data chunk states, if it differs from its length.
     stated: Option<u32>,
 }
 
@@ -173,7 +173,7 @@ pub(crate) fn map_seeds() -> Vec<Vec<u8>> {
 pub(crate) fn read_a_table(bytes: &[u8]) -> Result<(), String> {
     read_with("a.csv", bytes, None, &ColumnMap::default())?;
     read_with("a.csv", bytes, None, &map(TABLE_MAP))?;
-    // Without a clock and with what else was not measured.
+    // Without a time column, and with constants for unmeasured quantities.
     let rest =
         "rate_hz = 1000\nacceleration = [2]\nconstant_speed = \"100 mm/s\"\nconstant_force = \"1 N\"\n";
     read_with("a.csv", bytes, None, &map(&format!("{TABLE_MAP}{rest}")))
@@ -200,13 +200,13 @@ pub(crate) fn read_a_map(bytes: &[u8]) -> Result<(), String> {
     read_with("a.wav", &wav, None, &map)
 }
 
-/// Reads a recording and puts it on the regular clock; says which promise about either is broken.
+/// Reads a recording and resamples it uniformly; returns the violated property as an error.
 fn read_with(name: &str, bytes: &[u8], sidecar: Option<&[u8]>, map: &ColumnMap) -> Result<(), String> {
     let RecordingFile { raw, map, .. } = match read_recording(name, bytes, sidecar, map) {
         Ok(file) => file,
         Err(RecordingFileError::NeedsAnswers(needed)) => {
             let is_open = needed.questions.iter().any(|question| question.guess.is_none());
-            return if is_open { Ok(()) } else { Err("it asks for answers without a question".into()) };
+            return if is_open { Ok(()) } else { Err("it asks for answers without an open question".into()) };
         }
         Err(_) => return Ok(()),
     };
@@ -220,17 +220,17 @@ fn read_with(name: &str, bytes: &[u8], sidecar: Option<&[u8]>, map: &ColumnMap) 
                 .map(Vec::len)
                 .eq(raw.acceleration_mps2.iter().map(Vec::len));
             if !same {
-                return Err("with its own map it reads otherwise".into());
+                return Err("its own map gives another result".into());
             }
         }
-        Ok(again) => return Err(format!("with its own map it asks {:?}", again.questions)),
-        Err(error) => return Err(format!("with its own map: {error}")),
+        Ok(again) => return Err(format!("its own map leaves the questions {:?}", again.questions)),
+        Err(error) => return Err(format!("its own map gives an error: {error}")),
     }
     let Ok((recording, _)) = Recording::from_raw(raw) else { return Ok(()) };
     check_recording(&recording).map_err(|broken| format!("{broken}, of {n_rows} rows"))
 }
 
-/// What the rest of the program takes for granted.
+/// Checks the properties of a recording that the rest of the program relies on.
 fn check_recording(recording: &Recording) -> Result<(), String> {
     let Recording { rate, acceleration_mps2, speed_mps, force_n, usable } = recording;
     let n_samples = acceleration_mps2.len();

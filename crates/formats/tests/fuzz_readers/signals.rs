@@ -1,17 +1,17 @@
-//! Streams of the codec and profiles.
+//! Readers of codec streams and profiles.
 
 use std::sync::{Arc, OnceLock};
 
 use crc::{CRC_16_IBM_3740, CRC_32_ISO_HDLC, Crc};
-use shagreen_core::codec::bitrate::Bitrate;
-use shagreen_core::codec::books::Codebooks;
-use shagreen_core::codec::coded::Coded;
-use shagreen_core::rng::lcg_noise;
+use shagreen_core::maths::rng::lcg_noise;
+use shagreen_core::signals::codec::bitrate::Bitrate;
+use shagreen_core::signals::codec::books::Codebooks;
+use shagreen_core::signals::codec::coded::Coded;
 use shagreen_formats::codec_stream::{read_stream, write_stream};
 use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::profile_csv::read_profile_csv;
 
-/// Bytes of the head of a stream, of which the last four are its checksum.
+/// Bytes of the stream header, of which the last four are its checksum.
 const HEAD: usize = 24;
 
 fn books() -> &'static Arc<Codebooks> {
@@ -25,7 +25,7 @@ pub(crate) fn stream_seeds() -> Vec<Vec<u8>> {
     [Bitrate::Kbps1_75, Bitrate::Kbps3_15].map(coded).to_vec()
 }
 
-/// A head that promises 25 days of signal, and nothing behind it.
+/// A header that states 25 days of signal, without any data.
 pub(crate) fn stream_bombs() -> Vec<Vec<u8>> {
     let mut head = stream_seeds().remove(0);
     head.truncate(HEAD);
@@ -34,7 +34,7 @@ pub(crate) fn stream_bombs() -> Vec<Vec<u8>> {
     vec![head]
 }
 
-/// Makes the checksum of the head right, and those of the blocks as far as the head tells where they are.
+/// Recomputes the checksum of the header, and those of the blocks if the header is valid enough to locate them.
 pub(crate) fn repair_stream(bytes: &mut [u8]) {
     let Some(sum) = bytes.get(..HEAD - 4).map(|head| Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(head)) else {
         return;
@@ -60,7 +60,11 @@ pub(crate) fn read_a_stream(bytes: &[u8]) -> Result<(), String> {
     let coded = read.value;
     let decoded = coded.decode(books());
     let is_within = |x: &f64| x.abs() <= coded.limit_mps2;
-    if decoded.iter().all(is_within) { Ok(()) } else { Err(format!("beyond {} m/s²", coded.limit_mps2)) }
+    if decoded.iter().all(is_within) {
+        Ok(())
+    } else {
+        Err(format!("a sample exceeds the limit of {} m/s²", coded.limit_mps2))
+    }
 }
 
 pub(crate) fn profile_seeds() -> Vec<Vec<u8>> {
@@ -73,7 +77,9 @@ pub(crate) fn profile_seeds() -> Vec<Vec<u8>> {
 
 pub(crate) fn read_a_profile(bytes: &[u8]) -> Result<(), String> {
     match read_profile_csv(bytes) {
-        Ok(profile) if !profile.values().iter().all(|x| x.is_finite()) => Err("a value is none".to_owned()),
+        Ok(profile) if !profile.values().iter().all(|x| x.is_finite()) => {
+            Err("a value is not finite".to_owned())
+        }
         Ok(_) | Err(_) => Ok(()),
     }
 }

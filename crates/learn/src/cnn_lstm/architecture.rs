@@ -1,29 +1,29 @@
-//! Sizes of the network.
+//! Architecture of the CNN-LSTM network.
 
 use serde::{Deserialize, Serialize};
 
-/// Samples of the convolutions' kernels.
+/// Kernel lengths of the convolutions, in samples.
 pub(super) const KERNELS: [usize; 6] = [4, 4, 4, 3, 3, 3];
 
-/// What becomes of the ends of a segment in a convolution.
+/// Padding of the convolutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Padding {
-    /// Zeros stand around it: it stays as long as it is.
+    /// Zero padding: the length stays the same.
     Same,
-    /// It gets shorter.
+    /// No padding: the length shrinks.
     Valid,
 }
 
-/// Which halves of the network there are: the paper compares it with networks of one.
+/// Streams of the network; the paper also evaluates each stream alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Streams {
-    /// Both.
+    /// Both streams.
     Both,
-    /// Convolutions alone.
+    /// Convolutional stream only.
     Convolutions,
-    /// Long short-term memory alone.
+    /// LSTM stream only.
     Memory,
 }
 
@@ -41,28 +41,28 @@ impl Streams {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Architecture {
-    /// Which halves there are.
+    /// Streams in use.
     pub streams: Streams,
-    /// Samples of a segment.
+    /// Samples per segment.
     pub n_samples: usize,
-    /// Values a sample.
+    /// Channels per sample.
     pub n_channels: usize,
-    /// What becomes of the ends.
+    /// Padding of the convolutions.
     pub padding: Padding,
-    /// Filters of the convolutions.
+    /// Number of filters of each convolution.
     pub filters: [usize; 6],
-    /// Samples of which the largest stays, after the second and after the last convolution.
+    /// Max pooling lengths in samples, after the second and after the last convolution.
     pub pools: [usize; 2],
-    /// Units of the layers of long short-term memory.
+    /// Units of each LSTM layer.
     pub units: [usize; 4],
-    /// Units of the dense layers.
+    /// Units of each dense layer.
     pub dense: [usize; 2],
-    /// Attributes.
+    /// Number of attributes.
     pub n_outputs: usize,
 }
 
 impl Architecture {
-    /// The network with the 320 features of the paper's text.
+    /// Returns the network with the 320 convolutional features of the paper's text.
     pub fn paper320(n_outputs: usize) -> Self {
         Self {
             streams: Streams::Both,
@@ -77,12 +77,12 @@ impl Architecture {
         }
     }
 
-    /// The network with the paper's kernels and poolings, as they are written.
+    /// Returns the network with the kernels and pooling of the paper's text, which gives 1408 features.
     pub fn literal(n_outputs: usize) -> Self {
         Self { padding: Padding::Valid, pools: [2, 2], ..Self::paper320(n_outputs) }
     }
 
-    /// Features of the convolutions; 0 where a segment is too short for them.
+    /// Returns the number of convolutional features; 0 if a segment is too short.
     pub fn n_convolved(&self) -> usize {
         let mut n_samples = self.n_samples;
         for (index, kernel) in KERNELS.into_iter().enumerate() {
@@ -98,13 +98,13 @@ impl Architecture {
         n_samples * self.filters[5]
     }
 
-    /// Features that are normalized together.
+    /// Returns the number of concatenated features of both streams.
     pub fn n_features(&self) -> usize {
         let convolved = if self.streams.has_convolutions() { self.n_convolved() } else { 0 };
         convolved + if self.streams.has_memory() { self.units[3] } else { 0 }
     }
 
-    /// Numbers that are learned, and those together with the means and variances that are remembered.
+    /// Returns the number of trainable parameters, and that number plus the running means and variances.
     pub fn n_parameters(&self) -> (usize, usize) {
         let dense = |n_inputs: usize, n_outputs: usize| (n_inputs + 1) * n_outputs;
         let mut n = 0;
@@ -128,7 +128,7 @@ impl Architecture {
         (n, n + 2 * n_features)
     }
 
-    /// Whether every size can be had: a file may say anything.
+    /// Returns whether all sizes are within limits, since a file may state any size.
     pub fn is_possible(&self) -> bool {
         const LARGEST: usize = 4096;
         let sizes = [self.n_samples, self.n_channels, self.n_outputs];

@@ -1,5 +1,4 @@
-//! Features of mean 0 and variance 1 over a batch, and over all batches once nothing is learned any more (S. Ioffe and
-//! C. Szegedy 2015).
+//! Batch normalization of features, with running statistics for inference (S. Ioffe and C. Szegedy 2015).
 
 use std::collections::BTreeMap;
 
@@ -7,19 +6,21 @@ use candle_core::{Device, Result, Tensor, bail};
 
 use crate::parameters::Parameters;
 
-/// What is added to variances.
+/// Epsilon added to variances.
 const EPSILON: f64 = 1e-3;
-/// Share of what is remembered that stays when a batch comes; at first it is the mean of all batches. What is remembered of
-/// more than the last ten lags behind a network whose rounds are short: it then learns well and predicts nonsense.
+/// Momentum of the running statistics; the first batches are averaged with equal weight.
+///
+/// An average over more than about ten batches lags behind the network when epochs are short. The training error then
+/// falls while inference fails.
 const MOMENTUM: f64 = 0.9;
 
-/// The normalization of a network's features.
+/// Batch normalization of a network's features.
 #[derive(Clone, Debug)]
 pub(super) struct Normalization {
     name: String,
     mean: Tensor,
     variance: Tensor,
-    /// Batches that were seen.
+    /// Number of batches seen.
     n_seen: Tensor,
 }
 
@@ -40,12 +41,12 @@ impl Normalization {
         })
     }
 
-    /// By what is remembered.
+    /// Normalizes with the running statistics.
     pub(super) fn apply(&self, features: &Tensor, parameters: &Parameters) -> Result<Tensor> {
         self.normalized(features, &self.mean, &self.variance, parameters)
     }
 
-    /// By the batch, which is remembered.
+    /// Normalizes with the statistics of the batch, and updates the running statistics.
     pub(super) fn apply_learning(&mut self, features: &Tensor, parameters: &Parameters) -> Result<Tensor> {
         let mean = features.mean(0)?;
         let variance = features.broadcast_sub(&mean)?.sqr()?.mean(0)?;
@@ -83,9 +84,9 @@ impl Normalization {
             match numbers.get(name) {
                 Some(tensor) if tensor.shape() == into.shape() => *into = tensor.to_device(into.device())?,
                 Some(tensor) => {
-                    bail!("\"{name}\" has the shape {:?}, {:?} is expected", tensor.shape(), into.shape())
+                    bail!("tensor \"{name}\" has the shape {:?}, needs {:?}", tensor.shape(), into.shape())
                 }
-                None => bail!("the numbers of \"{name}\" are missing"),
+                None => bail!("tensor \"{name}\" is missing"),
             }
         }
         Ok(())

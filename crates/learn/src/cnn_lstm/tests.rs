@@ -4,7 +4,7 @@ use serde_json::Value;
 use super::{Architecture, CnnLstm, Padding, Streams};
 use crate::init::Uniform;
 
-/// A network that takes no time.
+/// A tiny network, for fast tests.
 fn tiny(streams: Streams, padding: Padding) -> Architecture {
     Architecture {
         streams,
@@ -65,7 +65,7 @@ fn the_network_is_its_definition() {
     }
 }
 
-/// The same, sample by sample in doubles.
+/// Slow oracle: the same network sample by sample in double precision.
 fn slow(network: &CnnLstm, segment: &[Vec<f64>]) -> Vec<f64> {
     let numbers = |name: &str| -> Vec<f64> {
         let tensor = network.parameters.get(name).unwrap().flatten_all().unwrap();
@@ -132,7 +132,7 @@ fn slow(network: &CnnLstm, segment: &[Vec<f64>]) -> Vec<f64> {
         }
         features.extend(x.last().unwrap());
     }
-    // Nothing was remembered: mean 0, variance 1.
+    // Initial running statistics: mean 0, variance 1.
     let x: Vec<f64> = features.iter().map(|x| x / 1.001_f64.sqrt()).collect();
     let x: Vec<f64> = dense(&x, "dense0").iter().map(|y| y.max(0.0)).collect();
     let x: Vec<f64> = dense(&x, "dense1").iter().map(|y| y.max(0.0)).collect();
@@ -152,7 +152,7 @@ fn slopes_are_those_of_small_steps() {
     for name in names {
         let before = network.parameters.get(&name).unwrap().copy().unwrap();
         let gradient = gradients.get(network.parameters.get(&name).unwrap()).unwrap().clone();
-        // A step along the slope of these numbers.
+        // A small step along the gradient of this tensor.
         let square: f32 = gradient.sqr().unwrap().sum_all().unwrap().to_scalar().unwrap();
         let step = 2e-3 / f64::from(square.sqrt()).max(1e-6);
         let mut at = |factor: f64| {
@@ -164,7 +164,7 @@ fn slopes_are_those_of_small_steps() {
         let (ahead, behind) = (at(1.0), at(-1.0));
         at(0.0);
         let expected = 2.0 * step * f64::from(square);
-        // Sums of singles, and bends of the rectifiers.
+        // Tolerance for single-precision sums and the kinks of ReLU.
         assert!(
             (ahead - behind - expected).abs() < 0.03 * expected + 2e-5,
             "{name}: {} for {expected}",

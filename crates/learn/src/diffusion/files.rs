@@ -1,4 +1,4 @@
-//! The files of a model, in the layout of diffusers.
+//! Files of a model in the layout of diffusers.
 
 use std::collections::BTreeMap;
 
@@ -9,30 +9,30 @@ use super::DiffusionError;
 /// A file of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
-    /// Sizes of the text encoder.
+    /// Configuration of the text encoder.
     TextSizes,
-    /// Its numbers.
+    /// Weights of the text encoder.
     Text,
-    /// Sizes of the network that takes noise away.
+    /// Configuration of the denoiser (U-Net).
     DenoiserSizes,
-    /// Its numbers.
+    /// Weights of the denoiser.
     Denoiser,
-    /// Sizes of the decoder.
+    /// Configuration of the autoencoder (VAE).
     AutoencoderSizes,
-    /// Its numbers.
+    /// Weights of the autoencoder.
     Autoencoder,
-    /// How noise goes away.
+    /// Noise schedule.
     Schedule,
-    /// Parts of words.
+    /// Vocabulary of the tokenizer.
     Vocabulary,
-    /// How parts become words.
+    /// Byte-pair merges of the tokenizer.
     Merges,
-    /// What fills a short text; may be missing.
+    /// Configuration of the tokenizer, with its padding token; optional.
     TokenizerSettings,
 }
 
 impl Part {
-    /// All of them.
+    /// All files.
     pub const ALL: [Self; 10] = [
         Self::TextSizes,
         Self::Text,
@@ -46,7 +46,7 @@ impl Part {
         Self::TokenizerSettings,
     ];
 
-    /// Where it may lie in the folder, the usual place first.
+    /// Returns the possible paths in the folder, the usual path first.
     pub fn names(self) -> &'static [&'static str] {
         match self {
             Self::TextSizes => &["text_encoder/config.json"],
@@ -66,35 +66,35 @@ impl Part {
         }
     }
 
-    /// Whether a model can do without it.
+    /// Returns whether a model works without this file.
     pub fn is_optional(self) -> bool {
         self == Self::TokenizerSettings
     }
 }
 
-/// The bytes of a model's files.
+/// Contents of a model's files.
 #[derive(Clone, Debug, Default)]
 pub struct Files {
     bytes: BTreeMap<Part, Vec<u8>>,
 }
 
 impl Files {
-    /// Adds one.
+    /// Adds a file.
     pub fn add(&mut self, part: Part, bytes: Vec<u8>) {
         self.bytes.insert(part, bytes);
     }
 
-    /// The bytes of a file.
+    /// Returns the bytes of a file.
     pub(super) fn get(&self, part: Part) -> Result<&[u8], DiffusionError> {
         self.bytes.get(&part).map(Vec::as_slice).ok_or(DiffusionError::Missing { part })
     }
 
-    /// The bytes of a file, which are let go of.
+    /// Removes a file and returns its bytes, so that its memory can be freed.
     pub(super) fn take(&mut self, part: Part) -> Result<Vec<u8>, DiffusionError> {
         self.bytes.remove(&part).ok_or(DiffusionError::Missing { part })
     }
 
-    /// What a JSON file says.
+    /// Returns the parsed content of a JSON file.
     pub(super) fn json<T: DeserializeOwned>(&self, part: Part) -> Result<T, DiffusionError> {
         serde_json::from_slice(self.get(part)?)
             .map_err(|error| DiffusionError::Damaged { part, reason: error.to_string() })

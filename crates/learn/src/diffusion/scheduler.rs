@@ -1,4 +1,5 @@
-//! How noise goes away: denoising diffusion implicit models (J. Song et al. 2021), candle's, as a file of diffusers says.
+//! Noise schedule: DDIM (denoising diffusion implicit models, J. Song et al. 2021) of candle, configured by diffusers
+//! JSON.
 
 use candle_transformers::models::stable_diffusion::ddim::DDIMSchedulerConfig;
 use candle_transformers::models::stable_diffusion::schedulers::{
@@ -8,9 +9,9 @@ use serde::Deserialize;
 
 use super::{DiffusionError, Files, Part};
 
-/// What the file says of what matters to this way of stepping.
+/// Fields of the scheduler file that matter for DDIM.
 #[derive(Debug, Deserialize)]
-#[expect(clippy::struct_excessive_bools, reason = "they are those of the file")]
+#[expect(clippy::struct_excessive_bools, reason = "the fields of the file")]
 struct Wire {
     beta_start: f64,
     beta_end: f64,
@@ -41,7 +42,7 @@ fn leading() -> String {
     "leading".to_owned()
 }
 
-/// How noise goes away.
+/// A DDIM noise schedule.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
     config: DDIMSchedulerConfig,
@@ -58,14 +59,14 @@ impl Schedule {
             || !(2..=100_000).contains(&wire.num_train_timesteps)
             || wire.steps_offset >= wire.num_train_timesteps
         {
-            return Err(DiffusionError::Damaged { part, reason: "its numbers make no schedule".to_owned() });
+            return Err(DiffusionError::Damaged { part, reason: "invalid schedule values".to_owned() });
         }
         for (is_asked, what) in [
-            (wire.set_alpha_to_one, "a last step to no noise at all (set_alpha_to_one)"),
-            (wire.clip_sample, "clipped samples (clip_sample)"),
-            (wire.thresholding, "thresholds (thresholding)"),
-            (wire.rescale_betas_zero_snr, "another scale of noise (rescale_betas_zero_snr)"),
-            (wire.trained_betas.is_some(), "a schedule of its own (trained_betas)"),
+            (wire.set_alpha_to_one, "a final step without noise (set_alpha_to_one)"),
+            (wire.clip_sample, "sample clipping (clip_sample)"),
+            (wire.thresholding, "dynamic thresholding (thresholding)"),
+            (wire.rescale_betas_zero_snr, "zero terminal SNR (rescale_betas_zero_snr)"),
+            (wire.trained_betas.is_some(), "a custom beta schedule (trained_betas)"),
         ] {
             if is_asked {
                 return Err(unknown(what.to_owned()));
@@ -77,7 +78,7 @@ impl Schedule {
             beta_schedule: match wire.beta_schedule.as_str() {
                 "scaled_linear" => BetaSchedule::ScaledLinear,
                 "linear" => BetaSchedule::Linear,
-                other => return Err(unknown(format!("the schedule \"{other}\""))),
+                other => return Err(unknown(format!("the beta schedule \"{other}\""))),
             },
             eta: 0.0,
             steps_offset: wire.steps_offset,
@@ -85,19 +86,19 @@ impl Schedule {
                 "epsilon" => PredictionType::Epsilon,
                 "v_prediction" => PredictionType::VPrediction,
                 "sample" => PredictionType::Sample,
-                other => return Err(unknown(format!("predictions of \"{other}\""))),
+                other => return Err(unknown(format!("the prediction type \"{other}\""))),
             },
             train_timesteps: wire.num_train_timesteps,
             timestep_spacing: match wire.timestep_spacing.as_str() {
                 "leading" => TimestepSpacing::Leading,
                 "linspace" => TimestepSpacing::Linspace,
-                other => return Err(unknown(format!("steps spaced as \"{other}\""))),
+                other => return Err(unknown(format!("the timestep spacing \"{other}\""))),
             },
         };
         Ok(Self { config })
     }
 
-    /// Whether every one of so many steps is one that it was taught.
+    /// Returns whether all timesteps of such a schedule are within the training range.
     pub(super) fn has_steps(&self, n_steps: usize) -> bool {
         let n_taught = self.config.train_timesteps;
         match self.config.timestep_spacing {

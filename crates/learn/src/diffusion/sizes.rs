@@ -1,4 +1,4 @@
-//! Sizes of the networks, as the JSON files of diffusers say them.
+//! Network sizes from the JSON files of diffusers.
 
 use candle_transformers::models::stable_diffusion::unet_2d::{BlockConfig, UNet2DConditionModelConfig};
 use candle_transformers::models::stable_diffusion::vae::AutoEncoderKLConfig;
@@ -7,14 +7,14 @@ use serde_json::Value;
 
 use super::{DiffusionError, Files, Part};
 
-/// More in any direction is no model, but a file that asks for much memory.
+/// Limits of sizes and layers; they guard against files that would allocate excessive memory.
 const LARGEST: usize = 1 << 17;
 const MOST_LAYERS: usize = 64;
-/// More halvings of a picture leave nothing of it.
+/// Largest number of resolution levels; more halvings would leave no pixels.
 const MOST_BLOCKS: usize = 6;
-/// Longest text, in parts of words.
+/// Largest text length, in tokens.
 const LONGEST_TEXT: usize = 1024;
-/// Most channels of what a picture is made of.
+/// Largest number of latent channels.
 const MOST_LATENTS: usize = 64;
 
 /// Sizes of the text encoder.
@@ -35,8 +35,8 @@ fn usual_epsilon() -> f64 {
     1e-5
 }
 
-/// Sizes of the network that takes noise away.
-#[expect(clippy::struct_excessive_bools, reason = "they are those of the file")]
+/// Sizes of the denoiser (U-Net).
+#[expect(clippy::struct_excessive_bools, reason = "the fields of the file")]
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct DenoiserSizes {
     pub(super) in_channels: usize,
@@ -79,7 +79,7 @@ fn silu() -> String {
     "silu".to_owned()
 }
 
-/// A number for all blocks, or one for each.
+/// One value for all blocks, or one per block.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
 enum OneOrMany {
@@ -87,7 +87,7 @@ enum OneOrMany {
     Many(Vec<usize>),
 }
 
-/// Sizes of the decoder.
+/// Sizes of the autoencoder.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct AutoencoderSizes {
     pub(super) latent_channels: usize,
@@ -122,7 +122,7 @@ impl TextSizes {
             || !(3..=LONGEST_TEXT).contains(&sizes.max_position_embeddings)
             || !sizes.hidden_size.is_multiple_of(sizes.num_attention_heads)
         {
-            return Err(damaged(part, "its sizes make no text encoder"));
+            return Err(damaged(part, "invalid sizes for a text encoder"));
         }
         Ok(sizes)
     }
@@ -137,10 +137,10 @@ impl DenoiserSizes {
             return unknown(&format!("the activation \"{}\"", sizes.act_fn));
         }
         if sizes.class_embed_type.is_some() || sizes.addition_embed_type.is_some() {
-            return unknown("more than the text to go by");
+            return unknown("conditioning on more than text");
         }
         if sizes.dual_cross_attention {
-            return unknown("attention to two texts");
+            return unknown("dual cross-attention");
         }
         let n = sizes.block_out_channels.len();
         let heads = sizes.heads();
@@ -148,7 +148,7 @@ impl DenoiserSizes {
             || n > MOST_BLOCKS
             || [sizes.down_block_types.len(), sizes.up_block_types.len(), heads.len()] != [n; 3]
         {
-            return Err(damaged(part, "it does not have one size for each block"));
+            return Err(damaged(part, "it needs one size for each block"));
         }
         for (index, kind) in sizes.down_block_types.iter().enumerate() {
             let mirrored = kind.replace("Down", "Up");
@@ -179,12 +179,12 @@ impl DenoiserSizes {
             || sizes.in_channels.max(sizes.out_channels) > MOST_LATENTS
             || !channels.iter().zip(&heads).all(fits)
         {
-            return Err(damaged(part, "its sizes make no network"));
+            return Err(damaged(part, "invalid sizes for a denoiser"));
         }
         Ok(sizes)
     }
 
-    /// Heads of attention, block by block.
+    /// Returns the number of attention heads per block.
     fn heads(&self) -> Vec<usize> {
         match &self.attention_head_dim {
             OneOrMany::One(n) => vec![*n; self.block_out_channels.len()],
@@ -192,7 +192,7 @@ impl DenoiserSizes {
         }
     }
 
-    /// What sides of its input are multiples of, so that what is halved can be doubled again.
+    /// Returns the required divisor of input sides, so that halving and doubling restore the size.
     pub(super) fn factor(&self) -> usize {
         1 << (self.block_out_channels.len() - 1)
     }
@@ -240,12 +240,12 @@ impl AutoencoderSizes {
             || !(1..=MOST_LAYERS).contains(&sizes.layers_per_block)
             || !sizes.scaling_factor.is_normal()
         {
-            return Err(damaged(part, "its sizes make no decoder"));
+            return Err(damaged(part, "invalid sizes for an autoencoder"));
         }
         Ok(sizes)
     }
 
-    /// Pixels along the side of one number.
+    /// Returns the pixels per latent along one side.
     pub(super) fn factor(&self) -> usize {
         1 << (self.block_out_channels.len() - 1)
     }

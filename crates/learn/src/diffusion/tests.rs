@@ -10,7 +10,7 @@ use candle_transformers::models::stable_diffusion::vae::AutoEncoderKL;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
 
-/// The words of a small language: letters, and what they become at the end of a word.
+/// Vocabulary of a toy language: letters, and letters at the end of a word.
 fn vocabulary() -> Value {
     let letters = "abcdefghijklmnopqrstuvwxyz,-";
     let mut words: Vec<String> = letters.chars().map(String::from).collect();
@@ -51,7 +51,7 @@ fn schedule() -> Value {
     })
 }
 
-/// Numbers for all names that a network asks for, by chance; norms are near one.
+/// Random weights for all tensors that a network requests; norm weights are near one.
 fn weights(seed: u64, build: impl FnOnce(VarBuilder<'_>)) -> Vec<u8> {
     let map = VarMap::new();
     build(VarBuilder::from_varmap(&map, DType::F32, &Device::Cpu));
@@ -120,15 +120,19 @@ fn from_words_to_pixels_the_same_for_the_same_seed() {
         .unwrap();
     assert_eq!(steps, [1, 2, 3, 4]);
     assert_eq!((picture.width, picture.height, picture.rgb.len()), (32, 32, 3 * 32 * 32));
-    // It is a picture of something, not of one color.
+    // The picture has contrast.
     let (low, high) = (picture.rgb.iter().min().unwrap(), picture.rgb.iter().max().unwrap());
     assert!(high - low > 20, "{low} {high}");
     let again = |wish: &Wish<'_>| diffusion.picture(wish, |_| true).unwrap().unwrap();
     assert_eq!(again(&wish("rough wood", 1)), picture);
-    assert_ne!(again(&wish("rough wood", 2)), picture, "another seed");
-    assert_ne!(again(&wish("smooth", 1)), picture, "other words");
+    assert_ne!(again(&wish("rough wood", 2)), picture, "another seed must give another picture");
+    assert_ne!(again(&wish("smooth", 1)), picture, "another prompt must give another picture");
     assert_ne!(again(&Wish { negative: "wood", ..wish("rough wood", 1) }), picture);
-    assert_eq!(diffusion.picture(&wish("rough", 1), |step| step < 2).unwrap(), None, "it was stopped");
+    assert_eq!(
+        diffusion.picture(&wish("rough", 1), |step| step < 2).unwrap(),
+        None,
+        "a stopped generation must give no picture"
+    );
 }
 
 #[test]
@@ -139,7 +143,7 @@ fn without_guidance_the_negative_prompt_does_not_count() {
         diffusion.picture(&wish, |_| true).unwrap().unwrap().rgb
     };
     let (one, other) = (made(""), made("wood"));
-    // Rounding to whole levels may differ by one.
+    // Rounding may differ by one level.
     assert!(one.iter().zip(&other).all(|(a, b)| a.abs_diff(*b) <= 1));
 }
 
@@ -184,7 +188,7 @@ fn every_schedule_that_is_taken_makes_a_picture_and_steps_beyond_what_was_taught
     }
     pictures.sort();
     pictures.dedup();
-    assert!(pictures.len() > 8, "they differ: {}", pictures.len());
+    assert!(pictures.len() > 8, "schedules must give different pictures: {}", pictures.len());
     let late = with(&[("steps_offset", json!(60))]);
     let far = Wish { n_steps: 30, ..wish("rough", 1) };
     assert!(matches!(late.picture(&far, |_| true), Err(DiffusionError::Wish { .. })));
@@ -219,7 +223,7 @@ fn what_is_missing_damaged_or_of_another_kind_is_named() {
             bytes.truncate(bytes.len() / 2);
             files.add(part, bytes);
         });
-        // Half of the rules of merging is a file of rules as well; then the words are not whole.
+        // Half of a merges file is valid too; then words are merged less.
         assert!(cut.contains(part.names()[0]) || part == Part::Merges, "{part:?}: {cut}");
     }
     let with = |part: Part, value: &Value, key: &str, to: Value| {
@@ -228,22 +232,22 @@ fn what_is_missing_damaged_or_of_another_kind_is_named() {
         failure(&|files| files.add(part, value.to_string().into_bytes()))
     };
     let text = |key, to| with(Part::TextSizes, &text_sizes(), key, to);
-    assert!(text("hidden_size", json!(24)).contains("do not belong together"));
-    assert!(text("num_attention_heads", json!(0)).contains("no text encoder"));
+    assert!(text("hidden_size", json!(24)).contains("do not match"));
+    assert!(text("num_attention_heads", json!(0)).contains("sizes for a text encoder"));
     assert!(text("hidden_act", json!("swish")).contains("swish"));
     assert!(text("vocab_size", json!(20)).contains("vocab.json"));
     let denoiser = |key, to| with(Part::DenoiserSizes, &denoiser_sizes(), key, to);
-    assert!(denoiser("addition_embed_type", json!("text_time")).contains("Stable Diffusion 1 and 2"));
+    assert!(denoiser("addition_embed_type", json!("text_time")).contains("Stable Diffusion 1 or 2"));
     assert!(denoiser("down_block_types", json!(["AttnDownBlock2D", "DownBlock2D"])).contains("AttnDown"));
     assert!(denoiser("attention_head_dim", json!([2])).contains("one size for each block"));
-    assert!(denoiser("block_out_channels", json!([32, 0])).contains("no network"));
+    assert!(denoiser("block_out_channels", json!([32, 0])).contains("sizes for a denoiser"));
     assert!(denoiser("layers_per_block", json!(2)).contains("unet/diffusion_pytorch_model"));
-    assert!(denoiser("in_channels", json!(9)).contains("decoder takes 4 channels"));
+    assert!(denoiser("in_channels", json!(9)).contains("autoencoder takes 4 latent channels"));
     let decoder = |key, to| with(Part::AutoencoderSizes, &autoencoder_sizes(), key, to);
-    assert!(decoder("norm_num_groups", json!(0)).contains("no decoder"));
-    assert!(decoder("latent_channels", json!(8)).contains("decoder takes 8 channels"));
-    assert!(denoiser("downsample_padding", json!(1_000_000)).contains("no network"));
-    assert!(denoiser("norm_num_groups", json!(0)).contains("no network"));
+    assert!(decoder("norm_num_groups", json!(0)).contains("sizes for an autoencoder"));
+    assert!(decoder("latent_channels", json!(8)).contains("autoencoder takes 8 latent channels"));
+    assert!(denoiser("downsample_padding", json!(1_000_000)).contains("sizes for a denoiser"));
+    assert!(denoiser("norm_num_groups", json!(0)).contains("sizes for a denoiser"));
     let many = |of: &str| json!(vec![of; 12]);
     let deep = {
         let mut deep = denoiser_sizes();
@@ -254,8 +258,8 @@ fn what_is_missing_damaged_or_of_another_kind_is_named() {
         failure(&|files| files.add(Part::DenoiserSizes, deep.to_string().into_bytes()))
     };
     assert!(deep.contains("one size for each block"), "{deep}");
-    assert!(text("max_position_embeddings", json!(100_000)).contains("no text encoder"));
-    assert!(decoder("latent_channels", json!(100_000)).contains("no decoder"));
+    assert!(text("max_position_embeddings", json!(100_000)).contains("sizes for a text encoder"));
+    assert!(decoder("latent_channels", json!(100_000)).contains("sizes for an autoencoder"));
     let schedule = |key, to| with(Part::Schedule, &schedule(), key, to);
     for key in ["set_alpha_to_one", "clip_sample", "thresholding", "rescale_betas_zero_snr"] {
         assert!(schedule(key, json!(true)).contains(key));
@@ -264,7 +268,7 @@ fn what_is_missing_damaged_or_of_another_kind_is_named() {
     assert!(schedule("beta_schedule", json!("squaredcos_cap_v2")).contains("squaredcos"));
     assert!(schedule("timestep_spacing", json!("trailing")).contains("trailing"));
     assert!(schedule("beta_schedule", json!("sine")).contains("sine"));
-    assert!(schedule("num_train_timesteps", json!(0)).contains("no schedule"));
+    assert!(schedule("num_train_timesteps", json!(0)).contains("invalid schedule"));
 }
 
 #[test]
@@ -278,7 +282,7 @@ fn parts_of_words_are_merged_by_the_rules() {
     assert_eq!(tokens.ids("  Rough\n CA rod").unwrap(), expected);
     let long = tokens.ids(&"rough ".repeat(50)).unwrap();
     assert_eq!((long.len(), long[7]), (8, number("<|endoftext|>")));
-    // Letters that the language lacks become its unknown, and nothing fails.
+    // Unknown letters map to the unknown token without an error.
     assert_eq!(tokens.ids("\u{7c97}").unwrap().len(), 8);
     assert_eq!(tokens.ids("").unwrap()[1], number("<|endoftext|>"));
 }

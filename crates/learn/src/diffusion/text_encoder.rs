@@ -1,4 +1,4 @@
-//! The text encoder of CLIP (A. Radford et al. 2021), of any size: candle's has the sizes of published models only.
+//! CLIP text encoder (A. Radford et al. 2021) of any size; candle's version only has the sizes of published models.
 
 use candle_core::{DType, Result, Tensor};
 use candle_nn::{Embedding, LayerNorm, Linear, Module as _, VarBuilder, embedding, layer_norm, linear};
@@ -32,7 +32,7 @@ struct Layer {
 enum Activation {
     /// `x σ(1.702 x)`.
     QuickGelu,
-    /// By the error function.
+    /// Exact GELU, with the error function.
     Gelu,
 }
 
@@ -65,16 +65,16 @@ impl TextEncoder {
             activation: match sizes.hidden_act.as_str() {
                 "quick_gelu" => Activation::QuickGelu,
                 "gelu" => Activation::Gelu,
-                other => candle_core::bail!("the activation \"{other}\" is not known"),
+                other => candle_core::bail!("the activation \"{other}\" is not supported"),
             },
         })
     }
 
-    /// What each part of a word means where it stands (texts × parts × numbers), for texts × parts.
+    /// Returns the contextual embedding of each token (texts × tokens × features), from token ids (texts × tokens).
     pub(super) fn encode(&self, ids: &Tensor) -> Result<Tensor> {
         let (_, length) = ids.dims2()?;
         let mut x = self.words.forward(ids)?.broadcast_add(&self.places.narrow(0, 0, length)?)?;
-        // Nothing looks ahead.
+        // Causal mask: no token attends to later tokens.
         let mask: Vec<f32> = (0..length * length)
             .map(|i| if i % length > i / length { f32::NEG_INFINITY } else { 0.0 })
             .collect();

@@ -1,4 +1,4 @@
-//! Text to the numbers of parts of words, as CLIP does it, by the library that others use for it.
+//! CLIP tokenization (byte-pair encoding) with the `tokenizers` library.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -9,10 +9,10 @@ use super::{DiffusionError, Files, Part};
 const BEGIN: &str = "<|startoftext|>";
 const END: &str = "<|endoftext|>";
 
-/// Where a text is cut into what is merged: as the tokenizer of CLIP was published.
+/// Regular expression that splits text before merging, as in the published CLIP tokenizer.
 const PIECES: &str = r"'s|'t|'re|'ve|'m|'ll|'d|[\p{L}]+|[\p{N}]|[^\s\p{L}\p{N}]+";
 
-/// Text to numbers.
+/// CLIP tokenizer: text to token ids.
 #[derive(Debug)]
 pub(super) struct Tokens {
     tokenizer: Tokenizer,
@@ -40,13 +40,13 @@ impl Tokens {
             let number = vocabulary.get(word).and_then(Value::as_u64).and_then(|n| u32::try_from(n).ok());
             number
                 .filter(|n| (*n as usize) < n_words)
-                .ok_or_else(|| damaged(Part::Vocabulary, format!("it has no \"{word}\"")))
+                .ok_or_else(|| damaged(Part::Vocabulary, format!("token \"{word}\" is missing")))
         };
         let (begin, end) = (number(BEGIN)?, number(END)?);
         if let Some((word, _)) =
             vocabulary.iter().find(|(_, n)| n.as_u64().is_none_or(|n| n >= n_words as u64))
         {
-            let reason = format!("\"{word}\" has a number that the text encoder does not know");
+            let reason = format!("token \"{word}\" has an id outside the text encoder's vocabulary");
             return Err(damaged(Part::Vocabulary, reason));
         }
         let settings: Settings = match files.get(Part::TokenizerSettings) {
@@ -86,12 +86,12 @@ impl Tokens {
         Ok(Self { tokenizer, begin, end, padding, length })
     }
 
-    /// How many numbers a text has.
+    /// Returns the number of token ids per text.
     pub(super) fn length(&self) -> usize {
         self.length
     }
 
-    /// The numbers of a text: what is too long is cut, what is short is filled.
+    /// Returns the token ids of a text, truncated or padded to [`Self::length`].
     pub(super) fn ids(&self, text: &str) -> Result<Vec<u32>, DiffusionError> {
         let encoding = self
             .tokenizer

@@ -1,29 +1,28 @@
-//! One step of a layer: gates from their sums, and the way back. Vectors are as wide as the machine's, found out while
-//! running by `pulp`.
+//! One forward or backward step of an LSTM layer, with SIMD width selected at run time by `pulp`.
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Turns the sums of the gates into gates, cells and states.
+/// Computes gates, cells and states from the gate sums.
 pub(super) struct Step<'a> {
     pub(super) n_units: usize,
-    /// Sums on the way in, gates on the way out (sequences × 4 units).
+    /// Input: gate sums. Output: gate activations (sequences × 4 units).
     pub(super) gates: &'a mut [f32],
-    /// Cells of the step before; zero where there is none.
+    /// Cells of the previous step; zero if there is none.
     pub(super) previous: Option<&'a [f32]>,
     pub(super) cells: &'a mut [f32],
     pub(super) states: &'a mut [f32],
 }
 
-/// Turns gates into gradients of their sums.
+/// Computes gradients of the gate sums from the gate activations.
 pub(super) struct StepBack<'a> {
     pub(super) n_units: usize,
-    /// Gates on the way in, gradients of their sums on the way out.
+    /// Input: gate activations. Output: gradients of the gate sums.
     pub(super) gates: &'a mut [f32],
     pub(super) previous: Option<&'a [f32]>,
     pub(super) cells: &'a [f32],
     /// Gradient of the states.
     pub(super) states: &'a [f32],
-    /// Gradient of the cells from later steps; that for the step before on the way out.
+    /// Input: gradient of the cells from later steps. Output: gradient of the cells of the previous step.
     pub(super) cell_gradient: &'a mut [f32],
 }
 
@@ -43,7 +42,7 @@ impl WithSimd for Step<'_> {
     type Output = ();
 
     #[inline(always)]
-    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    #[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { n_units: n, gates, previous, cells, states } = self;
         let sequences =
@@ -79,7 +78,7 @@ impl WithSimd for StepBack<'_> {
     type Output = ();
 
     #[inline(always)]
-    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    #[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { n_units: n, gates, previous, cells, states, cell_gradient } = self;
         for (index, gates) in gates.chunks_exact_mut(4 * n).enumerate() {
@@ -105,31 +104,31 @@ impl WithSimd for StepBack<'_> {
     }
 }
 
-/// `1 / (1 + e^-x)`, to 2e-7; without branches and calls, so that it runs as wide as the machine.
+/// `1 / (1 + e^-x)` with an error below 2e-7; free of branches and calls, so that it vectorizes.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+#[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
 pub(super) fn sigmoid(x: f32) -> f32 {
     1.0 / (1.0 + exp(-x))
 }
 
-/// `tanh x`, to 2e-7.
+/// `tanh x` with an error below 2e-7.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+#[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
 pub(super) fn tanh(x: f32) -> f32 {
     1.0 - 2.0 / (1.0 + exp(2.0 * x))
 }
 
-/// `e^x` for x within ±87, the nearest of them beyond: `2^n` by the exponent of the number, the rest by its series.
+/// `e^x` for x within ±87 (clamped beyond): `2^n` through the exponent bits, and a Taylor series for the remainder.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+#[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
 fn exp(x: f32) -> f32 {
     const LARGEST: f32 = 87.0;
-    // Adding and taking off one and a half times 2^23 rounds to a whole number.
+    // Adding and subtracting 1.5 · 2^23 rounds to an integer.
     const ROUND: f32 = 12_582_912.0;
     let x = x.clamp(-LARGEST, LARGEST);
     let scaled = x * std::f32::consts::LOG2_E;
     let whole = (scaled + ROUND) - ROUND;
-    // ln 2 in two parts, the first with few digits, so that nothing is lost.
+    // ln 2 in two parts, the first with few digits, so that no precision is lost.
     let rest = x - whole * 0.693_359_4 + whole * 2.121_944_4e-4;
     let series = 1.0
         + rest

@@ -31,7 +31,7 @@ fn a_product_by_tiles_is_its_definition_to_half_a_unit_of_each_row() {
     for (n_rows, n_columns) in [(1, 1), (7, 3), (8, 64), (19, 100)] {
         let row = Uniform::new(1).within(1.0, n_rows);
         let mut matrix = Uniform::new(2).within(1.0, n_rows * n_columns);
-        // Rows of very different sizes; nothing; almost nothing.
+        // Rows of very different magnitude: zero and subnormal rows as well.
         for (index, row) in matrix.chunks_exact_mut(n_columns).enumerate() {
             let factor = [1.0, 1e-6, 1e6, 0.0, 1e-44][index % 5];
             for x in row {
@@ -45,7 +45,7 @@ fn a_product_by_tiles_is_its_definition_to_half_a_unit_of_each_row() {
                 .iter()
                 .fold(0.0, |most, x| f64::max(most, f64::from(x.abs())))
         };
-        // Each row by itself, to half of its own unit.
+        // Each row separately, within half of its quantization step.
         for r in 0..n_rows {
             let mut one = vec![0.0; n_rows];
             one[r] = 1.0;
@@ -86,13 +86,13 @@ fn weights_of_sixteen_bits_change_states_by_little() {
             .map(|exactness| lstm(&inputs, &weights, exactness).unwrap());
         let difference = largest_difference(&full, &quick);
         assert!(difference < 2e-5, "{difference}");
-        assert_eq!(difference > 0.0, n_sequences < 4, "many sequences are multiplied in full");
+        assert_eq!(difference > 0.0, n_sequences < 4, "large batches must use full precision");
     }
 }
 
 #[test]
 fn one_operation_is_the_same_as_many_there_and_back() {
-    // One step alone; units that fill no vector.
+    // Cases: a single step, and unit counts that do not fill a SIMD vector.
     for (n_steps, n_sequences, n_units) in [(6, 5, 8), (9, 2, 5), (1, 3, 4), (4, 1, 17)] {
         let inputs = Var::from_tensor(&noise(&[n_steps, n_sequences, 4 * n_units], 1.5, 1)).unwrap();
         let weights = Var::from_tensor(&noise(&[n_units, 4 * n_units], 0.7, 2)).unwrap();
@@ -108,7 +108,7 @@ fn one_operation_is_the_same_as_many_there_and_back() {
         assert!(largest_difference(&fused.0, &slow.0) < 1e-6);
         assert!(largest_difference(&fused.1, &slow.1) < 1e-5);
         let zero = weights.zeros_like().unwrap();
-        // A single step has no state before it.
+        // A single step has no previous state.
         let [fused, slow] = [fused.2, slow.2].map(|gradient| gradient.unwrap_or(zero.clone()));
         assert!(largest_difference(&fused, &slow) < 1e-5);
     }

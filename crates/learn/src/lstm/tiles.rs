@@ -1,28 +1,28 @@
-//! A matrix as whole numbers of 16 bits, for products with one row after another.
+//! Weight matrix quantized to 16-bit integers, for products with one row vector at a time.
 //!
-//! Such a product waits for its matrix: the 256 units of a layer have a megabyte of weights, more than many a processor
-//! has next to it, and every step of a sequence goes through all of them. Half the bytes stay near. Each row has a unit
-//! of its own, half of which is the largest error of a weight: 1.5e-5 of the largest weight of the row. A network that
-//! learns multiplies in full.
+//! Such a product is limited by memory bandwidth. A layer of 256 units has 1 MB of recurrent weights, more than the
+//! fast cache of many CPUs, and every time step reads all of them. At half the size they stay in cache. Each row has
+//! its own quantization step. The largest weight error is half a step, or 1.5e-5 of the largest weight of the row.
+//! Training uses full precision.
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Columns of a tile: as many sums as stay in the registers.
+/// Columns per tile: as many sums as fit in registers.
 const WIDTH: usize = 64;
-/// Largest whole number of a weight.
+/// Largest quantized weight.
 const LARGEST: f32 = 32_767.0;
 
 pub(super) struct Tiles {
-    /// Rows of a tile, tile after tile; what the last has beyond the matrix is zero.
+    /// Rows of each tile, tile by tile; the last tile is padded with zeros.
     values: Vec<[i16; WIDTH]>,
-    /// Unit of each row.
+    /// Quantization step of each row.
     units: Vec<f32>,
-    /// The row that is multiplied, in these units.
+    /// The multiplied row vector, scaled by the quantization steps.
     scaled: Vec<f32>,
 }
 
 impl Tiles {
-    /// Those of a matrix (rows × columns). A row with something that is no finite number makes every product none.
+    /// Returns the tiles of a matrix (rows × columns). A value that is not finite makes all products not finite.
     pub(super) fn of(matrix: &[f32], n_columns: usize) -> Self {
         let n_rows = matrix.len() / n_columns;
         let mut values = vec![[0; WIDTH]; n_rows * n_columns.div_ceil(WIDTH)];
@@ -57,14 +57,14 @@ impl WithSimd for Cut<'_> {
     type Output = ();
 
     #[inline(always)]
-    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    #[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
     fn with_simd<S: Simd>(self, _: S) {
         let n_rows = self.units.len();
         for (index, (row, unit)) in self.matrix.chunks_exact(self.n_columns).zip(self.units).enumerate() {
-            // As whole numbers their bits are in their order, and what is no number lies above all: it stays one.
+            // The bits of magnitudes sort like the magnitudes, with infinity and NaN above all, so these propagate.
             let largest = row.iter().map(|x| x.abs().to_bits()).max().unwrap_or(0);
             *unit = f32::from_bits(largest) / LARGEST;
-            // Nothing is left of a row of zeros, nor of one too small to have a unit.
+            // Rows of zeros, or of values too small for a quantization step, become zero.
             let in_units = Some(unit.recip()).filter(|x| x.is_finite()).unwrap_or(0.0);
             let tiles = self.values.iter_mut().skip(index).step_by(n_rows);
             for (tile, row) in tiles.zip(row.chunks(WIDTH)) {
@@ -80,7 +80,7 @@ impl WithSimd for AddProduct<'_> {
     type Output = ();
 
     #[inline(always)]
-    #[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+    #[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
     fn with_simd<S: Simd>(self, _: S) {
         let tiles = self.values.chunks_exact(self.scaled.len());
         for (tile, sums) in tiles.zip(self.sums.chunks_mut(WIDTH)) {
@@ -88,7 +88,7 @@ impl WithSimd for AddProduct<'_> {
             for (x, row) in self.scaled.iter().zip(tile) {
                 for (added, value) in added.iter_mut().zip(row) {
                     let weight = f32::from(*value);
-                    // Where there are vectors they multiply and add at once; elsewhere that would be a call.
+                    // Fused multiply-add needs SIMD; in scalar code it would be a function call.
                     *added = if S::IS_SCALAR { x * weight + *added } else { x.mul_add(weight, *added) };
                 }
             }
@@ -99,11 +99,11 @@ impl WithSimd for AddProduct<'_> {
     }
 }
 
-/// The nearest whole number; it is within those of 16 bits.
+/// Returns the nearest integer; it must fit 16 bits.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "what is not inlined is compiled for any machine")]
+#[allow(clippy::inline_always, reason = "code that is not inlined is compiled for the baseline CPU")]
 fn rounded(x: f32) -> i16 {
-    // Adding one and a half times 2^23 leaves the whole number in the last bits.
+    // Adding 1.5 · 2^23 leaves the integer in the low bits.
     const ROUND: f32 = 12_582_912.0;
     (x + ROUND).to_bits() as i16
 }

@@ -1,6 +1,6 @@
 use super::{Eyes, Lesson, PictureConfig, PictureModel, PictureModelError};
 use crate::picture_set::Seen;
-use shagreen_core::rng::Random;
+use shagreen_core::maths::rng::Random;
 
 fn lesson() -> Lesson {
     Lesson {
@@ -19,7 +19,7 @@ fn config(seed: u64) -> PictureConfig {
     }
 }
 
-/// Pictures whose labels follow from their first two features.
+/// Pictures whose labels depend on their first two features.
 fn pictures(n: usize) -> Vec<Seen> {
     let mut random = Random::new(5);
     let of = |_| {
@@ -50,9 +50,9 @@ fn what_follows_from_the_features_is_learned_and_the_error_is_known() {
         }
     }
     for (square, deviation) in squares.into_iter().zip(deviations) {
-        // Labels deviate by about ten.
+        // The labels have a standard deviation of about ten.
         assert!(square.sqrt() < 4.0, "{square}");
-        // It is about as far off as it says.
+        // The stated standard deviation matches the actual error within a factor of two.
         assert!((0.5..2.0).contains(&(square.sqrt() / deviation)), "{square} {deviation}");
     }
     let strange = model.predict(&[40.0, -35.0, 50.0, 20.0, -60.0, 30.0]).unwrap();
@@ -82,7 +82,7 @@ fn damage_and_other_shapes_are_refused() {
     *changed.last_mut().unwrap() ^= 1;
     let error = PictureModel::from_bytes(&changed).unwrap_err().to_string();
     assert!(error.contains("changed or cut"), "{error}");
-    // What the header says of its layers must be what the numbers are.
+    // Layer sizes in the header must match the tensors.
     let replaced = |from: &str, to: &str| {
         let at = bytes.windows(from.len()).position(|window| window == from.as_bytes()).unwrap();
         let mut changed = bytes.clone();
@@ -91,8 +91,8 @@ fn damage_and_other_shapes_are_refused() {
     };
     let sizes = "[6,12,6,2]";
     assert!(replaced(sizes, "[6,11,6,2]").contains("do not fit"), "{}", replaced(sizes, "[6,11,6,2]"));
-    assert!(replaced(sizes, "[6,12,6,9]").contains("these settings"));
-    assert!(replaced(sizes, "[0,12,6,2]").contains("these settings"));
+    assert!(replaced(sizes, "[6,12,6,9]").contains("settings are invalid"));
+    assert!(replaced(sizes, "[0,12,6,2]").contains("settings are invalid"));
 }
 
 #[test]

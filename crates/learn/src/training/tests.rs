@@ -3,8 +3,8 @@ use crate::cnn_lstm::{Architecture, Padding, Streams};
 use crate::model_file::{ModelFileError, sha256_of};
 use crate::stroke_model::{ModelCard, StrokeModel};
 use crate::stroke_set::StrokedTexture;
-use shagreen_core::fit::Stroke;
-use shagreen_core::rng::lcg_noise;
+use shagreen_core::maths::rng::lcg_noise;
+use shagreen_core::recording::fit::Stroke;
 
 const N_SAMPLES: usize = 1200;
 
@@ -22,7 +22,7 @@ fn tiny() -> Architecture {
     }
 }
 
-/// Textures that are louder the higher their first attribute, and slower waves the higher their second.
+/// Textures whose level rises with the first attribute, and whose spectrum is lower with the second.
 fn textures(n: usize) -> Vec<StrokedTexture> {
     let of = |index: usize| {
         let share = index as f64 / (n - 1) as f64;
@@ -66,7 +66,7 @@ fn it_learns_and_tells_textures_that_it_has_not_seen() {
     assert!(epochs[11].learned_rmse < 0.5 * epochs[0].learned_rmse, "{epochs:?}");
     let predicted = model.predict(&all[4].strokes).unwrap().unwrap();
     for (predicted, attribute) in predicted.iter().zip(&all[4].attributes) {
-        // Without having learned anything it would be off by 20.
+        // An untrained constant prediction would be off by 20.
         assert!((predicted - attribute).abs() < 12.0, "{predicted} for {attribute}");
     }
     let short = Stroke { accel_mps2: vec![0.0; 39], speed_mps: vec![0.1; 39], force_n: vec![0.1; 39] };
@@ -78,7 +78,7 @@ fn card() -> ModelCard {
         attributes: ["rough-smooth", "hard-soft"].map(str::to_owned).to_vec(),
         left_out_rmse: vec![7.5, 12.0],
         network: "toy".to_owned(),
-        learned_from: "made-up textures".to_owned(),
+        learned_from: "generated textures".to_owned(),
         label_sources: vec!["simulated".to_owned()],
     }
 }
@@ -104,7 +104,7 @@ fn a_stopped_training_goes_on_as_if_it_had_not_stopped() {
         training.run_epoch(|_| true).unwrap();
     }
     let kept = training.keep().unwrap();
-    // In the middle of a round it is killed: that round does not count.
+    // An epoch that is interrupted does not count.
     assert_eq!(training.run_epoch(|share| share < 0.5).unwrap(), None);
     drop(training);
     let resumed = run(Training::resume(&learned, config(4, Some(3)), &kept).unwrap());
@@ -139,7 +139,7 @@ fn learning_that_goes_astray_is_told_and_not_kept() {
     let mut training = Training::new(&learned, wild).unwrap();
     let error = loop {
         match training.run_epoch(|_| true) {
-            Ok(_) => assert!(!training.is_over(), "it never goes astray"),
+            Ok(_) => assert!(!training.is_over(), "training did not diverge"),
             Err(error) => break error,
         }
     };
@@ -150,7 +150,7 @@ fn learning_that_goes_astray_is_told_and_not_kept() {
 fn it_stops_early_and_keeps_the_best() {
     let all = textures(12);
     let learned: Vec<&StrokedTexture> = all.iter().collect();
-    // Steps so large that it soon gets worse.
+    // A learning rate so large that the error soon rises.
     let config = TrainingConfig { learning_rate: 0.05, ..config(60, Some(2)) };
     let (epochs, _) = run(Training::new(&learned, config).unwrap());
     let best = epochs.iter().min_by(|a, b| a.aside_rmse.unwrap().total_cmp(&b.aside_rmse.unwrap())).unwrap();
@@ -171,7 +171,7 @@ fn a_file_of_a_model_predicts_the_same_and_a_wrong_one_is_refused() {
     damaged[last] ^= 0x10;
     assert!(matches!(StrokeModel::from_bytes(&damaged), Err(TrainingError::File(ModelFileError::Hash))));
     assert!(StrokeModel::from_bytes(&bytes[..bytes.len() / 2]).is_err());
-    assert!(StrokeModel::from_bytes(b"\x80\x02}q\x00.").is_err(), "a pickle");
+    assert!(StrokeModel::from_bytes(b"\x80\x02}q\x00.").is_err(), "a pickle must be refused");
     for other in [
         ModelCard { attributes: vec!["rough-smooth".to_owned()], ..card() },
         ModelCard { left_out_rmse: vec![f64::NAN; 2], ..card() },

@@ -1,4 +1,4 @@
-//! The chain as a whole, in front of a simulated coil.
+//! Tests of the whole output stage with a simulated coil.
 
 extern crate std;
 
@@ -13,7 +13,7 @@ use crate::limiter::Limiter;
 
 const RATE_HZ: f32 = 48_000.0;
 
-/// Haptuator Mark II on 100 g: 1.41 V of root mean square, 4.5 V at most, on an amplifier of 5 V.
+/// Haptuator Mark II on 100 g: 1.41 V RMS, 4.5 V peak, amplifier with 5 V full scale.
 const MARK_II: DriveConfig = DriveConfig {
     inverse: Some(Inverse {
         resonance: Resonance { frequency_hz: 65.0, q: 4.086_34, gain_mps2_per_volt: 2.133_938_6 },
@@ -25,7 +25,7 @@ const MARK_II: DriveConfig = DriveConfig {
     budget: Some(Budget { rms: 1.41 / 5.0, time_secs: 10.0 }),
 };
 
-/// A coil on a load, by the equation of its motion, in steps of a fortieth of a sample: nothing of it is shared with the
+/// Simulates a coil with its load by its equation of motion, in steps of 1/40 sample. It shares no code with the
 /// inverse.
 fn coil(volts: &[f64]) -> Vec<f64> {
     // `x'' + (ω/Q) x' + ω² x = K V`, and the acceleration is `x''`.
@@ -50,14 +50,14 @@ fn coil(volts: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Level in dB of what the coil does at a frequency over what was asked for.
+/// Level in dB of the simulated coil's acceleration at a frequency, relative to the requested acceleration.
 fn response_db(config: DriveConfig, hz: f64, amplitude_mps2: f64) -> f64 {
     let mut chain = DriveChain::new(config, RATE_HZ);
     let n = 48_000;
     let wave = |i: usize| (TAU * hz * i as f64 / f64::from(RATE_HZ)).sin();
     let mut block: Vec<f32> = (0..n).map(|i| (amplitude_mps2 * wave(i)) as f32).collect();
     chain.process(&mut block, Driven::Acceleration);
-    assert_eq!(chain.limited_samples(), 0, "the limiter would hide the response");
+    assert_eq!(chain.limited_samples(), 0, "the limiter must not act, it would hide the response");
     let volts: Vec<f64> = block.iter().map(|x| 5.0 * f64::from(*x)).collect();
     let felt = coil(&volts);
     let (mut sine, mut cosine) = (0.0, 0.0);
@@ -73,7 +73,7 @@ fn response_db(config: DriveConfig, hz: f64, amplitude_mps2: f64) -> f64 {
 fn an_equalized_coil_is_flat_and_a_bare_one_is_not() {
     let bare = DriveConfig { inverse: None, full_scale: 5.0 * 2.133_938_6, ..MARK_II };
     let (mut worst, mut worst_bare) = (0.0_f64, 0.0_f64);
-    // Whole periods in the half second that is looked at.
+    // Frequencies with whole periods in the half second that is evaluated.
     for hz in [
         40.0, 50.0, 56.0, 60.0, 64.0, 66.0, 70.0, 80.0, 100.0, 130.0, 160.0, 200.0, 250.0, 320.0, 400.0,
         500.0,
@@ -111,7 +111,8 @@ fn a_proportional_chain_is_the_limiter_alone() {
 
 #[test]
 fn blocks_do_not_change_the_limits() {
-    // Heat is looked at once in 32 samples of a block, so odd blocks differ by rounding of its gain only.
+    // The thermal gain is updated every 32 samples of a block, so other block sizes differ only by rounding of that
+    // gain.
     let run = |block: usize| {
         let mut chain = DriveChain::new(MARK_II, RATE_HZ);
         let mut out = noise(96_000, 8.0);
@@ -202,9 +203,12 @@ fn what_the_equalizer_rings_with_ends_beneath_drive_and_does_not_come_back() {
     };
     let (texture, beneath_drive, after) = run(Driven::Drive);
     let (_, beneath_texture, _) = run(Driven::Acceleration);
-    assert!(beneath_texture[0].abs() > 1e-3, "it rings: {}", beneath_texture[0]);
-    assert!((beneath_drive[0] - texture[479]).abs() < 0.02 * texture[479].abs(), "without a jump");
+    assert!(beneath_texture[0].abs() > 1e-3, "the equalizer must ring: {}", beneath_texture[0]);
+    assert!(
+        (beneath_drive[0] - texture[479]).abs() < 0.02 * texture[479].abs(),
+        "jump at the switch to drive"
+    );
     assert!(beneath_drive.iter().zip(&beneath_texture).all(|(x, y)| (x - y).abs() < 1e-6));
-    // A second is ninety time constants of 20 Hz.
+    // One second is 90 time constants of the filter at 20 Hz.
     assert!(after.iter().all(|x| x.abs() < 1e-12));
 }

@@ -13,7 +13,7 @@ const TICK: usize = 5;
 const N: usize = 1024;
 const STEP_M: f32 = 1e-5;
 
-/// A sine of so many periods over the whole relief, in all octaves that can hold it.
+/// A sine with the given number of periods over the whole relief, in all octaves that can represent it.
 fn wave(periods: usize) -> Vec<f32> {
     let mut octaves = Vec::new();
     let mut n = N;
@@ -30,7 +30,7 @@ fn relief(octaves: &[f32]) -> Relief<'_> {
     Relief::new(STEP_M, 1.0, N, octaves).unwrap()
 }
 
-/// What is heard where the tip is at these places, tick by tick, pressed so hard.
+/// Output for a tip at these positions, one a tick, with these normal forces.
 fn played(relief: &Relief<'_>, touches: impl IntoIterator<Item = (f64, f32)>) -> Vec<f32> {
     let mut voice = ReliefVoice::new(RATE_HZ);
     let mut passage = Passage::default();
@@ -44,7 +44,7 @@ fn played(relief: &Relief<'_>, touches: impl IntoIterator<Item = (f64, f32)>) ->
     out
 }
 
-/// Places of a tip at a constant speed, one a tick.
+/// Positions of a tip at a constant speed, one a tick.
 fn at_speed(mps: f64, n_ticks: usize) -> impl Iterator<Item = (f64, f32)> {
     (0..n_ticks).map(move |i| (mps * i as f64 * TICK as f64 / f64::from(RATE_HZ), 1.0))
 }
@@ -53,13 +53,13 @@ fn rms(samples: &[f32]) -> f64 {
     (samples.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / samples.len() as f64).sqrt()
 }
 
-/// The gain of the high-pass at a frequency in Hz.
+/// Gain of the high-pass at a frequency in Hz.
 fn high_pass(hz: f64) -> f64 {
     let tangent = (0.5 * TAU * hz / f64::from(RATE_HZ)).tan();
     tangent / tangent.hypot(0.5 * TAU * f64::from(HIGH_PASS_HZ / RATE_HZ))
 }
 
-/// A tip at speed v on a wave of length λ hears v/λ, whichever way it goes.
+/// A tip at speed v on a wave of length λ gives the frequency v/λ, in both directions.
 #[test]
 fn a_wave_sounds_at_the_speed_over_its_length() {
     let octaves = wave(16);
@@ -74,9 +74,9 @@ fn a_wave_sounds_at_the_speed_over_its_length() {
             };
             let size = 2.0 * part(f64::sin).hypot(part(f64::cos)) / late.len() as f64;
             assert!((size / high_pass(hz) - 1.0).abs() < 0.01, "{hz} Hz has {size}");
-            // Nothing else is there.
+            // No other component is present.
             let rest = rms(late).powi(2) - 0.5 * size * size;
-            assert!(rest < 1e-4, "{rest} beside {hz} Hz");
+            assert!(rest < 1e-4, "residual power {rest} at {hz} Hz");
         }
     }
 }
@@ -89,7 +89,7 @@ fn what_is_too_fast_for_the_rate_is_left_out() {
         let out = played(&relief(&octaves), at_speed(hz * length_m, 400));
         assert!(rms(&out[500..]) < 1e-6, "{hz} Hz folds back: {}", rms(&out[500..]));
     }
-    // The longest wave that there is, faster than half the rate.
+    // The longest wave of the relief, at frequencies above half the sample rate.
     let once = wave(1);
     let length_m = f64::from(STEP_M) * N as f64;
     for hz in [600.0, 900.0] {
@@ -97,7 +97,7 @@ fn what_is_too_fast_for_the_rate_is_left_out() {
         let mut voice = ReliefVoice::new(RATE_HZ);
         let mut out = Vec::new();
         for ((place, force), n_jumps) in places.zip(0..) {
-            // Every tick begins anew: its way alone counts.
+            // Every tick is a jump, so only the displacement within the tick counts.
             let begun = Passage::default().on(Place { x_m: place, n_jumps }, force);
             let end = place + hz * length_m * TICK as f64 / f64::from(RATE_HZ);
             let passage = Passage { places_m: (place, end), ..begun };
@@ -113,7 +113,7 @@ fn what_is_too_fast_for_the_rate_is_left_out() {
     assert!(rms(&out[500..]) > 0.6, "{}", rms(&out[500..]));
 }
 
-/// Landing, turning, standing, leaving and being somewhere else: no step is larger than the wave itself makes.
+/// Contact onset, turning, resting, lifting and jumping: no step is larger than the steepest step of the wave itself.
 #[test]
 fn nothing_clicks() {
     let octaves = wave(16);
@@ -125,16 +125,16 @@ fn nothing_clicks() {
     let in_the_air = (0..20).map(|i| (swung(399) + 1e-5 * f64::from(i), 0.0));
     let elsewhere = (0..40).map(|_| (0.4, 1.0)).chain((0..40).map(|_| (0.5001, 1.0)));
     let out = played(&relief, turning.chain(standing).chain(pressing).chain(in_the_air).chain(elsewhere));
-    // 2π times the highest frequency: 20 µm a tick of 5 samples on waves of 640 µm.
+    // The bound is 2π times the highest frequency: 20 µm per tick of 5 samples on waves of 640 µm.
     let steepest = out.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
     assert!(steepest < 0.06, "a step of {steepest}");
     assert!(rms(&out[1000..2000]) > 0.1);
-    assert!(rms(&out[2500..3000]) < 1e-3, "a tip that stands feels {}", rms(&out[2500..3000]));
-    assert!(out[3125..3200].iter().all(|x| *x == 0.0), "something sounds in the air");
-    assert!(rms(&out[3210..]) == 0.0, "a tip that lands and stands feels nothing");
+    assert!(rms(&out[2500..3000]) < 1e-3, "a tip at rest gives {}", rms(&out[2500..3000]));
+    assert!(out[3125..3200].iter().all(|x| *x == 0.0), "a lifted tip gives output");
+    assert!(rms(&out[3210..]) == 0.0, "a tip that touches down and rests gives output");
 }
 
-/// A place that jumps is not gone to, and a tip that lands after a fast stroke and stands feels nothing.
+/// A jump of position produces no signal, and neither does a tip that touches down after a fast stroke and rests.
 #[test]
 fn jumps_and_landings_are_silent() {
     let octaves = wave(100);
@@ -158,9 +158,9 @@ fn jumps_and_landings_are_silent() {
     }
     for n_jumps in 1..20 {
         let x_m = 0.001_3 * f64::from(n_jumps);
-        assert!(heard(Place { x_m, n_jumps }, 1.0) < 1e-6, "a jump is heard");
+        assert!(heard(Place { x_m, n_jumps }, 1.0) < 1e-6, "a jump gives output");
     }
-    assert!(heard(Place { x_m: 0.0258, n_jumps: 19 }, 1.0) > 1e-3, "a way is heard");
+    assert!(heard(Place { x_m: 0.0258, n_jumps: 19 }, 1.0) > 1e-3, "a displacement gives no output");
 }
 
 #[test]
@@ -208,7 +208,7 @@ fn slices_that_do_not_fit_are_refused() {
     let mut bad = vec![0.0; length(8)];
     bad[3] = f32::NAN;
     assert_eq!(error(STEP_M, 1.0, 8, &bad), ReliefError::Number);
-    // What was never checked is silent, at worst.
+    // Unchecked data give silence at worst.
     let relief = Relief::checked_before(STEP_M, 1.0, 1000, &[]);
     assert!(played(&relief, at_speed(0.1, 10)).iter().all(|x| *x == 0.0));
 }

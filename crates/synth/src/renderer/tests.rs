@@ -5,7 +5,7 @@ use crate::texture::tests::{parts, square};
 use crate::texture::{Node, Texture, Triangle};
 use std::vec::Vec;
 
-/// Any number of textures, alike but for their level at full speed and force.
+/// Textures that differ only in the level at full speed and force.
 pub(crate) struct Table(Vec<([Node; 4], [Triangle; 2])>);
 
 impl Table {
@@ -16,7 +16,7 @@ impl Table {
                 .map(|&level| {
                     let (mut nodes, mut triangles) = square();
                     nodes[2].level_mps2 = level;
-                    // White: frequencies evenly spread make a predictor of zeros, with a gain of one.
+                    // Evenly spaced LSFs give a predictor with zero coefficients and gain 1, so the spectrum is white.
                     for node in &mut nodes {
                         (node.lsf[0], node.lsf[1]) =
                             (core::f32::consts::PI / 3.0, core::f32::consts::PI * 2.0 / 3.0);
@@ -66,13 +66,13 @@ fn blends_have_the_levels_of_their_formulas() {
     let (w, s) = ([0.3_f64, 0.4, 0.3], [0.5, 1.0, 2.0]);
     let sum: f64 = w.iter().zip(&s).map(|(w, s)| w * s).sum();
     let independent = w.iter().zip(&s).map(|(w, s)| (w * s).powi(2)).sum::<f64>().sqrt();
-    // These three have one spectrum, so a shared excitation adds them fully in phase.
+    // The three textures have one spectrum, so signals with a shared excitation add fully in phase.
     for (blend, expected) in [(Blend::Paper, independent), (Blend::Power, sum), (Blend::Shared, sum)] {
         let mut renderer = Renderer::new(1000.0, 3);
         assert!(renderer.set_mix(&mix(&[0.3, 0.4, 0.3], blend)));
         renderer.finish_fades();
         let level = rms(&render(&mut renderer, &table, 200_000)[1000..]);
-        // Five standard errors of the level of 200,000 white samples.
+        // The tolerance is five standard errors of the level of 200,000 white samples.
         assert!(
             (level / expected - 1.0).abs() < 5.0 / (2.0 * 200_000_f64).sqrt(),
             "{blend:?}: {level} {expected}"
@@ -82,8 +82,8 @@ fn blends_have_the_levels_of_their_formulas() {
 
 #[test]
 fn a_change_never_jumps() {
-    // One loud and one quiet texture of slow noise stand in: with white noise a jump could not be told from noise,
-    // so the envelope is what is looked at: weights move by at most a tick's share of a fade.
+    // A jump in white noise cannot be distinguished from the noise, so the test observes the weights. They move by at
+    // most one tick's fraction of a fade.
     let table = Table::with_levels(&[1.0, 1.0, 1.0, 1.0]);
     let mut renderer = Renderer::new(1000.0, 3);
     assert!(renderer.set_mix(&Mix::solo(0)));
@@ -125,10 +125,10 @@ fn more_changes_than_voices_are_held_back_and_then_taken() {
         while !renderer.set_mix(&Mix::solo(id)) {
             refused += 1;
             let _ = render(&mut renderer, &table, 5);
-            assert!(refused < 100, "never taken");
+            assert!(refused < 100, "the mix is never accepted");
         }
     }
-    assert!(refused > 0, "twenty textures fit into {MAX_VOICES} voices at once");
+    assert!(refused > 0, "no mix was refused: 20 textures fit into {MAX_VOICES} voices at once");
     assert!(renderer.is_sounding(19));
 }
 

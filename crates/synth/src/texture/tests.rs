@@ -2,7 +2,7 @@ extern crate std;
 use super::{Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, TextureError, Triangle};
 use crate::contact::Contact;
 
-/// Order 2 on the unit square of 1 m/s and 1 N: silent but at the corner of full speed and force.
+/// A model of order 2 on the unit square of 1 m/s and 1 N. Its level is nonzero only at full speed and force.
 pub(crate) fn square() -> ([Node; 4], [Triangle; 2]) {
     let node = |level_mps2: f32, low: f32| {
         let mut lsf = [0.0; MAX_ORDER];
@@ -12,14 +12,14 @@ pub(crate) fn square() -> ([Node; 4], [Triangle; 2]) {
     let nodes = [node(0.0, 0.5), node(0.0, 0.7), node(1.0, 0.9), node(0.0, 0.6)];
     let ln_gain = [1.0; 6];
     let triangles = [
-        // (0,0) (1,0) (1,1): weights 1 - x, x - y, y.
+        // Corners (0,0) (1,0) (1,1): weights 1 - x, x - y, y.
         Triangle {
             nodes: [0, 1, 2],
             neighbors: [NO_NEIGHBOR, 1, NO_NEIGHBOR],
             weights: [-1.0, 0.0, 1.0, 1.0, -1.0, 0.0],
             ln_gain,
         },
-        // (0,0) (1,1) (0,1): weights 1 - y, x, y - x.
+        // Corners (0,0) (1,1) (0,1): weights 1 - y, x, y - x.
         Triangle {
             nodes: [0, 2, 3],
             neighbors: [NO_NEIGHBOR, NO_NEIGHBOR, 0],
@@ -30,7 +30,7 @@ pub(crate) fn square() -> ([Node; 4], [Triangle; 2]) {
     (nodes, triangles)
 }
 
-/// Slices of order 2 at 1 kHz over the unit square.
+/// Texture data of order 2 at 1 kHz over the unit square.
 pub(crate) fn parts<'a>(nodes: &'a [Node], triangles: &'a [Triangle]) -> Parts<'a> {
     Parts {
         rate_hz: 1000.0,
@@ -107,7 +107,7 @@ fn broken_slices_are_refused() {
     assert_eq!(error(1000.0, 2, &bad, &triangles), Some(TextureError::Number));
 }
 
-/// The square with an excitation at each node: a moving average of order one.
+/// Excitations for the four nodes of the square, with a moving average of order 1.
 fn published(variances: [f32; 4], gains: [f32; 4]) -> [Excitation; 4] {
     core::array::from_fn(|i| {
         let mut ma_lsf = [0.0; MAX_ORDER];
@@ -128,7 +128,7 @@ fn published_textures_interpolate_variance_and_gain() {
         let at = texture.evaluate(Contact { speed_mps, force_n }, &mut 0);
         let sigma = gain * f32::sqrt(variance);
         assert!((at.sigma_mps2 - sigma).abs() < 1e-5, "{} for {sigma}", at.sigma_mps2);
-        // ln gain is one at all six points.
+        // The ln gain is 1 at all six points.
         assert!((at.level_mps2 - sigma * 0.5_f32.exp()).abs() < 1e-5);
         assert_eq!(at.ma_order, 1);
         assert!((at.ma_lsf[0] - ma).abs() < 1e-6);
@@ -160,6 +160,6 @@ fn broken_excitations_are_refused() {
         assert_eq!(error(1, &published([1.0, bad, 1.0, 1.0], [1.0; 4])), Some(TextureError::Number));
         assert_eq!(error(1, &published([1.0; 4], [1.0, bad, 1.0, 1.0])), Some(TextureError::Number));
     }
-    // Of order two the second frequency is zero.
+    // With order 2, the second frequency is zero.
     assert_eq!(error(2, &good), Some(TextureError::Number));
 }

@@ -1,4 +1,4 @@
-//! What is shown beside the places: maps over time, maps over places with the editor, and differences.
+//! Views of the signals: maps over time, maps over position with the editor, and differences.
 
 use std::sync::Arc;
 
@@ -6,23 +6,24 @@ use egui::{Label, RichText, ScrollArea, Ui};
 use shagreen_formats::figure::Tone;
 
 use super::{SignalsPage, View};
+use crate::choices::signals::Slot;
 use crate::command::Command;
 use crate::figure_ui::framed_figure_ui;
+use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::signals::analysis::ByRate;
 use crate::signals::editor_ui::{Asked, tools_ui};
 use crate::signals::features_ui::features_ui;
 use crate::signals::figures::{features_figure, fidelity_figure, rates_figure};
 use crate::signals::maps::{Seen, map_ui};
-use crate::signals::slot::{Place, Slot};
+use crate::signals::slot::Place;
 use crate::signals::spatial_ui::{places_map_ui, spatial_ui};
 use crate::strings::signals as strings;
-use crate::theme::{GAP, GROUP_GAP, tokens};
 
-/// Windows of the slider, in mm: those of the paper, and all between.
+/// Range of the window length, in mm: from the shortest to the longest window of the paper.
 const WINDOWS_MM: (f64, f64) = (0.2, 20.0);
 
 impl SignalsPage {
-    /// Draws the tabs and the view that is chosen.
+    /// Draws the tabs and the selected view.
     pub(super) fn views_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             for view in View::ALL {
@@ -93,7 +94,7 @@ impl SignalsPage {
         let known = self.of_each(Place::by_window);
         let is_waiting = known.len() < self.n_signals();
         let fidelity = Arc::new(fidelity_figure(&known, window_m));
-        // Those of this frame, whatever is painted in it.
+        // The maps of this frame, even if the signal is edited in it.
         let maps = Slot::ALL.map(|slot| self.maps.map(slot).cloned());
         let mut painted = None;
         ui.columns_const(|columns: &mut [Ui; 3]| {
@@ -128,7 +129,7 @@ impl SignalsPage {
         self.places.iter().filter(|place| place.signal().is_some()).count()
     }
 
-    /// What is known of the signals as they are, in their colors.
+    /// Results about the signals as they are now, with the color and the letter of their slots.
     fn of_each<'a, T: ?Sized>(
         &'a self,
         known: impl Fn(&'a Place) -> Option<&'a T>,
@@ -173,7 +174,7 @@ impl SignalsPage {
     }
 }
 
-/// Says that something is still being worked out.
+/// Shows that a computation is still running.
 fn waiting_ui(ui: &mut Ui, is_waiting: bool) {
     if is_waiting {
         let text = RichText::new(strings::MAKING).small().color(tokens(ui.ctx()).text_weak);

@@ -1,7 +1,7 @@
-//! Pictures of the window without a graphics card: the triangles that egui makes, filled by the processor.
+//! Software rasterizer for the triangles of egui.
 //!
-//! Drivers differ from machine to machine; this does not, so that a reference image holds everywhere. No library that is
-//! kept up with this version of egui does it.
+//! Its images are the same on every machine, unlike those of graphics drivers. No maintained library supports this
+//! version of egui.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,6 @@ use egui::{Color32, Context, FullOutput, Rect, TextureId, TexturesDelta};
 use egui_kittest::TestRenderer;
 use image::{Rgba, RgbaImage};
 
-/// A renderer that fills triangles.
 #[derive(Default)]
 pub(crate) struct Raster {
     textures: HashMap<TextureId, Texture>,
@@ -22,7 +21,7 @@ struct Texture {
 }
 
 impl Texture {
-    /// The color at a place, 0..1 across and down, by its nearest four pixels.
+    /// Bilinearly interpolated color at texture coordinates from 0 to 1.
     fn at(&self, u: f32, v: f32) -> [f32; 4] {
         let axis = |share: f32, n: usize| {
             let x = (share * n as f32 - 0.5).clamp(0.0, (n - 1) as f32);
@@ -85,7 +84,8 @@ fn fill_mesh(image: &mut RgbaImage, mesh: &Mesh, texture: &Texture, clip: Rect, 
     }
 }
 
-/// Fills the pixels whose middles lie in a triangle; those on an edge belong to one of the two triangles that share it.
+/// Fills the pixels whose centers are in a triangle. A pixel on an edge belongs to one of the two triangles that share
+/// it.
 fn fill_triangle(image: &mut RgbaImage, mut corners: [Vertex; 3], texture: &Texture, clip: Rect, scale: f32) {
     let mut at = corners.map(|corner| corner.pos * scale);
     let mut area = (at[1] - at[0]).rot90().dot(at[2] - at[0]);
@@ -129,7 +129,7 @@ fn fill_triangle(image: &mut RgbaImage, mut corners: [Vertex; 3], texture: &Text
     }
 }
 
-/// The color of a place in a triangle, 0..255, with alpha multiplied in.
+/// Premultiplied color of a point in a triangle, 0..255.
 fn shade(corners: &[Vertex; 3], weights: [f32; 3], texture: &Texture) -> [f32; 4] {
     let sum = |value: &dyn Fn(&Vertex) -> f32| {
         corners.iter().zip(weights).map(|(corner, weight)| weight * value(corner)).sum::<f32>()
@@ -162,7 +162,8 @@ mod tests {
         harness.render().unwrap()
     }
 
-    /// Every pixel of a rectangle is filled once, also where its two triangles meet, and no other.
+    /// Every pixel of a rectangle is filled exactly once, including those on its diagonal, and no other pixel is
+    /// filled.
     #[test]
     fn a_rectangle_is_filled_once() {
         for (color, seen) in [(Color32::WHITE, 255), (Color32::from_white_alpha(128), 128)] {
@@ -170,7 +171,7 @@ mod tests {
                 let is_inside = (10..30).contains(&x) && (5..20).contains(&y);
                 let is_edge = [9, 10, 29, 30].contains(&x) || [4, 5, 19, 20].contains(&y);
                 let value = i32::from(pixel.0[0]);
-                // Edges are smoothed.
+                // egui smooths edges.
                 assert!(
                     is_edge || (value - if is_inside { seen } else { 0 }).abs() <= 2,
                     "{x}, {y}: {value}"

@@ -1,14 +1,14 @@
+use crate::maths::rng::{Random, lcg_noise};
 use crate::recording::{
     Fault, Finding, RawClock, RawMotion, RawRecording, RawTrack, Recording, RecordingError, check_clock,
 };
-use crate::rng::{Random, lcg_noise};
 use crate::units::Hertz;
 use proptest::prelude::{any, prop_assert, proptest};
 use std::f64::consts::TAU;
 
 const RATE_HZ: f64 = 1000.0;
 
-/// Noise of one axis at a constant speed and force.
+/// White noise on one axis at constant speed and force.
 fn noise(n_rows: usize, clock: RawClock) -> RawRecording {
     RawRecording {
         clock,
@@ -33,7 +33,7 @@ fn read(raw: RawRecording) -> (Recording, Vec<&'static str>) {
 fn check_findings(raw: RawRecording, expected: &[&str], usable_secs: f64) -> Recording {
     let (recording, names) = read(raw);
     assert_eq!(names, expected);
-    // A drifting clock has one rate for all, and the mean of its steps is not its middle one.
+    // A drifting clock gets one rate for the whole recording, and its mean step differs from its usual step.
     let share = recording.usable_seconds() / usable_secs - 1.0;
     assert!(share.abs() < 2e-3, "{} s", recording.usable_seconds());
     for (i, value) in recording.acceleration_mps2.iter().enumerate() {
@@ -65,7 +65,7 @@ fn a_regular_clock_stays_as_it_is() {
     // One axis through a Fourier transform and back.
     assert!(off.fold(0.0, f64::max) < 1e-12);
     assert_eq!((by_rate.speed_mps[5], by_rate.force_n[5], by_rate.rate.0), (0.1, 1.0, RATE_HZ));
-    // Times in tenths of a millisecond of a clock of 800 Hz are what they were rounded to, and no jitter.
+    // Timestamps of an 800 Hz clock, rounded to tenths of a millisecond, count as regular.
     let rounded = at_times(|times| {
         for (row, time) in times.iter_mut().enumerate() {
             *time = (row as f64 * 12.5).round() * 1e-4;
@@ -102,7 +102,7 @@ fn too_bad_a_clock_is_an_error_by_name() {
     let ends = at_times(|t| t[1999] = 1e12);
     for (clock, words) in [
         (twice, "50 % of the rows"),
-        (bursts, "steps differ too much"),
+        (bursts, "sampling intervals are too irregular"),
         (noise(2000, RawClock::Times(chance)), "bad clock"),
         (ends, "cannot last"),
     ] {
@@ -142,32 +142,32 @@ fn stuck_clipped_and_missing_rows_are_left_out() {
     let stuck = || with_axis(|axis| axis[300..500].fill(0.25));
     let recording = check_findings(stuck(), &["stuck sensor"], 1.8);
     assert_eq!(recording.usable, [0..300, 500..2000]);
-    // A sensor that is lifted may well not change.
+    // A sensor on a lifted tip may well be constant.
     let mut lifted = stuck();
     let force = (0..2000).map(|row| if (290..510).contains(&row) { 0.0 } else { 1.0 }).collect();
     lifted.force_n = RawTrack::Column(force);
     check_findings(lifted, &[], 2.0);
     check_findings(with_axis(|axis| axis[300] = f64::NAN), &["not a number"], 1.999);
-    // A swing of 3 m/s² on a sensor that ends at 2.5.
+    // A 3 m/s² oscillation on a sensor with a range of 2.5 m/s².
     let clipped = with_axis(|axis| {
         for (row, value) in axis.iter_mut().enumerate() {
             *value = (3.0 * (TAU * 10.0 * row as f64 / RATE_HZ).sin() + 0.01 * *value).clamp(-2.5, 2.5);
         }
     });
     let (recording, names) = read(clipped);
-    // Between the tops of a swing are the bottoms of it and the ways between.
+    // The parts between the clipped peaks are too short.
     assert_eq!(names, ["clipping", "fragments"]);
     assert!(recording.usable_seconds() < 1.5 && recording.usable_seconds() > 1.0);
-    // Silence throughout is no texture.
+    // A silent recording is no texture.
     let silence = Recording::from_raw(with_axis(|axis| axis.fill(0.0))).expect_err("silence");
     assert_eq!((silence.faults[0].name(), silence.findings[0].name()), ("no signal", "dead axis"));
 }
 
 #[test]
 fn coarse_converters_and_gravity_are_neither_stuck_nor_clipped() {
-    // Eight steps of a converter from peak to peak, and gravity.
+    // Eight converter steps from peak to peak, plus gravity.
     check_findings(with_axis(|axis| axis.iter_mut().for_each(|v| *v = v.round() + 9.8)), &[], 2.0);
-    // A slow swing: equal values at its round top.
+    // A slow oscillation repeats values at its rounded peaks.
     let swing = |row: usize| (100.0 * (TAU * 2.0 * row as f64 / RATE_HZ).sin()).round();
     check_findings(with_axis(|axis| (0..2000).for_each(|row| axis[row] = swing(row))), &[], 2.0);
 }
@@ -217,7 +217,7 @@ fn speed_and_force_of_slower_sensors_are_on_lines_between_their_values() {
     let recording =
         check_findings(raw.clone(), &["slower track", "slower track", "speed from positions"], 2.001);
     assert!(recording.speed_mps.iter().all(|speed| (speed - 0.1).abs() < 1e-9));
-    // Values that are too rare say too little.
+    // Values that are too sparse are not interpolated.
     raw.force_n = RawTrack::Column(slow(100, &|_| 1.5));
     assert_eq!(fault_names(raw), ["nothing usable"]);
 }
@@ -226,7 +226,7 @@ fn speed_and_force_of_slower_sensors_are_on_lines_between_their_values() {
 fn glitches_are_left_out_and_do_not_hide_what_is_clipped() {
     let recording = check_findings(with_axis(|axis| axis[300] = -250.0), &["spikes"], 1.999);
     assert_eq!(recording.usable, [0..300, 301..2000]);
-    // A swing of 3 m/s² on a sensor that ends at 2.5, and a glitch beyond.
+    // A 3 m/s² oscillation on a sensor with a range of 2.5 m/s², and a spike beyond.
     let clipped = with_axis(|axis| {
         for (row, value) in axis.iter_mut().enumerate() {
             *value = (3.0 * (TAU * 10.0 * row as f64 / RATE_HZ).sin() + 0.01 * *value).clamp(-2.5, 2.5);
@@ -234,16 +234,19 @@ fn glitches_are_left_out_and_do_not_hide_what_is_clipped() {
         axis[1000] = 900.0;
     });
     assert_eq!(read(clipped).1, ["spikes", "clipping", "fragments"]);
-    // Each axis says its own.
+    // Findings name each axis.
     let mut three = noise(2000, RawClock::Rate(Hertz(RATE_HZ)));
     three.acceleration_mps2 = (1..4).map(|seed| lcg_noise(2000, seed)).collect();
     three.acceleration_mps2.iter_mut().for_each(|axis| axis[700] = 99.0);
     check_findings(three, &["spikes", "spikes", "spikes", "axes combined"], 1.999);
     let (_, findings) = Recording::from_raw(with_axis(|axis| axis[300] = -250.0)).expect("a recording");
     let said = findings[0].to_string();
-    for words in
-        ["1 glitch", "acceleration, up to -250.0 m/s²", "1 of 2000 rows, first at 0.300 s", "left out"]
-    {
+    for words in [
+        "1 electrical glitch",
+        "acceleration, up to -250.0 m/s²",
+        "1 of 2000 rows, first at 0.300 s",
+        "left out",
+    ] {
         assert!(said.contains(words), "{said}");
     }
 }
@@ -278,7 +281,8 @@ proptest! {
             let expected = sine(start + sample as f64 / recording.rate.0);
             worst = worst.max((recording.acceleration_mps2[sample] - expected).abs());
         }
-        // The bound of the polynomial; rows as they stand would be off by up to 2 pi f times the jitter, 0.31.
+        // Error bound of the polynomial; uninterpolated rows would have an error of up to 2 pi f times the jitter,
+        // 0.31.
         prop_assert!(worst < 5e-3, "{worst} at {frequency_hz} Hz, jitter {jitter}");
     }
 }

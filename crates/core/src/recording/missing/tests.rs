@@ -1,4 +1,5 @@
-use super::{FORCE, MOST, fill, fill_slower, mark_missing};
+use super::{fill, fill_slower, mark_missing};
+use crate::recording::bounds::{FORCE, MOST};
 use crate::recording::clock::{Timeline, read_clock};
 use crate::recording::{Finding, RawClock};
 use crate::units::Hertz;
@@ -8,12 +9,12 @@ fn timeline(n_rows: usize) -> Timeline {
     read_clock(RawClock::Rate(Hertz(1000.0)), n_rows, &mut Vec::new(), &mut Vec::new()).expect("a clock")
 }
 
-/// A ramp that only rows of `is_there` have.
+/// Ramp with values only in the rows selected by `is_there`.
 fn ramp(n_rows: usize, is_there: impl Fn(usize) -> bool) -> Vec<f64> {
     (0..n_rows).map(|row| if is_there(row) { 0.5 + 1e-3 * row as f64 } else { f64::NAN }).collect()
 }
 
-/// Fills a ramp; gives its rate and which rows have a value then, all of them on the ramp.
+/// Interpolates a ramp and checks the rate, the number of missing values and that all values lie on the ramp.
 #[track_caller]
 fn check(
     n_rows: usize,
@@ -36,7 +37,7 @@ fn check(
 fn what_lies_between_values_of_a_slower_sensor_is_on_lines() {
     check(1001, |row| row % 10 == 0, Some(100.0), 0);
     check(1000, |row| row % 10 == 3, Some(100.0), 3 + 6);
-    // 90 Hz on a clock of 1000 Hz: every eleventh or twelfth row.
+    // 90 Hz on a clock of 1000 Hz: a value in every eleventh or twelfth row.
     check(1000, |row| (row * 90) % 1000 < 90, Some(90.0), 10);
     check(1000, |row| row % 22 < 1 || row % 22 == 2, Some(1000.0 / 11.0), 7);
     check(1000, |row| row % 40 == 0, Some(25.0), 39);
@@ -45,18 +46,18 @@ fn what_lies_between_values_of_a_slower_sensor_is_on_lines() {
 #[test]
 fn what_was_lost_is_not_made_up() {
     check(1000, |_| true, None, 0);
-    // Of every ten values, three are lost.
+    // Three of every ten values are lost.
     check(1000, |row| row % 10 < 7, None, 300);
     check(1000, |row| row < 500, None, 500);
     check(1000, |row| row % 50 == 0, None, 980);
     check(1000, |row| row == 7, None, 999);
     check(1000, |_| false, None, 1000);
-    // A gap of a tenth of a second in values at 100 Hz.
+    // A gap of 0.1 s in values at 100 Hz.
     let values = check(1001, |row| row % 10 == 0 && !(301..400).contains(&row), Some(100.0), 99);
     assert!(
         values[300].is_finite() && values[301].is_nan() && values[399].is_nan() && values[400].is_finite()
     );
-    // One value lost is within the few steps.
+    // A single lost value is within the allowed number of steps.
     check(1001, |row| row % 10 == 0 && row != 300, Some(100.0), 0);
 }
 

@@ -1,5 +1,5 @@
+use crate::maths::rng::{Random, lcg_noise};
 use crate::recording::{Finding, RawClock, RawMotion, RawRecording, RawTrack, Recording};
-use crate::rng::{Random, lcg_noise};
 use crate::units::Hertz;
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ fn read(rate_hz: f64, acceleration_mps2: Vec<f64>) -> (Recording, Vec<Finding>) 
     Recording::from_raw(raw).expect("a recording")
 }
 
-/// Rows, number and highest value of the glitches that are found.
+/// Number of rows, number of spikes and highest value found.
 fn found(rate_hz: f64, acceleration_mps2: Vec<f64>) -> Option<(usize, usize, f64)> {
     let (recording, findings) = read(rate_hz, acceleration_mps2);
     let spikes = findings.iter().find_map(|finding| match finding {
@@ -28,7 +28,7 @@ fn found(rate_hz: f64, acceleration_mps2: Vec<f64>) -> Option<(usize, usize, f64
     spikes
 }
 
-/// Noise that a low-pass makes as smooth as a tool does, with a deviation of about 1.
+/// Low-pass filtered noise with a standard deviation of about 1, as smooth as the vibration of a tool.
 fn smooth_noise(rate_hz: f64, seconds: f64, seed: u64) -> Vec<f64> {
     let keep = (-TAU * 300.0 / rate_hz).exp();
     let gain = (1.0 - keep * keep).sqrt();
@@ -43,7 +43,7 @@ fn smooth_noise(rate_hz: f64, seconds: f64, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Adds taps at these times: a tool that swings and comes to rest.
+/// Adds taps at these times: decaying oscillations.
 fn ring(values: &mut [f64], rate_hz: f64, times: &[f64], height: f64, (hz, decay_secs): (f64, f64)) {
     for start in times {
         let first = (start * rate_hz) as usize;
@@ -89,11 +89,11 @@ fn several_glitches_of_any_height_are_all_found() {
         let mut rng = Random::new(11);
         let mut values = smooth_noise(rate_hz, 20.0, 9);
         let (mut n_rows, mut n) = (0, 0);
-        // Two a second by chance, from 40 to 4000.
+        // On average two per second at random times, with heights from 40 to 4000.
         while n < 40 {
             let at = (rng.uniform() * values.len() as f64) as usize;
             let width = 1 + n % 3;
-            // Farther apart than a fragment is long.
+            // Farther apart than the minimum length of a segment.
             let reach = (0.03 * rate_hz) as usize;
             let around = at.saturating_sub(reach)..(at + reach).min(values.len());
             if around.len() < 2 * reach || values[around].iter().any(|value| value.abs() > 20.0) {
@@ -130,7 +130,7 @@ fn at_a_rate_where_a_tap_is_as_narrow_nothing_is_found() {
     }
 }
 
-/// What must not be taken for glitches.
+/// Signals without spikes.
 #[test]
 fn textures_are_no_glitches() {
     for rate_hz in RATES_HZ {
@@ -144,7 +144,7 @@ fn textures_are_no_glitches() {
             check("white noise", lcg_noise(n, seed));
             check("smooth noise", smooth_noise(rate_hz, seconds, seed));
         }
-        // Taps, bumps and gratings, on noise and on nearly nothing.
+        // Taps, bumps and gratings, on noise and on near silence.
         for (hz, decay_secs) in [(250.0, 0.0015), (180.0, 0.005), (60.0, 0.02), (400.0, 0.003)] {
             for step in [2.0, 0.5, 0.11, 0.02] {
                 for (level, height) in [(1.0, 100.0), (1.0, 24.0), (0.001, 50.0)] {
@@ -157,7 +157,7 @@ fn textures_are_no_glitches() {
                 }
             }
         }
-        // Impulses of a grating that do not ring at all.
+        // Impulses of a grating without ringing.
         for step in [0.1, 0.02] {
             let mut values = smooth_noise(rate_hz, seconds, 6);
             for time in every(step) {
@@ -165,7 +165,7 @@ fn textures_are_no_glitches() {
             }
             check("a grating of impulses", values);
         }
-        // A stroke of a tenth of a second in silence, and strokes of changing loudness.
+        // A stroke of 0.1 s in silence, and strokes of varying level.
         let stroke = |i: usize| if (n / 2..n / 2 + n / 60).contains(&i) { 30.0 } else { 0.01 };
         check(
             "one stroke",
@@ -177,7 +177,7 @@ fn textures_are_no_glitches() {
     }
 }
 
-/// Heavy tails: everything between the noise and its highest is there, too.
+/// Heavy-tailed noise: all heights between the noise level and the maximum occur.
 #[test]
 fn heavy_tails_are_no_glitches() {
     let mut n_without_variance = 0;
@@ -204,6 +204,7 @@ fn heavy_tails_are_no_glitches() {
             n_without_variance += found(rate_hz, two).map_or(0, |(n_rows, _, _)| n_rows);
         }
     }
-    // Not even a variance: of 24 recordings one has by chance a highest row ten times above the next.
+    // This distribution has no finite variance: by chance one of 24 recordings has a maximum ten times above the next
+    // value.
     assert!(n_without_variance <= 1, "{n_without_variance} rows");
 }

@@ -9,12 +9,12 @@ use crate::track::{PenSample, Track};
 const TICK: f64 = 0.005;
 const HAND: Hand = Hand { path: Path::Circle, speed_mps: 0.1, force_n: 1.0, extent_m: 0.06 };
 
-/// A stylus says something without delay.
+/// Sends a stylus report without delay.
 fn report(player: &mut Player, touch: Touch) {
     player.report(0, TimedTouch::new(touch, Instant::now(), None), 0.0);
 }
 
-/// Ticks a player on; each touch with the time of its tick.
+/// Runs the player for some ticks; returns each touch with the time of its tick.
 fn run(player: &mut Player, n_ticks: usize) -> Vec<(f64, Touch)> {
     let one = |_| {
         let next = player.stream_secs + TICK;
@@ -24,7 +24,7 @@ fn run(player: &mut Player, n_ticks: usize) -> Vec<(f64, Touch)> {
     (0..n_ticks).map(one).collect()
 }
 
-/// A second in one place, pressed from its first report on.
+/// A stroke of 1 s at one position, pressed from its first report on.
 fn pressed_stroke() -> Track {
     let sample = |i| PenSample {
         time_secs: 0.01 * f64::from(i),
@@ -36,7 +36,7 @@ fn pressed_stroke() -> Track {
     Track::new(&samples).unwrap()
 }
 
-/// Half a second to the right at 0.1 m/s, pressed with 0.5 N all the way.
+/// A stroke of 0.5 s to the right at 0.1 m/s with a force of 0.5 N.
 fn straight_stroke() -> Track {
     let sample = |i| PenSample {
         time_secs: 0.01 * f64::from(i),
@@ -76,7 +76,8 @@ fn a_hand_that_changes_its_numbers_goes_on_from_where_it_is() {
             player.set_input(Input::Hand(Hand { path, speed_mps, force_n: 0.5 + i as f32, ..HAND }));
             for (_, touch) in run(&mut player, 37) {
                 if player.clock_secs > 0.0 && i > 0 {
-                    // The way in a tick, and 3 %: the scribble's spread of 2 %, and `f32` positions of micrometers.
+                    // The distance of a tick plus 3 %: the scribble's spread of 2 %, and `f32` positions of
+                    // micrometers.
                     assert!(
                         distance(last, touch) <= 1.03 * speed_mps * TICK as f32,
                         "{path:?} at {speed_mps}"
@@ -85,7 +86,7 @@ fn a_hand_that_changes_its_numbers_goes_on_from_where_it_is() {
                 last = touch;
             }
         }
-        assert!((player.input_secs() - 4.0 * 37.0 * TICK).abs() < 1e-9, "one stroke");
+        assert!((player.input_secs() - 4.0 * 37.0 * TICK).abs() < 1e-9, "it must remain one stroke");
     }
 }
 
@@ -108,7 +109,7 @@ fn every_change_of_input_is_a_ramp() {
         player.set_input(input);
         let touches = run(&mut player, 4);
         for (_, touch) in touches {
-            // 2 N in four ticks.
+            // The force changes by 2 N within four ticks.
             assert!((touch.contact.force_n - last).abs() <= 0.5 + 1e-6, "{input:?}");
             last = touch.contact.force_n;
         }
@@ -122,14 +123,14 @@ fn a_live_hand_that_stops_reporting_falls_silent() {
     player.set_input(Input::Live);
     run(&mut player, 10);
     let live = Touch { x_m: 0.01, y_m: 0.02, contact: Contact { speed_mps: 0.2, force_n: 1.0 } };
-    // Five milliseconds on its way.
+    // The report is 5 ms old.
     player.report(0, TimedTouch::new(live, Instant::now(), None), 0.005);
     let touches = run(&mut player, 100);
-    assert_eq!(touches[2].1, live, "held at an age of 20 ms");
+    assert_eq!(touches[2].1, live, "must be held at an age of 20 ms");
     assert!(touches[3].1.contact.speed_mps < 0.2);
     assert!(touches[99].1.contact.speed_mps < 1e-9);
     assert_eq!((touches[99].1.x_m, touches[99].1.contact.force_n), (0.01, 1.0));
-    // Nonsense is a lifted tip.
+    // Invalid values act as a lifted tip.
     report(&mut player, Touch { contact: Contact { speed_mps: f32::NAN, force_n: f32::INFINITY }, ..live });
     assert_eq!(run(&mut player, 1)[0].1.contact, Contact::LIFTED);
 }
@@ -153,12 +154,12 @@ fn a_track_starts_at_its_beginning_and_ends_lifted() {
     for (i, (_, touch)) in run(&mut player, 80).into_iter().enumerate() {
         let secs = (i + 1) as f64 * TICK;
         assert!(distance(touch, track.touch_at(secs)) < 1e-6);
-        // At its very end rounding decides whether it is lifted.
+        // At the very end, rounding decides whether the tip is lifted.
         if secs >= FADE_SECS && (secs - track.duration_secs()).abs() > 1e-9 {
             assert!((touch.contact.speed_mps - track.touch_at(secs).contact.speed_mps).abs() < 1e-6);
         }
     }
-    // A new track, or the choice of the input again, starts anew.
+    // A new track, or selecting the input again, restarts it.
     assert_eq!(player.play(Box::new(track.clone())), Some(Box::new(track)));
     run(&mut player, 3);
     assert!((player.input_secs() - 3.0 * TICK).abs() < 1e-12);
@@ -178,7 +179,7 @@ fn the_stream_may_start_its_clock_again() {
 const TAKEOVER: Takeover = Takeover { lifted_secs: 0.1, stale_secs: 0.5 };
 const PEN: Touch = Touch { x_m: 0.01, y_m: 0.02, contact: Contact { speed_mps: 0.2, force_n: 2.0 } };
 
-/// A player whose hand is under way, and may be taken over.
+/// A player with an automatic stroke in progress, which live input may take over.
 fn under_way(takeover: Option<Takeover>) -> Player {
     let mut player = Player::new();
     player.set_takeover(takeover);
@@ -187,7 +188,7 @@ fn under_way(takeover: Option<Takeover>) -> Player {
     player
 }
 
-/// Ticks until another input is followed.
+/// Number of ticks until the given input is followed.
 fn ticks_until(player: &mut Player, input: Input) -> usize {
     (0..1000).find(|_| player.input() == input || run(player, 1).is_empty()).unwrap()
 }
@@ -204,11 +205,11 @@ fn a_touch_takes_over_at_once_with_its_landing_and_its_contact_fades() {
         last = touch.contact.force_n;
     }
     assert_eq!(last, 2.0);
-    // Without leave it does not.
+    // Without permission, live input does not take over.
     let mut player = under_way(None);
     report(&mut player, PEN);
     assert_eq!((player.input(), player.take_landing(0.0)), (Input::Hand(HAND), None));
-    // Leave that comes later, as on an output that was opened beneath a pen, is in time.
+    // Permission may come later, as on an output that is opened while a pen touches.
     player.set_takeover(Some(TAKEOVER));
     assert_eq!(player.input(), Input::Live);
     player.set_takeover(None);
@@ -223,14 +224,14 @@ fn the_chosen_input_goes_on_from_where_it_was() {
     run(&mut player, 30);
     assert!((player.input_secs() - secs).abs() < 1e-9);
     report(&mut player, PEN.lifted());
-    // 100 ms, and the tick after them.
+    // 100 ms, and the tick after that.
     assert!((20..=21).contains(&ticks_until(&mut player, Input::Hand(HAND))));
     let mut last = 0.0;
     for (_, touch) in run(&mut player, 3) {
-        assert!((touch.contact.force_n - last) <= 0.25 + 1e-6, "it fades");
+        assert!((touch.contact.force_n - last) <= 0.25 + 1e-6, "the contact must fade");
         last = touch.contact.force_n;
     }
-    // Four ticks of the hand since: it moves 0.5 mm in each.
+    // Four ticks of the stroke have passed; each moves the tip by 0.5 mm.
     assert!(distance(before, player.touch()) < 4.1 * 0.5e-3);
     assert!((player.input_secs() - secs - 4.0 * TICK).abs() < TICK + 1e-9);
 }
@@ -240,10 +241,10 @@ fn a_stylus_that_says_nothing_more_is_given_up_after_a_while() {
     let mut player = under_way(Some(TAKEOVER));
     report(&mut player, PEN);
     assert!((100..=101).contains(&ticks_until(&mut player, Input::Hand(HAND))));
-    // What waited for longer on its way takes over no more.
+    // A report that is older than the limit does not take over.
     player.report(0, TimedTouch::new(PEN, Instant::now(), None), 0.6);
     assert_eq!(player.input(), Input::Hand(HAND));
-    // No numbers are no time.
+    // A duration that is not a number counts as zero.
     player.set_takeover(Some(Takeover { lifted_secs: f32::NAN, stale_secs: f32::NAN }));
     report(&mut player, PEN);
     assert_eq!(player.input(), Input::Hand(HAND));
@@ -256,7 +257,7 @@ fn what_is_near_takes_over_and_a_mouse_that_moves_along_does_not_matter() {
         |player: &mut Player, touch| player.report(1, TimedTouch::new(touch, Instant::now(), None), 0.0);
     let hover = TimedTouch { is_near: true, ..TimedTouch::new(PEN.lifted(), Instant::now(), None) };
     mouse(&mut player, PEN.lifted());
-    assert_eq!(player.input(), Input::Hand(HAND), "a mouse that is not pressed");
+    assert_eq!(player.input(), Input::Hand(HAND), "a mouse that is not pressed must not take over");
     player.report(0, hover, 0.0);
     assert_eq!(player.input(), Input::Live);
     run(&mut player, 10);
@@ -264,20 +265,20 @@ fn what_is_near_takes_over_and_a_mouse_that_moves_along_does_not_matter() {
     report(&mut player, PEN);
     mouse(&mut player, PEN.lifted());
     run(&mut player, 4);
-    assert_eq!(player.touch().contact.force_n, 2.0, "the mouse lifts no pen");
+    assert_eq!(player.touch().contact.force_n, 2.0, "the mouse must not lift the pen");
     let pressed = Touch { contact: Contact { force_n: 0.7, ..PEN.contact }, ..PEN };
     mouse(&mut player, pressed);
     run(&mut player, 4);
-    assert_eq!(player.touch().contact.force_n, 2.0, "nor does it press in its place");
+    assert_eq!(player.touch().contact.force_n, 2.0, "the mouse must not replace the pen");
     player.report(0, hover, 0.0);
     mouse(&mut player, pressed);
     run(&mut player, 10);
-    assert_eq!(player.touch().contact, Contact::LIFTED, "nor while it hovers");
+    assert_eq!(player.touch().contact, Contact::LIFTED, "the mouse must not replace a hovering pen");
     report(&mut player, PEN);
     report(&mut player, PEN.lifted());
     mouse(&mut player, PEN.lifted());
     assert!((20..=21).contains(&ticks_until(&mut player, Input::Hand(HAND))));
-    // Its turn is over: now the mouse may press.
+    // The pen has left, so the mouse may press.
     mouse(&mut player, pressed);
     run(&mut player, 10);
     assert_eq!(player.touch().contact.force_n, 0.7);
@@ -308,7 +309,7 @@ fn a_hand_that_has_taken_over_stays_when_the_chosen_input_changes() {
         let touches = run(&mut player, 3);
         assert!(touches.iter().all(|(_, touch)| touch.contact.force_n == 2.0), "{input:?}");
     }
-    // A stroke that goes on in its middle is no landing.
+    // Resuming a stroke in its middle is not a contact onset.
     report(&mut player, PEN.lifted());
     run(&mut player, 40);
     player.play(Box::new(pressed_stroke()));
@@ -347,7 +348,7 @@ fn a_repeated_stroke_has_its_speed_and_is_lifted_in_between() {
             }
             assert_eq!(touch.contact.force_n, 0.5 * force, "{tempo} at {secs}");
             assert!((f64::from(touch.x_m) - 0.1 * f64::from(tempo) * secs).abs() < 1e-6, "{tempo} at {secs}");
-            // The estimate is exact once it has settled; it begins at rest.
+            // The speed estimate starts at rest and is exact once it has settled.
             if secs > 0.1 / f64::from(tempo) {
                 let off = touch.contact.speed_mps - 0.1 * tempo;
                 assert!(off.abs() < 1e-4 * tempo, "{tempo} at {secs}: {}", touch.contact.speed_mps);
@@ -365,7 +366,7 @@ fn every_beginning_of_a_repeated_stroke_lands() {
         run(&mut player, 1);
         player.take_landing(0.0).is_some()
     });
-    // Almost three seconds, of six tenths each.
+    // Almost three seconds, with a period of 0.6 s.
     assert_eq!(landed.count(), 5);
 }
 
@@ -378,7 +379,7 @@ fn a_repeated_stroke_that_is_stopped_is_lifted_once_it_has_faded() {
     assert_eq!(player.touch().contact.force_n, 0.5);
     player.set_input(Input::Lifted);
     let touches = run(&mut player, 5);
-    // Less from the first tick on, and nothing after the fade of four.
+    // The force decreases from the first tick on and is zero after the fade of four ticks.
     assert!(touches.windows(2).all(|pair| pair[1].1.contact.force_n <= pair[0].1.contact.force_n));
     assert!(touches[0].1.contact.force_n < 0.5);
     assert_eq!(touches[4].1.contact, Contact::LIFTED);
@@ -394,15 +395,15 @@ fn a_repeated_stroke_goes_on_where_its_tempo_changes_and_waits_for_a_persons_han
     let before = player.touch();
     player.set_input(Input::Repeat(Repeat { tempo: 2.0, force: 1.0 }));
     run(&mut player, 1);
-    assert!((player.touch().x_m - before.x_m - 0.2 * TICK as f32).abs() < 1e-6, "it goes on");
+    assert!((player.touch().x_m - before.x_m - 0.2 * TICK as f32).abs() < 1e-6, "the stroke must continue");
     let before = player.touch();
     report(&mut player, PEN);
     run(&mut player, 30);
     assert_eq!(player.input(), Input::Live);
     report(&mut player, PEN.lifted());
     ticks_until(&mut player, Input::Repeat(Repeat { tempo: 2.0, force: 1.0 }));
-    assert!((player.touch().x_m - before.x_m) <= 0.2 * 2.0 * TICK as f32, "it has waited");
-    // Another stroke begins at its beginning.
+    assert!((player.touch().x_m - before.x_m) <= 0.2 * 2.0 * TICK as f32, "the stroke must have paused");
+    // A new stroke starts at its beginning.
     player.play(Box::new(straight_stroke()));
     run(&mut player, 1);
     assert!((player.touch().x_m - 0.2 * TICK as f32).abs() < 1e-6);

@@ -1,4 +1,4 @@
-//! What lies at each place, through the whole engine.
+//! Relief playback through the whole engine.
 
 use shagreen_synth::renderer::Mix;
 
@@ -7,8 +7,8 @@ use crate::controls::Input;
 use crate::hand::{Hand, Path};
 use crate::texture::tests::wavy;
 
-/// A hand at 64 mm/s on waves of 0.64 mm makes 100 Hz, whatever the blocks; where hands change and where it turns nothing
-/// clicks, and a tip in the air is silent.
+/// A stroke at 64 mm/s over waves of 0.64 mm gives 100 Hz for every block size. There is no click at a change or
+/// reversal of the stroke, and a lifted tip is silent.
 #[test]
 fn a_relief_is_played_by_place() {
     let run = |block: usize| {
@@ -33,7 +33,11 @@ fn a_relief_is_played_by_place() {
     let power = steady.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / steady.len() as f64;
     let tone = 2.0 * (part(f64::sin).powi(2) + part(f64::cos).powi(2));
     assert!(power > 1e-4 && tone > 0.95 * power, "{tone} of {power} is at 100 Hz");
-    assert!(peak(&whole[110_000..192_000]) < 1e-6, "{} in the air", peak(&whole[110_000..192_000]));
+    assert!(
+        peak(&whole[110_000..192_000]) < 1e-6,
+        "peak of {} with a lifted tip",
+        peak(&whole[110_000..192_000])
+    );
     let steepest = |x: &[f32]| x.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
     assert!(steepest(&whole) < 2.0 * steepest(steady), "{} of {}", steepest(&whole), steepest(steady));
 }

@@ -1,4 +1,4 @@
-//! Signals that are played in the place of textures.
+//! Signals that are played instead of textures.
 
 use shagreen_synth::drive::Driven;
 
@@ -15,15 +15,15 @@ fn a_signal_takes_the_place_of_the_texture_and_gives_it_back() {
     handle.play_signal(Signal::new(samples.clone(), 48_000.0, Driven::Drive).unwrap()).unwrap();
     handle.set_drive(Drive { muted: false, gain: 0.1 });
     let out = play(&mut engine, 48_000, 256);
-    // The texture fades in 960 samples; a signal begins with a block.
-    assert!(out[1024..5824] == samples, "as it is, whatever the gain");
+    // The texture fades within 960 samples, and a signal starts with a block.
+    assert!(out[1024..5824] == samples, "the gain must not affect the signal");
     assert!(peak(&out[5900..]) < 0.1 && peak(&out[20_000..]) > 0.0);
     assert_eq!(handle.collect(), 1);
     assert!(!handle.status().plays_signal);
     play(&mut undisturbed, 57_600, 256);
     handle.set_drive(Drive::default());
     let (before, after) = (play(&mut undisturbed, 9600, 256), play(&mut engine, 9600, 256));
-    assert!(before[960..] == after[960..], "the texture went on beneath");
+    assert!(before[960..] == after[960..], "the texture must continue during the signal");
 }
 
 #[test]
@@ -43,9 +43,9 @@ fn signals_are_stopped_muted_replaced_and_limited() {
     handle.stop_signal();
     let out = play(&mut engine, 9600, 256);
     let steps = out.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f32::max);
-    assert!(steps < 0.05, "it fades: {steps}");
+    assert!(steps < 0.05, "the signal must fade, largest step {steps}");
     assert!(!handle.status().plays_signal && handle.collect() == 1);
-    // A stop without a signal stops none that comes later.
+    // A stop request without a signal does not affect later signals.
     handle.stop_signal();
     play(&mut engine, 256, 256);
     handle.play_signal(signal(0.25)).unwrap();
@@ -55,7 +55,8 @@ fn signals_are_stopped_muted_replaced_and_limited() {
 #[test]
 fn a_signal_after_a_stop_is_played_and_one_before_it_is_not() {
     let signal = |level| Signal::new(vec![level; 9600], 48_000.0, Driven::Drive).unwrap();
-    // All within one block: what is stopped is nothing, then a signal nobody has heard, then one that plays.
+    // All requests fall into one block. The stop applies to no signal, to one that has not started, and to one that
+    // plays.
     for n_before in 0..3 {
         let (mut handle, mut engine) = new(CONFIG).unwrap();
         if n_before > 0 {
@@ -67,7 +68,7 @@ fn a_signal_after_a_stop_is_played_and_one_before_it_is_not() {
         handle.stop_signal();
         handle.play_signal(signal(0.25)).unwrap();
         let out = play(&mut engine, 24_000, 256);
-        // The fade of the one before may meet its level, too.
+        // The fade of the previous signal may also pass this level.
         let n_frames = out.iter().filter(|x| **x == 0.25).count();
         assert!((9600..=9601).contains(&n_frames), "{n_frames} after {n_before}");
         assert!(n_before == 2 || peak(&out) == 0.25);
@@ -88,15 +89,15 @@ fn a_signal_that_takes_over_another_begins_when_that_has_faded() {
     let (mut handle, mut engine) = new(CONFIG).unwrap();
     handle.play_signal(ramp(0.5)).unwrap();
     play(&mut engine, 4864, 256);
-    // The one in the middle is never heard.
+    // The second signal never starts.
     handle.play_signal(ramp(0.2)).unwrap();
     handle.play_signal(ramp(0.0)).unwrap();
     let out = play(&mut engine, 24_000, 256);
     let begin = out.windows(2).position(|w| w == [0.0, 1e-5]).unwrap();
-    // 0.55 in the 960 frames of the fade.
+    // The level changes by 0.55 within the 960 frames of the fade.
     let steps = out[..begin].windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f32::max);
     assert!(steps < 7e-4, "{steps}");
-    assert!(out[begin..begin + 9600] == *ramp(0.0).part(0, 9600), "from its beginning");
+    assert!(out[begin..begin + 9600] == *ramp(0.0).part(0, 9600), "the signal must start at its beginning");
     assert!((960..=960 + 256).contains(&begin) && peak(&out[begin + 9600..]) == 0.0, "{begin}");
     assert_eq!(handle.collect(), 3);
 }

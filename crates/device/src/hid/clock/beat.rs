@@ -1,54 +1,56 @@
-//! The even beat of a pen's reports, found in the times of their arrival.
+//! Estimation of a pen's constant report interval from arrival times.
 //!
-//! A pen measures at even intervals; a report of it comes later by what the way to us takes, at least by some time that is
-//! always the same and often by some milliseconds more. So the interval is the slope of a line through the last arrivals,
-//! and the beat lies beneath them all, touching the one with the least delay. A report that was lost leaves its beat empty.
+//! A pen samples at constant intervals. Each report arrives after a constant minimum delay, and often up to some
+//! milliseconds later. The interval is the slope of a line fitted to the last arrivals. The report times lie on a
+//! regular grid below all arrivals, through the arrival with the smallest delay. A lost report leaves a grid point
+//! empty.
 
-/// Reports that the interval is found from at most: the more, the better it is known.
+/// Most reports for the estimate of the interval; more reports give a better estimate.
 const N_KEPT: usize = 256;
-/// The last of them, above which the beat lies: an interval that is a little off does not add up over more.
+/// Number of latest reports that determine the phase of the grid; over more, an error of the interval would accumulate.
 const N_PHASE: usize = 64;
-/// The last of them, of which few beats may be empty.
+/// Number of latest reports in which empty grid points are counted.
 const N_RECENT: usize = 32;
-/// Fewest that it is found from for the first time.
+/// Fewest reports for the first estimate.
 const N_LEAST: usize = 24;
-/// How often the reports are counted anew with the interval that the last count gave.
+/// Number of iterations that reassign reports to grid points with the estimated interval.
 const N_COUNTS: usize = 3;
-/// A report this share of an interval after the beat that it was due at belongs to a later one: the one that was due is lost.
+/// A report that is at least this fraction of an interval late belongs to a later grid point: an earlier report was
+/// lost.
 const LOST_SHARE: f64 = 0.9;
-/// A report this share ahead of its beat belongs to the one before: that was taken for a later one's.
+/// A report that is more than this fraction of an interval early belongs to the same grid point as the previous report.
 const EARLY_SHARE: f64 = 0.5;
-/// A step of more than this many usual ones has a lost report in it.
+/// A step longer than this many median steps contains a lost report.
 const LOST_STEPS: f64 = 1.9;
-/// Of more empty beats than this share, the interval is another.
+/// Largest fraction of empty grid points; above it, the interval has changed.
 const MAX_EMPTY_SHARE: f64 = 0.25;
-/// What is further than this share of an interval from the line is no beat.
+/// Largest spread of the delays as a fraction of the interval; above it, there is no constant interval.
 const MAX_SPREAD_SHARE: f64 = 1.5;
-/// A pause of more than this, in seconds, begins anew where the beat lies: a pen that came back has another.
+/// A pause longer than this, in seconds, resets the phase: a returning pen has another phase.
 const PAUSE_SECS: f64 = 0.050;
 
-/// A report: how many beats after the first that is kept, and when it arrived in s.
+/// A report with its grid index, counted from the first kept report, and its arrival time in s.
 #[derive(Clone, Copy, Debug, Default)]
 struct Report {
     beat: f64,
     arrival_secs: f64,
 }
 
-/// The beat so far.
+/// Estimator of the report interval.
 #[derive(Clone, Debug)]
 pub(super) struct Beat {
-    /// The last reports since the last pause, oldest first.
+    /// Reports since the last pause, oldest first.
     kept: [Report; N_KEPT],
     n_kept: usize,
-    /// Interval in s, where it is known; it outlasts a pause.
+    /// Interval in s, if known; it survives a pause.
     interval_secs: Option<f64>,
-    /// How many reports it was found from.
+    /// Number of reports behind the estimate.
     n_fitted: usize,
     last_secs: f64,
 }
 
 impl Beat {
-    /// Before the first report.
+    /// An estimator before the first report.
     pub(super) fn new() -> Self {
         Self {
             kept: [Report::default(); N_KEPT],
@@ -59,8 +61,8 @@ impl Beat {
         }
     }
 
-    /// When a report was made that arrived now: never later than that, nor before the report ahead of it. Until there is a
-    /// beat, and where there is none, it is when it arrived.
+    /// Returns the time of a report that arrives now, never after its arrival and never before the previous report.
+    /// Without a known interval, the result is the arrival time.
     pub(super) fn time_secs(&mut self, arrival_secs: f64) -> f64 {
         if !arrival_secs.is_finite() {
             return arrival_secs;
@@ -76,7 +78,7 @@ impl Beat {
             self.fit();
         }
         let time_secs = self.now_secs().unwrap_or(arrival_secs).min(arrival_secs);
-        // A beat that moves back must not pass the report before; that had arrived by then.
+        // A grid that moves backwards must not pass the previous report, which had arrived by then.
         self.last_secs = time_secs.max(self.last_secs);
         self.last_secs
     }
@@ -94,7 +96,7 @@ impl Beat {
         self.n_kept += 1;
     }
 
-    /// The beat that a report belongs to which arrives after all that are kept.
+    /// Grid index of a report that arrives after all kept reports.
     fn next_beat(&self, arrival_secs: f64) -> f64 {
         let Some(last) = self.reports().last() else { return 0.0 };
         let Some((interval_secs, now_secs)) = self.interval_secs.zip(self.now_secs()) else {
@@ -107,7 +109,7 @@ impl Beat {
         last.beat + 1.0 + (late_share + 1.0 - LOST_SHARE).floor().max(0.0)
     }
 
-    /// Looks for an interval in the reports that are kept, or forgets them.
+    /// Estimates the interval from the kept reports, or discards them.
     fn find(&mut self) {
         let mut steps = [0.0; N_KEPT];
         for (step, pair) in steps.iter_mut().zip(self.reports().windows(2)) {
@@ -136,8 +138,8 @@ impl Beat {
         }
     }
 
-    /// Takes the interval from the reports that are kept, where they are as many as those that it is known from; forgets it
-    /// where they have no beat.
+    /// Refits the interval if at least as many reports are kept as the current estimate is based on. Discards the
+    /// interval if the reports do not fit a grid.
     fn fit(&mut self) {
         let Some(known_secs) = self.interval_secs else { return };
         let interval_secs = if self.n_kept >= self.n_fitted { self.slope_secs() } else { known_secs };
@@ -150,7 +152,7 @@ impl Beat {
         let recent = &reports[reports.len().saturating_sub(N_RECENT)..];
         let n_beats = recent[recent.len() - 1].beat - recent[0].beat;
         let n_empty = n_beats - (recent.len() - 1) as f64;
-        // Without an interval above zero nothing here is so.
+        // Both conditions fail for an interval that is not positive.
         let is_beat =
             most - least <= MAX_SPREAD_SHARE * interval_secs && n_empty <= MAX_EMPTY_SHARE * n_beats;
         if is_beat {
@@ -161,7 +163,7 @@ impl Beat {
         }
     }
 
-    /// The slope of the straight line that is nearest to the arrivals.
+    /// Slope of the least-squares line through the arrivals, in s per grid point.
     fn slope_secs(&self) -> f64 {
         let reports = self.reports();
         let n = reports.len() as f64;
@@ -172,7 +174,7 @@ impl Beat {
         products / squares
     }
 
-    /// There is no beat: another is looked for from the last report on.
+    /// Discards the interval and restarts the estimate at the last report.
     fn forget(&mut self) {
         if let Some(last) = self.reports().last() {
             (self.kept[0], self.n_kept) = (Report { beat: 0.0, ..*last }, 1);
@@ -180,7 +182,7 @@ impl Beat {
         (self.interval_secs, self.n_fitted) = (None, 0);
     }
 
-    /// The beat of the last report: that of the report with the least delay, and as many intervals later.
+    /// Grid time of the last report, from the recent report with the smallest delay.
     fn now_secs(&self) -> Option<f64> {
         let interval_secs = self.interval_secs?;
         let reports = self.reports();

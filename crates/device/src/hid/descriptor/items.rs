@@ -1,31 +1,31 @@
-//! The items that a report descriptor is a row of.
+//! Items of a report descriptor.
 
 use crate::hid::descriptor::DescriptorError;
 
-/// What sort of item it is.
+/// Type of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ItemKind {
     Main,
     Global,
     Local,
-    /// A long item or one of the reserved kind: nothing known has one.
+    /// A long item or one of the reserved type, which no known device uses.
     Unknown,
 }
 
-/// An item.
+/// An item with its data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Item {
     pub(super) offset: usize,
     pub(super) kind: ItemKind,
     pub(super) tag: u8,
-    /// Bytes of its data: 0, 1, 2 or 4.
+    /// Length of the data in bytes: 0, 1, 2 or 4.
     pub(super) n_bytes: u32,
-    /// Its data without a sign.
+    /// Data as an unsigned number.
     pub(super) data: u32,
 }
 
 impl Item {
-    /// Its data with the sign of its highest bit.
+    /// Data as a signed number of its length.
     pub(super) fn signed(self) -> i64 {
         match self.n_bytes {
             1 => i64::from((self.data as u8).cast_signed()),
@@ -35,7 +35,7 @@ impl Item {
     }
 }
 
-/// The items of a descriptor, up to the first that is cut off.
+/// Items of a descriptor, up to the first truncated one.
 pub(super) fn items(bytes: &[u8]) -> impl Iterator<Item = Result<Item, DescriptorError>> + '_ {
     let mut offset = 0;
     std::iter::from_fn(move || {
@@ -50,10 +50,10 @@ pub(super) fn items(bytes: &[u8]) -> impl Iterator<Item = Result<Item, Descripto
     })
 }
 
-/// Prefix of a long item: its length and tag follow.
+/// Prefix of a long item; its length and tag follow.
 const LONG_PREFIX: u8 = 0xfe;
 
-/// The item at the start of `bytes` and its length; `None` if it is cut off.
+/// The item at the start of `bytes` with its length; `None` if it is truncated.
 fn first_item(bytes: &[u8], offset: usize) -> Option<(Item, usize)> {
     let prefix = *bytes.first()?;
     if prefix == LONG_PREFIX {

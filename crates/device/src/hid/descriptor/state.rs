@@ -1,4 +1,4 @@
-//! What the items so far have set.
+//! Parser state between two items.
 
 use crate::hid::descriptor::items::{Item, ItemKind};
 use crate::hid::descriptor::{
@@ -8,10 +8,10 @@ use crate::hid::descriptor::{
 
 /// Most fields of one main item.
 const MAX_COUNT: u32 = 65_535;
-/// Most bits of a field: what is longer is data in bulk, and no number.
+/// Most bits of a field; a longer field is bulk data, not a number.
 const MAX_BIT_SIZE: u32 = 65_535;
 
-/// What global items set, until they set it anew.
+/// Global items, valid until they are set again.
 #[derive(Clone, Copy, Default)]
 struct Globals {
     usage_page: u16,
@@ -26,13 +26,13 @@ struct Globals {
     report_id: Option<u8>,
 }
 
-/// What local items set, for the next main item only.
+/// Local items, valid for the next main item only.
 #[derive(Default)]
 struct Locals {
-    /// First and last usage of each range, and whether they name their page themselves.
+    /// First and last usage of each range, and whether they include their usage page.
     usages: Vec<(u32, u32, bool)>,
     min: Option<(u32, bool)>,
-    /// Whether usages between two delimiters are read, which are other names of one field: the first counts.
+    /// Index of the first usage in a delimited set of alternatives for one field; only this first one is used.
     delimited: Option<usize>,
 }
 
@@ -42,13 +42,13 @@ pub(super) struct State {
     globals: Globals,
     pushed: Vec<Globals>,
     locals: Locals,
-    /// The collections that have not ended, the innermost last.
+    /// Open collections, innermost last.
     open: Vec<usize>,
     descriptor: Descriptor,
 }
 
 impl State {
-    /// Takes the next item in.
+    /// Processes the next item.
     pub(super) fn take(&mut self, item: Item) -> Result<(), DescriptorError> {
         match item.kind {
             ItemKind::Main => {
@@ -57,22 +57,22 @@ impl State {
             }
             ItemKind::Global => self.global(item)?,
             ItemKind::Local => self.local(item),
-            ItemKind::Unknown => self.warn(item.offset, "an item of a kind that nothing uses was skipped"),
+            ItemKind::Unknown => self.warn(item.offset, "an item of an unknown type is skipped"),
         }
         Ok(())
     }
 
-    /// The descriptor after its last item.
+    /// Returns the descriptor after its last item.
     pub(super) fn finish(mut self, n_bytes: usize) -> Result<Descriptor, DescriptorError> {
         if !self.open.is_empty() {
-            self.warn(n_bytes, "a collection has no end; it was ended");
+            self.warn(n_bytes, "a collection has no end; it ends with the descriptor");
         }
         if self.descriptor.reports.is_empty() {
             return Err(DescriptorError::NoReport);
         }
         let has_ids = self.descriptor.has_report_ids();
         if has_ids && self.descriptor.reports.iter().any(|report| report.id.is_none()) {
-            self.warn(0, "some reports have an id and some have none; those without were left out");
+            self.warn(0, "only some reports have an id; the reports without an id are ignored");
             self.descriptor.reports.retain(|report| report.id.is_some());
         }
         Ok(self.descriptor)
@@ -90,10 +90,10 @@ impl State {
             0xa => self.begin_collection(item),
             0xc => match self.open.pop() {
                 Some(_) => Ok(()),
-                None => Err(problem(item, "a collection ends that never began")),
+                None => Err(problem(item, "an end of collection without a collection")),
             },
             _ => {
-                self.warn(item.offset, "a main item that nothing uses was skipped");
+                self.warn(item.offset, "an unknown main item is skipped");
                 Ok(())
             }
         }
@@ -101,7 +101,7 @@ impl State {
 
     fn begin_collection(&mut self, item: Item) -> Result<(), DescriptorError> {
         if self.open.len() >= MAX_DEPTH {
-            return Err(problem(item, "collections are nested too deep"));
+            return Err(problem(item, "collections are nested too deeply"));
         }
         let page = self.globals.usage_page;
         let usage = self.locals.usages.first().map_or(Usage(0), |range| whole(*range, page).0);
@@ -122,12 +122,12 @@ impl State {
             reports.len() - 1
         });
         if bit_size == 0 || count == 0 {
-            // Devices of one family leave such items where a smaller member lacks a button.
+            // Some device families keep such empty items where a smaller model lacks a button.
             return Ok(());
         }
         let n_bits = u64::from(reports[index].n_bits) + u64::from(bit_size) * u64::from(count);
         if n_bits > 8 * u64::from(MAX_REPORT_BYTES) {
-            return Err(problem(item, "the report gets longer than a report may be"));
+            return Err(problem(item, "the report exceeds the largest report length"));
         }
         let bit_offset = std::mem::replace(&mut reports[index].n_bits, n_bits as u32);
         let page = globals.usage_page;
@@ -139,9 +139,9 @@ impl State {
             (physical_min, physical_max) = (logical_min, logical_max);
         }
         if usages.is_empty() && !is_constant {
-            self.warn(item.offset, "fields without a usage were taken for padding");
+            self.warn(item.offset, "fields without a usage are treated as padding");
         } else if logical_min > logical_max && !is_constant {
-            self.warn(item.offset, "the highest value is below the lowest");
+            self.warn(item.offset, "the logical maximum is below the logical minimum");
         }
         self.descriptor.reports[index].fields.push(Field {
             collection: self.open.last().copied(),
@@ -173,22 +173,26 @@ impl State {
             0x4 => globals.physical_max = Some(item),
             0x5 => globals.unit_exponent = exponent(item),
             0x6 => globals.unit = item.data,
-            0x7 if item.data > MAX_BIT_SIZE => return Err(problem(item, "fields of too many bits")),
+            0x7 if item.data > MAX_BIT_SIZE => {
+                return Err(problem(item, "the report size (bits per field) is too large"));
+            }
             0x7 => globals.bit_size = item.data,
             0x8 => {
-                let id = u8::try_from(item.data).ok().filter(|id| *id > 0); // Other numbers fit no byte.
-                let id = id.ok_or(problem(item, "the id of a report must be 1 to 255"))?;
+                let id = u8::try_from(item.data).ok().filter(|id| *id > 0); // Others do not fit a byte.
+                let id = id.ok_or(problem(item, "the report id must be 1 to 255"))?;
                 globals.report_id = Some(id);
             }
-            0x9 if item.data > MAX_COUNT => return Err(problem(item, "too many fields")),
+            0x9 if item.data > MAX_COUNT => {
+                return Err(problem(item, "the report count (number of fields) is too large"));
+            }
             0x9 => globals.count = item.data,
-            0xa if self.pushed.len() >= MAX_DEPTH => return Err(problem(item, "too much is pushed")),
+            0xa if self.pushed.len() >= MAX_DEPTH => return Err(problem(item, "too many nested push items")),
             0xa => self.pushed.push(*globals),
             0xb => {
                 let pushed = self.pushed.pop();
-                *globals = pushed.ok_or(problem(item, "something is popped that was never pushed"))?;
+                *globals = pushed.ok_or(problem(item, "a pop item without a push item"))?;
             }
-            _ => self.warn(item.offset, "a global item that nothing uses was skipped"),
+            _ => self.warn(item.offset, "an unknown global item is skipped"),
         }
         Ok(())
     }
@@ -202,17 +206,17 @@ impl State {
                 Some((min, min_is_whole)) if min <= item.data && is_whole == min_is_whole => {
                     self.usages(min, item.data, is_whole);
                 }
-                // The page of one holds for the other.
+                // If only one of the two includes its usage page, that page applies to both.
                 Some((min, true)) if !is_whole && min as u16 <= item.data as u16 => {
                     self.usages(min, min & 0xffff_0000 | item.data & 0xffff, true);
                 }
-                _ => self.warn(item.offset, "a range of usages without a beginning was skipped"),
+                _ => self.warn(item.offset, "a usage maximum without a usage minimum is skipped"),
             },
-            // Designators, strings.
+            // Designators and strings are ignored.
             0x3..=0x5 | 0x7..=0x9 => {}
             0xa if item.data == 1 => self.locals.delimited = Some(self.locals.usages.len()),
             0xa => self.locals.delimited = None,
-            _ => self.warn(item.offset, "a local item that nothing uses was skipped"),
+            _ => self.warn(item.offset, "an unknown local item is skipped"),
         }
     }
 
@@ -227,7 +231,7 @@ fn problem(item: Item, problem: &'static str) -> DescriptorError {
     DescriptorError::Item { offset: item.offset, problem }
 }
 
-/// First and last usage with their page: that at the main item, unless they name it themselves.
+/// First and last usage with their usage page: the current page, unless they include their own.
 fn whole((min, max, is_whole): (u32, u32, bool), page: u16) -> (Usage, Usage) {
     if is_whole {
         (Usage(min), Usage(max))
@@ -236,7 +240,7 @@ fn whole((min, max, is_whole): (u32, u32, bool), page: u16) -> (Usage, Usage) {
     }
 }
 
-/// A range. A highest value whose sign bit is meant as a bit (0xFFFF in two bytes for 65535) is common.
+/// Signed range. Many devices store an unsigned maximum (0xFFFF in two bytes for 65535), which is detected here.
 fn range(min: i64, max: Option<Item>) -> (i64, i64) {
     let max = match max {
         Some(max) if max.signed() < min && min >= 0 => i64::from(max.data),
@@ -246,7 +250,7 @@ fn range(min: i64, max: Option<Item>) -> (i64, i64) {
     (min, max)
 }
 
-/// A power of ten: a nibble with a sign, though many devices write a whole signed number.
+/// Unit exponent: a signed nibble by the specification, but many devices write a full signed number.
 fn exponent(item: Item) -> i32 {
     match item.data {
         nibble @ 0..=7 => nibble.cast_signed(),

@@ -5,7 +5,7 @@ use proptest::prelude::{Strategy, any, prop, prop_assert, proptest};
 use super::{Descriptor, DescriptorError, Field, MAX_DESCRIPTOR_BYTES, ReportKind, Usage, parse};
 use crate::hid::pen::PenDecoder;
 
-/// A pen: switches, padding, X and Y in cm, pressure in newtons, tilt, by pushed and popped globals.
+/// A pen: switches, padding, X and Y in cm, pressure in newtons, tilt, with pushed and popped globals.
 pub(crate) const PEN: &[u8] = &[
     0x05, 0x0d, 0x09, 0x02, 0xa1, 0x01, 0x85, 0x1a, 0x09, 0x20, 0xa1,
     0x00, // page, pen, report 26, stylus
@@ -23,7 +23,7 @@ pub(crate) const PEN: &[u8] = &[
     0xc0, 0xc0,
 ];
 
-/// A keyboard: a range of usages, an output, an array.
+/// A keyboard: a range of usages, an output report, an array.
 const KEYBOARD: &[u8] = &[
     0x05, 0x01, 0x09, 0x06, 0xa1, 0x01, 0x05, 0x07, 0x19, 0xe0, 0x29, 0xe7, 0x15, 0x00, 0x25, 0x01, 0x75,
     0x01, 0x95, 0x08, 0x81, 0x02, 0x95, 0x01, 0x75, 0x08, 0x81, 0x01, 0x95, 0x05, 0x75, 0x01, 0x05, 0x08,
@@ -31,7 +31,7 @@ const KEYBOARD: &[u8] = &[
     0xff, 0x00, 0x05, 0x07, 0x19, 0x00, 0x2a, 0xff, 0x00, 0x81, 0x00, 0xc0,
 ];
 
-/// A mouse with two reports and a usage that names its page itself.
+/// A mouse with two reports and a usage that includes its page.
 const MOUSE: &[u8] = &[
     0x05, 0x01, 0x09, 0x02, 0xa1, 0x01, 0x85, 0x01, 0x09, 0x01, 0xa1, 0x00, 0x05, 0x09, 0x19, 0x01, 0x29,
     0x03, 0x05, 0x09, 0x15, 0x00, 0x25, 0x01, 0x95, 0x03, 0x75, 0x01, 0x81, 0x02, 0x95, 0x01, 0x75, 0x05,
@@ -41,10 +41,10 @@ const MOUSE: &[u8] = &[
     0xb1, 0x02, 0xc0,
 ];
 
-/// A field as both parsers can tell it: usage, first bit, bits, logical range.
+/// A field as both parsers return it: usage, first bit, bits, logical range.
 type Told = (u32, usize, usize, i64, i64);
 
-/// A report as both parsers can tell it.
+/// A report as both parsers return it.
 type ToldReport = (Option<u8>, usize, Vec<Told>);
 
 fn ours(descriptor: &Descriptor, kind: ReportKind) -> Vec<ToldReport> {
@@ -92,17 +92,17 @@ fn theirs<R: hidreport::Report>(reports: &[R]) -> Vec<ToldReport> {
     reports
 }
 
-/// Asserts that ours and the published parser tell the same, where that parses it; else gives `false`.
+/// Asserts that our parser and the published one agree. Returns `false` if the published parser rejects the bytes.
 ///
-/// Two differences are meant. A highest value whose sign bit is a bit is told by that one as the unsigned number of
-/// some other width. And it pushes and pops usages too, which are not global items (class definition 6.2.2.7), so that
-/// a maker's own field after a pop may have a usage too many.
+/// Two differences are intended. The published parser returns an unsigned maximum with another width. It also pushes
+/// and pops usages, although they are not global items (class definition 6.2.2.7), so a vendor field after a pop may
+/// have an extra usage.
 fn compare(bytes: &[u8], name: &str) -> bool {
     let descriptor = parse(bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
     let Ok(oracle) = hidreport::ReportDescriptor::try_from(bytes) else { return false };
     let is_same = |own: &Told, other: &Told| {
         let is_vendors = own.0 >> 16 >= 0xff00 && own.0 >> 16 == other.0 >> 16;
-        // Ours, seen as a number of so many bits, is negative, and theirs ends in the same bits.
+        // Our value is negative as a signed number of this width, and theirs ends in the same bits.
         let is_wrapped = |bits: u32| own.4 >> (bits - 1) == 1 && other.4 & ((1 << bits) - 1) == own.4;
         (own.0 == other.0 || is_vendors)
             && (own.1, own.2, own.3) == (other.1, other.2, other.3)
@@ -132,8 +132,8 @@ fn the_published_parser_tells_the_same() {
     }
 }
 
-/// Descriptors of real devices, where they are at hand.
-#[expect(clippy::print_stdout, reason = "a test that skips says so")]
+/// Descriptors of real devices, if they are available.
+#[expect(clippy::print_stdout, reason = "a skipped test prints the reason")]
 pub(crate) fn corpus() -> Vec<(String, Vec<u8>)> {
     let folder = std::env::var_os("SHAGREEN_DATA").map_or_else(
         || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
@@ -156,7 +156,7 @@ pub(crate) fn corpus() -> Vec<(String, Vec<u8>)> {
 fn descriptors_of_real_devices_are_read_like_the_published_parser_reads_them() {
     let corpus = corpus();
     let n_compared = corpus.iter().filter(|(name, bytes)| compare(bytes, name)).count();
-    // One has a main item without a usage, which the published parser refuses.
+    // One descriptor has a main item without a usage, which the published parser rejects.
     assert!(n_compared + 1 >= corpus.len());
 }
 
@@ -193,7 +193,7 @@ fn the_last_usage_stands_for_all_that_follow() {
 
 #[test]
 fn a_range_may_name_its_page_itself() {
-    // The published parser leaves the page out; the class definition (6.2.2.8) does not.
+    // The published parser ignores the page; the class definition (6.2.2.8) does not.
     let range = [0x1b, 0x01, 0x00, 0x09, 0x00, 0x2b, 0x03, 0x00, 0x09, 0x00];
     for items in [&range[..], &[0x1b, 0x01, 0x00, 0x09, 0x00, 0x29, 0x03]] {
         let bytes = [&[0x05, 0x01][..], items, &[0x25, 0x01, 0x75, 0x01, 0x95, 0x03, 0x81, 0x02]].concat();
@@ -214,7 +214,7 @@ fn highest_values_whose_sign_bit_is_a_bit() {
     assert_eq!(range(&[0x15, 0x00, 0x27, 0xff, 0xff, 0xff, 0xff]), (0, 0xffff_ffff));
     assert_eq!(range(&[0x15, 0x81, 0x25, 0x7f]), (-127, 127));
     assert_eq!(range(&[0x16, 0x00, 0x80, 0x26, 0xff, 0xff]), (-32_768, -1));
-    // The physical range is mended alike, and is that of the numbers where there is none.
+    // The physical range is corrected likewise, and equals the logical range if it is absent.
     let with_physical = field(&[0x15, 0x00, 0x25, 0x7f, 0x46, 0x00, 0xff]);
     assert_eq!((with_physical.physical_min, with_physical.physical_max), (0, 0xff00));
     let without = field(&[0x15, 0x05, 0x25, 0x7f]);
@@ -225,14 +225,14 @@ fn highest_values_whose_sign_bit_is_a_bit() {
 fn what_real_devices_get_wrong_is_a_warning() {
     let main = [0x75, 0x08, 0x95, 0x01, 0x81, 0x02];
     for (bytes, n_warnings) in [
-        // Fields without a usage; a long item; a collection without an end; a range without a beginning.
+        // Fields without a usage; a long item; a collection without an end; a usage maximum without a minimum.
         (main.to_vec(), 1),
         ([&[0x09, 0x30, 0xfe, 0x02, 0x77, 1, 2][..], &main].concat(), 1),
         ([&[0x09, 0x30, 0xa1, 0x01, 0x09, 0x30][..], &main].concat(), 1),
         ([&[0x09, 0x30, 0x29, 0x05][..], &main].concat(), 1),
-        // An empty item is nothing.
+        // An item with a count of zero has no effect.
         ([&[0x09, 0x30, 0x75, 0x08, 0x95, 0x00, 0x81, 0x02, 0x09, 0x30][..], &main].concat(), 0),
-        // Of usages between delimiters the first counts.
+        // The first of several delimited usages is used.
         ([&[0xa9, 0x01, 0x09, 0x30, 0x09, 0x31, 0xa9, 0x00][..], &main].concat(), 0),
     ] {
         let descriptor = parse(&bytes).unwrap();
@@ -276,7 +276,7 @@ fn what_makes_the_published_parser_panic_does_not_make_ours() {
     assert!(parse(&bytes).is_err());
 }
 
-/// What a descriptor holds, as a bound of its memory.
+/// Number of elements in a descriptor, as a measure of its memory.
 fn n_things(descriptor: &Descriptor) -> usize {
     let fields = descriptor.reports.iter().flat_map(|report| &report.fields);
     descriptor.collections.len()
@@ -285,7 +285,7 @@ fn n_things(descriptor: &Descriptor) -> usize {
         + fields.map(|field| 1 + field.usages.len()).sum::<usize>()
 }
 
-/// Does with a descriptor and a report all that the program does.
+/// Runs everything that the program does with a descriptor and a report.
 fn exercise(bytes: &[u8], report: &[u8]) -> Result<(), proptest::test_runner::TestCaseError> {
     let Ok(descriptor) = parse(bytes) else { return Ok(()) };
     prop_assert!(n_things(&descriptor) <= 2 * bytes.len() + 2);
@@ -310,7 +310,7 @@ fn exercise(bytes: &[u8], report: &[u8]) -> Result<(), proptest::test_runner::Te
     Ok(())
 }
 
-/// A descriptor with some bytes changed, cut out, or doubled.
+/// A descriptor with some bytes changed, removed or repeated.
 fn mutated() -> impl Strategy<Value = Vec<u8>> {
     let source = prop::sample::select(vec![PEN, KEYBOARD, MOUSE]);
     let edits = prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..8);

@@ -1,4 +1,4 @@
-//! What the thread does.
+//! Body of the pen thread.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -16,7 +16,7 @@ use crate::hid::tracker::{PenMoment, PenTracker};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
 
-/// What the handle asks for; when it is gone, the thread ends.
+/// Command from the handle. When the handle is dropped, the thread ends.
 #[derive(Debug)]
 pub(super) enum Command {
     Live(LiveInput),
@@ -24,7 +24,7 @@ pub(super) enum Command {
     Size(Option<[f64; 2]>),
 }
 
-/// A pen that is open.
+/// An open pen.
 struct Open {
     source: Box<dyn ReportSource>,
     tracker: PenTracker,
@@ -68,7 +68,7 @@ impl Reader {
         }
     }
 
-    /// Reads until the handle is gone; gives the way into the engine back.
+    /// Reads until the handle is dropped. Returns the engine's live input.
     pub(super) fn run(mut self, commands: &Receiver<Command>) -> Option<LiveInput> {
         loop {
             loop {
@@ -118,11 +118,11 @@ impl Reader {
         }
     }
 
-    /// Looks for the pen and opens it.
+    /// Searches for the pen and opens it.
     fn look(&mut self) -> Result<(), DeviceError> {
         let id = &self.options.id;
         let pen = self.bus.list()?.into_iter().find(|pen| pen.id == *id).ok_or_else(|| {
-            let message = format!("the pen {id} is not there; plug it in, or choose another");
+            let message = format!("the pen {id} is not connected; plug it in, or choose another");
             DeviceError::new(DeviceErrorKind::NotFound, message)
         })?;
         let mut source = self.bus.open(&pen)?;
@@ -148,7 +148,7 @@ impl Reader {
         });
     }
 
-    /// Waits for one report and passes it on.
+    /// Waits for one report and processes it.
     fn read(&mut self) {
         let Some(open) = &mut self.open else { return };
         let read = open.source.read(&mut self.buffer, READ_TIMEOUT);
@@ -177,12 +177,12 @@ impl Reader {
         }
     }
 
-    /// Lifts the tip for the engine: nobody holds it any more.
+    /// Reports a lifted tip to the engine, because the pen is no longer read.
     fn lift(&mut self) {
         if let Some(open) = &mut self.open {
             let touch = open.tracker.lift();
             if let Some(live) = &mut self.live {
-                live.send(touch, Instant::now()).ok(); // Full only when the output has stopped: nobody feels it then.
+                live.send(touch, Instant::now()).ok(); // Full only when the output has stopped.
             }
         }
     }
@@ -190,14 +190,14 @@ impl Reader {
     fn tell_engine(&mut self, moment: &PenMoment, time: Instant) {
         let Some(live) = &mut self.live else { return };
         let landing_mps = moment.landing.map(|landing| landing.speed_mps);
-        // Without a place nothing would be felt: then the hand is left to another.
+        // Without a known position there is no output, so another stylus may take over.
         let hovers = moment.touch.contact.force_n == 0.0 && moment.place_m.is_some();
         let sent =
             if hovers { live.hover(moment.touch, time) } else { live.land(moment.touch, time, landing_mps) };
-        sent.ok(); // Full only when the output has stopped: nobody feels it then.
+        sent.ok(); // Full only when the output has stopped.
     }
 
-    /// Says why there is no pen, unless it was said.
+    /// Reports why there is no pen, unless this reason was already reported.
     fn wait_for(&mut self, reason: DeviceError) {
         if self.last_reason.as_ref() != Some(&reason) {
             self.last_reason = Some(reason.clone());
@@ -206,7 +206,7 @@ impl Reader {
     }
 
     fn tell(&mut self, notice: PenNotice) {
-        self.notices.try_send(notice).ok(); // Full: nobody reads them.
+        self.notices.try_send(notice).ok(); // Full: the notices are not read.
     }
 }
 
@@ -231,5 +231,5 @@ fn decoder_of(bytes: &[u8], pen: &HidPen) -> Result<PenDecoder, DeviceError> {
     };
     let descriptor = descriptor::parse(bytes).map_err(|error| unsupported(error.to_string()))?;
     PenDecoder::of_device(&descriptor, Some((pen.vendor_id, pen.product_id)))
-        .ok_or_else(|| unsupported("its descriptor declares no pen".into()))
+        .ok_or_else(|| unsupported("its report descriptor declares no pen".into()))
 }

@@ -18,7 +18,7 @@ use crate::texture::tests::white;
 use shagreen_synth::drive::DriveConfig;
 use shagreen_synth::renderer::Mix;
 
-/// A machine into which pens can be plugged.
+/// A simulated machine with pens that can be plugged and unplugged.
 #[derive(Clone, Default)]
 struct Machine(Arc<Mutex<State>>);
 
@@ -99,7 +99,7 @@ impl Machine {
         self.0.lock().unwrap().reports.push_back(report);
     }
 
-    /// A stroke of 0.2 m/s to the right at 2 N for 300 ms, in reports each 5 ms.
+    /// A stroke at 0.2 m/s to the right with 2 N for 300 ms, with a report every 5 ms.
     fn stroke(&self) {
         for i in 0..60 {
             self.send(report(3000 + 100 * i, 8000, 2039, DOWN));
@@ -116,7 +116,7 @@ fn options(serial: &str) -> PenOptions {
     }
 }
 
-/// The next notice, within five seconds.
+/// Returns the next notice, within five seconds.
 fn notice(thread: &PenThread) -> PenNotice {
     let begun = Instant::now();
     loop {
@@ -128,7 +128,7 @@ fn notice(thread: &PenThread) -> PenNotice {
     }
 }
 
-/// Waits until so many reports were read or ignored.
+/// Waits until the given number of reports is read or ignored.
 fn wait_for(thread: &PenThread, n: u64) {
     let begun = Instant::now();
     while thread.counts().n_reports + thread.counts().n_ignored < n {
@@ -168,7 +168,7 @@ fn a_stroke_is_felt_until_the_pen_is_unplugged_and_again_when_it_is_back() {
         *loud.lock().unwrap() = 0.0;
         machine.stroke();
         let contact = handle.status().touch.contact;
-        // The machine may be busy: reports then arrive late, and together.
+        // On a busy machine, reports arrive late and in groups.
         assert!(contact.speed_mps > 0.02 && contact.speed_mps < 1.0, "{contact:?}");
         assert!((contact.force_n - 2.0).abs() < 0.01, "{contact:?}");
         assert!(*loud.lock().unwrap() > 0.01);
@@ -181,7 +181,7 @@ fn a_stroke_is_felt_until_the_pen_is_unplugged_and_again_when_it_is_back() {
         );
         std::thread::sleep(Duration::from_millis(50));
         assert_eq!(handle.status().touch.contact.force_n, 0.0);
-        // Another pen of the same sort is not this one.
+        // Another pen of the same model is not this pen.
         machine.plug(&["b"]);
         std::thread::sleep(Duration::from_millis(50));
         machine.plug(&["b", "a"]);
@@ -203,7 +203,7 @@ fn nonsense_is_counted_and_felt_by_nobody() {
         let length = [1, 5, 11, 12, 64, 20_000][i % 6];
         let bytes = (0..length).map(|_| {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            // Never the id of the pen.
+            // The first byte is never the pen's report id.
             (seed >> 24) as u8 | 0x80
         });
         machine.send(bytes.collect());
@@ -212,7 +212,7 @@ fn nonsense_is_counted_and_felt_by_nobody() {
     wait_for(&thread, 301);
     assert_eq!((thread.counts().n_reports, thread.counts().n_ignored), (0, 301));
     assert!(thread.next_moment().is_none() && thread.counts().is_connected);
-    // A report of a size that nobody declared is read as far as it goes.
+    // A report longer than declared is decoded up to the declared length.
     machine.send([report(1000, 1000, 4095, DOWN), vec![0xff; 30_000]].concat());
     wait_for(&thread, 302);
     assert!((thread.next_moment().unwrap().force_n - 4.016).abs() < 1e-9);
@@ -285,7 +285,7 @@ fn a_size_that_is_no_other_leaves_the_stroke_alone() {
         let is_new = i == 2 || i == 4;
         assert_eq!(thread.next_notice().is_some(), is_new, "{i}");
     }
-    // Where the tracker began anew, there is no speed at the first report.
+    // After a restart of the tracker, the speed at the first report is zero.
     let begins: Vec<bool> = speeds.iter().map(|speed| *speed == 0.0).collect();
     assert_eq!(begins, [true, false, true, false, true]);
 }
@@ -296,7 +296,7 @@ fn the_way_into_the_engine_comes_back_for_the_next_pen() {
     let (mut handle, _running) = open_null_with_tap(output, |_| {}).unwrap();
     handle.set_input(Input::Live);
     let mut live = handle.take_live_input();
-    // Twice the same pen, then another; the last ends while it is waited for.
+    // The same pen twice, then another one; the last thread ends while it waits for its pen.
     for (serial, plugged) in [("a", "a"), ("a", "a"), ("b", "b"), ("a", "b")] {
         let machine = Machine::new(&[plugged]);
         let thread = PenThread::start(machine.clone(), options(serial), live.take()).unwrap();
@@ -306,7 +306,7 @@ fn the_way_into_the_engine_comes_back_for_the_next_pen() {
             wait_for(&thread, 1);
             let begun = Instant::now();
             while handle.status().touch.contact.force_n == 0.0 {
-                assert!(begun.elapsed() < Duration::from_secs(5), "{serial} is not felt");
+                assert!(begun.elapsed() < Duration::from_secs(5), "{serial} has no effect");
                 std::thread::sleep(Duration::from_millis(2));
             }
         }

@@ -1,13 +1,13 @@
-//! Where in a report the numbers of a pen are.
+//! Location of the pen's values in a report.
 
 use crate::hid::descriptor::{Descriptor, Field, Report, ReportKind, Usage};
 use crate::hid::pen::{PenAxis, PenFormat, PenPressure};
 use crate::hid::units::{self, Scale};
 
-/// Usage pages.
+/// HID usage pages.
 const DESKTOP: u16 = 0x01;
 const DIGITIZER: u16 = 0x0d;
-/// Wacom's own page: the low byte is a usage, the high byte its page, where zero is that of digitizers.
+/// Wacom's usage page. The high byte of the id is a standard usage page (zero for digitizer), the low byte its usage.
 const WACOM_DIGITIZER: u16 = 0xff0d;
 
 const X: Usage = Usage::new(DESKTOP, 0x30);
@@ -33,18 +33,18 @@ const fn digitizer(id: u16) -> Usage {
     Usage::new(DIGITIZER, id)
 }
 
-/// How surely a report is a pen's.
+/// Confidence that a report belongs to a pen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
-    /// Pressure in the reports of what calls itself a mouse or something else.
+    /// Pressure in a report of a mouse or another device type.
     Pressure,
-    /// Pressure in a collection of the maker's own.
+    /// Pressure in a vendor-defined collection.
     Vendor,
     /// A digitizer or a pen.
     Pen,
 }
 
-/// One number of a report.
+/// One value of a report.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slot {
     field: Field,
@@ -53,17 +53,17 @@ pub(crate) struct Slot {
 }
 
 impl Slot {
-    /// The number of a field that is alone in its row.
+    /// The value of a field with a count of one.
     pub(crate) fn of_field(field: Field) -> Self {
         Self { field, index: 0, scale: None }
     }
 
-    /// Whether it has a range and can be read.
+    /// Whether it has a range and at most 32 bits.
     fn is_number(&self) -> bool {
         self.field.logical_min < self.field.logical_max && self.field.bit_size <= 32
     }
 
-    /// The number, unless it is out of the range and the field says that this means there is none.
+    /// Returns the raw value, or `None` for the null state (out of range in a field with a null state).
     pub(crate) fn value(&self, report: &[u8]) -> Option<i64> {
         let value = self.field.value(report, self.index)?;
         let is_none = self.field.has_null
@@ -72,18 +72,18 @@ impl Slot {
         (!is_none).then_some(value)
     }
 
-    /// Whether it is anything but zero.
+    /// Whether the value is nonzero.
     pub(crate) fn is_set(&self, report: &[u8]) -> bool {
         self.value(report).is_some_and(|value| value != 0)
     }
 
-    /// What the number stands for.
+    /// Returns the value in physical units.
     pub(crate) fn quantity(&self, report: &[u8]) -> Option<f64> {
         Some(self.scale?.of(self.value(report)?))
     }
 }
 
-/// The numbers of a report that are used.
+/// The values of a report that are used.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PenFields {
     pub(crate) x: Slot,
@@ -105,11 +105,11 @@ pub(crate) struct PenFields {
     pub(crate) clock: Option<Slot>,
     pub(crate) transducer: Option<Slot>,
     pub(crate) serial: Option<Slot>,
-    /// Set where the report is of something else, as of a mouse on a tablet.
+    /// Nonzero in reports of other tools, such as a mouse on a tablet.
     pub(crate) not_a_pen: Option<Slot>,
 }
 
-/// The pen's numbers in a report, if it is a pen's.
+/// Returns the pen's values in a report, or `None` if it is not a pen report.
 pub(super) fn pen_fields(descriptor: &Descriptor, report: &Report) -> Option<(Rank, PenFields)> {
     if report.kind != ReportKind::Input {
         return None;
@@ -155,18 +155,18 @@ pub(super) fn pen_fields(descriptor: &Descriptor, report: &Report) -> Option<(Ra
     Some((rank, fields))
 }
 
-/// Whether a field tells one thing at a time, and where it is: no padding, no array, no change.
+/// Whether a field holds absolute values: no padding, no array, no relative values.
 fn is_place(field: &Field) -> bool {
     !field.is_constant && field.is_variable && !field.is_relative
 }
 
-/// The usages of a field. Beyond a few, a field is data in bulk.
+/// The usages of a field. Fields with more values are bulk data.
 fn indexed(field: &Field) -> impl Iterator<Item = (&Field, u32, Usage)> {
     const MOST: u32 = 64;
     (0..field.count.min(MOST)).filter_map(move |index| Some((field, index, field.usage(index)?)))
 }
 
-/// The usage that one of Wacom's own page stands for; any other as it is.
+/// The standard usage for one on Wacom's usage page; any other usage unchanged.
 fn standard(usage: Usage) -> Usage {
     if usage.page() != WACOM_DIGITIZER {
         return usage;
@@ -178,7 +178,7 @@ fn standard(usage: Usage) -> Usage {
 }
 
 fn rank_of(descriptor: &Descriptor, x: &Field, has_pressure: bool) -> Option<Rank> {
-    /// Digitizer, pen, light pen, white board, stylus.
+    /// The usages are digitizer, pen, light pen, white board and stylus.
     const PENS: [u16; 5] = [0x01, 0x02, 0x03, 0x06, 0x20];
     const STYLUS: Usage = digitizer(0x20);
     const FINGER: Usage = digitizer(0x22);
@@ -190,7 +190,7 @@ fn rank_of(descriptor: &Descriptor, x: &Field, has_pressure: bool) -> Option<Ran
     }
     match (application.page(), standard(application)) {
         (DIGITIZER | WACOM_DIGITIZER, usage) if PENS.contains(&usage.id()) => {
-            // A digitizer of no sort may be anything that has a place: a stylus or pressure makes it a pen.
+            // A generic digitizer may be any pointing device; a stylus collection or a pressure makes it a pen.
             let is_pen = usage == PEN || has_pressure || is_inside(STYLUS);
             let rank = if application.page() == DIGITIZER { Rank::Pen } else { Rank::Vendor };
             is_pen.then_some(rank)
@@ -201,13 +201,13 @@ fn rank_of(descriptor: &Descriptor, x: &Field, has_pressure: bool) -> Option<Ran
     }
 }
 
-/// In collections of the maker's own, numbers of the maker's own page may be anything; X must be X.
+/// Values on a vendor-defined page may mean anything, so X must be the standard usage there.
 fn is_standard_x(x: &Field) -> bool {
     x.usage(0).is_some_and(|usage| usage.page() == DESKTOP)
 }
 
 impl PenFields {
-    /// The sort of report that has these numbers.
+    /// Returns the report type with these values.
     pub(crate) fn into_format(self, report_id: Option<u8>, n_bytes: usize) -> PenFormat {
         let axis = |slot: &Slot| PenAxis {
             logical_min: slot.field.logical_min,

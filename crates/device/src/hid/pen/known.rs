@@ -1,22 +1,22 @@
-//! Pens whose descriptors declare nothing but bytes of the maker's own.
+//! Known pens whose descriptors declare only vendor-defined bytes.
 //!
-//! For each there is a descriptor that says what the bytes are: the one that the device should have sent. The layout is
-//! that of the older small tablets of Wacom (vendor 056A), as public drivers for them tell it, and a recording of the
-//! PenPartner FT-0203-U confirms it: a byte of switches, X, Y, and pressure of nine bits.
+//! Each has a substitute descriptor here that declares the bytes correctly. The layout is that of older small Wacom
+//! tablets (vendor 056A), as public drivers describe it. A recording of the PenPartner FT-0203-U confirms it: a byte of
+//! switches, X, Y, and pressure of nine bits.
 
 use crate::hid::descriptor::{self, Descriptor, Usage};
 use crate::hid::pen::fields::Slot;
 
-/// A tablet of the layout.
+/// A tablet with this layout.
 struct KnownTablet {
     product_id: u16,
     /// Highest X and Y.
     counts: [u16; 2],
     pressure_max: u16,
-    /// Size of the area, in hundredths of a mm.
+    /// Size of the active area, in units of 0.01 mm.
     ///
-    /// That of the Volito (1016 lines an inch) and of the Graphires (2032) is stated by their makers. No document of
-    /// the FT-0203-U is at hand: the 1016 lines of its family are assumed, and drivers assume 1270.
+    /// The resolution of the Volito (1016 lines per inch) and of the Graphires (2032) is stated by the manufacturer. No
+    /// document of the FT-0203-U was available: the 1016 lines of its family are assumed, while drivers assume 1270.
     size_hundredths: [u16; 2],
 }
 
@@ -41,18 +41,18 @@ const TABLETS: [KnownTablet; 7] = [
     tablet(0x61, [3250, 2320], 255, [8125, 5800]),
 ];
 
-/// A switch that says that the report is of the tablet's mouse. The usage is ours.
+/// Usage of our own for the switch that marks reports of the tablet's mouse.
 const NOT_A_PEN: Usage = Usage::new(0xff00, 1);
 
-/// Whether a device is of the table.
+/// Whether a device is in the table.
 pub(super) fn is_known(vendor_id: u16, product_id: u16) -> bool {
     find(vendor_id, product_id).is_some()
 }
 
-/// The descriptor that a device should have sent, and the switch that says that a report is not of its pen.
+/// Returns the substitute descriptor of a device, and the switch that marks reports of other tools.
 pub(super) fn descriptor(vendor_id: u16, product_id: u16) -> Option<(Descriptor, Option<Slot>)> {
     let bytes = descriptor_bytes(find(vendor_id, product_id)?);
-    let descriptor = descriptor::parse(&bytes).ok()?; // A test parses all of the table.
+    let descriptor = descriptor::parse(&bytes).ok()?; // A test parses the whole table.
     let mut fields = descriptor.reports.iter().flat_map(|report| &report.fields);
     let not_a_pen = fields.find(|field| field.usage(0) == Some(NOT_A_PEN)).cloned().map(Slot::of_field);
     Some((descriptor, not_a_pen))
@@ -63,13 +63,13 @@ fn find(vendor_id: u16, product_id: u16) -> Option<&'static KnownTablet> {
 }
 
 fn descriptor_bytes(tablet: &KnownTablet) -> Vec<u8> {
-    // Digitizer page; application pen; report 2; switches of one bit: tip, two buttons of the barrel, two bits of
-    // nothing, the other end, the mouse, in range.
+    // Digitizer page; application pen; report 2. One-bit switches: tip, two barrel buttons, two bits of padding, eraser
+    // end, mouse, in range.
     let mut bytes = vec![0x05, 0x0d, 0x09, 0x02, 0xa1, 0x01, 0x85, 0x02, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01];
     bytes.extend([0x95, 0x03, 0x09, 0x42, 0x09, 0x44, 0x09, 0x5a, 0x81, 0x02, 0x95, 0x02, 0x81, 0x03]);
     bytes.extend([0x95, 0x01, 0x09, 0x3c, 0x81, 0x02, 0x0b, 0x01, 0x00, 0x00, 0xff, 0x81, 0x02, 0x09, 0x32]);
     bytes.extend([0x81, 0x02]);
-    // X and Y in cm times ten to the power of -3; their page in the usage.
+    // X and Y in cm × 10^-3; the usages include their page.
     bytes.extend([0x65, 0x11, 0x55, 0x0d, 0x75, 0x10]);
     for (usage, counts, hundredths) in [
         (0x30, tablet.counts[0], tablet.size_hundredths[0]),
@@ -81,7 +81,7 @@ fn descriptor_bytes(tablet: &KnownTablet) -> Vec<u8> {
         bytes.extend(hundredths.to_le_bytes());
         bytes.extend([0x81, 0x02]);
     }
-    // Pressure without a unit; the rest of the eight bytes.
+    // Pressure without a unit; padding up to eight bytes.
     bytes.extend([0x65, 0x00, 0x55, 0x00, 0x45, 0x00, 0x75, 0x0a, 0x09, 0x30, 0x26]);
     bytes.extend(tablet.pressure_max.to_le_bytes());
     bytes.extend([0x81, 0x02, 0x75, 0x06, 0x81, 0x03, 0xc0]);
@@ -100,7 +100,7 @@ mod tests {
             let format = decoder.best();
             let [width_m, height_m] = format.size_m().unwrap();
             assert_eq!((format.report_id, format.n_bytes), (Some(2), 8));
-            // 0.01 mm of rounding in the table.
+            // The table is rounded to 0.01 mm.
             let counts_per_mm =
                 [f64::from(tablet.counts[0]) / width_m, f64::from(tablet.counts[1]) / height_m];
             for per_mm in counts_per_mm.map(|per_m| 1e-3 * per_m) {
@@ -123,7 +123,7 @@ mod tests {
         assert!((pressed.pressure.unwrap() - 194.0 / 255.0).abs() < 1e-12);
         assert!(decoder.decode(&[2, 0xb1, 0, 0, 0, 0, 9, 0]).unwrap().inverted);
         assert!(!decoder.decode(&[2, 0x01, 0, 0, 0, 0, 9, 0]).unwrap().touching());
-        // The mouse of a tablet, an empty report, another report, one cut short.
+        // A report of the tablet's mouse, an empty report, another report, a truncated one.
         assert_eq!(decoder.decode(&[2, 0xd1, 0, 0, 0, 0, 9, 0]), None);
         assert_eq!(decoder.decode(&[0x63, 0x90, 0, 0, 0, 0, 0, 0]), None);
         assert_eq!(decoder.decode(&[2, 0x90, 0, 0, 0, 0, 0]), None);

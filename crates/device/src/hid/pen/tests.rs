@@ -8,7 +8,7 @@ fn decoder(bytes: &[u8]) -> Option<PenDecoder> {
     PenDecoder::of_descriptor(&parse(bytes).unwrap())
 }
 
-/// A descriptor of one application collection with switches, X, Y of 16 bits, and more, without report ids.
+/// A descriptor with one application collection of switches, 16-bit X and Y, and further items, without report ids.
 fn simple(page: u16, application: u8, more: &[u8]) -> Vec<u8> {
     let [low, high] = page.to_le_bytes();
     let start =
@@ -20,7 +20,7 @@ fn simple(page: u16, application: u8, more: &[u8]) -> Vec<u8> {
     [&start[..], &switches, &axes, more, &[0xc0]].concat()
 }
 
-/// Pressure of 8191 in 16 bits.
+/// Pressure up to 8191 in 16 bits.
 const PRESSURE: [u8; 9] = [0x05, 0x0d, 0x26, 0xff, 0x1f, 0x09, 0x30, 0x81, 0x02];
 
 fn check(found: Option<f64>, expected: f64) {
@@ -39,7 +39,7 @@ fn a_report_in_si_units() {
     let pressure = format.pressure.unwrap();
     assert_eq!((pressure.bits, pressure.logical_max), (16, 4095));
     check(pressure.full_n, 4.016);
-    // Tip and in range; X 10483, Y 15725, pressure 2048, tilts 45 and -60 degrees.
+    // Tip and in range; X 10483, Y 15725, pressure 2048, tilts of 45 and -60 degrees.
     let bytes = [0x1a, 0x21, 0xf3, 0x28, 0x6d, 0x3d, 0x00, 0x08, 0x94, 0x11, 0x90, 0xe8];
     let report = decoder.decode(&bytes).unwrap();
     assert!(report.touching() && report.tip && !report.eraser && report.barrel == [false; 2]);
@@ -51,7 +51,7 @@ fn a_report_in_si_units() {
     check(report.tilt_x_rad, std::f64::consts::FRAC_PI_4);
     check(report.tilt_y_rad, -std::f64::consts::FRAC_PI_3);
     assert_eq!((report.distance_m, report.clock_secs, report.twist_rad), (None, None, None));
-    // The eraser, both buttons; out of range nothing touches.
+    // Eraser, both buttons, and out of range, where nothing touches.
     let switches = |byte: u8| decoder.decode(&[&[0x1a, byte][..], &bytes[2..]].concat()).unwrap();
     assert!(switches(0x2c).eraser && switches(0x2c).inverted && switches(0x2c).touching());
     assert_eq!(switches(0x32).barrel, [true; 2]);
@@ -64,7 +64,7 @@ fn reports_that_are_none_of_the_pens() {
     for bytes in [&[][..], &[0x1a], &[0x1a; 11], &[0x19; 12], &[0; 64]] {
         assert_eq!(decoder.decode(bytes), None, "{bytes:?}");
     }
-    // What is too long was padded.
+    // A longer report is a padded one.
     assert_eq!(decoder.decode(&[0x1a; 12]), decoder.decode(&[0x1a; 5000]));
 }
 
@@ -85,7 +85,7 @@ fn values_beyond_the_range_are_pulled_in_unless_that_means_that_there_are_none()
 #[test]
 fn pens_and_what_is_none() {
     let is_pen = |page, application, more: &[u8]| decoder(&simple(page, application, more)).is_some();
-    // A pen without pressure; a digitizer of no sort with and without; makers' own; a mouse with pressure.
+    // A pen without pressure; a generic digitizer with and without; vendor-defined; a mouse with pressure.
     assert!(is_pen(0x0d, 0x02, &[]));
     assert!(is_pen(0x0d, 0x01, &PRESSURE) && !is_pen(0x0d, 0x01, &[]));
     assert!(is_pen(0xff00, 0x01, &PRESSURE) && !is_pen(0xff00, 0x01, &[]));
@@ -96,7 +96,7 @@ fn pens_and_what_is_none() {
     }
     let format = decoder(&simple(0x0d, 0x02, &[])).unwrap();
     assert_eq!((format.best().report_id, format.best().pressure, format.best().size_m()), (None, None, None));
-    // A mouse's X and Y are changes.
+    // A mouse has relative X and Y.
     let mut relative = simple(0x0d, 0x02, &PRESSURE);
     let at = relative.windows(4).position(|w| w == [0x09, 0x31, 0x81, 0x02]).unwrap();
     relative[at + 3] = 0x06;
@@ -105,7 +105,7 @@ fn pens_and_what_is_none() {
 
 #[test]
 fn a_makers_copy_of_the_usages_is_read_like_the_original() {
-    // All of page FF0D: switches, X (0130), Y (0131), pressure.
+    // All usages are on page FF0D: switches, X (0130), Y (0131), pressure.
     let bytes = [
         &[0x06, 0x0d, 0xff, 0x09, 0x01, 0xa1, 0x01, 0x15, 0x00, 0x25, 0x01, 0x75, 0x01, 0x95, 0x02][..],
         &[0x09, 0x42, 0x09, 0x32, 0x81, 0x02, 0x95, 0x06, 0x81, 0x03, 0x75, 0x18, 0x95, 0x01],
@@ -131,7 +131,7 @@ fn a_size_that_is_given_counts() {
 
 #[test]
 fn one_length_for_everything_is_doubtful() {
-    // As some tablets of 279 by 174 mm declare it: 2048 thousandths of a (cubic) inch for X, Y and pressure.
+    // Some tablets of 279 × 174 mm declare this: 2048 thousandths of an inch (cubic inch) for X, Y and pressure.
     let mut bytes = simple(0x0d, 0x02, &PRESSURE);
     let at = bytes.windows(2).position(|w| w == [0x05, 0x01]).unwrap();
     bytes.splice(at..at, [0x65, 0x33, 0x55, 0x0d, 0x46, 0x00, 0x08]);
@@ -142,7 +142,7 @@ fn one_length_for_everything_is_doubtful() {
     assert!(!decoder(PEN).unwrap().best().is_size_doubtful);
 }
 
-/// Every descriptor of a real device is read; pens are those with a place and a pressure, as another parser finds them.
+/// Every real descriptor is parsed; pens are those with position and pressure according to another parser.
 #[test]
 fn pens_among_real_devices() {
     let (mut n_pens, mut n_sizes, mut n_forces) = (0, 0, 0);
@@ -178,12 +178,12 @@ fn pens_among_real_devices() {
         compare_values(&decoder, &oracle, name);
     }
     if corpus.len() == 123 {
-        // And one that the other parser refuses.
+        // One more descriptor is rejected by the other parser.
         assert_eq!((n_pens, n_sizes, n_forces), (70, 69, 2));
     }
 }
 
-/// Asserts that both parsers take the same numbers out of reports of random bytes.
+/// Asserts that both parsers extract the same values from reports of random bytes.
 fn compare_values(decoder: &PenDecoder, oracle: &hidreport::ReportDescriptor, name: &str) {
     let mut seed = 1_u32;
     for format in decoder.formats() {

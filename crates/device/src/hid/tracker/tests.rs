@@ -14,7 +14,7 @@ fn tracker() -> PenTracker {
     PenTracker::new(PenDecoder::of_descriptor(&parse(PEN).unwrap()).unwrap(), OPTIONS)
 }
 
-/// A report of [`PEN`], of 209.66 by 157.25 mm in hundredths and 4.016 N in 4095 steps.
+/// A report of [`PEN`], with 209.66 × 157.25 mm in units of 0.01 mm and 4.016 N in 4095 steps.
 pub(crate) fn report(x: u16, y: u16, pressure: u16, switches: u8) -> Vec<u8> {
     let mut bytes = vec![0x1a, switches];
     for number in [x, y, pressure, 0, 0] {
@@ -23,7 +23,7 @@ pub(crate) fn report(x: u16, y: u16, pressure: u16, switches: u8) -> Vec<u8> {
     bytes
 }
 
-/// Tip and in range; in range alone.
+/// Switches for tip and in range, and for in range alone.
 pub(crate) const DOWN: u8 = 0x21;
 pub(crate) const HOVER: u8 = 0x20;
 
@@ -32,7 +32,7 @@ fn a_steady_stroke_has_its_speed_force_and_places() {
     let mut tracker = tracker();
     let mut last = tracker.report(0.0, &report(5000, 7862, 0, HOVER)).unwrap();
     assert_eq!(last.touch.contact, Contact::LIFTED);
-    // 1 mm each 5 ms to the right.
+    // The tip moves 1 mm to the right every 5 ms.
     for i in 0..100_u16 {
         last = tracker.report(0.005 * f64::from(i + 1), &report(5000 + 100 * i, 7862, 2048, DOWN)).unwrap();
     }
@@ -61,7 +61,7 @@ fn a_new_stroke_begins_at_rest_and_a_lost_pen_is_lifted_where_it_was() {
     let out = tracker.report(0.250, &report(0, 0, 0, 0)).unwrap();
     assert_eq!((out.place_m, out.touch.contact.force_n), (None, 0.0));
     let lifted = tracker.lift();
-    // Out of range, the numbers of the place are nonsense.
+    // Out of range, the position values are invalid.
     assert!((f64::from(lifted.x_m) - (0.049 - 0.104_83)).abs() < 1e-6 && lifted.contact.force_n == 0.0);
     let again = tracker.report(0.260, &report(15_000, 9000, 1000, DOWN)).unwrap();
     assert_eq!(again.touch.contact.speed_mps, 0.0);
@@ -70,7 +70,7 @@ fn a_new_stroke_begins_at_rest_and_a_lost_pen_is_lifted_where_it_was() {
 #[test]
 fn pressure_without_a_unit_goes_through_the_map() {
     let plain: Vec<u8> = {
-        // The same pen with pressure of no unit.
+        // The same pen with a pressure that has no unit.
         let at = PEN.windows(2).position(|w| w == [0x67, 0x11]).unwrap();
         let mut bytes = PEN.to_vec();
         bytes[at + 1..at + 5].fill(0);
@@ -104,7 +104,7 @@ fn a_recorded_stretch_replays_as_it_was_felt() {
     for pair in moments[..199].windows(2) {
         let moment = &pair[1];
         if pair[0].report.tip != moment.report.tip {
-            // A track has a point each ms: landing and lift may fall between two.
+            // A track has one point per ms, so contact onset and lift may fall between two points.
             continue;
         }
         let replayed = track.touch_at(moment.time_secs + 1e-9);
@@ -131,7 +131,7 @@ fn a_tap_tells_its_landing() {
         })
         .collect();
     assert_eq!(landings.len(), 1);
-    // 800 counts in 4 ms over 10 N/mm.
+    // The force rises by 800 counts in 4 ms; the stiffness is 10 N/mm.
     let expected = 800.0 / 4095.0 * 4.016 / 0.004 / 1e4;
     assert!((f64::from(landings[0].speed_mps) / expected - 1.0).abs() < 1e-6 && !landings[0].is_from_height);
     assert!((landings[0].time_secs - 0.008).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Beside a server that says what the tests want.
+//! Tests with a simulated sound server.
 
 use std::net::Shutdown;
 use std::os::unix::net::UnixStream;
@@ -12,10 +12,10 @@ use super::{Connection, Playback};
 use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::output::tests::OPTIONS;
-use crate::output::{Made, make_engine};
+use crate::output_options::{Made, make_engine};
 use crate::status::LinkState;
 
-/// A stream that has been opened, the server's end of its line, and what watches it.
+/// An open stream, the server's end of its connection, and the handle.
 fn opened() -> (Playback, UnixStream, Handle) {
     let (ours, theirs) = UnixStream::pair().unwrap();
     let Made { handle, engine, reporter } = make_engine(OPTIONS, 48_000).unwrap();
@@ -37,7 +37,7 @@ fn opened() -> (Playback, UnixStream, Handle) {
     (playback, theirs, handle)
 }
 
-/// What is said of a stream whose server says this and hangs up, if it is lost.
+/// The loss message of a stream whose server sends these messages and closes the connection.
 fn loss_after(words: &[(u32, Command)], is_closing: bool) -> Option<String> {
     let (playback, mut server, mut handle) = opened();
     for (seq, command) in words {
@@ -51,13 +51,13 @@ fn loss_after(words: &[(u32, Command)], is_closing: bool) -> Option<String> {
 
 #[test]
 fn what_the_server_says_is_told_and_closing_is_no_loss() {
-    // Latency is asked for by message 0, and playing by message 1.
+    // Message 0 requests the latency, and message 1 starts playback.
     let refused = |seq| (seq, Command::Error(PulseError::BadState));
     for (words, reason) in [
-        (vec![], "the sound server has gone ("),
-        (vec![refused(1)], "the sound server does not start it (server error: BadState)"),
-        (vec![refused(0)], "; before that: server error: BadState)"),
-        (vec![refused(0), (u32::MAX, Command::PlaybackStreamKilled(0))], ": its sink is gone;"),
+        (vec![], "the sound server has closed the connection ("),
+        (vec![refused(1)], "the sound server refuses to start it (server error: BadState)"),
+        (vec![refused(0)], "; earlier error: server error: BadState)"),
+        (vec![refused(0), (u32::MAX, Command::PlaybackStreamKilled(0))], ": its sink was removed;"),
     ] {
         let told = loss_after(&words, false).unwrap();
         assert!(told.contains(reason) && told.contains("`pulse:test` is lost"), "{told}");
@@ -72,7 +72,7 @@ fn a_line_that_is_hung_up_on_purpose_ends_without_a_loss() {
     let is_closing = Arc::new(AtomicBool::new(false));
     let closing = Arc::clone(&is_closing);
     let thread = std::thread::spawn(move || playback.run(&closing));
-    // Latency, samples, and the wish to play: it runs.
+    // After the latency request, the samples and the start command, the stream runs.
     for _ in 0..3 {
         let descriptor = read_descriptor(&mut server).unwrap();
         std::io::copy(&mut std::io::Read::take(&mut server, descriptor.length.into()), &mut std::io::sink())

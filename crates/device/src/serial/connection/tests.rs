@@ -1,6 +1,6 @@
-//! Real pseudo terminals, and a receiver whose clock waits for samples: so nothing here depends on how busy the machine
-//! is. Times are tested in `sender`.
-#![allow(clippy::print_stdout, reason = "a test says what it measured")]
+//! Tests with real pseudoterminals and a receiver whose clock waits for samples, so that the results do not depend on
+//! the load of the machine. Timing is tested in `sender`.
+#![allow(clippy::print_stdout, reason = "a test prints its measurement")]
 
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
@@ -18,8 +18,9 @@ use crate::engine::Handle;
 use crate::error::DeviceErrorKind;
 use crate::hand::{Hand, Path};
 use crate::measure::{Listener, measure};
+use crate::output::NULL_ID;
 use crate::output::tests::OPTIONS;
-use crate::output::{Made, NULL_ID, OpenOptions, make_engine};
+use crate::output_options::{Made, OpenOptions, make_engine};
 use crate::serial::frame::MAX_WIRE;
 use crate::serial::line::Line;
 use crate::serial::message::{Control, Mode, RunState, write_sensor};
@@ -30,26 +31,26 @@ use crate::texture::tests::white;
 
 const ABOUT: About = About { has_control: true, has_sensor: true, name: "test board", ..About::STREAM };
 const HAND: Hand = Hand { path: Path::Circle, speed_mps: 0.5, force_n: 0.5, extent_m: 0.06 };
-/// A host that waits for this receiver for ever.
+/// Options for a host that waits almost without limit.
 const PATIENT: SerialOptions = SerialOptions {
     baud: 1_000_000,
     mode: Mode::Stream,
     watchdog_ms: 60_000,
     patience: Duration::from_secs(30),
 };
-/// Longer than anything takes, on a machine that has better things to do.
+/// A time limit that is long enough for a busy machine.
 const LONG: Duration = Duration::from_secs(30);
 
-/// What the board played: the run, and the sample.
+/// Output of the board: run number and sample.
 type Played = (u8, i16);
-/// What happens to bytes on their way, down or up.
+/// Corruption of bytes in transit, in either direction.
 type Spoil = Box<dyn FnMut(&mut Vec<u8>) + Send>;
 
-/// A microcontroller at the other end of a pseudo terminal.
+/// A simulated microcontroller at the other end of a pseudoterminal.
 struct Board {
     port: String,
     stop: Arc<AtomicBool>,
-    /// Whether it neither reads nor ticks.
+    /// Whether the board neither reads nor ticks.
     is_stalled: Arc<AtomicBool>,
     played: Inbox<Played>,
     thread: Option<JoinHandle<usize>>,
@@ -78,12 +79,12 @@ impl Board {
         Self::new(Vec::new(), Box::new(|_| {}))
     }
 
-    /// The next `n` samples that it plays.
+    /// Returns the next `n` played samples.
     fn play(&self, n: usize) -> Vec<Played> {
-        (0..n).map(|_| self.played.recv_timeout(LONG).expect("the board plays")).collect()
+        (0..n).map(|_| self.played.recv_timeout(LONG).expect("the board must play")).collect()
     }
 
-    /// Pulls the plug; the most bytes that waited to be read at once.
+    /// Unplugs the board. Returns the largest number of bytes that waited to be read.
     fn pull_out(&mut self) -> usize {
         self.stop.store(true, Ordering::Relaxed);
         self.thread.take().map_or(0, |thread| thread.join().unwrap())
@@ -115,7 +116,7 @@ fn run_board(
         }
         most = most.max(master.bytes_to_read().unwrap_or(0) as usize);
         let mut bytes = [0; 4096];
-        // Nothing came, or nobody has the port open.
+        // Zero bytes if nothing arrived or the port is not open.
         let n = master.read(&mut bytes).unwrap_or(0);
         let mut bytes = bytes[..n].to_vec();
         spoil(&mut bytes);
@@ -123,14 +124,14 @@ fn run_board(
             receiver.receive(byte);
         }
         loop {
-            // The clock stands while there is nothing to play.
+            // The board's clock stops while there is nothing to play.
             let status = receiver.status();
             let prefill = receiver.settings().map_or(u16::MAX, |settings| settings.prefill);
             let is_ready = match receiver.settings().map(|settings| settings.mode) {
                 Some(Mode::Stream) => {
                     status.queued > 0 && (status.state == RunState::Playing || status.queued >= prefill)
                 }
-                // Sixteen at each turn, whatever arrives.
+                // Sixteen ticks per loop, whatever arrives.
                 Some(Mode::Control) => status.clock % 16 != 15,
                 None => false,
             };
@@ -158,14 +159,14 @@ fn run_board(
             words.extend(&wire[..len]);
         }
         spoil(&mut words);
-        // Nobody has the port open: nobody hears it.
+        // Writing fails while the port is not open.
         let _ = master.write_all(&words);
         words.clear();
     }
     most
 }
 
-/// All that opening does, with a texture that is there before the first sample.
+/// All steps of opening, with a texture that is loaded before the first sample.
 fn start(board: &Board, serial: SerialOptions) -> (Handle, SerialOutput, rtrb::Consumer<Heard>) {
     let id = "serial:test";
     let mut line = Line::open(id, &board.port, serial.baud).unwrap();
@@ -184,7 +185,7 @@ fn stroke(handle: &mut Handle) {
     handle.set_input(Input::Hand(HAND));
 }
 
-/// The same samples without a line.
+/// The same samples rendered without a serial line.
 fn expected(n: usize) -> Vec<i16> {
     let Made { mut handle, engine, reporter } = make_engine(OPTIONS, 4000).unwrap();
     stroke(&mut handle);
@@ -194,7 +195,7 @@ fn expected(n: usize) -> Vec<i16> {
     faded.collect()
 }
 
-/// Waits until something is so.
+/// Waits for a condition.
 fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
     let begun = Instant::now();
     while !is_so() {
@@ -210,12 +211,12 @@ fn a_texture_arrives_bit_for_bit() {
     let begun = Instant::now();
     let played: Vec<i16> = board.play(8000).into_iter().map(|(_, sample)| sample).collect();
     println!("2 s of samples in {:.2} s", begun.elapsed().as_secs_f64());
-    assert!(played == expected(8000), "the samples differ");
+    assert!(played == expected(8000), "the samples must be equal");
     assert!(played.iter().any(|x| x.abs() > 3000));
     let status = handle.status();
     assert_eq!((status.state, status.underruns, status.backend_errors), (LinkState::Running, 0, 0));
     assert!(status.frames_played >= 8000);
-    let Ok(Heard::Sensor(first)) = heard.pop() else { panic!("the sensor is heard") };
+    let Ok(Heard::Sensor(first)) = heard.pop() else { panic!("the sensor must send samples") };
     let block = SensorBlock { seq: 0, rate_hz: 3200, time_us: 7, scale_mps2: 0.038_307, counts: vec![0, -1] };
     assert_eq!(first, block);
     drop(output);
@@ -250,7 +251,7 @@ fn a_line_that_corrupts_is_survived() {
     let after = handle.status();
     let played = board.play(2000);
     assert!(played.iter().any(|(_, x)| x.abs() > 3000));
-    wait_for("it runs", || handle.status().state == LinkState::Running);
+    wait_for("it must run", || handle.status().state == LinkState::Running);
     assert!(handle.status().backend_errors >= after.backend_errors);
 }
 
@@ -263,17 +264,17 @@ fn a_stalled_reader_gets_nothing_stale() {
     std::thread::sleep(Duration::from_millis(100));
     let before: Vec<Played> = board.played.try_iter().collect();
     let frames = handle.status().frames_played;
-    wait_for("the stall is told", || handle.status().state == LinkState::Stalled);
+    wait_for("the stall must be reported", || handle.status().state == LinkState::Stalled);
     std::thread::sleep(Duration::from_secs(1));
-    assert!(handle.status().frames_played <= frames + 80, "nothing is rendered for nobody");
+    assert!(handle.status().frames_played <= frames + 80, "nothing may be rendered during a stall");
     board.is_stalled.store(false, Ordering::Relaxed);
     let after = board.play(2000);
-    wait_for("it runs again", || handle.status().state == LinkState::Running);
+    wait_for("it must run again", || handle.status().state == LinkState::Running);
     if let Some((run, _)) = before.last() {
-        assert!(after.iter().all(|(r, x)| r != run || *x == 0), "what waited in the line was played");
+        assert!(after.iter().all(|(r, x)| r != run || *x == 0), "stale samples were played");
     }
     let most = board.pull_out();
-    assert!(most < 4096, "{most} bytes waited");
+    assert!(most < 4096, "{most} bytes waited to be read");
 }
 
 #[test]
@@ -289,11 +290,11 @@ fn a_plug_that_is_pulled_is_a_loss_and_stays_one() {
     assert_eq!(connection.receiver.name, "test board");
     stroke(&mut connection.handle);
     board.play(1000);
-    // Nobody else gets the port.
+    // The port is exclusive.
     let error = open(&board.port, OPTIONS, PATIENT).unwrap_err();
     assert_eq!(error.kind(), DeviceErrorKind::Busy, "{error}");
     board.pull_out();
-    wait_for("the loss is told", || connection.handle.status().state == LinkState::Lost);
+    wait_for("the loss must be reported", || connection.handle.status().state == LinkState::Lost);
     let loss = connection.handle.loss().unwrap();
     assert_eq!(loss.kind(), DeviceErrorKind::Lost);
     assert!(loss.message().contains(&format!("`serial:{}`", board.port)), "{loss}");
@@ -313,8 +314,8 @@ fn control_reaches_a_board_that_renders() {
     let board = Board::good();
     let serial = SerialOptions { mode: Mode::Control, ..PATIENT };
     let (_handle, _output, _heard) = start(&board, serial);
-    // It plays the speed itself, in tenths of mm/s.
-    wait_for("the hand's speed is heard", || board.play(1)[0].1 == 5000);
+    // The board outputs the received speed, in units of 0.1 mm/s.
+    wait_for("the speed must arrive", || board.play(1)[0].1 == 5000);
 }
 
 #[test]
@@ -341,7 +342,7 @@ fn who_does_not_answer_is_told_how_to_find_out_why() {
     for words in [port.as_str(), "1000000 baud", "RX", "firmware"] {
         assert!(error.message().contains(words), "{error}");
     }
-    // A board that talks of something else.
+    // A board that sends unrelated text.
     let talker = std::thread::spawn(move || {
         for _ in 0..100 {
             let _ = master.write_all(b"temperature 23.4\r\n");
@@ -349,7 +350,7 @@ fn who_does_not_answer_is_told_how_to_find_out_why() {
         }
     });
     let error = open(&port, OPTIONS, impatient).unwrap_err();
-    assert!(error.message().contains("no frame in them"), "{error}");
+    assert!(error.message().contains("no valid frame"), "{error}");
     talker.join().unwrap();
 }
 
@@ -368,7 +369,7 @@ fn what_is_no_port_is_said() {
 fn a_receiver_without_a_sensor_is_refused_before_anything_is_played() {
     let board = Board::of(About { has_sensor: false, ..ABOUT }, Vec::new(), Box::new(|_| {}));
     let listener = Listener::Serial { port: board.port.clone(), baud: 1_000_000 };
-    let drive_at = |_: f64| -> Result<Vec<f32>, String> { panic!("nothing is to be played") };
+    let drive_at = |_: f64| -> Result<Vec<f32>, String> { panic!("nothing may be played") };
     let driven = (OPTIONS.drive, OPTIONS.channels);
     for id in [NULL_ID.to_owned(), format!("serial:{}", board.port)] {
         let error = measure(&id, driven, &listener, &drive_at, &mut |_| true).unwrap_err();

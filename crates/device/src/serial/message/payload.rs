@@ -1,9 +1,9 @@
-//! The numbers of a payload, one after the other, little-endian.
+//! Reader and writer for the little-endian numbers of a payload.
 
 use super::{Malformed, SampleBytes};
 use crate::serial::frame::MAX_PAYLOAD;
 
-/// What is left of a payload.
+/// Unread rest of a payload.
 pub(super) struct Reader<'a>(&'a [u8]);
 
 impl<'a> Reader<'a> {
@@ -30,21 +30,21 @@ impl<'a> Reader<'a> {
         Ok(u32::from(self.u16()?) | u32::from(self.u16()?) << 16)
     }
 
-    /// All that is left: one sample to `most`.
+    /// Reads all remaining bytes as 1 to `most` samples.
     pub(super) fn samples(&mut self, most: usize) -> Result<SampleBytes<'a>, Malformed> {
         let bytes = core::mem::take(&mut self.0);
         let is_whole = bytes.len().is_multiple_of(2) && (1..=most).contains(&(bytes.len() / 2));
         if is_whole { Ok(SampleBytes(bytes)) } else { Err(Malformed) }
     }
 
-    /// All that is left, up to `most` bytes.
+    /// Reads all remaining bytes, up to `most`.
     pub(super) fn text(&mut self, most: usize) -> &'a [u8] {
         let bytes = core::mem::take(&mut self.0);
         &bytes[..bytes.len().min(most)]
     }
 }
 
-/// A payload in the making. What does not fit is left out: no message is that long.
+/// Writer of a payload. Excess bytes are dropped; no message is that long.
 pub(super) struct Writer {
     bytes: [u8; MAX_PAYLOAD],
     len: usize,

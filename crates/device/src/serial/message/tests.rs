@@ -6,7 +6,7 @@ use super::{
 use crate::serial::frame::{Decoder, Frame, MAX_PAYLOAD, MAX_WIRE};
 use proptest::prelude::{any, prop, proptest};
 
-/// What nothing in a test depends on.
+/// Configuration for tests that do not depend on it.
 pub(in crate::serial) const CONFIGURE: Configure = Configure {
     config: 1,
     mode: Mode::Stream,
@@ -47,14 +47,14 @@ const REPLY: HelloReply<'_> = HelloReply {
     name: b"Voice coil",
 };
 
-/// Bytes on the wire, in hexadecimal, as the description of the protocol prints them.
+/// Bytes on the line in hexadecimal, in the format of the protocol description.
 fn hex(write: impl FnOnce(&mut [u8; MAX_WIRE]) -> usize) -> String {
     let mut wire = [0; MAX_WIRE];
     let len = write(&mut wire);
     wire[..len].iter().map(|byte| format!("{byte:02x}")).collect::<Vec<_>>().join(" ")
 }
 
-/// The messages of the description, in its order.
+/// Example messages of the protocol description, in its order.
 fn examples() -> Vec<String> {
     let control = Control { speed_dmmps: 1000, force_mn: 750, texture: 2, gain_permille: 1000 };
     let host = |message| hex(|wire| write_to_device(message, wire));
@@ -73,7 +73,7 @@ fn examples() -> Vec<String> {
     ]
 }
 
-/// The description and the code say the same bytes.
+/// The protocol description lists the same bytes as the code produces.
 #[test]
 fn examples_are_those_of_the_description() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/serial-protocol.md");
@@ -160,11 +160,11 @@ fn what_is_short_or_means_nothing_is_malformed() {
         assert_eq!(device(kind, &long[..least]), Ok(()), "{kind}");
         assert_eq!(device(kind, &long[..least - 1]), Err(Malformed), "{kind}");
     }
-    assert_eq!(host(0x03, &long[..4]), Err(Malformed), "half a sample");
+    assert_eq!(host(0x03, &long[..4]), Err(Malformed), "half a sample must be rejected");
     assert_eq!(host(0x03, &long[..=(2 * MAX_SAMPLES)]), Ok(()));
-    assert_eq!(host(0x03, &long[..3 + 2 * MAX_SAMPLES]), Err(Malformed), "too many samples");
-    assert_eq!(host(0x02, &[0; 18]), Err(Malformed), "configuration 0");
-    assert_eq!(host(0x02, &[2; 18]), Err(Malformed), "no such mode");
+    assert_eq!(host(0x03, &long[..3 + 2 * MAX_SAMPLES]), Err(Malformed), "too many samples must be rejected");
+    assert_eq!(host(0x02, &[0; 18]), Err(Malformed), "configuration 0 must be rejected");
+    assert_eq!(host(0x02, &[2; 18]), Err(Malformed), "an unknown mode must be rejected");
 }
 
 proptest! {

@@ -1,26 +1,26 @@
-//! Samples by their index, from the next to be played on: what is lost is a hole, what comes twice counts once.
+//! Queue of samples by index, starting at the next one to play. Lost samples leave a gap; repeated ones are ignored.
 
 use crate::serial::message::SampleBytes;
 
-/// What comes next.
+/// Next element of the queue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Next {
     Sample(i16),
-    /// It was lost; later ones are there.
+    /// A lost sample that is followed by later ones.
     Hole,
     Empty,
 }
 
-/// At most `N` samples.
+/// A queue of at most `N` samples.
 #[derive(Clone, Debug)]
 pub(super) struct Queue<const N: usize> {
     samples: [i16; N],
     is_there: [bool; N],
-    /// Place of the next to be played.
+    /// Position of the next sample in the arrays.
     head: usize,
-    /// Samples from the next to the last, holes too.
+    /// Number of samples from the next to the last, including gaps.
     len: usize,
-    /// Index of the next to be played, once there was one.
+    /// Index of the next sample; `None` before the first one.
     base: Option<u16>,
 }
 
@@ -29,7 +29,7 @@ impl<const N: usize> Queue<N> {
         Self { samples: [0; N], is_there: [false; N], head: 0, len: 0, base: None }
     }
 
-    /// Forgets everything: the next samples begin wherever they begin.
+    /// Discards everything. The next samples define the first index.
     pub(super) fn clear(&mut self) {
         (self.len, self.base) = (0, None);
     }
@@ -38,23 +38,23 @@ impl<const N: usize> Queue<N> {
         self.len
     }
 
-    /// Whether samples have said where they begin.
+    /// Whether the first index is defined.
     pub(super) fn has_begun(&self) -> bool {
         self.base.is_some()
     }
 
-    /// Index of the sample after the last.
+    /// Index after the last sample.
     pub(super) fn end(&self) -> u16 {
         self.base.unwrap_or(0).wrapping_add(self.len as u16)
     }
 
-    /// Takes samples that begin at `seq`, as far as `limit` samples are queued then; returns how many were new.
+    /// Adds samples that begin at index `seq`, up to `limit` queued samples. Returns how many were new.
     pub(super) fn put(&mut self, seq: u16, samples: SampleBytes<'_>, limit: usize) -> u16 {
         let base = *self.base.get_or_insert(seq);
         let limit = limit.min(N);
         let mut n_new = 0;
         for (i, sample) in samples.iter().enumerate() {
-            // Half of all indices lie behind, half ahead.
+            // By the sign of the 16-bit difference, half of all indices are before `base` and half after.
             let ahead = seq.wrapping_add(i as u16).wrapping_sub(base).cast_signed();
             let Some(offset) = usize::try_from(ahead).ok().filter(|&offset| offset < limit) else { continue };
             while self.len <= offset {
@@ -70,7 +70,7 @@ impl<const N: usize> Queue<N> {
         n_new
     }
 
-    /// Takes the next out.
+    /// Removes and returns the next element.
     pub(super) fn take(&mut self) -> Next {
         if self.len == 0 {
             return Next::Empty;
@@ -115,7 +115,7 @@ mod tests {
             assert_eq!(put(&mut queue, wrapped(2), &[3, 4], 8), 2);
             assert_eq!(put(&mut queue, wrapped(2), &[3, 4], 8), 0);
             assert_eq!(all(&mut queue), [1, 2, 3, 4, 5, 6].map(Next::Sample));
-            assert_eq!(put(&mut queue, wrapped(4), &[5, 6, 7], 8), 1, "two are late");
+            assert_eq!(put(&mut queue, wrapped(4), &[5, 6, 7], 8), 1, "two samples are late");
             assert_eq!(all(&mut queue), [Next::Sample(7)]);
         }
     }

@@ -22,7 +22,7 @@ fn play(receiver: &mut Small, n: usize) -> Vec<i16> {
     (0..n).map(|_| receiver.tick(0)).collect()
 }
 
-/// A receiver of both modes that is configured, and its run.
+/// A configured receiver of both modes, with its run number.
 fn configured(configure: Configure) -> (Small, u8) {
     let mut receiver = Receiver::new(About { has_control: true, name: "test", ..About::STREAM });
     tell(&mut receiver, HostMessage::Configure(configure));
@@ -31,12 +31,12 @@ fn configured(configure: Configure) -> (Small, u8) {
     (receiver, status.run)
 }
 
-/// What is heard of a run of equal samples: the fade in, then themselves.
+/// Output of a run of constant samples: the fade-in, then the samples.
 fn faded_in(sample: i16, n: usize) -> Vec<i16> {
     (1..).take(n).map(|k| (i32::from(sample) * k.min(12) / 12) as i16).collect()
 }
 
-/// One message that is due to the host, by a name.
+/// Returns a name for the next message to the host.
 fn sent(receiver: &mut Small) -> Option<&'static str> {
     let mut wire = [0; MAX_WIRE];
     let len = receiver.transmit(&mut wire);
@@ -59,7 +59,7 @@ fn says_hello_after_a_reset_and_when_asked() {
     assert_eq!(receiver.status().state, RunState::Unconfigured);
     tell(&mut receiver, HostMessage::Hello { nonce: 7, version: 1 });
     assert_eq!((sent(&mut receiver), sent(&mut receiver)), (Some("hello"), Some("status")));
-    // Samples for a receiver that was reset: the host hears that it was.
+    // Samples for a receiver after a reset: the status tells the host about the reset.
     feed(&mut receiver, 0, 0, &[1]);
     assert_eq!(sent(&mut receiver), Some("status"));
     assert_eq!(play(&mut receiver, 1000), [0; 1000]);
@@ -82,7 +82,7 @@ fn a_gap_fades_out_and_in_again_without_a_jump() {
     let (mut receiver, run) = configured(CONFIGURE);
     feed(&mut receiver, 0, run, &[12_000; 16]);
     feed(&mut receiver, 16, run, &[12_000; 4]);
-    // Four are lost, then it goes on.
+    // Four samples are lost, and then the stream continues.
     feed(&mut receiver, 24, run, &[12_000; 16]);
     let mut played = play(&mut receiver, 40);
     let expected_end: Vec<i16> = (0..12).rev().map(|k| 1000 * k).collect();
@@ -102,7 +102,7 @@ fn lost_repeated_and_exchanged_frames_leave_the_rest_as_it_was() {
     for begin in [8_usize, 0, 8, 24, 16, 32] {
         feed(&mut receiver, begin as u16, run, &samples[begin..begin + 8]);
         if begin == 8 {
-            // Begins where the first to arrive does: what came before it is late.
+            // The first arriving samples define the start; earlier ones are late.
             assert_eq!(receiver.status().state, RunState::Filling);
         }
     }
@@ -153,14 +153,14 @@ fn nothing_is_played_above_the_ceiling() {
 
 #[test]
 fn the_watchdog_silences_what_waits_and_what_plays() {
-    // 50 ms at 4 kHz.
+    // The watchdog time is 50 ms at 4 kHz.
     let (mut receiver, run) = configured(CONFIGURE);
     feed(&mut receiver, 0, run, &[3000; 10]);
     play(&mut receiver, 199);
     assert_eq!(receiver.status().state, RunState::Filling);
     play(&mut receiver, 1);
     assert_eq!((receiver.status().state, receiver.status().underruns), (RunState::Armed, 1));
-    // The rest of the old start does not begin the new run.
+    // Remaining samples of the old run do not start the new run.
     feed(&mut receiver, 10, run, &[3000; 30]);
     assert_eq!(play(&mut receiver, 100), [0; 100]);
 
@@ -192,7 +192,7 @@ fn old_control_and_control_of_another_run_are_dropped() {
         assert_eq!(receiver.control().unwrap().speed_dmmps, expected);
     }
     assert_eq!(receiver.status().dropped, 4);
-    // Samples are not for this mode.
+    // Samples are ignored in this mode.
     feed(&mut receiver, 0, run, &[1; 5]);
     assert_eq!((receiver.status().dropped, receiver.status().queued), (9, 0));
 }
@@ -249,8 +249,8 @@ fn reports_come_by_its_own_clock() {
 }
 
 proptest! {
-    /// Whatever arrives, and whenever: no panic, nothing above the ceiling, no jump larger than a step of the fade and
-    /// of the signal.
+    /// For any bytes at any time, there is no panic, no sample above the ceiling, and no jump larger than a step of
+    /// fade and signal.
     #[test]
     fn arbitrary_bytes_are_never_heard_above_the_ceiling(
         acts in prop::collection::vec((prop::collection::vec(any::<u8>(), 0..12), any::<u8>(), 0_u16..100, 0_usize..30), 0..60),

@@ -1,6 +1,6 @@
-//! Both sides on a line of this file's own time: a step is a tick of the receiver's clock, so that every test is the same
-//! on every machine, however busy it is.
-#![allow(clippy::print_stdout, reason = "a test says what it measured")]
+//! Tests of both sides on a simulated line with simulated time. A step is a tick of the receiver's clock, so results do
+//! not depend on the machine or its load.
+#![allow(clippy::print_stdout, reason = "a test prints its measurement")]
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -14,18 +14,18 @@ use crate::serial::receiver::{About, Receiver};
 use proptest::prelude::{any, prop, proptest};
 
 const PLAN: Plan = Plan { configure: CONFIGURE, block: 16, stall: Duration::from_millis(25) };
-/// A tick at 4 kHz.
+/// Duration of a tick at 4 kHz.
 const TICK: Duration = Duration::from_micros(250);
-/// Ticks that a frame takes over the line, either way.
+/// Transit time of a frame in ticks, in either direction.
 const DELAY: u64 = 4;
 const ABOUT: About = About { has_control: true, ..About::STREAM };
-/// Ticks of a second, and of the 50 ms within which a stream must stand again.
+/// Ticks in a second, and in the 50 ms within which a stream must recover.
 const SECOND: u64 = 4000;
 const RESYNC: u64 = 200;
-/// Ticks from rendering to hearing at most: the window, the way, and a block.
+/// Largest number of ticks from rendering to playback: window, transit and a block.
 const OLDEST: u64 = 40 + DELAY + 16;
 
-/// Samples that say when they were rendered, so that what is stale can be told.
+/// Source whose samples encode the tick of their rendering, so that stale samples are recognized.
 struct Stamps {
     tick: u64,
     n_rendered: u64,
@@ -46,25 +46,25 @@ fn stamp(tick: u64) -> i16 {
     1 + (tick % 30_000) as i16
 }
 
-/// What happens to a frame.
+/// Simulated transmission of a frame.
 enum Fate {
     Arrives,
     Lost,
     Twice,
-    /// After the next one.
+    /// Arrives after the next frame.
     Later,
-    /// With this byte of it changed.
+    /// One byte is changed: its index and the changed bits.
     Corrupted(usize, u8),
 }
 
 type Fates = Box<dyn FnMut(u64) -> Fate>;
 
-/// One way of the line.
+/// One direction of the line.
 struct Way {
     on_it: VecDeque<(u64, Vec<u8>)>,
     held: Option<Vec<u8>>,
     fates: Fates,
-    /// Nothing comes out, and nothing is lost.
+    /// Whether frames are held back without loss.
     is_stuck: bool,
     most: usize,
 }
@@ -124,10 +124,10 @@ struct Bench {
     receiver: Receiver<256>,
     down: Way,
     up: Way,
-    /// Whether the receiver's clock stands still.
+    /// Whether the receiver's clock is halted.
     is_halted: bool,
     played: Vec<i16>,
-    /// Ticks at which something was heard at full gain, and how old it was.
+    /// Ticks with output at full gain, and the age of that output in ticks.
     ages: Vec<(u64, u64)>,
 }
 
@@ -161,7 +161,7 @@ impl Bench {
             let rendered =
                 self.receiver.control().map_or(0, |control| control.speed_dmmps.cast_signed() & 0x3FFF);
             let sample = self.receiver.tick(rendered);
-            assert!(sample.unsigned_abs() <= CONFIGURE.ceiling, "above the ceiling");
+            assert!(sample.unsigned_abs() <= CONFIGURE.ceiling, "output above the ceiling");
             self.played.push(sample);
             let mut wire = [0; MAX_WIRE];
             loop {
@@ -186,7 +186,7 @@ impl Bench {
         self.outbox.flush(now, &mut write).unwrap();
     }
 
-    /// Lets time pass; how old what is heard is, wherever it is heard at full gain for two ticks.
+    /// Advances time. Records the age of the output whenever two successive samples at full gain are equal.
     fn run(&mut self, n_ticks: u64) {
         for _ in 0..n_ticks {
             self.step();
@@ -201,7 +201,7 @@ impl Bench {
         }
     }
 
-    /// Ticks from now until something current is heard again.
+    /// Returns the number of ticks until current samples are played again.
     fn until_heard(&mut self) -> u64 {
         let begin = self.tick;
         while self.tick < begin + SECOND {
@@ -210,7 +210,7 @@ impl Bench {
                 return self.tick - begin;
             }
         }
-        panic!("nothing is heard: {:?} {:?}", self.sender, self.receiver.status());
+        panic!("there is no output: {:?} {:?}", self.sender, self.receiver.status());
     }
 
     #[track_caller]
@@ -218,7 +218,7 @@ impl Bench {
         self.check_ages_within(OLDEST);
     }
 
-    /// How old what was heard was at most, in ticks.
+    /// Checks the largest age of the output, in ticks.
     #[track_caller]
     fn check_ages_within(&self, most: u64) {
         let (tick, age) = self.ages.iter().max_by_key(|(_, age)| *age).unwrap();
@@ -230,7 +230,7 @@ impl Bench {
     }
 }
 
-/// Numbers that look random, from a seed.
+/// Pseudorandom numbers from a seed.
 fn numbers(seed: u64) -> impl FnMut() -> u64 {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
     move || {
@@ -249,7 +249,7 @@ fn a_good_line_plays_without_a_gap_and_never_late() {
     bench.check_ages();
     assert_eq!(bench.counts(), (0, 0));
     assert_eq!(bench.receiver.status().dropped, 0);
-    // Steps of the stamps are steps of blocks: nothing is missing between them.
+    // The stamps change by one block at a time, so no samples are missing.
     let begun = bench.played.iter().position(|&x| x != 0).unwrap() + 16;
     assert!(bench.played[begun..].windows(2).all(|w| w[0] != 0 && (w[1] - w[0]).abs() < 64));
     assert!(bench.down.most < 256 && bench.up.most < 256);
@@ -278,22 +278,22 @@ fn a_bad_line_is_survived_and_the_stream_stands_again_within_50_ms() {
         (bench.down.fates, bench.up.fates) = (fates(1), fates(2));
         bench.run(ends);
         assert!(bench.counts().1 > 50, "{:?}", bench.counts());
-        assert!(bench.ages.len() > 1000, "much is heard all the same: {}", bench.ages.len());
-        // A frame that this line holds back waits for the next one: that is when it is heard at its latest.
+        assert!(bench.ages.len() > 1000, "there must be output despite the errors: {}", bench.ages.len());
+        // A frame that is held back waits for the next one, which bounds its age.
         bench.check_ages_within(OLDEST + RESYNC);
         bench.ages.clear();
         slowest = slowest.max(bench.until_heard());
         bench.run(2 * RESYNC);
         let good = bench.ages.iter().filter(|(tick, _)| *tick > bench.tick - RESYNC).count() as u64;
-        // All but the steps from stamp to stamp.
+        // All samples count except those at changes of the stamp.
         assert!(good > RESYNC * 8 / 10, "seed {seed}: {good} of {RESYNC}");
         bench.check_ages();
     }
-    println!("a bad line: heard again after at most {} ms", slowest as f64 / 4.0);
+    println!("a bad line: output again after at most {} ms", slowest as f64 / 4.0);
     assert!(slowest <= RESYNC);
 }
 
-/// What ails the line for two seconds.
+/// Fault of the line that lasts two seconds.
 #[derive(Clone, Copy, Debug)]
 enum Ailment {
     DeadBoth,
@@ -326,9 +326,9 @@ fn a_line_that_was_away_plays_what_is_current_within_50_ms() {
             }
             let rendered = bench.source.n_rendered;
             bench.run(ends - begins);
-            // A window, and what was under way.
+            // At most a window and the samples in transit.
             let n_rendered = bench.source.n_rendered - rendered;
-            assert!(n_rendered <= 120, "{ailment:?} {shift}: {n_rendered} samples rendered for nobody");
+            assert!(n_rendered <= 120, "{ailment:?} {shift}: {n_rendered} samples rendered during the fault");
             assert!(bench.down.most <= 4096 && bench.up.most <= 1 << 16, "{ailment:?}: {}", bench.down.most);
             let silent = bench.played.iter().rev().take_while(|&&x| x == 0).count() as u64;
             assert!(matches!(ailment, Halted) || silent > 2 * SECOND - 200, "{ailment:?} {shift}: {silent}");
@@ -336,12 +336,12 @@ fn a_line_that_was_away_plays_what_is_current_within_50_ms() {
             bench.ages.clear();
             let after = bench.until_heard();
             slowest = slowest.max(after);
-            assert!(after <= RESYNC, "{ailment:?} {shift}: heard again after {} ms", after as f64 / 4.0);
+            assert!(after <= RESYNC, "{ailment:?} {shift}: output again after {} ms", after as f64 / 4.0);
             bench.run(SECOND);
             bench.check_ages();
         }
     }
-    println!("a line that was away: heard again after at most {} ms", slowest as f64 / 4.0);
+    println!("a line that was interrupted: output again after at most {} ms", slowest as f64 / 4.0);
 }
 
 #[test]
@@ -362,7 +362,7 @@ fn a_receiver_that_resets_is_configured_and_plays_again_within_50_ms() {
             assert_eq!(bench.receiver.status().config, 2);
         }
     }
-    println!("a receiver that was reset: heard again after at most {} ms", slowest as f64 / 4.0);
+    println!("a receiver that was reset: output again after at most {} ms", slowest as f64 / 4.0);
     assert!(slowest <= RESYNC);
 }
 
@@ -374,7 +374,7 @@ fn control_follows_the_hand_and_stops_with_it() {
     let age = bench.tick - u64::from(control.speed_dmmps);
     assert!(age <= 16 + 8 + 2 * DELAY + 1, "{age} ticks old");
     assert_eq!(control.texture, 1);
-    // The engine's clock is the receiver's.
+    // The engine runs on the receiver's clock.
     let n_played = bench.receiver.status().clock;
     assert!(u64::from(n_played).abs_diff(bench.source.n_rendered) <= 40);
     bench.down.is_stuck = true;
@@ -395,7 +395,7 @@ fn status_bytes(status: DeviceStatus) -> Vec<u8> {
     wire[..len].to_vec()
 }
 
-/// A receiver that claims all the room there is, and another run each time, gets what a clock could play.
+/// A receiver that claims unlimited room and a new run each time gets only what its clock could play.
 #[test]
 fn infinite_credit_is_no_credit() {
     let mut source = Stamps { tick: 0, n_rendered: 0 };
@@ -421,7 +421,7 @@ fn infinite_credit_is_no_credit() {
         };
         outbox.flush(now, &mut write).unwrap();
     }
-    // A second of 4000 samples, a quarter more, and two windows.
+    // 4000 samples for one second, a quarter more, and two windows.
     assert!(source.n_rendered <= 5000 + 80, "{}", source.n_rendered);
     assert!(n_bytes < 100_000, "{n_bytes}");
 }
@@ -447,7 +447,7 @@ proptest! {
             bench.run(u64::from(n_ticks));
         }
         bench.sender.receive(&[0], bench.now(), &mut |_| {});
-        // Nothing it said keeps the stream from standing again.
+        // No input prevents the stream from recovering.
         bench.ages.clear();
         bench.run(RESYNC);
         if mode == Mode::Stream {

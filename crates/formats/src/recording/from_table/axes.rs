@@ -1,4 +1,4 @@
-//! The columns of acceleration, and those of position that look like them.
+//! Selection of the acceleration columns, and of position columns with similar names.
 
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::Column;
@@ -9,11 +9,11 @@ use crate::recording::told::unit_by_gravity;
 use crate::recording::units::AccelerationUnit;
 
 impl Reading {
-    /// The columns of acceleration; none where that is asked, no column where there cannot be one.
+    /// Returns the acceleration columns: `None` if the user must choose, empty if no column can be acceleration.
     pub(super) fn acceleration_columns(&mut self) -> Result<Option<Vec<usize>>, RecordingFileError> {
         if let Some(columns) = self.inquiry.map.acceleration.clone() {
             if !(1..=3).contains(&columns.len()) {
-                let problem = format!("acceleration has one to three columns, not {}", columns.len());
+                let problem = format!("acceleration needs one to three columns, not {}", columns.len());
                 return Err(RecordingFileError::Map { problem });
             }
             return self.places(&columns).map(Some);
@@ -27,7 +27,7 @@ impl Reading {
         let choices: Vec<String> = self.free_columns();
         let choices: Vec<&str> = choices.iter().map(String::as_str).collect();
         if meant.len() > 3 {
-            let text = format!("{} may all be acceleration; name one to three of them", self.name(&meant));
+            let text = format!("{} may all be acceleration; choose one to three of them", self.name(&meant));
             self.inquiry.ask(Ask::Acceleration, &choices, text);
             return Ok(None);
         }
@@ -42,7 +42,8 @@ impl Reading {
             let name = self.name(&axes);
             let text = format!("{name} may be positions or accelerations");
             if has_speed {
-                let text = format!("{text}; since the motion is in other columns they are accelerations");
+                let text =
+                    format!("{text}; accelerations are assumed, because other columns hold the motion");
                 let columns = axes.iter().map(|place| (place + 1).to_string()).collect::<Vec<_>>().join(",");
                 self.inquiry.guess(Ask::Acceleration, &columns, &choices, text);
                 return taken(self, axes);
@@ -53,12 +54,13 @@ impl Reading {
         if self.table.header {
             return Ok(Some(Vec::new()));
         }
-        let text = "the columns have no names; say which are acceleration, by their places from 1".to_owned();
+        let text =
+            "the columns have no names; give the numbers of the acceleration columns, from 1".to_owned();
         self.inquiry.ask(Ask::Acceleration, &choices, text);
         Ok(None)
     }
 
-    /// What a column that is not taken yet may be called in an answer.
+    /// References to the columns that have no quantity yet.
     fn free_columns(&self) -> Vec<String> {
         (0..self.table.names.len())
             .filter(|place| !self.used.contains(place))
@@ -87,7 +89,8 @@ impl Reading {
                 places.iter().map(|place| self.table.columns[*place].as_slice()).collect();
             match unit_by_gravity(&columns, self.inquiry.map.per_count.unwrap_or(1.0)) {
                 Some((unit, length)) => {
-                    let text = format!("{text}; the mean vector is {length:.3} long, as gravity is");
+                    let text =
+                        format!("{text}; the mean vector has length {length:.3}, which matches gravity");
                     self.inquiry.guess(Ask::AccelerationUnit, unit.name(), &names, text);
                 }
                 None => self.inquiry.ask(Ask::AccelerationUnit, &names, text),
@@ -114,7 +117,7 @@ impl Reading {
         let is_free = |place: &usize| !in_acceleration.contains(&self.column(*place));
         if meant.is_empty() && !in_acceleration.is_empty() && axes.iter().all(is_free) && !axes.is_empty() {
             let name = self.name(&axes);
-            let text = format!("{name} are taken for positions, since acceleration is in other columns");
+            let text = format!("{name} are read as positions, because other columns hold the acceleration");
             let columns = axes.iter().map(|place| (place + 1).to_string()).collect::<Vec<_>>().join(",");
             self.inquiry.guess(Ask::Positions, &columns, &[], text);
             meant = axes;

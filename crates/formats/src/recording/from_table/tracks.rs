@@ -1,4 +1,4 @@
-//! The columns of speed or position, and of force.
+//! Selection of the columns of speed or position, and of force.
 
 use shagreen_core::recording::{RawMotion, RawTrack};
 
@@ -9,7 +9,7 @@ use crate::recording::question::Ask;
 use crate::recording::told::{alternates, is_newtons, largest, median_of};
 use crate::recording::units::{ForceUnit, PositionUnit, SpeedUnit};
 
-/// Speeds of hands: none is above this in m/s, and a stroke is not below this in mm/s.
+/// Highest plausible hand speed in m/s; also the lowest plausible maximum of a stroke in mm/s.
 const FASTEST_MPS: f64 = 2.0;
 
 impl Reading {
@@ -39,7 +39,7 @@ impl Reading {
             return Ok(RawMotion::Positions(axes?));
         }
         let Some(place) = named.or(meant.first().copied()) else {
-            let text = "the file has neither speed nor positions; name a column, or say the constant speed, such as \"100 mm/s\"";
+            let text = "the file has neither speed nor positions; name a column, or state a constant speed such as \"100 mm/s\"";
             self.inquiry.ask(Ask::Speed, &[], text.to_owned());
             return Ok(RawMotion::Speed(RawTrack::Missing));
         };
@@ -53,12 +53,15 @@ impl Reading {
         if self.inquiry.map.speed_unit.is_none() {
             let names: Vec<&str> = SpeedUnit::ALL.iter().map(|unit| unit.name()).collect();
             let most = largest(&self.table.columns[place]);
-            let text = format!("the unit of {} is not stated; it goes up to {most:.3}", self.name(&[place]));
+            let text = format!(
+                "the unit of {} is not stated; its largest magnitude is {most:.3}",
+                self.name(&[place])
+            );
             if most > 10.0 * FASTEST_MPS {
-                let text = format!("{text}, faster than hands in m/s");
+                let text = format!("{text}, too fast for a hand in m/s");
                 self.inquiry.guess(Ask::SpeedUnit, SpeedUnit::MillimetersPerSecond.name(), &names, text);
             } else if most > 0.0 && most <= 0.5 * FASTEST_MPS {
-                let text = format!("{text}, slower than any stroke in mm/s");
+                let text = format!("{text}, too slow for a stroke in mm/s");
                 self.inquiry.guess(Ask::SpeedUnit, SpeedUnit::MetersPerSecond.name(), &names, text);
             } else {
                 self.inquiry.ask(Ask::SpeedUnit, &names, text);
@@ -68,12 +71,12 @@ impl Reading {
         Ok(RawMotion::Speed(RawTrack::Column(self.take(place, si)?)))
     }
 
-    /// Says that a column is not used, since something else was said.
+    /// Warns that a column is not used because a constant is stated.
     fn leave_out(&mut self, place: Option<usize>, said: &str) {
         let Some(place) = place else { return };
         self.used.push(place);
         let name = &self.table.names[place];
-        self.inquiry.warnings.push(format!("{name:?} is not used, since {said} was stated"));
+        self.inquiry.warnings.push(format!("{name:?} is not used, because {said} is stated"));
     }
 
     pub(super) fn force(&mut self) -> Result<RawTrack, RecordingFileError> {
@@ -86,12 +89,12 @@ impl Reading {
         let along_z = self.meant(|meaning| matches!(meaning, Meaning::ForceZ(_)));
         let Some(place) = named.or(meant.first().copied()).or(along_z.first().copied()) else {
             let text =
-                "the file has no normal force; name a column, or say the constant force, such as \"1 N\"";
+                "the file has no normal force; name a column, or state a constant force such as \"1 N\"";
             self.inquiry.ask(Ask::Force, &[], text.to_owned());
             return Ok(RawTrack::Missing);
         };
         if named.is_none() && meant.is_empty() {
-            let text = format!("{} is taken for the normal force", self.name(&[place]));
+            let text = format!("{} is read as the normal force", self.name(&[place]));
             self.inquiry.guess(Ask::Force, &(place + 1).to_string(), &[], text);
         }
         self.inquiry.map.force = Some(self.column(place));
@@ -104,10 +107,14 @@ impl Reading {
         let most = largest(&self.table.columns[place]);
         if self.inquiry.map.force_unit.is_none() {
             let names: Vec<&str> = ForceUnit::ALL.iter().map(|unit| unit.name()).collect();
-            let text = format!("the unit of {} is not stated; it goes up to {most:.3}", self.name(&[place]));
+            let text = format!(
+                "the unit of {} is not stated; its largest magnitude is {most:.3}",
+                self.name(&[place])
+            );
             if is_newtons(&self.table.columns[place]) {
-                let text =
-                    format!("{text}, too light to touch in other units, and neither counts nor shares");
+                let text = format!(
+                    "{text}, too low for contact in other units, and neither counts nor fractions of full scale"
+                );
                 self.inquiry.guess(Ask::ForceUnit, ForceUnit::Newtons.name(), &names, text);
             } else {
                 self.inquiry.ask(Ask::ForceUnit, &names, text);
@@ -119,11 +126,12 @@ impl Reading {
             let name = self.name(&[place]);
             if alternates(column) {
                 let text = format!(
-                    "{name} is above 0 for a part of the time and below 0 for another; say whether pressing is negative, and check that this is the normal force"
+                    "{name} is positive part of the time and negative part of the time; state whether pressing is negative, and check that this is the normal force"
                 );
                 self.inquiry.ask(Ask::PressingIsNegative, &["yes", "no"], text);
             } else if median_of(column) < -0.01 * most {
-                let text = format!("{name} is below 0 most of the time, so pressing is negative");
+                let text =
+                    format!("{name} is negative most of the time, so pressing is assumed to be negative");
                 self.inquiry.guess(Ask::PressingIsNegative, "yes", &["yes", "no"], text);
             }
         }

@@ -1,4 +1,4 @@
-//! What is asked, and what is guessed.
+//! Questions and guesses.
 
 use super::{map, open, read};
 use crate::recording::{AccelerationUnit, Ask, ColumnMap, read_recording};
@@ -39,7 +39,7 @@ fn guesses_are_said_and_physics_decides_them() {
     );
     assert_eq!(read_file.map.acceleration_unit, Some(AccelerationUnit::StandardGravity));
     assert_eq!(read_file.raw.force_n, RawTrack::Column(vec![1.5; 100]));
-    // What came out as the map reads the same again, without a question.
+    // Reading again with the resulting map gives the same result without questions.
     let again = read_recording("a.csv", text.as_bytes(), None, &read_file.map).unwrap();
     assert_eq!((again.raw, again.questions.len()), (read_file.raw, 0));
 }

@@ -1,4 +1,4 @@
-//! WAV files and what lies beside them.
+//! WAV files and their sidecar files.
 
 use super::{map, open, wav};
 use crate::recording::{Ask, ColumnMap, read_recording};
@@ -24,8 +24,10 @@ fn samples_of_every_width_are_read() {
     check(3, 64, &[0.5_f64.to_le_bytes(), (-1.5_f64).to_le_bytes()].concat(), &[10.0, -30.0]);
     let cut = wav(1, 1, 16, &[0, 0x40, 0, 0x80]);
     let file = read_recording("a.wav", &cut[..cut.len() - 2], Some(sidecar), &ColumnMap::default()).unwrap();
-    assert!(file.warnings[0].contains("cut off"), "{:?}", file.warnings);
-    for (bytes, words) in [(wav(2, 1, 16, &[0; 4]), "compressed"), (b"RIFF".to_vec(), "begin")] {
+    assert!(file.warnings[0].contains("truncated"), "{:?}", file.warnings);
+    for (bytes, words) in
+        [(wav(2, 1, 16, &[0; 4]), "compressed"), (b"RIFF".to_vec(), "does not begin with a WAV header")]
+    {
         let error = read_recording("a.wav", &bytes, None, &ColumnMap::default()).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     }
@@ -89,7 +91,9 @@ fn what_render_wrote_comes_back_with_its_trace() {
         read_recording("out.wav", &std::fs::read(&path).unwrap(), Some(&beside), &ColumnMap::default())
             .unwrap();
     assert_eq!(file.raw.acceleration_mps2, [vec![0.5, -7.5, 1.0]]);
-    let RawMotion::Speed(RawTrack::Column(speed)) = file.raw.motion else { panic!("no speed") };
+    let RawMotion::Speed(RawTrack::Column(speed)) = file.raw.motion else {
+        panic!("the motion is not a speed column")
+    };
     assert!(speed.iter().zip([0.1, 0.15, 0.2]).all(|(a, b)| (a - b).abs() < 1e-12), "{speed:?}");
     assert_eq!(file.raw.force_n, RawTrack::Column(vec![1.0; 3]));
 }
@@ -114,9 +118,9 @@ fn a_speed_channel_stands_beside_the_force_of_a_trace() {
 }
 
 #[test]
-fn the_sidecar_of_the_readme_says_all() {
-    let readme = include_str!("../../../../../README.md");
-    let (_, block) = readme.split_once("```json\n").unwrap();
+fn the_sidecar_of_the_guide_says_all() {
+    let guide = include_str!("../../../../../docs/guide/import-recordings.md");
+    let (_, block) = guide.split_once("```json\n").unwrap();
     let (sidecar, _) = block.split_once("```").unwrap();
     let halves = [0, 0x40].repeat(5);
     let file =

@@ -1,4 +1,4 @@
-//! Tables as programs write them.
+//! Tables in the dialects of various programs.
 
 use super::{map, read};
 use crate::recording::{Ask, Column, ColumnMap, read_recording};
@@ -74,8 +74,8 @@ fn damage_is_named_with_its_place() {
     assert!(error.to_string().contains("no column \"w\""), "{error}");
     let twice = map(&[(Ask::Speed, "a"), (Ask::SpeedUnit, "m/s"), (Ask::AccelerationUnit, "g")]);
     let error = read_recording("a.csv", b"t_s,a\n0,1\n1,2\n", None, &twice).unwrap_err();
-    assert!(error.to_string().contains("\"a\" cannot be two things"), "{error}");
-    // Two columns of one name are two.
+    assert!(error.to_string().contains("\"a\" cannot hold two quantities"), "{error}");
+    // Two columns of the same name stay separate.
     let axes = read("t_s,a [g],a [g],v [m/s],f [N]\n0,1,2,1,1\n1,3,4,1,1\n", &[]);
     let again =
         [axes.map.acceleration.clone().unwrap(), vec![Column::Name("a [g]".into()), Column::Number(3)]];
@@ -92,11 +92,14 @@ fn damage_is_named_with_its_place() {
 
 #[test]
 fn a_table_without_numbers_is_refused_at_once() {
-    // Were every line added to the names, this would take minutes.
+    // Appending every line to the names would take minutes here.
     let text = "t;a\n".to_owned() + &"0.1;2.5\n".repeat(200_000);
     let error = read_recording("a.csv", text.as_bytes(), None, &map(&[(Ask::Separator, "tab")])).unwrap_err();
     let message = error.to_string();
-    assert!(message.contains("no rows of numbers") && message.contains("parted by tab"), "{message}");
+    assert!(
+        message.contains("no rows of numbers") && message.contains("with the separator tab"),
+        "{message}"
+    );
 }
 
 proptest! {

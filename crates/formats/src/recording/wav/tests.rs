@@ -1,6 +1,6 @@
 use super::read_wav;
 
-/// The format of one channel at 8000 Hz; `valid_bits` where it is of the extensible kind.
+/// The format chunk of one channel at 8000 Hz; `valid_bits` selects the extensible form.
 fn format(tag: u16, bytes_a_sample: u16, valid_bits: Option<u16>) -> Vec<u8> {
     let mut body = Vec::new();
     body.extend(if valid_bits.is_some() { 0xFFFE } else { tag }.to_le_bytes());
@@ -23,13 +23,13 @@ fn chunk(name: &str, stated: u32, body: &[u8]) -> Vec<u8> {
     [name.as_bytes(), &stated.to_le_bytes(), body].concat()
 }
 
-/// A file whose head and samples state these sizes.
+/// A file whose header and data chunk state these sizes.
 fn file(kind: &str, sizes: [u32; 2], chunks: &[Vec<u8>], data: &[u8]) -> Vec<u8> {
     let head = [chunk(kind, sizes[0], b"WAVE"), chunks.concat()].concat();
     [head, chunk("data", sizes[1], data)].concat()
 }
 
-/// Samples of one channel, and whether the file was warned of with `words`.
+/// Checks the samples of one channel, and whether a warning contains `words`.
 #[track_caller]
 fn check(bytes: &[u8], expected: &[f64], words: Option<&str>) {
     let samples = read_wav(bytes).unwrap();
@@ -42,7 +42,7 @@ fn check(bytes: &[u8], expected: &[f64], words: Option<&str>) {
     }
 }
 
-/// A half and minus one, in 16 bits.
+/// 0.5 and -1, in 16 bits.
 const DATA: [u8; 4] = [0, 0x40, 0, 0x80];
 
 #[test]
@@ -52,7 +52,7 @@ fn extensible_formats_are_what_their_subformat_says() {
         let size = data.len() as u32;
         check(&file("RIFF", [52 + size, size], &[format], data), expected, None);
     };
-    // 24 valid bits are the upper ones of 32: full scale is that of the 32.
+    // 24 valid bits are the upper ones of 32, so full scale is that of 32 bits.
     read(extensible(1, 4, 24), &[0, 0, 0, 0x40, 0, 0, 0, 0x80, 0, 1, 0, 0], &[0.5, -1.0, 2.0_f64.powi(-23)]);
     read(extensible(1, 2, 12), &DATA, &[0.5, -1.0]);
     read(extensible(1, 3, 20), &[0, 0, 0x40, 0, 0, 0x80], &[0.5, -1.0]);
@@ -76,16 +76,20 @@ fn files_of_64_bit_sizes_end_where_they_say() {
     for kind in ["RF64", "BW64"] {
         let mut bytes = file(kind, [u32::MAX; 2], &[sizes(4), plain.clone()], &DATA);
         check(&bytes, &[0.5, -1.0], None);
-        // What follows the samples is none of them.
+        // Bytes after the data chunk are not samples.
         bytes.extend(chunk("junk", 4, b"abcd"));
         check(&bytes, &[0.5, -1.0], None);
-        check(&file(kind, [u32::MAX; 2], &[sizes(400), plain.clone()], &DATA), &[0.5, -1.0], Some("cut off"));
+        check(
+            &file(kind, [u32::MAX; 2], &[sizes(400), plain.clone()], &DATA),
+            &[0.5, -1.0],
+            Some("truncated"),
+        );
         check(
             &file(kind, [u32::MAX; 2], &[sizes(u64::MAX), plain.clone()], &DATA),
             &[0.5, -1.0],
-            Some("cut off"),
+            Some("truncated"),
         );
-        // Where the sizes in 64 bits are missing, or were not filled in, the file is read to its end.
+        // If the 64-bit sizes are missing or were never filled in, the file is read to its end.
         check(
             &file(kind, [u32::MAX; 2], std::slice::from_ref(&plain), &DATA),
             &[0.5, -1.0],
@@ -104,10 +108,10 @@ fn sizes_that_were_never_filled_in_are_those_of_the_file() {
     let plain = [chunk("fmt ", 16, &format(1, 2, None))];
     for sizes in [[0, 0], [u32::MAX, u32::MAX], [u32::MAX, 0], [0, u32::MAX], [40, u32::MAX]] {
         check(&file("RIFF", sizes, &plain, &DATA), &[0.5, -1.0], Some("to its end"));
-        // Half a sample at the end is none.
+        // A partial sample at the end is ignored.
         check(&file("RIFF", sizes, &plain, &DATA[..3]), &[0.5], Some("to its end"));
     }
-    // A file that states its own size and no samples has none.
+    // A file that states its size and an empty data chunk has no samples.
     let bytes = file("RIFF", [40, 0], &plain, &DATA);
     assert!(read_wav(&bytes).unwrap_err().to_string().contains("no samples"));
     check(&file("RIFF", [0, 4], &plain, &DATA), &[0.5, -1.0], None);

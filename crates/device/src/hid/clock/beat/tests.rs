@@ -1,7 +1,7 @@
 use super::Beat;
 use crate::kinematics::{SpeedEstimator, SpeedFilter};
 
-/// Even numbers of 0 to 1.
+/// Generator of uniform random numbers in 0..1.
 struct Chance(u64);
 
 impl Chance {
@@ -11,11 +11,11 @@ impl Chance {
     }
 }
 
-/// A pen on its way to us.
+/// Parameters of a simulated pen connection.
 #[derive(Clone, Copy)]
 struct Way {
     interval_secs: f64,
-    /// Each report is later by up to so much, and never ahead of the one before.
+    /// Each report is delayed by up to this time and never overtakes the previous one.
     jitter_secs: f64,
     lost_share: f64,
 }
@@ -23,7 +23,7 @@ struct Way {
 const USUAL: Way = Way { interval_secs: 0.0075, jitter_secs: 0.004, lost_share: 0.0 };
 
 impl Way {
-    /// When each of a pen's reports was made and when it arrived, in s.
+    /// Creation and arrival time of each report, in s.
     fn reports(self, seed: u64, n: u32) -> Vec<(f64, f64)> {
         let mut chance = Chance(seed);
         let mut last = 0.0_f64;
@@ -39,7 +39,7 @@ impl Way {
     }
 }
 
-/// Root mean square of the error of the speed over the speed, for a stroke of 0.2 m/s whose places are exact, from `begin` on.
+/// Relative RMS error of the estimated speed, for a stroke of 0.2 m/s with exact positions, from report `begin` on.
 fn speed_error(reports: &[(f64, f64)], begin: usize, time: &mut dyn FnMut(f64) -> f64) -> f64 {
     let mut estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
     let (mut squares, mut n) = (0.0, 0.0);
@@ -52,7 +52,7 @@ fn speed_error(reports: &[(f64, f64)], begin: usize, time: &mut dyn FnMut(f64) -
     f64::sqrt(squares / n)
 }
 
-/// Measured factors are 98, 95, 84, 15, 11 and 13; without the beat the error is 9 to 60 % of the speed.
+/// Measured improvement factors are 98, 95, 84, 15, 11 and 13. With arrival times, the error is 9 to 60 % of the speed.
 #[test]
 fn jitter_is_taken_out_of_the_speed() {
     for (interval_secs, jitter_secs, lost_share, least_factor) in [
@@ -112,7 +112,7 @@ fn a_pause_begins_anew_and_keeps_the_interval() {
     }
     let interval_secs = beat.interval_secs.unwrap();
     assert!((interval_secs / 0.0075 - 1.0).abs() < 0.01, "{interval_secs}");
-    // Another phase, half a second later.
+    // The phase changes, and the reports continue half a second later.
     let again: Vec<(f64, f64)> =
         USUAL.reports(8, 60).iter().map(|(made, at)| (made + 2.0034, at + 2.0034)).collect();
     assert_eq!(beat.time_secs(again[0].1), again[0].1);
@@ -136,7 +136,7 @@ fn another_interval_is_found_and_none_is_believed() {
         let found = beat.interval_secs.unwrap();
         assert!((found / interval_secs - 1.0).abs() < 0.01, "{found} for {interval_secs}");
     }
-    // Reports when something happens have no beat: they stay when they arrived, or hardly before.
+    // Event-driven reports have no constant interval: their times stay at the arrival or slightly before it.
     let mut chance = Chance(11);
     let (mut arrival, mut n_moved) = (end, 0);
     for _ in 0..2000 {

@@ -1,0 +1,23 @@
+//! The Author workspace: canvas of the space, texture list, inspector, stroke pad, scope and prompt.
+//!
+//! Input: a [`Panel`](crate::panel::Panel). Output: [`Command`](crate::command::Command)s.
+
+pub(crate) mod authored_panel;
+pub(crate) mod axes_choice;
+pub mod blend_choice;
+pub mod canvas;
+pub(crate) mod compare_ui;
+pub(crate) mod details;
+pub(crate) mod filter_menu;
+pub mod inspector;
+pub mod library_filter;
+pub mod library_panel;
+pub(crate) mod locks;
+pub mod pad;
+pub mod prompt;
+pub mod scope;
+pub(crate) mod solo;
+pub(crate) mod texture_menu;
+pub(crate) mod texture_picture;
+pub(crate) mod texture_row;
+pub(crate) mod texture_sheet;

@@ -1,0 +1,216 @@
+//! List of the authored textures and their snapshots.
+
+use egui::{
+    Button, Id, Label, Rect, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
+};
+use shagreen_core::space::SpacePoint;
+use shagreen_formats::library::free_name;
+use shagreen_formats::project::{AuthoredTexture, N_COLORS};
+
+use crate::author::compare_ui::compare_ui;
+use crate::command::Command;
+use crate::look::theme::{RADIUS, tokens};
+use crate::panel::Panel;
+use crate::state::compare::{CompareCommand, Side};
+use crate::state::edit::Edit;
+use crate::strings::{self, authored as words};
+
+/// Height of a row, in points.
+const ROW: f32 = 22.0;
+/// Height of a snapshot button, in points.
+const CHIP: f32 = 18.0;
+/// Maximum height of the list, in points.
+const LIST_HEIGHT: f32 = 5.0 * ROW;
+/// Maximum share of the column height that the list takes.
+const LIST_SHARE: f32 = 0.21;
+/// Offset of a copy from its original along each axis, in axis units (0 to 100).
+const BESIDE: f64 = 4.0;
+
+/// Draws the list; returns the requested commands.
+pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    ui.horizontal(|ui| {
+        ui.add(Label::new(RichText::new(words::HEADING).heading()).selectable(false))
+            .on_hover_text(words::HELP);
+        ui.add(
+            Label::new(RichText::new(panel.project.authored.len().to_string()).color(t.text_weak))
+                .selectable(false),
+        );
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.button(words::ADD).on_hover_text(words::ADD_HELP).clicked() {
+                commands.push(Command::Edit(Edit::Author(fresh(panel))));
+            }
+        });
+    });
+    let height = LIST_HEIGHT.min(LIST_SHARE * ui.available_height());
+    let is_other = selected_another(ui, panel.project.texture().key);
+    ScrollArea::vertical().id_salt("authored").max_height(height).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for (index, texture) in panel.project.authored.iter().enumerate() {
+            let is_selected = index == panel.project.selected;
+            let top = ui.cursor().left_top();
+            commands.extend(row(ui, panel, texture, is_selected));
+            if is_selected && is_other {
+                // The selection may have changed elsewhere: on the canvas, by a prompt, or by undo.
+                ui.scroll_to_rect(Rect::from_min_size(top, vec2(0.0, ROW)), None);
+            }
+        }
+    });
+    ui.add_space(2.0);
+    commands.extend(snapshots_ui(ui, panel));
+    ui.add_space(2.0);
+    commands.extend(compare_ui(ui, panel));
+    commands
+}
+
+/// Whether the selection has changed since the list was last drawn.
+fn selected_another(ui: &Ui, key: u32) -> bool {
+    let id = Id::unique("selected authored texture");
+    ui.data_mut(|data| {
+        let before = data.get_temp(id);
+        data.insert_temp(id, key);
+        before != Some(key)
+    })
+}
+
+/// New texture at the middle of the space, with the interpolation settings of the selected one.
+fn fresh(panel: &Panel<'_>) -> AuthoredTexture {
+    let selected = panel.project.texture();
+    AuthoredTexture {
+        color: next_color(panel),
+        blend: selected.blend.clone(),
+        ..AuthoredTexture::new(0, &own_name(panel, strings::NEW_TEXTURE))
+    }
+}
+
+/// Copy of an authored texture, offset by [`BESIDE`].
+pub(crate) fn copy_of(panel: &Panel<'_>, texture: &AuthoredTexture) -> AuthoredTexture {
+    // Added to each coordinate, or subtracted if the sum would exceed 100.
+    let step = |x: f64| if x + BESIDE <= 100.0 { x + BESIDE } else { x - BESIDE };
+    let at =
+        SpacePoint { rough_smooth: step(texture.at.rough_smooth), hard_soft: step(texture.at.hard_soft) };
+    let name = own_name(panel, &words::copy_of(&texture.name));
+    AuthoredTexture { name, color: next_color(panel), at, ..texture.clone() }
+}
+
+/// New authored texture with the state of a snapshot.
+fn of_snapshot(panel: &Panel<'_>, snapshot: &AuthoredTexture, number: usize) -> AuthoredTexture {
+    let name = own_name(panel, &words::state_of(&snapshot.name, number));
+    AuthoredTexture { name, color: next_color(panel), ..snapshot.clone() }
+}
+
+/// `name`, with a number appended if another authored texture has it.
+fn own_name(panel: &Panel<'_>, name: &str) -> String {
+    free_name(name, |name| panel.project.authored.iter().any(|texture| texture.name == name))
+}
+
+/// Color index used by the fewest authored textures.
+pub(crate) fn next_color(panel: &Panel<'_>) -> u8 {
+    let n_of = |color: u8| panel.project.authored.iter().filter(|texture| texture.color == color).count();
+    // `N_COLORS` is not zero, so there is a minimum.
+    (0..N_COLORS).min_by_key(|color| n_of(*color)).unwrap_or(0)
+}
+
+fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: bool) -> Vec<Command> {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    response
+        .widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, words::select(&texture.name)));
+    if is_selected {
+        ui.painter().rect_filled(area, f32::from(RADIUS), t.chosen);
+    } else if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
+    }
+    let dot = pos2(area.left() + 11.0, area.center().y);
+    ui.painter().circle_filled(dot, 6.5, t.background);
+    ui.painter().circle_filled(dot, 5.0, t.authored[usize::from(texture.color)]);
+    let mut room = Rect::from_min_max(pos2(area.left() + 24.0, area.top() + 2.0), area.max);
+    if let Some(side) = panel.compare.side_of(texture.key) {
+        let corner = pos2(area.right() - 5.0, area.center().y);
+        let font = egui::FontId::proportional(11.5);
+        ui.painter().text(corner, egui::Align2::RIGHT_CENTER, side.letter(), font, t.text_weak);
+        room.max.x -= 16.0;
+    }
+    let color = if is_selected { t.on_chosen } else { t.text };
+    let mut name = ui.new_child(egui::UiBuilder::new().max_rect(room));
+    let shown = if texture.name.trim().is_empty() { words::UNNAMED } else { &texture.name };
+    name.add(Label::new(RichText::new(shown).color(color)).truncate().selectable(false));
+    if response.clicked() {
+        commands.push(Command::Edit(Edit::Select(texture.key)));
+    }
+    commands.extend(authored_menu(&response, panel, texture));
+    let mut help =
+        format!("{}\n{}", texture.name, strings::place_in_words(texture.at, panel.session.poles()));
+    for more in [&texture.tags.join(", "), &texture.notes] {
+        if !more.is_empty() {
+            help = format!("{help}\n{more}");
+        }
+    }
+    response.on_hover_text(help);
+    commands
+}
+
+/// Context menu of an authored texture.
+pub(crate) fn authored_menu(
+    response: &Response,
+    panel: &Panel<'_>,
+    texture: &AuthoredTexture,
+) -> Option<Command> {
+    let (mut asked, mut assigned) = (None, None);
+    response.context_menu(|ui| {
+        if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {
+            asked = Some(Edit::Author(copy_of(panel, texture)));
+        }
+        let can_go = panel.project.authored.len() > 1;
+        if ui.add_enabled(can_go, Button::new(words::DELETE)).clicked() {
+            asked = Some(Edit::Remove(texture.key));
+        }
+        ui.separator();
+        for side in [Side::A, Side::B] {
+            let is_there = panel.compare.side_of(texture.key) == Some(side);
+            let button = Button::new(strings::compare::compare_as(side.letter()));
+            if ui.add_enabled(can_go && !is_there, button).clicked() {
+                assigned = Some(CompareCommand::Assign(side, texture.key));
+            }
+        }
+    });
+    asked.map(Command::Edit).or(assigned.map(Command::Compare))
+}
+
+/// Row of snapshot buttons: numbers in the colors of their textures.
+fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    let height = std::mem::replace(&mut ui.spacing_mut().interact_size.y, CHIP);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+        ui.spacing_mut().button_padding = vec2(5.0, 1.0);
+        let keep = Button::new(RichText::new(words::KEEP).small());
+        if ui.add(keep).on_hover_text(words::KEEP_HELP).clicked() {
+            commands.push(Command::Edit(Edit::KeepSnapshot));
+        }
+        for (index, snapshot) in panel.project.snapshots.iter().enumerate() {
+            let color = t.authored[usize::from(snapshot.color)];
+            let chip = Button::new(RichText::new((index + 1).to_string()).small().color(color));
+            let name = words::snapshot(index + 1, &snapshot.name);
+            let response = ui.add(chip).accessible_name(&name);
+            if response.clicked() {
+                commands.push(Command::Edit(Edit::RestoreSnapshot(index)));
+            }
+            response.context_menu(|ui| {
+                if ui.button(words::AS_OWN).on_hover_text(words::AS_OWN_HELP).clicked() {
+                    commands.push(Command::Edit(Edit::Author(of_snapshot(panel, snapshot, index + 1))));
+                }
+                if ui.button(words::delete_snapshot(index + 1)).clicked() {
+                    commands.push(Command::Edit(Edit::RemoveSnapshot(index)));
+                }
+            });
+            let place = strings::place_in_words(snapshot.at, panel.session.poles());
+            response.on_hover_text(format!("{name}\n{place}\n{}", words::SNAPSHOTS_HELP));
+        }
+    });
+    ui.spacing_mut().interact_size.y = height;
+    commands
+}

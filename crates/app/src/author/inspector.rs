@@ -1,0 +1,179 @@
+//! Inspector of the selected authored texture: name, sliders, interpolation mode and contributions.
+
+use egui::{Label, Rect, RichText, Role, Sense, Slider, TextEdit, Ui, WidgetInfo, vec2};
+use shagreen_core::space::SpacePoint;
+
+use crate::author::axes_choice::axis_choice_ui;
+use crate::author::blend_choice::blend_ui;
+use crate::author::details::details_ui;
+use crate::author::locks::lock_button;
+use crate::author::solo::solo_button;
+use crate::author::texture_picture::picture_ui;
+use crate::command::Command;
+use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
+use crate::panel::Panel;
+use crate::state::edit::Edit;
+use crate::strings;
+
+/// Height of the heading of the contributions, in points. Below it, three cards just fit into the smallest usual
+/// window.
+const HEADING_HEIGHT: f32 = 18.0;
+
+/// Draws the inspector; returns the requested commands.
+pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let area = egui::ScrollArea::vertical().auto_shrink(false);
+    area.show(ui, |ui| content_ui(ui, panel)).inner
+}
+
+fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let mut commands = Vec::new();
+    ui.add_space(GAP);
+    let mut name = panel.project.texture().name.clone();
+    let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(row, egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        commands.extend(details_ui(ui, panel));
+        let field =
+            TextEdit::singleline(&mut name).font(egui::TextStyle::Heading).desired_width(f32::INFINITY);
+        let field = ui.add(field);
+        field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::NAME));
+        if field.changed() {
+            commands.push(Command::Edit(Edit::Rename(name)));
+        }
+    });
+    ui.add_space(GAP);
+    commands.extend(sliders(ui, panel));
+    ui.add_space(GROUP_GAP);
+    commands.extend(blend_ui(ui, panel));
+    ui.add_space(GROUP_GAP);
+    commands.extend(parents_ui(ui, panel));
+    commands
+}
+
+/// Sliders of the two axes. They show the authored point and move it.
+fn sliders(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let SpacePoint { mut rough_smooth, mut hard_soft } = panel.project.texture().at;
+    let [across, up] = panel.session.poles();
+    let mut is_changed = false;
+    for (axis, value, ends) in [(0, &mut rough_smooth, across), (1, &mut hard_soft, up)] {
+        let (changed, choice) = axis_slider(ui, panel, axis, value, ends);
+        is_changed |= changed;
+        commands.extend(choice);
+    }
+    if is_changed {
+        commands.push(Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })));
+    }
+    commands
+}
+
+/// Draws the slider of one axis below its end labels. Returns whether it was moved, and the command that chooses
+/// another attribute.
+fn axis_slider(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    axis: usize,
+    value: &mut f64,
+    ends: &[String; 2],
+) -> (bool, Option<Command>) {
+    let t = tokens(ui.ctx());
+    let choice = ui.horizontal(|ui| {
+        ui.add(Label::new(RichText::new(&ends[0]).color(t.text_weak)).selectable(false));
+        let choice = axis_choice_ui(ui, panel, axis);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add(Label::new(RichText::new(&ends[1]).color(t.text_weak)).selectable(false));
+        });
+        choice
+    });
+    let width = ui.available_width();
+    ui.spacing_mut().slider_width = width - 66.0;
+    // Displayed with one decimal but not rounded to it: a slider that rounds would edit the project by itself.
+    let one_decimal = |value: f64, _| format!("{value:.1}");
+    let slider = Slider::new(value, 0.0..=100.0).custom_formatter(one_decimal).smart_aim(false);
+    let slider = ui.add(slider).accessible_name(strings::axis(ends)).on_hover_text(strings::axis_help(ends));
+    (slider.changed(), choice.inner)
+}
+
+/// Draws the contributing textures with pictures and weights, and a summary of those without a card.
+fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    let row = vec2(ui.available_width(), HEADING_HEIGHT);
+    ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
+            .on_hover_text(strings::PARENTS_HELP);
+        let Some(rest) = besides(panel) else { return };
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let text = RichText::new(&rest).small().color(t.text_weak);
+            ui.add(Label::new(text).truncate().selectable(false)).on_hover_text(strings::PARENTS_HELP);
+        });
+    });
+    // A weight that would be displayed as 0.0 % gets no card.
+    let worthwhile = panel.session.shown_parents().iter().filter(|(_, weight)| weight.abs() >= 5e-4);
+    for (parent, color) in worthwhile.zip(t.parents) {
+        commands.extend(card(ui, panel, *parent, color));
+    }
+    commands
+}
+
+/// Weight of the pinned texture, or else the number and total weight of the contributing textures without a card.
+fn besides(panel: &Panel<'_>) -> Option<String> {
+    let authored = panel.session.authored()?;
+    if let Some((texture, share)) = authored.lock.filter(|_| panel.solo().is_none()) {
+        return Some(strings::locked_share(&panel.session.textures()[texture].name, 100.0 * share));
+    }
+    let rest = authored.parents.get(panel.session.shown_parents().len()..).filter(|rest| !rest.is_empty())?;
+    let sum: f64 = rest.iter().map(|(_, weight)| weight).sum();
+    Some(strings::more_parents(rest.len(), 100.0 * sum))
+}
+
+/// Card of a contributing texture, with a solo button and, in the Field mode, a pin button.
+fn card(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    (texture, weight): (usize, f64),
+    color: egui::Color32,
+) -> Option<Command> {
+    let t = tokens(ui.ctx());
+    let entry = &panel.session.textures()[texture];
+    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
+    let percent = 100.0 * weight;
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, strings::parent(&entry.name, percent)));
+    ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
+    let picture = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(42.0, 42.0));
+    picture_ui(ui, panel, texture, picture);
+    ui.painter().rect_stroke(
+        picture,
+        f32::from(RADIUS) - 1.0,
+        egui::Stroke::new(2.0, color),
+        egui::StrokeKind::Outside,
+    );
+    let left = picture.right() + 10.0;
+    let right = area.right() - 10.0;
+    let font = egui::FontId::proportional(14.0);
+    let number = ui.painter().text(
+        egui::pos2(right, area.top() + 9.0),
+        egui::Align2::RIGHT_TOP,
+        format!("{percent:.1} %"),
+        font,
+        t.text,
+    );
+    // The pin button does not move with the width of the number.
+    let button = Rect::from_center_size(egui::pos2(right - 66.0, number.center().y), vec2(22.0, 22.0));
+    let can_lock = panel.project.texture().blend.can_lock() && panel.solo().is_none();
+    let mut command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
+    let solo = button.translate(vec2(-24.0, 0.0));
+    command = command.or(solo_button(ui, panel, texture, solo));
+    let end = solo.left() - 4.0;
+    let mut name = ui.new_child(
+        egui::UiBuilder::new()
+            .max_rect(Rect::from_min_max(egui::pos2(left, area.top() + 8.0), egui::pos2(end, area.bottom()))),
+    );
+    name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
+    let bar =
+        Rect::from_min_max(egui::pos2(left, area.bottom() - 16.0), egui::pos2(right, area.bottom() - 10.0));
+    ui.painter().rect_filled(bar, 3.0, t.control);
+    let share = (weight as f32).clamp(0.0, 1.0);
+    let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share, bar.height()));
+    ui.painter().rect_filled(filled, 3.0, color);
+    command
+}

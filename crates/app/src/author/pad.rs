@@ -1,0 +1,227 @@
+//! Stroke pad: the texture is stroked with mouse or pen, by the automatic stroke, or by a recorded stroke.
+
+mod controls_ui;
+mod trail_ui;
+
+use egui::{
+    Align2, CursorIcon, Event, FontId, Pos2, Rect, Role, Sense, Stroke, TouchPhase, Ui, WidgetInfo, pos2,
+    vec2,
+};
+use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
+use shagreen_device::controls::Input;
+use shagreen_device::hand::{Hand, Path};
+use shagreen_device::repeat::Repeat;
+use shagreen_device::touch::Touch;
+
+use crate::author::pad::controls_ui::controls_ui;
+use crate::author::pad::trail_ui::trail_ui;
+use crate::command::Command;
+use crate::look::drag::dragged_to;
+use crate::look::theme::{RADIUS, tokens};
+use crate::panel::Panel;
+use crate::session::Session;
+use crate::state::mouse_report::MouseReport;
+use crate::strings;
+
+/// Scale of the pad, in points per millimeter.
+const POINTS_PER_MM: f32 = 3.0;
+/// Range of the speed of the automatic stroke, in mm/s.
+const SPEEDS_MM_PER_S: std::ops::RangeInclusive<f32> = 5.0..=300.0;
+/// Range of the normal force, in N.
+const FORCES_N: std::ops::RangeInclusive<f32> = 0.05..=4.0;
+/// Length of the automatic stroke, in m.
+const EXTENT_M: f32 = 0.08;
+
+/// State of the pad: the automatic stroke, the repeated stroke, and the pressure of a pen or finger.
+#[derive(Clone, Copy, Debug)]
+pub struct PadState {
+    /// Path, speed and force of the automatic stroke.
+    pub hand: Hand,
+    /// Whether the recorded stroke is repeated instead of the automatic stroke.
+    pub repeats: bool,
+    /// Tempo and force of the repeated stroke, relative to the recording.
+    pub repeat: Repeat,
+    /// Number of stroke recordings when last checked, to detect a new one.
+    n_strokes: u64,
+    /// Last pressure that the window system reported for a pen or finger on the pad, 0 to 1.
+    pressure: Option<f64>,
+}
+
+impl Default for PadState {
+    fn default() -> Self {
+        Self {
+            hand: Hand { path: Path::Line, speed_mps: 0.1, force_n: 0.8, extent_m: EXTENT_M },
+            repeats: false,
+            repeat: Repeat::AS_RECORDED,
+            n_strokes: 0,
+            pressure: None,
+        }
+    }
+}
+
+impl PadState {
+    /// Input of the automatic stroke: its path, or the recorded stroke.
+    pub fn input(&self) -> Input {
+        if self.repeats { Input::Repeat(self.repeat) } else { Input::Hand(self.hand) }
+    }
+
+    /// Typical tip speed and normal force of that input.
+    pub fn contact(&self, session: &Session) -> Contact {
+        let Hand { speed_mps, force_n, .. } = self.hand;
+        let of_hand = || Contact::from_mm_per_s_and_n(1e3 * f64::from(speed_mps), f64::from(force_n));
+        let Some(stroke) = session.stroke().filter(|_| self.repeats) else { return of_hand() };
+        // Limited to the lowest speed and force of the sliders: a recording of taps only then shows a slow, light
+        // stroke.
+        let Contact { speed, force } = stroke.usual_contact(self.repeat);
+        let least = (1e-3 * f64::from(*SPEEDS_MM_PER_S.start()), f64::from(*FORCES_N.start()));
+        Contact { speed: MetersPerSecond(speed.0.max(least.0)), force: Newtons(force.0.max(least.1)) }
+    }
+
+    /// Selects a stroke that was just recorded or read, with its original tempo and force.
+    fn follow_strokes(&mut self, session: &Session) {
+        if self.n_strokes != session.n_strokes() {
+            self.n_strokes = session.n_strokes();
+            (self.repeats, self.repeat) = (true, Repeat::AS_RECORDED);
+        }
+    }
+
+    /// A pressure stays valid until the next report or until release: a pen held still reports nothing.
+    fn follow_pressure(&mut self, events: &[Event]) {
+        for event in events {
+            match event {
+                Event::Touch { phase: TouchPhase::End | TouchPhase::Cancel, .. } => self.pressure = None,
+                Event::Touch { force: Some(force), .. } => self.pressure = Some(f64::from(*force)),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Result of one frame of the pad.
+#[derive(Debug, Default)]
+pub struct PadOutcome {
+    /// Requested commands.
+    pub commands: Vec<Command>,
+    /// Pointer position while it strokes, and once more on release.
+    pub mouse: Option<MouseReport>,
+}
+
+/// Draws the controls and the pad. `picture` shows the audible texture; its width and height are in mm.
+pub fn pad_ui(
+    ui: &mut Ui,
+    panel: &Panel<'_>,
+    state: &mut PadState,
+    picture: Option<(egui::TextureId, [f64; 2])>,
+) -> PadOutcome {
+    let mut outcome = PadOutcome::default();
+    state.follow_strokes(panel.session);
+    outcome.commands.extend(controls_ui(ui, panel, state));
+    let t = tokens(ui.ctx());
+    let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAD));
+    match picture {
+        Some((texture, [width_mm, height_mm])) => {
+            let shape = egui::epaint::RectShape::filled(area, f32::from(RADIUS), egui::Color32::WHITE);
+            let tile = POINTS_PER_MM * vec2(width_mm as f32, height_mm as f32);
+            let uv = Rect::from_min_size(pos2(0.0, 0.0), area.size() / tile);
+            ui.painter().add(shape.with_texture(texture, uv));
+        }
+        None => {
+            ui.painter().rect_filled(area, f32::from(RADIUS), t.background);
+        }
+    }
+    ui.painter().rect_stroke(area, f32::from(RADIUS), Stroke::new(1.0, t.line), egui::StrokeKind::Inside);
+    trail_ui(ui, area, panel.session, state);
+    scale_bar(ui, area);
+    tip(ui, area, panel.session.touch());
+    ui.input(|i| state.follow_pressure(&i.events));
+    if response.hovered() {
+        let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
+        let force_n = state.hand.force_n * (scrolled * 0.0015).exp();
+        state.hand.force_n = force_n.clamp(*FORCES_N.start(), *FORCES_N.end());
+    }
+    let pressed = response.is_pointer_button_down_on();
+    let held_at = response.interact_pointer_pos().filter(|_| pressed || response.clicked());
+    if let Some(pos) = dragged_to(ui, &response).or(held_at) {
+        let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
+        let (x_m, y_m) = (f64::from(from_middle.x), f64::from(-from_middle.y));
+        outcome.mouse = Some(MouseReport { x_m, y_m, pressed, pressure: state.pressure });
+    }
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    if panel.session.touch().contact.force_n <= 0.0 {
+        response.on_hover_text(strings::PAD_HELP);
+    }
+    outcome
+}
+
+/// Screen position of a point on the pad, given in m from the center of the pad with y upwards.
+fn in_ui(area: Rect, x_m: f32, y_m: f32) -> Pos2 {
+    area.center() + vec2(x_m, -y_m) * (POINTS_PER_MM * 1e3)
+}
+
+fn scale_bar(ui: &Ui, area: Rect) {
+    let t = tokens(ui.ctx());
+    let (length, inset) = (10.0 * POINTS_PER_MM, 9.0);
+    let back = Rect::from_min_max(
+        area.right_bottom() - vec2(length + 2.0 * inset, 28.0),
+        area.right_bottom() - vec2(4.0, 4.0),
+    );
+    ui.painter().rect_filled(back, 3.0, t.background.gamma_multiply(0.75));
+    let y = back.bottom() - 6.0;
+    let x = back.center().x;
+    ui.painter().hline(x - length / 2.0..=x + length / 2.0, y, Stroke::new(2.0, t.text));
+    ui.painter().text(
+        pos2(x, y - 3.0),
+        Align2::CENTER_BOTTOM,
+        strings::TEN_MM,
+        FontId::proportional(10.5),
+        t.text,
+    );
+}
+
+/// Draws the tip as reported by the audio callback: a ring whose disc grows with the normal force.
+fn tip(ui: &Ui, area: Rect, touch: Touch) {
+    if touch.contact.force_n <= 0.0 {
+        return;
+    }
+    let t = tokens(ui.ctx());
+    let pos = in_ui(area, touch.x_m, touch.y_m);
+    let painter = ui.painter().with_clip_rect(area);
+    painter.circle_filled(pos, 7.0, t.background.gamma_multiply(0.6));
+    painter.circle_filled(pos, 2.0 + 3.0 * (touch.contact.force_n / 2.0).min(1.0), t.accent);
+    painter.circle_stroke(pos, 7.0, Stroke::new(2.0, t.accent));
+    let text = format!("{:.0} mm/s  {:.2} N", touch.contact.speed_mps * 1e3, touch.contact.force_n);
+    let galley = painter.layout_no_wrap(text, FontId::proportional(11.5), t.text);
+    let at = Rect::from_min_size(area.left_top() + vec2(6.0, 6.0), galley.size() + vec2(10.0, 4.0));
+    painter.rect_filled(at, 3.0, t.background.gamma_multiply(0.75));
+    painter.galley(at.min + vec2(5.0, 2.0), galley, t.text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Event, PadState, TouchPhase};
+
+    #[test]
+    fn a_pressure_holds_until_the_pen_is_lifted() {
+        let touch = |phase, force| Event::Touch {
+            device_id: egui::TouchDeviceId(0),
+            id: egui::TouchId(0),
+            phase,
+            pos: egui::Pos2::ZERO,
+            force,
+        };
+        let mut pad = PadState::default();
+        let mut after = |events: &[Event]| {
+            pad.follow_pressure(events);
+            pad.pressure
+        };
+        assert_eq!(after(&[]), None);
+        assert_eq!(
+            after(&[touch(TouchPhase::Start, Some(0.25)), touch(TouchPhase::Move, Some(0.5))]),
+            Some(0.5)
+        );
+        assert_eq!(after(&[]), Some(0.5));
+        assert_eq!(after(&[touch(TouchPhase::Move, None)]), Some(0.5));
+        assert_eq!(after(&[touch(TouchPhase::End, Some(0.1))]), None);
+    }
+}

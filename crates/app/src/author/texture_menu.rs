@@ -1,0 +1,100 @@
+//! Menu of a texture in the list.
+
+use std::sync::Arc;
+
+use egui::{Button, Ui};
+use shagreen_formats::library::{Library, TextureEntry, free_id, free_name, id_from_name};
+
+use crate::author::locks::{can_lock, lock_entry};
+use crate::command::Command;
+use crate::panel::Panel;
+use crate::state::edit::Edit;
+use crate::strings::authored::copy_of;
+use crate::strings::textures as words;
+
+/// Width of the menu, in points.
+const WIDTH: f32 = 150.0;
+
+/// Draws the menu entries; returns the requested command.
+pub(crate) fn texture_menu(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Option<Command> {
+    let id = || panel.session.textures()[texture].id.clone();
+    let mut asked = None;
+    ui.set_min_width(WIDTH);
+    if ui.button(words::DETAILS).on_hover_text(words::DETAILS_HELP).clicked() {
+        asked = Some(Command::OpenTexture(id()));
+    }
+    if ui.button(words::HEAR_ALONE).on_hover_text(words::HEAR_ALONE_HELP).clicked() {
+        asked = Some(Command::Edit(Edit::Solo(Some(id()))));
+    }
+    ui.separator();
+    let star = if panel.is_starred(texture) { words::UNSTAR } else { words::STAR };
+    if ui.button(star).on_hover_text(words::STAR_HELP).clicked() {
+        asked = Some(Command::Edit(starred(panel, texture)));
+    }
+    if ui.button(words::RENAME).on_hover_text(words::RENAME_HELP).clicked() {
+        asked = Some(Command::RenameTexture(id()));
+    }
+    if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {
+        asked = Some(Command::Edit(duplicated(panel, texture)));
+    }
+    asked = remove_button(ui, panel, texture).or(asked);
+    if can_lock(panel, texture) {
+        ui.separator();
+        asked = lock_entry(ui, panel, texture).or(asked);
+    }
+    asked
+}
+
+/// Draws the button that removes a texture; it is disabled for a texture that was not added to the project.
+pub(crate) fn remove_button(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Option<Command> {
+    let joined = panel.joined_index(texture);
+    let button = ui.add_enabled(joined.is_some(), Button::new(words::REMOVE));
+    let button = button.on_hover_text(words::REMOVE_HELP).on_disabled_hover_text(words::CANNOT_REMOVE);
+    joined.filter(|_| button.clicked()).map(|joined| Command::Edit(Edit::RemoveTexture(joined)))
+}
+
+/// Edit that adds or removes the star of a texture.
+pub(crate) fn starred(panel: &Panel<'_>, texture: usize) -> Edit {
+    let TextureEntry { id, name, .. } = &panel.session.textures()[texture];
+    Edit::Star { id: id.clone(), name: name.clone(), is_starred: !panel.is_starred(texture) }
+}
+
+/// Edit that adds a copy of the texture to the project.
+pub(crate) fn duplicated(panel: &Panel<'_>, texture: usize) -> Edit {
+    Edit::AddTextures(vec![Arc::new(duplicate(panel.session.library(), texture))])
+}
+
+/// Copy of a texture at the same position, with a free name and identifier. License and origin of the library are
+/// stored in the copy, because another library may be open later.
+fn duplicate(library: &Library, texture: usize) -> TextureEntry {
+    let entry = &library.textures[texture];
+    let name = free_name(&copy_of(&entry.name), |name| library.textures.iter().any(|t| t.name == name));
+    let id = free_id(&id_from_name(&name), |id| library.index_of(id).is_some());
+    let origin = if entry.origin.is_empty() { &library.origin } else { &entry.origin };
+    let (license, origin) = (library.license_of(entry).to_owned(), origin.clone());
+    TextureEntry { id, name, license, origin, ..entry.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::duplicate;
+    use shagreen_formats::starter::starter_library;
+
+    #[test]
+    fn a_copy_has_a_name_of_its_own_and_the_terms_of_the_library() {
+        let mut library = starter_library().unwrap();
+        let cork = library.index_of("cork").unwrap();
+        for (name, id) in [("Cork copy", "cork-copy"), ("Cork copy 2", "cork-copy-2")] {
+            let copy = duplicate(&library, cork);
+            assert_eq!((copy.name.as_str(), copy.id.as_str()), (name, id));
+            assert_eq!((&copy.license, &copy.origin), (&library.license, &library.origin));
+            let original = &library.textures[cork];
+            assert_eq!((copy.place, &copy.model), (original.place, &original.model));
+            library.join(&[Arc::new(copy)]);
+        }
+        "CC-BY-4.0".clone_into(&mut library.textures[cork].license);
+        assert_eq!(duplicate(&library, cork).license, "CC-BY-4.0");
+    }
+}

@@ -1,0 +1,23 @@
+//! Commands about prompts.
+
+use crate::state::source::Source;
+
+/// Command about prompts and photos.
+#[derive(Clone, Debug)]
+pub enum PromptCommand {
+    /// Generates a new authored texture from a prompt.
+    Make {
+        /// Description of the surface.
+        prompt: String,
+        /// Random seed of the generator.
+        seed: u64,
+    },
+    /// Generates the last texture again with the next seed and replaces it.
+    Another,
+    /// Predicts a position for each photo and adds it as an authored texture, after the present job.
+    Look(Vec<Source>),
+    /// Stops the present job and discards waiting photos.
+    Stop,
+    /// Closes the card of the last prediction.
+    Dismiss,
+}

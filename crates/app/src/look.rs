@@ -1,0 +1,14 @@
+//! Appearance of the window: colors and sizes, charts, plots, labels and the frame of a sheet.
+//!
+//! Input: values and text. Output: egui shapes. Nothing here depends on a project.
+
+pub mod axes;
+pub(crate) mod chart_ui;
+pub(crate) mod drag;
+pub(crate) mod label_places;
+pub(crate) mod map_plot;
+pub(crate) mod plot;
+pub(crate) mod scale;
+pub(crate) mod sheet_frame;
+pub(crate) mod spectrum_plot;
+pub mod theme;

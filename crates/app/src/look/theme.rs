@@ -1,0 +1,299 @@
+//! Design tokens: every color, size and distance of the window, for a dark and a light theme.
+
+use egui::{
+    Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2,
+};
+use shagreen_formats::figure::{self, Tone};
+use shagreen_formats::project::N_COLORS;
+
+/// Colors of one theme.
+#[derive(Clone, Copy, Debug)]
+pub struct Tokens {
+    /// Background of the window.
+    pub background: Color32,
+    /// Background of panels.
+    pub panel: Color32,
+    /// Cards and recessed areas within panels.
+    pub raised: Color32,
+    /// Controls that are not pointed at.
+    pub control: Color32,
+    /// Controls under the pointer.
+    pub control_hovered: Color32,
+    /// Thin lines.
+    pub line: Color32,
+    /// Primary text.
+    pub text: Color32,
+    /// Secondary text.
+    pub text_weak: Color32,
+    /// The authored point and everything that belongs to it.
+    pub accent: Color32,
+    /// Text on the accent color.
+    pub on_accent: Color32,
+    /// Selected entry, selected text, and the rail of a slider up to its handle.
+    pub chosen: Color32,
+    /// Text on the selection color, and the outline of the field with the keyboard focus.
+    pub on_chosen: Color32,
+    /// The three contributing textures, distinguishable with any color vision (after Okabe and Ito).
+    pub parents: [Color32; 3],
+    /// Colors that distinguish authored textures, next to their names (after Okabe and Ito).
+    pub authored: [Color32; N_COLORS as usize],
+    /// Warnings.
+    pub warning: Color32,
+    /// Errors.
+    pub error: Color32,
+}
+
+/// Colors of the dark theme.
+pub const DARK: Tokens = Tokens {
+    background: Color32::from_rgb(0x12, 0x15, 0x17),
+    panel: Color32::from_rgb(0x1A, 0x1E, 0x21),
+    raised: Color32::from_rgb(0x22, 0x27, 0x2B),
+    control: Color32::from_rgb(0x2D, 0x34, 0x39),
+    control_hovered: Color32::from_rgb(0x39, 0x42, 0x48),
+    line: Color32::from_rgb(0x33, 0x3B, 0x41),
+    text: Color32::from_rgb(0xE9, 0xEC, 0xEB),
+    text_weak: Color32::from_rgb(0xA3, 0xAE, 0xB2),
+    accent: Color32::from_rgb(0x5F, 0xC9, 0xB0),
+    on_accent: Color32::from_rgb(0x0C, 0x1F, 0x1A),
+    chosen: Color32::from_rgb(0x2B, 0x6B, 0x5D),
+    on_chosen: Color32::from_rgb(0xD2, 0xFA, 0xF0),
+    parents: [
+        Color32::from_rgb(0xF0, 0xA8, 0x30),
+        Color32::from_rgb(0x62, 0xB8, 0xEC),
+        Color32::from_rgb(0xDB, 0x8C, 0xB8),
+    ],
+    authored: [
+        Color32::from_rgb(0xF0, 0xA8, 0x30),
+        Color32::from_rgb(0x62, 0xB8, 0xEC),
+        Color32::from_rgb(0x6C, 0xC4, 0x6A),
+        Color32::from_rgb(0xEF, 0xE2, 0x5A),
+        Color32::from_rgb(0x93, 0xA0, 0xFF),
+        Color32::from_rgb(0xEE, 0x7B, 0x52),
+        Color32::from_rgb(0xDB, 0x8C, 0xB8),
+        Color32::from_rgb(0xB4, 0xBC, 0xC0),
+    ],
+    warning: Color32::from_rgb(0xF2, 0xC0, 0x4A),
+    error: Color32::from_rgb(0xF0, 0x7A, 0x6A),
+};
+
+/// Colors of the light theme.
+pub const LIGHT: Tokens = Tokens {
+    background: Color32::from_rgb(0xE9, 0xEB, 0xE8),
+    panel: Color32::from_rgb(0xF7, 0xF8, 0xF6),
+    raised: Color32::from_rgb(0xFF, 0xFF, 0xFF),
+    control: Color32::from_rgb(0xE3, 0xE7, 0xE4),
+    control_hovered: Color32::from_rgb(0xD6, 0xDC, 0xD8),
+    line: Color32::from_rgb(0xCB, 0xD2, 0xCD),
+    text: Color32::from_rgb(0x1B, 0x21, 0x24),
+    text_weak: Color32::from_rgb(0x54, 0x60, 0x66),
+    accent: Color32::from_rgb(0x12, 0x70, 0x60),
+    on_accent: Color32::from_rgb(0xFF, 0xFF, 0xFF),
+    chosen: Color32::from_rgb(0x9C, 0xCF, 0xC4),
+    on_chosen: Color32::from_rgb(0x06, 0x3F, 0x35),
+    parents: [
+        Color32::from_rgb(0x96, 0x57, 0x00),
+        Color32::from_rgb(0x16, 0x6C, 0xAB),
+        Color32::from_rgb(0xA3, 0x3C, 0x78),
+    ],
+    authored: [
+        Color32::from_rgb(0x96, 0x57, 0x00),
+        Color32::from_rgb(0x16, 0x6C, 0xAB),
+        Color32::from_rgb(0x1F, 0x70, 0x34),
+        Color32::from_rgb(0x6E, 0x61, 0x00),
+        Color32::from_rgb(0x3F, 0x45, 0xB4),
+        Color32::from_rgb(0xB0, 0x3E, 0x16),
+        Color32::from_rgb(0xA3, 0x3C, 0x78),
+        Color32::from_rgb(0x59, 0x63, 0x68),
+    ],
+    warning: Color32::from_rgb(0x8A, 0x5A, 0x00),
+    error: Color32::from_rgb(0xB3, 0x2D, 0x20),
+};
+
+/// Distance between related items, in points.
+pub const GAP: f32 = 6.0;
+/// Distance between groups, in points.
+pub const GROUP_GAP: f32 = 10.0;
+/// Corner radius of cards and controls, in points.
+pub const RADIUS: u8 = 5;
+/// Width of the column with the texture list, in points.
+pub const LIBRARY_WIDTH: f32 = 208.0;
+/// Width of the column with sliders and contributions, in points.
+pub const INSPECTOR_WIDTH: f32 = 290.0;
+/// Width of the column with judgments and options in the Build workspace, in points.
+pub const BUILD_INPUTS_WIDTH: f32 = 300.0;
+/// Width of the column with the validation summary of a space, in points.
+pub const VERDICT_WIDTH: f32 = 280.0;
+/// Range of heights of the row with pad and scope, in points; the row grows with the window.
+pub const STAGE_HEIGHTS: std::ops::RangeInclusive<f32> = 208.0..=360.0;
+/// Share of the window height that this row takes within that range.
+pub const STAGE_SHARE: f32 = 0.27;
+/// Minimum width of the pad, in points, at which the sliders above it are still usable.
+pub const PAD_WIDTH: f32 = 440.0;
+
+/// Returns the tokens of the active theme.
+pub fn tokens(ctx: &egui::Context) -> &'static Tokens {
+    match ctx.theme() {
+        Theme::Dark => &DARK,
+        Theme::Light => &LIGHT,
+    }
+}
+
+/// Color of a part of a figure. The colors are distinguishable with any color vision.
+pub fn tone_color(t: &Tokens, tone: Tone) -> Color32 {
+    match tone {
+        Tone::Main => t.accent,
+        Tone::Second => t.parents[0],
+        Tone::Third => t.parents[1],
+        Tone::Fourth => t.parents[2],
+        Tone::Limit => t.text,
+        Tone::Faint => t.text_weak.gamma_multiply(0.55),
+    }
+}
+
+/// Color of a map at a share of its range, 0 to 1.
+pub fn map_color(share: f32) -> Color32 {
+    let [red, green, blue] = figure::map_color(share);
+    Color32::from_rgb(red, green, blue)
+}
+
+/// Installs both themes in an egui context.
+pub fn install(ctx: &egui::Context) {
+    ctx.set_style_of(Theme::Dark, style(&DARK, Visuals::dark()));
+    ctx.set_style_of(Theme::Light, style(&LIGHT, Visuals::light()));
+}
+
+fn style(t: &Tokens, mut visuals: Visuals) -> Style {
+    let radius = CornerRadius::same(RADIUS);
+    visuals.panel_fill = t.panel;
+    visuals.window_fill = t.raised;
+    visuals.window_stroke = Stroke::new(1.0, t.line);
+    visuals.window_corner_radius = radius;
+    visuals.menu_corner_radius = radius;
+    visuals.extreme_bg_color = t.background;
+    visuals.faint_bg_color = t.raised;
+    visuals.weak_text_color = Some(t.text_weak);
+    visuals.hyperlink_color = t.accent;
+    visuals.warn_fg_color = t.warning;
+    visuals.error_fg_color = t.error;
+    visuals.selection.bg_fill = t.chosen;
+    visuals.selection.stroke = Stroke::new(1.5, t.on_chosen);
+    visuals.slider_trailing_fill = true;
+    let widgets = &mut visuals.widgets;
+    for (widget, fill) in [
+        (&mut widgets.noninteractive, t.panel),
+        (&mut widgets.inactive, t.control),
+        (&mut widgets.hovered, t.control_hovered),
+        (&mut widgets.active, t.control_hovered),
+        (&mut widgets.open, t.control),
+    ] {
+        widget.bg_fill = fill;
+        widget.weak_bg_fill = fill;
+        widget.corner_radius = radius;
+        widget.bg_stroke = Stroke::NONE;
+        widget.fg_stroke = Stroke::new(1.0, t.text);
+        widget.expansion = 0.0;
+    }
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, t.line);
+    widgets.hovered.bg_stroke = Stroke::new(1.0, t.text_weak);
+    widgets.active.bg_stroke = Stroke::new(1.0, t.accent);
+    let mut style = Style { visuals, ..Style::default() };
+    style.text_styles = [
+        (TextStyle::Small, 11.5),
+        (TextStyle::Body, 13.5),
+        (TextStyle::Button, 13.5),
+        (TextStyle::Heading, 17.0),
+    ]
+    .map(|(text_style, size)| (text_style, FontId::new(size, FontFamily::Proportional)))
+    .into_iter()
+    .chain([(TextStyle::Monospace, FontId::new(12.5, FontFamily::Monospace))])
+    .collect();
+    style.spacing.item_spacing = vec2(GAP, GAP);
+    style.spacing.button_padding = vec2(9.0, 4.0);
+    style.spacing.interact_size.y = 24.0;
+    style.spacing.slider_rail_height = 5.0;
+    style.spacing.window_margin = Margin::same(10);
+    style.interaction.tooltip_delay = 0.4;
+    style
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DARK, LIGHT, Tokens, map_color, style};
+    use egui::{Color32, Style, Visuals};
+
+    /// Relative luminance according to WCAG 2.1.
+    fn luminance(color: Color32) -> f64 {
+        let linear = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// Pairs of text and surface in the window that are illegible (WCAG AA: contrast below 4.5 to 1). Also pairs of a
+    /// mark and its surface that are indistinguishable (below 3 to 1).
+    fn unreadable(t: &Tokens, style: &Style) -> Vec<String> {
+        let mut pairs = Vec::new();
+        for surface in [t.background, t.panel, t.raised] {
+            pairs.push((t.text, surface, 7.0));
+            let colors = [t.text_weak, t.accent, t.warning, t.error].into_iter().chain(t.parents);
+            pairs.extend(colors.map(|color| (color, surface, 4.5)));
+            pairs.extend(t.authored.map(|color| (color, surface, 3.0)));
+        }
+        pairs.push((t.on_accent, t.accent, 4.5));
+        let visuals = &style.visuals;
+        let widgets = &visuals.widgets;
+        for widget in
+            [&widgets.noninteractive, &widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open]
+        {
+            pairs.push((widget.fg_stroke.color, widget.bg_fill, 4.5));
+            pairs.push((widget.fg_stroke.color, widget.weak_bg_fill, 4.5));
+        }
+        // Text of a selected tab or entry, and selected text.
+        pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill, 4.5));
+        // Outline of the field with the keyboard focus.
+        pairs.push((visuals.selection.stroke.color, t.panel, 3.0));
+        let is_unreadable = |(color, surface, least): &(Color32, Color32, f64)| {
+            // A translucent surface shows the color of the panel below.
+            contrast(*color, t.panel.blend(*surface)) < *least
+        };
+        let name = |(color, surface, least): (Color32, Color32, f64)| {
+            format!("{color:?} on {surface:?}: {:.2} of {least}", contrast(color, t.panel.blend(surface)))
+        };
+        pairs.into_iter().filter(is_unreadable).map(name).collect()
+    }
+
+    fn both() -> [(&'static Tokens, Style); 2] {
+        [(&DARK, style(&DARK, Visuals::dark())), (&LIGHT, style(&LIGHT, Visuals::light()))]
+    }
+
+    #[test]
+    fn text_can_be_read_on_every_surface() {
+        for (t, style) in both() {
+            assert_eq!(unreadable(t, &style), Vec::<String>::new());
+        }
+    }
+
+    /// A higher value is lighter, whatever its hue.
+    #[test]
+    fn a_map_gets_lighter_all_the_way() {
+        let lights: Vec<f64> = (0..=20).map(|i| luminance(map_color(i as f32 / 20.0))).collect();
+        assert!(lights.windows(2).all(|pair| pair[1] > pair[0]), "{lights:?}");
+    }
+
+    /// Negative control: accent text on a lighter shade of the accent, a former style of tabs, is detected in both
+    /// themes.
+    #[test]
+    fn a_tab_that_cannot_be_read_is_found() {
+        for (t, mut style) in both() {
+            style.visuals.selection.bg_fill = t.accent.gamma_multiply(0.45);
+            style.visuals.selection.stroke.color = t.accent;
+            assert!(!unreadable(t, &style).is_empty());
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The textures that are open: the library, what the project adds to it, and what is computed from both.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use shagreen_core::texture::plane::Plane;
+use shagreen_formats::library::{Library, Place, TextureEntry};
+use shagreen_formats::placed_space::PlacedSpace;
+use shagreen_formats::project::ProjectLibrary;
+
+use super::places::Opened;
+use super::planes_ahead::PlanesAhead;
+
+/// The textures of the library and of the project, by one index.
+pub(super) struct Textures {
+    pub(super) library: Library,
+    /// The library of the open project.
+    pub(super) base: ProjectLibrary,
+    /// Libraries that were open before, except the built-in ones.
+    pub(super) others: Vec<ProjectLibrary>,
+    /// Positions and names as the library's file states them. The textures behind its own are the project's.
+    pub(super) opened: Opened,
+    /// Textures that the project added.
+    pub(super) joined: Vec<Arc<TextureEntry>>,
+    /// New names by id.
+    pub(super) renamed: BTreeMap<String, String>,
+    /// The space that gave the textures their positions.
+    pub(super) used: Option<Arc<PlacedSpace>>,
+    /// The attributes on the axes.
+    pub(super) axes: Option<[String; 2]>,
+    /// Position of each texture on the canvas.
+    pub(super) places: Vec<Option<Place>>,
+    /// Words at the low and the high end of the x axis, then of the y axis.
+    pub(super) poles: [[String; 2]; 2],
+    /// Each texture over speed and force.
+    pub(super) planes: Vec<Arc<Plane>>,
+    /// Sample rate of each plane, in Hz.
+    pub(super) rates_hz: Vec<f64>,
+    /// Planes prepared for the renderer, by a worker.
+    pub(super) planes_ahead: PlanesAhead,
+    /// Sample rate of the textures in the space, in Hz.
+    pub(super) space_rate_hz: f64,
+}

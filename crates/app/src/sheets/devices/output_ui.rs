@@ -1,0 +1,108 @@
+//! Output section: device, settings, a test tone, and meters.
+
+use egui::{Button, Color32, ComboBox, DragValue, ProgressBar, Response, Ui};
+use shagreen_device::status::LinkState;
+
+use super::{DevicesSheet, heading, note, row, warning};
+use crate::command::Command;
+use crate::look::theme::tokens;
+use crate::session::Session;
+use crate::sheets::devices::output_choice_ui::output_choice_ui;
+use crate::state::rig::BUFFERS;
+use crate::strings::devices as strings;
+
+/// Number of channels offered if the output does not state its own.
+const CHANNELS: usize = 8;
+/// Sample rate that converts buffer lengths while no output is open, in Hz.
+const USUAL_RATE_HZ: f64 = 48_000.0;
+
+impl DevicesSheet {
+    pub(super) fn output_ui(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
+        let mut commands = Vec::new();
+        heading(ui, strings::OUTPUT);
+        row(ui, strings::DEVICE, |ui| commands.extend(output_choice_ui(ui, session)));
+        let rate_hz = session.stream().map_or(USUAL_RATE_HZ, |(rate_hz, ..)| f64::from(rate_hz));
+        row(ui, strings::BUFFER, |ui| {
+            let combo = ComboBox::from_id_salt("buffer").width(210.0);
+            let shown =
+                combo.selected_text(strings::buffer(self.rig.buffer_frames, rate_hz)).show_ui(ui, |ui| {
+                    for frames in BUFFERS {
+                        ui.selectable_value(
+                            &mut self.rig.buffer_frames,
+                            frames,
+                            strings::buffer(frames, rate_hz),
+                        );
+                    }
+                });
+            shown.response.accessible_name(strings::BUFFER).on_hover_text(strings::BUFFER_HELP);
+        });
+        row(ui, strings::CHANNELS, |ui| {
+            let n_channels = session.stream().map_or(CHANNELS, |(_, channels, _)| usize::from(channels));
+            let name =
+                |channel: Option<usize>| channel.map_or(strings::FIRST_TWO.to_owned(), strings::channel);
+            let combo = ComboBox::from_id_salt("channels").width(210.0).selected_text(name(self.rig.channel));
+            let shown = combo.show_ui(ui, |ui| {
+                for channel in std::iter::once(None).chain((0..n_channels).map(Some)) {
+                    ui.selectable_value(&mut self.rig.channel, channel, name(channel));
+                }
+            });
+            shown.response.accessible_name(strings::CHANNELS).on_hover_text(strings::CHANNELS_HELP);
+        });
+        if let Some((rate_hz, channels, block_frames)) = session.stream() {
+            note(ui, &strings::stream(rate_hz, channels, block_frames));
+        }
+        if let Some(message) = session.output_message() {
+            warning(ui, message);
+        }
+        meters_ui(ui, session);
+        commands.extend(self.tone_ui(ui, session));
+        commands
+    }
+
+    fn tone_ui(&mut self, ui: &mut Ui, session: &Session) -> Option<Command> {
+        let mut command = None;
+        row(ui, strings::TONE, |ui| {
+            let hz = DragValue::new(&mut self.tone_hz).range(10.0..=1000.0).speed(1.0).suffix(" Hz");
+            ui.add(hz).accessible_name(strings::TONE_HZ).on_hover_text(strings::TONE_HZ);
+            let level = DragValue::new(&mut self.tone_mps2).range(0.01..=50.0).speed(0.05).suffix(" m/s²");
+            ui.add(level).accessible_name(strings::TONE_LEVEL).on_hover_text(strings::TONE_LEVEL);
+            let status = session.status();
+            let plays = status.is_some_and(|s| s.plays_signal);
+            let can_play = status.is_some_and(|s| s.state == LinkState::Running);
+            let button = Button::new(if plays { strings::STOP_TONE } else { strings::PLAY_TONE });
+            if ui.add_enabled(can_play, button).on_hover_text(strings::TONE_HELP).clicked() {
+                command = Some(if plays {
+                    Command::StopTone
+                } else {
+                    Command::PlayTone { frequency_hz: self.tone_hz, amplitude_mps2: self.tone_mps2 }
+                });
+            }
+        });
+        command
+    }
+}
+
+/// Draws meters of the output peak and of the thermal load of the coil, which is computed from the drive signal.
+fn meters_ui(ui: &mut Ui, session: &Session) {
+    let t = tokens(ui.ctx());
+    let status = session.status().copied().unwrap_or_default();
+    row(ui, strings::METER, |ui| {
+        let color = if session.is_limiting() { t.warning } else { t.accent };
+        meter(ui, status.peak, color).accessible_name(strings::METER).on_hover_text(strings::METER_HELP);
+    });
+    if session.rig().actuator().is_some_and(|a| a.limits_in_volts().rated_volts_rms.is_some()) {
+        row(ui, strings::HEAT, |ui| {
+            let color = if status.heat_gain < 0.99 { t.warning } else { t.accent };
+            meter(ui, status.heat_used, color)
+                .accessible_name(strings::HEAT)
+                .on_hover_text(strings::HEAT_HELP);
+        });
+    }
+}
+
+/// Draws a bar with its number beside it, where the number is legible at any level.
+fn meter(ui: &mut Ui, share: f32, color: Color32) -> Response {
+    let bar = ui.add(ProgressBar::new(share).desired_width(170.0).fill(color));
+    ui.label(strings::percent(share));
+    bar
+}

@@ -1,0 +1,367 @@
+//! Files that are being imported, and the textures made from them.
+
+use std::sync::Arc;
+
+use shagreen_core::space::LabelSource;
+use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, name_from_file};
+use shagreen_formats::recording::Question;
+
+use crate::sheets::import::draft::{Draft, FitState};
+use crate::sheets::import::recording_state::RecordingState;
+use crate::sheets::import::shown_model::ShownModel;
+use crate::sheets::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, Request, Worker};
+use crate::state::source::Source;
+use shagreen_studio::place_estimate::place_by_estimate;
+
+/// Files of one import.
+pub struct Batch {
+    files: Vec<File>,
+    drafts: Vec<Draft>,
+    /// Textures of the previous grouping of recordings; their names and tags are reused.
+    set_aside: Vec<Draft>,
+    worker: Worker,
+    are_one: bool,
+    last_id: u64,
+}
+
+/// File of a batch.
+pub struct File {
+    /// Unique id.
+    pub id: u64,
+    /// File name without the folder.
+    pub name: String,
+    /// Detected content.
+    pub content: Content,
+}
+
+/// Content of a file.
+pub enum Content {
+    /// Recording.
+    Recording(Box<RecordingState>),
+    /// Textures that already are models.
+    Textures {
+        /// Textures in the file.
+        entries: Vec<TextureEntry>,
+        /// Warnings about the file, in sentences.
+        warnings: Vec<String>,
+        /// Texture and node that are shown.
+        shown: ShownModel,
+    },
+    /// File that supports the other files, and how.
+    Helper(&'static str),
+    /// File that cannot be used, and why.
+    Failed(String),
+}
+
+/// Status of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Being read or fitted.
+    Working,
+    /// Ready to be added to the library.
+    Ready,
+    /// Waiting for an answer.
+    Question,
+    /// Ready to be added to the library; missing information was guessed from the numbers.
+    Guessed,
+    /// Not usable.
+    Failed,
+    /// Supports other files.
+    Helper,
+}
+
+impl Batch {
+    /// Batch without files.
+    pub fn new(ctx: &egui::Context) -> Self {
+        Self {
+            files: Vec::new(),
+            drafts: Vec::new(),
+            set_aside: Vec::new(),
+            worker: Worker::new(ctx.clone()),
+            are_one: false,
+            last_id: 0,
+        }
+    }
+
+    /// Reads more files in the background.
+    pub fn load(&mut self, sources: Vec<Source>) {
+        self.worker.ask(Request::Load(sources));
+    }
+
+    /// Files in the order in which they were read.
+    pub fn files(&self) -> &[File] {
+        &self.files
+    }
+
+    /// Mutable file with this id.
+    pub fn file_mut(&mut self, id: u64) -> Option<&mut File> {
+        self.files.iter_mut().find(|file| file.id == id)
+    }
+
+    /// Texture that a file becomes part of.
+    pub fn draft_of(&self, file: u64) -> Option<&Draft> {
+        self.drafts.iter().find(|draft| draft.files.contains(&file))
+    }
+
+    /// Same as [`Batch::draft_of`], but mutable.
+    pub fn draft_of_mut(&mut self, file: u64) -> Option<&mut Draft> {
+        self.drafts.iter_mut().find(|draft| draft.files.contains(&file))
+    }
+
+    /// Whether something is being read or fitted.
+    pub fn is_working(&self) -> bool {
+        self.worker.n_pending() > 0
+    }
+
+    /// Whether the worker has stopped for good.
+    pub fn is_broken(&self) -> bool {
+        self.worker.is_gone()
+    }
+
+    /// Takes over the results of the worker.
+    pub fn collect(&mut self) {
+        while let Some(message) = self.worker.next() {
+            match message {
+                Message::Loaded(loaded) => self.take_loaded(loaded),
+                Message::Read { file, generation, outcome } => self.take_read(file, generation, outcome),
+                Message::Fitted { draft, generation, outcome } => {
+                    let draft = self.drafts.iter_mut().find(|d| d.id == draft && d.generation == generation);
+                    if let Some(draft) = draft {
+                        draft.segment = 0;
+                        draft.fit = outcome.map_or_else(FitState::Failed, FitState::Done);
+                    }
+                }
+                Message::Done => {}
+            }
+        }
+    }
+
+    fn next_id(&mut self) -> u64 {
+        self.last_id += 1;
+        self.last_id
+    }
+
+    fn take_loaded(&mut self, loaded: Loaded) {
+        let id = self.next_id();
+        let Loaded { name, content } = loaded;
+        let mut is_recording = false;
+        let content = match content {
+            LoadedContent::Failed(reason) => Content::Failed(reason),
+            LoadedContent::Helper { note } => Content::Helper(note),
+            LoadedContent::Textures { entries, warnings } => {
+                Content::Textures { entries, warnings, shown: ShownModel::default() }
+            }
+            LoadedContent::Recording { input, map, outcome } => {
+                is_recording = true;
+                Content::Recording(Box::new(RecordingState::new(input, *map, outcome)))
+            }
+        };
+        self.files.push(File { id, name: name.clone(), content });
+        if !is_recording {
+            return;
+        }
+        if let Some(draft) = self.drafts.first_mut().filter(|_| self.are_one) {
+            draft.files.push(id);
+        } else {
+            let draft = self.next_id();
+            self.drafts.push(Draft::new(draft, name_from_file(&name), vec![id]));
+        }
+        self.fit_with(id);
+    }
+
+    fn take_read(&mut self, id: u64, generation: u64, outcome: ReadOutcome) {
+        let Some(Content::Recording(state)) = self.file_mut(id).map(|file| &mut file.content) else { return };
+        if state.generation == generation {
+            state.outcome = outcome;
+            state.is_reading = false;
+            self.fit_with(id);
+        }
+    }
+
+    /// Answers a question about a recording; with `for_all`, also about all others with the same question.
+    pub fn answer(&mut self, id: u64, question: &Question, answer: &str, for_all: bool) {
+        for file in &mut self.files {
+            let file_id = file.id;
+            let Content::Recording(state) = &mut file.content else { continue };
+            let is_meant = file_id == id || for_all && state.asks(question);
+            if is_meant && state.answer(question, answer) {
+                let (input, map) = (state.input.clone(), Box::new(state.map.clone()));
+                self.worker.ask(Request::Read { file: file_id, generation: state.generation, input, map });
+            }
+        }
+    }
+
+    /// Number of recordings with this question.
+    pub fn n_asking(&self, question: &Question) -> usize {
+        let asks = |file: &&File| matches!(&file.content, Content::Recording(state) if state.asks(question));
+        self.files.iter().filter(asks).count()
+    }
+
+    /// Whether all recordings belong to one texture.
+    pub fn are_one(&self) -> bool {
+        self.are_one
+    }
+
+    /// Number of recordings.
+    pub fn n_recordings(&self) -> usize {
+        self.files.iter().filter(|file| matches!(file.content, Content::Recording(_))).count()
+    }
+
+    /// Makes one texture of all recordings, or one of each. Names and tags typed for the same files are kept.
+    pub fn set_are_one(&mut self, are_one: bool) {
+        self.are_one = are_one;
+        let recordings: Vec<(u64, String)> = self
+            .files
+            .iter()
+            .filter(|file| matches!(file.content, Content::Recording(_)))
+            .map(|file| (file.id, name_from_file(&file.name)))
+            .collect();
+        let old = std::mem::take(&mut self.drafts);
+        let like = old.first().map(|draft| draft.options.clone());
+        let before = std::mem::replace(&mut self.set_aside, old);
+        let groups: Vec<(Vec<u64>, String)> = match recordings.first() {
+            Some((_, name)) if are_one => vec![(recordings.iter().map(|r| r.0).collect(), name.clone())],
+            _ => recordings.into_iter().map(|(id, name)| (vec![id], name)).collect(),
+        };
+        for (files, name) in groups {
+            let id = self.next_id();
+            let mut draft = Draft::new(id, name, files);
+            if let Some(before) = before.iter().find(|before| are_one || before.files == draft.files) {
+                draft.name.clone_from(&before.name);
+                draft.tags.clone_from(&before.tags);
+            }
+            if let Some(options) = &like {
+                draft.options = options.clone();
+            }
+            self.drafts.push(draft);
+        }
+        for draft in 0..self.drafts.len() {
+            self.fit(draft);
+        }
+    }
+
+    /// Removes a file from the batch.
+    pub fn remove(&mut self, id: u64) {
+        self.files.retain(|file| file.id != id);
+        let index = self.drafts.iter().position(|draft| draft.files.contains(&id));
+        for draft in &mut self.drafts {
+            draft.files.retain(|file| *file != id);
+        }
+        if let Some(index) = index {
+            self.fit(index);
+        }
+        self.drafts.retain(|draft| !draft.files.is_empty());
+    }
+
+    /// Fits the texture of a file again.
+    pub fn fit_with(&mut self, file: u64) {
+        if let Some(draft) = self.drafts.iter().position(|draft| draft.files.contains(&file)) {
+            self.fit(draft);
+        }
+    }
+
+    fn fit(&mut self, index: usize) {
+        let recordings: Vec<Arc<Drawn>> =
+            self.drawn_of(&self.drafts[index]).map(|(_, d)| Arc::clone(d)).collect();
+        let draft = &mut self.drafts[index];
+        draft.generation += 1;
+        if recordings.is_empty() {
+            draft.fit = FitState::Nothing;
+            return;
+        }
+        draft.fit = FitState::Working;
+        let (draft, generation, options) = (draft.id, draft.generation, draft.options.clone());
+        self.worker.ask(Request::Fit { draft, generation, recordings, options });
+    }
+
+    /// Readable recordings of a texture, in the order that the segments of its fit refer to.
+    pub fn drawn_of<'a>(&'a self, draft: &'a Draft) -> impl Iterator<Item = (&'a File, &'a Arc<Drawn>)> + 'a {
+        let in_draft = self.files.iter().filter(|file| draft.files.contains(&file.id));
+        in_draft.filter_map(|file| match &file.content {
+            Content::Recording(state) => match &state.outcome.recording {
+                Some(Ok(drawn)) => Some((file, drawn)),
+                _ => None,
+            },
+            _ => None,
+        })
+    }
+
+    /// Status of a file.
+    pub fn state(&self, file: &File) -> State {
+        match &file.content {
+            Content::Failed(_) => State::Failed,
+            Content::Helper(_) => State::Helper,
+            Content::Textures { .. } => State::Ready,
+            Content::Recording(state) if state.is_reading => State::Working,
+            Content::Recording(state) => {
+                match (&state.outcome.recording, self.draft_of(file.id).map(|d| &d.fit)) {
+                    (None, _) => State::Question,
+                    (Some(Err(_)), _) | (_, Some(FitState::Failed(_))) => State::Failed,
+                    (_, Some(FitState::Done(_))) if state.is_guessed() => State::Guessed,
+                    (_, Some(FitState::Done(_))) => State::Ready,
+                    _ => State::Working,
+                }
+            }
+        }
+    }
+
+    /// Number of textures that are ready to be added to the library.
+    pub fn n_ready(&self) -> usize {
+        let of_files = self.files.iter().map(|file| match &file.content {
+            Content::Textures { entries, .. } => entries.len(),
+            _ => 0,
+        });
+        of_files.sum::<usize>() + self.drafts.iter().filter(|draft| draft.fitted().is_some()).count()
+    }
+
+    /// Whether a recording has been fitted.
+    pub fn has_recordings(&self) -> bool {
+        self.drafts.iter().any(|draft| draft.fitted().is_some())
+    }
+
+    /// Textures that would be added to `library` now.
+    /// A texture keeps its position only if it is comparable: from the same source as the others. In a library with
+    /// positions, its sample rate must also not exceed `space_rate_hz` (Hz). With `are_placed`, recordings get estimated
+    /// positions.
+    pub fn entries(&self, library: &Library, space_rate_hz: f64, are_placed: bool) -> Vec<Arc<TextureEntry>> {
+        let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
+        // Estimated positions follow from other positions, so they say nothing about the source.
+        let mut sources = library.label_sources();
+        sources.retain(|source| *source != LabelSource::Estimated);
+        let mut source = if let [source] = sources[..] { Some(source) } else { None };
+        let has_mixed_places = sources.len() > 1;
+        let mut out = Vec::new();
+        for file in &self.files {
+            let Content::Textures { entries, .. } = &file.content else { continue };
+            for entry in entries {
+                let mut entry = entry.clone();
+                entry.id = claim_id(&entry.id, &mut ids);
+                let fits = |from: LabelSource| !has_mixed_places && source.is_none_or(|s| s == from);
+                let is_comparable = entry.label_source().is_some_and(fits);
+                if is_comparable && (sources.is_empty() || entry.model.rate().0 <= space_rate_hz) {
+                    source = entry.label_source();
+                } else {
+                    entry.place = None;
+                }
+                out.push(Arc::new(entry));
+            }
+        }
+        for draft in &self.drafts {
+            let recordings: Vec<&str> = self.drawn_of(draft).map(|(file, _)| file.name.as_str()).collect();
+            let id = claim_id(&id_from_name(&draft.name), &mut ids);
+            let Some(mut entry) = draft.entry(id, &recordings) else { continue };
+            if are_placed && entry.model.rate().0 <= space_rate_hz {
+                place_by_estimate(&mut entry, library);
+            }
+            out.push(Arc::new(entry));
+        }
+        out
+    }
+}
+
+/// The identifier, with a number appended if it is taken. The result is added to `taken`.
+fn claim_id(wanted: &str, taken: &mut Vec<String>) -> String {
+    let id = free_id(wanted, |id| taken.iter().any(|other| other == id));
+    taken.push(id.clone());
+    id
+}

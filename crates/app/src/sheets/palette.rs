@@ -1,0 +1,162 @@
+//! Command palette: a list of commands with search.
+
+use egui::{Button, Context, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use shagreen_studio::export::FORMATS;
+
+use crate::command::{Command, FileCommand, LISTED};
+use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::theme::{GAP, tokens};
+use crate::strings::help as strings;
+
+/// Width of the sheet, in points.
+const WIDTH: f32 = 460.0;
+/// Height of the list, in points.
+const LIST_HEIGHT: f32 = 300.0;
+
+#[derive(Default)]
+pub(crate) struct PaletteSheet {
+    query: String,
+    /// Index of the selected command among the matches.
+    selected: usize,
+    is_focused: bool,
+}
+
+/// Command with its label and keyboard shortcut.
+struct Row {
+    command: Command,
+    label: String,
+    keys: String,
+}
+
+impl PaletteSheet {
+    /// Draws the sheet; returns the requested commands.
+    pub(crate) fn show(&mut self, ctx: &Context) -> Vec<Command> {
+        let rows = matching(all(ctx), &self.query);
+        self.selected = self.selected.min(rows.len().saturating_sub(1));
+        let (mut chosen, n) = (None, rows.len());
+        let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        if pressed(Key::ArrowDown) && n > 0 {
+            self.selected = (self.selected + 1) % n;
+        }
+        if pressed(Key::ArrowUp) && n > 0 {
+            self.selected = (self.selected + n - 1) % n;
+        }
+        if pressed(Key::Enter) {
+            chosen = Some(self.selected);
+        }
+        sheet(ctx, "palette", |ui| {
+            ui.set_width(WIDTH);
+            let field = TextEdit::singleline(&mut self.query)
+                .hint_text(strings::FIND_COMMAND)
+                .desired_width(f32::INFINITY);
+            let field = ui.add(field).accessible_name(strings::FIND_COMMAND);
+            if !std::mem::replace(&mut self.is_focused, true) {
+                field.request_focus();
+            }
+            if field.changed() {
+                self.selected = 0;
+            }
+            ui.add_space(GAP);
+            chosen = chosen.or(list_ui(ui, &rows, self.selected));
+        });
+        let mut commands = Vec::new();
+        if let Some(row) = chosen.and_then(|index| rows.into_iter().nth(index)) {
+            // The palette closes first, because the command may open another sheet.
+            commands.extend([Command::CloseSheet, row.command]);
+        } else if is_left(ctx) {
+            commands.push(Command::CloseSheet);
+        }
+        commands
+    }
+}
+
+/// Draws the list and returns the index of the row that was clicked.
+fn list_ui(ui: &mut Ui, rows: &[Row], selected: usize) -> Option<usize> {
+    let t = tokens(ui.ctx());
+    let mut clicked = None;
+    ScrollArea::vertical()
+        .min_scrolled_height(LIST_HEIGHT)
+        .max_height(LIST_HEIGHT)
+        .auto_shrink([false, true])
+        .show(ui, |ui| {
+            if rows.is_empty() {
+                ui.label(RichText::new(strings::NO_COMMAND).color(t.text_weak));
+            }
+            for (index, row) in rows.iter().enumerate() {
+                let button = Button::selectable(index == selected, &row.label).shortcut_text(&row.keys);
+                let button = button.min_size(egui::vec2(ui.available_width(), 0.0));
+                let response = ui.add(button).accessible_name(&row.label);
+                if index == selected {
+                    response.scroll_to_me(None);
+                }
+                if response.clicked() {
+                    clicked = Some(index);
+                }
+            }
+        });
+    clicked
+}
+
+/// All listed commands except the palette itself, then one command for each export format.
+fn all(ctx: &Context) -> Vec<Row> {
+    let listed = LISTED.into_iter().filter(|command| !matches!(command, Command::OpenPalette));
+    let row = |command: Command| {
+        let entry = command.entry()?;
+        let keys = entry.shortcut.map_or(String::new(), |keys| ctx.format_shortcut(&keys));
+        Some(Row { command, label: entry.label.to_owned(), keys })
+    };
+    let export = |format: &'static dyn shagreen_studio::export::ExportFormat| Row {
+        command: Command::File(FileCommand::ExportTexture(format.id())),
+        label: strings::export_as(format.name()),
+        keys: String::new(),
+    };
+    listed.filter_map(row).chain(FORMATS.into_iter().map(export)).collect()
+}
+
+/// Rows that contain every word of the query; those that begin with it come first.
+fn matching(mut rows: Vec<Row>, query: &str) -> Vec<Row> {
+    let query = query.to_lowercase();
+    let words: Vec<&str> = query.split_whitespace().collect();
+    rows.retain(|row| {
+        let label = row.label.to_lowercase();
+        words.iter().all(|word| label.contains(word))
+    });
+    rows.sort_by_key(|row| !row.label.to_lowercase().starts_with(query.trim()));
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Command, LISTED, Row, all, matching};
+
+    #[test]
+    fn every_listed_command_has_words_and_no_two_share_keys() {
+        let mut shortcuts = Vec::new();
+        let mut labels = Vec::new();
+        for command in LISTED {
+            let entry = command.entry().expect("a listed command has words");
+            shortcuts.extend(entry.shortcut.map(|keys| format!("{keys:?}")));
+            labels.push(entry.label);
+        }
+        for list in [&mut shortcuts, &mut labels.iter().map(|label| (*label).to_owned()).collect()] {
+            let n = list.len();
+            list.sort();
+            list.dedup();
+            assert_eq!(list.len(), n, "{list:?}");
+        }
+        assert!(Command::CloseSheet.entry().is_none());
+    }
+
+    #[test]
+    fn commands_are_found_by_any_of_their_words() {
+        let found = |query: &str| -> Vec<String> {
+            let rows: Vec<Row> = matching(all(&egui::Context::default()), query);
+            rows.into_iter().map(|row| row.label).collect()
+        };
+        assert!(found("").len() > 25);
+        assert_eq!(found("WORKSPACE build"), ["Show the Build workspace"]);
+        assert_eq!(found("save")[0], "Save the project", "what begins with it comes first");
+        assert!(found("hatt").iter().any(|label| label.contains("HaTT")), "export formats are listed");
+        assert!(found("fly to the moon").is_empty());
+    }
+}

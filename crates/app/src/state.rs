@@ -1,0 +1,29 @@
+//! State of the window without its panels: the project and its edits, files, recovery, the device setup, and
+//! recordings.
+//!
+//! In: edits, files and device reports. Out: values that panels read.
+
+pub(crate) mod background;
+pub mod bench_signal;
+pub mod compare;
+pub mod document;
+pub mod edit;
+pub(crate) mod figure_file;
+pub mod files;
+pub mod heat_map;
+pub mod history;
+pub(crate) mod leave;
+pub(crate) mod mouse_report;
+pub(crate) mod photo;
+pub mod pictures;
+pub mod recorded_stroke;
+pub(crate) mod recorder;
+pub mod recovery;
+pub mod rig;
+pub(crate) mod rig_memory;
+pub mod scope_buffer;
+pub(crate) mod settings_file;
+pub(crate) mod signal_file;
+pub(crate) mod source;
+pub(crate) mod stroke_file;
+pub(crate) mod texture_file;

@@ -1,0 +1,130 @@
+//! All files of the window: the project file, recovery, and settings.
+
+use std::path::PathBuf;
+
+use egui::Context;
+use shagreen_formats::imported::Imported;
+use shagreen_formats::project::Project;
+use shagreen_formats::settings::Settings;
+
+use crate::state::document::Document;
+use crate::state::leave::Leave;
+use crate::state::recovery::{Leftover, Recovery, leftovers};
+use crate::state::settings_file::SettingsFile;
+use crate::strings::document as strings;
+
+/// Paths of the files that outlive the program; with `None` nothing is stored.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Keeping {
+    /// Folder of the recovery files.
+    pub recovery: Option<PathBuf>,
+    /// Settings file.
+    pub settings: Option<PathBuf>,
+    /// Folder of added models.
+    pub models: Option<PathBuf>,
+}
+
+/// Project file, settings and recovery.
+pub(crate) struct Files {
+    pub(crate) document: Document,
+    pub(crate) settings: Settings,
+    settings_file: SettingsFile,
+    recovery: Option<Recovery>,
+    /// Reason why recovery is unavailable, until it is shown.
+    problem: Option<String>,
+    /// Recovered project, until its content is stored elsewhere.
+    recovered: Option<Leftover>,
+    /// Action after the project has been saved.
+    pub(crate) after_saving: Option<Leave>,
+    /// Project that was read and opens when the present one is left. The path is `None` for a copy.
+    pub(crate) waiting: Option<(Box<Imported<Project>>, Option<PathBuf>)>,
+    /// Whether the program may close.
+    pub(crate) is_closing: bool,
+    /// Whether the file being read is the template of a new project.
+    pub(crate) is_beginning: bool,
+}
+
+impl Files {
+    /// Files of a new project, or of one that was read from `path`.
+    pub(crate) fn new(project: &Project, path: Option<PathBuf>, keeping: Keeping) -> Self {
+        let (settings_file, mut settings) = SettingsFile::open(keeping.settings);
+        if let Some(path) = &path {
+            settings.note_project(path);
+        }
+        let (mut recovery, mut problem) = (None, None);
+        if let Some(folder) = keeping.recovery {
+            match Recovery::new(&folder) {
+                Ok(slot) => recovery = Some(slot),
+                Err(error) => problem = Some(strings::no_recovery(&error.to_string())),
+            }
+        }
+        Self {
+            document: Document::new(project, path),
+            settings,
+            settings_file,
+            recovery,
+            problem,
+            recovered: None,
+            after_saving: None,
+            waiting: None,
+            is_closing: false,
+            is_beginning: false,
+        }
+    }
+
+    /// Reason why no output may be driven: the settings file exists, but its device setup is unreadable.
+    pub(crate) fn settings_problem(&self) -> Option<&str> {
+        self.settings_file.problem()
+    }
+
+    /// Projects that other windows left behind.
+    pub(crate) fn leftovers(keeping: &Keeping) -> Vec<Leftover> {
+        keeping.recovery.as_deref().map(leftovers).unwrap_or_default()
+    }
+
+    /// Updates document, settings file and recovery, once a frame. Returns a message to show.
+    pub(crate) fn follow(&mut self, project: &Project, revision: u64, ctx: &Context) -> Option<String> {
+        self.document.follow(project, revision);
+        self.settings_file.follow(&self.settings, ctx);
+        let is_changed = self.document.is_changed();
+        if let Some(recovery) = &mut self.recovery {
+            recovery.follow(project, revision, self.document.path(), is_changed, ctx);
+            let is_kept = recovery.has_written() || !is_changed;
+            if let Some(leftover) = self.recovered.take_if(|_| is_kept) {
+                leftover.discard();
+            }
+            if let Some(reason) = recovery.take_failure() {
+                return Some(strings::no_recovery(&reason));
+            }
+        }
+        self.problem.take()
+    }
+
+    /// Replaces the open project.
+    pub(crate) fn begin(&mut self, project: &Project, path: Option<PathBuf>) {
+        if let Some(path) = &path {
+            self.settings.note_project(path);
+        }
+        self.document = Document::new(project, path);
+        self.restart_recovery();
+    }
+
+    /// Replaces the open project by a recovered one, which is in no project file yet.
+    pub(crate) fn begin_recovered(&mut self, leftover: Leftover) {
+        self.document = Document::unsaved(leftover.origin.clone());
+        self.recovered = Some(leftover);
+        self.restart_recovery();
+    }
+
+    /// Cancels leaving the project.
+    pub(crate) fn stay(&mut self) {
+        (self.after_saving, self.waiting) = (None, None);
+    }
+
+    /// Discards the recovery file, which belongs to the previous project.
+    fn restart_recovery(&mut self) {
+        if let Some(recovery) = &mut self.recovery {
+            recovery.restart();
+        }
+    }
+}

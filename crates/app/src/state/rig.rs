@@ -1,0 +1,169 @@
+//! The device setup: output, actuator and pen. It belongs to the machine and not to the project, so undo does not
+//! change it.
+
+use anyhow::bail;
+use shagreen_core::actuator::{Actuator, ActuatorError, Drive, drive_config};
+use shagreen_core::units::{Kilograms, Volts};
+use shagreen_device::engine::ChannelMask;
+use shagreen_device::output::{UNCALIBRATED_FULL_SCALE_MPS2, USUAL_BUFFER_FRAMES, USUAL_CEILING};
+use shagreen_device::pressure::PressureMap;
+use shagreen_device::synth::drive::DriveConfig;
+use shagreen_formats::rig_settings::ActuatorSettings;
+
+use crate::strings::rig as strings;
+
+/// Selectable buffer sizes, in frames.
+pub const BUFFERS: [u32; 6] = [32, 64, 128, 256, 512, 1024];
+/// Range of the acceleration at full scale, in m/s².
+pub const FULL_SCALES_MPS2: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
+/// Range of the voltage at full scale, in V.
+pub const FULL_SCALES_VOLTS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+/// Range of width and height of a pen's active area, in mm.
+pub const SIDES_MM: std::ops::RangeInclusive<f64> = 10.0..=2000.0;
+
+/// Actuator with its load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mounted {
+    profile: Actuator,
+    on_load: Actuator,
+}
+
+impl Mounted {
+    /// Actuator with another load than that of its profile, if `load` is given.
+    ///
+    /// # Errors
+    /// Those of [`Actuator::at_load`].
+    pub fn new(profile: Actuator, load: Option<Kilograms>) -> Result<Self, ActuatorError> {
+        let on_load = load.map_or_else(|| Ok(profile.clone()), |load| profile.at_load(load))?;
+        Ok(Self { profile, on_load })
+    }
+
+    /// Actuator with the load of its profile.
+    pub fn profile(&self) -> &Actuator {
+        &self.profile
+    }
+
+    /// Actuator with its actual load.
+    pub fn actuator(&self) -> &Actuator {
+        &self.on_load
+    }
+
+    /// Mass of the load, if known.
+    pub fn load(&self) -> Option<Kilograms> {
+        self.on_load.measured?.load
+    }
+}
+
+/// Stored actuator that is unavailable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MissingActuator {
+    /// Its profile and load, as stored.
+    pub actuator: ActuatorSettings,
+    /// Voltage at the actuator at full scale of the output, in V.
+    pub full_scale_volts: Option<f64>,
+    /// Reason why it is unavailable.
+    pub reason: String,
+}
+
+/// Device setup: output, actuator and pen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    /// Buffer size of the output, in frames.
+    pub buffer_frames: u32,
+    /// The only driven channel, counted from zero; `None` drives the first two.
+    pub channel: Option<usize>,
+    /// The actuator with its load. Without one, the drive signal is proportional to acceleration.
+    pub mounted: Option<Mounted>,
+    /// Stored actuator that is unavailable. The limits of the connected actuator are then unknown, so nothing is driven
+    /// until the user selects an actuator or none.
+    pub missing: Option<MissingActuator>,
+    /// Whether the actuator's response is equalized.
+    pub equalizes: bool,
+    /// Voltage at the actuator at full scale of the output, in V.
+    pub full_scale_volts: f64,
+    /// Acceleration at full scale of the output in m/s², used without an actuator.
+    pub full_scale_mps2: f64,
+    /// Id of the pen that is read.
+    pub pen: Option<String>,
+    /// Conversion from pressure to force, for pens that do not report force.
+    pub pressure_map: PressureMap,
+    /// Width and height of the pen's active area in mm, for pens that do not report it.
+    pub pen_size_mm: Option<[f64; 2]>,
+}
+
+impl Default for Rig {
+    fn default() -> Self {
+        Self {
+            buffer_frames: USUAL_BUFFER_FRAMES,
+            channel: None,
+            mounted: None,
+            missing: None,
+            equalizes: true,
+            full_scale_volts: 1.0,
+            full_scale_mps2: f64::from(UNCALIBRATED_FULL_SCALE_MPS2),
+            pen: None,
+            pressure_map: PressureMap::USUAL,
+            pen_size_mm: None,
+        }
+    }
+}
+
+impl Rig {
+    /// Conversion from acceleration to the drive signal.
+    ///
+    /// # Errors
+    /// The actuator's parameters are inconsistent, or the actuator is unavailable.
+    pub fn drive(&self) -> anyhow::Result<DriveConfig> {
+        if let Some(missing) = &self.missing {
+            bail!(strings::no_actuator(&missing.reason));
+        }
+        match self.actuator() {
+            None => Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING)),
+            Some(actuator) => {
+                Ok(drive_config(actuator, Drive::new(Volts(self.full_scale_volts))?, self.equalizes)?)
+            }
+        }
+    }
+
+    /// The actuator with its actual load, if selected.
+    pub fn actuator(&self) -> Option<&Actuator> {
+        self.mounted.as_ref().map(Mounted::actuator)
+    }
+
+    /// Driven channels.
+    pub fn channels(&self) -> ChannelMask {
+        self.channel.map_or(ChannelMask::FIRST_TWO, ChannelMask::only)
+    }
+
+    /// Whether an output that was opened with `other` must be reopened.
+    pub fn opens_unlike(&self, other: &Self) -> bool {
+        let opening = |rig: &Self| {
+            (
+                rig.buffer_frames,
+                rig.channel,
+                rig.actuator().cloned(),
+                rig.missing.clone(),
+                rig.equalizes,
+                rig.full_scale_volts,
+                rig.full_scale_mps2,
+            )
+        };
+        opening(self) != opening(other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Rig;
+
+    #[test]
+    fn only_what_the_output_depends_on_opens_it_again() {
+        let rig = Rig::default();
+        let other =
+            Rig { pen: Some("hid:056a:0061".into()), pen_size_mm: Some([100.0, 80.0]), ..rig.clone() };
+        assert!(!rig.opens_unlike(&other));
+        assert!(rig.opens_unlike(&Rig { buffer_frames: 64, ..rig.clone() }));
+        assert!(rig.opens_unlike(&Rig { channel: Some(1), ..rig.clone() }));
+        assert!(rig.opens_unlike(&Rig { full_scale_mps2: 5.0, ..rig.clone() }));
+    }
+}

@@ -1,0 +1,137 @@
+//! Input files: typed paths, and files dropped on the window.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::DroppedFileHandle;
+use shagreen_formats::wav::sidecar_names;
+
+use shagreen_studio::file::is_special;
+use shagreen_studio::import::is_importable;
+
+use crate::strings::import as strings;
+
+/// Maximum number of files taken from a folder.
+const MAX_OF_FOLDER: usize = 1000;
+
+/// Input file or folder.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// Path.
+    Path(PathBuf),
+    /// File that the window system passed to the window.
+    Dropped(DroppedFileHandle),
+}
+
+impl Source {
+    /// Path of the file, or only its name if the window system provides no path.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Path(path) => path,
+            Self::Dropped(file) => file.path(),
+        }
+    }
+
+    /// Content of the file, or the reason why it cannot be read.
+    pub(crate) fn bytes(&self) -> Result<Vec<u8>, String> {
+        if is_special(self.path()) {
+            return Err(format!("{}; choose a file", strings::NO_FILE));
+        }
+        match self {
+            Self::Path(path) => std::fs::read(path).map_err(|error| {
+                format!("the file cannot be read ({error}); check its path and permissions")
+            }),
+            Self::Dropped(file) => file.bytes().map_err(|error| {
+                format!("the file cannot be read ({error}); drop it again, or copy it first")
+            }),
+        }
+    }
+
+    /// Last component of the path.
+    pub(crate) fn name(&self) -> String {
+        name_of(self.path())
+    }
+
+    /// File ending in lower case.
+    pub(crate) fn ending(&self) -> String {
+        self.path().extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
+    }
+}
+
+pub(crate) fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Paths in a typed or pasted text, one per line. Quotes around a path are removed.
+pub(crate) fn paths_in(text: &str) -> Vec<Source> {
+    let lines = text.lines().map(|line| line.trim().trim_matches(['"', '\'']));
+    lines.filter(|line| !line.is_empty()).map(|line| Source::Path(PathBuf::from(line))).collect()
+}
+
+/// Replaces folders by the files in them that can be imported, in alphabetical order.
+pub(crate) fn without_folders(sources: Vec<Source>) -> Vec<Source> {
+    sources
+        .into_iter()
+        .flat_map(|source| match std::fs::read_dir(source.path()) {
+            Ok(folder) => {
+                // Entries that cannot be inspected cannot be read either.
+                let mut files: Vec<PathBuf> =
+                    folder.filter_map(|entry| Some(entry.ok()?.path())).filter(|p| p.is_file()).collect();
+                files.retain(|path| is_importable(&Source::Path(path.clone()).ending()));
+                files.sort();
+                files.into_iter().take(MAX_OF_FOLDER).map(Source::Path).collect()
+            }
+            // Not a folder. If the path does not exist, reading it reports that.
+            Err(_) => vec![source],
+        })
+        .collect()
+}
+
+/// Sidecar of a WAV file, which states its units: imported together with it, or in the same folder.
+pub(crate) fn sidecar_of(source: &Source, all: &[Source]) -> Option<Arc<[u8]>> {
+    if source.ending() != "wav" {
+        return None;
+    }
+    let names = sidecar_names(&source.name());
+    if let Some(beside) = all.iter().find(|other| names.contains(&other.name())) {
+        // A sidecar that cannot be read is listed as failed itself.
+        return beside.bytes().ok().map(Into::into);
+    }
+    // Most WAV files have no sidecar; the reader then asks for the units.
+    names.iter().find_map(|name| std::fs::read(source.path().with_file_name(name)).ok()).map(Into::into)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Source, paths_in, strings, without_folders};
+    use std::path::Path;
+
+    #[test]
+    fn paths_are_one_a_line_with_or_without_quotes() {
+        let sources = paths_in(" /a/b c.csv \n\n\"/d.wav\"\n'e.xml'");
+        let paths: Vec<&Path> = sources.iter().map(Source::path).collect();
+        assert_eq!(paths, [Path::new("/a/b c.csv"), Path::new("/d.wav"), Path::new("e.xml")]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_might_never_end_is_not_read() {
+        // Reading this file would end at once: without the check it would count as an empty file.
+        for path in ["/dev/null", "/"] {
+            let reason = Source::Path(path.into()).bytes().unwrap_err();
+            assert!(reason.contains(strings::NO_FILE), "{reason}");
+        }
+    }
+
+    #[test]
+    fn a_folder_is_the_files_in_it_that_can_be_imported() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["b.CSV", "a.wav", "notes.md"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let found = without_folders(paths_in(&folder.path().display().to_string()));
+        let names: Vec<String> = found.iter().map(Source::name).collect();
+        assert_eq!(names, ["a.wav", "b.CSV"]);
+        assert_eq!(without_folders(paths_in("/nowhere/at/all.csv")).len(), 1);
+    }
+}

@@ -1,0 +1,136 @@
+//! File menu, and the name of the project in the title bar.
+
+use std::path::Path;
+
+use egui::{Button, Label, RichText, Ui};
+use shagreen_formats::project::{Project, ProjectLibrary};
+use shagreen_formats::settings::Settings;
+use shagreen_studio::export::FORMATS;
+
+use crate::command::{Command, FileCommand};
+use crate::look::theme::tokens;
+use crate::state::document::Document;
+use crate::state::edit::Edit;
+use crate::strings::{document as strings, gallery, signal};
+
+/// Maximum number of recent projects in the menu.
+const MOST_RECENT: usize = 6;
+/// Width of the menu, in points.
+const WIDTH: f32 = 240.0;
+
+#[derive(Clone, Copy)]
+pub(crate) struct MenuState<'a> {
+    /// Open project.
+    pub(crate) project: &'a Project,
+    /// File of the project.
+    pub(crate) document: &'a Document,
+    /// Settings, for the recent projects and the template.
+    pub(crate) settings: &'a Settings,
+    /// Whether a texture is audible and not hidden by a blind comparison.
+    pub(crate) can_export: bool,
+}
+
+pub(crate) struct MenuOutcome {
+    /// Commands of the user.
+    pub(crate) commands: Vec<Command>,
+    /// Rectangle of the menu button.
+    pub(crate) area: egui::Rect,
+}
+
+pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
+    let t = tokens(ui.ctx());
+    let mut commands = Vec::new();
+    let menu = ui.menu_button(strings::FILE, |ui| {
+        ui.set_min_width(WIDTH);
+        commands
+            .extend(entry(ui, strings::NEW, &Command::File(FileCommand::New)).on_hover(strings::NEW_HELP));
+        commands.extend(
+            entry(ui, gallery::GALLERY, &Command::File(FileCommand::OpenGallery)).on_hover(gallery::HELP),
+        );
+        commands.extend(entry(ui, strings::OPEN, &Command::File(FileCommand::AskWhatToOpen)).asked);
+        ui.separator();
+        commands.extend(entry(ui, strings::SAVE, &Command::File(FileCommand::Save)).asked);
+        commands.extend(entry(ui, strings::SAVE_AS, &Command::File(FileCommand::SaveAs)).asked);
+        let export = Command::File(FileCommand::ExportSignal);
+        ui.add_enabled_ui(files.can_export, |ui| {
+            commands.extend(entry(ui, signal::EXPORT, &export).on_hover(signal::EXPORT_HELP));
+            ui.menu_button(signal::EXPORT_TEXTURE, |ui| {
+                for format in FORMATS {
+                    let export = Command::File(FileCommand::ExportTexture(format.id()));
+                    commands.extend(entry(ui, format.name(), &export).on_hover(format.help()));
+                }
+            });
+        });
+        ui.separator();
+        let open = files.document.path();
+        let is_template = open.is_some() && files.settings.template.as_deref() == open;
+        let template = Button::selectable(is_template, strings::TEMPLATE);
+        let template = ui.add_enabled(open.is_some(), template);
+        if template
+            .on_hover_text(strings::TEMPLATE_HELP)
+            .on_disabled_hover_text(strings::TEMPLATE_NEEDS_FILE)
+            .clicked()
+        {
+            let path = open.filter(|_| !is_template).map(Path::to_owned);
+            commands.push(Command::File(FileCommand::SetTemplate(path)));
+        }
+        let is_inside = matches!(files.project.library, ProjectLibrary::Inside(_));
+        let keep = ui.add_enabled(!is_inside, Button::new(strings::KEEP_INSIDE));
+        if keep.on_hover_text(strings::KEEP_INSIDE_HELP).clicked() {
+            commands.push(Command::File(FileCommand::KeepLibraryInside));
+        }
+        ui.separator();
+        let recent =
+            files.settings.recent.iter().filter(|path| Some(path.as_path()) != open).take(MOST_RECENT);
+        let mut has_recent = false;
+        for path in recent {
+            if !std::mem::replace(&mut has_recent, true) {
+                ui.add(
+                    Label::new(RichText::new(strings::RECENT).small().color(t.text_weak)).selectable(false),
+                );
+            }
+            let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                commands.push(Command::File(FileCommand::Open(path.clone())));
+            }
+        }
+        if has_recent {
+            ui.separator();
+        }
+        commands.extend(entry(ui, strings::QUIT, &Command::File(FileCommand::Quit)).asked);
+    });
+    let area = menu.response.rect;
+    let dot = if files.document.is_changed() { " •" } else { "" };
+    let name = RichText::new(format!("{}{dot}", files.document.name())).strong();
+    let path = files.document.path().map_or(strings::UNTITLED.to_owned(), |path| path.display().to_string());
+    let help = strings::kept_at(&path, files.document.is_changed());
+    ui.add(Label::new(name).truncate().selectable(false)).on_hover_text(help);
+    MenuOutcome { commands, area }
+}
+
+struct Entry {
+    response: egui::Response,
+    asked: Option<Command>,
+}
+
+impl Entry {
+    fn on_hover(self, help: &str) -> Option<Command> {
+        self.response.on_hover_text(help);
+        self.asked
+    }
+}
+
+/// Menu entry with its shortcut.
+fn entry(ui: &mut Ui, name: &str, command: &Command) -> Entry {
+    let keys = command.shortcut().map_or(String::new(), |keys| ui.ctx().format_shortcut(&keys));
+    let response = ui.add(Button::new(name).shortcut_text(keys)).accessible_name(name);
+    let asked = response.clicked().then(|| command.clone());
+    Entry { response, asked }
+}
+
+/// Edit that embeds the library in the project, or `None` if the library cannot be read.
+pub(crate) fn kept_inside(project: &Project) -> Option<Edit> {
+    // An unreadable library was reported when it was opened.
+    let library = project.library.read().ok()?;
+    Some(Edit::KeepLibraryInside(ProjectLibrary::Inside(library.into())))
+}

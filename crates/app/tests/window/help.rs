@@ -1,0 +1,97 @@
+//! Help: the command palette, the guide, and exports listed in the palette.
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use shagreen_app::strings::{help, import, signal};
+use shagreen_app::workspace::Workspace;
+use shagreen_formats::hatt::read_hatt;
+use shagreen_studio::export::FORMATS;
+use shagreen_studio::guide::page;
+
+use crate::support::{
+    Author, author, click, enter_path, says, unnamed_controls, wait, wait_for_field, window, write_into,
+};
+
+fn open_palette(harness: &mut Author) {
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    harness.run_steps(3);
+}
+
+#[test]
+fn the_palette_finds_a_command_by_its_words_and_runs_it() {
+    let mut harness = author();
+    open_palette(&mut harness);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    write_into(&mut harness, help::FIND_COMMAND, "build show");
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).workspace(), Workspace::Build);
+    assert!(!says(&harness, help::NO_COMMAND));
+    open_palette(&mut harness);
+    write_into(&mut harness, help::FIND_COMMAND, "fly to the moon");
+    assert!(says(&harness, help::NO_COMMAND));
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert!(harness.query_by_label(help::FIND_COMMAND).is_none());
+}
+
+/// The palette closes before the command opens another sheet.
+#[test]
+fn arrows_choose_a_command_that_opens_a_sheet() {
+    let mut harness = author();
+    open_palette(&mut harness);
+    write_into(&mut harness, help::FIND_COMMAND, "open");
+    harness.key_press(Key::ArrowDown);
+    harness.run_steps(2);
+    harness.key_press(Key::ArrowUp);
+    harness.run_steps(2);
+    write_into(&mut harness, help::FIND_COMMAND, "guide");
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    assert!(says(&harness, page("index").unwrap().title()));
+}
+
+#[test]
+fn the_guide_is_read_page_by_page() {
+    let mut harness = author();
+    click(&mut harness, help::HELP);
+    harness.run_steps(2);
+    click(&mut harness, help::GUIDE);
+    harness.run_steps(4);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    let title = page("first-steps").unwrap().title();
+    click(&mut harness, title);
+    harness.run_steps(4);
+    let second = page("first-steps").unwrap().text.lines().nth(2).unwrap();
+    let begin = second.split(['*', '`', '[', '.']).next().unwrap().trim();
+    assert!(says(&harness, begin), "{begin}");
+    click(&mut harness, help::CLOSE);
+    harness.run_steps(3);
+    assert!(!says(&harness, begin));
+}
+
+#[test]
+fn the_authored_texture_is_exported_in_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    for format in FORMATS {
+        open_palette(&mut harness);
+        write_into(&mut harness, help::FIND_COMMAND, format.name());
+        harness.key_press(Key::Enter);
+        harness.run_steps(4);
+        let path = folder.path().join("mine").with_extension(format.ending());
+        enter_path(&mut harness, signal::SAVE_TEXTURE_PATH, &path);
+        let saved = import::saved(&path.display().to_string());
+        wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
+        let bytes = std::fs::read(&path).unwrap();
+        assert!(format.is_like(&bytes));
+        if format.id() == "hatt" {
+            assert!(read_hatt(&bytes).unwrap().value.model.n_nodes() > 10);
+        }
+        harness.key_press(Key::Escape);
+        harness.run_steps(3);
+    }
+}

@@ -1,0 +1,15 @@
+//! Mathematics independent of haptics: random numbers, statistics, regression and plane geometry.
+//!
+//! Input: slices and matrices of `f64`. Output: numbers, fitted models and triangulations.
+
+pub mod gaussian_process;
+pub mod isotonic;
+pub mod least_squares;
+pub mod natural_neighbor;
+pub mod procrustes;
+pub mod radial_basis;
+pub mod rng;
+pub(crate) mod smoother;
+pub mod statistics;
+pub(crate) mod sums;
+pub mod triangulation;

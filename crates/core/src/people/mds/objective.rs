@@ -1,0 +1,233 @@
+//! Squared stress of a configuration and its gradient.
+//!
+//! Disparities `d̂` are a projection onto the cone of ordered sequences, so the gradient is computed with them held
+//! fixed. The gradient of `f = Σ (d - d̂)² / Σ d²` at point `i` is `2 / Σ d² · Σ_j ((d - d̂) / d - f) (x_i - x_j)`.
+
+use crate::maths::isotonic::{Pool, Pools};
+use crate::maths::sums::sum_of;
+use crate::people::dissimilarities::Dissimilarities;
+use crate::people::mds::descent::Evaluation;
+use crate::people::mds::{ShepardPair, Ties};
+
+/// Number of pairs processed together, so that intermediate values stay in the cache.
+const N_TOGETHER: usize = 256;
+
+/// Pairs in the order of dissimilarity, with buffers for the evaluation of a configuration.
+pub(super) struct Objective<'a> {
+    dissimilarities: &'a Dissimilarities,
+    ties: Ties,
+    pairs: Vec<[u16; 2]>,
+    /// Start and end of each run of tied dissimilarities; runs of one pair are omitted.
+    tied: Vec<(usize, usize)>,
+    distances: Vec<f64>,
+    pools: Pools,
+}
+
+impl<'a> Objective<'a> {
+    /// Objective of these dissimilarities, for at most [`crate::people::mds::MAX_ITEMS`] items.
+    pub(super) fn new(dissimilarities: &'a Dissimilarities, ties: Ties) -> Self {
+        let (pairs, tied) = in_order(dissimilarities);
+        let distances = vec![0.0; pairs.len()];
+        Self { dissimilarities, ties, pairs, tied, distances, pools: Pools::default() }
+    }
+
+    /// Squared stress at `points`, which hold `dims` coordinates each; writes its gradient into `gradient`.
+    ///
+    /// The value is infinite if all points coincide. Cost: linear in the pairs, except that tied pairs are sorted.
+    pub(super) fn evaluate(&mut self, dims: usize, points: &[f64], gradient: &mut [f64]) -> Evaluation {
+        // A constant number of dimensions lets the compiler unroll the loops over pairs.
+        match dims {
+            1 => self.evaluate_in::<1>(points, gradient),
+            2 => self.evaluate_in::<2>(points, gradient),
+            3 => self.evaluate_in::<3>(points, gradient),
+            4 => self.evaluate_in::<4>(points, gradient),
+            5 => self.evaluate_in::<5>(points, gradient),
+            6 => self.evaluate_in::<6>(points, gradient),
+            7 => self.evaluate_in::<7>(points, gradient),
+            8 => self.evaluate_in::<8>(points, gradient),
+            9 => self.evaluate_in::<9>(points, gradient),
+            10 => self.evaluate_in::<10>(points, gradient),
+            _ => {
+                unreachable!("the number of dimensions is 1 to {}, not {dims}", crate::people::mds::MAX_DIMS)
+            }
+        }
+    }
+
+    /// All pairs with the distances and disparities of the last evaluation.
+    pub(super) fn shepard(&self) -> Vec<ShepardPair> {
+        let pair = |((items, distance), disparity): ((&[u16; 2], &f64), f64)| ShepardPair {
+            items: items.map(usize::from),
+            dissimilarity: value_of(self.dissimilarities, *items),
+            distance: *distance,
+            disparity,
+        };
+        self.pairs.iter().zip(&self.distances).zip(self.pools.fitted()).map(pair).collect()
+    }
+
+    fn evaluate_in<const DIMS: usize>(&mut self, points: &[f64], gradient: &mut [f64]) -> Evaluation {
+        let (points, _) = points.as_chunks::<DIMS>();
+        let (gradient, _) = gradient.as_chunks_mut::<DIMS>();
+        let size = self.measure(points);
+        self.regress();
+        gradient.fill([0.0; DIMS]);
+        let value = self.pull(points, gradient) / size;
+        if !value.is_finite() {
+            return Evaluation { value: f64::INFINITY, guttman: 0.0, size };
+        }
+        self.pull_alike(points, gradient, value);
+        for g in gradient.as_flattened_mut() {
+            *g *= 2.0 / size;
+        }
+        Evaluation { value, guttman: size / (2.0 * points.len() as f64 * (1.0 - value)), size }
+    }
+
+    /// Computes all distances and returns the sum of their squares.
+    fn measure<const DIMS: usize>(&mut self, points: &[[f64; DIMS]]) -> f64 {
+        let mut size = 0.0;
+        let together = self.distances.chunks_mut(N_TOGETHER).zip(self.pairs.chunks(N_TOGETHER));
+        for (distances, pairs) in together {
+            for (distance, pair) in distances.iter_mut().zip(pairs) {
+                let [p, q] = pair.map(|item| &points[usize::from(item)]);
+                *distance = (0..DIMS).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum();
+            }
+            size += sum_of(distances, |square| square);
+            for distance in distances {
+                *distance = distance.sqrt();
+            }
+        }
+        size
+    }
+
+    /// Computes the isotonic regression of the distances in the order of dissimilarity.
+    fn regress(&mut self) {
+        self.pools.clear();
+        let mut from = 0;
+        for &(tied, free) in &self.tied {
+            match self.ties {
+                // Sorted by distance, tied pairs do not constrain the regression.
+                Ties::Primary => sort_together(&mut self.distances[tied..free], &mut self.pairs[tied..free]),
+                Ties::Secondary => {
+                    let run = &self.distances[tied..free];
+                    self.pools.extend(&self.distances[from..tied]);
+                    self.pools.push(Pool { sum: run.iter().sum(), weight: run.len() as f64 });
+                    from = free;
+                }
+            }
+        }
+        self.pools.extend(&self.distances[from..]);
+    }
+
+    /// Adds `(d - d̂) / d (x_i - x_j)` to the gradient at `i` for every `j` and returns the sum of `(d - d̂)²`.
+    fn pull<const DIMS: usize>(&self, points: &[[f64; DIMS]], gradient: &mut [[f64; DIMS]]) -> f64 {
+        let mut shares = [0.0; N_TOGETHER];
+        let mut misfit = 0.0;
+        let mut from = 0;
+        for pool in self.pools.as_slice() {
+            let to = from + pool.weight as usize;
+            let disparity = pool.sum / pool.weight;
+            let together =
+                self.distances[from..to].chunks(N_TOGETHER).zip(self.pairs[from..to].chunks(N_TOGETHER));
+            for (distances, pairs) in together {
+                misfit += sum_of(distances, |distance| (distance - disparity) * (distance - disparity));
+                for (share, distance) in shares.iter_mut().zip(distances) {
+                    // Coincident points have no direction between them.
+                    *share = if *distance > 0.0 { (distance - disparity) / distance } else { 0.0 };
+                }
+                for (share, pair) in shares.iter().zip(pairs) {
+                    pull_pair(points, gradient, *pair, *share);
+                }
+            }
+            from = to;
+        }
+        misfit
+    }
+
+    /// Subtracts `share (x_i - x_j)` from the gradient at `i` for every `j`.
+    fn pull_alike<const DIMS: usize>(
+        &self,
+        points: &[[f64; DIMS]],
+        gradient: &mut [[f64; DIMS]],
+        share: f64,
+    ) {
+        let n = points.len();
+        if self.pairs.len() < n * (n - 1) / 2 {
+            for pair in &self.pairs {
+                pull_pair(points, gradient, *pair, -share);
+            }
+            return;
+        }
+        // For complete data the sum over all pairs has a closed form.
+        for axis in 0..DIMS {
+            let sum: f64 = points.iter().map(|p| p[axis]).sum();
+            for (g, p) in gradient.iter_mut().zip(points) {
+                g[axis] -= share * (n as f64 * p[axis] - sum);
+            }
+        }
+    }
+}
+
+fn pull_pair<const DIMS: usize>(
+    points: &[[f64; DIMS]],
+    gradient: &mut [[f64; DIMS]],
+    pair: [u16; 2],
+    share: f64,
+) {
+    let [i, j] = pair.map(usize::from);
+    for axis in 0..DIMS {
+        let force = share * (points[i][axis] - points[j][axis]);
+        gradient[i][axis] += force;
+        gradient[j][axis] -= force;
+    }
+}
+
+/// All compared pairs sorted by dissimilarity, then by items, and the start and end of each run of ties.
+fn in_order(dissimilarities: &Dissimilarities) -> (Vec<[u16; 2]>, Vec<(usize, usize)>) {
+    // Integers sort several times faster than pairs with their dissimilarity. A 64-bit key holds the dissimilarity in
+    // 32 bits and both items. Pairs whose 32 bits are equal are then sorted exactly.
+    let highest = dissimilarities.pairs().map(|(_, _, value)| value).fold(0.0, f64::max);
+    let scale = f64::from(u32::MAX) / highest;
+    let mut keys: Vec<u64> = Vec::with_capacity(dissimilarities.n_items().pow(2) / 2);
+    // Not collected: internal iteration is faster for a chained iterator.
+    dissimilarities.pairs().for_each(|(first, second, value)| {
+        keys.push(u64::from((value * scale) as u32) << 32 | (first as u64) << 16 | second as u64);
+    });
+    keys.sort_unstable();
+    let mut pairs: Vec<[u16; 2]> = keys.iter().map(|key| [(key >> 16) as u16, *key as u16]).collect();
+    let mut tied = Vec::new();
+    let mut from = 0;
+    for run in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
+        let to = from + run.len();
+        if run.len() > 1 {
+            let pairs = &mut pairs[from..to];
+            let mut values: Vec<f64> = pairs.iter().map(|pair| value_of(dissimilarities, *pair)).collect();
+            sort_together(&mut values, pairs);
+            let mut begin = from;
+            for equal in values.chunk_by(|a, b| a == b) {
+                if equal.len() > 1 {
+                    tied.push((begin, begin + equal.len()));
+                }
+                begin += equal.len();
+            }
+        }
+        from = to;
+    }
+    (pairs, tied)
+}
+
+/// Dissimilarity of a compared pair.
+fn value_of(dissimilarities: &Dissimilarities, [first, second]: [u16; 2]) -> f64 {
+    dissimilarities.between(usize::from(first), usize::from(second)).unwrap_or_default()
+}
+
+/// Sorts `values` and applies the same permutation to `pairs`.
+fn sort_together(values: &mut [f64], pairs: &mut [[u16; 2]]) {
+    if values.is_sorted() {
+        return;
+    }
+    let mut both: Vec<(f64, [u16; 2])> = values.iter().copied().zip(pairs.iter().copied()).collect();
+    // A stable sort also benefits from the order that the previous step left.
+    both.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    for ((value, pair), sorted) in values.iter_mut().zip(pairs).zip(both) {
+        (*value, *pair) = sorted;
+    }
+}

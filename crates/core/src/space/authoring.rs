@@ -1,0 +1,339 @@
+//! Interpolation: computes the texture at any point of the space.
+
+mod layers;
+mod models;
+#[cfg(test)]
+pub(crate) mod tests;
+
+use std::sync::{Arc, OnceLock};
+
+pub use crate::space::authoring::models::{Models, ModelsError};
+pub use crate::space::sampled::Layers;
+
+use self::layers::mean_tap;
+use crate::maths::natural_neighbor::NaturalNeighbors;
+use crate::space::inverse_distance::inverse_distance;
+use crate::space::{Location, Space, SpacePoint};
+use crate::texture::TextureModel;
+use crate::texture::blend::Mode;
+use crate::texture::relief::Relief;
+use crate::texture::tap::Tap;
+
+/// Weighting of the textures in the interpolation modes that combine a few of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weights {
+    /// Barycentric weights of the corners of the triangle.
+    #[default]
+    Barycentric,
+    /// Natural-neighbor weights (Sibson 1981), by the Voronoi area that the point takes from each neighbor. They have
+    /// no kink at triangle edges. Only for [`Mode::Parametric`], because the renderer mixes at most three signals.
+    Natural,
+}
+
+/// Behavior outside the convex hull of the textures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outside {
+    /// The point is moved to the nearest point of the hull.
+    #[default]
+    Clamped,
+    /// [`Mode::Field`] extrapolates, up to the point where the noise gain `Σ w²` of the weights would exceed that of a
+    /// copy of one texture.
+    Extrapolated,
+}
+
+/// Options of the interpolation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Blending {
+    /// Interpolation mode.
+    pub mode: Mode,
+    /// Weighting of the textures.
+    pub weights: Weights,
+    /// Behavior outside the hull.
+    pub outside: Outside,
+    /// Library indices of pinned textures: the field passes through them at their positions instead of smoothing them.
+    pub locked: Vec<usize>,
+}
+
+/// Options that the interpolation mode does not support.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BlendingError {
+    /// Natural-neighbor weights in a mode that mixes signals.
+    #[error("natural-neighbor weights are available only in mode parametric; change the mode or the weights")]
+    Natural,
+    /// Extrapolation in a mode without a field.
+    #[error(
+        "extrapolation outside the convex hull is available only in mode field; change the mode or clamp to the hull"
+    )]
+    Extrapolated,
+    /// Pinned textures in a mode without a field.
+    #[error(
+        "textures can be pinned only in mode field; in the other modes each texture is exact at its own position"
+    )]
+    Locked,
+}
+
+impl From<Mode> for Blending {
+    fn from(mode: Mode) -> Self {
+        Self { mode, ..Self::default() }
+    }
+}
+
+impl Blending {
+    /// Checks that the mode supports all options.
+    ///
+    /// # Errors
+    /// See [`BlendingError`].
+    pub fn check(&self) -> Result<(), BlendingError> {
+        let is_field = self.mode == Mode::Field;
+        if self.weights == Weights::Natural && self.mode != Mode::Parametric {
+            Err(BlendingError::Natural)
+        } else if self.outside == Outside::Extrapolated && !is_field {
+            Err(BlendingError::Extrapolated)
+        } else if !self.locked.is_empty() && !is_field {
+            Err(BlendingError::Locked)
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// Weights smaller than this are rounding error and are dropped.
+const LEAST_WEIGHT: f64 = 1e-12;
+
+/// Distances from the hull boundary, in points of the axes. Below the first, Voronoi areas become infinite and lose
+/// precision. Between the two, natural-neighbor weights fade in and barycentric weights fade out.
+const NEAR_HULL: (f64, f64) = (1e-3, 1.0);
+
+/// Radius around a pinned texture within which the field changes into it, in points of the axes.
+const LOCK_RADIUS: f64 = 8.0;
+
+/// Result of the interpolation at one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Authored {
+    /// Location of the point, with barycentric weights.
+    pub location: Location,
+    /// Whether the point is outside the hull and its texture was extrapolated.
+    pub is_extrapolated: bool,
+    /// Library indices and weights of the contributing textures, largest weight first. Weights sum to one. Weights of a
+    /// field may be negative; zero weights are omitted.
+    pub parents: Vec<(usize, f64)>,
+    /// Interpolation mode.
+    pub mode: Mode,
+    /// Interpolated texture, in the modes that compute one.
+    pub model: Option<TextureModel>,
+    /// Pinned texture near the point and its weight in the output signal.
+    pub lock: Option<(usize, f64)>,
+}
+
+/// An audible texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Voice<'a> {
+    /// A texture of the library, by index.
+    Texture(usize),
+    /// A texture interpolated for the point.
+    Made(&'a TextureModel),
+}
+
+impl Authored {
+    /// A single texture of the library at a point.
+    pub fn alone(texture: usize, at: SpacePoint, mode: Mode) -> Self {
+        let location = Location { at, clamped: false, corners: Vec::new() };
+        let parents = vec![(texture, 1.0)];
+        Self { location, is_extrapolated: false, parents, mode, model: None, lock: Some((texture, 1.0)) }
+    }
+
+    /// Audible textures and their weights, at most three, to be mixed in mode [`Authored::mixing`]. Empty if the mode
+    /// needs an interpolated texture and there is none.
+    pub fn voices(&self) -> Vec<(Voice<'_>, f64)> {
+        if !self.mode.makes_a_model() {
+            return self
+                .parents
+                .iter()
+                .map(|(texture, weight)| (Voice::Texture(*texture), *weight))
+                .collect();
+        }
+        let locked = self.lock.map_or(0.0, |(_, share)| share);
+        let lock = self.lock.map(|(texture, share)| (Voice::Texture(texture), share));
+        match &self.model {
+            Some(model) => {
+                let made = (Voice::Made(model), 1.0 - locked);
+                [Some(made), lock].into_iter().flatten().filter(|(_, share)| *share > 0.0).collect()
+            }
+            // Without the interpolated texture, a partial weight of the pinned texture would only make the signal too
+            // quiet.
+            None => lock.filter(|(_, share)| *share == 1.0).into_iter().collect(),
+        }
+    }
+
+    /// Tap transient: weighted geometric mean over the known tap transients of the audible textures. `of` returns the
+    /// tap transient of a library texture.
+    pub fn tap(&self, of: impl Fn(usize) -> Option<Tap>) -> Option<Tap> {
+        let known = |(voice, share): (Voice<'_>, f64)| match voice {
+            Voice::Texture(texture) => (of(texture), share),
+            Voice::Made(model) => (model.tap(), share),
+        };
+        mean_tap(self.voices().into_iter().map(known))
+    }
+
+    /// Mode in which the audible textures are mixed. An interpolated texture and a pinned one share one excitation.
+    pub fn mixing(&self) -> Mode {
+        if self.mode.makes_a_model() { Mode::Shared } else { self.mode }
+    }
+}
+
+/// A space with everything needed to interpolate in it.
+#[derive(Clone, Debug)]
+pub struct Authoring {
+    space: Space,
+    models: Option<Arc<Models>>,
+    natural: OnceLock<Option<Arc<NaturalNeighbors>>>,
+    has_reliefs: bool,
+}
+
+impl Authoring {
+    /// Interpolation in a space, without models: sufficient for the modes that mix signals.
+    pub fn new(space: Space) -> Self {
+        Self { space, models: None, natural: OnceLock::new(), has_reliefs: true }
+    }
+
+    /// Adds the models that the other modes need; `models` must belong to this space.
+    #[must_use]
+    pub fn with_models(mut self, models: Arc<Models>) -> Self {
+        self.models = Some(models);
+        self
+    }
+
+    /// Disables reliefs in interpolated textures. Adding up profiles of 65,000 values is too slow for maps with
+    /// thousands of points.
+    #[must_use]
+    pub fn without_reliefs(mut self) -> Self {
+        self.has_reliefs = false;
+        self
+    }
+
+    /// The space.
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// Texture at `point`, or `None` if the space has no textures. Options that the mode does not support are ignored
+    /// (see [`Blending::check`]).
+    pub fn author(&self, point: SpacePoint, blending: &Blending) -> Option<Authored> {
+        let location = self.space.locate(point)?;
+        let models = self.models.as_deref();
+        let mode = blending.mode;
+        let mut authored =
+            Authored { location, is_extrapolated: false, parents: Vec::new(), mode, model: None, lock: None };
+        let corners = &authored.location.corners;
+        match mode {
+            Mode::Paper => authored.parents = inverse_distance(&self.space, &authored.location),
+            Mode::Power | Mode::Shared => authored.parents.clone_from(corners),
+            Mode::Parametric => {
+                authored.parents = match blending.weights {
+                    Weights::Barycentric => corners.clone(),
+                    Weights::Natural => self.natural_weights(&authored.location),
+                };
+                // A weighted mean of textures is a valid texture; if rounding makes it invalid, the output is silent.
+                let mean = |models: &Models| {
+                    let model = models.mean(&authored.parents).ok()?;
+                    Some(model.with_relief(self.relief(models, &authored.parents)))
+                };
+                authored.model = models.and_then(mean);
+            }
+            Mode::Field => {
+                if let Some(models) = models {
+                    let reached = match blending.outside {
+                        Outside::Clamped => authored.location.at,
+                        Outside::Extrapolated => models.supported(authored.location.at, point),
+                    };
+                    authored.is_extrapolated = reached.distance(authored.location.at) > 1e-9;
+                    authored.location.clamped = reached.distance(point) > 1e-9;
+                    authored.location.at = reached;
+                    authored.parents = models.weights(reached);
+                    // Far from all textures, a spectrum may exceed the limits of a texture model; then the output is
+                    // silent.
+                    let relief = self.relief(models, &authored.parents);
+                    authored.model =
+                        models.texture(reached, None).ok().map(|model| model.with_relief(relief));
+                    authored.lock = self.lock(reached, &blending.locked);
+                    if let Some((locked, share)) = authored.lock {
+                        for (texture, weight) in &mut authored.parents {
+                            *weight *= 1.0 - share;
+                            *weight += if *texture == locked { share } else { 0.0 };
+                        }
+                    }
+                }
+            }
+        }
+        authored.parents.retain(|(_, w)| w.abs() > LEAST_WEIGHT);
+        authored.parents.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Some(authored)
+    }
+
+    /// Texture at `point` as a single model, in the modes that interpolate one. Near a pinned texture it averages the
+    /// log spectra of the field and of that texture, whereas [`Authoring::author`] mixes their signals. `None` if there
+    /// is no model.
+    pub fn model(&self, point: SpacePoint, blending: &Blending) -> Option<TextureModel> {
+        let authored = self.author(point, blending)?;
+        match (authored.lock, self.models.as_deref()) {
+            // An invalid texture gives `None`, as in `author`.
+            (Some(lock), Some(models)) => {
+                let model = models.texture(authored.location.at, Some(lock)).ok()?;
+                Some(model.with_relief(self.relief(models, &authored.parents)))
+            }
+            _ => authored.model,
+        }
+    }
+
+    /// Weighted sum of the textures' reliefs, or `None` if reliefs are disabled.
+    fn relief(&self, models: &Models, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
+        if self.has_reliefs { models.relief(parents) } else { None }
+    }
+
+    /// Natural-neighbor weights. On the hull boundary, where Voronoi areas are infinite, they are the barycentric
+    /// weights of the edge; near it, a mixture of both.
+    fn natural_weights(&self, location: &Location) -> Vec<(usize, f64)> {
+        let sites = self.space.sites();
+        let natural = self.natural.get_or_init(|| {
+            let places: Vec<_> = sites.iter().map(|(_, at)| at.xy()).collect();
+            NaturalNeighbors::new(&places).ok().map(Arc::new)
+        });
+        let (never, always) = NEAR_HULL;
+        let inside = if location.clamped { 0.0 } else { self.space.hull_distance(location.at) };
+        let share = ((inside - never) / (always - never)).clamp(0.0, 1.0);
+        let stolen = match natural {
+            Some(natural) if share > 0.0 => natural.weights(location.at.xy()),
+            _ => Vec::new(),
+        };
+        if stolen.is_empty() {
+            return location.corners.clone();
+        }
+        let mut weights: Vec<(usize, f64)> =
+            stolen.into_iter().map(|(site, weight)| (sites[site].0, share * weight)).collect();
+        for (corner, weight) in &location.corners {
+            let weight = (1.0 - share) * weight;
+            match weights.iter_mut().find(|(texture, _)| texture == corner) {
+                Some((_, sum)) => *sum += weight,
+                None => weights.push((*corner, weight)),
+            }
+        }
+        weights
+    }
+
+    /// The pinned texture whose circle contains the point, and its weight: one at its position, zero on the circle.
+    /// Circles do not overlap.
+    fn lock(&self, at: SpacePoint, locked: &[usize]) -> Option<(usize, f64)> {
+        let placed: Vec<(usize, SpacePoint)> = locked
+            .iter()
+            .filter_map(|texture| self.space.position(*texture).map(|p| (*texture, p)))
+            .collect();
+        let distance = |(_, p): &&(usize, SpacePoint)| p.distance(at);
+        let (texture, place) = placed.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        // If two pinned textures have the same position, the first is used.
+        let others = placed.iter().map(|(_, p)| p.distance(*place)).filter(|distance| *distance > 1e-9);
+        let radius = others.map(|distance| 0.5 * distance).fold(LOCK_RADIUS, f64::min);
+        let share = at.distance(*place) / radius;
+        (share < 1.0).then(|| (*texture, (1.0 - share * share).powi(2)))
+    }
+}

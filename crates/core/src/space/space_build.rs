@@ -1,0 +1,385 @@
+//! Construction of an authoring space from human judgments and signal features.
+//!
+//! Sorts yield a perceptual space ([`crate::people::sorting`], [`crate::people::mds`]), and ratings yield adjective
+//! directions in it ([`crate::people::property`]). Projections onto the lines of two adjective pairs are the two axes.
+//! Features of the textures' vibrations predict the positions on these axes ([`crate::space::features`],
+//! [`crate::space::selection`]). Method: W. Hassan, A. Abdulali and S. Jeon, "Authoring new haptic textures based on
+//! interpolation of real textures in affective space", IEEE Transactions on Industrial Electronics 2020.
+//!
+//! The axes need not be orthogonal in the perceptual space: both directions and their angle are reported. The
+//! prediction of an axis is always reported with nested cross-validation and a null distribution.
+
+mod adjectives;
+mod axes;
+mod error;
+mod oddities;
+mod stability;
+mod verdict;
+
+use std::collections::BTreeSet;
+
+use crate::dsp::mfcc::MfccOptions;
+use crate::people::dissimilarities::Dissimilarities;
+use crate::people::mds::{MAX_DIMS, Mds, MdsError, MdsOptions, ShepardPair, by_dimension, shepard};
+use crate::people::ratings::{AdjectivePair, RaterFit, Rating, RatingTable, RelevanceVote, rater_fits};
+use crate::people::sorting::{Similarity, Sort, SortingError, similarity};
+use crate::space::features::{
+    FeaturePlan, FeatureTable, NamedTexture, Statistic, per_frame, per_pattern, physical_table,
+};
+use crate::space::selection::Method;
+use crate::space::{LabelSource, Space, SpacePoint};
+use crate::texture::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns};
+
+pub use crate::space::space_build::adjectives::Adjective;
+pub use crate::space::space_build::axes::{Axis, Prediction, TRUSTED_NESTED_R};
+pub use crate::space::space_build::error::SpaceBuildError;
+pub use crate::space::space_build::stability::{MIN_DRAWN, Stability};
+pub use crate::space::space_build::verdict::{kruskal_word, verdict};
+
+use crate::space::space_build::adjectives::fit_adjectives;
+use crate::space::space_build::axes::{Axes, fit_axes};
+use crate::space::space_build::stability::{Drawn, stability};
+
+/// Input data of a space.
+#[derive(Clone, Debug)]
+pub struct SpaceData<'a> {
+    /// Textures, named by their identifiers. Textures that nobody sorted get no position.
+    pub textures: Vec<NamedTexture<'a>>,
+    /// Sorts of the textures.
+    pub sorts: Vec<Sort>,
+    /// Ratings of the textures.
+    pub ratings: Vec<Rating>,
+    /// Relevance votes on adjectives; without votes, all adjectives count as relevant.
+    pub votes: Vec<RelevanceVote>,
+    /// Source of the judgments.
+    pub source: LabelSource,
+}
+
+/// Options for building a space; [`SpaceOptions::usual`] gives reasonable defaults.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpaceOptions {
+    /// Number of dimensions of the perceptual space, 2 to [`MAX_DIMS`].
+    pub n_dims: usize,
+    /// Options of the multidimensional scaling.
+    pub mds: MdsOptions,
+    /// Adjective pairs of the two axes, the pole at 0 first. `None` selects rough-smooth and hard-soft if they were
+    /// rated, else the pair with the highest correlation with each dimension.
+    pub axes: Option<[AdjectivePair; 2]>,
+    /// Whether the second axis is made orthogonal to the first.
+    pub is_orthogonal: bool,
+    /// Kind of features.
+    pub features: FeatureKind,
+    /// Options of the cepstral coefficients of a pattern.
+    pub mfcc: MfccOptions,
+    /// Method that predicts an axis from features.
+    pub method: Method,
+    /// Kind of positions; `None` selects, for each axis, the kind that is probably closer to human perception
+    /// ([`TRUSTED_NESTED_R`]).
+    pub placement: Option<PlacedBy>,
+    /// Number of permutations for the null distribution.
+    pub n_permutations: usize,
+    /// Number of bootstrap samples of the participants, for the stability of the positions.
+    pub n_draws: usize,
+    /// Seed of scaling, noise, folds, permutations and bootstrap.
+    pub seed: u64,
+}
+
+/// Kind of features that describe the vibrations of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeatureKind {
+    /// Mean of every cepstral coefficient over each pattern.
+    Mfcc,
+    /// Every cepstral coefficient of every frame, as published in the paper.
+    MfccFrames,
+    /// Physical features: level, exponents, centroid, friction and tap transient.
+    Physical,
+    /// [`FeatureKind::Mfcc`] and [`FeatureKind::Physical`].
+    MfccAndPhysical,
+}
+
+/// Kind of position of a texture on an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlacedBy {
+    /// Perceived position, from the judgments.
+    Felt,
+    /// Position predicted from features, as in the paper, whose axes are features.
+    Predicted,
+}
+
+/// A built space with all intermediate results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpaceBuild {
+    /// Identifiers of the textures in the space; all other fields use this order.
+    pub textures: Vec<String>,
+    /// Textures that nobody sorted and that therefore have no position.
+    pub not_sorted: Vec<String>,
+    /// Source of the judgments.
+    pub source: LabelSource,
+    /// Options that were used.
+    pub options: SpaceOptions,
+    /// Similarities from the sorts.
+    pub similarity: Similarity,
+    /// Stress-1 for one dimension, two dimensions, and so on.
+    pub stress: Vec<f64>,
+    /// Perceptual space from multidimensional scaling.
+    pub perceptual: Mds,
+    /// Shepard diagram of the perceptual space.
+    pub shepard: Vec<ShepardPair>,
+    /// All rated adjective pairs, in the order of the ratings.
+    pub adjectives: Vec<Adjective>,
+    /// Raters and the agreement of each with the others.
+    pub raters: Vec<(String, RaterFit)>,
+    /// Number of missing ratings among all possible ones.
+    pub n_missing_ratings: usize,
+    /// The two axes.
+    pub axes: [Axis; 2],
+    /// Angle between the lines of the two pairs in the perceptual space, in degrees, before any orthogonalization.
+    pub angle_degrees: f64,
+    /// Feature table, of which the axis models use some columns.
+    pub features: FeatureTable,
+    /// Bootstrap stability of the perceived positions. `None` without bootstrap samples, with fewer than [`MIN_DRAWN`]
+    /// sorters or raters, or if almost no sample yields a space; a finding gives the reason.
+    pub stability: Option<Stability>,
+    /// Position of each texture.
+    pub positions: Vec<SpacePoint>,
+    /// The positions with their triangulation.
+    pub space: Space,
+    /// Irregularities, as sentences.
+    pub findings: Vec<String>,
+}
+
+/// Step of building a space, for progress reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Computing similarities from the sorts.
+    Sorting,
+    /// Scaling the perceptual space.
+    Scaling,
+    /// Fitting the adjective directions.
+    Adjectives,
+    /// Rendering stroke patterns and extracting features.
+    Features,
+    /// Predicting and validating an axis: 0 or 1.
+    Axis(usize),
+    /// Bootstrapping over participants.
+    Stability,
+}
+
+impl Step {
+    /// Number of steps.
+    pub const COUNT: usize = 7;
+
+    /// Index of the step, from 0.
+    pub fn index(self) -> usize {
+        match self {
+            Self::Sorting => 0,
+            Self::Scaling => 1,
+            Self::Adjectives => 2,
+            Self::Features => 3,
+            Self::Axis(axis) => 4 + axis.min(1),
+            Self::Stability => 6,
+        }
+    }
+}
+
+impl SpaceOptions {
+    /// Default options: two dimensions, mean coefficients with the recommended MFCC options, and the practical
+    /// prediction method. The kind of positions is automatic; there are a thousand permutations and a hundred bootstrap
+    /// samples.
+    pub fn usual(seed: u64) -> Self {
+        Self {
+            n_dims: 2,
+            mds: MdsOptions::usual(seed),
+            axes: None,
+            is_orthogonal: false,
+            features: FeatureKind::Mfcc,
+            mfcc: crate::dsp::mfcc::recommended(),
+            method: Method::Practical,
+            placement: None,
+            n_permutations: 1000,
+            n_draws: 100,
+            seed,
+        }
+    }
+}
+
+/// Builds a space. `on_step` is called at every step and repeatedly within long ones; returning `false` stops the
+/// build.
+///
+/// # Errors
+/// See [`SpaceBuildError`]. Irregularities that do not prevent a result are reported in [`SpaceBuild::findings`].
+pub fn build_space(
+    data: &SpaceData<'_>,
+    options: &SpaceOptions,
+    on_step: &mut dyn FnMut(Step) -> bool,
+) -> Result<SpaceBuild, SpaceBuildError> {
+    begin(on_step, Step::Sorting)?;
+    if !(2..=MAX_DIMS).contains(&options.n_dims) {
+        return Err(SpaceBuildError::Dims { n_dims: options.n_dims });
+    }
+    check_names(data)?;
+    let table = RatingTable::new(&data.ratings)?;
+    if data.sorts.is_empty() {
+        return Err(SortingError::NoSorts.into());
+    }
+    let in_sorts: BTreeSet<&str> =
+        data.sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| p.texture.as_str())).collect();
+    let (sorted, not_sorted): (Vec<NamedTexture<'_>>, Vec<_>) =
+        data.textures.iter().partition(|texture| in_sorts.contains(texture.name));
+    let textures: Vec<String> = sorted.iter().map(|texture| texture.name.to_owned()).collect();
+    if textures.len() < options.n_dims + 2 {
+        return Err(SpaceBuildError::TooFewTextures { n_textures: textures.len(), n_dims: options.n_dims });
+    }
+    let similarity = similarity(&textures, &data.sorts)?;
+    let dissimilarities: Dissimilarities = similarity.dissimilarities()?;
+
+    // Scaling needs more textures than dimensions.
+    let most_dims = MAX_DIMS.min(textures.len().saturating_sub(2)).max(options.n_dims);
+    let mut go_on = || on_step(Step::Scaling);
+    let all_dims = by_dimension(&dissimilarities, 1..=most_dims, &options.mds, &mut go_on)
+        .map_err(|error| named(error, &textures))?;
+    let stress: Vec<f64> = all_dims.iter().map(|mds| mds.stress).collect();
+    let perceptual = all_dims[options.n_dims - 1].clone();
+    let shepard = shepard(&dissimilarities, &perceptual.points, options.mds.ties)?;
+
+    begin(on_step, Step::Adjectives)?;
+    let unsorted: Vec<&str> = not_sorted.iter().map(|texture| texture.name).collect();
+    let mut findings = oddities::of_sorting(data, &similarity, &table, &unsorted, options.mds.ties);
+    findings.extend(oddities::of_scaling(&perceptual, options.n_dims));
+    let adjectives = fit_adjectives(&table, &data.votes, &textures, &perceptual.points, &mut findings)?;
+    let raters: Vec<(String, RaterFit)> =
+        table.participants().iter().cloned().zip(rater_fits(&table)).collect();
+    findings.extend(oddities::of_ratings(&raters, &table));
+
+    begin(on_step, Step::Features)?;
+    let features = features(&sorted, options, &mut || on_step(Step::Features))?;
+    findings.extend(features.findings());
+
+    let mut go_on = |axis| on_step(Step::Axis(axis));
+    let Axes { fitted: axes, angle_degrees, chosen } =
+        fit_axes(&adjectives, &perceptual.points, &features, options, &mut go_on)?;
+    findings.extend(oddities::of_axes(&axes, angle_degrees));
+    begin(on_step, Step::Stability)?;
+    let drawn = Drawn {
+        textures: &textures,
+        sorts: &data.sorts,
+        ratings: &table,
+        // Adjectives are in the order of the table.
+        axes: chosen,
+        n_dims: options.n_dims,
+        is_orthogonal: options.is_orthogonal,
+        mds: &options.mds,
+    };
+    let mut go_on = || on_step(Step::Stability);
+    let stability = stability(&drawn, options.n_draws, options.seed, &mut go_on, &mut findings)?;
+    let positions = positions(&axes);
+    findings.extend(oddities::of_places(&textures, &positions));
+    let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
+    Ok(SpaceBuild {
+        textures,
+        not_sorted: not_sorted.iter().map(|texture| texture.name.to_owned()).collect(),
+        source: data.source,
+        options: options.clone(),
+        similarity,
+        stress,
+        perceptual,
+        shepard,
+        adjectives,
+        raters,
+        n_missing_ratings: table.n_missing(),
+        axes,
+        angle_degrees,
+        features,
+        stability,
+        positions,
+        space,
+        findings,
+    })
+}
+
+/// Replaces item indices in an error by the names of the textures.
+fn named(error: MdsError, textures: &[String]) -> SpaceBuildError {
+    match error {
+        MdsError::Apart { item } => {
+            SpaceBuildError::Apart { first: textures[0].clone(), second: textures[item].clone() }
+        }
+        other => other.into(),
+    }
+}
+
+/// Checks that sorts and ratings refer to known textures and that each texture has a unique name.
+fn check_names(data: &SpaceData<'_>) -> Result<(), SpaceBuildError> {
+    let mut known = BTreeSet::new();
+    if let Some(twice) = data.textures.iter().find(|texture| !known.insert(texture.name)) {
+        return Err(SpaceBuildError::TextureTwice { texture: twice.name.to_owned() });
+    }
+    let unknown = |texture: &&String| !known.contains(texture.as_str());
+    let sorted = || data.sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| &p.texture));
+    let rated = || data.ratings.iter().map(|rating| &rating.texture);
+    for (judged, what) in [(sorted().find(unknown), "sorted"), (rated().find(unknown), "rated")] {
+        if let Some(texture) = judged {
+            return Err(SpaceBuildError::UnknownTexture { texture: texture.clone(), what });
+        }
+    }
+    let in_sorts: BTreeSet<&String> = sorted().collect();
+    if !data.ratings.is_empty() && !rated().any(|texture| in_sorts.contains(texture)) {
+        return Err(SpaceBuildError::NothingShared);
+    }
+    Ok(())
+}
+
+/// Reports a step; an error if the caller stops.
+fn begin(on_step: &mut dyn FnMut(Step) -> bool, step: Step) -> Result<(), SpaceBuildError> {
+    if on_step(step) { Ok(()) } else { Err(SpaceBuildError::Stopped) }
+}
+
+fn features(
+    textures: &[NamedTexture<'_>],
+    options: &SpaceOptions,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<FeatureTable, SpaceBuildError> {
+    let contacts = paper_patterns();
+    let patterns =
+        PatternPlan { contacts: &contacts, seconds: PAPER_SECS, rate: PAPER_RATE, seed: options.seed };
+    let plan = FeaturePlan { patterns, mfcc: &options.mfcc };
+    Ok(match options.features {
+        FeatureKind::Mfcc => per_pattern(textures, &plan, Statistic::Mean, go_on)?,
+        FeatureKind::MfccFrames => per_frame(textures, &plan, go_on)?,
+        FeatureKind::Physical => physical_table(textures, &contacts)?,
+        FeatureKind::MfccAndPhysical => per_pattern(textures, &plan, Statistic::Mean, go_on)?
+            .beside(&physical_table(textures, &contacts)?),
+    })
+}
+
+fn positions([first, second]: &[Axis; 2]) -> Vec<SpacePoint> {
+    let pairs = first.places().iter().zip(second.places());
+    pairs.map(|(x, y)| SpacePoint { rough_smooth: *x, hard_soft: *y }).collect()
+}
+
+impl FeatureKind {
+    /// All kinds, in the order in which the user interface lists them.
+    pub const ALL: [Self; 4] = [Self::Mfcc, Self::MfccAndPhysical, Self::Physical, Self::MfccFrames];
+
+    /// Identifier for files and scripts.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Mfcc => "mfcc",
+            Self::MfccFrames => "mfcc-frames",
+            Self::Physical => "physical",
+            Self::MfccAndPhysical => "mfcc+physical",
+        }
+    }
+}
+
+impl PlacedBy {
+    /// Identifier for files and scripts.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Felt => "felt",
+            Self::Predicted => "predicted",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,16 @@
+//! Surfaces: materials, their contact physics and appearance, and the words and pictures that describe them.
+//!
+//! In: material parameters, a prompt or a picture. Out: height fields, simulated strokes, pictures, textures of the
+//! starter library ([`starter`]), and attributes predicted from words or pictures ([`prompt`], [`generated`]).
+
+pub mod contact_model;
+pub mod drawn_material;
+pub mod generated;
+pub mod height_field;
+pub mod imagined;
+pub mod material;
+pub mod picture_features;
+pub mod prompt;
+pub mod shading;
+pub mod starter;
+pub mod touch_words;

@@ -1,0 +1,169 @@
+//! A surface generated from a prompt: its material, a tile of its height field and a seamless picture of the tile.
+//!
+//! Also combines the attributes predicted from the prompt with those predicted from the picture.
+
+use crate::maths::gaussian_process::Estimate;
+use crate::space::SpacePoint;
+use crate::surfaces::height_field::{HeightField, Tile, synthesize};
+use crate::surfaces::imagined::{Anchor, imagine};
+use crate::surfaces::material::Material;
+use crate::surfaces::prompt::{OPEN, Understood};
+use crate::surfaces::shading::{Picture, shade_tile};
+use crate::surfaces::starter::LabelSpan;
+use crate::surfaces::touch_words::ATTRIBUTES;
+
+/// The tile of a generated surface: 20 mm, the side length of starter library pictures, at the spacing of the starter
+/// tile.
+pub const GENERATED_TILE: Tile = Tile { n_cells: 512, spacing_m: 40e-6 };
+
+/// Name of this generator in the provenance of a picture.
+pub const GENERATOR: &str = "procedural generator";
+
+/// A surface generated from a prompt.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// The material.
+    pub material: Material,
+    /// Height field of the material.
+    pub field: HeightField,
+    /// Picture of the whole tile.
+    pub picture: Picture,
+}
+
+/// Returns the surface that a prompt describes, deterministic for a seed; `None` without anchors.
+///
+/// Takes about a second at [`GENERATED_TILE`] and 512 pixels.
+pub fn generate(
+    prompt: &str,
+    understood: &Understood,
+    anchors: &[Anchor],
+    span: &LabelSpan,
+    n_pixels: usize,
+    seed: u64,
+) -> Option<Generated> {
+    let material = imagine(prompt, understood, anchors, span)?;
+    let field = synthesize(&material, GENERATED_TILE, seed);
+    let picture = shade_tile(&field, &material, n_pixels);
+    Some(Generated { material, field, picture })
+}
+
+/// Combination of two estimates of one attribute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Agreed {
+    /// Combined estimate of the attribute.
+    pub estimate: Estimate,
+    /// Whether the two estimates differ by more than two standard deviations of their difference.
+    pub differ: bool,
+}
+
+/// Threshold for a disagreement, in standard deviations of the difference: exceeded by chance in one pair of twenty.
+const DIFFER: f64 = 2.0;
+
+/// What a picture adds to the words it was generated from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Witness {
+    /// Nothing: the picture was computed from the meanings of the words.
+    OfTheWords,
+    /// Independent knowledge: the picture generator has learned what such words look like.
+    OnItsOwn,
+}
+
+/// Returns the precision-weighted mean of two estimates and whether they differ.
+///
+/// A picture is generated from the words, so the two estimates are not independent. A picture computed from the words
+/// does not reduce their standard deviation. A picture with independent knowledge reduces it to its own, if that is
+/// smaller. Where the estimates lie further apart than their uncertainty, the standard deviation grows by that ratio
+/// (Birge ratio, R. Birge 1932). It never exceeds that of [`OPEN`].
+pub fn agree(words: Estimate, picture: Estimate, witness: Witness) -> Agreed {
+    let weights = [words, picture].map(|estimate| estimate.deviation.max(1e-6).powi(-2));
+    let mean = (weights[0] * words.mean + weights[1] * picture.mean) / (weights[0] + weights[1]);
+    let apart = (words.mean - picture.mean).abs() / words.deviation.hypot(picture.deviation).max(1e-6);
+    let surest = match witness {
+        Witness::OfTheWords => words.deviation,
+        Witness::OnItsOwn => words.deviation.min(picture.deviation),
+    };
+    let deviation = (surest * apart.max(1.0)).min(OPEN.deviation);
+    Agreed { estimate: Estimate { mean, deviation }, differ: apart > DIFFER }
+}
+
+/// Position in the texture space predicted from words and picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed {
+    /// Combined estimate on each axis, rough-smooth and hard-soft.
+    pub axes: [Agreed; 2],
+    /// Predicted position.
+    pub at: SpacePoint,
+}
+
+/// Returns the position predicted from words and picture on the first two of [`ATTRIBUTES`].
+pub fn place(words: [Estimate; 2], picture: [Estimate; 2], witness: Witness) -> Placed {
+    let axes = [0, 1].map(|axis| agree(words[axis], picture[axis], witness));
+    let [rough_smooth, hard_soft] = axes.map(|agreed| agreed.estimate.mean.clamp(0.0, 100.0));
+    Placed { axes, at: SpacePoint { rough_smooth, hard_soft } }
+}
+
+impl Placed {
+    /// Returns the names of the axes on which words and picture disagree.
+    pub fn disputed(&self) -> Vec<&'static str> {
+        ATTRIBUTES.into_iter().zip(&self.axes).filter(|(_, of)| of.differ).map(|(name, _)| name).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{GENERATED_TILE, Witness, agree, generate, place};
+    use crate::maths::gaussian_process::Estimate;
+    use crate::space::SpacePoint;
+    use crate::surfaces::imagined::Anchor;
+    use crate::surfaces::material::tests::plain;
+    use crate::surfaces::prompt::{Looks, OPEN, Understood};
+    use crate::surfaces::starter::{LabelSpan, Labels};
+
+    const SPAN: LabelSpan = LabelSpan {
+        low: Labels { roughness_log10_mps2: -0.7, hardness_log10_n_per_m: 3.0 },
+        high: Labels { roughness_log10_mps2: 0.8, hardness_log10_n_per_m: 5.6 },
+    };
+
+    #[test]
+    fn a_seed_gives_the_same_surface_and_another_another() {
+        let at = SpacePoint::new(50.0, 50.0).unwrap();
+        let anchors = [Anchor { material: plain(), place: at }];
+        let understood = Understood {
+            attributes: [Estimate { mean: 40.0, deviation: 10.0 }; 5],
+            looks: Looks { scale: 1.0, ..Looks::default() },
+            words: Vec::new(),
+            unknown: Vec::new(),
+            disputed: Vec::new(),
+            n_left_out: 0,
+        };
+        let made = |seed| generate("plain", &understood, &anchors, &SPAN, 32, seed).unwrap();
+        let first = made(1);
+        assert_eq!((first.picture.width, first.picture.rgb.len()), (32, 3 * 32 * 32));
+        assert!((first.picture.millimeters - 1e3 * GENERATED_TILE.side_m()).abs() < 1e-9);
+        assert_eq!(made(1).picture, first.picture);
+        assert_ne!(made(2).picture, first.picture);
+        assert!(generate("plain", &understood, &[], &SPAN, 32, 1).is_none());
+    }
+
+    #[test]
+    fn the_surer_counts_more_and_a_quarrel_makes_unsure() {
+        let of = |mean, deviation| Estimate { mean, deviation };
+        let agreed = agree(of(40.0, 10.0), of(50.0, 5.0), Witness::OnItsOwn);
+        assert!((agreed.estimate.mean - 48.0).abs() < 1e-12 && !agreed.differ);
+        assert!((agreed.estimate.deviation - 5.0).abs() < 1e-12);
+        let made_of_words = agree(of(50.0, 28.9), of(70.0, 5.0), Witness::OfTheWords);
+        assert!((made_of_words.estimate.deviation - 28.9).abs() < 1e-12, "it adds no information");
+        let quarrel = agree(of(10.0, 3.0), of(60.0, 4.0), Witness::OfTheWords);
+        assert!(quarrel.differ);
+        // Ten standard deviations apart: the standard deviation reaches its upper limit.
+        assert_eq!(quarrel.estimate.deviation, OPEN.deviation);
+        // Two standard deviations apart.
+        let apart = agree(of(40.0, 3.0), of(50.0, 4.0), Witness::OfTheWords);
+        assert!((apart.estimate.deviation - 6.0).abs() < 1e-12 && !apart.differ, "{apart:?}");
+        let placed =
+            place([of(10.0, 3.0), of(80.0, 10.0)], [of(60.0, 4.0), of(90.0, 10.0)], Witness::OnItsOwn);
+        assert_eq!(placed.disputed(), ["rough-smooth"]);
+        assert!((placed.at.hard_soft - 85.0).abs() < 1e-9);
+        assert_eq!(agree(of(20.0, 0.0), of(20.0, 0.0), Witness::OnItsOwn).estimate.mean, 20.0);
+    }
+}

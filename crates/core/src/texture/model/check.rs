@@ -1,0 +1,171 @@
+//! Validation of the numbers in a texture model.
+
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+use crate::texture::{
+    FORCES_N, GAINS, GrainNode, LEVELS_MPS2, MAX_NODES, MAX_ORDER, MIN_LSF_GAP, MIN_NODE_DISTANCE,
+    MIN_PUBLISHED_LSF_GAP, PublishedNode, RATES_HZ, SPEEDS_MPS, TextureModelError, VARIANCES,
+};
+use crate::units::Hertz;
+
+/// Checks that apply to measured and published textures.
+pub(super) fn frame(rate: Hertz, n_nodes: usize, friction: Option<f64>) -> Result<(), TextureModelError> {
+    if !RATES_HZ.contains(&rate.0) {
+        return Err(TextureModelError::Rate { rate_hz: rate.0 });
+    }
+    if n_nodes == 0 {
+        return Err(TextureModelError::Empty);
+    }
+    if n_nodes > MAX_NODES {
+        return Err(TextureModelError::TooMany { n: n_nodes });
+    }
+    match friction.filter(|f| !(f.is_finite() && *f >= 0.0)) {
+        Some(value) => Err(TextureModelError::Friction { value }),
+        None => Ok(()),
+    }
+}
+
+/// Checks measured nodes. They must not lie at zero speed or force, where the boundary is added.
+pub(super) fn measured(nodes: &[GrainNode]) -> Result<(), TextureModelError> {
+    let order = nodes[0].lsf.len();
+    for (index, node) in nodes.iter().enumerate() {
+        if node.lsf.len() != order || order == 0 || order > MAX_ORDER {
+            return Err(TextureModelError::Order { index, order: node.lsf.len() });
+        }
+        if !are_apart(&node.lsf, MIN_LSF_GAP) {
+            return Err(TextureModelError::Frequencies { index });
+        }
+        in_range("speed in m/s", index, node.speed.0, &SPEEDS_MPS)?;
+        in_range("force in N", index, node.force.0, &FORCES_N)?;
+        in_range("level in m/s²", index, node.level_mps2, &LEVELS_MPS2)?;
+    }
+    let places: Vec<[f64; 2]> = nodes.iter().map(|n| [n.speed.0, n.force.0]).collect();
+    let highest = highest(&places);
+    for (index, [speed_mps, force_n]) in places.iter().enumerate() {
+        in_range("speed in m/s", index, *speed_mps, &(MIN_NODE_DISTANCE * highest[0]..=highest[0]))?;
+        in_range("force in N", index, *force_n, &(MIN_NODE_DISTANCE * highest[1]..=highest[1]))?;
+    }
+    apart_in_plane(&places, highest)
+}
+
+/// Checks published nodes, which must include the boundary.
+pub(super) fn published(nodes: &[PublishedNode]) -> Result<(), TextureModelError> {
+    let (order, ma_order) = (nodes[0].ar_lsf.len(), nodes[0].ma_lsf.len());
+    for (index, node) in nodes.iter().enumerate() {
+        if node.ar_lsf.len() != order || order == 0 || order > MAX_ORDER {
+            return Err(TextureModelError::Order { index, order: node.ar_lsf.len() });
+        }
+        if node.ma_lsf.len() != ma_order || ma_order > MAX_ORDER {
+            return Err(TextureModelError::MaOrder { index, order: node.ma_lsf.len() });
+        }
+        for (part, lsf) in [("AR", &node.ar_lsf), ("MA", &node.ma_lsf)] {
+            if !are_apart(lsf, MIN_PUBLISHED_LSF_GAP) {
+                return Err(TextureModelError::PublishedFrequencies { part, index });
+            }
+        }
+        in_range("speed in m/s", index, node.speed.0, &(0.0..=*SPEEDS_MPS.end()))?;
+        in_range("force in N", index, node.force.0, &(0.0..=*FORCES_N.end()))?;
+        in_range("variance in (m/s²)²", index, node.variance, &VARIANCES)?;
+        in_range("gain", index, node.gain, &GAINS)?;
+    }
+    let places: Vec<[f64; 2]> = nodes.iter().map(|n| [n.speed.0, n.force.0]).collect();
+    let [speed_mps, force_n] = highest(&places);
+    // The rectangle needs a non-zero extent.
+    in_range("highest speed in m/s", 0, speed_mps, &SPEEDS_MPS)?;
+    in_range("highest force in N", 0, force_n, &FORCES_N)?;
+    for corner in [[0.0, 0.0], [speed_mps, 0.0], [0.0, force_n], [speed_mps, force_n]] {
+        let is_at = |p: &[f64; 2]| {
+            (p[0] - corner[0]).abs() < MIN_NODE_DISTANCE * speed_mps
+                && (p[1] - corner[1]).abs() < MIN_NODE_DISTANCE * force_n
+        };
+        if !places.iter().any(is_at) {
+            return Err(TextureModelError::Corner { speed_mps: corner[0], force_n: corner[1] });
+        }
+    }
+    apart_in_plane(&places, [speed_mps, force_n])
+}
+
+fn are_apart(lsf: &[f64], gap: f64) -> bool {
+    // Written so that NaN fails the test.
+    let ends = [0.0, PI];
+    let above = ends[..1].iter().chain(lsf).zip(lsf.iter().chain(&ends[1..]));
+    above.into_iter().all(|(low, high)| high - low >= gap)
+}
+
+fn in_range(
+    what: &'static str,
+    index: usize,
+    value: f64,
+    range: &RangeInclusive<f64>,
+) -> Result<(), TextureModelError> {
+    let (low, high) = (*range.start(), *range.end());
+    if range.contains(&value) {
+        Ok(())
+    } else {
+        Err(TextureModelError::Value { what, index, value, low, high })
+    }
+}
+
+fn highest(places: &[[f64; 2]]) -> [f64; 2] {
+    places.iter().fold([0.0, 0.0], |[v, f], p| [v.max(p[0]), f.max(p[1])])
+}
+
+/// Node coordinates in units of the minimum distance.
+struct InColumn {
+    column: i64,
+    x: f64,
+    y: f64,
+    index: usize,
+}
+
+/// Checks that all nodes keep the minimum distance.
+fn apart_in_plane(places: &[[f64; 2]], highest: [f64; 2]) -> Result<(), TextureModelError> {
+    // Nodes are sorted into columns of one minimum distance, by height within each column. A node that is too close is
+    // then the next one in its column, or is in the column to the right.
+    let in_column = |(index, place): (usize, &[f64; 2])| {
+        let [x, y] = [0, 1].map(|axis| place[axis] / highest[axis] / MIN_NODE_DISTANCE);
+        InColumn { column: x as i64, x, y, index }
+    };
+    let mut ordered: Vec<InColumn> = places.iter().enumerate().map(in_column).collect();
+    ordered.sort_by(|a, b| a.column.cmp(&b.column).then(a.y.total_cmp(&b.y)));
+    for (i, node) in ordered.iter().enumerate() {
+        let rest = &ordered[i + 1..];
+        let is_right = |other: &InColumn| other.column == node.column + 1;
+        let is_before =
+            |other: &InColumn| other.column <= node.column || (is_right(other) && other.y <= node.y - 1.0);
+        let above = rest.first().filter(|other| other.column == node.column);
+        let right = rest[rest.partition_point(is_before)..].iter();
+        let right = right.take_while(|other| is_right(other) && other.y < node.y + 1.0);
+        let is_near = |other: &&InColumn| (node.x - other.x).abs().max((node.y - other.y).abs()) < 1.0;
+        if let Some(other) = above.into_iter().chain(right).find(is_near) {
+            let (first, second) = (node.index.min(other.index), node.index.max(other.index));
+            return Err(TextureModelError::SamePlace { first, second });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MIN_NODE_DISTANCE, apart_in_plane};
+    use proptest::prelude::{prop, prop_assert_eq, proptest};
+
+    proptest! {
+        #[test]
+        fn whoever_is_too_near_is_found(
+            cells in prop::collection::vec((0_u8..12, 0_u8..12, 0.0_f64..1.0, 0.0_f64..1.0), 1..30)
+        ) {
+            let place = |(i, j, x, y): &(u8, u8, f64, f64)| {
+                [f64::from(*i) + x, f64::from(*j) + y].map(|cell| cell * MIN_NODE_DISTANCE)
+            };
+            let places: Vec<[f64; 2]> = cells.iter().map(place).collect();
+            let is_near = |a: &[f64; 2], b: &[f64; 2]| {
+                let apart = |axis: usize| (a[axis] / MIN_NODE_DISTANCE - b[axis] / MIN_NODE_DISTANCE).abs();
+                apart(0).max(apart(1)) < 1.0
+            };
+            let any = (0..places.len()).any(|i| places[..i].iter().any(|b| is_near(&places[i], b)));
+            prop_assert_eq!(apart_in_plane(&places, [1.0, 1.0]).is_err(), any);
+        }
+    }
+}

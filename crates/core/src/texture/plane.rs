@@ -1,0 +1,221 @@
+//! Speed-force plane of a texture: measured nodes, the boundary around them, and the interpolation between.
+
+mod prepared;
+mod radial;
+mod refined;
+mod values;
+
+use std::sync::Arc;
+
+pub use crate::texture::plane::prepared::Prepared;
+
+use crate::dsp::arma;
+use crate::dsp::lsf::ar_from_lsf;
+use crate::maths::triangulation::{Triangulation, Xy};
+use crate::texture::boundary::{BoundaryModel, boundary};
+use crate::texture::plane::radial::RadialGrain;
+use crate::texture::plane::values::{Strength, Values};
+use crate::texture::relief::Relief;
+use crate::texture::{self, GrainNode, Interpolation, MIN_NODE_DISTANCE, PublishedNode, TextureModel};
+use crate::units::{Contact, Hertz};
+
+/// Grain of a texture at any contact.
+///
+/// Measured nodes are interpolated in one of two ways.
+/// - Barycentric, in the Delaunay triangles over speed and force, each divided by its maximum. Silent nodes at zero
+///   speed or force and copies along the edges of full speed and force close the range.
+/// - By radial basis functions, constant beyond the measured range. Below the lowest speed or force the level decreases
+///   linearly to silence.
+///
+/// Published nodes include their boundary.
+#[derive(Clone, Debug)]
+pub struct Plane {
+    rate: Hertz,
+    speed_max_mps: f64,
+    force_max_n: f64,
+    /// Speed in m/s and force in N of the nodes that are not on the axes.
+    measured: Vec<[f64; 2]>,
+    vertices: Vec<Values>,
+    triangulation: Triangulation,
+    /// Radial basis, if used; the triangles then approximate it.
+    radial: Option<RadialGrain>,
+    /// Position-dependent relief, independent of the contact.
+    relief: Option<Arc<Relief>>,
+}
+
+/// Grain at one contact: white noise filtered by a moving-average part and an AR part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grain {
+    /// Model rate.
+    pub rate: Hertz,
+    /// Line spectral frequencies of the AR part in radians.
+    pub lsf: Vec<f64>,
+    /// Line spectral frequencies of the moving-average part in radians; empty without such a part.
+    pub ma_lsf: Vec<f64>,
+    /// Root mean square acceleration in m/s².
+    pub level_mps2: f64,
+    /// Standard deviation of the white noise that gives the level, in m/s²; includes a published gain.
+    pub sigma_mps2: f64,
+}
+
+impl Grain {
+    /// AR coefficients `a_1 … a_p`.
+    pub fn ar(&self) -> Vec<f64> {
+        ar_from_lsf(&self.lsf)
+    }
+
+    /// Moving-average coefficients `b_1 … b_q`.
+    pub fn ma(&self) -> Vec<f64> {
+        ar_from_lsf(&self.ma_lsf)
+    }
+
+    /// Variance of the excitation that gives the level, in (m/s²)².
+    pub fn excitation_variance(&self) -> f64 {
+        self.sigma_mps2 * self.sigma_mps2
+    }
+
+    /// Transfer function `sqrt(2 σ² / rate) B / A` at each frequency, as (real, imaginary). Its squared magnitude is
+    /// the power spectral density.
+    pub fn response(&self, frequencies: &[Hertz]) -> Vec<(f64, f64)> {
+        let scale = self.sigma_mps2 * (2.0 / self.rate.0).sqrt();
+        let response = arma::response(&self.ar(), &self.ma(), self.rate, frequencies);
+        response.into_iter().map(|(re, im)| (scale * re, scale * im)).collect()
+    }
+
+    /// One-sided power spectral density in (m/s²)²/Hz at each frequency.
+    pub fn psd(&self, frequencies: &[Hertz]) -> Vec<f64> {
+        self.response(frequencies).into_iter().map(|(re, im)| re * re + im * im).collect()
+    }
+}
+
+impl Plane {
+    /// Creates the plane of a texture.
+    pub fn new(texture: &TextureModel) -> Self {
+        let highest = Contact { speed: texture.speed_max(), force: texture.force_max() };
+        let (speed_max_mps, force_max_n) = (highest.speed.0, highest.force.0);
+        // A node off an edge by a rounding error would make an equally thin triangle. Measured nodes may lie as close
+        // to zero.
+        let is_published = matches!(texture.grain(), texture::Grain::Published { .. });
+        let snapped = |share: f64| match share {
+            _ if share > 1.0 - MIN_NODE_DISTANCE => 1.0,
+            _ if share < MIN_NODE_DISTANCE && is_published => 0.0,
+            _ => share,
+        };
+        let place = |c: Contact| [c.speed.0 / speed_max_mps, c.force.0 / force_max_n].map(snapped);
+        let places: Vec<Xy> = texture.contacts().map(place).collect();
+        let (points, radial) = match texture.grain() {
+            texture::Grain::Measured { nodes, interpolation } => {
+                let radial = match interpolation {
+                    Interpolation::RadialBasis => RadialGrain::new(nodes, &places),
+                    Interpolation::Barycentric => None,
+                };
+                let points = match &radial {
+                    Some(radial) => radial.corners().into_iter().map(|at| (at, radial.at(at))).collect(),
+                    None => closed(nodes, &places, highest),
+                };
+                (points, radial)
+            }
+            texture::Grain::Published { nodes } => {
+                (places.into_iter().zip(nodes.iter().map(published)).collect(), None)
+            }
+        };
+        let (points, vertices): (Vec<Xy>, Vec<Values>) = points.into_iter().unzip();
+        let triangulated =
+            if radial.is_some() { Triangulation::new(&points) } else { Triangulation::in_order(&points) };
+        let triangulation = match triangulated {
+            Ok(triangulation) => triangulation,
+            Err(error) => unreachable!("the model checks keep relative coordinates in 0..1: {error}"),
+        };
+        let contacts = texture.contacts().map(|c| [c.speed.0, c.force.0]);
+        let measured = contacts.filter(|c| c[0] > 0.0 && c[1] > 0.0).collect();
+        Self {
+            rate: texture.rate(),
+            speed_max_mps,
+            force_max_n,
+            measured,
+            vertices,
+            triangulation,
+            radial,
+            relief: texture.relief().cloned(),
+        }
+    }
+
+    /// Grain at `contact`. Outside the measured range it is that of the nearest edge; at zero speed or force it is
+    /// silent.
+    pub fn at(&self, contact: Contact) -> Grain {
+        let share = |x: f64, max: f64| if x > 0.0 { (x / max).min(1.0) } else { 0.0 };
+        let at = [share(contact.speed.0, self.speed_max_mps), share(contact.force.0, self.force_max_n)];
+        let mut values = match &self.radial {
+            Some(radial) => radial.at(at),
+            None => self.in_triangles(at),
+        };
+        // A published texture can have a level above zero on its axes.
+        if at.contains(&0.0) {
+            values.strength = values.strength.silent();
+        }
+        values.into_grain(self.rate)
+    }
+
+    /// Position-dependent relief, if the texture has one.
+    pub fn relief(&self) -> Option<&Arc<Relief>> {
+        self.relief.as_ref()
+    }
+
+    /// Model rate.
+    pub fn rate(&self) -> Hertz {
+        self.rate
+    }
+
+    /// Orders of the AR part and of the moving-average part.
+    pub(crate) fn orders(&self) -> [usize; 2] {
+        [self.vertices[0].lsf.len(), self.vertices[0].ma_lsf.len()]
+    }
+
+    /// Speed in m/s and force in N of each node that is not on the axes.
+    pub(crate) fn measured(&self) -> &[[f64; 2]] {
+        &self.measured
+    }
+
+    /// Lowest and highest measured speed in m/s, then lowest and highest measured force in N.
+    pub(crate) fn measured_range(&self) -> [(f64, f64); 2] {
+        let highest = [self.speed_max_mps, self.force_max_n];
+        [0, 1]
+            .map(|axis| (self.measured.iter().map(|c| c[axis]).fold(highest[axis], f64::min), highest[axis]))
+    }
+
+    fn in_triangles(&self, at: Xy) -> Values {
+        let parts = match self.triangulation.locate(at) {
+            Some((triangle, weights)) => {
+                let [a, b, c] = self.triangulation.corners(triangle);
+                [(a, weights[0]), (b, weights[1]), (c, weights[2])]
+            }
+            // The triangles cover the whole rectangle; a point outside by a rounding error lies on its edge.
+            None => match self.triangulation.nearest_on_outline(at) {
+                Some((_, [a, b])) => [a, b, (b.0, 0.0)],
+                None => unreachable!("a plane always has corners"),
+            },
+        };
+        Values::mean(&parts.map(|(vertex, weight)| (&self.vertices[vertex], weight)))
+    }
+}
+
+/// Measured nodes and the boundary around them.
+fn closed(nodes: &[GrainNode], places: &[Xy], highest: Contact) -> Vec<(Xy, Values)> {
+    let measured = nodes.iter().map(|n| Values::measured(n.lsf.clone(), n.level_mps2));
+    let mut points: Vec<(Xy, Values)> = places.iter().copied().zip(measured).collect();
+    let contacts: Vec<Contact> = nodes.iter().map(|n| Contact { speed: n.speed, force: n.force }).collect();
+    for BoundaryModel { at, copy_of, silent } in boundary(&contacts, highest) {
+        let node = &nodes[copy_of];
+        let place = [at.speed.0 / highest.speed.0, at.force.0 / highest.force.0];
+        points.push((place, Values::measured(node.lsf.clone(), if silent { 0.0 } else { node.level_mps2 })));
+    }
+    points
+}
+
+fn published(node: &PublishedNode) -> Values {
+    let strength = Strength::Excitation { variance: node.variance, gain: node.gain };
+    Values { lsf: node.ar_lsf.clone(), ma_lsf: node.ma_lsf.clone(), strength }
+}
+
+#[cfg(test)]
+mod tests;

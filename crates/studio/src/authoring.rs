@@ -1,0 +1,59 @@
+//! The authoring space of a library.
+
+use std::sync::Arc;
+
+use anyhow::Context as _;
+use shagreen_core::space::Space;
+use shagreen_core::space::authoring::{Authoring, Layers, Models};
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::rate::{at_rate, highest_rate};
+use shagreen_core::units::Hertz;
+use shagreen_formats::library::{Library, TextureEntry};
+
+use crate::report::Reporter;
+
+/// Returns the space of a library, with the texture models that the interpolation mode needs.
+///
+/// # Errors
+/// The positions cannot be triangulated, or the textures have no common rate.
+pub fn authoring(library: &Library, mode: Mode, reporter: &dyn Reporter) -> anyhow::Result<Authoring> {
+    let space = Space::new(&library.positions()).context("the positions of the textures form no space")?;
+    let authoring = Authoring::new(space);
+    if !mode.makes_a_model() || authoring.space().sites().is_empty() {
+        return Ok(authoring);
+    }
+    let placed: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
+    let rate = highest_rate(placed.iter().map(|texture| &library.textures[*texture].model))
+        .context("there is nothing to author; place the textures first")?;
+    let mut planes: Vec<Option<Plane>> = vec![None; library.textures.len()];
+    for texture in &placed {
+        planes[*texture] = Some(plane_at(&library.textures[*texture], rate, reporter)?);
+    }
+    let layers: Vec<Option<Layers<'_>>> = planes
+        .iter()
+        .zip(&library.textures)
+        .map(|(plane, entry)| plane.as_ref().map(|plane| Layers::of(&entry.model, plane)))
+        .collect();
+    let models = Models::new(authoring.space(), &layers)?;
+    Ok(authoring.with_models(Arc::new(models)))
+}
+
+/// Returns the speed-force plane of a texture at a rate. The error of a conversion goes to `reporter`.
+pub(crate) fn plane_at(
+    texture: &TextureEntry,
+    rate: Hertz,
+    reporter: &dyn Reporter,
+) -> anyhow::Result<Plane> {
+    let own = texture.model.rate();
+    let converted = at_rate(&texture.model, rate)
+        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
+    if own != rate {
+        reporter.note(&format!(
+            "\"{}\" has a rate of {own} and is converted to {rate} for its neighbors: same levels, spectra \
+             within {:.1} dB (median of its speeds and forces; worst {:.1} dB)",
+            texture.id, converted.error_db_median, converted.error_db_worst
+        ));
+    }
+    Ok(Plane::new(&converted.model))
+}

@@ -1,0 +1,102 @@
+//! The guide: the pages of `docs/guide`, built into the program, for the window and the command line.
+//!
+//! A new page is a file there and a line in [`PAGES`], in the order of the table of contents.
+
+/// A page of the guide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GuidePage {
+    /// Name of the page's file, without the ending.
+    pub id: &'static str,
+    /// The page as Markdown.
+    pub text: &'static str,
+}
+
+macro_rules! page {
+    ($id:literal) => {
+        GuidePage { id: $id, text: include_str!(concat!("../../../docs/guide/", $id, ".md")) }
+    };
+}
+
+/// All pages, the table of contents first.
+pub static PAGES: [GuidePage; 35] = [
+    page!("index"),
+    page!("first-steps"),
+    page!("terms"),
+    page!("troubleshooting"),
+    page!("author"),
+    page!("interpolation-modes"),
+    page!("strokes"),
+    page!("compare-textures"),
+    page!("pens-and-strokes"),
+    page!("paths"),
+    page!("scope"),
+    page!("projects"),
+    page!("find-textures"),
+    page!("import-recordings"),
+    page!("make-materials"),
+    page!("hatt-models"),
+    page!("build-a-space"),
+    page!("judgment-tables"),
+    page!("prompts-and-photos"),
+    page!("predict-attributes"),
+    page!("train"),
+    page!("diffusion-models"),
+    page!("outputs-and-actuators"),
+    page!("calibrate"),
+    page!("latency"),
+    page!("serial"),
+    page!("signals"),
+    page!("codec"),
+    page!("quality"),
+    page!("spatial-spectrograms"),
+    page!("reliefs"),
+    page!("render-and-play"),
+    page!("evaluate"),
+    page!("command-line"),
+    page!("files-and-formats"),
+];
+
+impl GuidePage {
+    /// Returns the heading of the page.
+    pub fn title(&self) -> &'static str {
+        self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
+    }
+
+    /// Returns the ids of the pages that this page links to.
+    pub fn links(&self) -> impl Iterator<Item = &'static str> {
+        self.text.split("](").skip(1).filter_map(|rest| {
+            let target = rest.split([')', '#']).next()?.strip_suffix(".md")?;
+            PAGES.iter().find(|page| page.id == target).map(|page| page.id)
+        })
+    }
+}
+
+/// Returns the page with this id.
+pub fn page(id: &str) -> Option<&'static GuidePage> {
+    PAGES.iter().find(|page| page.id == id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PAGES, page};
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    /// Every file is a page, every page a file, and the table of contents leads to all of them.
+    #[test]
+    fn the_guide_is_whole() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/guide");
+        let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+        let files: BTreeSet<String> =
+            files.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect();
+        let pages: BTreeSet<String> = PAGES.iter().map(|page| page.id.to_owned()).collect();
+        assert_eq!(files, pages);
+        let listed: BTreeSet<&str> = page("index").unwrap().links().chain(["index"]).collect();
+        assert_eq!(listed.len(), PAGES.len(), "the table of contents lacks a page");
+        for page in &PAGES {
+            assert!(page.text.starts_with("# ") && !page.title().is_empty(), "{}", page.id);
+            assert!(page.text.split_whitespace().count() < 1000, "{} is too long", page.id);
+        }
+        assert!(page("none").is_none());
+    }
+}

@@ -1,0 +1,36 @@
+//! The functions of the program that the window and the command line share.
+//!
+//! # Conventions
+//!
+//! - Each function opens no window, parses no arguments and prints nothing.
+//! - Warnings and notes go to a [`report::Reporter`]. Long work takes a closure that receives its progress and returns
+//!   whether to continue.
+//! - Errors are [`anyhow::Error`]s with the file as a separate context ([`file::in_file`]).
+#![forbid(unsafe_code)]
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic on an unexpected result")
+)]
+
+pub mod authoring;
+pub mod export;
+pub mod figure_files;
+pub mod file;
+pub mod generate;
+pub mod guide;
+pub mod import;
+pub mod judgments;
+pub mod landings;
+pub mod library;
+pub mod library_names;
+pub mod models;
+pub mod near_names;
+pub mod open;
+pub mod parallel;
+pub mod place_estimate;
+pub mod project;
+pub mod render;
+pub mod replace;
+pub mod report;
+pub mod sound;
+pub mod space;

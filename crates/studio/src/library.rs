@@ -1,0 +1,94 @@
+//! Loading of libraries: from a file, from a folder of files, or built into the program.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use shagreen_core::space::LabelSource;
+use shagreen_formats::built_in::BuiltIn;
+use shagreen_formats::library::{Library, LibraryError, TextureEntry, read_library};
+
+use crate::file::{in_file, read_file};
+use crate::report::Reporter;
+
+/// Loads the library at a path: a file, a folder of files, or the name of a built-in library; without a path, the
+/// starter library.
+///
+/// # Errors
+/// The path cannot be read or contains no library.
+pub fn load(path: Option<&Path>, reporter: &dyn Reporter) -> anyhow::Result<Library> {
+    let library = match path {
+        None => BuiltIn::Starter.read()?,
+        Some(path) => match built_in(path) {
+            Some(built_in) => built_in.read()?,
+            None if path.is_dir() => load_folder(path, reporter)?,
+            None => load_file(path, reporter)?.with_context(|| in_file(path))?,
+        },
+    };
+    let sources: Vec<&str> = library.label_sources().into_iter().map(LabelSource::label).collect();
+    if sources.len() > 1 {
+        reporter.warn(&format!(
+            "the positions come from different sources ({}): interpolation between textures of two sources means little; \
+             `shagreen library list` shows the source of each",
+            sources.join(", ")
+        ));
+    }
+    Ok(library)
+}
+
+/// Returns the built-in library of this name, unless a file has the name. The starter library needs no name, so only
+/// the simulated one has one.
+pub fn built_in(path: &Path) -> Option<BuiltIn> {
+    let built_in = BuiltIn::from_id(path.to_str()?).filter(|built_in| *built_in == BuiltIn::Simulated);
+    built_in.filter(|_| !path.exists())
+}
+
+/// Reads a library file. The inner error is for files that are not libraries, and still lacks the path.
+fn load_file(path: &Path, reporter: &dyn Reporter) -> anyhow::Result<Result<Library, LibraryError>> {
+    let bytes = read_file(path)?;
+    Ok(read_library(&bytes).map(|imported| {
+        for warning in &imported.warnings {
+            reporter.warn(&format!("{warning}: {}", path.display()));
+        }
+        imported.value
+    }))
+}
+
+/// Merges all library files of a folder; other files are ignored.
+fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library> {
+    let list = || -> std::io::Result<Vec<PathBuf>> {
+        std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
+    };
+    let mut paths =
+        list().context("cannot read the folder; check your permissions").with_context(|| in_file(folder))?;
+    paths.retain(|path| path.is_file() && path.extension().is_some_and(|extension| extension == "json"));
+    paths.sort();
+    let mut merged = Library { name: folder.display().to_string(), ..Library::default() };
+    let mut homes: HashMap<String, PathBuf> = HashMap::new();
+    let mut n_libraries = 0;
+    for path in paths {
+        let library = match load_file(&path, reporter)? {
+            Ok(library) => library,
+            // The sidecar of a signal, or JSON of another program.
+            Err(LibraryError::Format { .. }) => continue,
+            Err(error) => return Err(error).with_context(|| in_file(&path)),
+        };
+        n_libraries += 1;
+        for texture in &library.textures {
+            if let Some(other) = homes.insert(texture.id.clone(), path.clone()) {
+                bail!(
+                    "two libraries have a texture \"{}\"; rename one of them: {} and {}",
+                    texture.id,
+                    other.display(),
+                    path.display()
+                );
+            }
+            let license = library.license_of(texture).to_owned();
+            merged.textures.push(TextureEntry { license, ..texture.clone() });
+        }
+    }
+    if n_libraries == 0 {
+        bail!("the folder contains no texture library (.json); choose another folder: {}", folder.display());
+    }
+    Ok(merged)
+}

@@ -1,0 +1,85 @@
+//! Opening of files: a project with its library, or a library.
+
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use shagreen_formats::imported::Imported;
+use shagreen_formats::library::{LibraryError, read_library};
+use shagreen_formats::project::{LibraryFile, Project, ProjectError, read_project, sha256_hex};
+
+use crate::file::{folder_of, is_special};
+
+/// What a file contains.
+pub enum Opened {
+    /// A project, with warnings.
+    Project(Box<Imported<Project>>),
+    /// A library, with warnings.
+    Library(Box<Imported<LibraryFile>>),
+}
+
+/// Reads a library, or a project with its library if that is a separate file.
+///
+/// # Errors
+/// The file cannot be read or is neither; the message names the file.
+pub fn open(path: &Path) -> anyhow::Result<Opened> {
+    let in_file = || path.display().to_string();
+    if is_special(path) {
+        bail!("{}: this is a folder or a device, not a file; choose a file", path.display());
+    }
+    let bytes = std::fs::read(path)
+        .context("the file cannot be read; check the path and your permissions")
+        .with_context(in_file)?;
+    let as_project = read_project(&bytes, &folder_of(path), &|library| std::fs::read(library));
+    match as_project {
+        Ok(imported) => Ok(Opened::Project(Box::new(imported))),
+        Err(ProjectError::Format { .. }) => match read_library(&bytes) {
+            Ok(Imported { value: library, warnings }) => {
+                // An absolute path is valid from every working folder.
+                let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+                let file = LibraryFile { path, sha256: sha256_hex(&bytes), library };
+                Ok(Opened::Library(Box::new(Imported { value: file, warnings })))
+            }
+            Err(LibraryError::Format { .. }) => bail!(
+                "{}: this is neither a project nor a texture library; choose another file, or import it as a recording \
+                 or model",
+                path.display()
+            ),
+            Err(error) => Err(error).with_context(in_file),
+        },
+        Err(error) => Err(error).with_context(in_file),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Opened, open};
+
+    #[test]
+    fn what_cannot_be_opened_is_explained() {
+        let folder = tempfile::tempdir().unwrap();
+        let error_of = |path: &std::path::Path| format!("{:#}", open(path).err().expect("no file to open"));
+        let faults: [(&str, &[u8], &str); 4] = [
+            ("a", b"hello", "neither a project nor"),
+            ("b", b"{\"format\": \"shagreen-library\"}", "version missing"),
+            ("c", b"{\"format\": \"shagreen-project\"}", "version missing"),
+            ("d", b"{\"format\": \"shagreen-project\", \"version\": \"1.0\"}", "damaged"),
+        ];
+        for (name, bytes, words) in faults {
+            let path = folder.path().join(name);
+            std::fs::write(&path, bytes).unwrap();
+            let error = error_of(&path);
+            assert!(error.contains(words) && error.contains(&path.display().to_string()), "{error}");
+        }
+        assert!(error_of(folder.path()).contains("not a file"));
+        assert!(error_of(&folder.path().join("none")).contains("cannot be read"));
+    }
+
+    #[test]
+    fn a_library_is_opened_too() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("starter.json");
+        std::fs::write(&path, shagreen_formats::starter::starter_bytes()).unwrap();
+        let Ok(Opened::Library(imported)) = open(&path) else { panic!("a library") };
+        assert_eq!((imported.value.path, imported.value.library.textures.len()), (path, 25));
+    }
+}

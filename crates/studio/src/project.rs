@@ -1,0 +1,73 @@
+//! Projects: new projects, the textures that they use, and their authored textures by name.
+
+use std::path::Path;
+
+use anyhow::{Context as _, bail};
+use shagreen_formats::built_in::BuiltIn;
+use shagreen_formats::library::Library;
+use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
+
+use crate::open::{Opened, open};
+use crate::report::Reporter;
+
+/// Name of the first texture of a new project.
+const NEW_TEXTURE: &str = "New texture";
+
+/// A new project on the starter library, with one authored texture.
+pub fn new_project() -> Project {
+    Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), NEW_TEXTURE)
+}
+
+/// Reads a project; its warnings go to `reporter`.
+///
+/// # Errors
+/// The file cannot be read or is not a project.
+pub fn load_project(path: &Path, reporter: &dyn Reporter) -> anyhow::Result<Project> {
+    match open(path)? {
+        Opened::Project(imported) => {
+            for warning in &imported.warnings {
+                reporter.warn(&format!("{warning}: {}", path.display()));
+            }
+            Ok(imported.value)
+        }
+        Opened::Library(_) => {
+            bail!("{}: this is a library, not a project; give it to --library instead", path.display())
+        }
+    }
+}
+
+/// Returns the textures of a project: those of its library, then those that were added to the project.
+///
+/// # Errors
+/// The built-in library is damaged.
+pub fn textures_of(project: &Project) -> anyhow::Result<Library> {
+    let library = project.library.read().context("the built-in library is damaged; reinstall Shagreen")?;
+    Ok(project.textures_on(library))
+}
+
+/// Returns the authored texture with this name, or else with this key.
+///
+/// # Errors
+/// No texture has this name or key, or several have the name.
+pub fn find_authored<'a>(project: &'a Project, name: &str) -> anyhow::Result<&'a AuthoredTexture> {
+    let named: Vec<&AuthoredTexture> =
+        project.authored.iter().map(|texture| &**texture).filter(|texture| texture.name == name).collect();
+    let of_key =
+        |key: u32| project.authored.iter().map(|texture| &**texture).find(|texture| texture.key == key);
+    match (&named[..], name.parse().ok().and_then(of_key)) {
+        ([one], _) => Ok(one),
+        ([], Some(one)) => Ok(one),
+        ([], None) => {
+            let names: Vec<String> = project.authored.iter().map(|t| format!("\"{}\"", t.name)).collect();
+            bail!("the project has no authored texture \"{name}\"; it has {}", names.join(", "))
+        }
+        (several, _) => {
+            let keys: Vec<String> = several.iter().map(|texture| texture.key.to_string()).collect();
+            bail!(
+                "{} authored textures have this name; choose one by its key: {}",
+                several.len(),
+                keys.join(", ")
+            )
+        }
+    }
+}

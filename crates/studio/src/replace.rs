@@ -1,0 +1,60 @@
+//! Protection of files: an output replaces no input, and only files of its own kind.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use shagreen_formats::{library, wav};
+
+/// Returns an error if an output is one of the inputs, or a file of an input folder.
+///
+/// # Errors
+/// An output is an input.
+pub fn refuse_inputs(outputs: &[&Path], inputs: &[Option<&Path>]) -> anyhow::Result<()> {
+    let real = |path: &Path| -> Option<PathBuf> { path.canonicalize().ok() }; // A file that does not exist is no input.
+    for output in outputs {
+        let is_it = |input: &&Path| {
+            real(output).is_some_and(|o| {
+                real(input).is_some_and(|i| i == o || (i.is_dir() && o.parent() == Some(&i)))
+            })
+        };
+        if let Some(input) = inputs.iter().flatten().find(|input| is_it(input)) {
+            bail!("the output would overwrite an input file; choose another name: {}", input.display());
+        }
+    }
+    Ok(())
+}
+
+/// Returns an error if the output would replace a file of another kind: files of this program may be replaced, others
+/// may not. `what` names the output in the error.
+///
+/// # Errors
+/// The file at `output` is of another kind.
+pub fn refuse_foreign(output: &Path, what: &str, is_ours: impl Fn(&[u8]) -> bool) -> anyhow::Result<()> {
+    if !output.is_file() {
+        return Ok(()); // It does not exist, or writing it fails.
+    }
+    let Ok(bytes) = std::fs::read(output) else { return Ok(()) }; // Writing an unreadable file reports the error.
+    if is_ours(&bytes) {
+        return Ok(());
+    }
+    bail!(
+        "{what} would replace a file of another kind; choose another name, or move that file: {}",
+        output.display()
+    );
+}
+
+/// Returns whether a file is the sidecar of a signal.
+pub fn is_sidecar(bytes: &[u8]) -> bool {
+    has_format(bytes, wav::FORMAT)
+}
+
+/// Returns whether a file is a texture library of any version.
+pub fn is_library(bytes: &[u8]) -> bool {
+    has_format(bytes, library::FORMAT)
+}
+
+/// Returns whether a file is a JSON object with this value of `format`.
+pub fn has_format(bytes: &[u8], format: &str) -> bool {
+    let header: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+    header.and_then(|h| h.get("format").cloned()) == Some(format.into())
+}

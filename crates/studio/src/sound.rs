@@ -1,0 +1,199 @@
+//! The signal to render or play: a texture of a library, or the texture authored at a point.
+
+use anyhow::{Context as _, bail};
+use serde_json::{Value, json};
+use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::{Authored, Blending, Voice};
+use shagreen_core::space::texture_path::TexturePath;
+use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::rate::highest_rate;
+use shagreen_core::texture::tap::Tap;
+use shagreen_core::units::Hertz;
+use shagreen_formats::library::Library;
+use shagreen_formats::wav::TraceV1;
+
+use crate::authoring::{authoring, plane_at};
+use crate::near_names::unknown_texture;
+use crate::report::Reporter;
+
+/// Largest number of contributing textures that are named in text.
+const MOST_NAMED: usize = 3;
+
+/// Signal to render or play: voices with weights, and properties of their mixture.
+pub struct Sound {
+    /// Contributing textures by their index in the library, with weights, largest first, at least one.
+    pub parents: Vec<(usize, f64)>,
+    /// Interpolation mode.
+    pub mode: Mode,
+    /// How the voices are mixed.
+    pub mixing: Mode,
+    /// Voices and their weights; for a path only the first texture.
+    voices: Vec<(SoundVoice, f64)>,
+    /// Path along a stroke, if the texture changes.
+    pub path: Option<TexturePath>,
+    /// Tap transient, if it is known.
+    pub tap: Option<Tap>,
+    /// Id of the texture, if one was named.
+    pub texture: Option<String>,
+    /// Authored point, if one was requested: that point, or the nearest one of the convex hull.
+    pub at: Option<SpacePoint>,
+    /// Whether the requested point lies outside the hull and another one was authored.
+    pub clamped: bool,
+    /// Whether the point lies outside the hull and was extrapolated.
+    pub extrapolated: bool,
+}
+
+enum SoundVoice {
+    /// A texture of the library, by its index.
+    Texture(usize),
+    /// A texture interpolated for the point.
+    Interpolated(TextureModel),
+}
+
+impl Sound {
+    /// Selects a texture of the library.
+    ///
+    /// # Errors
+    /// The library has no texture of this id; the message names similar ids.
+    pub fn of_texture(library: &Library, id: &str, mode: Mode) -> anyhow::Result<Self> {
+        let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
+        Ok(Self {
+            parents: vec![(index, 1.0)],
+            mode,
+            mixing: Mode::Shared,
+            voices: vec![(SoundVoice::Texture(index), 1.0)],
+            path: library.textures[index].path.clone(),
+            tap: library.textures[index].model.tap(),
+            texture: Some(id.to_owned()),
+            at: None,
+            clamped: false,
+            extrapolated: false,
+        })
+    }
+
+    /// Authors the texture at a point.
+    ///
+    /// # Errors
+    /// No texture of the library has a position, or the field has no texture at the point.
+    pub fn of_point(
+        library: &Library,
+        point: SpacePoint,
+        blending: &Blending,
+        reporter: &dyn Reporter,
+    ) -> anyhow::Result<Self> {
+        let authored = authoring(library, blending.mode, reporter)?.author(point, blending).context(
+            "no texture of the library has a position; use --texture, or place the textures first",
+        )?;
+        warn_outside_hull(point, &authored, reporter);
+        let voice = |(voice, weight): (Voice<'_>, f64)| match voice {
+            Voice::Texture(index) => (SoundVoice::Texture(index), weight),
+            Voice::Made(model) => (SoundVoice::Interpolated(model.clone()), weight),
+        };
+        let voices: Vec<(SoundVoice, f64)> = authored.voices().into_iter().map(voice).collect();
+        if voices.is_empty() {
+            bail!("the field has no texture at {point}; choose another point, or --blend shared");
+        }
+        Ok(Self {
+            mode: blending.mode,
+            mixing: authored.mixing(),
+            voices,
+            path: None,
+            tap: authored.tap(|index| library.textures[index].model.tap()),
+            texture: None,
+            at: Some(authored.location.at),
+            clamped: authored.location.clamped,
+            extrapolated: authored.is_extrapolated,
+            parents: authored.parents,
+        })
+    }
+
+    /// Returns the speed-force planes of the voices at [`Sound::rate`], and their weights.
+    ///
+    /// # Errors
+    /// A texture cannot be converted to that rate.
+    pub fn planes(&self, library: &Library, reporter: &dyn Reporter) -> anyhow::Result<Vec<(Plane, f64)>> {
+        let rate = self.rate(library)?;
+        let plane = |(voice, weight): &(SoundVoice, f64)| {
+            let plane = match voice {
+                SoundVoice::Texture(index) => plane_at(&library.textures[*index], rate, reporter)?,
+                SoundVoice::Interpolated(model) => Plane::new(model),
+            };
+            Ok((plane, *weight))
+        };
+        self.voices.iter().map(plane).collect()
+    }
+
+    /// Returns the models of the voices.
+    fn models<'a>(&'a self, library: &'a Library) -> impl Iterator<Item = &'a TextureModel> {
+        self.voices.iter().map(|(voice, _)| match voice {
+            SoundVoice::Texture(index) => &library.textures[*index].model,
+            SoundVoice::Interpolated(model) => model,
+        })
+    }
+
+    /// Returns the highest rate of the voices, to which the others are converted.
+    ///
+    /// # Errors
+    /// There is no voice.
+    pub fn rate(&self, library: &Library) -> anyhow::Result<Hertz> {
+        highest_rate(self.models(library)).context("there is nothing to render; choose another point")
+    }
+
+    /// Notes that a motion exceeds the speeds or forces at which the voices were measured: they are clamped there.
+    pub fn note_limits(&self, library: &Library, trace: &TraceV1, reporter: &dyn Reporter) {
+        let highest_speeds = self.models(library).map(|m| m.speed_max().mm_per_s());
+        let known_mm_per_s = highest_speeds.fold(f64::INFINITY, f64::min);
+        let known_n = self.models(library).map(|m| m.force_max().0).fold(f64::INFINITY, f64::min);
+        let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        if highest(&trace.speed_mm_per_s) > known_mm_per_s || highest(&trace.force_n) > known_n {
+            reporter.note(&format!(
+                "the texture was measured up to {known_mm_per_s:.0} mm/s and {known_n:.1} N; faster or harder strokes are \
+                 rendered with these values"
+            ));
+        }
+    }
+
+    /// Returns the contributing textures and their weights as JSON.
+    pub fn parents_json(&self, library: &Library) -> Value {
+        let parent =
+            |(index, weight): &(usize, f64)| json!({"id": library.textures[*index].id, "weight": weight});
+        self.parents.iter().map(parent).collect()
+    }
+
+    /// Returns the contributing textures with the largest weights as text, and the number of others.
+    pub fn parents_text(&self, library: &Library) -> String {
+        let percent = |(index, weight): &(usize, f64)| {
+            format!("{} {:.0} %", library.textures[*index].id, 100.0 * weight)
+        };
+        let named = self.parents.iter().take(MOST_NAMED).map(percent).collect::<Vec<_>>().join(", ");
+        match self.parents.len().saturating_sub(MOST_NAMED) {
+            0 => named,
+            n => format!("{named} and {n} more"),
+        }
+    }
+
+    /// Returns the point as JSON.
+    pub fn at_json(&self) -> Option<[f64; 2]> {
+        self.at.map(|at| [at.rough_smooth, at.hard_soft])
+    }
+}
+
+/// Warns of a point outside the convex hull of the textures.
+fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Reporter) {
+    let at = authored.location.at;
+    match (authored.location.clamped, authored.is_extrapolated) {
+        (false, false) => {}
+        (true, false) => reporter.warn(&format!(
+            "{point} lies outside the convex hull of the textures; the nearest point of the hull, {at}, is used"
+        )),
+        (false, true) => reporter.warn(&format!(
+            "{point} lies outside the convex hull of the textures; the texture there is extrapolated"
+        )),
+        (true, true) => reporter.warn(&format!(
+            "{point} lies too far outside the convex hull of the textures; {at}, the farthest supported point, is \
+             extrapolated"
+        )),
+    }
+}

@@ -1,0 +1,25 @@
+//! Parsers of quantities on the command line: finite numbers that are not negative.
+
+/// Parses a finite number of at least 0.
+pub(crate) fn quantity(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("it must be a number from 0 up".to_owned()),
+    }
+}
+
+/// Parses a quantity within a range; `unit` completes the error message, as in "0.8 to 60 seconds".
+pub(crate) fn within(text: &str, range: &std::ops::RangeInclusive<f64>, unit: &str) -> Result<f64, String> {
+    let value = quantity(text)?;
+    if range.contains(&value) {
+        Ok(value)
+    } else {
+        Err(format!("it must be {} to {} {unit}", range.start(), range.end()))
+    }
+}
+
+/// Parses a quantity above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    let value = quantity(text)?;
+    if value > 0.0 { Ok(value) } else { Err("it must be above 0".to_owned()) }
+}

@@ -1,0 +1,9 @@
+//! Checks of the code's structure: dependencies between crates, layers of `core`, import cycles and unsafe code.
+
+#![allow(clippy::expect_used, reason = "a test may panic on an unexpected result")]
+
+mod crates;
+mod cycles;
+mod rooms;
+mod source_tree;
+mod unsafe_code;
