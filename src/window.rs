@@ -1,7 +1,7 @@
 //! Opens the window. This is the only file that uses both the command line and the window.
 
 use shagreen_app::session::OutputChoice;
-use shagreen_app::state::files::Keeping;
+use shagreen_app::state::files::StoragePaths;
 use shagreen_app::{Begin, Start};
 
 use crate::cli::window::{FrameTimes, WindowRequest};
@@ -13,7 +13,8 @@ use crate::cli::window::{FrameTimes, WindowRequest};
 pub(crate) fn open(request: WindowRequest) -> anyhow::Result<FrameTimes> {
     let WindowRequest { project, path, output, folders, measured_frames, started } = request;
     let output = output.map_or(OutputChoice::SystemDefault, OutputChoice::Id);
-    let keeping = Keeping { recovery: folders.recovery, settings: folders.settings, models: folders.models };
+    let keeping =
+        StoragePaths { recovery: folders.recovery, settings: folders.settings, models: folders.models };
     let begin = Begin { project, path, output, keeping };
     let times = shagreen_app::run(Start { begin, measured_frames, started })?;
     Ok(FrameTimes {

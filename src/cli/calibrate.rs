@@ -13,13 +13,13 @@ use shagreen_formats::calibration_report::calibration_figures;
 
 use crate::cli::actuator_source::load_actuator;
 use crate::cli::calibrate_args::Args;
-use crate::cli::calibrate_doubts::{advised, other_sound};
 use crate::cli::calibrate_live::record_live;
 use crate::cli::calibrate_recording::recorded_file;
 use crate::cli::calibrate_result::{print, profile};
 use crate::cli::calibrate_sweep::write_sweep;
 use crate::cli::output;
 use crate::cli::rig::channels;
+use crate::cli::sweep_checks::{advised, other_sound};
 use shagreen_studio::figure_files::{check_figures, check_together, figure_files, write_together};
 use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};

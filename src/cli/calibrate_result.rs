@@ -4,7 +4,7 @@ use serde_json::json;
 use shagreen_core::actuator::calibration::{Calibration, Fit};
 use shagreen_core::actuator::{Actuator, Drive};
 use shagreen_core::units::Kilograms;
-use shagreen_formats::measured_profile::{HowMeasured, measured_profile};
+use shagreen_formats::measured_profile::{CalibrationConditions, measured_profile};
 
 use crate::cli::calibrate_args::Args;
 use crate::cli::calibrate_recording::Recorded;
@@ -17,7 +17,7 @@ pub(crate) fn profile(args: &Args, file: &str, base: Option<Actuator>, fit: &Fit
         .clone()
         .or_else(|| base.as_ref().map(|b| b.name.clone()))
         .unwrap_or("My actuator".to_owned());
-    let how = HowMeasured {
+    let how = CalibrationConditions {
         name,
         heard: file.to_owned(),
         load: args.load_g.map(Kilograms::from_g),

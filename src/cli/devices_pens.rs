@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use serde_json::{Value, json};
 use shagreen_device::hid::pen::{PenAxis, PenDecoder, PenFormat};
-use shagreen_device::hid::tracker::{PenMoment, PenTracker, TrackerOptions};
+use shagreen_device::hid::tracker::{PenTracker, TrackedSample, TrackerOptions};
 use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::pressure::PressureMap;
 use shagreen_formats::atomic;
@@ -199,7 +199,7 @@ fn first_pen(file: &Path) -> anyhow::Result<DeclaredDevice> {
 /// Decoded pen samples, as printed and written.
 struct Decoded {
     /// Samples with the pen in range, with the seconds since the first; of samples with the same time only the last.
-    rows: Vec<(f64, PenMoment)>,
+    rows: Vec<(f64, TrackedSample)>,
     /// Time of the first sample in the recording, in seconds; `None` without samples.
     start_secs: Option<f64>,
     /// Number of reports that are not from the pen.
@@ -214,14 +214,14 @@ fn decoded(recording: &PenRecording) -> Decoded {
     let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: PressureMap::USUAL };
     let mut tracker = PenTracker::new(recording.decoder.clone(), options);
     let reports = recording.reports.iter();
-    let moments: Vec<PenMoment> =
+    let moments: Vec<TrackedSample> =
         reports.filter_map(|report| tracker.report(report.time_secs, &report.bytes)).collect();
     let (n_reports, n_moments) = (recording.reports.len(), moments.len());
-    let in_range: Vec<PenMoment> = moments.into_iter().filter(|moment| moment.report.in_range).collect();
+    let in_range: Vec<TrackedSample> = moments.into_iter().filter(|moment| moment.report.in_range).collect();
     let n_in_range = in_range.len();
     let start_secs = in_range.first().map(|first| first.time_secs);
     let has_time = |i: usize| in_range.get(i + 1).is_none_or(|next| next.time_secs > in_range[i].time_secs);
-    let rows: Vec<(f64, PenMoment)> = (0..n_in_range)
+    let rows: Vec<(f64, TrackedSample)> = (0..n_in_range)
         .filter(|i| has_time(*i))
         .map(|i| (in_range[i].time_secs - start_secs.unwrap_or(0.0), in_range[i]))
         .collect();
@@ -234,7 +234,7 @@ fn decoded(recording: &PenRecording) -> Decoded {
     }
 }
 
-fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
+fn sample_json(time_secs: f64, moment: &TrackedSample) -> Value {
     let report = &moment.report;
     let degrees = |angle: Option<f64>| angle.map(|angle| short(angle.to_degrees()));
     json!({
@@ -257,9 +257,9 @@ fn sample_json(time_secs: f64, moment: &PenMoment) -> Value {
 }
 
 /// Writes the stroke as a table: force in N if the pen declares it, otherwise pressure as a fraction of full pressure.
-fn write_stroke(rows: &[(f64, PenMoment)], out: &Path) -> anyhow::Result<()> {
+fn write_stroke(rows: &[(f64, TrackedSample)], out: &Path) -> anyhow::Result<()> {
     let is_in_newtons = rows.iter().all(|(_, moment)| moment.report.force_n.is_some());
-    let sample = |(time_secs, moment): &(f64, PenMoment)| {
+    let sample = |(time_secs, moment): &(f64, TrackedSample)| {
         let report = &moment.report;
         let press = if is_in_newtons { report.force_n } else { report.pressure };
         let (x_m, y_m, touching) = (report.x_m?, report.y_m?, report.touching());

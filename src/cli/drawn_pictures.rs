@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use shagreen_core::surfaces::drawn_material::draw;
 use shagreen_core::surfaces::picture_features::N_FEATURES;
+use shagreen_core::surfaces::random_material::draw;
 use shagreen_core::surfaces::shading::Picture;
 use shagreen_core::surfaces::starter::{LabelSpan, Labels, pictured};
 use shagreen_formats::atomic;
 use shagreen_learn::backbone::Backbone;
-use shagreen_learn::looking::{LookingError, see};
+use shagreen_learn::picture_predictor::{LookingError, see};
 use shagreen_learn::picture_set::{PictureSet, Seen};
 
 use crate::cli::output::Progress;

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::space::authoring::Blending;
 use shagreen_core::space::{LabelSource, SpacePoint};
-use shagreen_core::surfaces::generated::{Agreed, place};
-use shagreen_core::surfaces::prompt::{title, understand};
+use shagreen_core::surfaces::generated::{CombinedEstimate, place};
+use shagreen_core::surfaces::prompt::{interpret, title};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
@@ -19,13 +19,13 @@ use shagreen_formats::library::{Library, Place, TextureEntry, id_from_name, writ
 use shagreen_formats::picture::{Rgb, encode_heights, encode_jpeg, encode_png};
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary, write_project};
 use shagreen_learn::diffusion::{LONGEST_SIDE, Wish};
-use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
+use shagreen_learn::picture_predictor::PicturePredictor;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::model_folder::model_folder;
 use crate::cli::output::{self, Printed, Progress};
-use crate::cli::said_of_prompt::said_of;
+use crate::cli::prompt_summary::prompt_summary;
 use shagreen_studio::authoring::authoring;
 use shagreen_studio::figure_files::{check_together, write_together};
 use shagreen_studio::file;
@@ -84,10 +84,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_folder(&args.out, &project_name)?;
     let all = [PICTURE, HEIGHTS, TEXTURE, &project_name, DESCRIPTION].map(|name| args.out.join(name));
     check_together::<&str>(&all.each_ref().map(PathBuf::as_path), Some(&args.out), &[])?;
-    let understood = understand(&args.prompt, built_in_lexicon()?);
+    let understood = interpret(&args.prompt, built_in_lexicon()?);
     let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Empty prompt".to_owned());
     // Whatever can fail is checked before hours of computing.
-    let looker = Looker::built_in(read_backbone(&args.backbone)?)?;
+    let looker = PicturePredictor::built_in(read_backbone(&args.backbone)?)?;
     let made = if args.diffusion {
         by_diffusion(args)?
     } else {
@@ -156,7 +156,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     files.push((file(&project_name), write_project(&project, &args.out, output::CREATED_BY)));
     write(&args.out, files, &mut result)?;
     output::print(args.json, &result, || {
-        let line = |(name, axis): (&str, &Agreed)| {
+        let line = |(name, axis): (&str, &CombinedEstimate)| {
             format!("{name:<13}  {:5.1} ± {:.1}\n", axis.estimate.mean, axis.estimate.deviation)
         };
         let lines: String = ATTRIBUTES.into_iter().zip(&placed.axes).map(line).collect();
@@ -170,7 +170,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         format!(
             "{lines}nearest textures: {}{quarrel}{}\npicture by the {}: {}\ntexture: {}\nproject: {}",
             near.join(", "),
-            said_of(&understood),
+            prompt_summary(&understood),
             made.by,
             shown(PICTURE),
             shown(TEXTURE),

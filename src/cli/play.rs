@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context as _, bail};
 use serde_json::json;
 use shagreen_core::space::texture_path::path_mix;
-use shagreen_core::space::texture_path::{TexturePath, TraveledAhead};
+use shagreen_core::space::texture_path::{PrecomputedProgress, TexturePath};
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::render::synth_blend;
 use shagreen_device::controls::Input;
@@ -17,7 +17,7 @@ use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::library::Library;
 
-use crate::cli::limited::Limited;
+use crate::cli::limiter_summary::LimiterSummary;
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Printed, Progress};
 use crate::cli::rig::{Rig, RigArgs};
@@ -71,7 +71,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     })?;
     // A fade that does not end in time is cut off: the device has stopped.
     running.drain(PATIENCE);
-    let limited = Limited::new(&status, n_frames_before, watch.heat_gain(), args.rig.has_actuator());
+    let limited = LimiterSummary::new(&status, n_frames_before, watch.heat_gain(), args.rig.has_actuator());
     limited.warnings().iter().for_each(|warning| output::warn(warning));
     output::print(
         args.json,
@@ -163,7 +163,7 @@ fn start(handle: &mut Handle, motion: Motion) -> anyhow::Result<()> {
 /// Follows a texture path during playback.
 struct Follow<'a> {
     path: &'a TexturePath,
-    ahead: TraveledAhead,
+    ahead: PrecomputedProgress,
 }
 
 /// Integration step of the traveled distance, in seconds.
@@ -172,7 +172,8 @@ const FOLLOW_STEP_SECS: f64 = 0.005;
 impl<'a> Follow<'a> {
     fn new(path: &'a TexturePath, motion: &Motion) -> Self {
         let mut contact_at = |secs| motion.contact_at(secs);
-        let ahead = TraveledAhead::new(path.along(), motion.seconds(), FOLLOW_STEP_SECS, &mut contact_at);
+        let ahead =
+            PrecomputedProgress::new(path.along(), motion.seconds(), FOLLOW_STEP_SECS, &mut contact_at);
         Self { path, ahead }
     }
 

@@ -10,7 +10,7 @@ use shagreen_core::recording::Recording;
 use shagreen_core::recording::fit::{self, FitOptions, Stroke};
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::attribute_predictor::{predict, quantities};
-use shagreen_core::surfaces::prompt::understand;
+use shagreen_core::surfaces::prompt::interpret;
 use shagreen_core::surfaces::starter::FRAMING;
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::patterns::{PAPER_FORCES_N, PAPER_RATE, PAPER_SPEEDS_MM_PER_S};
@@ -19,16 +19,16 @@ use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::{LEXICON_TEXT, built_in_lexicon};
 use shagreen_formats::picture::photo_pixels;
 use shagreen_formats::recording::{Ask, ColumnMap};
-use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
+use shagreen_learn::picture_predictor::PicturePredictor;
 use shagreen_learn::stroke_model::StrokeModel;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
+use crate::cli::prompt_summary::prompt_summary;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
-use crate::cli::said_of_prompt::said_of;
 use shagreen_studio::file;
 
 /// Predicts the attributes of a recorded stroke, a photo or a prompt: 0 to 100, each with its standard deviation.
@@ -80,9 +80,9 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
     let backbone = read_backbone(&args.backbone)?;
     let looker = match &args.model {
         Some(model) => {
-            Looker::new(&file::read_file(model)?, backbone).with_context(|| file::in_file(model))?
+            PicturePredictor::new(&file::read_file(model)?, backbone).with_context(|| file::in_file(model))?
         }
-        None => Looker::built_in(backbone)?,
+        None => PicturePredictor::built_in(backbone)?,
     };
     let pixels = photo_pixels(&file::read_file(photo)?).with_context(|| file::in_file(photo))?;
     // The size of the surface in a photo is unknown; no feature depends on it.
@@ -104,7 +104,7 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
 }
 
 fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
-    let understood = understand(prompt, built_in_lexicon()?);
+    let understood = interpret(prompt, built_in_lexicon()?);
     let attributes: Vec<(&str, Estimate)> = ATTRIBUTES.into_iter().zip(understood.attributes).collect();
     let words: Vec<Value> = understood
         .words
@@ -121,7 +121,9 @@ fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
         "disputed": understood.disputed,
         "is_about_touch": understood.is_about_touch(),
     });
-    output::print(args.json, &result, || format!("{}{}", table_text(&attributes), said_of(&understood)));
+    output::print(args.json, &result, || {
+        format!("{}{}", table_text(&attributes), prompt_summary(&understood))
+    });
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! A receiver on a serial port: its name and its warnings.
 
-use shagreen_device::serial::Heard;
+use shagreen_device::serial::ReceiverEvent;
 
 use crate::cli::output;
 
@@ -9,7 +9,7 @@ pub(crate) struct Receiver {
     name: String,
     port: String,
     /// Returns the next unread message of the receiver.
-    next: Box<dyn FnMut() -> Option<Heard>>,
+    next: Box<dyn FnMut() -> Option<ReceiverEvent>>,
     /// Warnings that were printed.
     told: Vec<String>,
 }
@@ -19,7 +19,7 @@ const MOST_WARNINGS: usize = 20;
 
 impl Receiver {
     /// Creates a receiver from its own name, which may be empty, the port of the output, and its messages.
-    pub(crate) fn new(name: String, port: String, next: Box<dyn FnMut() -> Option<Heard>>) -> Self {
+    pub(crate) fn new(name: String, port: String, next: Box<dyn FnMut() -> Option<ReceiverEvent>>) -> Self {
         Self { name, port, next, told: Vec::new() }
     }
 
@@ -42,8 +42,8 @@ impl Receiver {
     }
 
     /// Returns the message for a warning, unless it was printed before.
-    fn new_warning(&mut self, heard: Heard) -> Option<String> {
-        let Heard::Warning(text) = heard else { return None };
+    fn new_warning(&mut self, heard: ReceiverEvent) -> Option<String> {
+        let ReceiverEvent::Warning(text) = heard else { return None };
         if self.told.len() > MOST_WARNINGS || self.told.contains(&text) {
             return None;
         }
@@ -56,7 +56,7 @@ impl Receiver {
 #[cfg(test)]
 mod tests {
     use super::{MOST_WARNINGS, Receiver};
-    use shagreen_device::serial::{Heard, SensorBlock};
+    use shagreen_device::serial::{ReceiverEvent, SensorBlock};
 
     fn receiver(name: &str) -> Receiver {
         Receiver::new(name.to_owned(), "serial:x".to_owned(), Box::new(|| None))
@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn a_warning_is_told_once_with_the_receiver_s_name() {
         let mut receiver = receiver("board");
-        let mut warn = |text: &str| receiver.new_warning(Heard::Warning(text.to_owned()));
+        let mut warn = |text: &str| receiver.new_warning(ReceiverEvent::Warning(text.to_owned()));
         assert_eq!(warn("hot").as_deref(), Some("the receiver `board` on `serial:x` warns: hot"));
         assert_eq!(warn("hot"), None);
         for i in 1..MOST_WARNINGS {
@@ -74,7 +74,7 @@ mod tests {
         assert!(warn("hotter").is_some_and(|told| told.ends_with("more warnings, which are not shown")));
         assert_eq!(warn("hottest"), None);
         let block = SensorBlock { seq: 0, rate_hz: 1000, time_us: 0, scale_mps2: 1.0, counts: vec![1] };
-        assert_eq!(receiver.new_warning(Heard::Sensor(block)), None);
+        assert_eq!(receiver.new_warning(ReceiverEvent::Sensor(block)), None);
     }
 
     #[test]

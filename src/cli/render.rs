@@ -14,9 +14,9 @@ use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Printed, Progress};
 use crate::cli::target::SoundArgs;
-use shagreen_studio::landings::add_landings;
 use shagreen_studio::replace::{is_sidecar, refuse_foreign, refuse_inputs};
 use shagreen_studio::sound::Sound;
+use shagreen_studio::tap_transients::add_tap_transients;
 
 /// Renders the acceleration of a texture as felt with a stylus: mono float WAV in m/s², with a sidecar that describes
 /// it.
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let seconds = samples.len() as f64 / f64::from(rate_hz);
     if let (Motion::Stroke { contacts, .. }, Some(tap)) = (motion, chosen.tap) {
         let model_rate_hz = chosen.rate(&library)?.0;
-        add_landings(&mut samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
+        add_tap_transients(&mut samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
     }
     // Accumulated here: a copy of one hour in `f64` would need gigabytes.
     let wide = samples.iter().map(|sample| f64::from(*sample));

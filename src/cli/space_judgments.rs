@@ -10,9 +10,9 @@ use shagreen_core::space::LabelSource;
 use shagreen_core::space::space_build::SpaceBuildError;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
-use shagreen_formats::look_alikes::look_alikes;
 use shagreen_formats::places_csv::Scale;
 use shagreen_formats::ratings_csv::{read_ratings, read_relevance_csv};
+use shagreen_formats::similar_names::look_alikes;
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
 use crate::cli::library_args::LibraryArgs;

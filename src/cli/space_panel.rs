@@ -11,8 +11,8 @@ use shagreen_core::people::ratings::AdjectivePair;
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
-use shagreen_formats::panel_labels::{PanelLabels, panel_labels};
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv};
+use shagreen_formats::simulated_rater_labels::{SimulatedRaterLabels, panel_labels};
 use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
 use crate::cli::library_args::LibraryArgs;
@@ -71,7 +71,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("sorts and ratings cannot be written to one file; name two files: {}", args.sorting.display());
     }
     let library = args.library.load()?;
-    let PanelLabels { pairs, ids, labels } = panel_labels(&library)?;
+    let SimulatedRaterLabels { pairs, ids, labels } = panel_labels(&library)?;
     let config = PanelConfig {
         n_participants: args.participants,
         noise_points: args.noise,

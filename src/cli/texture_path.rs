@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let route = Route::new(args.along, args.at_end, stops)?;
     let authoring = authoring(&library, blending.mode, &Printed)?;
     let path = TexturePath::of_route(&authoring, &route, &blending)?;
-    let outside = OutsideKeys::of(&authoring, &path, &blending);
+    let outside = HullCounts::of(&authoring, &path, &blending);
     let (n_keys, length) = (path.keys().len(), path.length() / scale);
     let of: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
     let entry = library.entry_of_path(&args.name, path, &of, outside.n_extrapolated);
@@ -95,14 +95,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// Number of textures on a path that lie outside the convex hull.
-struct OutsideKeys {
+struct HullCounts {
     /// Textures that were moved to the nearest supported point.
     n_clamped: usize,
     /// Textures that were extrapolated.
     n_extrapolated: usize,
 }
 
-impl OutsideKeys {
+impl HullCounts {
     fn of(authoring: &Authoring, path: &TexturePath, blending: &Blending) -> Self {
         let authored: Vec<_> =
             path.keys().iter().filter_map(|key| authoring.author(key.stop.at, blending)).collect();

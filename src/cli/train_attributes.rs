@@ -11,8 +11,8 @@ use shagreen_core::space::attribute_predictor::{leave_one_out, linear_leave_one_
 use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::attribute_table;
 
-use crate::cli::judged::{Comparison, Judged};
 use crate::cli::library_args::LibraryArgs;
+use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output;
 use crate::cli::train_networks::{NetworkArgs, check_out, train_networks};
 
@@ -53,12 +53,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     );
     let estimates = leave_one_out(&known)?;
     let means = |of: &[Estimate]| of.iter().map(|estimate| estimate.mean).collect::<Vec<f64>>();
-    let mut all = vec![Judged {
+    let mut all = vec![MethodPredictions {
         name: "gaussian process".to_owned(),
         predicted: estimates.iter().map(|of| means(of)).collect(),
     }];
-    all.push(Judged { name: "linear regression".to_owned(), predicted: linear_leave_one_out(&known)? });
-    all.push(Judged::mean_of_others(&table.values));
+    all.push(MethodPredictions {
+        name: "linear regression".to_owned(),
+        predicted: linear_leave_one_out(&known)?,
+    });
+    all.push(MethodPredictions::mean_of_others(&table.values));
     let trained = train_networks(&args.networks, args.state.as_deref(), &library, &table)?;
     all.extend(trained.judged);
 

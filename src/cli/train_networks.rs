@@ -20,7 +20,7 @@ use shagreen_learn::stroke_model::ModelCard;
 use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
-use crate::cli::judged::Judged;
+use crate::cli::method_predictions::MethodPredictions;
 use crate::cli::output::{self, Progress};
 use crate::cli::words::words;
 use shagreen_studio::file;
@@ -99,7 +99,7 @@ fn share(text: &str) -> Result<f64, String> {
 
 /// Results of the networks.
 pub(crate) struct Trained {
-    pub(crate) judged: Vec<Judged>,
+    pub(crate) judged: Vec<MethodPredictions>,
     /// Number of epochs of all networks together.
     pub(crate) epochs: usize,
 }
@@ -163,7 +163,7 @@ pub(crate) fn train_networks(
         let of = of.into_iter().collect::<anyhow::Result<Vec<Option<(usize, Vec<f64>)>>>>()?;
         trained.epochs += of.iter().flatten().map(|(n_epochs, _)| n_epochs).sum::<usize>();
         let predicted = of.into_iter().flatten().map(|(_, predicted)| predicted).collect();
-        trained.judged.push(Judged { name: format!("network {}", network.id()), predicted });
+        trained.judged.push(MethodPredictions { name: format!("network {}", network.id()), predicted });
     }
     let rmse_of_first = trained.judged.first().map(|judged| judged.rmse(&table.values)).unwrap_or_default();
     if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {

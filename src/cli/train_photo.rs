@@ -13,13 +13,13 @@ use shagreen_formats::starter::starter_anchors;
 use shagreen_formats::{atomic, picture};
 use shagreen_learn::backbone::Backbone;
 use shagreen_learn::model_file::is_model;
-use shagreen_learn::picture_model::{Eyes, Lesson, PictureConfig, PictureModel};
+use shagreen_learn::picture_model::{FeatureExtractor, PictureConfig, PictureModel, TrainingMetadata};
 use shagreen_learn::picture_set::Seen;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::drawn_pictures::{drawn_pictures, see_all};
-use crate::cli::judged::{Comparison, Judged};
 use crate::cli::library_args::LibraryArgs;
+use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output::{self, Progress};
 use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
@@ -108,16 +108,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     let (mut all, mut n_epochs, mut model) = (Vec::new(), 0, None);
     // Statistics first, then the network; each uses its own part of the features.
-    let network = backbone.as_ref().map(|backbone| Eyes::of(Some(backbone)));
+    let network = backbone.as_ref().map(|backbone| FeatureExtractor::of(Some(backbone)));
     // Without an evaluation, only the model to write is trained.
-    let statistics = (!args.unjudged || network.is_none()).then_some(Eyes::Statistics);
+    let statistics = (!args.unjudged || network.is_none()).then_some(FeatureExtractor::Statistics);
     for eyes in [statistics, network].into_iter().flatten() {
         let taught = teach(args, eyes, &learned_from, &drawn, &textures)?;
         all.push(taught.judged);
         n_epochs += taught.n_epochs;
         model = taught.of_all;
     }
-    all.push(Judged::mean_of_others(&values));
+    all.push(MethodPredictions::mean_of_others(&values));
     if let (Some(out), Some(model)) = (&args.out, &model) {
         atomic::write(out, &model.to_bytes()?)?;
     }
@@ -150,7 +150,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// Result of training on one kind of features.
 struct Taught {
-    judged: Judged,
+    judged: MethodPredictions,
     /// Model trained on all pictures, if it is requested.
     of_all: Option<PictureModel>,
     /// Number of epochs of all trainings.
@@ -160,21 +160,21 @@ struct Taught {
 /// Trains on drawn pictures and those of textures, with the features of `eyes`, without each texture in turn.
 fn teach(
     args: &Args,
-    eyes: Eyes,
+    eyes: FeatureExtractor,
     learned_from: &str,
     drawn: &[Seen],
     textures: &[Seen],
 ) -> anyhow::Result<Taught> {
     let part = |seen: &Seen| {
         let (statistics, network) = seen.features.split_at(N_FEATURES);
-        let features = if eyes == Eyes::Statistics { statistics } else { network };
+        let features = if eyes == FeatureExtractor::Statistics { statistics } else { network };
         Seen { features: features.to_vec(), labels: seen.labels.clone() }
     };
     let drawn: Vec<Seen> = drawn.iter().map(part).collect();
     let known: Vec<Seen> = textures.iter().map(part).collect();
     let name = eyes.name().to_owned();
     let attributes = USUAL_AXES.map(str::to_owned).to_vec();
-    let lesson = Lesson { eyes, attributes, learned_from: learned_from.to_owned() };
+    let lesson = TrainingMetadata { eyes, attributes, learned_from: learned_from.to_owned() };
     let config =
         PictureConfig::paper(args.epochs as usize, args.patience as usize, args.heads as usize, args.seed);
     let learned: Vec<&Seen> = if args.drawn_only { Vec::new() } else { known.iter().collect() };
@@ -201,7 +201,7 @@ fn teach(
         progress.step();
     }
     progress.finish();
-    Ok(Taught { judged: Judged { name, predicted }, of_all, n_epochs })
+    Ok(Taught { judged: MethodPredictions { name, predicted }, of_all, n_epochs })
 }
 
 /// Returns the features of all textures that have a position and a picture.

@@ -6,6 +6,7 @@ use shagreen_core::actuator::Response;
 use shagreen_core::units::Hertz;
 
 use crate::support::Bench;
+use crate::{guard, sound};
 
 /// A short sweep, at the sample rate of a sensor.
 const SWEEP: &str = "--seconds 6 --silence 1";

@@ -17,7 +17,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::Begin;
 use shagreen_app::session::OutputChoice;
-use shagreen_app::state::files::Keeping;
+use shagreen_app::state::files::StoragePaths;
 use shagreen_app::strings;
 use shagreen_app::window::Window;
 use shagreen_core::maths::rng::Random;
@@ -41,7 +41,7 @@ fn main() {
         project: Project { library, ..new_project() },
         path: None,
         output: OutputChoice::Id("null".to_owned()),
-        keeping: Keeping::default(),
+        keeping: StoragePaths::default(),
     };
     let window: Shared = Shared::default();
     let shared = Rc::clone(&window);

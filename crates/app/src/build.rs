@@ -10,4 +10,4 @@ mod job;
 pub mod judgments;
 mod options_ui;
 pub mod page;
-mod verdict_ui;
+mod validation_ui;

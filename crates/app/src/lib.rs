@@ -21,7 +21,7 @@ use anyhow::anyhow;
 use shagreen_formats::project::Project;
 
 use crate::session::OutputChoice;
-use crate::state::files::Keeping;
+use crate::state::files::StoragePaths;
 
 pub mod author;
 pub mod build;
@@ -48,7 +48,7 @@ pub struct Begin {
     /// Output to open.
     pub output: OutputChoice,
     /// Paths of the files that outlive the program.
-    pub keeping: Keeping,
+    pub keeping: StoragePaths,
 }
 
 /// Options of a run.

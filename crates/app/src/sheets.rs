@@ -4,12 +4,12 @@ pub mod devices;
 pub(crate) mod gallery_sheet;
 pub(crate) mod guide_sheet;
 pub mod import;
-pub(crate) mod leaving;
 pub(crate) mod open_sheet;
 pub(crate) mod palette;
 pub(crate) mod recovered_ui;
 pub mod save;
 pub(crate) mod shortcuts_ui;
+pub(crate) mod unsaved_changes;
 
 use std::path::Path;
 
@@ -25,14 +25,14 @@ use crate::panel::Panel;
 use crate::sheets::devices::DevicesSheet;
 use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::guide_sheet::GuideSheet;
+use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::sheet::ImportSheet;
-use crate::sheets::import::surroundings::Surroundings;
-use crate::sheets::leaving::leaving_ui;
 use crate::sheets::open_sheet::OpenSheet;
 use crate::sheets::palette::PaletteSheet;
 use crate::sheets::recovered_ui::recovered_ui;
 use crate::sheets::save::SaveSheet;
 use crate::sheets::shortcuts_ui::shortcuts_ui;
+use crate::sheets::unsaved_changes::leaving_ui;
 use crate::state::document::Document;
 use crate::state::leave::Leave;
 use crate::state::recorded_stroke::is_stroke_file;
@@ -121,7 +121,7 @@ impl Sheet {
             Self::Closed => Vec::new(),
             Self::Import(sheet) => {
                 let around =
-                    Surroundings { library: session.library(), space_rate_hz: session.space_rate_hz() };
+                    ImportContext { library: session.library(), space_rate_hz: session.space_rate_hz() };
                 sheet.show(ctx, around)
             }
             Self::Save(sheet) => sheet.show(ctx, session.library()),

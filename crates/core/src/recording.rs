@@ -8,7 +8,6 @@ mod fault;
 mod finding;
 pub mod fit;
 mod from_raw;
-pub mod landings;
 mod missing;
 mod motion;
 mod plausible;
@@ -17,6 +16,7 @@ mod resample;
 pub mod segment;
 mod spike;
 mod stretch;
+pub mod tap_transients;
 
 use std::ops::Range;
 

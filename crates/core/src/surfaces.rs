@@ -4,13 +4,13 @@
 //! starter library ([`starter`]), and attributes predicted from words or pictures ([`prompt`], [`generated`]).
 
 pub mod contact_model;
-pub mod drawn_material;
 pub mod generated;
 pub mod height_field;
-pub mod imagined;
 pub mod material;
 pub mod picture_features;
 pub mod prompt;
+pub mod prompt_material;
+pub mod random_material;
 pub mod shading;
 pub mod starter;
 pub mod touch_words;

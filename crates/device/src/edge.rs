@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use cpal::{FromSample, Sample};
 
-use crate::engine::{BlockEdge, Engine};
+use crate::engine::{CallbackAdapter, Engine};
 use crate::link::Shared;
 
 /// Samples converted at a time; at least one frame of the largest channel count of any device.
@@ -49,7 +49,7 @@ impl Edge {
             return;
         }
         self.shared.note_callback(begun);
-        let edge = BlockEdge {
+        let edge = CallbackAdapter {
             now: begun,
             load: self.load as f32,
             load_max: self.load_max as f32,

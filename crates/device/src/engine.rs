@@ -92,7 +92,7 @@ enum Returned {
 
 /// Data that the device adapter adds to a block, because the engine has no clock.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BlockEdge {
+pub(crate) struct CallbackAdapter {
     /// Time at which the device requested the block.
     pub(crate) now: Instant,
     /// Smoothed load up to the last block.
@@ -124,7 +124,7 @@ pub struct Engine {
     channels: ChannelMask,
     mix: Mix,
     n_resets: u32,
-    edge: Option<BlockEdge>,
+    edge: Option<CallbackAdapter>,
     latency: Latency,
     frames_played: u64,
     /// Frames since the stream started or restarted.
@@ -232,7 +232,7 @@ impl Engine {
     }
 
     /// Sets the adapter's data before a block.
-    pub(crate) fn begin_block(&mut self, edge: BlockEdge) {
+    pub(crate) fn begin_block(&mut self, edge: CallbackAdapter) {
         self.edge = Some(edge);
     }
 

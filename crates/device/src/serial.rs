@@ -3,20 +3,20 @@
 //! `docs/serial-protocol.md` specifies the protocol for firmware authors. [`receiver`] implements the microcontroller's
 //! side, [`open`] the host's.
 
-mod agreement;
 mod connection;
 pub mod frame;
-mod greeting;
+mod handshake;
 mod line;
 pub mod message;
-mod outbox;
+mod negotiation;
 mod ports;
 pub mod receiver;
 mod sender;
 mod sensor;
+mod write_queue;
 
-pub use self::agreement::{ReceiverInfo, USUAL_SERIAL_RATE_HZ};
-pub use self::connection::{Heard, SensorBlock};
+pub use self::connection::{ReceiverEvent, SensorBlock};
+pub use self::negotiation::{ReceiverInfo, USUAL_SERIAL_RATE_HZ};
 pub use self::ports::{ID_PREFIX, SerialPortInfo, SerialPortKind, list_serial_ports};
 pub use self::sensor::SerialSensor;
 
@@ -73,7 +73,7 @@ pub struct Connection {
     /// Capabilities that the receiver declares.
     pub receiver: ReceiverInfo,
     /// Sensor data and events from the receiver, in a bounded queue; if it is full, new ones are dropped.
-    pub heard: Consumer<Heard>,
+    pub heard: Consumer<ReceiverEvent>,
 }
 
 /// Opens the receiver on a serial port as an output, which is silent until its handle sets controls. The id is one of
@@ -91,14 +91,14 @@ pub fn open(id: &str, options: OpenOptions, serial: SerialOptions) -> Result<Con
     let id = if id.starts_with(ID_PREFIX) { id.to_owned() } else { format!("{ID_PREFIX}{id}") };
     let port = ports::resolve(&id)?;
     let mut line = Line::open(&id, &port, serial.baud)?;
-    let receiver = greeting::greet(&id, &mut line, serial)?;
-    let plan = agreement::agree(&id, &receiver, options, serial)?;
+    let receiver = handshake::greet(&id, &mut line, serial)?;
+    let plan = negotiation::agree(&id, &receiver, options, serial)?;
     let rate_hz = u32::from(plan.configure.rate_hz);
     let Made { handle, engine, reporter } = make_engine(options, rate_hz)?;
     let shared = Arc::clone(&reporter.shared);
     let window_secs = f64::from(plan.configure.window) / f64::from(rate_hz);
     let engine_latency_secs = f64::from(engine.latency_secs());
-    let line_latency_secs = window_secs + agreement::line_secs(plan, serial.baud);
+    let line_latency_secs = window_secs + negotiation::line_secs(plan, serial.baud);
     let line_latency = Duration::from_secs_f64(line_latency_secs);
     let (output, heard) = SerialOutput::start(&id, line, plan, engine, reporter, line_latency)?;
     let latencies_secs = (engine_latency_secs, line_latency_secs);

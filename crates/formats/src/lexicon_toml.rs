@@ -234,7 +234,7 @@ fn within(word: &str, what: &'static str, value: f64, low: f64, high: f64) -> Re
 mod tests {
     use super::{built_in_lexicon, read_lexicon};
     use crate::starter::starter_library;
-    use shagreen_core::surfaces::prompt::understand;
+    use shagreen_core::surfaces::prompt::interpret;
     use shagreen_core::surfaces::touch_words::Meaning;
 
     #[test]
@@ -260,7 +260,7 @@ mod tests {
         let lexicon = built_in_lexicon().unwrap();
         let library = starter_library().unwrap();
         for texture in &library.textures {
-            let understood = understand(&texture.name, lexicon);
+            let understood = interpret(&texture.name, lexicon);
             let at = texture.at().unwrap();
             let [rough, hard, ..] = understood.attributes;
             assert!(

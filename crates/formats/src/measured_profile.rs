@@ -11,7 +11,7 @@ const REST: &str = "; everything else from ";
 
 /// The conditions of a calibration measurement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HowMeasured {
+pub struct CalibrationConditions {
     /// New name of the actuator.
     pub name: String,
     /// Description of the output or the recording that was measured.
@@ -27,8 +27,8 @@ pub struct HowMeasured {
 /// Returns the profile of a calibrated actuator: `base`, or an otherwise unknown actuator, with the fitted response, a
 /// new name and identifier, and the source of its figures. Figures that were not measured keep their source in `base`,
 /// even if `base` was calibrated itself.
-pub fn measured_profile(base: Option<Actuator>, fit: &Fit, how: HowMeasured) -> Actuator {
-    let HowMeasured { name, heard, load, drive, is_drive_assumed } = how;
+pub fn measured_profile(base: Option<Actuator>, fit: &Fit, how: CalibrationConditions) -> Actuator {
+    let CalibrationConditions { name, heard, load, drive, is_drive_assumed } = how;
     let on = load.map_or("an unknown load".to_owned(), |load| format!("{} g", load.g()));
     let assumed = if is_drive_assumed { ", which is assumed, not measured" } else { "" };
     let volts = drive.full_scale.0;
@@ -46,7 +46,7 @@ pub fn measured_profile(base: Option<Actuator>, fit: &Fit, how: HowMeasured) -> 
 
 #[cfg(test)]
 mod tests {
-    use super::{HowMeasured, measured_profile};
+    use super::{CalibrationConditions, measured_profile};
     use crate::actuator_toml::built_in_actuators;
     use shagreen_core::actuator::Drive;
     use shagreen_core::actuator::calibration::Fit;
@@ -65,7 +65,7 @@ mod tests {
             band: (Hertz(10.0), Hertz(1000.0)),
             n_points: 100,
         };
-        let how = |heard: &str| HowMeasured {
+        let how = |heard: &str| CalibrationConditions {
             name: "Mine, measured".to_owned(),
             heard: heard.to_owned(),
             load: Some(Kilograms::from_g(40.0)),

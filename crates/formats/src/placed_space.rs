@@ -3,8 +3,8 @@
 use serde_json::Value;
 use shagreen_core::space::space_build::SpaceBuild;
 
+use crate::label_source_text::state_origin_of_places;
 use crate::library::{Attribute, Attributes, Library, Place, is_usual};
-use crate::place_origin::state_origin_of_places;
 use crate::space_report::space_report;
 
 /// A space without the data that it was built from.

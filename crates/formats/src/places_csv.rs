@@ -17,10 +17,10 @@ use shagreen_core::people::ratings::{PairNameError, SHORT_SCALE};
 use shagreen_core::space::{LabelSource, SpacePoint};
 
 use crate::imported::Imported;
+use crate::label_source_text::state_origin_of_places;
 use crate::library::{Attribute, Attributes, DIGITS, Library, Place, USUAL_AXES, digits, is_usual};
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::{NAME_BOTH_POLES, is_attribute, pair_columns, unused_warning};
-use crate::place_origin::state_origin_of_places;
 
 /// The scale of the values in a table.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -46,7 +46,7 @@ use std::sync::Arc;
 use serde_json::{Map, Value};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Blending, Outside, Weights};
-use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::texture::blend::Mode;
 
 use crate::built_in::BuiltIn;
@@ -166,7 +166,7 @@ pub struct AuthoredTexture {
     /// Interpolation options at that position.
     pub blend: BlendChoice,
     /// Drawn path through the space that it can follow along a stroke.
-    pub path: Option<DrawnPath>,
+    pub path: Option<UserPath>,
     /// Its own picture; `None` derives one from the pictures of its neighbors.
     pub picture: Option<Arc<Picture>>,
     /// Fields that this version does not know.

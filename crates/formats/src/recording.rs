@@ -7,12 +7,12 @@
 mod column_map;
 mod from_table;
 mod from_wav;
-mod inquiry;
+mod infer_units;
+mod map_builder;
 mod names;
 mod question;
 mod sidecar;
 mod table;
-mod told;
 mod units;
 mod wav;
 

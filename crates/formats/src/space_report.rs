@@ -6,7 +6,7 @@ use shagreen_core::people::property::correlation_table;
 use shagreen_core::people::ratings::Agreement;
 use shagreen_core::space::selection::PaperChain;
 use shagreen_core::space::space_build::{
-    Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, verdict,
+    Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, validation_summary,
 };
 
 use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
@@ -72,7 +72,7 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         })).collect::<Vec<_>>(),
         "missing_ratings": build.n_missing_ratings,
         "seed": options.seed,
-        "verdict": verdict(build),
+        "verdict": validation_summary(build),
         "warnings": build.findings,
     })
 }

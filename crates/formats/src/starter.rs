@@ -1,7 +1,7 @@
 //! The built-in starter library, its materials, and its variant positioned by simulated raters.
 
-use shagreen_core::surfaces::imagined::Anchor;
 use shagreen_core::surfaces::material::Material;
+use shagreen_core::surfaces::prompt_material::Anchor;
 use shagreen_core::surfaces::starter::{LabelSpan, Labels};
 
 use crate::library::{Library, LibraryError, read_library};

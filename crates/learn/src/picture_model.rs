@@ -8,18 +8,21 @@
 //! standard deviation combines the validation error and the spread of the heads, and grows for pictures unlike the
 //! training set.
 
+mod learning;
+
 use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
 use shagreen_core::maths::gaussian_process::Estimate;
-use shagreen_core::maths::rng::{Random, derive_seed};
+use shagreen_core::maths::rng::derive_seed;
 use shagreen_core::maths::statistics::{mean, quantile, standard_deviation};
 use shagreen_core::surfaces::prompt::OPEN;
 
+use self::learning::Learning;
 use crate::backbone::{Backbone, BackboneKind};
 use crate::dense;
 use crate::init::Uniform;
 use crate::model_file::{self, ModelFileError, Numbers};
-use crate::parameters::{Adam, AdamConfig, Parameters};
+use crate::parameters::Parameters;
 use crate::picture_set::Seen;
 
 /// Kind of the file.
@@ -35,7 +38,7 @@ const USUAL_SHARE: f64 = 0.95;
 /// Feature extractor of pictures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Eyes {
+pub enum FeatureExtractor {
     /// Texture statistics ([`shagreen_core::surfaces::picture_features`]); no other file is needed.
     Statistics,
     /// A pretrained backbone network, identified by the hash of its file.
@@ -47,7 +50,7 @@ pub enum Eyes {
     },
 }
 
-impl Eyes {
+impl FeatureExtractor {
     /// Returns the extractor for a backbone network, or else texture statistics.
     pub fn of(backbone: Option<&Backbone>) -> Self {
         match backbone {
@@ -142,7 +145,7 @@ pub enum PictureModelError {
 /// Metadata of a model file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct About {
-    eyes: Eyes,
+    eyes: FeatureExtractor,
     attributes: Vec<String>,
     /// Sizes of all layers, features and outputs included.
     sizes: Vec<usize>,
@@ -166,9 +169,9 @@ pub struct PictureModel {
 
 /// Metadata of a training run.
 #[derive(Clone, Debug)]
-pub struct Lesson {
+pub struct TrainingMetadata {
     /// Feature extractor of the pictures.
-    pub eyes: Eyes,
+    pub eyes: FeatureExtractor,
     /// Names of the labels.
     pub attributes: Vec<String>,
     /// Description of the training data.
@@ -189,7 +192,7 @@ impl PictureModel {
     /// input.
     pub fn learn(
         pictures: &[&Seen],
-        lesson: Lesson,
+        lesson: TrainingMetadata,
         config: &PictureConfig,
         mut epoch: impl FnMut(usize) -> bool,
     ) -> Result<Self, PictureModelError> {
@@ -240,7 +243,7 @@ impl PictureModel {
     }
 
     /// Returns the feature extractor that the model needs.
-    pub fn eyes(&self) -> &Eyes {
+    pub fn eyes(&self) -> &FeatureExtractor {
         &self.about.eyes
     }
 
@@ -356,7 +359,11 @@ const MOST_NUMBERS: usize = 1 << 14;
 const MOST_LAYERS: usize = 16;
 const MOST_HEADS: usize = 64;
 
-fn check(pictures: &[&Seen], lesson: &Lesson, config: &PictureConfig) -> Result<(), PictureModelError> {
+fn check(
+    pictures: &[&Seen],
+    lesson: &TrainingMetadata,
+    config: &PictureConfig,
+) -> Result<(), PictureModelError> {
     if pictures.len() < LEAST {
         return Err(PictureModelError::TooFew { n: pictures.len(), least: LEAST });
     }
@@ -424,108 +431,6 @@ fn run(parameters: &Parameters, x: &Tensor, n_layers: usize) -> Result<Tensor, c
         }
     }
     Ok(x)
-}
-
-/// A head in training.
-struct Learning<'a> {
-    rows: &'a [Vec<f32>],
-    labels: &'a [Vec<f32>],
-    learned: Vec<usize>,
-    aside: Vec<usize>,
-    n_layers: usize,
-    parameters: Parameters,
-    adam: Option<Adam>,
-    random: Random,
-    n_epochs: usize,
-    best_epoch: usize,
-    best_error: f64,
-    best: Numbers,
-    device: &'a Device,
-}
-
-impl<'a> Learning<'a> {
-    fn new(
-        rows: &'a [Vec<f32>],
-        labels: &'a [Vec<f32>],
-        sizes: &[usize],
-        seed: u64,
-        device: &'a Device,
-    ) -> Result<Self, candle_core::Error> {
-        let mut random = Random::new(derive_seed(seed, "order"));
-        let order = random.shuffled(rows.len());
-        let (aside, learned) = order.split_at(rows.len().div_ceil(10));
-        let parameters = fresh(sizes, derive_seed(seed, "weights"), device)?;
-        let best = parameters.snapshot()?;
-        Ok(Self {
-            rows,
-            labels,
-            learned: learned.to_vec(),
-            aside: aside.to_vec(),
-            n_layers: sizes.len() - 1,
-            parameters,
-            adam: None,
-            random,
-            n_epochs: 0,
-            best_epoch: 0,
-            best_error: f64::INFINITY,
-            best,
-            device,
-        })
-    }
-
-    fn is_over(&self, config: &PictureConfig) -> bool {
-        self.n_epochs >= config.n_epochs || self.n_epochs - self.best_epoch >= config.patience.max(1)
-    }
-
-    fn run_epoch(&mut self, config: &PictureConfig) -> Result<(), candle_core::Error> {
-        let mut adam = self.adam.take().unwrap_or_else(|| Adam::new(AdamConfig::usual(config.learning_rate)));
-        let order = self.random.shuffled(self.learned.len());
-        for batch in order.chunks(config.n_batch) {
-            let indices: Vec<usize> = batch.iter().map(|index| self.learned[*index]).collect();
-            let x = tensor(self.rows, &indices, self.device)?;
-            let mut labels: Vec<Vec<f32>> = indices.iter().map(|index| self.labels[*index].clone()).collect();
-            for label in labels.iter_mut().flatten() {
-                *label += (config.label_noise * (2.0 * self.random.uniform() - 1.0)) as f32;
-            }
-            let all: Vec<usize> = (0..labels.len()).collect();
-            let y = tensor(&labels, &all, self.device)?;
-            let error = (run(&self.parameters, &x, self.n_layers)? - y)?.sqr()?.mean_all()?;
-            // The offset keeps the gradient of the square root finite at zero error.
-            let gradients = (error + 1e-12)?.sqrt()?.backward()?;
-            adam.step(&self.parameters, &gradients)?;
-        }
-        self.adam = Some(adam);
-        self.n_epochs += 1;
-        let squares: Vec<f64> =
-            self.aside_errors()?.into_iter().flatten().map(|error| f64::from(error).powi(2)).collect();
-        let error = mean(&squares);
-        if error < self.best_error {
-            (self.best_error, self.best_epoch) = (error, self.n_epochs);
-            self.best = self.parameters.snapshot()?;
-        }
-        Ok(())
-    }
-
-    /// Returns the errors of each validation picture, label by label.
-    fn aside_errors(&self) -> Result<Vec<Vec<f32>>, candle_core::Error> {
-        let x = tensor(self.rows, &self.aside, self.device)?;
-        let y = tensor(self.labels, &self.aside, self.device)?;
-        (run(&self.parameters, &x, self.n_layers)? - y)?.to_vec2()
-    }
-
-    /// Returns the best parameters and their validation errors.
-    fn finish(self) -> Result<(Parameters, Vec<Vec<f32>>), candle_core::Error> {
-        self.parameters.restore(&self.best)?;
-        let errors = self.aside_errors()?;
-        Ok((self.parameters, errors))
-    }
-}
-
-/// Returns the selected rows as a tensor.
-fn tensor(rows: &[Vec<f32>], indices: &[usize], device: &Device) -> Result<Tensor, candle_core::Error> {
-    let values: Vec<f32> = indices.iter().flat_map(|index| rows[*index].iter().copied()).collect();
-    let n_columns = rows.first().map_or(0, Vec::len);
-    Tensor::from_vec(values, (indices.len(), n_columns), device)
 }
 
 #[cfg(test)]

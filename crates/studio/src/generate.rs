@@ -7,7 +7,7 @@ use shagreen_core::space::SpacePoint;
 use shagreen_core::surfaces::generated::{GENERATOR, Witness, generate};
 use shagreen_core::surfaces::height_field::HeightField;
 use shagreen_core::surfaces::material::Material;
-use shagreen_core::surfaces::prompt::Understood;
+use shagreen_core::surfaces::prompt::PromptInterpretation;
 use shagreen_core::surfaces::shading::{Picture, shade_tile};
 use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::starter::starter_anchors;
@@ -53,7 +53,7 @@ impl GeneratedPicture {
 /// The starter library has no materials.
 pub fn generate_procedurally(
     name: &str,
-    understood: &Understood,
+    understood: &PromptInterpretation,
     side: usize,
     seed: u64,
 ) -> anyhow::Result<GeneratedPicture> {
@@ -93,13 +93,13 @@ pub fn nearest(library: &Library, at: SpacePoint, n: usize) -> Vec<(&TextureEntr
 #[cfg(test)]
 mod tests {
     use super::{PREDICTED_SIDE, generate_procedurally, nearest};
-    use shagreen_core::surfaces::prompt::understand;
+    use shagreen_core::surfaces::prompt::interpret;
     use shagreen_formats::lexicon_toml::built_in_lexicon;
     use shagreen_formats::starter::starter_library;
 
     #[test]
     fn the_predicted_picture_does_not_depend_on_the_size_of_the_other() {
-        let understood = understand("a rough brick", built_in_lexicon().unwrap());
+        let understood = interpret("a rough brick", built_in_lexicon().unwrap());
         let pictures =
             [64, PREDICTED_SIDE].map(|side| generate_procedurally("brick", &understood, side, 3).unwrap());
         assert_eq!(pictures[0].picture.width, 64);

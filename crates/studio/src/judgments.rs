@@ -8,8 +8,8 @@ use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
-use shagreen_formats::panel_labels::{PanelLabels, panel_labels};
 use shagreen_formats::ratings_csv::{read_ratings, read_ratings_csv, read_relevance_csv};
+use shagreen_formats::simulated_rater_labels::{SimulatedRaterLabels, panel_labels};
 use shagreen_formats::sorting_csv::read_sorting_csv;
 
 /// What a file holds.
@@ -92,7 +92,8 @@ pub fn source_of<P: AsRef<str>>(mut participants: impl Iterator<Item = P>) -> La
 /// # Errors
 /// No texture has a position, in one sentence.
 pub fn simulate(library: &Library, seed: u64) -> Result<SimulatedJudgments, String> {
-    let PanelLabels { pairs, ids, labels } = panel_labels(library).map_err(|error| error.to_string())?;
+    let SimulatedRaterLabels { pairs, ids, labels } =
+        panel_labels(library).map_err(|error| error.to_string())?;
     let config = PanelConfig::usual(seed);
     // Few textures make few groups.
     let groups: Vec<usize> = USUAL_GROUPS.into_iter().filter(|n| *n <= ids.len()).collect();

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use shagreen_formats::atomic;
 use shagreen_learn::backbone::Backbone;
 use shagreen_learn::diffusion::{Diffusion, Files, Part};
-use shagreen_learn::looking::Looker;
 use shagreen_learn::model_file::sha256_of;
+use shagreen_learn::picture_predictor::PicturePredictor;
 
 /// Folder of the networks, and of the records of networks elsewhere; it need not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,8 +73,8 @@ impl ModelFolder {
     ///
     /// # Errors
     /// As [`ModelFolder::backbone`].
-    pub fn looker(&self) -> anyhow::Result<Looker> {
-        Ok(Looker::built_in(self.backbone()?)?)
+    pub fn looker(&self) -> anyhow::Result<PicturePredictor> {
+        Ok(PicturePredictor::built_in(self.backbone()?)?)
     }
 
     /// Registers a diffusion model after checking that it is complete.
@@ -159,13 +159,13 @@ mod tests {
     use super::ModelFolder;
     use shagreen_formats::picture::decode;
     use shagreen_formats::starter::starter_library;
-    use shagreen_learn::looking::Looker;
+    use shagreen_learn::picture_predictor::PicturePredictor;
 
     /// No picture of the starter library was used for training. `shagreen train photo --drawn-only` reports mean
     /// absolute errors of 7.8 and 5.9 on them.
     #[test]
     fn pictures_of_the_starter_library_are_told_without_any_network() {
-        let looker = Looker::built_in(None).unwrap();
+        let looker = PicturePredictor::built_in(None).unwrap();
         let library = starter_library().unwrap();
         let mut off = [0.0; 2];
         for texture in &library.textures {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use shagreen_core::space::space_build::{
-    SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space, verdict,
+    SpaceBuild, SpaceBuildError, SpaceData, SpaceOptions, Step, build_space, validation_summary,
 };
 use shagreen_formats::figure::Figure;
 use shagreen_formats::placed_space::PlacedSpace;
@@ -35,7 +35,7 @@ pub fn build(
     let figures = space_figures(&build).into_iter().map(|(name, figure)| (name, Arc::new(figure)));
     Ok(BuiltSpace {
         figures: figures.collect(),
-        validation: verdict(&build),
+        validation: validation_summary(&build),
         placed: Arc::new(PlacedSpace::of(&build)),
         build: Arc::new(build),
     })

@@ -1,41 +1,39 @@
 //! Canvas of the space: textures, triangulation, convex hull and the draggable authored points.
 
-mod foot;
 mod map;
 mod path_tool;
+mod points_ui;
 mod site_labels;
+mod sites_ui;
+mod status_line;
 mod tool_bar;
 mod view;
 
 use egui::{
-    Align2, Color32, CursorIcon, FontId, Key, PointerButton, Popup, Pos2, Rect, Response, Role, Sense, Shape,
-    Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, FontId, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
 };
-use shagreen_core::space::authoring::{Authored, Weights};
+use shagreen_core::space::authoring::Weights;
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::blend::Mode;
-use shagreen_formats::project::AuthoredTexture;
 
-use self::foot::foot_ui;
 pub use self::map::ShownMap;
 use self::map::map_ui;
 pub use self::path_tool::PathTool;
-use self::path_tool::{added, path_line, path_marker, path_points};
-use self::site_labels::{Around, site_labels};
+use self::path_tool::{path_line, path_marker, path_points};
+use self::points_ui::authored_points_ui;
+use self::sites_ui::sites_ui;
+use self::status_line::foot_ui;
 use self::tool_bar::tool_bar;
 use self::view::follow_view;
-use crate::author::authored_panel::authored_menu;
-use crate::author::locks::lock_mark;
-use crate::author::prompt::Guess;
-use crate::author::texture_menu::texture_menu;
-use crate::author::texture_picture::place_in_words;
+use crate::author::prompt::PositionEstimate;
 use crate::command::Command;
 use crate::look::axes::{Axes, View};
 use crate::look::drag::dragged_to;
 use crate::look::theme::{Tokens, tokens};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
-use crate::strings::{self, authored};
+use crate::strings::{self};
 
 /// Radius of a texture's picture on the canvas, in points.
 const SITE_RADIUS: f32 = 13.0;
@@ -43,10 +41,6 @@ const SITE_RADIUS: f32 = 13.0;
 const POINT_SIZE: Vec2 = vec2(22.0, 22.0);
 /// Number of vertices of an ellipse.
 const ELLIPSE_POINTS: usize = 96;
-/// Maximum number of textures shown as pictures; if there are more, each texture is a dot.
-const MAX_PICTURES: usize = 60;
-/// Step of an arrow key, in axis units (0 to 100). With Shift it is [`BIG_STEP`].
-const STEP: f64 = 1.0;
 const BIG_STEP: f64 = 5.0;
 
 /// Widget id of an authored point, by its key. It does not depend on the selection, so that a drag continues when the
@@ -81,7 +75,7 @@ pub fn canvas_ui(
     panel: &Panel<'_>,
     state: &mut CanvasState,
     map: Option<&ShownMap>,
-    guess: Option<&Guess>,
+    guess: Option<&PositionEstimate>,
 ) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
@@ -137,7 +131,7 @@ pub fn canvas_ui(
 }
 
 /// Draws an ellipse around the position estimated from a prompt or photo: one standard deviation along each axis.
-fn ellipse_ui(ui: &Ui, axes: Axes, guess: &Guess, t: &Tokens) {
+fn ellipse_ui(ui: &Ui, axes: Axes, guess: &PositionEstimate, t: &Tokens) {
     let [across, up] = guess.axes;
     let at = |angle: f64| {
         axes.ui_from_space(SpacePoint {
@@ -260,257 +254,4 @@ fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
             painter.line_segment([a, b], Stroke::new(1.6, t.text_weak.gamma_multiply(0.55)));
         }
     }
-}
-
-/// Draws the textures; a click moves the authored point to one of them. Texture names avoid the axis labels in `words`.
-fn sites_ui(
-    ui: &mut Ui,
-    axes: Axes,
-    panel: &Panel<'_>,
-    tool: &PathTool,
-    words: &[Rect],
-    on_map: bool,
-    t: &Tokens,
-) -> Vec<Command> {
-    let mut commands = Vec::new();
-    let sites = panel.session.space().sites();
-    let with_pictures = sites.len() <= MAX_PICTURES;
-    let radius = if with_pictures { SITE_RADIUS } else { 3.0 };
-    // Contributing textures are drawn last, on top of the others.
-    let rank = |texture: usize| panel.session.parent_rank(texture);
-    let mut order: Vec<&(usize, SpacePoint)> = sites.iter().collect();
-    order.sort_by_key(|(texture, _)| rank(*texture).is_some());
-    let mut pointed = None;
-    let has_open_menu = Popup::is_any_open(ui.ctx());
-    for (texture, at) in order {
-        let pos = axes.ui_from_space(*at);
-        let entry = &panel.session.textures()[*texture];
-        let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
-        let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
-        if response.clicked() {
-            let added = if tool.is_on { added(panel, *at) } else { Some(move_to(*at)) };
-            commands.extend(added);
-        }
-        site(ui, panel, *texture, pos, radius, &response, t);
-        if response.hovered() || response.has_focus() {
-            pointed = Some(*texture);
-        }
-        // With a thousand textures, tooltips and menus are built only where they can be needed.
-        if response.hovered() || response.has_focus() || has_open_menu {
-            response.context_menu(|ui| commands.extend(texture_menu(ui, panel, *texture)));
-            response.on_hover_text(site_help(panel, *texture, *at));
-        }
-    }
-    let named: Vec<(usize, Pos2)> = sites
-        .iter()
-        .filter(|(texture, _)| with_pictures || rank(*texture).is_some() || pointed == Some(*texture))
-        .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
-        .collect();
-    let point = Rect::from_center_size(axes.ui_from_space(panel.project.texture().at), POINT_SIZE);
-    site_labels(ui, panel, &named, radius, &Around { words, point, on_map }, pointed, t);
-    commands
-}
-
-/// Tooltip of a texture: its name, position and source, and how the field treats it there.
-fn site_help(panel: &Panel<'_>, texture: usize, at: SpacePoint) -> String {
-    let name = &panel.session.textures()[texture].name;
-    let help = format!("{name}\n{}", place_in_words(panel, texture, at));
-    if !panel.project.texture().blend.can_lock() {
-        return help;
-    }
-    let is_locked = panel.is_locked(texture);
-    format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED })
-}
-
-fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
-    let painter = ui.painter();
-    let rank = panel.session.parent_rank(texture);
-    let has_picture = radius >= SITE_RADIUS;
-    match panel.pictures.thumbnail(texture) {
-        Some(picture) if has_picture => {
-            let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
-            // The middle 40 % of the picture in each direction: at this size its grain remains visible.
-            let uv = Rect::from_min_max(pos2(0.3, 0.3), pos2(0.7, 0.7));
-            let mesh =
-                egui::epaint::RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv);
-            painter.add(mesh);
-        }
-        // A dot is one textured disc. Rings around a thousand dots would make up most of all drawn triangles.
-        _ => {
-            painter.circle_filled(pos, radius, t.text_weak);
-        }
-    }
-    let ring = match rank {
-        Some(rank) => Some(Stroke::new(3.0, t.parents[rank.min(2)])),
-        None if response.hovered() || response.has_focus() => Some(Stroke::new(2.0, t.text)),
-        None => has_picture.then(|| Stroke::new(1.0, t.text_weak.gamma_multiply(0.8))),
-    };
-    if let Some(ring) = ring {
-        painter.circle_stroke(pos, radius, ring);
-    }
-    if panel.is_locked(texture) {
-        let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
-        painter.circle_filled(corner, 8.0, t.background);
-        lock_mark(painter, corner, true, t.text);
-    }
-}
-
-/// Draws the authored points, the selected one on top. A click or drag selects another one.
-fn authored_points_ui(
-    ui: &mut Ui,
-    axes: Axes,
-    panel: &Panel<'_>,
-    tool: &PathTool,
-    t: &Tokens,
-) -> Vec<Command> {
-    let mut commands = Vec::new();
-    for (index, texture) in panel.project.authored.iter().enumerate() {
-        if index != panel.project.selected {
-            commands.extend(other_point_ui(ui, axes, panel, texture, tool, t));
-        }
-    }
-    commands.extend(point_ui(ui, axes, panel, tool, t));
-    commands
-}
-
-/// Interaction of the authored points: only hovering while a path is drawn, so that clicks and drags reach the canvas.
-fn point_sense(tool: &PathTool) -> Sense {
-    if tool.is_on { Sense::hover() } else { Sense::click_and_drag() }
-}
-
-/// Draws an authored point that is not selected.
-fn other_point_ui(
-    ui: &mut Ui,
-    axes: Axes,
-    panel: &Panel<'_>,
-    texture: &AuthoredTexture,
-    tool: &PathTool,
-    t: &Tokens,
-) -> Vec<Command> {
-    let mut commands = Vec::new();
-    let pos = axes.ui_from_space(texture.at);
-    let area = Rect::from_center_size(pos, vec2(20.0, 20.0));
-    let response = ui.interact(area, point_id(texture.key), point_sense(tool));
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, authored::on_canvas(&texture.name)));
-    if response.clicked() || response.drag_started() {
-        response.request_focus();
-        commands.push(Command::Edit(Edit::Select(texture.key)));
-    }
-    commands.extend(authored_menu(&response, panel, texture));
-    let is_pointed = response.hovered() || response.has_focus();
-    let radius = if is_pointed { 8.0 } else { 6.5 };
-    ui.painter().circle_filled(pos, radius + 2.0, t.background);
-    ui.painter().circle_filled(pos, radius, t.authored[usize::from(texture.color)]);
-    ui.painter().circle_filled(pos, 2.5, t.background);
-    let name = format!("{} {}", texture.name, texture.at);
-    response.on_hover_text(name);
-    commands
-}
-
-/// Draws the selected authored point with lines to the contributing textures, and handles its drags and arrow keys.
-fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tokens) -> Vec<Command> {
-    let mut commands = Vec::new();
-    let texture = panel.project.texture();
-    let point = texture.at;
-    let pos = axes.ui_from_space(point);
-    let id = point_id(texture.key);
-    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, point_sense(tool));
-    response.widget_info(|| WidgetInfo {
-        current_text_value: Some(strings::place_in_words(point, panel.session.poles())),
-        ..WidgetInfo::labeled(Role::Slider, true, strings::POINT)
-    });
-    let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);
-    if response.clicked() || response.drag_started() {
-        response.request_focus();
-    }
-    if let Some(pointer) = dragged_to(ui, &response) {
-        commands.push(move_to(axes.space_from_ui(pointer)));
-    }
-    commands.extend(authored_menu(&response, panel, texture));
-    if let Some(to) = nudged(ui, id, point) {
-        commands.push(move_to(to));
-    }
-    if let Some(authored) = panel.session.authored() {
-        lines_to_parents(ui, axes, panel, authored, t);
-        outside_ui(ui, axes, panel, authored, t);
-    }
-    let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
-    ui.painter().circle_filled(pos, grown + 2.0, t.background);
-    ui.painter().circle_filled(pos, grown, t.accent);
-    ui.painter().circle_filled(pos, 4.5, t.on_accent);
-    ui.painter().circle_filled(pos, 3.0, t.authored[usize::from(texture.color)]);
-    if response.has_focus() {
-        ui.painter().circle_stroke(pos, grown + 4.0, Stroke::new(1.5, t.accent));
-    }
-    response.on_hover_text(format!("{} {}\n{}", panel.project.texture().name, point, strings::POINT_HELP));
-    commands
-}
-
-fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
-    let on = axes.ui_from_space(authored.location.at);
-    for ((texture, weight), color) in panel.session.shown_parents().iter().zip(t.parents) {
-        if let Some(site) = panel.session.space().position(*texture) {
-            let width = 1.0 + 4.0 * (*weight as f32).clamp(0.0, 1.0);
-            let site = axes.ui_from_space(site);
-            let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
-            ui.painter().line_segment([on, start], Stroke::new(width, color.gamma_multiply(0.75)));
-        }
-    }
-}
-
-/// Outside the convex hull: marks the nearest point of the hull that plays instead, or the distance of extrapolation.
-fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
-    let wanted = panel.session.path_point().unwrap_or(panel.project.texture().at);
-    let pos = axes.ui_from_space(wanted);
-    let on = axes.ui_from_space(authored.location.at);
-    let painter = ui.painter();
-    if authored.is_extrapolated
-        && let Some(nearest) = panel.session.space().locate(wanted)
-    {
-        let outline = axes.ui_from_space(nearest.at);
-        painter.extend(Shape::dashed_line(&[outline, on], Stroke::new(2.0, t.accent), 8.0, 5.0));
-        painter.circle_stroke(outline, 4.0, Stroke::new(1.5, t.accent));
-        let words =
-            painter.layout_no_wrap(strings::EXTRAPOLATED.to_owned(), FontId::proportional(11.5), t.accent);
-        // Below the line, and not over the point at its end.
-        let below = outline.lerp(on, 0.5) + vec2(0.0, 0.5 * words.size().y + 4.0);
-        let area = Rect::from_center_size(below, words.size());
-        let point = Rect::from_center_size(pos, POINT_SIZE);
-        let overlap = if area.intersects(point) { point.bottom() - area.top() } else { 0.0 };
-        let shift = (axes.rect.right() + 30.0 - area.right()).min(0.0);
-        let area = area.translate(vec2(shift, overlap));
-        painter.rect_filled(area.expand(2.0), 3.0, t.background.gamma_multiply(0.9));
-        painter.galley(area.min, words, t.accent);
-    }
-    if authored.location.clamped {
-        painter.extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
-        painter.circle_filled(on, 4.0, t.warning);
-    }
-}
-
-/// New position of the point after arrow keys, if it has the keyboard focus or nothing has.
-fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
-    let focused = ui.memory(egui::Memory::focused);
-    if focused.is_some_and(|f| f != id) {
-        return None;
-    }
-    // With the focus on the point, arrow keys move the point and not the focus.
-    if focused == Some(id) {
-        let filter =
-            egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
-        ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
-    }
-    let (dx, dy) = ui.input(|i| {
-        let step = if i.modifiers.shift { BIG_STEP } else { STEP };
-        let count = |key: Key| f64::from(i.num_presses(key) as u32);
-        (
-            step * (count(Key::ArrowRight) - count(Key::ArrowLeft)),
-            step * (count(Key::ArrowUp) - count(Key::ArrowDown)),
-        )
-    });
-    (dx != 0.0 || dy != 0.0).then(|| SpacePoint {
-        rough_smooth: (from.rough_smooth + dx).clamp(0.0, 100.0),
-        hard_soft: (from.hard_soft + dy).clamp(0.0, 100.0),
-    })
 }

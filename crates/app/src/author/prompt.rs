@@ -3,8 +3,8 @@
 
 pub(crate) mod bar_ui;
 pub(crate) mod card_ui;
-mod guess;
 mod job;
+mod position_estimate;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
 use shagreen_formats::settings::KeptPrompt;
 
-pub use self::guess::{Guess, Origin};
+pub use self::position_estimate::{Origin, PositionEstimate};
 
 use self::job::{Job, Maker, Wanted};
 use crate::command::prompt::PromptCommand;
@@ -32,13 +32,13 @@ pub struct Prompts {
     job: Option<Job>,
     /// Photos that wait for the running job.
     waiting: VecDeque<Source>,
-    guess: Option<Guess>,
+    guess: Option<PositionEstimate>,
 }
 
 /// Result of a finished job.
 #[derive(Debug)]
 pub(crate) struct Arrived {
-    pub(crate) guess: Guess,
+    pub(crate) guess: PositionEstimate,
     /// Key of the authored texture to replace, and its picture at that time. `None` makes a new texture.
     pub(crate) replaces: Option<(u32, Arc<Picture>)>,
     /// Names of the axes that the estimate refers to.
@@ -63,7 +63,7 @@ impl Prompts {
 
     /// Estimate made for an authored texture, if the texture still has the picture made with it. Its key is not enough:
     /// keys recur after undo, and in other projects.
-    pub fn guess_of(&self, texture: &AuthoredTexture) -> Option<&Guess> {
+    pub fn guess_of(&self, texture: &AuthoredTexture) -> Option<&PositionEstimate> {
         self.guess
             .as_ref()
             .filter(|guess| guess.key.is_some_and(|key| has_still(texture, key, &guess.picture)))
@@ -168,8 +168,8 @@ impl Prompts {
     }
 
     /// Keeps the estimate for the authored texture with this key.
-    pub(crate) fn keep(&mut self, guess: Guess, key: u32) {
-        self.guess = Some(Guess { key: Some(key), ..guess });
+    pub(crate) fn keep(&mut self, guess: PositionEstimate, key: u32) {
+        self.guess = Some(PositionEstimate { key: Some(key), ..guess });
     }
 }
 

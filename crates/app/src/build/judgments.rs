@@ -10,7 +10,7 @@ use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
-use shagreen_formats::look_alikes::look_alikes;
+use shagreen_formats::similar_names::look_alikes;
 
 use crate::state::background::in_background;
 use crate::state::source::Source;

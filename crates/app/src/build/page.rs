@@ -13,7 +13,7 @@ use crate::build::input_ui::{Paths, inputs_ui};
 use crate::build::job::{Job, Order, Outcome};
 use crate::build::judgments::Judgments;
 use crate::build::options_ui::options_ui;
-use crate::build::verdict_ui::verdict_ui;
+use crate::build::validation_ui::validation_ui;
 use crate::command::Command;
 use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, RADIUS, VERDICT_WIDTH, tokens};
 use crate::panel::Panel;
@@ -112,7 +112,7 @@ impl BuildPage {
             self.left_ui(ui, panel.session);
         });
         Side::right("verdict").exact_size(VERDICT_WIDTH).resizable(false).show(ui, |ui| {
-            commands.extend(verdict_ui(ui, panel, self.built(), self.has_changed()));
+            commands.extend(validation_ui(ui, panel, self.built(), self.has_changed()));
         });
         let frame = Frame::new().fill(t.panel).inner_margin(Margin::same(10));
         CentralPanel::default().frame(frame).show(ui, |ui| match &self.built {

@@ -3,7 +3,7 @@
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Authored, Authoring};
 
-use super::models_ahead::ModelsAhead;
+use super::models_worker::ModelsWorker;
 use super::path_walk::PathWalk;
 
 /// The authoring space and the texture interpolated in it.
@@ -12,7 +12,7 @@ pub(super) struct AuthoredState {
     /// Counts changes of any interpolated texture.
     pub(super) generation: u64,
     /// Models of the space, computed by a worker.
-    pub(super) models: ModelsAhead,
+    pub(super) models: ModelsWorker,
     /// The texture at the point.
     pub(super) current: Option<Authored>,
     /// Whether a blind comparison hides the audible texture.
@@ -32,7 +32,7 @@ impl AuthoredState {
         Self {
             authoring,
             generation: 0,
-            models: ModelsAhead::default(),
+            models: ModelsWorker::default(),
             current: None,
             is_hidden: false,
             n_made: 0,

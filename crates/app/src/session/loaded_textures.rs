@@ -3,13 +3,17 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use anyhow::Context as _;
+use shagreen_core::space::SpacePoint;
 use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::rate::{at_rate, highest_rate};
+use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::placed_space::PlacedSpace;
 use shagreen_formats::project::ProjectLibrary;
 
 use super::places::Opened;
-use super::planes_ahead::PlanesAhead;
+use super::planes_worker::PlanesWorker;
 
 /// The textures of the library and of the project, by one index.
 pub(super) struct Textures {
@@ -37,7 +41,33 @@ pub(super) struct Textures {
     /// Sample rate of each plane, in Hz.
     pub(super) rates_hz: Vec<f64>,
     /// Planes prepared for the renderer, by a worker.
-    pub(super) planes_ahead: PlanesAhead,
+    pub(super) planes_ahead: PlanesWorker,
     /// Sample rate of the textures in the space, in Hz.
     pub(super) space_rate_hz: f64,
+}
+
+/// Sample rate of the space: the highest rate of its textures, because signals of different rates cannot be mixed.
+/// Without positions it is the rate of the first texture.
+pub(super) fn rate_of_space(textures: &[TextureEntry], places: &[Option<Place>]) -> Hertz {
+    let first = textures.first().map(|texture| texture.model.rate());
+    let placed = textures.iter().zip(places).filter(|(_, place)| place.is_some()).map(|(t, _)| &t.model);
+    highest_rate(placed).or(first).unwrap_or(Hertz(1000.0))
+}
+
+/// Sample rate at which a texture plays: that of the space, or its own if it has no position and can only be soloed.
+pub(super) fn rate_in(texture: &TextureEntry, place: Option<&Place>, rate_of_space: Hertz) -> Hertz {
+    place.map_or(texture.model.rate(), |_| rate_of_space)
+}
+
+pub(super) fn plane_of(texture: &TextureEntry, rate: Hertz) -> anyhow::Result<Plane> {
+    if texture.model.rate() == rate {
+        return Ok(Plane::new(&texture.model));
+    }
+    let converted = at_rate(&texture.model, rate)
+        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
+    Ok(Plane::new(&converted.model))
+}
+
+pub(super) fn positions(places: &[Option<Place>]) -> Vec<Option<SpacePoint>> {
+    places.iter().map(|place| place.map(|place| place.at)).collect()
 }

@@ -2,20 +2,20 @@
 
 use std::time::Instant;
 
-use shagreen_core::space::texture_path::{Along, TexturePath, Traveler};
+use shagreen_core::space::texture_path::{Along, PathProgress, TexturePath};
 use shagreen_device::touch::Touch;
 
 /// Position of the stroke on a path that is played.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathWalk {
-    traveler: Traveler,
+    traveler: PathProgress,
     last: Option<Instant>,
 }
 
 impl PathWalk {
     /// At the start of the path.
     pub(super) fn new(along: Along) -> Self {
-        Self { traveler: Traveler::new(along), last: None }
+        Self { traveler: PathProgress::new(along), last: None }
     }
 
     /// Quantity that is measured along the path.

@@ -5,7 +5,7 @@ use std::sync::mpsc::Receiver;
 
 use shagreen_device::hid::live::{PenNotice, PenOptions, PenThread};
 use shagreen_device::hid::system::SystemPens;
-use shagreen_device::hid::tracker::{PenMoment, TrackerOptions};
+use shagreen_device::hid::tracker::{TrackedSample, TrackerOptions};
 use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::live::LiveInput;
 use shagreen_device::stylus::{StylusInfo, StylusKind, list_styluses};
@@ -40,9 +40,9 @@ pub(super) struct Pen {
     listing: Option<Receiver<Vec<StylusInfo>>>,
     pub(super) facts: Option<PenFacts>,
     pub(super) message: Option<String>,
-    pub(super) moments: VecDeque<PenMoment>,
+    pub(super) moments: VecDeque<TrackedSample>,
     /// Samples since the previous frame.
-    pub(super) fresh: Vec<PenMoment>,
+    pub(super) fresh: Vec<TrackedSample>,
 }
 
 impl Pen {

@@ -24,7 +24,7 @@ use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
 use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 
-use super::heard::{Heard, Made, Source};
+use super::audible::{Audible, Made, Source};
 use super::opening::{Came, Opening, OutputChoice, Request};
 use crate::state::background::in_background;
 use crate::state::mouse_report::MouseReport;
@@ -257,7 +257,7 @@ impl Player {
 
     /// Loads the audible textures and fades to them. If the output is busy or a texture is not prepared yet, the next
     /// frame retries.
-    pub(super) fn send_mix(&mut self, heard: &Heard, ahead: &[Option<Prepared>], rate_hz: f64) {
+    pub(super) fn send_mix(&mut self, heard: &Audible, ahead: &[Option<Prepared>], rate_hz: f64) {
         let is_ready = |handle: &Handle| handle.config().model_rate_hz == rate_hz as f32;
         if !self.mix_is_new || !self.handle.as_ref().is_some_and(is_ready) {
             return;

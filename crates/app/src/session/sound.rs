@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use super::felt::Felt;
-use super::heard::Heard;
+use super::audible::Audible;
+use super::played_signal::PlayedSignal;
 use super::player::Player;
 use super::{Spectra, drawn_frequencies};
 use crate::state::rig::Rig;
@@ -18,9 +18,9 @@ pub(super) struct Sound {
     pub(super) player: Player,
     pub(super) rig: Rig,
     /// The audible textures and their mixture.
-    pub(super) heard: Heard,
+    pub(super) heard: Audible,
     /// A signal of the workspace Signals that is felt instead.
-    pub(super) felt: Option<Felt>,
+    pub(super) felt: Option<PlayedSignal>,
     /// Power spectral densities at the present contact.
     pub(super) spectra: Spectra,
     pub(super) scope: ScopeBuffer,
@@ -36,7 +36,7 @@ impl Sound {
         Self {
             player: Player::new(n_textures),
             rig: Rig::default(),
-            heard: Heard::default(),
+            heard: Audible::default(),
             felt: None,
             spectra: Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() },
             scope: ScopeBuffer::new(SCOPE_RATE_HZ, rate_hz),

@@ -8,10 +8,10 @@ use egui::{CentralPanel, ComboBox, Context, Frame, Label, Margin, Panel as Side,
 use shagreen_core::signals::codec::bitrate::Bitrate;
 use shagreen_core::signals::spatial_spectrogram::ProfileFidelity;
 
-use super::Remaking;
+use super::ResynthesisSettings;
 use super::analysis::{AtRate, Compared, compare, remade, through_codec};
+use super::cached_analysis::Known;
 use super::editor::Editor;
-use super::known::Known;
 use super::maps::Maps;
 use super::playing::Playing;
 use super::slot::Place;
@@ -24,7 +24,7 @@ use crate::command::Command;
 use crate::command::signals::SignalsCommand;
 use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, tokens};
 use crate::panel::Panel;
-use crate::state::background::BrokenOff;
+use crate::state::background::JobPanicked;
 use crate::state::bench_signal::BenchSignal;
 use crate::state::source::Source;
 use crate::strings::signals as strings;
@@ -44,7 +44,7 @@ pub struct SignalsPage {
     places: [Place; 2],
     view: View,
     window_mm: f64,
-    remaking: Remaking,
+    remaking: ResynthesisSettings,
     editor: Editor,
     felt: Option<Slot>,
     /// Identifier of the texture whose noise, friction and taps are added when a signal is kept as a relief.
@@ -64,7 +64,7 @@ impl Default for SignalsPage {
             places: Default::default(),
             view: View::default(),
             window_mm: 2.0,
-            remaking: Remaking { rate: Bitrate::ALL[2], n_steps: 0 },
+            remaking: ResynthesisSettings { rate: Bitrate::ALL[2], n_steps: 0 },
             editor: Editor::default(),
             felt: None,
             over: None,
@@ -100,7 +100,7 @@ impl SignalsPage {
     pub fn compared(&self) -> Option<Result<&Compared, &str>> {
         Some(match self.compared.of(&self.pair()?)? {
             Ok(compared) => compared.as_ref().map_err(String::as_str),
-            Err(BrokenOff) => Err(strings::BROKE_OFF),
+            Err(JobPanicked) => Err(strings::BROKE_OFF),
         })
     }
 
@@ -202,7 +202,7 @@ impl SignalsPage {
     /// Makes signal B from A.
     pub(crate) fn make_b(&mut self, how: FromA, ctx: &Context) {
         let Some(first) = self.signal(Slot::A).map(Arc::clone) else { return };
-        let (Remaking { rate, n_steps }, window_m) = (self.remaking, self.window_m());
+        let (ResynthesisSettings { rate, n_steps }, window_m) = (self.remaking, self.window_m());
         match how {
             FromA::Copy => {
                 let before = self.signal(Slot::B).map(Arc::clone);

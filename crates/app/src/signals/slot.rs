@@ -7,10 +7,10 @@ use shagreen_core::signals::spatial_spectrogram::ProfileFidelity;
 use shagreen_formats::imported::Imported;
 
 use super::analysis::{ByRate, by_rate, by_window};
-use super::known::Known;
+use super::cached_analysis::Known;
 use super::reading::{BenchFile, Terms};
 use crate::choices::signals::Slot;
-use crate::state::background::{BrokenOff, Newest};
+use crate::state::background::{JobPanicked, LatestJob};
 use crate::state::bench_signal::BenchSignal;
 use crate::state::source::Source;
 use crate::strings::signals as strings;
@@ -55,7 +55,7 @@ pub(super) struct Place {
     pub(super) warnings: Vec<String>,
     /// Why the last request failed. The previous signal is kept.
     pub(super) failure: Option<String>,
-    making: Newest<Made>,
+    making: LatestJob<Made>,
     /// Whether a new file is being read.
     is_reading: bool,
     by_window: Known<Vec<ProfileFidelity>, 1>,
@@ -91,7 +91,7 @@ impl Place {
     pub(super) fn put(&mut self, signal: Arc<BenchSignal>) {
         (self.signal, self.failure, self.file) = (Some(signal), None, None);
         self.warnings.clear();
-        (self.making, self.is_reading) = (Newest::default(), false);
+        (self.making, self.is_reading) = (LatestJob::default(), false);
     }
 
     /// Empties the slot.
@@ -141,7 +141,7 @@ impl Place {
     pub(super) fn collect(&mut self, ctx: &Context) -> bool {
         let Some(outcome) = self.making.collect(ctx) else { return false };
         self.is_reading = false;
-        let broken = |BrokenOff| Made { file: None, signal: Err(strings::BROKE_OFF.to_owned()) };
+        let broken = |JobPanicked| Made { file: None, signal: Err(strings::BROKE_OFF.to_owned()) };
         let Made { file, signal } = outcome.unwrap_or_else(broken);
         match signal {
             Ok(Imported { value, warnings }) => {

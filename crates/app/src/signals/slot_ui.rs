@@ -4,7 +4,7 @@ use egui::{Align, Button, ComboBox, DragValue, Frame, Key, Label, Layout, RichTe
 use shagreen_core::signals::codec::bitrate::Bitrate;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
-use super::Remaking;
+use super::ResynthesisSettings;
 use super::number_ui::number_ui;
 use super::reading::{FileKind, Terms};
 use super::slot::Place;
@@ -220,7 +220,11 @@ fn number(ui: &mut Ui, slot: Slot, name: &str, help: &str, value: DragValue<'_>)
 }
 
 /// Draws the ways to make B from A; returns the requested command.
-pub(super) fn remaking_ui(ui: &mut Ui, remaking: &mut Remaking, window_mm: f64) -> Option<Command> {
+pub(super) fn remaking_ui(
+    ui: &mut Ui,
+    remaking: &mut ResynthesisSettings,
+    window_mm: f64,
+) -> Option<Command> {
     let mut asked = None;
     ui.horizontal(|ui| {
         if ui.button(strings::COPY_OF_A).on_hover_text(strings::COPY_OF_A_HELP).clicked() {

@@ -18,21 +18,21 @@ pub(crate) fn in_background<T: Send + 'static>(
 
 /// The job panicked and has no result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct BrokenOff;
+pub(crate) struct JobPanicked;
 
 /// Background jobs of which only the newest counts. One job runs at a time, and a newer one replaces a waiting one.
-pub(crate) struct Newest<T> {
+pub(crate) struct LatestJob<T> {
     running: Option<Receiver<T>>,
     waiting: Option<Box<dyn FnOnce() -> T + Send>>,
 }
 
-impl<T> Default for Newest<T> {
+impl<T> Default for LatestJob<T> {
     fn default() -> Self {
         Self { running: None, waiting: None }
     }
 }
 
-impl<T: Send + 'static> Newest<T> {
+impl<T: Send + 'static> LatestJob<T> {
     /// Starts a job, or queues it while another one runs.
     pub(crate) fn ask(&mut self, ctx: &egui::Context, work: impl FnOnce() -> T + Send + 'static) {
         if self.running.is_some() {
@@ -43,11 +43,11 @@ impl<T: Send + 'static> Newest<T> {
     }
 
     /// Result of the newest job, when it is done.
-    pub(crate) fn collect(&mut self, ctx: &egui::Context) -> Option<Result<T, BrokenOff>> {
+    pub(crate) fn collect(&mut self, ctx: &egui::Context) -> Option<Result<T, JobPanicked>> {
         let done = match self.running.as_ref()?.try_recv() {
             Ok(done) => Ok(done),
             Err(TryRecvError::Empty) => return None,
-            Err(TryRecvError::Disconnected) => Err(BrokenOff),
+            Err(TryRecvError::Disconnected) => Err(JobPanicked),
         };
         self.running = None;
         if let Some(work) = self.waiting.take() {
@@ -65,11 +65,11 @@ impl<T: Send + 'static> Newest<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{BrokenOff, Newest};
+    use super::{JobPanicked, LatestJob};
     use std::sync::mpsc::channel;
     use std::time::{Duration, Instant};
 
-    fn wait<T: Send + 'static>(newest: &mut Newest<T>, ctx: &egui::Context) -> T {
+    fn wait<T: Send + 'static>(newest: &mut LatestJob<T>, ctx: &egui::Context) -> T {
         let begun = Instant::now();
         loop {
             if let Some(done) = newest.collect(ctx) {
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn only_the_newest_work_counts() {
-        let (ctx, mut newest) = (egui::Context::default(), Newest::default());
+        let (ctx, mut newest) = (egui::Context::default(), LatestJob::default());
         let (go, held) = channel::<()>();
         newest.ask(&ctx, move || {
             let _ = held.recv();
@@ -99,14 +99,14 @@ mod tests {
 
     #[test]
     fn after_work_that_broke_off_there_is_other_work() {
-        let (ctx, mut newest) = (egui::Context::default(), Newest::<u8>::default());
+        let (ctx, mut newest) = (egui::Context::default(), LatestJob::<u8>::default());
         newest.ask(&ctx, || panic!("as asked for"));
         let outcome = loop {
             if let Some(outcome) = newest.collect(&ctx) {
                 break outcome;
             }
         };
-        assert_eq!(outcome, Err(BrokenOff));
+        assert_eq!(outcome, Err(JobPanicked));
         newest.ask(&ctx, || 7);
         assert_eq!(wait(&mut newest, &ctx), 7);
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Outside, Weights};
-use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::texture::blend::Mode;
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::Picture;
@@ -46,7 +46,7 @@ pub enum Edit {
     /// Sets the picture; `None` shows the blended picture of the contributing textures.
     SetPicture(Option<Arc<Picture>>),
     /// Draws, changes or deletes the path.
-    ChangePath(PathChange, Option<DrawnPath>),
+    ChangePath(PathChange, Option<UserPath>),
     /// Replaces position, picture and notes by those generated from a prompt.
     Remake {
         /// Position in the space.

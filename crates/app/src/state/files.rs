@@ -15,7 +15,7 @@ use crate::strings::document as strings;
 
 /// Paths of the files that outlive the program; with `None` nothing is stored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Keeping {
+pub struct StoragePaths {
     /// Folder of the recovery files.
     pub recovery: Option<PathBuf>,
     /// Settings file.
@@ -46,7 +46,7 @@ pub(crate) struct Files {
 
 impl Files {
     /// Files of a new project, or of one that was read from `path`.
-    pub(crate) fn new(project: &Project, path: Option<PathBuf>, keeping: Keeping) -> Self {
+    pub(crate) fn new(project: &Project, path: Option<PathBuf>, keeping: StoragePaths) -> Self {
         let (settings_file, mut settings) = SettingsFile::open(keeping.settings);
         if let Some(path) = &path {
             settings.note_project(path);
@@ -78,7 +78,7 @@ impl Files {
     }
 
     /// Projects that other windows left behind.
-    pub(crate) fn leftovers(keeping: &Keeping) -> Vec<Leftover> {
+    pub(crate) fn leftovers(keeping: &StoragePaths) -> Vec<Leftover> {
         keeping.recovery.as_deref().map(leftovers).unwrap_or_default()
     }
 

@@ -102,7 +102,7 @@ mod tests {
     use crate::state::edit::{Edit, PathChange, edited};
     use shagreen_core::space::SpacePoint;
     use shagreen_core::space::authoring::{Outside, Weights};
-    use shagreen_core::space::texture_path::DrawnPath;
+    use shagreen_core::space::texture_path::UserPath;
     use shagreen_core::texture::blend::Mode;
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
@@ -207,9 +207,9 @@ mod tests {
             11 => Edit::SetTags(vec![name]),
             12 => Edit::SetPicture(joined.picture.clone().map(Arc::new).filter(|_| is_on)),
             13 => {
-                let path = DrawnPath {
+                let path = UserPath {
                     points: vec![at, SpacePoint { rough_smooth: 1.0, ..at }],
-                    ..DrawnPath::default()
+                    ..UserPath::default()
                 };
                 Edit::ChangePath(PathChange::Draw, is_on.then_some(path))
             }

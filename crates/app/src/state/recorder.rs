@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use shagreen_device::controls::Takeover;
-use shagreen_device::hid::tracker::PenMoment;
+use shagreen_device::hid::tracker::TrackedSample;
 use shagreen_device::track::PenSample;
 
 /// Maximum duration of a recording, in seconds.
@@ -76,7 +76,7 @@ impl Recorder {
     }
 
     /// Adds the pen samples since the last call, whose times are those of the pen's clock.
-    pub(crate) fn take_pen(&mut self, moments: &[PenMoment]) {
+    pub(crate) fn take_pen(&mut self, moments: &[TrackedSample]) {
         let Some(newest) = moments.last() else { return };
         let now_secs = self.began.elapsed().as_secs_f64();
         // The newest sample is at most one frame old.
@@ -170,7 +170,7 @@ impl Recorder {
 
 #[cfg(test)]
 mod tests {
-    use super::{FILL_SECS, LONGEST_SECS, PenMoment, PenSample, Recorder, Stylus};
+    use super::{FILL_SECS, LONGEST_SECS, PenSample, Recorder, Stylus, TrackedSample};
     use shagreen_device::hid::pen::PenReport;
     use shagreen_device::touch::Touch;
 
@@ -275,7 +275,7 @@ mod tests {
     /// The pen has its own clock, and the system moves the mouse with the pen.
     #[test]
     fn a_pen_is_recorded_by_its_own_clock_and_the_mouse_beside_it_is_not() {
-        let moment = |time_secs: f64, place_m: Option<[f64; 2]>, tip: bool| PenMoment {
+        let moment = |time_secs: f64, place_m: Option<[f64; 2]>, tip: bool| TrackedSample {
             time_secs,
             report: PenReport { tip, in_range: place_m.is_some(), ..PenReport::default() },
             place_m,

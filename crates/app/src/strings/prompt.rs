@@ -1,6 +1,6 @@
 //! Prompt box, and textures generated from prompts and photos.
 
-use shagreen_core::surfaces::prompt::Understood;
+use shagreen_core::surfaces::prompt::PromptInterpretation;
 
 pub const HINT: &str = "Describe a surface: a rough, soft carpet";
 pub const FIELD: &str = "Describe a surface";
@@ -43,7 +43,7 @@ pub fn near(names: &[String]) -> String {
 }
 
 /// Sentences about the words that were recognized.
-pub fn said_of_words(understood: &Understood) -> Vec<String> {
+pub fn said_of_words(understood: &PromptInterpretation) -> Vec<String> {
     let mut said = Vec::new();
     if understood.is_about_touch() {
         let of = |word: &shagreen_core::surfaces::prompt::Word| {
@@ -51,7 +51,7 @@ pub fn said_of_words(understood: &Understood) -> Vec<String> {
             format!("{not}{}", word.taken_for)
         };
         let words: Vec<String> = understood.words.iter().map(of).collect();
-        said.push(format!("Understood: {}.", words.join(", ")));
+        said.push(format!("PromptInterpretation: {}.", words.join(", ")));
     } else {
         said.push("No word describes touch: any surface is equally likely.".to_owned());
     }

@@ -115,7 +115,7 @@ pub fn against(kind: ThresholdKind) -> String {
     format!("threshold: {}, approximate", threshold(kind))
 }
 
-/// Newest level, and its multiple of the detection threshold.
+/// LatestJob level, and its multiple of the detection threshold.
 pub fn level_now(level_db: f64, multiple: f64) -> String {
     format!("{level_db:.0} dB · {}×", times(multiple))
 }

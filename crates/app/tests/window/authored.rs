@@ -218,6 +218,7 @@ fn a_neighbor_is_heard_alone() {
 #[test]
 fn a_snapshot_becomes_a_texture_of_its_own() {
     let mut harness = author();
+    wait_for_field(&mut harness);
     let name = window(&harness).project().texture().name.clone();
     let at = window(&harness).project().texture().at;
     click(&mut harness, words::KEEP);
@@ -225,10 +226,13 @@ fn a_snapshot_becomes_a_texture_of_its_own() {
     take_of_menu(&mut harness, &words::snapshot(1, &name), words::AS_OWN);
     assert_eq!(names(&harness), [name.clone(), words::state_of(&name, 1)]);
     assert_eq!(window(&harness).project().texture().at, at);
+    wait_for_field(&mut harness);
     let kept = heard(&harness);
     click(&mut harness, &compare::hear("A"));
+    wait_for_field(&mut harness);
     assert_ne!(heard(&harness), kept, "what became of it");
     click(&mut harness, &compare::hear("B"));
+    wait_for_field(&mut harness);
     assert_eq!(heard(&harness), kept);
 }
 

@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable as _;
 use shagreen_app::strings;
 use shagreen_app::strings::path;
 use shagreen_core::space::SpacePoint;
-use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::space::texture_path::{Along, AtEnd};
 
 use crate::support::{
@@ -19,7 +19,7 @@ fn center(harness: &Author, name: &str) -> Pos2 {
     harness.get_by_label(name).rect().center()
 }
 
-fn drawn(harness: &Author) -> DrawnPath {
+fn drawn(harness: &Author) -> UserPath {
     window(harness).project().texture().path.clone().expect("a path")
 }
 

@@ -7,7 +7,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::Begin;
 use shagreen_app::choices::tour::Step;
-use shagreen_app::state::files::Keeping;
+use shagreen_app::state::files::StoragePaths;
 use shagreen_app::state::recovery::INTERVAL;
 use shagreen_app::strings;
 use shagreen_app::strings::{document, gallery, help, import, signal};
@@ -235,11 +235,11 @@ fn a_project_that_is_dropped_is_opened() {
     wait(&mut harness, "it is open", |h| window(h).project() == &project);
 }
 
-fn keeping(folder: &Path) -> Keeping {
-    Keeping {
+fn keeping(folder: &Path) -> StoragePaths {
+    StoragePaths {
         recovery: Some(folder.join("recovery")),
         settings: Some(folder.join("settings.json")),
-        ..Keeping::default()
+        ..StoragePaths::default()
     }
 }
 
@@ -454,7 +454,7 @@ fn new_projects_begin_like_a_chosen_one() {
 fn the_scale_is_remembered() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("settings.json");
-    let keeping = Keeping { settings: Some(settings.clone()), ..Keeping::default() };
+    let keeping = StoragePaths { settings: Some(settings.clone()), ..StoragePaths::default() };
     for (before, after) in [("1.5", 1.5), ("40.0", 1.8)] {
         std::fs::write(&settings, format!(r#"{{"has_seen_tour": true, "scale": {before}}}"#)).unwrap();
         let harness = author_of(Begin { keeping: keeping.clone(), ..begin(new_project()) }, [1920.0, 1080.0]);

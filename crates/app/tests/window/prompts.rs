@@ -41,7 +41,7 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     assert!(texture.picture.is_some() && texture.notes.contains("seed 1"));
     let guess = window(&harness).prompts().guess_of(&texture).unwrap().clone();
     assert_eq!(guess.at(), texture.at);
-    for said in ["Understood:", "procedural generator, seed 1", "nobody rated it"] {
+    for said in ["PromptInterpretation:", "procedural generator, seed 1", "nobody rated it"] {
         assert!(says(&harness, said), "{said}");
     }
     // The contour of the ellipse is dashed; its filled area is one shape, as wide as two standard deviations.
@@ -67,7 +67,7 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     let moved = window(&harness).project().texture().clone();
     assert!(window(&harness).prompts().guess_of(&moved).unwrap().at().rough_smooth < 50.0);
     click(&mut harness, words::DISMISS);
-    assert!(!says(&harness, "Understood:"));
+    assert!(!says(&harness, "PromptInterpretation:"));
     for _ in 0..3 {
         click(&mut harness, strings::UNDO);
     }

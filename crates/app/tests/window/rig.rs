@@ -5,7 +5,7 @@ use std::path::Path;
 use egui::Key;
 use shagreen_app::Begin;
 use shagreen_app::session::OutputChoice;
-use shagreen_app::state::files::Keeping;
+use shagreen_app::state::files::StoragePaths;
 use shagreen_app::state::rig::Rig;
 use shagreen_app::strings::{self, devices};
 use shagreen_device::output::NULL_ID;
@@ -19,7 +19,7 @@ const SIZE: [f32; 2] = [1280.0, 720.0];
 
 /// Initial content of a window that stores its settings in this folder.
 fn kept(folder: &Path, output: OutputChoice) -> Begin {
-    let keeping = Keeping { settings: Some(folder.join("settings.json")), ..Keeping::default() };
+    let keeping = StoragePaths { settings: Some(folder.join("settings.json")), ..StoragePaths::default() };
     Begin { keeping, output, ..begin(new_project()) }
 }
 

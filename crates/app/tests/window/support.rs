@@ -11,7 +11,7 @@ use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use shagreen_app::Begin;
 use shagreen_app::author::blend_choice::mode_entry;
 use shagreen_app::session::OutputChoice;
-use shagreen_app::state::files::Keeping;
+use shagreen_app::state::files::StoragePaths;
 use shagreen_app::strings;
 use shagreen_app::window::Window;
 use shagreen_core::texture::blend::Mode;
@@ -38,7 +38,12 @@ pub(crate) fn author_on(library: Library, size: [f32; 2]) -> Author {
 
 /// Initial content with the silent output, which stores nothing.
 pub(crate) fn begin(project: Project) -> Begin {
-    Begin { project, path: None, output: OutputChoice::Id("null".to_owned()), keeping: Keeping::default() }
+    Begin {
+        project,
+        path: None,
+        output: OutputChoice::Id("null".to_owned()),
+        keeping: StoragePaths::default(),
+    }
 }
 
 /// Window with this initial content and an open output; `size` is in points.

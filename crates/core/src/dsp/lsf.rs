@@ -10,7 +10,7 @@ mod quick;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-pub(crate) use crate::dsp::lsf::quick::QuickLsf;
+pub(crate) use crate::dsp::lsf::quick::FastLsf;
 
 /// First grid of the root search, and its cosines.
 const FIRST_GRID: usize = 128;

@@ -14,7 +14,7 @@ pub use crate::recording::fit::strokes::{Stroke, strokes};
 use crate::dsp::spectrum::median;
 use crate::maths::triangulation::Triangulation;
 use crate::recording::Recording;
-use crate::recording::landings::fit_landings;
+use crate::recording::tap_transients::fit_tap_transients;
 use crate::texture::tap::Tap;
 use crate::texture::{Interpolation, TextureModel};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
@@ -199,7 +199,7 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
 
 /// Tap transient of the recordings, if the fit explains enough of the energy.
 fn landing(recordings: &[Recording], notes: &mut Vec<String>) -> Option<TapFit> {
-    let landed = fit_landings(recordings)?;
+    let landed = fit_tap_transients(recordings)?;
     if landed.explained < MIN_TAP_EXPLAINED {
         notes.push(format!(
             "{} tap transients were found, but one decaying sinusoid explains only {:.0} % of their energy; the model has no tap transient.",

@@ -6,7 +6,7 @@ mod exponential;
 mod lattice;
 
 use crate::dsp::ar::{SIDE_BY_SIDE, levinson_side_by_side};
-use crate::dsp::lsf::{QuickLsf, repair_to};
+use crate::dsp::lsf::{FastLsf, repair_to};
 use crate::space::sampled::bins::Bins;
 use crate::space::sampled::lattice::lattice;
 use crate::texture::plane::{Grain, Plane};
@@ -64,7 +64,7 @@ pub(crate) struct Sampling {
     order: usize,
     bins: Bins,
     frequencies: Vec<Hertz>,
-    quick: QuickLsf,
+    quick: FastLsf,
 }
 
 impl Sampling {
@@ -79,7 +79,7 @@ impl Sampling {
         let n_bins = (BINS_AT_1_KHZ * rate.0 / 1000.0).ceil() as usize;
         let bins = Bins::new(rate, n_bins, order);
         let (contacts, frequencies) = (lattice(planes), bins.frequencies());
-        Some(Self { contacts, rate, order, bins, frequencies, quick: QuickLsf::new() })
+        Some(Self { contacts, rate, order, bins, frequencies, quick: FastLsf::new() })
     }
 
     /// Samples the vibration model of a plane.

@@ -12,9 +12,9 @@
 mod adjectives;
 mod axes;
 mod error;
-mod oddities;
 mod stability;
-mod verdict;
+mod validation;
+mod warnings;
 
 use std::collections::BTreeSet;
 
@@ -34,7 +34,7 @@ pub use crate::space::space_build::adjectives::Adjective;
 pub use crate::space::space_build::axes::{Axis, Prediction, TRUSTED_NESTED_R};
 pub use crate::space::space_build::error::SpaceBuildError;
 pub use crate::space::space_build::stability::{MIN_DRAWN, Stability};
-pub use crate::space::space_build::verdict::{kruskal_word, verdict};
+pub use crate::space::space_build::validation::{kruskal_word, validation_summary};
 
 use crate::space::space_build::adjectives::fit_adjectives;
 use crate::space::space_build::axes::{Axes, fit_axes};
@@ -244,12 +244,12 @@ pub fn build_space(
 
     begin(on_step, Step::Adjectives)?;
     let unsorted: Vec<&str> = not_sorted.iter().map(|texture| texture.name).collect();
-    let mut findings = oddities::of_sorting(data, &similarity, &table, &unsorted, options.mds.ties);
-    findings.extend(oddities::of_scaling(&perceptual, options.n_dims));
+    let mut findings = warnings::of_sorting(data, &similarity, &table, &unsorted, options.mds.ties);
+    findings.extend(warnings::of_scaling(&perceptual, options.n_dims));
     let adjectives = fit_adjectives(&table, &data.votes, &textures, &perceptual.points, &mut findings)?;
     let raters: Vec<(String, RaterFit)> =
         table.participants().iter().cloned().zip(rater_fits(&table)).collect();
-    findings.extend(oddities::of_ratings(&raters, &table));
+    findings.extend(warnings::of_ratings(&raters, &table));
 
     begin(on_step, Step::Features)?;
     let features = features(&sorted, options, &mut || on_step(Step::Features))?;
@@ -258,7 +258,7 @@ pub fn build_space(
     let mut go_on = |axis| on_step(Step::Axis(axis));
     let Axes { fitted: axes, angle_degrees, chosen } =
         fit_axes(&adjectives, &perceptual.points, &features, options, &mut go_on)?;
-    findings.extend(oddities::of_axes(&axes, angle_degrees));
+    findings.extend(warnings::of_axes(&axes, angle_degrees));
     begin(on_step, Step::Stability)?;
     let drawn = Drawn {
         textures: &textures,
@@ -273,7 +273,7 @@ pub fn build_space(
     let mut go_on = || on_step(Step::Stability);
     let stability = stability(&drawn, options.n_draws, options.seed, &mut go_on, &mut findings)?;
     let positions = positions(&axes);
-    findings.extend(oddities::of_places(&textures, &positions));
+    findings.extend(warnings::of_places(&textures, &positions));
     let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
     Ok(SpaceBuild {
         textures,

@@ -13,10 +13,10 @@ use crate::space::authoring::{Authoring, Blending};
 use crate::space::texture_path::route::{between, check, mean};
 use crate::texture::TextureModel;
 
-pub use crate::space::texture_path::drawn::{DrawnPath, LEAST_STEP};
+pub use crate::space::texture_path::drawn::{LEAST_STEP, UserPath};
 pub use crate::space::texture_path::render::{PathPlan, path_mix, render_path};
 pub use crate::space::texture_path::route::{Along, AtEnd, Route, Stop, TexturePathError};
-pub use crate::space::texture_path::traveler::{TraveledAhead, Traveler};
+pub use crate::space::texture_path::traveler::{PathProgress, PrecomputedProgress};
 
 /// Maximum distance of neighboring keys in the space, in points of the axes. Routes that would need more than
 /// [`MAX_KEYS`] keys use a larger distance.

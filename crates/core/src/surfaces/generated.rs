@@ -5,9 +5,9 @@
 use crate::maths::gaussian_process::Estimate;
 use crate::space::SpacePoint;
 use crate::surfaces::height_field::{HeightField, Tile, synthesize};
-use crate::surfaces::imagined::{Anchor, imagine};
 use crate::surfaces::material::Material;
-use crate::surfaces::prompt::{OPEN, Understood};
+use crate::surfaces::prompt::{OPEN, PromptInterpretation};
+use crate::surfaces::prompt_material::{Anchor, imagine};
 use crate::surfaces::shading::{Picture, shade_tile};
 use crate::surfaces::starter::LabelSpan;
 use crate::surfaces::touch_words::ATTRIBUTES;
@@ -35,7 +35,7 @@ pub struct Generated {
 /// Takes about a second at [`GENERATED_TILE`] and 512 pixels.
 pub fn generate(
     prompt: &str,
-    understood: &Understood,
+    understood: &PromptInterpretation,
     anchors: &[Anchor],
     span: &LabelSpan,
     n_pixels: usize,
@@ -49,7 +49,7 @@ pub fn generate(
 
 /// Combination of two estimates of one attribute.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Agreed {
+pub struct CombinedEstimate {
     /// Combined estimate of the attribute.
     pub estimate: Estimate,
     /// Whether the two estimates differ by more than two standard deviations of their difference.
@@ -74,7 +74,7 @@ pub enum Witness {
 /// does not reduce their standard deviation. A picture with independent knowledge reduces it to its own, if that is
 /// smaller. Where the estimates lie further apart than their uncertainty, the standard deviation grows by that ratio
 /// (Birge ratio, R. Birge 1932). It never exceeds that of [`OPEN`].
-pub fn agree(words: Estimate, picture: Estimate, witness: Witness) -> Agreed {
+pub fn agree(words: Estimate, picture: Estimate, witness: Witness) -> CombinedEstimate {
     let weights = [words, picture].map(|estimate| estimate.deviation.max(1e-6).powi(-2));
     let mean = (weights[0] * words.mean + weights[1] * picture.mean) / (weights[0] + weights[1]);
     let apart = (words.mean - picture.mean).abs() / words.deviation.hypot(picture.deviation).max(1e-6);
@@ -83,14 +83,14 @@ pub fn agree(words: Estimate, picture: Estimate, witness: Witness) -> Agreed {
         Witness::OnItsOwn => words.deviation.min(picture.deviation),
     };
     let deviation = (surest * apart.max(1.0)).min(OPEN.deviation);
-    Agreed { estimate: Estimate { mean, deviation }, differ: apart > DIFFER }
+    CombinedEstimate { estimate: Estimate { mean, deviation }, differ: apart > DIFFER }
 }
 
 /// Position in the texture space predicted from words and picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
     /// Combined estimate on each axis, rough-smooth and hard-soft.
-    pub axes: [Agreed; 2],
+    pub axes: [CombinedEstimate; 2],
     /// Predicted position.
     pub at: SpacePoint,
 }
@@ -114,9 +114,9 @@ mod tests {
     use super::{GENERATED_TILE, Witness, agree, generate, place};
     use crate::maths::gaussian_process::Estimate;
     use crate::space::SpacePoint;
-    use crate::surfaces::imagined::Anchor;
     use crate::surfaces::material::tests::plain;
-    use crate::surfaces::prompt::{Looks, OPEN, Understood};
+    use crate::surfaces::prompt::{Looks, OPEN, PromptInterpretation};
+    use crate::surfaces::prompt_material::Anchor;
     use crate::surfaces::starter::{LabelSpan, Labels};
 
     const SPAN: LabelSpan = LabelSpan {
@@ -128,7 +128,7 @@ mod tests {
     fn a_seed_gives_the_same_surface_and_another_another() {
         let at = SpacePoint::new(50.0, 50.0).unwrap();
         let anchors = [Anchor { material: plain(), place: at }];
-        let understood = Understood {
+        let understood = PromptInterpretation {
             attributes: [Estimate { mean: 40.0, deviation: 10.0 }; 5],
             looks: Looks { scale: 1.0, ..Looks::default() },
             words: Vec::new(),

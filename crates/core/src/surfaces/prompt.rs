@@ -28,7 +28,7 @@ pub const MOST_WORDS: usize = 400;
 
 /// Interpretation of a prompt.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Understood {
+pub struct PromptInterpretation {
     /// Predicted attributes in the order of [`ATTRIBUTES`], 0 to 100.
     pub attributes: [Estimate; ATTRIBUTES.len()],
     /// Requested appearance.
@@ -103,7 +103,7 @@ pub fn title(prompt: &str, most: usize) -> Option<String> {
     }
 }
 
-impl Understood {
+impl PromptInterpretation {
     /// Returns whether the prompt contains any word about touch.
     pub fn is_about_touch(&self) -> bool {
         self.words.iter().any(|word| matches!(word.role, Role::Surface | Role::Quality | Role::Pattern))
@@ -140,7 +140,7 @@ impl Pending {
 }
 
 /// Returns the interpretation of a prompt of any length and script.
-pub fn understand(prompt: &str, lexicon: &Lexicon) -> Understood {
+pub fn interpret(prompt: &str, lexicon: &Lexicon) -> PromptInterpretation {
     let mut tokens = tokens(prompt);
     let n_left_out = tokens.iter().skip(MOST_WORDS).filter(|token| matches!(token, Token::Word(_))).count();
     tokens.truncate(MOST_WORDS);
@@ -292,7 +292,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn finish(mut self, n_left_out: usize) -> Understood {
+    fn finish(mut self, n_left_out: usize) -> PromptInterpretation {
         let last = self.surfaces.len().saturating_sub(1);
         for (index, hints) in self.surfaces.iter().enumerate() {
             let widened = if index == last { 1.0 } else { BEFORE_ANOTHER };
@@ -308,7 +308,7 @@ impl<'a> Reading<'a> {
             }
             estimate
         });
-        Understood {
+        PromptInterpretation {
             attributes,
             looks: self.looks,
             words: self.words,

@@ -5,9 +5,9 @@
 //! compared with the arrival times and permanently ignored if it disagrees. Without a clock, the arrival times are
 //! fitted to the constant report rate of pens, if there is one.
 
-mod beat;
+mod report_interval;
 
-use self::beat::Beat;
+use self::report_interval::ReportIntervalEstimator;
 
 /// Largest deviation of the device's clock from the arrival times, in s; it exceeds the transport jitter.
 const MAX_DISAGREEMENT_SECS: f64 = 0.050;
@@ -19,7 +19,7 @@ const MAX_DISAGREEMENTS: u32 = 3;
 pub struct ReportClock {
     round_secs: Option<f64>,
     n_disagreements: u32,
-    beat: Beat,
+    beat: ReportIntervalEstimator,
     last: Option<Last>,
 }
 
@@ -34,7 +34,7 @@ struct Last {
 impl ReportClock {
     /// For a device whose clock wraps around after `round_secs`; `None` if it has no clock.
     pub fn new(round_secs: Option<f64>) -> Self {
-        Self { round_secs, n_disagreements: 0, beat: Beat::new(), last: None }
+        Self { round_secs, n_disagreements: 0, beat: ReportIntervalEstimator::new(), last: None }
     }
 
     /// Returns the time of a report in s, on the clock of `arrival_secs` and never before the previous report. Without

@@ -31,7 +31,7 @@ pub struct Landing {
 
 /// State of the impact speed estimate between reports.
 #[derive(Clone, Debug, Default)]
-pub struct LandingEstimator {
+pub struct ImpactSpeedEstimator {
     /// Times and heights of the last reports without contact.
     heights: VecDeque<(f64, f64)>,
     last_in_air_secs: Option<f64>,
@@ -48,7 +48,7 @@ struct Contact {
     is_told: bool,
 }
 
-impl LandingEstimator {
+impl ImpactSpeedEstimator {
     /// Processes a report. Returns a contact onset once its speed is known; with force only, this takes three reports.
     pub fn report(
         &mut self,
@@ -129,11 +129,11 @@ impl Contact {
 
 #[cfg(test)]
 mod tests {
-    use super::{Landing, LandingEstimator, STIFFNESS_N_PER_M};
+    use super::{ImpactSpeedEstimator, Landing, STIFFNESS_N_PER_M};
 
     /// Contact onsets of a pen that descends at `speed_mps` from 1 cm, reports every `step_secs`, and stays for 50 ms.
     fn landings(speed_mps: f64, step_secs: f64, tells_height: bool) -> Vec<Landing> {
-        let mut estimator = LandingEstimator::default();
+        let mut estimator = ImpactSpeedEstimator::default();
         let contact_secs = 0.01 / speed_mps;
         let n = ((contact_secs + 0.05) / step_secs) as u32;
         (0..n)
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_tap_that_ends_early_is_told_when_it_ends() {
-        let mut estimator = LandingEstimator::default();
+        let mut estimator = ImpactSpeedEstimator::default();
         assert_eq!(estimator.report(0.0, None, 0.0, false), None);
         assert_eq!(estimator.report(0.005, None, 1.0, true), None);
         let landing = estimator.report(0.010, None, 0.0, false).unwrap();
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn nothing_is_told_of_a_contact_whose_beginning_was_not_seen() {
-        let mut estimator = LandingEstimator::default();
+        let mut estimator = ImpactSpeedEstimator::default();
         for i in 0..20 {
             assert_eq!(estimator.report(f64::from(i) * 0.005, None, 1.0, true), None);
         }

@@ -16,7 +16,7 @@ use rtrb::{Consumer, RingBuffer};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::hid::identity::HidPen;
 use crate::hid::live::reader::{Command, Reader};
-use crate::hid::tracker::{PenMoment, TrackerOptions};
+use crate::hid::tracker::{TrackedSample, TrackerOptions};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
 use crate::urgency::run_before_others;
@@ -121,7 +121,7 @@ struct Shared {
 #[derive(Debug)]
 pub struct PenThread {
     commands: Option<Sender<Command>>,
-    moments: Consumer<PenMoment>,
+    moments: Consumer<TrackedSample>,
     notices: Receiver<PenNotice>,
     shared: Arc<Shared>,
     thread: Option<JoinHandle<Option<LiveInput>>>,
@@ -178,7 +178,7 @@ impl PenThread {
     }
 
     /// Takes the oldest pen sample from the queue.
-    pub fn next_moment(&mut self) -> Option<PenMoment> {
+    pub fn next_moment(&mut self) -> Option<TrackedSample> {
         self.moments.pop().ok() // The queue is empty.
     }
 

@@ -1,7 +1,7 @@
 //! Conversion of pen reports to touches.
 
 use crate::hid::clock::ReportClock;
-use crate::hid::landing::{Landing, LandingEstimator};
+use crate::hid::landing::{ImpactSpeedEstimator, Landing};
 use crate::hid::pen::{PenDecoder, PenReport};
 use crate::kinematics::{SpeedEstimator, SpeedFilter};
 use crate::pressure::PressureMap;
@@ -20,7 +20,7 @@ pub struct TrackerOptions {
 
 /// One pen sample: a report with the quantities derived from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PenMoment {
+pub struct TrackedSample {
     /// Time in s, by the pen's own clock if it has one, otherwise by the arrival of the report.
     pub time_secs: f64,
     /// The decoded report.
@@ -35,7 +35,7 @@ pub struct PenMoment {
     pub landing: Option<Landing>,
 }
 
-impl PenMoment {
+impl TrackedSample {
     /// Returns the sample of a stroke, or `None` without a position in m.
     pub fn sample(&self) -> Option<PenSample> {
         let [x_m, y_m] = self.place_m?;
@@ -46,8 +46,8 @@ impl PenMoment {
 
 /// Converts pen samples to stroke samples, for [`crate::track::Track::new`]. Pen samples out of range or without a
 /// known size are skipped.
-pub fn stroke_samples(moments: &[PenMoment]) -> Vec<PenSample> {
-    moments.iter().filter_map(PenMoment::sample).collect()
+pub fn stroke_samples(moments: &[TrackedSample]) -> Vec<PenSample> {
+    moments.iter().filter_map(TrackedSample::sample).collect()
 }
 
 /// Converter of pen reports to touches, with its state between reports.
@@ -57,7 +57,7 @@ pub struct PenTracker {
     options: TrackerOptions,
     clock: ReportClock,
     estimator: SpeedEstimator,
-    landings: LandingEstimator,
+    landings: ImpactSpeedEstimator,
     last_touch: Touch,
     last_pen: Option<Pen>,
 }
@@ -74,7 +74,7 @@ impl PenTracker {
             options,
             clock,
             estimator: SpeedEstimator::new(options.speed_filter),
-            landings: LandingEstimator::default(),
+            landings: ImpactSpeedEstimator::default(),
             last_touch: Touch::default(),
             last_pen: None,
         }
@@ -92,7 +92,7 @@ impl PenTracker {
 
     /// Processes a report that arrived at `arrival_secs`, on any clock that does not decrease. Returns `None` if it is
     /// not a pen report.
-    pub fn report(&mut self, arrival_secs: f64, bytes: &[u8]) -> Option<PenMoment> {
+    pub fn report(&mut self, arrival_secs: f64, bytes: &[u8]) -> Option<TrackedSample> {
         let (format, report) = self.decoder.decode_with_format(bytes)?;
         let size_m = format.size_m();
         let time_secs = self.clock.time_secs(arrival_secs, report.clock_secs);
@@ -125,7 +125,7 @@ impl PenTracker {
         let touch = Touch { x_m: place[0], y_m: place[1], contact }.sanitized();
         self.last_touch = touch;
         let landing = self.landings.report(time_secs, report.distance_m, force_n, touching);
-        Some(PenMoment { time_secs, report, place_m, force_n, touch, landing })
+        Some(TrackedSample { time_secs, report, place_m, force_n, touch, landing })
     }
 
     /// Returns the touch after the pen was disconnected: lifted at its last position.

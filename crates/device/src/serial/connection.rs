@@ -11,11 +11,11 @@ use crate::edge::Edge;
 use crate::engine::Engine;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Reporter;
-use crate::serial::greeting::lost;
+use crate::serial::handshake::lost;
 use crate::serial::line::Line;
 use crate::serial::message::{Control, DeviceMessage, MAX_FAULT, MAX_SENSOR_SAMPLES, NO_TEXTURE};
-use crate::serial::outbox::Outbox;
 use crate::serial::sender::{Counts, Plan, Sender, Source};
+use crate::serial::write_queue::WriteQueue;
 use crate::urgency::run_before_others;
 
 /// Capacity of the queue of messages: four seconds of a sensor at 3.2 kHz.
@@ -23,7 +23,7 @@ const HEARD: usize = 128;
 
 /// Message of a receiver that does not concern the stream.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Heard {
+pub enum ReceiverEvent {
     /// Accelerometer samples.
     Sensor(SensorBlock),
     /// A fault of the receiver, which continues.
@@ -61,7 +61,7 @@ impl SerialOutput {
         engine: Engine,
         reporter: Reporter,
         line_latency: Duration,
-    ) -> Result<(Self, Consumer<Heard>), DeviceError> {
+    ) -> Result<(Self, Consumer<ReceiverEvent>), DeviceError> {
         let stop = Arc::new(AtomicBool::new(false));
         let (heard_in, heard_out) = RingBuffer::new(HEARD);
         let edge = Edge::new(engine, Arc::clone(&reporter.shared), f64::from(plan.configure.rate_hz));
@@ -73,7 +73,7 @@ impl SerialOutput {
             reporter,
             heard: heard_in,
             counts: Counts::default(),
-            outbox: Outbox::new(),
+            outbox: WriteQueue::new(),
         };
         let stopped = Arc::clone(&stop);
         let thread = std::thread::Builder::new()
@@ -105,9 +105,9 @@ struct Player {
     line: Line,
     edge: LineEdge,
     reporter: Reporter,
-    heard: Producer<Heard>,
+    heard: Producer<ReceiverEvent>,
     counts: Counts,
-    outbox: Outbox,
+    outbox: WriteQueue,
 }
 
 impl Player {
@@ -150,15 +150,17 @@ impl Player {
 }
 
 /// Queues messages that do not concern the stream. Returns the error if the message ends the output.
-fn hear(id: &str, message: DeviceMessage<'_>, heard: &mut Producer<Heard>) -> Option<DeviceError> {
+fn hear(id: &str, message: DeviceMessage<'_>, heard: &mut Producer<ReceiverEvent>) -> Option<DeviceError> {
     let told = match message {
-        DeviceMessage::Sensor { seq, rate_hz, time_us, scale_umps2, samples } => Heard::Sensor(SensorBlock {
-            seq,
-            rate_hz,
-            time_us,
-            scale_mps2: 1e-6 * f64::from(scale_umps2),
-            counts: samples.iter().take(MAX_SENSOR_SAMPLES).collect(),
-        }),
+        DeviceMessage::Sensor { seq, rate_hz, time_us, scale_umps2, samples } => {
+            ReceiverEvent::Sensor(SensorBlock {
+                seq,
+                rate_hz,
+                time_us,
+                scale_mps2: 1e-6 * f64::from(scale_umps2),
+                counts: samples.iter().take(MAX_SENSOR_SAMPLES).collect(),
+            })
+        }
         DeviceMessage::Fault { has_stopped, text } => {
             let text = String::from_utf8_lossy(&text[..text.len().min(MAX_FAULT)]).into_owned();
             if has_stopped {
@@ -166,7 +168,7 @@ fn hear(id: &str, message: DeviceMessage<'_>, heard: &mut Producer<Heard>) -> Op
                     format!("the receiver on `{id}` has stopped: {text}; fix this and open the output again");
                 return Some(DeviceError::new(DeviceErrorKind::Lost, message));
             }
-            Heard::Warning(text)
+            ReceiverEvent::Warning(text)
         }
         DeviceMessage::HelloReply(_) | DeviceMessage::Status(_) => return None,
     };

@@ -50,7 +50,7 @@ impl Line {
         match self.port.read(bytes) {
             // Data was signaled but none is there: the port was disconnected.
             Ok(0) => Err(io::ErrorKind::UnexpectedEof.into()),
-            Err(error) if super::outbox::is_no_room(&error) => Ok(0),
+            Err(error) if super::write_queue::is_no_room(&error) => Ok(0),
             read => read,
         }
     }
@@ -58,7 +58,7 @@ impl Line {
     /// Writes as many bytes as the port accepts.
     ///
     /// # Errors
-    /// As for [`Line::read`]. If the port accepts none, one of the kinds that [`super::outbox::Outbox::flush`] expects.
+    /// As for [`Line::read`]. If the port accepts none, one of the kinds that [`super::write_queue::WriteQueue::flush`] expects.
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         #[cfg(unix)]
         return io::Write::write(&mut self.writer, bytes);

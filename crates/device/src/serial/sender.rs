@@ -10,7 +10,7 @@ use crate::serial::message::{
     Configure, Control, DeviceMessage, DeviceStatus, HostMessage, MAX_SAMPLES, Mode, RunState, from_device,
     write_samples, write_to_device,
 };
-use crate::serial::outbox::Outbox;
+use crate::serial::write_queue::WriteQueue;
 
 /// Time after which an unacknowledged message is repeated.
 const REPEAT: Duration = Duration::from_millis(20);
@@ -130,7 +130,7 @@ impl Sender {
     }
 
     /// Queues the messages that are due now. Renders at most as many samples as the receiver accepts.
-    pub(super) fn poll(&mut self, now: Duration, source: &mut dyn Source, outbox: &mut Outbox) {
+    pub(super) fn poll(&mut self, now: Duration, source: &mut dyn Source, outbox: &mut WriteQueue) {
         self.allow(now);
         let Some(status) = self.status else {
             let configure = Configure { config: self.config, ..self.plan.configure };
@@ -162,7 +162,7 @@ impl Sender {
     }
 
     /// Queues a final stop message, so that the receiver is silent before the line closes.
-    pub(super) fn say_goodbye(outbox: &mut Outbox) {
+    pub(super) fn say_goodbye(outbox: &mut WriteQueue) {
         let mut wire = [0; MAX_WIRE];
         let len = write_to_device(HostMessage::Stop, &mut wire);
         outbox.clear();
@@ -203,7 +203,7 @@ impl Sender {
     }
 
     /// Handles a silent receiver: stops what may still be in transit, and pings.
-    fn wait_for_life(&mut self, now: Duration, status: DeviceStatus, outbox: &mut Outbox) {
+    fn wait_for_life(&mut self, now: Duration, status: DeviceStatus, outbox: &mut WriteQueue) {
         if !self.is_stalled {
             self.is_stalled = true;
             outbox.clear();
@@ -215,7 +215,7 @@ impl Sender {
         }
     }
 
-    fn stop(&mut self, now: Duration, status: DeviceStatus, outbox: &mut Outbox) {
+    fn stop(&mut self, now: Duration, status: DeviceStatus, outbox: &mut WriteQueue) {
         // A run that has already ended needs no stop.
         if self.stopped_run.is_none_or(|(run, _)| run == status.run) {
             self.stopped_run = Some((status.run, now));
@@ -229,7 +229,7 @@ impl Sender {
         now: Duration,
         pause: Duration,
         message: HostMessage<'_>,
-        outbox: &mut Outbox,
+        outbox: &mut WriteQueue,
     ) -> bool {
         if self.last_order.is_some_and(|last| now.saturating_sub(last) < pause) {
             return false;
@@ -249,7 +249,13 @@ impl Sender {
         self.allowance = (self.allowance + more).min(most);
     }
 
-    fn stream(&mut self, now: Duration, status: DeviceStatus, source: &mut dyn Source, outbox: &mut Outbox) {
+    fn stream(
+        &mut self,
+        now: Duration,
+        status: DeviceStatus,
+        source: &mut dyn Source,
+        outbox: &mut WriteQueue,
+    ) {
         let Configure { window, rate_hz, .. } = self.plan.configure;
         let block = self.plan.block;
         // Samples cannot be in transit for so long: they are lost or would be stale on arrival.
@@ -280,7 +286,7 @@ impl Sender {
         }
     }
 
-    fn control(&mut self, status: DeviceStatus, source: &mut dyn Source, outbox: &mut Outbox) {
+    fn control(&mut self, status: DeviceStatus, source: &mut dyn Source, outbox: &mut WriteQueue) {
         while self.due_for_control > 0 && self.allowance >= 1.0 {
             let n = self.due_for_control.min(self.allowance as u32).min(MAX_SAMPLES as u32);
             source.render(&mut [0; MAX_SAMPLES][..n as usize]);

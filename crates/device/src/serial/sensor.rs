@@ -2,14 +2,14 @@
 
 use rtrb::Consumer;
 
-use super::Heard;
+use super::ReceiverEvent;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::sensor::Sensor;
 
 /// Accelerometer of a serial receiver.
 #[derive(Debug)]
 pub struct SerialSensor {
-    heard: Consumer<Heard>,
+    heard: Consumer<ReceiverEvent>,
     rate_hz: f64,
     next_seq: Option<u16>,
     n_lost: u64,
@@ -17,7 +17,7 @@ pub struct SerialSensor {
 
 impl SerialSensor {
     /// A sensor that reads a connection's messages: [`super::Connection::heard`].
-    pub fn new(heard: Consumer<Heard>) -> Self {
+    pub fn new(heard: Consumer<ReceiverEvent>) -> Self {
         Self { heard, rate_hz: 0.0, next_seq: None, n_lost: 0 }
     }
 }
@@ -32,7 +32,7 @@ impl Sensor for SerialSensor {
     /// before it, so that later samples keep their time; [`Sensor::check`] reports the loss.
     fn read(&mut self, out: &mut Vec<f32>) {
         while let Ok(heard) = self.heard.pop() {
-            let Heard::Sensor(block) = heard else { continue };
+            let ReceiverEvent::Sensor(block) = heard else { continue };
             if let Some(next_seq) = self.next_seq {
                 let n_lost = block.seq.wrapping_sub(next_seq);
                 self.n_lost += u64::from(n_lost);
@@ -63,12 +63,12 @@ impl Sensor for SerialSensor {
 
 #[cfg(test)]
 mod tests {
-    use super::{Heard, Sensor as _, SerialSensor};
+    use super::{ReceiverEvent, Sensor as _, SerialSensor};
     use crate::serial::SensorBlock;
     use rtrb::RingBuffer;
 
-    fn block(seq: u16, counts: &[i16]) -> Heard {
-        Heard::Sensor(SensorBlock {
+    fn block(seq: u16, counts: &[i16]) -> ReceiverEvent {
+        ReceiverEvent::Sensor(SensorBlock {
             seq,
             rate_hz: 3200,
             time_us: 0,
@@ -82,7 +82,7 @@ mod tests {
         let (mut told, heard) = RingBuffer::new(8);
         let mut sensor = SerialSensor::new(heard);
         told.push(block(65_534, &[2, 4, 6])).unwrap();
-        told.push(Heard::Warning("warm".into())).unwrap();
+        told.push(ReceiverEvent::Warning("warm".into())).unwrap();
         told.push(block(1, &[8])).unwrap();
         let mut samples = Vec::new();
         sensor.read(&mut samples);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use sha2::{Digest as _, Sha256};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Outside, Weights};
-use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::space::texture_path::{Along, AtEnd};
 use shagreen_core::texture::blend::Mode;
 
@@ -236,7 +236,7 @@ fn of_word<T: Copy>(words: [(T, &str); 2], found: &str) -> Option<T> {
     words.into_iter().find(|(_, word)| *word == found).map(|(value, _)| value)
 }
 
-fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<DrawnPath, ProjectError> {
+fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<UserPath, ProjectError> {
     let word = |field, found: &str, expected| ProjectError::Word {
         name: name.to_owned(),
         field,
@@ -257,7 +257,7 @@ fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<DrawnPath, ProjectError> 
     let point = |[rs, hs]: [f64; 2]| {
         SpacePoint::new(rs, hs).map_err(|source| ProjectError::Place { name: name.to_owned(), source })
     };
-    Ok(DrawnPath {
+    Ok(UserPath {
         points: wire.points.into_iter().map(point).collect::<Result<_, _>>()?,
         along,
         length_m: wire.length_mm / 1e3,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 use shagreen_core::space::authoring::{Outside, Weights};
-use shagreen_core::space::texture_path::DrawnPath;
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::space::texture_path::{Along, AtEnd};
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::blend::Mode;
@@ -32,7 +32,7 @@ fn nothing(_: &Path) -> io::Result<Vec<u8>> {
 /// A project that uses every feature.
 fn full() -> Project {
     let library = starter_library().unwrap();
-    let path = DrawnPath {
+    let path = UserPath {
         points: vec![at(1.0 / 3.0, 2.0), at(50.0, 60.25)],
         along: Along::Time,
         length_m: 0.123,

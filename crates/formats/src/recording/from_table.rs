@@ -7,11 +7,11 @@ use shagreen_core::recording::{Fault, RawClock, RawRecording, check_clock};
 use shagreen_core::units::Hertz;
 
 use crate::recording::column_map::{Column, ColumnMap};
-use crate::recording::inquiry::Inquiry;
+use crate::recording::infer_units::{goes_on, likely_time_unit, other_time_unit, rate_of};
+use crate::recording::map_builder::MapBuilder;
 use crate::recording::names::{Meaning, meaning_of};
 use crate::recording::question::Ask;
 use crate::recording::table::Table;
-use crate::recording::told::{goes_on, likely_time_unit, other_time_unit, rate_of};
 use crate::recording::units::{AccelerationUnit, TimeUnit};
 use crate::recording::{RecordingFile, RecordingFileError};
 
@@ -22,7 +22,7 @@ const SAME_RATE_SHARE: f64 = 0.01;
 pub(super) fn recording_of_table(table: Table, map: &ColumnMap) -> Result<RecordingFile, RecordingFileError> {
     let meanings: Vec<Option<Meaning>> =
         table.names.iter().map(|name| if table.header { meaning_of(name) } else { None }).collect();
-    let mut reading = Reading { inquiry: Inquiry::new(map.clone()), table, meanings, used: Vec::new() };
+    let mut reading = Reading { inquiry: MapBuilder::new(map.clone()), table, meanings, used: Vec::new() };
     reading.inquiry.warnings.append(&mut reading.table.warnings);
     let clock = reading.clock()?;
     let faults: Vec<Fault> = clock.as_ref().map_or_else(Vec::new, |clock| check_clock(clock).1);
@@ -53,7 +53,7 @@ pub(super) fn recording_of_table(table: Table, map: &ColumnMap) -> Result<Record
 }
 
 struct Reading {
-    inquiry: Inquiry,
+    inquiry: MapBuilder,
     table: Table,
     meanings: Vec<Option<Meaning>>,
     /// Columns that have been assigned a quantity.

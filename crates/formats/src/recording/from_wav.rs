@@ -4,10 +4,10 @@ use shagreen_core::recording::{Fault, RawClock, RawMotion, RawRecording, RawTrac
 use shagreen_core::units::Hertz;
 
 use crate::recording::column_map::{Channel, ColumnMap};
-use crate::recording::inquiry::Inquiry;
+use crate::recording::infer_units::largest;
+use crate::recording::map_builder::MapBuilder;
 use crate::recording::question::Ask;
 use crate::recording::sidecar::read_sidecar;
-use crate::recording::told::largest;
 use crate::recording::units::{AccelerationUnit, ForceUnit, SpeedUnit};
 use crate::recording::wav::{WavSamples, read_wav};
 use crate::recording::{RecordingFile, RecordingFileError};
@@ -19,7 +19,7 @@ pub(super) fn recording_of_wav(
     map: &ColumnMap,
 ) -> Result<RecordingFile, RecordingFileError> {
     let WavSamples { rate_hz, mut channels, float, warnings } = read_wav(bytes)?;
-    let mut inquiry = Inquiry::new(map.clone());
+    let mut inquiry = MapBuilder::new(map.clone());
     inquiry.warnings = warnings;
     let rate_hz = f64::from(rate_hz);
     let trace = sidecar.map(|bytes| read_sidecar(bytes, rate_hz, &mut inquiry)).transpose()?.flatten();
@@ -104,7 +104,7 @@ pub(super) fn recording_of_wav(
 }
 
 /// Warns about columns in the map, because a WAV file has channels instead.
-fn name_columns(inquiry: &mut Inquiry) {
+fn name_columns(inquiry: &mut MapBuilder) {
     let map = &inquiry.map;
     let named = [
         ("time", map.time.is_some()),
@@ -123,7 +123,7 @@ fn name_columns(inquiry: &mut Inquiry) {
 
 /// Returns the contents of the channels; `None` if the user must state them.
 fn channel_kinds(
-    inquiry: &mut Inquiry,
+    inquiry: &mut MapBuilder,
     n_channels: usize,
 ) -> Result<Option<Vec<Channel>>, RecordingFileError> {
     if let Some(kinds) = inquiry.map.channels.clone() {
@@ -152,7 +152,7 @@ fn channel_kinds(
 }
 
 /// Value of a sample of 1.0 in a speed or force channel, in its unit.
-fn track_scale(inquiry: &mut Inquiry, samples: &[f64], float: bool, what: Ask) -> f64 {
+fn track_scale(inquiry: &mut MapBuilder, samples: &[f64], float: bool, what: Ask) -> f64 {
     let stated = |map: &ColumnMap| match what {
         Ask::SpeedFullScale => map.speed_full_scale,
         _ => map.force_full_scale,

@@ -13,7 +13,7 @@ use shagreen_core::units::{MetersPerSecond, Newtons};
 
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::{Channel, ColumnMap};
-use crate::recording::inquiry::Inquiry;
+use crate::recording::map_builder::MapBuilder;
 use crate::recording::units::{AccelerationUnit, ForceUnit, SpeedUnit};
 use crate::wav::{FORMAT, TraceV1, VERSION};
 
@@ -63,7 +63,7 @@ const KEYS: [&str; 16] = [
 pub(super) fn read_sidecar(
     bytes: &[u8],
     rate_hz: f64,
-    inquiry: &mut Inquiry,
+    inquiry: &mut MapBuilder,
 ) -> Result<Option<TraceV1>, RecordingFileError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let wire: Wire = serde_json::from_slice(bytes).map_err(|failure| error(failure.to_string()))?;
@@ -133,7 +133,7 @@ fn error(reason: String) -> RecordingFileError {
 }
 
 /// Warns about unknown keys in a sidecar written by hand, because they may be misspelled.
-fn name_unknown(bytes: &[u8], inquiry: &mut Inquiry) {
+fn name_unknown(bytes: &[u8], inquiry: &mut MapBuilder) {
     #[expect(clippy::zero_sized_map_values, reason = "serde_json reads an object as a map only")]
     // A list has no keys, so it raises no warning.
     let keys: BTreeMap<String, IgnoredAny> = serde_json::from_slice(bytes).unwrap_or_default();
@@ -151,7 +151,7 @@ fn name_unknown(bytes: &[u8], inquiry: &mut Inquiry) {
 
 /// The unit of a quantity, from the map or the sidecar.
 fn settle_units<T: Copy + PartialEq>(
-    inquiry: &mut Inquiry,
+    inquiry: &mut MapBuilder,
     what: &str,
     parse: impl Fn(&str) -> Option<T>,
     name: impl Fn(T) -> &'static str,
@@ -168,7 +168,7 @@ fn settle_units<T: Copy + PartialEq>(
 
 /// A full scale, from the map or the sidecar.
 fn settle_scale(
-    inquiry: &mut Inquiry,
+    inquiry: &mut MapBuilder,
     key: &str,
     value: Option<f64>,
     slot: impl Fn(&mut ColumnMap) -> &mut Option<f64>,

@@ -1,10 +1,10 @@
-use super::{Eyes, Lesson, PictureConfig, PictureModel, PictureModelError};
+use super::{FeatureExtractor, PictureConfig, PictureModel, PictureModelError, TrainingMetadata};
 use crate::picture_set::Seen;
 use shagreen_core::maths::rng::Random;
 
-fn lesson() -> Lesson {
-    Lesson {
-        eyes: Eyes::Statistics,
+fn lesson() -> TrainingMetadata {
+    TrainingMetadata {
+        eyes: FeatureExtractor::Statistics,
         attributes: vec!["sum".to_owned(), "first".to_owned()],
         learned_from: "numbers that were drawn".to_owned(),
     }
@@ -68,7 +68,10 @@ fn a_seed_gives_the_same_file_and_the_file_the_same_model() {
     assert_ne!(learn(&pictures, 4).to_bytes().unwrap(), bytes);
     let read = PictureModel::from_bytes(&bytes).unwrap();
     assert_eq!(read.predict(&pictures[0].features).unwrap(), model.predict(&pictures[0].features).unwrap());
-    assert_eq!((read.eyes(), read.learned_from()), (&Eyes::Statistics, "numbers that were drawn"));
+    assert_eq!(
+        (read.eyes(), read.learned_from()),
+        (&FeatureExtractor::Statistics, "numbers that were drawn")
+    );
     assert_eq!(read.attributes(), ["sum", "first"]);
 }
 

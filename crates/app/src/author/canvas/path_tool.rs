@@ -6,7 +6,7 @@ use egui::{
 };
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS};
-use shagreen_core::space::texture_path::{DrawnPath, LEAST_STEP};
+use shagreen_core::space::texture_path::{LEAST_STEP, UserPath};
 
 use crate::command::Command;
 use crate::look::axes::Axes;
@@ -68,12 +68,12 @@ impl PathTool {
     }
 }
 
-fn change(what: PathChange, path: Option<DrawnPath>) -> Command {
+fn change(what: PathChange, path: Option<UserPath>) -> Command {
     Command::Edit(Edit::ChangePath(what, path))
 }
 
 /// Path of the selected texture, or an empty one.
-fn drawn(panel: &Panel<'_>) -> DrawnPath {
+fn drawn(panel: &Panel<'_>) -> UserPath {
     panel.project.texture().path.clone().unwrap_or_default()
 }
 
@@ -166,7 +166,7 @@ pub(super) fn path_points(
 }
 
 /// Draws the settings and actions of a path; returns the requested commands.
-pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath) -> Vec<Command> {
+pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) -> Vec<Command> {
     let mut commands = Vec::new();
     let is_playing = panel.session.is_path_playing();
     let can_play = path.route().is_some();
@@ -194,7 +194,7 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath)
     let shown = combo.show_ui(ui, |ui| {
         for along in Along::ALL {
             if ui.selectable_label(path.along == along, name(along)).clicked() {
-                commands.push(change(PathChange::Along, Some(DrawnPath { along, ..path.clone() })));
+                commands.push(change(PathChange::Along, Some(UserPath { along, ..path.clone() })));
             }
         }
     });
@@ -203,7 +203,7 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &DrawnPath)
     let shown = combo.show_ui(ui, |ui| {
         for at_end in AtEnd::ALL {
             if ui.selectable_label(path.at_end == at_end, end_name(at_end)).clicked() {
-                commands.push(change(PathChange::AtEnd, Some(DrawnPath { at_end, ..path.clone() })));
+                commands.push(change(PathChange::AtEnd, Some(UserPath { at_end, ..path.clone() })));
             }
         }
     });

@@ -4,7 +4,7 @@ use egui::{
     Align, Button, Label, Layout, Rect, RichText, Role, Sense, TextureHandle, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::{Guess, Origin};
+use super::{Origin, PositionEstimate};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::look::theme::{GAP, RADIUS, tokens};
@@ -20,7 +20,7 @@ const N_NEAR: usize = 3;
 pub(crate) fn card_ui(
     ui: &mut Ui,
     panel: &Panel<'_>,
-    guess: &Guess,
+    guess: &PositionEstimate,
     is_busy: bool,
     picture: Option<&TextureHandle>,
 ) -> Option<Command> {
@@ -73,7 +73,7 @@ pub(crate) fn card_ui(
 }
 
 /// Names of the nearest textures, nearest first.
-fn nearest(panel: &Panel<'_>, guess: &Guess) -> Vec<String> {
+fn nearest(panel: &Panel<'_>, guess: &PositionEstimate) -> Vec<String> {
     let at = guess.at();
     let mut near: Vec<(f64, usize)> =
         panel.session.space().sites().iter().map(|(texture, site)| (site.distance(at), *texture)).collect();

@@ -8,16 +8,16 @@ use anyhow::Context as _;
 use egui::Context;
 use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::surfaces::generated::Witness;
-use shagreen_core::surfaces::prompt::{Understood, title, understand};
+use shagreen_core::surfaces::prompt::{PromptInterpretation, interpret, title};
 use shagreen_core::surfaces::shading::Picture as Surface;
 use shagreen_core::surfaces::starter::FRAMING;
 use shagreen_formats::lexicon_toml::built_in_lexicon;
 use shagreen_formats::picture::{Picture, Rgb, encode_jpeg, photo_pixels};
 use shagreen_learn::diffusion::Wish;
-use shagreen_learn::looking::Looker;
+use shagreen_learn::picture_predictor::PicturePredictor;
 
 use super::Arrived;
-use super::guess::{Guess, Origin, on_axes};
+use super::position_estimate::{Origin, PositionEstimate, on_axes};
 use crate::state::background::in_background;
 use crate::state::source::Source;
 use crate::strings::prompt as strings;
@@ -57,7 +57,7 @@ pub(super) struct Job {
     course: Arc<Course>,
     replaces: Option<(u32, Arc<Picture>)>,
     axes: [String; 2],
-    arriving: Receiver<Result<Option<Guess>, String>>,
+    arriving: Receiver<Result<Option<PositionEstimate>, String>>,
 }
 
 impl Job {
@@ -113,14 +113,14 @@ fn made(
     axes: &[String; 2],
     n_steps: &AtomicUsize,
     step: impl Fn() -> bool,
-) -> anyhow::Result<Option<Guess>> {
+) -> anyhow::Result<Option<PositionEstimate>> {
     let looker = match &maker.models {
         Some(models) => models.looker()?,
-        None => Looker::built_in(None)?,
+        None => PicturePredictor::built_in(None)?,
     };
     match wanted {
         Wanted::Words { prompt, seed } => {
-            let understood = understand(&prompt, built_in_lexicon()?);
+            let understood = interpret(&prompt, built_in_lexicon()?);
             let name = title(&prompt, LONGEST_NAME).unwrap_or_else(|| strings::NOTHING_SAID.to_owned());
             let made = match &maker.diffusion {
                 None => generate_procedurally(&name, &understood, SIDE, seed)?,
@@ -165,8 +165,8 @@ type Told = ([Estimate; 2], Vec<String>);
 
 /// Combines the estimates from words and picture. Also returns the axes on which they disagree.
 fn told(
-    looker: &Looker,
-    words: Option<&Understood>,
+    looker: &PicturePredictor,
+    words: Option<&PromptInterpretation>,
     surface: &Surface,
     axes: &[String; 2],
     witness: Witness,
@@ -184,7 +184,7 @@ fn guess(
     axes: [Estimate; 2],
     said: Vec<String>,
     is_disputed: bool,
-) -> anyhow::Result<Option<Guess>> {
+) -> anyhow::Result<Option<PositionEstimate>> {
     let picture = Arc::new(encode_jpeg(&Rgb::from(surface), surface.millimeters)?);
-    Ok(Some(Guess { key: None, origin, made_by, picture, name, axes, said, is_disputed }))
+    Ok(Some(PositionEstimate { key: None, origin, made_by, picture, name, axes, said, is_disputed }))
 }

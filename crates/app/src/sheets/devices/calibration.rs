@@ -10,7 +10,7 @@ use shagreen_core::actuator::{Actuator, Drive, Limits, limited_drive};
 use shagreen_core::units::{Hertz, Kilograms, Volts};
 use shagreen_device::audio_input::InputInfo;
 use shagreen_device::measure::{Listener, measure};
-use shagreen_formats::measured_profile::{HowMeasured, measured_profile};
+use shagreen_formats::measured_profile::{CalibrationConditions, measured_profile};
 
 use crate::state::background::in_background;
 use crate::state::rig::Rig;
@@ -117,7 +117,7 @@ fn measured(
     warnings.extend(calibration.warnings.iter().map(ToString::to_string));
     let fit = calibration.fit?;
     let base = rig.mounted.as_ref().map(|mounted| mounted.profile().clone());
-    let how = HowMeasured {
+    let how = CalibrationConditions {
         name: strings::calibrated_name(base.as_ref().map(|actuator| actuator.name.as_str())),
         heard: strings::played_on(id),
         load: Some(Kilograms::from_g(question.load_g)),

@@ -9,10 +9,10 @@ use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::import::batch::{Batch, Content};
 use crate::sheets::import::draft::FitState;
 use crate::sheets::import::fit_ui::{DETAILS_WIDTH, adjust_ui, fit_ui, list_ui};
+use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::plane_plot::{Dot, color_of_gfc, gfc_legend_ui, plane_plot};
 use crate::sheets::import::questions_ui::{questions_ui, sentence};
 use crate::sheets::import::recording_state::RecordingState;
-use crate::sheets::import::surroundings::Surroundings;
 use crate::sheets::import::trace_plot::trace_plot;
 use crate::strings::import as strings;
 
@@ -27,7 +27,7 @@ pub(super) fn draft_ui(
     batch: &mut Batch,
     id: u64,
     for_all: &mut bool,
-    around: Surroundings<'_>,
+    around: ImportContext<'_>,
 ) {
     let area = ui.available_rect_before_wrap();
     let (left, right) = area.split_left_right_at_x(area.right() - DETAILS_WIDTH);

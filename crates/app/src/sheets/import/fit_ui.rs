@@ -6,8 +6,8 @@ use shagreen_core::texture::Interpolation;
 
 use crate::look::theme::{GAP, tokens};
 use crate::sheets::import::draft::{Draft, FitState};
+use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::questions_ui::sentence;
-use crate::sheets::import::surroundings::Surroundings;
 use crate::strings::import as strings;
 
 /// Width of the column of results, in points.
@@ -80,7 +80,7 @@ fn order_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
 }
 
 /// Draws the results of the fit, or why there are none.
-pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: Surroundings<'_>) {
+pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: ImportContext<'_>) {
     let t = tokens(ui.ctx());
     match &draft.fit {
         FitState::Nothing => {

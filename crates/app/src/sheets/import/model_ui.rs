@@ -9,9 +9,9 @@ use crate::look::plot::title;
 use crate::look::spectrum_plot::spectrum_plot;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::import::fit_ui::{figure_rows_ui, list_ui};
+use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::plane_plot::{Dot, plane_plot};
 use crate::sheets::import::shown_model::ShownModel;
-use crate::sheets::import::surroundings::Surroundings;
 use crate::strings::import as strings;
 
 /// Number of frequencies of a spectrum.
@@ -23,7 +23,7 @@ pub(super) fn model_ui(
     entries: &[TextureEntry],
     warnings: &[String],
     shown: &mut ShownModel,
-    around: Surroundings<'_>,
+    around: ImportContext<'_>,
 ) {
     let Some(entry) = entries.get(shown.texture).or(entries.first()) else {
         ui.label(crate::strings::NO_TEXTURES);
@@ -92,7 +92,7 @@ fn plots_ui(ui: &mut Ui, entry: &TextureEntry, shown: &mut ShownModel) {
     shown.nodes.insert(shown.texture, node);
 }
 
-fn about_ui(ui: &mut Ui, entry: &TextureEntry, around: Surroundings<'_>) {
+fn about_ui(ui: &mut Ui, entry: &TextureEntry, around: ImportContext<'_>) {
     let t = tokens(ui.ctx());
     let model = &entry.model;
     let or_unknown = |text: &str| if text.is_empty() { strings::UNKNOWN.to_owned() } else { text.to_owned() };

@@ -8,9 +8,9 @@ use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::import::batch::{Batch, Content, State};
 use crate::sheets::import::draft_ui::draft_ui;
 use crate::sheets::import::files_ui::files_ui;
+use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::model_ui::model_ui;
 use crate::sheets::import::questions_ui::sentence;
-use crate::sheets::import::surroundings::Surroundings;
 use crate::state::edit::Edit;
 use crate::state::source::{Source, paths_in};
 use crate::strings::import as strings;
@@ -62,7 +62,7 @@ impl ImportSheet {
     }
 
     /// Draws the sheet; returns the requested commands.
-    pub fn show(&mut self, ctx: &Context, around: Surroundings<'_>) -> Vec<Command> {
+    pub fn show(&mut self, ctx: &Context, around: ImportContext<'_>) -> Vec<Command> {
         self.batch.collect();
         let is_there = |id: &u64| self.batch.files().iter().any(|file| file.id == *id);
         self.selected = self.selected.filter(is_there).or(self.batch.files().first().map(|file| file.id));
@@ -80,7 +80,7 @@ impl ImportSheet {
         commands
     }
 
-    fn content_ui(&mut self, ui: &mut Ui, around: Surroundings<'_>) -> Vec<Command> {
+    fn content_ui(&mut self, ui: &mut Ui, around: ImportContext<'_>) -> Vec<Command> {
         self.head_ui(ui);
         ui.add_space(GAP);
         let area = ui.available_rect_before_wrap();
@@ -139,7 +139,7 @@ impl ImportSheet {
         files_ui(ui, &mut self.batch, &mut self.selected);
     }
 
-    fn chosen_ui(&mut self, ui: &mut Ui, around: Surroundings<'_>) {
+    fn chosen_ui(&mut self, ui: &mut Ui, around: ImportContext<'_>) {
         let t = tokens(ui.ctx());
         let Some(id) = self.selected else {
             self.empty_ui(ui);
@@ -175,7 +175,7 @@ impl ImportSheet {
         });
     }
 
-    fn foot_ui(&mut self, ui: &mut Ui, around: Surroundings<'_>) -> Vec<Command> {
+    fn foot_ui(&mut self, ui: &mut Ui, around: ImportContext<'_>) -> Vec<Command> {
         let t = tokens(ui.ctx());
         let mut commands = Vec::new();
         let n_ready = self.batch.n_ready();

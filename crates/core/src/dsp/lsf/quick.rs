@@ -25,11 +25,11 @@ type Cosines = [[f64; HALF]; MOST_ROOTS + 1];
 /// Fast version of [`lsf_from_ar`] with an error below 1e-6 radians. It searches signs on a coarse grid and narrows all
 /// brackets in parallel. Predictors whose roots the grid does not separate fall back to [`lsf_from_ar`].
 #[derive(Clone, Debug)]
-pub(crate) struct QuickLsf {
+pub(crate) struct FastLsf {
     cosines: Box<Cosines>,
 }
 
-impl QuickLsf {
+impl FastLsf {
     /// Precomputes the cosines of the grid.
     pub(crate) fn new() -> Self {
         let cosine = |k: usize, i: usize| (std::f64::consts::PI * (k * i) as f64 / (N_GRID - 1) as f64).cos();
@@ -246,7 +246,7 @@ fn clenshaw<S: Simd, const V: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::{QuickLsf, Roots, half};
+    use super::{FastLsf, Roots, half};
     use crate::dsp::ar::power_gain;
     use crate::dsp::lsf::lsf_from_ar;
     use proptest::prelude::{prop, prop_assert, prop_assert_eq, prop_assume, proptest};
@@ -270,7 +270,7 @@ mod tests {
             let ar = predictor(&reflections);
             // Resonances of up to 90 dB: beyond that, the digits of the coefficients do not always determine stability.
             prop_assume!(power_gain(&ar) < 1e9);
-            let (quick, careful) = (QuickLsf::new().of(&ar).unwrap(), lsf_from_ar(&ar).unwrap());
+            let (quick, careful) = (FastLsf::new().of(&ar).unwrap(), lsf_from_ar(&ar).unwrap());
             prop_assert_eq!(quick.len(), careful.len());
             for (a, b) in quick.iter().zip(&careful) {
                 // Near 0 and π an angle has half the digits of its cosine.
@@ -281,7 +281,7 @@ mod tests {
 
     #[test]
     fn machines_without_vectors_find_the_same() {
-        let quick = QuickLsf::new();
+        let quick = FastLsf::new();
         for order in [2, 14, 20, 26, 32] {
             let ar = predictor(&(0..order).map(|i| 0.8 * f64::from(i).sin()).collect::<Vec<_>>());
             for sign in [1.0, -1.0] {
@@ -298,11 +298,11 @@ mod tests {
 
     #[test]
     fn predictors_of_zeros_and_unstable_ones() {
-        let zeros = QuickLsf::new().of(&[0.0; 8]).unwrap();
+        let zeros = FastLsf::new().of(&[0.0; 8]).unwrap();
         for (i, w) in zeros.iter().enumerate() {
             assert!((w - std::f64::consts::PI * (i + 1) as f64 / 9.0).abs() < 1e-9);
         }
-        assert_eq!(QuickLsf::new().of(&[0.0, 1.1]), None);
-        assert_eq!(QuickLsf::new().of(&[]), None);
+        assert_eq!(FastLsf::new().of(&[0.0, 1.1]), None);
+        assert_eq!(FastLsf::new().of(&[]), None);
     }
 }

@@ -9,8 +9,8 @@ use crate::people::ratings::{AdjectivePair, Rating, RelevanceVote};
 use crate::people::sorting::{Grouped, Sort};
 use crate::space::LabelSource;
 use crate::space::features::NamedTexture;
-use crate::space::space_build::oddities::of_scaling;
-use crate::space::space_build::verdict;
+use crate::space::space_build::validation_summary;
+use crate::space::space_build::warnings::of_scaling;
 use crate::texture::{GrainNode, TextureModel};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
@@ -103,7 +103,7 @@ fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
     // Random ratings have a poor fit.
     let random = built.adjectives[2].line.as_ref().unwrap();
     assert!(random.r_squared < 0.5 && built.adjectives[0].line.as_ref().unwrap().r_squared > 0.8);
-    let said = verdict(&built).join("\n");
+    let said = validation_summary(&built).join("\n");
     for words in
         ["simulated raters: no person felt the textures", "nested cross-validation", "19 permutations", "ICC"]
     {
@@ -142,7 +142,7 @@ fn places_are_predictions_where_those_can_be_trusted() {
             assert_eq!(nested_r >= TRUSTED_NESTED_R, placed_by == PlacedBy::Predicted, "{nested_r}");
             assert_eq!(axis.placed_by, placed_by);
         }
-        assert!(verdict(built).join("\n").contains(words), "{:?}", verdict(built));
+        assert!(validation_summary(built).join("\n").contains(words), "{:?}", validation_summary(built));
     }
     assert_eq!(own.positions[3].hard_soft, own.axes[1].prediction.as_ref().unwrap().predicted[3]);
     assert_eq!(others.positions[3].hard_soft, others.axes[1].felt[3]);
@@ -247,7 +247,7 @@ fn impossible_groups_and_strangers_are_said() {
     assert!(said.contains("7 textures are too few for 2 dimensions"), "{said}");
     assert!(said.contains("group count: 3 more cases"), "{said}");
     assert!(said.contains("no participant both sorted and rated"), "{said}");
-    assert!(verdict(&built).join("\n").contains("not meaningful with so few textures"));
+    assert!(validation_summary(&built).join("\n").contains("not meaningful with so few textures"));
 }
 
 #[test]

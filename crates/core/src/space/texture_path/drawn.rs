@@ -12,7 +12,7 @@ const STRAIGHT: f64 = 0.75;
 
 /// A path as drawn by the user.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DrawnPath {
+pub struct UserPath {
     /// Points of the path in the space; with fewer than two, the path is not complete yet.
     pub points: Vec<SpacePoint>,
     /// Quantity that is measured along the path.
@@ -25,7 +25,7 @@ pub struct DrawnPath {
     pub at_end: AtEnd,
 }
 
-impl Default for DrawnPath {
+impl Default for UserPath {
     fn default() -> Self {
         Self {
             points: Vec::new(),
@@ -37,7 +37,7 @@ impl Default for DrawnPath {
     }
 }
 
-impl DrawnPath {
+impl UserPath {
     /// Route along the stroke, with the length distributed in proportion to the drawn line. `None` if the path has
     /// fewer than two distinct points.
     pub fn route(&self) -> Option<Route> {
@@ -105,7 +105,7 @@ fn beside(point: SpacePoint, from: SpacePoint, to: SpacePoint) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{DrawnPath, MOST_DRAWN, beside};
+    use super::{MOST_DRAWN, UserPath, beside};
     use crate::space::SpacePoint;
     use crate::space::texture_path::{Along, AtEnd};
 
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn parts_are_as_long_as_they_were_drawn() {
         let points = vec![at(10.0, 10.0), at(40.0, 10.0), at(40.0, 10.0), at(40.0, 20.0)];
-        let mut path = DrawnPath { points, length_m: 0.08, at_end: AtEnd::Hold, ..DrawnPath::default() };
+        let mut path = UserPath { points, length_m: 0.08, at_end: AtEnd::Hold, ..UserPath::default() };
         let route = path.route().unwrap();
         let along: Vec<f64> = route.stops().iter().map(|stop| stop.along).collect();
         assert!(along.iter().zip([0.0, 0.06, 0.08]).all(|(a, b)| (a - b).abs() < 1e-12) && along.len() == 3);
@@ -136,15 +136,15 @@ mod tests {
             .map(|i| f64::from(i) / 400.0)
             .map(|t| at(10.0 + 80.0 * t, 50.0 + 30.0 * (9.0 * t).sin()))
             .collect();
-        let path = DrawnPath::default().drawn(&line);
+        let path = UserPath::default().drawn(&line);
         assert!(path.points.len() <= MOST_DRAWN && path.points.len() >= 8, "{}", path.points.len());
         assert_eq!((path.points[0], path.points[path.points.len() - 1]), (line[0], line[400]));
         for point in &line {
             let nearest = path.points.windows(2).map(|s| beside(*point, s[0], s[1])).fold(f64::MAX, f64::min);
             assert!(nearest < 2.0, "{point} is {nearest} from the path");
         }
-        let straight = DrawnPath::default().drawn(&[at(0.0, 0.0), at(5.0, 5.0), at(9.0, 9.0)]);
+        let straight = UserPath::default().drawn(&[at(0.0, 0.0), at(5.0, 5.0), at(9.0, 9.0)]);
         assert_eq!(straight.points, [at(0.0, 0.0), at(9.0, 9.0)]);
-        assert!(DrawnPath::default().drawn(&[]).points.is_empty());
+        assert!(UserPath::default().drawn(&[]).points.is_empty());
     }
 }

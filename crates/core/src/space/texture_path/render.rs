@@ -2,7 +2,7 @@
 
 use shagreen_synth::renderer::{Blend, Mix, Parent, TextureId};
 
-use crate::space::texture_path::{TexturePath, TraveledAhead};
+use crate::space::texture_path::{PrecomputedProgress, TexturePath};
 use crate::texture::plane::Prepared;
 use crate::texture::render::{Hand, MIX_STEP_SECS, RenderError, VaryingPlan, render_varying};
 use crate::units::Hertz;
@@ -33,8 +33,9 @@ pub fn render_path(plan: &PathPlan<'_>, hand: &mut dyn Hand) -> Result<Vec<f32>,
         return Err(RenderError::Keys { n: plan.prepared.len(), keys });
     }
     // Computed in advance, because the mix and the contact are requested alternately.
-    let ahead =
-        TraveledAhead::new(plan.path.along(), plan.seconds, MIX_STEP_SECS, &mut |secs| hand.contact_at(secs));
+    let ahead = PrecomputedProgress::new(plan.path.along(), plan.seconds, MIX_STEP_SECS, &mut |secs| {
+        hand.contact_at(secs)
+    });
     let mut mix_at = |time_secs: f64| path_mix(plan.path, ahead.at(time_secs));
     let varying = VaryingPlan {
         prepared: plan.prepared.iter().collect(),

@@ -1,5 +1,6 @@
 use super::{
-    Along, AtEnd, Key, MAX_KEYS, Route, Stop, TexturePath, TexturePathError, TraveledAhead, Traveler,
+    Along, AtEnd, Key, MAX_KEYS, PathProgress, PrecomputedProgress, Route, Stop, TexturePath,
+    TexturePathError,
 };
 use crate::space::SpacePoint;
 use crate::space::authoring::tests::world;
@@ -93,7 +94,7 @@ fn what_is_no_path_is_said() {
 fn a_stroke_counts_its_way_or_its_time_and_each_landing_begins_anew() {
     let [down, up] = [1.0, 0.0].map(|force_n| Contact::from_mm_per_s_and_n(200.0, force_n));
     for (along, want) in [(Along::Distance, 0.1), (Along::Time, 0.5)] {
-        let mut traveler = Traveler::new(along);
+        let mut traveler = PathProgress::new(along);
         (0..25).for_each(|_| traveler.go(down, 0.02));
         assert!((traveler.traveled() - want).abs() < 1e-12, "{}", traveler.traveled());
         (0..9).for_each(|_| traveler.go(up, 0.02));
@@ -101,7 +102,7 @@ fn a_stroke_counts_its_way_or_its_time_and_each_landing_begins_anew() {
         traveler.go(down, 0.02);
         assert!((traveler.traveled() - 0.04 * want).abs() < 1e-12, "{}", traveler.traveled());
         let mut contact_at = |secs| if secs < 0.5 { down } else { up };
-        let ahead = TraveledAhead::new(along, 0.6, 0.02, &mut contact_at);
+        let ahead = PrecomputedProgress::new(along, 0.6, 0.02, &mut contact_at);
         let [begin, middle, end, after] = [-1.0, 0.25, 0.6, 9.0].map(|secs| ahead.at(secs));
         assert_eq!((begin, end), (0.0, after));
         assert!((middle - 0.52 * want).abs() < 1e-12 && (end - want).abs() < 1e-12, "{middle} {end}");

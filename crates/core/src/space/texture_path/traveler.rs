@@ -6,13 +6,13 @@ use crate::units::Contact;
 /// Progress of a stroke along a path. It advances during contact, stops while the tip is lifted, and restarts at each
 /// new contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Traveler {
+pub struct PathProgress {
     along: Along,
     traveled: f64,
     touches: bool,
 }
 
-impl Traveler {
+impl PathProgress {
     /// Progress before the first contact.
     pub fn new(along: Along) -> Self {
         Self { along, traveled: 0.0, touches: false }
@@ -46,13 +46,13 @@ impl Traveler {
 
 /// Progress of a stroke along a path, computed in advance in time steps.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TraveledAhead {
+pub struct PrecomputedProgress {
     step_secs: f64,
     /// Progress at the beginning of each step, in m or s; has at least one entry.
     traveled: Vec<f64>,
 }
 
-impl TraveledAhead {
+impl PrecomputedProgress {
     /// Progress of a stroke of this duration whose contact at a time in seconds is `contact_at`.
     pub fn new(
         along: Along,
@@ -60,7 +60,7 @@ impl TraveledAhead {
         step_secs: f64,
         contact_at: &mut dyn FnMut(f64) -> Contact,
     ) -> Self {
-        let mut traveler = Traveler::new(along);
+        let mut traveler = PathProgress::new(along);
         let step = |step: usize| {
             let now = traveler.traveled();
             traveler.go(contact_at(step_secs * (step as f64 + 0.5)), step_secs);

@@ -1,6 +1,6 @@
 use proptest::prelude::{prop_assert, proptest};
 
-use super::{Role, Understood, understand};
+use super::{PromptInterpretation, Role, interpret};
 use crate::maths::gaussian_process::Estimate;
 use crate::surfaces::material::PatternKind;
 use crate::surfaces::touch_words::{Hints, Lexicon, Meaning, Shade};
@@ -45,8 +45,8 @@ fn lexicon() -> Lexicon {
     Lexicon::new(entries.into_iter().map(|(of, meaning)| (words(of), meaning)).collect()).unwrap()
 }
 
-fn of(prompt: &str) -> Understood {
-    understand(prompt, &lexicon())
+fn of(prompt: &str) -> PromptInterpretation {
+    interpret(prompt, &lexicon())
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::hid::descriptor::{self, MAX_REPORT_BYTES};
 use crate::hid::identity::HidPen;
 use crate::hid::live::{LOOK_AGAIN, PenBus, PenNotice, PenOptions, READ_TIMEOUT, ReportSource, Shared};
 use crate::hid::pen::PenDecoder;
-use crate::hid::tracker::{PenMoment, PenTracker};
+use crate::hid::tracker::{PenTracker, TrackedSample};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
 
@@ -36,7 +36,7 @@ pub(super) struct Reader {
     bus: Box<dyn PenBus>,
     options: PenOptions,
     live: Option<LiveInput>,
-    moments: Producer<PenMoment>,
+    moments: Producer<TrackedSample>,
     notices: SyncSender<PenNotice>,
     shared: Arc<Shared>,
     open: Option<Open>,
@@ -50,7 +50,7 @@ impl Reader {
         bus: Box<dyn PenBus>,
         options: PenOptions,
         live: Option<LiveInput>,
-        moments: Producer<PenMoment>,
+        moments: Producer<TrackedSample>,
         notices: SyncSender<PenNotice>,
         shared: Arc<Shared>,
     ) -> Self {
@@ -187,7 +187,7 @@ impl Reader {
         }
     }
 
-    fn tell_engine(&mut self, moment: &PenMoment, time: Instant) {
+    fn tell_engine(&mut self, moment: &TrackedSample, time: Instant) {
         let Some(live) = &mut self.live else { return };
         let landing_mps = moment.landing.map(|landing| landing.speed_mps);
         // Without a known position there is no output, so another stylus may take over.

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use serialport::{SerialPort as _, TTYPort};
 use shagreen_synth::renderer::Mix;
 
-use super::{Edge, Heard, LineEdge, SensorBlock, SerialOutput};
+use super::{Edge, LineEdge, ReceiverEvent, SensorBlock, SerialOutput};
 use crate::controls::Input;
 use crate::engine::Handle;
 use crate::error::DeviceErrorKind;
@@ -25,7 +25,7 @@ use crate::serial::frame::MAX_WIRE;
 use crate::serial::line::Line;
 use crate::serial::message::{Control, Mode, RunState, write_sensor};
 use crate::serial::receiver::{About, Receiver};
-use crate::serial::{SerialOptions, agreement, greeting, open};
+use crate::serial::{SerialOptions, handshake, negotiation, open};
 use crate::status::LinkState;
 use crate::texture::tests::white;
 
@@ -167,12 +167,12 @@ fn run_board(
 }
 
 /// All steps of opening, with a texture that is loaded before the first sample.
-fn start(board: &Board, serial: SerialOptions) -> (Handle, SerialOutput, rtrb::Consumer<Heard>) {
+fn start(board: &Board, serial: SerialOptions) -> (Handle, SerialOutput, rtrb::Consumer<ReceiverEvent>) {
     let id = "serial:test";
     let mut line = Line::open(id, &board.port, serial.baud).unwrap();
-    let info = greeting::greet(id, &mut line, serial).unwrap();
+    let info = handshake::greet(id, &mut line, serial).unwrap();
     assert_eq!(info.name, "test board");
-    let plan = agreement::agree(id, &info, OPTIONS, serial).unwrap();
+    let plan = negotiation::agree(id, &info, OPTIONS, serial).unwrap();
     let Made { mut handle, engine, reporter } = make_engine(OPTIONS, 4000).unwrap();
     stroke(&mut handle);
     let (output, heard) = SerialOutput::start(id, line, plan, engine, reporter, Duration::ZERO).unwrap();
@@ -216,7 +216,7 @@ fn a_texture_arrives_bit_for_bit() {
     let status = handle.status();
     assert_eq!((status.state, status.underruns, status.backend_errors), (LinkState::Running, 0, 0));
     assert!(status.frames_played >= 8000);
-    let Ok(Heard::Sensor(first)) = heard.pop() else { panic!("the sensor must send samples") };
+    let Ok(ReceiverEvent::Sensor(first)) = heard.pop() else { panic!("the sensor must send samples") };
     let block = SensorBlock { seq: 0, rate_hz: 3200, time_us: 7, scale_mps2: 0.038_307, counts: vec![0, -1] };
     assert_eq!(first, block);
     drop(output);

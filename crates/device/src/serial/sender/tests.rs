@@ -9,8 +9,8 @@ use super::{Configure, Control, DeviceStatus, Mode, Plan, RunState, Sender, Sour
 use crate::serial::frame::MAX_WIRE;
 use crate::serial::message::tests::CONFIGURE;
 use crate::serial::message::{DeviceMessage, write_to_host};
-use crate::serial::outbox::Outbox;
 use crate::serial::receiver::{About, Receiver};
+use crate::serial::write_queue::WriteQueue;
 use proptest::prelude::{any, prop, proptest};
 
 const PLAN: Plan = Plan { configure: CONFIGURE, block: 16, stall: Duration::from_millis(25) };
@@ -119,7 +119,7 @@ impl Way {
 struct Bench {
     tick: u64,
     sender: Sender,
-    outbox: Outbox,
+    outbox: WriteQueue,
     source: Stamps,
     receiver: Receiver<256>,
     down: Way,
@@ -137,7 +137,7 @@ impl Bench {
         Self {
             tick: 0,
             sender: Sender::new(plan, Duration::ZERO),
-            outbox: Outbox::new(),
+            outbox: WriteQueue::new(),
             source: Stamps { tick: 0, n_rendered: 0 },
             receiver: Receiver::new(ABOUT),
             down: Way::new(),
@@ -413,7 +413,7 @@ fn infinite_credit_is_no_credit() {
             ..DeviceStatus::default()
         };
         sender.receive(&status_bytes(status), now, &mut |_| {});
-        let mut outbox = Outbox::new();
+        let mut outbox = WriteQueue::new();
         sender.poll(now, &mut source, &mut outbox);
         let mut write = |bytes: &[u8]| {
             n_bytes += bytes.len();

@@ -3,9 +3,9 @@
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::Column;
 use crate::recording::from_table::Reading;
+use crate::recording::infer_units::unit_by_gravity;
 use crate::recording::names::Meaning;
 use crate::recording::question::Ask;
-use crate::recording::told::unit_by_gravity;
 use crate::recording::units::AccelerationUnit;
 
 impl Reading {

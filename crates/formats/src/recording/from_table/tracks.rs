@@ -4,9 +4,9 @@ use shagreen_core::recording::{RawMotion, RawTrack};
 
 use crate::recording::RecordingFileError;
 use crate::recording::from_table::Reading;
+use crate::recording::infer_units::{alternates, is_newtons, largest, median_of};
 use crate::recording::names::Meaning;
 use crate::recording::question::Ask;
-use crate::recording::told::{alternates, is_newtons, largest, median_of};
 use crate::recording::units::{ForceUnit, PositionUnit, SpeedUnit};
 
 /// Highest plausible hand speed in m/s; also the lowest plausible maximum of a stroke in mm/s.

@@ -1,0 +1,185 @@
+//! The authored points on the canvas.
+
+use egui::{CursorIcon, FontId, Key, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::Authored;
+use shagreen_formats::project::AuthoredTexture;
+
+use super::path_tool::PathTool;
+use super::{BIG_STEP, POINT_SIZE, SITE_RADIUS, move_to, point_id};
+use crate::author::authored_panel::authored_menu;
+use crate::command::Command;
+use crate::look::axes::Axes;
+use crate::look::drag::dragged_to;
+use crate::look::theme::Tokens;
+use crate::panel::Panel;
+use crate::state::edit::Edit;
+use crate::strings::{self, authored};
+
+/// Step of an arrow key, in axis units (0 to 100). With Shift it is [`BIG_STEP`].
+const STEP: f64 = 1.0;
+
+/// Draws the authored points, the selected one on top. A click or drag selects another one.
+pub(super) fn authored_points_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    tool: &PathTool,
+    t: &Tokens,
+) -> Vec<Command> {
+    let mut commands = Vec::new();
+    for (index, texture) in panel.project.authored.iter().enumerate() {
+        if index != panel.project.selected {
+            commands.extend(other_point_ui(ui, axes, panel, texture, tool, t));
+        }
+    }
+    commands.extend(point_ui(ui, axes, panel, tool, t));
+    commands
+}
+
+/// Interaction of the authored points: only hovering while a path is drawn, so that clicks and drags reach the canvas.
+pub(super) fn point_sense(tool: &PathTool) -> Sense {
+    if tool.is_on { Sense::hover() } else { Sense::click_and_drag() }
+}
+
+/// Draws an authored point that is not selected.
+fn other_point_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    texture: &AuthoredTexture,
+    tool: &PathTool,
+    t: &Tokens,
+) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let pos = axes.ui_from_space(texture.at);
+    let area = Rect::from_center_size(pos, vec2(20.0, 20.0));
+    let response = ui.interact(area, point_id(texture.key), point_sense(tool));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, authored::on_canvas(&texture.name)));
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+        commands.push(Command::Edit(Edit::Select(texture.key)));
+    }
+    commands.extend(authored_menu(&response, panel, texture));
+    let is_pointed = response.hovered() || response.has_focus();
+    let radius = if is_pointed { 8.0 } else { 6.5 };
+    ui.painter().circle_filled(pos, radius + 2.0, t.background);
+    ui.painter().circle_filled(pos, radius, t.authored[usize::from(texture.color)]);
+    ui.painter().circle_filled(pos, 2.5, t.background);
+    let name = format!("{} {}", texture.name, texture.at);
+    response.on_hover_text(name);
+    commands
+}
+
+/// Draws the selected authored point with lines to the contributing textures, and handles its drags and arrow keys.
+pub(super) fn point_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    tool: &PathTool,
+    t: &Tokens,
+) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let texture = panel.project.texture();
+    let point = texture.at;
+    let pos = axes.ui_from_space(point);
+    let id = point_id(texture.key);
+    let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, point_sense(tool));
+    response.widget_info(|| WidgetInfo {
+        current_text_value: Some(strings::place_in_words(point, panel.session.poles())),
+        ..WidgetInfo::labeled(Role::Slider, true, strings::POINT)
+    });
+    let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    if let Some(pointer) = dragged_to(ui, &response) {
+        commands.push(move_to(axes.space_from_ui(pointer)));
+    }
+    commands.extend(authored_menu(&response, panel, texture));
+    if let Some(to) = nudged(ui, id, point) {
+        commands.push(move_to(to));
+    }
+    if let Some(authored) = panel.session.authored() {
+        lines_to_parents(ui, axes, panel, authored, t);
+        outside_ui(ui, axes, panel, authored, t);
+    }
+    let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
+    ui.painter().circle_filled(pos, grown + 2.0, t.background);
+    ui.painter().circle_filled(pos, grown, t.accent);
+    ui.painter().circle_filled(pos, 4.5, t.on_accent);
+    ui.painter().circle_filled(pos, 3.0, t.authored[usize::from(texture.color)]);
+    if response.has_focus() {
+        ui.painter().circle_stroke(pos, grown + 4.0, Stroke::new(1.5, t.accent));
+    }
+    response.on_hover_text(format!("{} {}\n{}", panel.project.texture().name, point, strings::POINT_HELP));
+    commands
+}
+
+pub(super) fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+    let on = axes.ui_from_space(authored.location.at);
+    for ((texture, weight), color) in panel.session.shown_parents().iter().zip(t.parents) {
+        if let Some(site) = panel.session.space().position(*texture) {
+            let width = 1.0 + 4.0 * (*weight as f32).clamp(0.0, 1.0);
+            let site = axes.ui_from_space(site);
+            let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
+            ui.painter().line_segment([on, start], Stroke::new(width, color.gamma_multiply(0.75)));
+        }
+    }
+}
+
+/// Outside the convex hull: marks the nearest point of the hull that plays instead, or the distance of extrapolation.
+pub(super) fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+    let wanted = panel.session.path_point().unwrap_or(panel.project.texture().at);
+    let pos = axes.ui_from_space(wanted);
+    let on = axes.ui_from_space(authored.location.at);
+    let painter = ui.painter();
+    if authored.is_extrapolated
+        && let Some(nearest) = panel.session.space().locate(wanted)
+    {
+        let outline = axes.ui_from_space(nearest.at);
+        painter.extend(Shape::dashed_line(&[outline, on], Stroke::new(2.0, t.accent), 8.0, 5.0));
+        painter.circle_stroke(outline, 4.0, Stroke::new(1.5, t.accent));
+        let words =
+            painter.layout_no_wrap(strings::EXTRAPOLATED.to_owned(), FontId::proportional(11.5), t.accent);
+        // Below the line, and not over the point at its end.
+        let below = outline.lerp(on, 0.5) + vec2(0.0, 0.5 * words.size().y + 4.0);
+        let area = Rect::from_center_size(below, words.size());
+        let point = Rect::from_center_size(pos, POINT_SIZE);
+        let overlap = if area.intersects(point) { point.bottom() - area.top() } else { 0.0 };
+        let shift = (axes.rect.right() + 30.0 - area.right()).min(0.0);
+        let area = area.translate(vec2(shift, overlap));
+        painter.rect_filled(area.expand(2.0), 3.0, t.background.gamma_multiply(0.9));
+        painter.galley(area.min, words, t.accent);
+    }
+    if authored.location.clamped {
+        painter.extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
+        painter.circle_filled(on, 4.0, t.warning);
+    }
+}
+
+/// New position of the point after arrow keys, if it has the keyboard focus or nothing has.
+pub(super) fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
+    let focused = ui.memory(egui::Memory::focused);
+    if focused.is_some_and(|f| f != id) {
+        return None;
+    }
+    // With the focus on the point, arrow keys move the point and not the focus.
+    if focused == Some(id) {
+        let filter =
+            egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+        ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
+    }
+    let (dx, dy) = ui.input(|i| {
+        let step = if i.modifiers.shift { BIG_STEP } else { STEP };
+        let count = |key: Key| f64::from(i.num_presses(key) as u32);
+        (
+            step * (count(Key::ArrowRight) - count(Key::ArrowLeft)),
+            step * (count(Key::ArrowUp) - count(Key::ArrowDown)),
+        )
+    });
+    (dx != 0.0 || dy != 0.0).then(|| SpacePoint {
+        rough_smooth: (from.rough_smooth + dx).clamp(0.0, 100.0),
+        hard_soft: (from.hard_soft + dy).clamp(0.0, 100.0),
+    })
+}

@@ -1,0 +1,103 @@
+//! From the authored point to the audible textures.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::Authored;
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::rate::at_rate;
+use shagreen_core::units::Hertz;
+use shagreen_device::synth::tap::Tap;
+
+use super::Session;
+use super::audible::Audible;
+use super::models_worker::{Ingredients, Job};
+use super::path_walk::PathWalk;
+use shagreen_core::space::texture_path::UserPath;
+
+impl Session {
+    /// Advances the stroke along a played path and returns its position.
+    pub(super) fn follow_path(&mut self, path: Option<&UserPath>) -> Option<SpacePoint> {
+        let touch = self.touch();
+        let walk = self.authored.walk.as_mut()?;
+        let Some(route) = path.and_then(UserPath::route) else {
+            self.authored.walk = None;
+            return None;
+        };
+        // The user may have switched between distance and time.
+        if walk.along() != route.along() {
+            *walk = PathWalk::new(route.along());
+        }
+        walk.advance(touch, Instant::now());
+        Some(route.point_at(walk.traveled()))
+    }
+
+    /// Index of the key nearest to the stroke on the path of a soloed texture. `None` if nothing is soloed or the
+    /// soloed texture has no path.
+    pub(super) fn follow_key(&mut self, solo: Option<usize>) -> Option<usize> {
+        let touch = self.touch();
+        let Some((texture, path)) =
+            solo.and_then(|texture| Some((texture, self.textures.library.textures[texture].path.as_ref()?)))
+        else {
+            self.authored.walk_alone = None;
+            return None;
+        };
+        let (of, walk) =
+            self.authored.walk_alone.get_or_insert_with(|| (texture, PathWalk::new(path.along())));
+        if *of != texture {
+            (*of, *walk) = (texture, PathWalk::new(path.along()));
+        }
+        walk.advance(touch, Instant::now());
+        Some(walk.nearest_key(path))
+    }
+
+    /// A soloed texture, or the texture of its path at a key.
+    pub(super) fn alone(&self, texture: usize, key: Option<usize>, at: SpacePoint, mode: Mode) -> Authored {
+        let alone = Authored::alone(texture, at, mode);
+        let path = self.textures.library.textures[texture].path.as_ref();
+        match path.zip(key).and_then(|(path, key)| path.keys().get(key)) {
+            Some(key) => {
+                // A texture with a position plays at the sample rate of the space, so the textures of its path do too.
+                let converted = at_rate(&key.model, Hertz(self.textures.rates_hz[texture]));
+                let model = converted.map_or_else(|_| key.model.clone(), |converted| converted.model);
+                Authored { mode: Mode::Field, model: Some(model), lock: None, ..alone }
+            }
+            None => alone,
+        }
+    }
+
+    /// Makes the interpolated texture audible. If the models for its mode are still being computed, the previous
+    /// texture keeps playing.
+    pub(super) fn hear(&mut self) {
+        self.authored.n_made += 1;
+        let heard = match &self.authored.current {
+            Some(authored) => Audible::new(authored, &self.textures.planes, self.authored.n_made),
+            None => Audible::default(),
+        };
+        if self.authored.current.is_some() && heard.voices.is_empty() && self.is_preparing() {
+            return;
+        }
+        self.sound.heard = heard;
+        let tap_of = |texture: usize| self.textures.library.textures[texture].model.tap();
+        let tap = self.authored.current.as_ref().and_then(|authored| authored.tap(tap_of));
+        self.sound.player.tap = tap.map_or(Tap::SILENT, Tap::from);
+        self.sound.player.mix_is_new = true;
+    }
+
+    /// Requests the models of the field and parametric modes for the textures in the space.
+    pub(super) fn ask_for_models(&mut self) {
+        let space = self.authored.authoring.space().clone();
+        if space.sites().is_empty() {
+            self.authored.models.cancel();
+            return;
+        }
+        let mut textures: Vec<Option<Ingredients>> = self.textures.planes.iter().map(|_| None).collect();
+        for (texture, _) in space.sites() {
+            let model = &self.textures.library.textures[*texture].model;
+            let plane = Arc::clone(&self.textures.planes[*texture]);
+            textures[*texture] = Some(Ingredients::of(model, plane));
+        }
+        self.authored.models.ask(Job { space, textures });
+    }
+}

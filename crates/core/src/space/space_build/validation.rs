@@ -1,0 +1,167 @@
+//! Validation summary of a space, as sentences.
+
+use crate::space::LabelSource;
+use crate::space::space_build::{Axis, PlacedBy, SpaceBuild, TRUSTED_NESTED_R};
+use crate::words::counted;
+
+/// R² of an adjective's line below which the fit is called weak: it explains less than half of the variance of the
+/// ratings.
+const WEAK_R_SQUARED: f64 = 0.5;
+/// Deviation from a right angle, in degrees, above which the axes are called oblique.
+const OBLIQUE_DEGREES: f64 = 15.0;
+/// ICC of the mean rating below which agreement is called poor (Koo and Li 2016).
+const POOR_ICC: f64 = 0.5;
+/// p-value from which a line or a prediction is called not significant.
+const CHANCE: f64 = 0.05;
+
+/// Kruskal's (1964) verbal rating of a stress-1 value. He rates 0, 0.025, 0.05, 0.1 and 0.2; the boundaries here lie
+/// halfway between, so his values get his words.
+pub fn kruskal_word(stress: f64) -> &'static str {
+    match stress {
+        s if s < 0.0125 => "nearly perfect",
+        s if s < 0.0375 => "excellent",
+        s if s < 0.075 => "good",
+        s if s < 0.15 => "fair",
+        _ => "poor",
+    }
+}
+
+/// Minimum number of textures for a meaningful stress (Kruskal and Wish 1978): four times the dimensions plus one.
+pub(super) fn least_textures(n_dims: usize) -> usize {
+    4 * n_dims + 1
+}
+
+/// Validation summary of a space, most general sentences first. Irregularities are in [`SpaceBuild::findings`].
+pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
+    let mut said = vec![
+        format!(
+            "{}, from {}{}.",
+            counted(build.textures.len(), "texture"),
+            build.source.label(),
+            if build.source == LabelSource::SimulatedRaters { ": no person felt the textures" } else { "" }
+        ),
+        format!(
+            "Stress of the {}-dimensional perceptual space: {:.3}, {}.",
+            build.options.n_dims,
+            build.perceptual.stress,
+            if build.textures.len() < least_textures(build.options.n_dims) {
+                "not meaningful with so few textures".to_owned()
+            } else {
+                format!("{} by Kruskal's criteria", kruskal_word(build.perceptual.stress))
+            }
+        ),
+        angle(build),
+    ];
+    for axis in &build.axes {
+        said.extend(line(build, axis));
+        said.extend(prediction(axis));
+    }
+    said.extend(stability(build));
+    said.extend(build.axes.iter().map(|axis| place(axis, build.options.placement.is_none())));
+    said
+}
+
+/// Kind of positions on an axis, and the reason if the choice was automatic.
+fn place(axis: &Axis, is_chosen_here: bool) -> String {
+    let pair = &axis.pair;
+    let place = match axis.placed_by {
+        PlacedBy::Felt => "perceived positions, from the judgments",
+        PlacedBy::Predicted => "positions predicted from features, by models trained on the same textures",
+    };
+    let nested_r = axis.prediction.as_ref().map(|prediction| prediction.validation.nested_cv_r);
+    let why = match (is_chosen_here, nested_r) {
+        (false, _) => String::new(),
+        (true, None) => ", because there is no prediction".to_owned(),
+        (true, Some(r)) => {
+            let side = if axis.placed_by == PlacedBy::Predicted { "not below" } else { "below" };
+            format!(", because the nested r of the prediction, {r:.3}, is {side} {TRUSTED_NESTED_R}")
+        }
+    };
+    format!("{pair}: {place}{why}.")
+}
+
+fn angle(build: &SpaceBuild) -> String {
+    let names = build.axes.each_ref().map(|axis| axis.pair.to_string());
+    let degrees = build.angle_degrees;
+    let meets =
+        format!("{} and {} are at an angle of {degrees:.1}° in the perceptual space", names[0], names[1]);
+    if build.options.is_orthogonal {
+        format!("{meets}; the second axis was made orthogonal to the first.")
+    } else if (degrees - 90.0).abs() > OBLIQUE_DEGREES {
+        format!("{meets}: they are not independent, although the map shows them as orthogonal.")
+    } else {
+        format!("{meets}.")
+    }
+}
+
+/// Fit of an axis line and agreement of its raters.
+fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
+    let adjective = &build.adjectives[axis.adjective];
+    let line = adjective.line.as_ref().ok()?;
+    let weak = if line.r_squared < WEAK_R_SQUARED { ", a weak fit" } else { "" };
+    let agreement = adjective.agreement.as_ref().map_or_else(
+        |reason| format!("inter-rater agreement unknown ({reason})"),
+        |agreement| {
+            let icc = agreement.average.value;
+            let poor = if icc < POOR_ICC { ", poor" } else { "" };
+            format!("ICC of the mean rating {icc:.2}{poor}")
+        },
+    );
+    let luck = if line.p_value >= CHANCE {
+        format!(
+            " (p = {:.2}, not significant: positions on this axis may have little meaning, however well they are predicted)",
+            line.p_value
+        )
+    } else {
+        String::new()
+    };
+    Some(format!("{}: R² {:.2} in the perceptual space{weak}{luck}; {agreement}.", axis.pair, line.r_squared))
+}
+
+/// Bootstrap stability of the positions.
+fn stability(build: &SpaceBuild) -> Option<String> {
+    let stability = build.stability.as_ref()?;
+    let loose = |[first, second]: &[f64; 2]| first.hypot(*second);
+    let mut by_deviation: Vec<(&String, f64)> =
+        build.textures.iter().zip(stability.deviations.iter().map(loose)).collect();
+    by_deviation.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let least: Vec<&str> = by_deviation.iter().take(3).map(|(id, _)| id.as_str()).collect();
+    let failed = match stability.n_failed {
+        0 => String::new(),
+        n => format!("; {} yielded no space", counted(n, "more sample")),
+    };
+    Some(format!(
+        "Bootstrap over participants ({} samples): the standard deviation of the perceived positions is {:.1} points of 100 along {} and {:.1} along {}, largest for {}; that of the angle is {:.0}°{failed}.",
+        stability.n_draws,
+        stability.typical[0],
+        build.axes[0].pair,
+        stability.typical[1],
+        build.axes[1].pair,
+        least.join(", "),
+        stability.angle_deviation_degrees,
+    ))
+}
+
+/// Validation of an axis prediction; it always states the unbiased figure together with the published one.
+fn prediction(axis: &Axis) -> Option<String> {
+    let prediction = axis.prediction.as_ref()?;
+    let v = &prediction.validation;
+    let chance = v.permutation_p.map_or_else(
+        || "no permutation test".to_owned(),
+        |p| {
+            let luck = if p >= CHANCE { ", not significant" } else { "" };
+            format!("p = {p:.3} from {} permutations{luck}", v.n_permutations)
+        },
+    );
+    Some(format!(
+        "{}: predicted from {}; nested cross-validation r = {:.2} (range-normalized accuracy {:.1} %, {:.1} % for predicting the mean; {chance}). Plain correlation: {:.2} nested; {:.2} with features selected on all textures, as usually published and biased upwards ({:.1} %).",
+        axis.pair,
+        counted(prediction.features.len(), "feature"),
+        v.nested_cv_r,
+        v.nested_cv_rms_percent,
+        v.mean_rms_percent,
+        v.nested_cv_plain_r,
+        v.cv_r,
+        v.cv_rms_percent
+    ))
+}

@@ -1,0 +1,212 @@
+//! Warnings about irregular judgments and perceptual spaces, as sentences.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::people::mds::{Mds, Ties};
+use crate::people::ratings::{RaterFit, RatingTable};
+use crate::people::sorting::{Finding, Similarity, Sort};
+use crate::space::SpacePoint;
+use crate::space::selection::MIN_TEXTURES;
+use crate::space::space_build::validation::least_textures;
+use crate::space::space_build::{Axis, SpaceData};
+use crate::words::counted;
+
+/// Maximum number of findings of one kind that are listed; the rest are only counted.
+const N_SAID: usize = 3;
+
+/// Minimum number of sorters; with fewer, the perceptual space depends mostly on chance.
+const MIN_SORTERS: usize = 5;
+
+/// Angle in degrees from 0 or 180 below which two directions count as parallel.
+const ONE_LINE_DEGREES: f64 = 20.0;
+
+/// Distance, in points of 100, below which two textures count as coincident.
+const COINCIDENT: f64 = 0.5;
+
+/// Minimum median distance relative to the largest distance; a smaller value indicates a collapsed space.
+const COLLAPSED: f64 = 0.05;
+
+/// Warnings about the participants and their sorts; `unsorted` are the textures that nobody sorted.
+pub(super) fn of_sorting(
+    data: &SpaceData<'_>,
+    similarity: &Similarity,
+    table: &RatingTable,
+    unsorted: &[&str],
+    ties: Ties,
+) -> Vec<String> {
+    let mut said = sort_findings(&similarity.findings);
+    said.extend(participation(data, table));
+    if !unsorted.is_empty() {
+        said.push(format!("not sorted, so without a position: {}", unsorted.join(", ")));
+    }
+    let n_sorters = similarity.agreements.len();
+    if n_sorters < MIN_SORTERS {
+        let advice = match ties {
+            Ties::Primary => "; with so few, secondary ties work better",
+            Ties::Secondary => "",
+        };
+        said.push(format!(
+            "only {n_sorters} sorted: most dissimilarities are tied, so the perceptual space depends on chance even if its stress is low; ten participants are usual{advice}"
+        ));
+    }
+    if n_sorters > 1 && all_sorted_alike(&data.sorts) {
+        said.push(
+            "all participants made identical sorts: nothing is known about the variation between participants".to_owned(),
+        );
+    }
+    said
+}
+
+/// Warnings about raters and missing ratings.
+pub(super) fn of_ratings(raters: &[(String, RaterFit)], table: &RatingTable) -> Vec<String> {
+    let outlying: Vec<&str> =
+        raters.iter().filter(|(_, fit)| fit.outlying).map(|(name, _)| name.as_str()).collect();
+    let mut said = Vec::new();
+    if !outlying.is_empty() {
+        said.push(format!("outlying raters (not excluded): {}", outlying.join(", ")));
+    }
+    if table.n_missing() > 0 {
+        let missing = counted(table.n_missing(), "rating");
+        said.push(format!("missing: {missing}; averages use only the ratings given"));
+    }
+    said
+}
+
+/// Warnings about the axes and their predictions.
+pub(super) fn of_axes(axes: &[Axis; 2], angle_degrees: f64) -> Vec<String> {
+    let mut said = Vec::new();
+    if !(ONE_LINE_DEGREES..=180.0 - ONE_LINE_DEGREES).contains(&angle_degrees) {
+        said.push(format!(
+            "{} and {} are nearly parallel in the perceptual space ({angle_degrees:.1}°); choose another axis",
+            axes[0].pair, axes[1].pair
+        ));
+    }
+    if axes.iter().any(|axis| axis.prediction.is_none()) {
+        said.push(format!(
+            "{} textures are too few to predict an axis from features; use at least {MIN_TEXTURES}, preferably 25",
+            axes[0].felt.len()
+        ));
+    }
+    said
+}
+
+/// Warning about textures with nearly the same position.
+pub(super) fn of_places(textures: &[String], positions: &[SpacePoint]) -> Option<String> {
+    let pairs = (0..textures.len()).flat_map(|i| (i + 1..textures.len()).map(move |j| (i, j)));
+    let same: Vec<(usize, usize)> =
+        pairs.filter(|(i, j)| positions[*i].distance(positions[*j]) < COINCIDENT).collect();
+    let (i, j) = *same.first()?;
+    let more = match same.len() {
+        1 => String::new(),
+        n => format!(" (and {})", counted(n - 1, "more pair")),
+    };
+    Some(format!(
+        "{} and {}{more} have nearly the same position (distance below {COINCIDENT} points); a point there gives one of them, not both",
+        textures[i], textures[j]
+    ))
+}
+
+/// Findings about the sorts; of many findings of one kind only the first few, with a count of the rest.
+fn sort_findings(findings: &[Finding]) -> Vec<String> {
+    let mut said = Vec::new();
+    let mut n_of: BTreeMap<&str, usize> = BTreeMap::new();
+    for finding in findings {
+        let n = n_of.entry(finding.name()).or_default();
+        *n += 1;
+        if *n <= N_SAID {
+            said.push(finding.to_string());
+        }
+    }
+    let rest = n_of.into_iter().filter(|(_, n)| *n > N_SAID);
+    said.extend(rest.map(|(name, n)| format!("{name}: {} more cases", n - N_SAID)));
+    said
+}
+
+/// Warnings about participants who only sorted or only rated, and about sorts that omit textures.
+fn participation(data: &SpaceData<'_>, table: &RatingTable) -> Vec<String> {
+    let sorters: BTreeSet<&str> = data.sorts.iter().map(|sort| sort.participant.as_str()).collect();
+    let raters: BTreeSet<&str> = table.participants().iter().map(String::as_str).collect();
+    let mut said = Vec::new();
+    if sorters.is_disjoint(&raters) {
+        said.push(
+            "no participant both sorted and rated: there are two groups of people, or names have two spellings"
+                .to_owned(),
+        );
+    } else {
+        for (did, only) in
+            [("sorted but did not rate", &sorters - &raters), ("rated but did not sort", &raters - &sorters)]
+        {
+            if !only.is_empty() {
+                said.push(format!("{did}: {}", only.into_iter().collect::<Vec<_>>().join(", ")));
+            }
+        }
+    }
+    let textures: BTreeSet<&str> =
+        data.sorts.iter().flat_map(|sort| sort.placements.iter().map(|p| p.texture.as_str())).collect();
+    let lacking: Vec<&Sort> =
+        data.sorts.iter().filter(|sort| sort.placements.len() < textures.len()).collect();
+    if let Some(first) = lacking.first() {
+        let n = textures.len() - first.placements.len();
+        said.push(format!(
+            "{} of {} omit textures, for example that of {} (trial {}): {}",
+            lacking.len(),
+            counted(data.sorts.len(), "sort"),
+            first.participant,
+            first.trial,
+            counted(n, "texture")
+        ));
+    }
+    said
+}
+
+/// Whether every participant made the same groups in the same trials.
+fn all_sorted_alike(sorts: &[Sort]) -> bool {
+    /// Groups of a sort, without their labels.
+    fn parts(sort: &Sort) -> BTreeSet<BTreeSet<&str>> {
+        let mut groups: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+        for placement in &sort.placements {
+            groups.entry(&placement.group).or_default().insert(&placement.texture);
+        }
+        groups.into_values().collect()
+    }
+    let mut by_participant: BTreeMap<&str, BTreeSet<BTreeSet<BTreeSet<&str>>>> = BTreeMap::new();
+    for sort in sorts {
+        by_participant.entry(&sort.participant).or_default().insert(parts(sort));
+    }
+    let mut all = by_participant.into_values();
+    let first = all.next();
+    all.all(|other| first.as_ref() == Some(&other))
+}
+
+/// Warnings about the perceptual space.
+pub(super) fn of_scaling(perceptual: &Mds, n_dims: usize) -> Vec<String> {
+    let (points, mut said) = (&perceptual.points, Vec::new());
+    if points.len() < least_textures(n_dims) {
+        said.push(format!(
+            "{} are too few for {n_dims} dimensions: with fewer than {}, stress is low for any data and has no meaning",
+            counted(points.len(), "texture"),
+            least_textures(n_dims)
+        ));
+    }
+    let pairs = (0..points.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let distance = |(i, j): (usize, usize)| {
+        points[i].iter().zip(&points[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    };
+    let mut distances: Vec<f64> = pairs.map(distance).collect();
+    distances.sort_by(f64::total_cmp);
+    if !perceptual.converged {
+        said.push(
+            "multidimensional scaling did not converge within the maximum number of steps; allow more steps"
+                .to_owned(),
+        );
+    }
+    let is_collapsed =
+        distances.last().is_some_and(|largest| distances[distances.len() / 2] < COLLAPSED * largest);
+    if is_collapsed {
+        said.push(
+            "the perceptual space has collapsed: most textures coincide, far from one or a few others, so stress and adjective directions have no meaning; use secondary ties or more participants"
+                .to_owned(),
+        );
+    }
+    said
+}
