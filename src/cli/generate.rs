@@ -239,10 +239,7 @@ fn by_diffusion(args: &Args) -> anyhow::Result<GeneratedPicture> {
 
 /// Writes all files and the description, which contains their hashes.
 fn write(folder: &Path, mut files: Vec<(PathBuf, Vec<u8>)>, result: &mut Value) -> anyhow::Result<()> {
-    let hash = |(path, bytes): &(PathBuf, Vec<u8>)| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        (name, Value::from(sha256_of(bytes)))
-    };
+    let hash = |(path, bytes): &(PathBuf, Vec<u8>)| (file::file_name(path), Value::from(sha256_of(bytes)));
     result["sha256"] = files.iter().map(hash).collect::<serde_json::Map<String, Value>>().into();
     // The folder may be moved: the description names files without their folder.
     let mut kept = result.clone();

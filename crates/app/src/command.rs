@@ -272,6 +272,11 @@ impl Command {
     pub fn shortcut(&self) -> Option<KeyboardShortcut> {
         self.entry()?.shortcut
     }
+
+    /// Keyboard shortcut as text, in the notation of this system; empty if there is none.
+    pub(crate) fn shortcut_text(&self, ctx: &egui::Context) -> String {
+        self.shortcut().map_or(String::new(), |keys| ctx.format_shortcut(&keys))
+    }
 }
 
 /// Commands whose shortcuts were pressed in this frame. Shortcuts without modifiers apply only if nothing or `canvas`

@@ -34,6 +34,8 @@ use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::project::{BlendChoice, Project, ProjectLibrary};
+use shagreen_studio::authoring::plane_at;
+use shagreen_studio::report::Warnings;
 
 use crate::state::scope_buffer::ScopeBuffer;
 use crate::strings;
@@ -43,7 +45,7 @@ pub use self::pen::PenFacts;
 
 use self::authored_state::AuthoredState;
 use self::hand_state::HandState;
-use self::loaded_textures::{Textures, plane_of, positions, rate_in, rate_of_space};
+use self::loaded_textures::{Textures, positions, rate_in, rate_of_space};
 use self::path_walk::PathWalk;
 use self::places::{Opened, attribute_names, places, poles_of};
 use self::planes_worker::PlanesWorker;
@@ -94,7 +96,11 @@ impl Session {
         let rate_hz = rate.0;
         let mut planes = Vec::with_capacity(places.len());
         for (texture, place) in library.textures.iter().zip(&places) {
-            planes.push(Arc::new(plane_of(texture, rate_in(texture, place.as_ref(), rate))?));
+            planes.push(Arc::new(plane_at(
+                texture,
+                rate_in(texture, place.as_ref(), rate),
+                &Warnings::default(),
+            )?));
         }
         let rates = library.textures.iter().zip(&places).map(|(t, place)| rate_in(t, place.as_ref(), rate).0);
         let mut session = Self {

@@ -38,7 +38,7 @@ pub enum OutputKind {
 /// One output of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputInfo {
-    /// Stable id by which it is opened.
+    /// Stable id; opens the output.
     pub id: String,
     /// Display name.
     pub name: String,

@@ -39,21 +39,21 @@ pub fn authoring(library: &Library, mode: Mode, reporter: &dyn Reporter) -> anyh
     Ok(authoring.with_models(Arc::new(models)))
 }
 
-/// Returns the speed-force plane of a texture at a rate. The error of a conversion goes to `reporter`.
-pub(crate) fn plane_at(
-    texture: &TextureEntry,
-    rate: Hertz,
-    reporter: &dyn Reporter,
-) -> anyhow::Result<Plane> {
+/// Returns the speed-force plane of a texture at a rate in Hz. The spectral error of a conversion goes to `reporter`.
+///
+/// # Errors
+/// The texture cannot be converted to this rate; the message names it.
+pub fn plane_at(texture: &TextureEntry, rate: Hertz, reporter: &dyn Reporter) -> anyhow::Result<Plane> {
     let own = texture.model.rate();
+    if own == rate {
+        return Ok(Plane::new(&texture.model));
+    }
     let converted = at_rate(&texture.model, rate)
         .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
-    if own != rate {
-        reporter.note(&format!(
-            "\"{}\" has a rate of {own} and is converted to {rate} for its neighbors: same levels, spectra \
-             within {:.1} dB (median of its speeds and forces; worst {:.1} dB)",
-            texture.id, converted.error_db_median, converted.error_db_worst
-        ));
-    }
+    reporter.note(&format!(
+        "\"{}\" has a rate of {own} and is converted to {rate} for its neighbors: same levels, spectra \
+         within {:.1} dB (median of its speeds and forces; worst {:.1} dB)",
+        texture.id, converted.error_db_median, converted.error_db_worst
+    ));
     Ok(Plane::new(&converted.model))
 }

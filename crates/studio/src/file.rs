@@ -34,6 +34,11 @@ pub fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
+/// Returns the last component of a path as text, or the whole path if it has none, such as `/`.
+pub fn shown_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
 /// Reads a file.
 ///
 /// # Errors

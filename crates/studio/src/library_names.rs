@@ -5,6 +5,8 @@ use std::borrow::Cow;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::project::ProjectLibrary;
 
+use crate::file::shown_name;
+
 /// Returns the name of a built-in library.
 pub fn built_in_name(built_in: BuiltIn) -> &'static str {
     match built_in {
@@ -33,11 +35,7 @@ pub fn name(library: &ProjectLibrary) -> Cow<'_, str> {
     match library {
         ProjectLibrary::BuiltIn(built_in) => built_in_name(*built_in).into(),
         ProjectLibrary::Inside(library) => named(&library.name, &|| "Unnamed library".to_owned()).into(),
-        ProjectLibrary::File(file) => {
-            let of_file =
-                || file.path.file_name().unwrap_or(file.path.as_os_str()).to_string_lossy().into_owned();
-            named(&file.library.name, &of_file).into()
-        }
+        ProjectLibrary::File(file) => named(&file.library.name, &|| shown_name(&file.path)).into(),
     }
 }
 

@@ -11,6 +11,8 @@ use shagreen_learn::diffusion::{Diffusion, Files, Part};
 use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::picture_predictor::PicturePredictor;
 
+use crate::file::file_name;
+
 /// Folder of the networks, and of the records of networks elsewhere; it need not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelFolder {
@@ -34,9 +36,7 @@ const ADDED: &str = "shagreen-diffusion";
 impl AddedDiffusion {
     /// Returns the name of the model, as pictures record it.
     pub fn name(&self) -> String {
-        let folder =
-            self.folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        format!("diffusion model \"{folder}\"")
+        format!("diffusion model \"{}\"", file_name(&self.folder))
     }
 }
 

@@ -8,9 +8,11 @@ use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::project::{AuthoredTexture, Project};
+use shagreen_studio::authoring::plane_at;
+use shagreen_studio::report::Warnings;
 
 use super::audible::Audible;
-use super::loaded_textures::{plane_of, positions, rate_in, rate_of_space};
+use super::loaded_textures::{positions, rate_in, rate_of_space};
 use super::places::{places, poles_of};
 use super::{Session, Spectra, drawn_frequencies};
 
@@ -101,7 +103,7 @@ impl Session {
                 is_kept[i] = true;
                 planes.push(Arc::clone(&self.textures.planes[i]));
             } else {
-                let plane = plane_of(entry, rate).unwrap_or_else(|error| {
+                let plane = plane_at(entry, rate, &Warnings::default()).unwrap_or_else(|error| {
                     // The texture cannot be interpolated, but it can still be soloed.
                     self.sound.player.message = Some(format!("{error:#}"));
                     self.textures.places[i] = None;

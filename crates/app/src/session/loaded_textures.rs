@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use anyhow::Context as _;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture::plane::Plane;
-use shagreen_core::texture::rate::{at_rate, highest_rate};
+use shagreen_core::texture::rate::highest_rate;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::placed_space::PlacedSpace;
@@ -57,15 +56,6 @@ pub(super) fn rate_of_space(textures: &[TextureEntry], places: &[Option<Place>])
 /// Sample rate at which a texture plays: that of the space, or its own if it has no position and can only be soloed.
 pub(super) fn rate_in(texture: &TextureEntry, place: Option<&Place>, rate_of_space: Hertz) -> Hertz {
     place.map_or(texture.model.rate(), |_| rate_of_space)
-}
-
-pub(super) fn plane_of(texture: &TextureEntry, rate: Hertz) -> anyhow::Result<Plane> {
-    if texture.model.rate() == rate {
-        return Ok(Plane::new(&texture.model));
-    }
-    let converted = at_rate(&texture.model, rate)
-        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
-    Ok(Plane::new(&converted.model))
 }
 
 pub(super) fn positions(places: &[Option<Place>]) -> Vec<Option<SpacePoint>> {

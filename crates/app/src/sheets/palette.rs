@@ -1,7 +1,7 @@
 //! Command palette: a list of commands with search.
 
 use egui::{Button, Context, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
-use shagreen_studio::export::FORMATS;
+use shagreen_studio::export::{ExportFormat, FORMATS};
 
 use crate::command::{Command, FileCommand, LISTED};
 use crate::look::sheet_frame::{is_left, sheet};
@@ -102,10 +102,10 @@ fn all(ctx: &Context) -> Vec<Row> {
     let listed = LISTED.into_iter().filter(|command| !matches!(command, Command::OpenPalette));
     let row = |command: Command| {
         let entry = command.entry()?;
-        let keys = entry.shortcut.map_or(String::new(), |keys| ctx.format_shortcut(&keys));
+        let keys = command.shortcut_text(ctx);
         Some(Row { command, label: entry.label.to_owned(), keys })
     };
-    let export = |format: &'static dyn shagreen_studio::export::ExportFormat| Row {
+    let export = |format: &'static dyn ExportFormat| Row {
         command: Command::File(FileCommand::ExportTexture(format.id())),
         label: strings::export_as(format.name()),
         keys: String::new(),

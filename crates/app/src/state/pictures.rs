@@ -23,7 +23,7 @@ pub struct Pictures {
     thumbnails: Vec<Option<TextureHandle>>,
     pixels: Vec<Option<Arc<Rgb>>>,
     millimeters: Vec<f64>,
-    /// Hash of each picture, and the generation in which it is decoded.
+    /// Hash of each picture, and the generation of its decoded pixels.
     fingerprints: Vec<(Option<u64>, u64)>,
     incoming: Receiver<Decoded>,
     sender: Sender<Decoded>,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::DroppedFileHandle;
 use shagreen_formats::wav::sidecar_names;
 
-use shagreen_studio::file::is_special;
+use shagreen_studio::file::{is_special, shown_name};
 use shagreen_studio::import::is_importable;
 
 use crate::strings::import as strings;
@@ -49,17 +49,13 @@ impl Source {
 
     /// Last component of the path.
     pub(crate) fn name(&self) -> String {
-        name_of(self.path())
+        shown_name(self.path())
     }
 
     /// File ending in lower case.
     pub(crate) fn ending(&self) -> String {
         self.path().extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
     }
-}
-
-pub(crate) fn name_of(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// Paths in a typed or pasted text, one per line. Quotes around a path are removed.

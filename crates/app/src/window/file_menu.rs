@@ -122,7 +122,7 @@ impl Entry {
 
 /// Menu entry with its shortcut.
 fn entry(ui: &mut Ui, name: &str, command: &Command) -> Entry {
-    let keys = command.shortcut().map_or(String::new(), |keys| ui.ctx().format_shortcut(&keys));
+    let keys = command.shortcut_text(ui.ctx());
     let response = ui.add(Button::new(name).shortcut_text(keys)).accessible_name(name);
     let asked = response.clicked().then(|| command.clone());
     Entry { response, asked }

@@ -38,7 +38,7 @@ impl Window {
             ui.add_space(10.0);
             for workspace in Workspace::ALL {
                 let command = Command::Show(workspace);
-                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let keys = command.shortcut_text(ui.ctx());
                 let tab = ui.selectable_label(self.workspace == workspace, workspace.info().name);
                 if tab.on_hover_text(format!("{} ({keys})", workspace.info().help)).clicked() {
                     commands.push(command);
@@ -51,7 +51,7 @@ impl Window {
                 (Command::Redo, strings::REDO, painting[1].or(self.history.redo_label())),
             ] {
                 let what = label.map_or(name.to_owned(), |l| strings::verb(name, l));
-                let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let keys = command.shortcut_text(ui.ctx());
                 let button = ui.add_enabled(label.is_some(), egui::Button::new(name));
                 if button.on_hover_text(format!("{what} ({keys})")).clicked() {
                     commands.push(command);
@@ -63,8 +63,7 @@ impl Window {
                 if ui.button(to).clicked() {
                     commands.push(Command::ToggleTheme);
                 }
-                let keys =
-                    Command::OpenDevices.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+                let keys = Command::OpenDevices.shortcut_text(ui.ctx());
                 let help = format!("{} ({keys})", strings::devices::OPEN_HELP);
                 if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
                     commands.push(Command::OpenDevices);

@@ -50,7 +50,7 @@ pub struct Actuator {
     pub calibrated: Option<Calibrated>,
 }
 
-/// Response, and the load on which it is valid.
+/// Measured response of an actuator, and the load during the measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// Acceleration of the case for a voltage.

@@ -28,7 +28,7 @@ pub enum SerialPortKind {
 /// One serial port of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SerialPortInfo {
-    /// Id by which it is opened as an output. If vendor, product and serial number are unique, it is
+    /// Id that opens it as an output. If vendor, product and serial number are unique, it is
     /// `serial:usb-VVVV-PPPP-SERIAL`, which does not depend on the USB socket. Otherwise it is `serial:` and the port's
     /// name.
     pub id: String,

@@ -35,7 +35,7 @@ pub(super) struct Plan {
     pub(super) configure: Configure,
     /// Samples per frame.
     pub(super) block: u16,
-    /// Silence of the receiver after which it is pinged.
+    /// Longest silence of the receiver before a ping is sent.
     pub(super) stall: Duration,
 }
 

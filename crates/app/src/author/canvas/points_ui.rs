@@ -38,7 +38,7 @@ pub(super) fn authored_points_ui(
 }
 
 /// Interaction of the authored points: only hovering while a path is drawn, so that clicks and drags reach the canvas.
-pub(super) fn point_sense(tool: &PathTool) -> Sense {
+fn point_sense(tool: &PathTool) -> Sense {
     if tool.is_on { Sense::hover() } else { Sense::click_and_drag() }
 }
 
@@ -72,13 +72,7 @@ fn other_point_ui(
 }
 
 /// Draws the selected authored point with lines to the contributing textures, and handles its drags and arrow keys.
-pub(super) fn point_ui(
-    ui: &mut Ui,
-    axes: Axes,
-    panel: &Panel<'_>,
-    tool: &PathTool,
-    t: &Tokens,
-) -> Vec<Command> {
+fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tokens) -> Vec<Command> {
     let mut commands = Vec::new();
     let texture = panel.project.texture();
     let point = texture.at;
@@ -116,7 +110,7 @@ pub(super) fn point_ui(
     commands
 }
 
-pub(super) fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
     let on = axes.ui_from_space(authored.location.at);
     for ((texture, weight), color) in panel.session.shown_parents().iter().zip(t.parents) {
         if let Some(site) = panel.session.space().position(*texture) {
@@ -129,7 +123,7 @@ pub(super) fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored:
 }
 
 /// Outside the convex hull: marks the nearest point of the hull that plays instead, or the distance of extrapolation.
-pub(super) fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
     let wanted = panel.session.path_point().unwrap_or(panel.project.texture().at);
     let pos = axes.ui_from_space(wanted);
     let on = axes.ui_from_space(authored.location.at);
@@ -159,7 +153,7 @@ pub(super) fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Auth
 }
 
 /// New position of the point after arrow keys, if it has the keyboard focus or nothing has.
-pub(super) fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
+fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
     let focused = ui.memory(egui::Memory::focused);
     if focused.is_some_and(|f| f != id) {
         return None;

@@ -23,7 +23,7 @@ const LEAST_PIECE_SECS: f64 = 0.25;
 const N_NEIGHBORS: usize = 5;
 /// Ratio of mean to median of noise powers: between 1.44 for one section and 1 for many.
 const MEAN_OVER_MEDIAN: f64 = 1.2;
-/// Ratio of a noise power to its neighbors above which it is hum and not a random fluctuation.
+/// Threshold for hum: ratio of a noise power to that of its neighbors. Smaller ratios are random fluctuations.
 const HUM_POWER: f64 = 6.0;
 /// Ratio of a harmonic's power to the noise power above which it counts as a harmonic.
 const HARMONIC_POWER: f64 = 6.0;
