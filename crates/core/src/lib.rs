@@ -1,6 +1,6 @@
 //! Texture models, authoring spaces, interpolation between textures, and the contact model behind the starter library.
 //!
-//! This crate is pure: it uses no files, no clock, no threads, no environment variables and no unseeded randomness.
+//! This crate is pure: it uses no files, no clock, no threads of its own, no environment variables and no unseeded randomness.
 //!
 //! # Conventions
 //!

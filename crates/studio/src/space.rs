@@ -22,14 +22,14 @@ pub struct BuiltSpace {
     pub validation: Vec<String>,
 }
 
-/// Builds a space. `on_step` is told each step and returns whether to continue.
+/// Builds a space on all processors. `on_step` is told each step, from several threads, and returns whether to continue.
 ///
 /// # Errors
 /// See [`SpaceBuildError`].
 pub fn build(
     data: &SpaceData<'_>,
     options: &SpaceOptions,
-    on_step: &mut dyn FnMut(Step) -> bool,
+    on_step: &(dyn Fn(Step) -> bool + Sync),
 ) -> Result<BuiltSpace, SpaceBuildError> {
     let build = build_space(data, options, on_step)?;
     let figures = space_figures(&build).into_iter().map(|(name, figure)| (name, Arc::new(figure)));

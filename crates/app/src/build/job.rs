@@ -1,8 +1,8 @@
 //! Background thread that builds a space, so that the window stays responsive.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use egui::Context;
@@ -56,8 +56,8 @@ impl Job {
         let is_cancelled = Arc::new(AtomicBool::new(false));
         let (is_stopped, ctx) = (Arc::clone(&is_cancelled), ctx.clone());
         std::thread::spawn(move || {
-            let mut progress = Progress { sender, is_cancelled: is_stopped, told: None, ctx };
-            let outcome = carry_out(&order, &mut progress);
+            let progress = Progress { sender, is_cancelled: is_stopped, told: Mutex::default(), ctx };
+            let outcome = carry_out(&order, &progress);
             let Progress { sender, ctx, .. } = progress;
             // If the window was closed meanwhile, nobody receives the result.
             let _ = sender.send(Message::Done(outcome.map(Box::new)));
@@ -109,18 +109,19 @@ impl Drop for Job {
 struct Progress {
     sender: Sender<Message>,
     is_cancelled: Arc<AtomicBool>,
-    told: Option<Step>,
+    told: Mutex<Option<Step>>,
     ctx: Context,
 }
 
 impl Progress {
     /// Reports a step and returns whether to continue. It may be called often: only a new step is sent, so that the
     /// window is not woken needlessly.
-    fn at(&mut self, step: Step) -> bool {
+    fn at(&self, step: Step) -> bool {
         if self.is_cancelled.load(Ordering::Relaxed) {
             return false;
         }
-        if self.told.replace(step) == Some(step) {
+        let told = self.told.lock().unwrap_or_else(PoisonError::into_inner).replace(step);
+        if told == Some(step) {
             return true;
         }
         let is_heard = self.sender.send(Message::Step(step)).is_ok();
@@ -129,7 +130,7 @@ impl Progress {
     }
 }
 
-fn carry_out(order: &Order, progress: &mut Progress) -> Result<BuiltSpace, String> {
+fn carry_out(order: &Order, progress: &Progress) -> Result<BuiltSpace, String> {
     let data = SpaceData {
         textures: order.textures.iter().map(|(name, model)| NamedTexture { name, model }).collect(),
         sorts: order.sorts.to_vec(),
@@ -137,7 +138,7 @@ fn carry_out(order: &Order, progress: &mut Progress) -> Result<BuiltSpace, Strin
         votes: order.votes.to_vec(),
         source: order.source,
     };
-    space::build(&data, &order.options, &mut |step| progress.at(step)).map_err(|error| error.to_string())
+    space::build(&data, &order.options, &|step| progress.at(step)).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -145,23 +146,27 @@ mod tests {
     use super::{Job, Message, Outcome, Progress};
     use egui::Context;
     use shagreen_core::space::space_build::Step;
-    use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
     use std::sync::mpsc::channel;
+    use std::sync::{Arc, Mutex};
     use std::time::Instant;
 
     /// Job whose worker is the test.
     fn job() -> (Job, Progress) {
         let (sender, messages) = channel();
         let is_cancelled = Arc::new(AtomicBool::new(false));
-        let progress =
-            Progress { sender, is_cancelled: Arc::clone(&is_cancelled), told: None, ctx: Context::default() };
+        let progress = Progress {
+            sender,
+            is_cancelled: Arc::clone(&is_cancelled),
+            told: Mutex::default(),
+            ctx: Context::default(),
+        };
         (Job { messages, is_cancelled, step: Step::Sorting, started: Instant::now() }, progress)
     }
 
     #[test]
     fn a_step_that_is_told_often_is_heard_once() {
-        let (mut job, mut progress) = job();
+        let (mut job, progress) = job();
         for step in [Step::Scaling, Step::Axis(0), Step::Axis(1)] {
             assert!((0..1000).all(|_| progress.at(step)));
             let told: Vec<Message> = job.messages.try_iter().collect();
@@ -174,7 +179,7 @@ mod tests {
     /// A cancelled job stops within a step and remains until then. Its late result is discarded.
     #[test]
     fn a_cancelled_job_stops_within_a_step_and_comes_to_nothing() {
-        let (mut job, mut progress) = job();
+        let (mut job, progress) = job();
         assert!(progress.at(Step::Scaling));
         job.cancel();
         assert!(!progress.at(Step::Scaling) && !progress.at(Step::Adjectives));
@@ -186,7 +191,7 @@ mod tests {
 
     #[test]
     fn a_job_that_nobody_wants_any_more_stops() {
-        let (job, mut progress) = job();
+        let (job, progress) = job();
         drop(job);
         assert!(!progress.at(Step::Sorting));
     }

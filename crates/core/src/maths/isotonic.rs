@@ -24,6 +24,9 @@ pub(crate) struct Pools {
 /// one by one, and small enough that the sums stay accurate and in cache.
 const N_TOGETHER: usize = 256;
 
+/// Maximum number of falls in a chunk of rising values, such as sorted runs one after the other.
+const MOST_FALLS: usize = 24;
+
 /// Returns the non-decreasing sequence with the least sum of squared differences from `values`.
 pub fn isotonic(values: &[f64]) -> Vec<f64> {
     let mut pools = Pools::default();
@@ -62,6 +65,11 @@ impl Pools {
     pub(crate) fn extend(&mut self, values: &[f64]) {
         let mut sums = [0.0; N_TOGETHER + 1];
         for values in values.chunks(N_TOGETHER) {
+            let n_falls = values.windows(2).filter(|two| two[0] > two[1]).count();
+            if n_falls <= MOST_FALLS {
+                self.extend_rising(values);
+                continue;
+            }
             let mut sum = 0.0;
             for (total, value) in sums[1..].iter_mut().zip(values) {
                 sum += value;
@@ -76,6 +84,22 @@ impl Pools {
                     self.ends.pop();
                     self.push(Pool { sum: sums[to] - sums[from], weight: (to - from) as f64 });
                     from = to;
+                }
+            }
+        }
+    }
+
+    /// Appends values that rise nearly everywhere. In a run of rising values only the first ones can be merged with what
+    /// is before.
+    fn extend_rising(&mut self, values: &[f64]) {
+        for run in values.chunk_by(|a, b| a < b) {
+            let single = |value: &f64| Pool { sum: *value, weight: 1.0 };
+            for (i, value) in run.iter().enumerate() {
+                let n_before = self.pools.len();
+                self.push(single(value));
+                if self.pools.len() > n_before {
+                    self.pools.extend(run[i + 1..].iter().map(single));
+                    break;
                 }
             }
         }
@@ -148,9 +172,19 @@ mod tests {
 
     #[test]
     fn values_together_are_values_one_by_one() {
-        for (slope, n) in [(0.0, 1000), (0.001, 3000), (0.1, 700), (-0.01, 600), (2.0, 513)] {
+        for (slope, run, n) in [
+            (0.0, 1, 1000),
+            (0.001, 1, 3000),
+            (0.1, 1, 700),
+            (-0.01, 1, 600),
+            (2.0, 1, 513),
+            (0.0, 50, 1000),
+            (0.001, 300, 3000),
+            (0.0, 11, 700),
+        ] {
             let noise = lcg_noise(n, n as u64);
-            let values: Vec<f64> = noise.iter().zip(0..).map(|(e, k)| e + slope * f64::from(k)).collect();
+            let mut values: Vec<f64> = noise.iter().zip(0..).map(|(e, k)| e + slope * f64::from(k)).collect();
+            values.chunks_mut(run).for_each(|run| run.sort_by(f64::total_cmp));
             let (mut together, mut single) = (Pools::default(), Pools::default());
             // Chunks whose length is not a multiple of [`N_TOGETHER`].
             for part in values.chunks(301) {

@@ -15,21 +15,28 @@
 mod axes;
 mod descent;
 mod objective;
+mod sorter;
 mod start;
 
 use std::ops::RangeInclusive;
+
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::maths::rng::derive_seed;
 use crate::people::dissimilarities::Dissimilarities;
 use crate::people::mds::axes::settle;
 use crate::people::mds::descent::{Stop, descend};
 use crate::people::mds::objective::Objective;
+use crate::people::mds::start::Classical;
 
 /// Maximum number of dimensions.
 pub const MAX_DIMS: usize = 10;
 
 /// Maximum number of items: a pair is stored as two 16-bit indices.
 pub const MAX_ITEMS: usize = 1 << 16;
+
+/// Name of the random stream of the classical start.
+const CLASSICAL: &str = "classical start";
 
 /// Treatment of tied (equal) dissimilarities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,8 +188,9 @@ pub fn nonmetric(
     options: &MdsOptions,
 ) -> Result<Mds, MdsError> {
     check(dissimilarities, dims)?;
-    let classical = start::classical(dissimilarities, dims, derive_seed(options.seed, "classical start"));
-    best(dissimilarities, dims, options, vec![classical], &mut || true)
+    let classical = Classical::new(dissimilarities).in_dims(dims, derive_seed(options.seed, CLASSICAL));
+    let objective = Objective::new(dissimilarities, options.ties);
+    best(dissimilarities, &objective, dims, options, vec![classical], &|| true)
 }
 
 /// Configuration that descent from one given start (one row per item) reaches; random starts in `options` are ignored.
@@ -197,32 +205,53 @@ pub fn nonmetric_from(
     let flat = flat(dissimilarities, start)?;
     check(dissimilarities, start[0].len())?;
     let options = MdsOptions { n_random_starts: 0, ..options.clone() };
-    best(dissimilarities, start[0].len(), &options, vec![flat], &mut || true)
+    let objective = Objective::new(dissimilarities, options.ties);
+    best(dissimilarities, &objective, start[0].len(), &options, vec![flat], &|| true)
 }
 
-/// Best configuration for each number of dimensions. The best configuration with one dimension fewer is an additional
-/// start, so stress does not rise with the number of dimensions. `go_on` is called before every step of every descent;
-/// returning `false` stops the computation.
-///
-/// # Errors
-/// See [`MdsError`].
-pub fn by_dimension(
-    dissimilarities: &Dissimilarities,
-    dims: RangeInclusive<usize>,
-    options: &MdsOptions,
-    go_on: &mut dyn FnMut() -> bool,
-) -> Result<Vec<Mds>, MdsError> {
-    let mut all: Vec<Mds> = Vec::new();
-    for dims in dims {
-        check(dissimilarities, dims)?;
-        let seed = derive_seed(options.seed, "classical start");
-        let mut starts = vec![start::classical(dissimilarities, dims, seed)];
-        if let Some(before) = all.last() {
-            starts.push(start::with_axis(&before.points, derive_seed(options.seed, "another axis")));
-        }
-        all.push(best(dissimilarities, dims, options, starts, go_on)?);
+/// Scaling in one number of dimensions after the other, of the same dissimilarities.
+pub struct ByDimension<'a> {
+    dissimilarities: &'a Dissimilarities,
+    options: &'a MdsOptions,
+    classical: Classical,
+    objective: Objective<'a>,
+}
+
+impl<'a> ByDimension<'a> {
+    /// Prepares the scaling: the decomposition for the classical start serves every number of dimensions.
+    ///
+    /// # Errors
+    /// See [`MdsError`].
+    pub fn new(dissimilarities: &'a Dissimilarities, options: &'a MdsOptions) -> Result<Self, MdsError> {
+        check(dissimilarities, 1)?;
+        let objective = Objective::new(dissimilarities, options.ties);
+        Ok(Self { dissimilarities, options, classical: Classical::new(dissimilarities), objective })
     }
-    Ok(all)
+
+    /// Best configuration for each number of dimensions. The best configuration with one dimension fewer, `before` for
+    /// the first number, is an additional start, so stress does not rise with the number of dimensions. `go_on` is
+    /// called before every step of every descent; returning `false` stops the computation.
+    ///
+    /// # Errors
+    /// See [`MdsError`].
+    pub fn best(
+        &self,
+        dims: RangeInclusive<usize>,
+        before: Option<&Mds>,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<Mds>, MdsError> {
+        let seed = self.options.seed;
+        let mut all: Vec<Mds> = Vec::new();
+        for dims in dims {
+            check(self.dissimilarities, dims)?;
+            let mut starts = vec![self.classical.in_dims(dims, derive_seed(seed, CLASSICAL))];
+            if let Some(before) = all.last().or(before) {
+                starts.push(start::with_axis(&before.points, derive_seed(seed, "another axis")));
+            }
+            all.push(best(self.dissimilarities, &self.objective, dims, self.options, starts, go_on)?);
+        }
+        Ok(all)
+    }
 }
 
 /// All compared pairs in the order of dissimilarity, with their distance and disparity in a configuration.
@@ -291,23 +320,22 @@ fn flat(dissimilarities: &Dissimilarities, points: &[Vec<f64>]) -> Result<Vec<f6
 /// Configuration with the lowest stress among the results from `starts` and the random starts.
 fn best(
     dissimilarities: &Dissimilarities,
+    objective: &Objective<'_>,
     dims: usize,
     options: &MdsOptions,
     mut starts: Vec<Vec<f64>>,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Mds, MdsError> {
     let n_items = dissimilarities.n_items();
     starts.extend((0..options.n_random_starts).map(|i| start::random(n_items, dims, options.seed, i)));
     let stop = Stop { tolerance: options.tolerance, max_steps: options.max_steps };
-    let mut objective = Objective::new(dissimilarities, options.ties);
-    let mut found = Vec::with_capacity(starts.len());
-    for mut points in starts {
+    let descents = starts.into_par_iter().map(|mut points| {
+        // An objective of its own, because one reorders its pairs: a result must not depend on what was computed before.
+        let mut objective = objective.clone();
         let end = descend(&mut points, stop, go_on, |at, gradient| objective.evaluate(dims, at, gradient));
-        if end.was_stopped {
-            return Err(MdsError::Stopped);
-        }
-        found.push((end, points));
-    }
+        if end.was_stopped { Err(MdsError::Stopped) } else { Ok((end, points)) }
+    });
+    let found: Vec<_> = descents.collect::<Result<_, _>>()?;
     let stress_by_start = found.iter().map(|(end, _)| end.at.value.sqrt()).collect();
     let (end, points) = found
         .into_iter()

@@ -174,15 +174,35 @@ pub fn similarity(textures: &[String], sorts: &[Sort]) -> Result<Similarity, Sor
     })
 }
 
+/// Dissimilarities of `textures` from all sorts together, as [`Similarity::dissimilarities`], without the agreement of
+/// the participants.
+///
+/// # Errors
+/// [`SortingError`] for a sort that names a texture not in `textures` or that has no groups.
+pub(crate) fn pooled_dissimilarities(
+    textures: &[String],
+    sorts: &[&Sort],
+) -> Result<Result<Dissimilarities, DissimilaritiesError>, SortingError> {
+    let index = index_of(textures)?;
+    let mut all = Tally::new(textures.len());
+    for sort in sorts {
+        all.add(sort, &groups_of(sort, &index)?);
+    }
+    Ok(dissimilarities(&all.scores()))
+}
+
+fn dissimilarities(scores: &[Vec<Option<f64>>]) -> Result<Dissimilarities, DissimilaritiesError> {
+    let above = scores.iter().enumerate().flat_map(|(i, row)| &row[(i + 1).min(row.len())..]);
+    Dissimilarities::from_condensed(scores.len(), above.map(|score| score.map(|s| 100.0 - s)).collect())
+}
+
 impl Similarity {
     /// Dissimilarities `100 - similarity`; pairs that no sort contains together stay missing.
     ///
     /// # Errors
     /// None for scores that [`similarity`] computed.
     pub fn dissimilarities(&self) -> Result<Dissimilarities, DissimilaritiesError> {
-        let n = self.textures.len();
-        let above = self.scores.iter().enumerate().flat_map(|(i, row)| &row[(i + 1).min(row.len())..]);
-        Dissimilarities::from_condensed(n, above.map(|score| score.map(|s| 100.0 - s)).collect())
+        dissimilarities(&self.scores)
     }
 }
 

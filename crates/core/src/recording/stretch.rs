@@ -8,7 +8,8 @@ use crate::recording::{Fault, Finding};
 
 /// Minimum duration of a segment, in seconds: one cycle at 50 Hz.
 const FRAGMENT_SECS: f64 = 0.02;
-/// Limits on the samples that gaps may add to a recording, relative and absolute; beyond them the timestamps are wrong.
+/// A recording may have at most [`SAMPLES_PER_ROW`] × rows + [`MORE_SAMPLES`] samples, gaps included. Otherwise its
+/// timestamps are wrong.
 const SAMPLES_PER_ROW: usize = 3;
 const MORE_SAMPLES: usize = 1_000_000;
 
@@ -20,7 +21,8 @@ pub(super) struct Stretch {
     pub(super) samples: Range<usize>,
 }
 
-/// Splits the usable rows at gaps and assigns samples to each segment; also returns the total number of samples.
+/// Returns the gap-free segments of at least [`FRAGMENT_SECS`] with their samples, and the length of the recording in
+/// samples, gaps included; `None` if the timestamps are wrong.
 pub(super) fn lay_out(
     timeline: &Timeline,
     usable: &[bool],
@@ -84,12 +86,12 @@ fn samples_of(timeline: &Timeline, places: Range<usize>, next_free: usize) -> Ra
     first..(last + 1).max(first)
 }
 
-/// Acceleration column at the samples of a segment, by polynomial interpolation.
+/// Acceleration column at the samples of a segment, by polynomial interpolation; unchanged on a regular clock.
 pub(super) fn fast(values: &[f64], timeline: &Timeline, stretch: &Stretch) -> Vec<f64> {
     on_samples(values, timeline, stretch, interpolate_local)
 }
 
-/// Speed, position or force column at the samples of a segment, by linear interpolation.
+/// Speed, position or force column at the samples of a segment, by linear interpolation; unchanged on a regular clock.
 pub(super) fn slow(values: &[f64], timeline: &Timeline, stretch: &Stretch) -> Vec<f64> {
     on_samples(values, timeline, stretch, interpolate_line)
 }

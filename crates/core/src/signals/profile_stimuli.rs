@@ -1,7 +1,7 @@
 //! Stimulus profiles of a perception study on the window length of spatial spectrograms (Meyer, Peshkin & Colgate).
 //!
-//! The study used four textures for reconstruction, and noise with gaps next to noise of the same spectrum without
-//! gaps. Profile values are 0 to 1, the range of a variable-friction display.
+//! The study reconstructed four textures. It also compared noise with gaps against gap-free noise with the same
+//! amplitude spectrum. Profile values are 0 to 1, the range of a variable-friction display.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use rustfft::num_complex::Complex;
 
 use crate::maths::rng::{Random, lcg_noise};
 
-/// Sample spacing of the textures in this project, in m.
+/// Sample spacing used here, in m; not specified by the study.
 pub const STEP_M: f64 = 10e-6;
 
 /// Longest and shortest wavelength of the noise, in m.

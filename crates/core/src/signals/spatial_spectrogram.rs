@@ -1,6 +1,6 @@
 //! Spatial spectrograms: power of a profile by position and spatial frequency, and profiles reconstructed from it.
 //!
-//! Follows Meyer, Peshkin & Colgate, appendix, with the equations as corrected in ARCHITECTURE.md.
+//! Follows Meyer, Peshkin & Colgate, appendix, with the equations as corrected in docs/notes/spatial-spectrograms.md.
 //!
 //! A profile is split into Hann windows. The spectrogram is the power of every window at every spatial frequency.
 //! Phases are discarded, except for what the steps of the local mean imply. Position is therefore preserved only to

@@ -7,6 +7,7 @@ mod error;
 mod physical;
 
 use ndarray::Array2;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::dsp::mfcc::{MfccOptions, MfccPlan};
 use crate::maths::rng::derive_seed;
@@ -72,7 +73,7 @@ pub struct FeatureTable {
 pub fn per_frame(
     textures: &[NamedTexture<'_>],
     plan: &FeaturePlan<'_>,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<FeatureTable, FeatureError> {
     let names = |pattern: &str, n_frames: usize, n_coefficients: usize| {
         let of_frame = |frame: usize| {
@@ -93,7 +94,7 @@ pub fn per_pattern(
     textures: &[NamedTexture<'_>],
     plan: &FeaturePlan<'_>,
     statistic: Statistic,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<FeatureTable, FeatureError> {
     let with_deviation = statistic == Statistic::MeanAndDeviation;
     let names = |pattern: &str, _: usize, n_coefficients: usize| {
@@ -169,8 +170,8 @@ fn cepstral(
     plan: &FeaturePlan<'_>,
     how: &str,
     names: &dyn Fn(&str, usize, usize) -> Vec<String>,
-    values: &dyn Fn(&Array2<f64>) -> Vec<f64>,
-    go_on: &mut dyn FnMut() -> bool,
+    values: &(dyn Fn(&Array2<f64>) -> Vec<f64> + Sync),
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<FeatureTable, FeatureError> {
     check_names(textures)?;
     let PatternPlan { contacts, seconds, rate, seed } = plan.patterns;
@@ -180,25 +181,32 @@ fn cepstral(
         let (n, n_filters) = (mfcc.n_empty_filters(), plan.mfcc.n_filters);
         warnings.push(FeatureWarning::EmptyFilters { n, n_filters });
     }
-    let mut all = Vec::new();
-    for texture in textures {
+    let of_texture = |texture: &NamedTexture<'_>| {
         if !go_on() {
             return Err(FeatureError::Stopped);
         }
         let patterns = PatternPlan { seed: derive_seed(seed, texture.name), ..plan.patterns };
-        let of_texture = |source| FeatureError::Patterns { texture: texture.name.to_owned(), source };
-        let Patterns { signals, warnings: found } =
-            render_patterns(texture.model, &patterns).map_err(of_texture)?;
-        let named = |warning| FeatureWarning::Pattern { texture: texture.name.to_owned(), warning };
-        warnings.extend(found.into_iter().map(named));
+        let in_texture = |source| FeatureError::Patterns { texture: texture.name.to_owned(), source };
+        let Patterns { signals, warnings } = render_patterns(texture.model, &patterns).map_err(in_texture)?;
+        let mut row = Vec::new();
         for (signal, contact) in signals.iter().zip(contacts) {
             let coefficients = mfcc.coefficients(signal).map_err(|source| FeatureError::Coefficients {
                 texture: texture.name.to_owned(),
                 pattern: pattern_name(*contact),
                 source,
             })?;
-            all.extend(values(&coefficients));
+            row.extend(values(&coefficients));
         }
+        let named = |warning| FeatureWarning::Pattern { texture: texture.name.to_owned(), warning };
+        Ok((row, warnings.into_iter().map(named).collect::<Vec<_>>()))
+    };
+    // Collected before the first error is returned, so that it does not depend on the threads which error that is.
+    let of_textures: Vec<Result<_, FeatureError>> = textures.par_iter().map(of_texture).collect();
+    let mut all = Vec::new();
+    for of_texture in of_textures {
+        let (row, found) = of_texture?;
+        all.extend(row);
+        warnings.extend(found);
     }
     let n_frames = mfcc.n_frames((seconds * rate.0).round() as usize);
     let of_pattern =

@@ -38,7 +38,7 @@ pub use table::FeatureMatrix;
 pub use validation::{STANDARD, Scheme, Validation, validate};
 
 use parallel::Thresholds;
-use ridge::Kernel;
+use ridge::{Kernel, Products};
 use standardized::Standardized;
 
 /// Minimum number of textures for a prediction; with fewer, the training part of a fold is too small for a cubic.
@@ -101,7 +101,7 @@ pub fn fit_axis(
 ) -> Result<AxisModel, SelectionError> {
     table::check(features, target)?;
     let train = Standardized::new(features, &all(features));
-    let mut prepared = Prepared::new(&train, method);
+    let prepared = Prepared::new(&train, method);
     let choice = prepared.choose(&train, target);
     Ok(prepared.estimate(&train, target, &choice))
 }
@@ -117,7 +117,7 @@ pub fn paper_chain(
 ) -> Result<PaperChain, SelectionError> {
     table::check(features, target)?;
     let train = Standardized::new(features, &all(features));
-    let (forward, parallel) = select_and_group(&train, target, order, &mut Thresholds::new(PARALLEL_SEED));
+    let (forward, parallel) = select_and_group(&train, target, order, &Thresholds::new(PARALLEL_SEED));
     let kept = parallel.as_ref().map_or(&forward.features, |p| &p.kept);
     let explained = component::first(&train, kept).map_or(0.0, |c| c.explained);
     let model = component::cubic_model(&train, target, kept);
@@ -129,7 +129,7 @@ fn select_and_group(
     train: &Standardized,
     target: &[f64],
     order: Order,
-    thresholds: &mut Thresholds,
+    thresholds: &Thresholds,
 ) -> (Forward, Option<Parallel>) {
     let forward = forward::select(train, target, order, most_features(train.n));
     let parallel = parallel::analyze(train, target, &forward.features, thresholds);
@@ -150,18 +150,22 @@ struct Choice(Vec<Vec<usize>>);
 /// Results of a method that do not depend on the target, shared between permutations.
 enum Prepared {
     Paper { order: Order, thresholds: Thresholds },
-    Practical { all: Option<Kernel> },
+    Practical { products: Products, all: Option<Kernel> },
 }
 
 impl Prepared {
     fn new(train: &Standardized, method: Method) -> Self {
         match method {
             Method::Paper(order) => Self::Paper { order, thresholds: Thresholds::new(PARALLEL_SEED) },
-            Method::Practical => Self::Practical { all: Kernel::new(train, &train.varying()) },
+            Method::Practical => {
+                let products = Products::new(train);
+                let all = Kernel::new(train, &products, &train.varying());
+                Self::Practical { products, all }
+            }
         }
     }
 
-    fn choose(&mut self, train: &Standardized, target: &[f64]) -> Choice {
+    fn choose(&self, train: &Standardized, target: &[f64]) -> Choice {
         match self {
             Self::Paper { order, thresholds } => {
                 let (forward, parallel) = select_and_group(train, target, *order, thresholds);
@@ -174,7 +178,9 @@ impl Prepared {
     fn estimate(&self, train: &Standardized, target: &[f64], choice: &Choice) -> AxisModel {
         match self {
             Self::Paper { .. } => component::cubic_model(train, target, &choice.0[0]),
-            Self::Practical { all } => ridge::mean_model(train, target, &choice.0, all.as_ref()),
+            Self::Practical { products, all } => {
+                ridge::mean_model(train, target, products, &choice.0, all.as_ref())
+            }
         }
     }
 }

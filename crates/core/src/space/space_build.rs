@@ -13,6 +13,7 @@ mod adjectives;
 mod axes;
 mod error;
 mod stability;
+mod step;
 mod validation;
 mod warnings;
 
@@ -20,7 +21,7 @@ use std::collections::BTreeSet;
 
 use crate::dsp::mfcc::MfccOptions;
 use crate::people::dissimilarities::Dissimilarities;
-use crate::people::mds::{MAX_DIMS, Mds, MdsError, MdsOptions, ShepardPair, by_dimension, shepard};
+use crate::people::mds::{ByDimension, MAX_DIMS, Mds, MdsError, MdsOptions, ShepardPair, shepard};
 use crate::people::ratings::{AdjectivePair, RaterFit, Rating, RatingTable, RelevanceVote, rater_fits};
 use crate::people::sorting::{Similarity, Sort, SortingError, similarity};
 use crate::space::features::{
@@ -34,11 +35,13 @@ pub use crate::space::space_build::adjectives::Adjective;
 pub use crate::space::space_build::axes::{Axis, Prediction, TRUSTED_NESTED_R};
 pub use crate::space::space_build::error::SpaceBuildError;
 pub use crate::space::space_build::stability::{MIN_DRAWN, Stability};
+pub use crate::space::space_build::step::Step;
 pub use crate::space::space_build::validation::{kruskal_word, validation_summary};
 
 use crate::space::space_build::adjectives::fit_adjectives;
 use crate::space::space_build::axes::{Axes, fit_axes};
 use crate::space::space_build::stability::{Drawn, stability};
+use crate::space::space_build::step::Progress;
 
 /// Input data of a space.
 #[derive(Clone, Debug)]
@@ -148,40 +151,6 @@ pub struct SpaceBuild {
     pub findings: Vec<String>,
 }
 
-/// Step of building a space, for progress reports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
-    /// Computing similarities from the sorts.
-    Sorting,
-    /// Scaling the perceptual space.
-    Scaling,
-    /// Fitting the adjective directions.
-    Adjectives,
-    /// Rendering stroke patterns and extracting features.
-    Features,
-    /// Predicting and validating an axis: 0 or 1.
-    Axis(usize),
-    /// Bootstrapping over participants.
-    Stability,
-}
-
-impl Step {
-    /// Number of steps.
-    pub const COUNT: usize = 7;
-
-    /// Index of the step, from 0.
-    pub fn index(self) -> usize {
-        match self {
-            Self::Sorting => 0,
-            Self::Scaling => 1,
-            Self::Adjectives => 2,
-            Self::Features => 3,
-            Self::Axis(axis) => 4 + axis.min(1),
-            Self::Stability => 6,
-        }
-    }
-}
-
 impl SpaceOptions {
     /// Default options: two dimensions, mean coefficients with the recommended MFCC options, and the practical
     /// prediction method. The kind of positions is automatic; there are a thousand permutations and a hundred bootstrap
@@ -203,17 +172,18 @@ impl SpaceOptions {
     }
 }
 
-/// Builds a space. `on_step` is called at every step and repeatedly within long ones; returning `false` stops the
-/// build.
+/// Builds a space. `on_step` is called at every step and repeatedly within long ones, from several threads; returning
+/// `false` stops the build. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// See [`SpaceBuildError`]. Irregularities that do not prevent a result are reported in [`SpaceBuild::findings`].
 pub fn build_space(
     data: &SpaceData<'_>,
     options: &SpaceOptions,
-    on_step: &mut dyn FnMut(Step) -> bool,
+    on_step: &(dyn Fn(Step) -> bool + Sync),
 ) -> Result<SpaceBuild, SpaceBuildError> {
-    begin(on_step, Step::Sorting)?;
+    let progress = Progress::new(on_step);
+    progress.begin(Step::Sorting)?;
     if !(2..=MAX_DIMS).contains(&options.n_dims) {
         return Err(SpaceBuildError::Dims { n_dims: options.n_dims });
     }
@@ -233,56 +203,37 @@ pub fn build_space(
     let similarity = similarity(&textures, &data.sorts)?;
     let dissimilarities: Dissimilarities = similarity.dissimilarities()?;
 
-    // Scaling needs more textures than dimensions.
-    let most_dims = MAX_DIMS.min(textures.len().saturating_sub(2)).max(options.n_dims);
-    let mut go_on = || on_step(Step::Scaling);
-    let all_dims = by_dimension(&dissimilarities, 1..=most_dims, &options.mds, &mut go_on)
-        .map_err(|error| named(error, &textures))?;
-    let stress: Vec<f64> = all_dims.iter().map(|mds| mds.stress).collect();
-    let perceptual = all_dims[options.n_dims - 1].clone();
+    progress.begin(Step::Scaling)?;
+    let in_words = |error| named(error, &textures);
+    let scaling = ByDimension::new(&dissimilarities, &options.mds).map_err(in_words)?;
+    let mut by_dimension = scaling.best(1..=options.n_dims, None, &|| progress.go_on()).map_err(in_words)?;
+    let perceptual = by_dimension[options.n_dims - 1].clone();
     let shepard = shepard(&dissimilarities, &perceptual.points, options.mds.ties)?;
-
-    begin(on_step, Step::Adjectives)?;
-    let unsorted: Vec<&str> = not_sorted.iter().map(|texture| texture.name).collect();
-    let mut findings = warnings::of_sorting(data, &similarity, &table, &unsorted, options.mds.ties);
-    findings.extend(warnings::of_scaling(&perceptual, options.n_dims));
-    let adjectives = fit_adjectives(&table, &data.votes, &textures, &perceptual.points, &mut findings)?;
-    let raters: Vec<(String, RaterFit)> =
-        table.participants().iter().cloned().zip(rater_fits(&table)).collect();
-    findings.extend(warnings::of_ratings(&raters, &table));
-
-    begin(on_step, Step::Features)?;
-    let features = features(&sorted, options, &mut || on_step(Step::Features))?;
-    findings.extend(features.findings());
-
-    let mut go_on = |axis| on_step(Step::Axis(axis));
-    let Axes { fitted: axes, angle_degrees, chosen } =
-        fit_axes(&adjectives, &perceptual.points, &features, options, &mut go_on)?;
-    findings.extend(warnings::of_axes(&axes, angle_degrees));
-    begin(on_step, Step::Stability)?;
-    let drawn = Drawn {
+    let judged = Judged {
+        data,
+        table: &table,
+        sorted: &sorted,
+        not_sorted: not_sorted.iter().map(|texture| texture.name).collect(),
         textures: &textures,
-        sorts: &data.sorts,
-        ratings: &table,
-        // Adjectives are in the order of the table.
-        axes: chosen,
-        n_dims: options.n_dims,
-        is_orthogonal: options.is_orthogonal,
-        mds: &options.mds,
+        similarity: &similarity,
+        perceptual: &perceptual,
     };
-    let mut go_on = || on_step(Step::Stability);
-    let stability = stability(&drawn, options.n_draws, options.seed, &mut go_on, &mut findings)?;
-    let positions = positions(&axes);
-    findings.extend(warnings::of_places(&textures, &positions));
-    let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
+    // Only stress is reported of more dimensions, so they are scaled beside all that follows. Scaling needs more
+    // textures than dimensions.
+    let most_dims = MAX_DIMS.min(textures.len().saturating_sub(2)).max(options.n_dims);
+    let more_dims = options.n_dims + 1..=most_dims;
+    let (more, rest) = rayon::join(
+        || scaling.best(more_dims, Some(&perceptual), &|| progress.go_on()),
+        || judged.continued(options, &progress).inspect_err(|_| progress.stop()),
+    );
+    let Rest { adjectives, raters, features, axes, angle_degrees, stability, positions, space, findings } =
+        rest?;
+    by_dimension.extend(more.map_err(in_words)?);
     Ok(SpaceBuild {
-        textures,
-        not_sorted: not_sorted.iter().map(|texture| texture.name.to_owned()).collect(),
+        not_sorted: judged.not_sorted.iter().map(|name| (*name).to_owned()).collect(),
         source: data.source,
         options: options.clone(),
-        similarity,
-        stress,
-        perceptual,
+        stress: by_dimension.iter().map(|mds| mds.stress).collect(),
         shepard,
         adjectives,
         raters,
@@ -294,7 +245,74 @@ pub fn build_space(
         positions,
         space,
         findings,
+        similarity,
+        perceptual,
+        textures,
     })
+}
+
+/// Judgments and the perceptual space, from which everything else follows.
+struct Judged<'a> {
+    data: &'a SpaceData<'a>,
+    table: &'a RatingTable,
+    /// Textures in the space, and their names.
+    sorted: &'a [NamedTexture<'a>],
+    textures: &'a [String],
+    not_sorted: Vec<&'a str>,
+    similarity: &'a Similarity,
+    perceptual: &'a Mds,
+}
+
+/// Results that follow from the perceptual space; see the fields of [`SpaceBuild`].
+struct Rest {
+    adjectives: Vec<Adjective>,
+    raters: Vec<(String, RaterFit)>,
+    features: FeatureTable,
+    axes: [Axis; 2],
+    angle_degrees: f64,
+    stability: Option<Stability>,
+    positions: Vec<SpacePoint>,
+    space: Space,
+    findings: Vec<String>,
+}
+
+impl Judged<'_> {
+    fn continued(&self, options: &SpaceOptions, progress: &Progress<'_>) -> Result<Rest, SpaceBuildError> {
+        let Self { data, table, sorted, not_sorted, textures, similarity, perceptual } = self;
+        progress.begin(Step::Adjectives)?;
+        let mut findings = warnings::of_sorting(data, similarity, table, not_sorted, options.mds.ties);
+        findings.extend(warnings::of_scaling(perceptual, options.n_dims));
+        let adjectives = fit_adjectives(table, &data.votes, textures, &perceptual.points, &mut findings)?;
+        let raters: Vec<(String, RaterFit)> =
+            table.participants().iter().cloned().zip(rater_fits(table)).collect();
+        findings.extend(warnings::of_ratings(&raters, table));
+
+        progress.begin(Step::Features)?;
+        let features = features(sorted, options, &|| progress.go_on())?;
+        findings.extend(features.findings());
+
+        let begin_axis = |axis| progress.begin(Step::Axis(axis));
+        let Axes { fitted: axes, angle_degrees, chosen } =
+            fit_axes(&adjectives, &perceptual.points, &features, options, &begin_axis, &|| progress.go_on())?;
+        findings.extend(warnings::of_axes(&axes, angle_degrees));
+        progress.begin(Step::Stability)?;
+        let drawn = Drawn {
+            textures,
+            sorts: &data.sorts,
+            ratings: table,
+            // Adjectives are in the order of the table.
+            axes: chosen,
+            n_dims: options.n_dims,
+            is_orthogonal: options.is_orthogonal,
+            mds: &options.mds,
+        };
+        let stability =
+            stability(&drawn, options.n_draws, options.seed, &|| progress.go_on(), &mut findings)?;
+        let positions = positions(&axes);
+        findings.extend(warnings::of_places(textures, &positions));
+        let space = Space::new(&positions.iter().copied().map(Some).collect::<Vec<_>>())?;
+        Ok(Rest { adjectives, raters, features, axes, angle_degrees, stability, positions, space, findings })
+    }
 }
 
 /// Replaces item indices in an error by the names of the textures.
@@ -328,15 +346,10 @@ fn check_names(data: &SpaceData<'_>) -> Result<(), SpaceBuildError> {
     Ok(())
 }
 
-/// Reports a step; an error if the caller stops.
-fn begin(on_step: &mut dyn FnMut(Step) -> bool, step: Step) -> Result<(), SpaceBuildError> {
-    if on_step(step) { Ok(()) } else { Err(SpaceBuildError::Stopped) }
-}
-
 fn features(
     textures: &[NamedTexture<'_>],
     options: &SpaceOptions,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<FeatureTable, SpaceBuildError> {
     let contacts = paper_patterns();
     let patterns =

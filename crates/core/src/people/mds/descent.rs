@@ -56,7 +56,7 @@ const ROUNDING: f64 = 1e-10;
 pub(super) fn descend(
     points: &mut [f64],
     stop: Stop,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &dyn Fn() -> bool,
     mut evaluate: impl FnMut(&[f64], &mut [f64]) -> Evaluation,
 ) -> End {
     let mut gradient = vec![0.0; points.len()];

@@ -7,12 +7,14 @@ use crate::maths::isotonic::{Pool, Pools};
 use crate::maths::sums::sum_of;
 use crate::people::dissimilarities::Dissimilarities;
 use crate::people::mds::descent::Evaluation;
+use crate::people::mds::sorter::Sorter;
 use crate::people::mds::{ShepardPair, Ties};
 
 /// Number of pairs processed together, so that intermediate values stay in the cache.
 const N_TOGETHER: usize = 256;
 
 /// Pairs in the order of dissimilarity, with buffers for the evaluation of a configuration.
+#[derive(Clone)]
 pub(super) struct Objective<'a> {
     dissimilarities: &'a Dissimilarities,
     ties: Ties,
@@ -21,14 +23,16 @@ pub(super) struct Objective<'a> {
     tied: Vec<(usize, usize)>,
     distances: Vec<f64>,
     pools: Pools,
+    sorter: Sorter,
 }
 
 impl<'a> Objective<'a> {
     /// Objective of these dissimilarities, for at most [`crate::people::mds::MAX_ITEMS`] items.
     pub(super) fn new(dissimilarities: &'a Dissimilarities, ties: Ties) -> Self {
-        let (pairs, tied) = in_order(dissimilarities);
+        let mut sorter = Sorter::default();
+        let (pairs, tied) = in_order(dissimilarities, &mut sorter);
         let distances = vec![0.0; pairs.len()];
-        Self { dissimilarities, ties, pairs, tied, distances, pools: Pools::default() }
+        Self { dissimilarities, ties, pairs, tied, distances, pools: Pools::default(), sorter }
     }
 
     /// Squared stress at `points`, which hold `dims` coordinates each; writes its gradient into `gradient`.
@@ -105,7 +109,9 @@ impl<'a> Objective<'a> {
         for &(tied, free) in &self.tied {
             match self.ties {
                 // Sorted by distance, tied pairs do not constrain the regression.
-                Ties::Primary => sort_together(&mut self.distances[tied..free], &mut self.pairs[tied..free]),
+                Ties::Primary => {
+                    self.sorter.sort(&mut self.distances[tied..free], &mut self.pairs[tied..free]);
+                }
                 Ties::Secondary => {
                     let run = &self.distances[tied..free];
                     self.pools.extend(&self.distances[from..tied]);
@@ -124,6 +130,11 @@ impl<'a> Objective<'a> {
         let mut from = 0;
         for pool in self.pools.as_slice() {
             let to = from + pool.weight as usize;
+            if to == from + 1 {
+                // The disparity is the distance.
+                from = to;
+                continue;
+            }
             let disparity = pool.sum / pool.weight;
             let together =
                 self.distances[from..to].chunks(N_TOGETHER).zip(self.pairs[from..to].chunks(N_TOGETHER));
@@ -181,7 +192,7 @@ fn pull_pair<const DIMS: usize>(
 }
 
 /// All compared pairs sorted by dissimilarity, then by items, and the start and end of each run of ties.
-fn in_order(dissimilarities: &Dissimilarities) -> (Vec<[u16; 2]>, Vec<(usize, usize)>) {
+fn in_order(dissimilarities: &Dissimilarities, sorter: &mut Sorter) -> (Vec<[u16; 2]>, Vec<(usize, usize)>) {
     // Integers sort several times faster than pairs with their dissimilarity. A 64-bit key holds the dissimilarity in
     // 32 bits and both items. Pairs whose 32 bits are equal are then sorted exactly.
     let highest = dissimilarities.pairs().map(|(_, _, value)| value).fold(0.0, f64::max);
@@ -200,7 +211,7 @@ fn in_order(dissimilarities: &Dissimilarities) -> (Vec<[u16; 2]>, Vec<(usize, us
         if run.len() > 1 {
             let pairs = &mut pairs[from..to];
             let mut values: Vec<f64> = pairs.iter().map(|pair| value_of(dissimilarities, *pair)).collect();
-            sort_together(&mut values, pairs);
+            sorter.sort(&mut values, pairs);
             let mut begin = from;
             for equal in values.chunk_by(|a, b| a == b) {
                 if equal.len() > 1 {
@@ -217,17 +228,4 @@ fn in_order(dissimilarities: &Dissimilarities) -> (Vec<[u16; 2]>, Vec<(usize, us
 /// Dissimilarity of a compared pair.
 fn value_of(dissimilarities: &Dissimilarities, [first, second]: [u16; 2]) -> f64 {
     dissimilarities.between(usize::from(first), usize::from(second)).unwrap_or_default()
-}
-
-/// Sorts `values` and applies the same permutation to `pairs`.
-fn sort_together(values: &mut [f64], pairs: &mut [[u16; 2]]) {
-    if values.is_sorted() {
-        return;
-    }
-    let mut both: Vec<(f64, [u16; 2])> = values.iter().copied().zip(pairs.iter().copied()).collect();
-    // A stable sort also benefits from the order that the previous step left.
-    both.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    for ((value, pair), sorted) in values.iter_mut().zip(pairs).zip(both) {
-        (*value, *pair) = sorted;
-    }
 }

@@ -5,7 +5,7 @@ use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 
 use super::objective::Objective;
 use super::{
-    MAX_DIMS, Mds, MdsError, MdsOptions, Ties, by_dimension, nonmetric, nonmetric_from, shepard, stress,
+    ByDimension, MAX_DIMS, Mds, MdsError, MdsOptions, Ties, nonmetric, nonmetric_from, shepard, stress,
 };
 use crate::maths::procrustes::procrustes;
 use crate::maths::rng::lcg_noise;
@@ -160,8 +160,13 @@ fn stress_is_what_the_result_says() {
         let found = nonmetric(&items, 2, &MdsOptions { ties, ..MdsOptions::usual(1) }).unwrap();
         // The points were rotated and scaled after their stress was computed.
         assert!((stress(&items, &found.points, ties).unwrap() - found.stress).abs() < 1e-12);
-        let by_dims =
-            by_dimension(&items, 1..=4, &MdsOptions { ties, ..MdsOptions::usual(1) }, &mut || true).unwrap();
+        let options = MdsOptions { ties, ..MdsOptions::usual(1) };
+        let scaling = ByDimension::new(&items, &options).unwrap();
+        let mut by_dims = scaling.best(1..=4, None, &|| true).unwrap();
+        // Continued later, it finds the same.
+        let more = scaling.best(3..=4, Some(&by_dims[1]), &|| true).unwrap();
+        assert_eq!(by_dims.split_off(2), more);
+        by_dims.extend(more);
         let by_dims: Vec<f64> = by_dims.iter().map(|mds| mds.stress).collect();
         assert!(by_dims.is_sorted_by(|a, b| a >= b) && by_dims[1] <= found.stress, "{by_dims:?}");
     }

@@ -15,7 +15,7 @@ pub struct Frame {
 /// Excitation parameters of a subframe.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Half {
-    /// Lag, relative to the shortest allowed lag of this subframe.
+    /// Adaptive-codebook (pitch) lag, in samples above the shortest allowed lag of this subframe.
     pub lag: u16,
     /// Index of the gain pair.
     pub gain: u16,
@@ -23,7 +23,10 @@ pub struct Half {
     pub code: u16,
 }
 
-/// Returns the first and last lag in samples that a subframe can code; the second subframe is relative to the first.
+/// Returns the shortest and longest lag, in samples, that a subframe can code.
+///
+/// `first` is the lag of the first subframe, or `None` for the first subframe itself. The range of the second subframe is
+/// placed around it.
 pub(super) fn lags(first: Option<usize>) -> (usize, usize) {
     match first {
         None => LAGS,
@@ -35,7 +38,7 @@ pub(super) fn lags(first: Option<usize>) -> (usize, usize) {
 }
 
 impl Frame {
-    /// Returns the lags of both subframes in samples. A lag that no encoder emits counts as the longest.
+    /// Returns the lags of both subframes in samples. Out-of-range lags are clamped to the longest lag.
     pub(super) fn lags(&self) -> [usize; 2] {
         let of = |half: &Half, (low, high): (usize, usize)| (low + half.lag as usize).min(high);
         let first = of(&self.halves[0], lags(None));
@@ -75,7 +78,7 @@ impl Frame {
     }
 }
 
-/// Writes values bit by bit, most significant bit first.
+/// Bit-stream writer, most significant bit first.
 #[derive(Clone, Debug, Default)]
 pub struct BitWriter {
     bytes: Vec<u8>,
@@ -107,7 +110,7 @@ impl BitWriter {
     }
 }
 
-/// Reads the bits that [`BitWriter`] wrote.
+/// Bit-stream reader for data from [`BitWriter`].
 #[derive(Clone, Debug)]
 pub struct BitReader<'a> {
     bytes: &'a [u8],

@@ -33,7 +33,7 @@ fn tables_have_the_shapes_and_names_of_the_paper() {
     let (models, contacts) = (textures(), paper_patterns());
     let textures = named(&models);
     for (mfcc, n_frames) in [(paper(), 66), (htk(), 98)] {
-        let table = per_frame(&textures, &plan(&contacts, &mfcc), &mut || true).unwrap();
+        let table = per_frame(&textures, &plan(&contacts, &mfcc), &|| true).unwrap();
         assert_eq!(table.values.dim(), (2, 25 * n_frames * 13));
         assert_eq!(table.names.len(), 25 * n_frames * 13);
         assert_eq!(table.names[0], "c0 of frame 0 @ 50 mm/s, 0.1 N");
@@ -45,8 +45,7 @@ fn tables_have_the_shapes_and_names_of_the_paper() {
         );
     }
     let mfcc = recommended();
-    let table =
-        per_pattern(&textures, &plan(&starter_patterns(), &mfcc), Statistic::Mean, &mut || true).unwrap();
+    let table = per_pattern(&textures, &plan(&starter_patterns(), &mfcc), Statistic::Mean, &|| true).unwrap();
     assert_eq!((table.values.dim(), table.names.len()), ((2, 325), 325));
     assert_eq!(table.names[12 * 13 + 3], "c3 @ 120 mm/s, 0.8 N");
     assert_eq!(table.textures, ["cork", "felt"]);
@@ -57,9 +56,9 @@ fn tables_have_the_shapes_and_names_of_the_paper() {
 fn means_and_deviations_are_those_of_the_frames() {
     let (models, contacts, mfcc) = (textures(), paper_patterns(), recommended());
     let (textures, plan) = (named(&models), plan(&contacts[..3], &mfcc));
-    let frames = per_frame(&textures, &plan, &mut || true).unwrap();
-    let means = per_pattern(&textures, &plan, Statistic::Mean, &mut || true).unwrap();
-    let both = per_pattern(&textures, &plan, Statistic::MeanAndDeviation, &mut || true).unwrap();
+    let frames = per_frame(&textures, &plan, &|| true).unwrap();
+    let means = per_pattern(&textures, &plan, Statistic::Mean, &|| true).unwrap();
+    let both = per_pattern(&textures, &plan, Statistic::MeanAndDeviation, &|| true).unwrap();
     assert_eq!((means.names.len(), both.names.len()), (39, 78));
     assert_eq!([&both.names[8], &both.names[9]], ["c4 @ 50 mm/s, 0.1 N", "s.d. of c4 @ 50 mm/s, 0.1 N"]);
     for texture in 0..2 {
@@ -86,12 +85,12 @@ fn means_and_deviations_are_those_of_the_frames() {
 fn rows_do_not_depend_on_the_company() {
     let (models, contacts, mfcc) = (textures(), paper_patterns(), recommended());
     let (all, plan) = (named(&models), plan(&contacts[..2], &mfcc));
-    let both = per_pattern(&all, &plan, Statistic::Mean, &mut || true).unwrap();
-    let one = per_pattern(&all[1..], &plan, Statistic::Mean, &mut || true).unwrap();
+    let both = per_pattern(&all, &plan, Statistic::Mean, &|| true).unwrap();
+    let one = per_pattern(&all[1..], &plan, Statistic::Mean, &|| true).unwrap();
     assert_eq!(both.values.row(1), one.values.row(0));
     // The same model with another name has different noise.
     let twin = NamedTexture { name: "twin", model: &models[1] };
-    assert_ne!(per_pattern(&[twin], &plan, Statistic::Mean, &mut || true).unwrap().values, one.values);
+    assert_ne!(per_pattern(&[twin], &plan, Statistic::Mean, &|| true).unwrap().values, one.values);
 }
 
 #[test]
@@ -99,8 +98,7 @@ fn warnings_name_the_texture() {
     let small = two_resonances(&[0.05, 0.1], &[0.1, 0.2]);
     let texture = [NamedTexture { name: "lace", model: &small }];
     let mfcc = MfccOptions { transform: TransformLength::Samples(32), ..recommended() };
-    let table =
-        per_pattern(&texture, &plan(&paper_patterns(), &mfcc), Statistic::Mean, &mut || true).unwrap();
+    let table = per_pattern(&texture, &plan(&paper_patterns(), &mfcc), Statistic::Mean, &|| true).unwrap();
     let warnings: Vec<String> = table.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(
         warnings,
@@ -109,8 +107,7 @@ fn warnings_name_the_texture() {
         ]
     );
     let floored = MfccOptions { shape: crate::dsp::mfcc::FilterShape::FlooredToBins, ..mfcc };
-    let table =
-        per_pattern(&texture, &plan(&paper_patterns(), &floored), Statistic::Mean, &mut || true).unwrap();
+    let table = per_pattern(&texture, &plan(&paper_patterns(), &floored), Statistic::Mean, &|| true).unwrap();
     assert_eq!(table.warnings[0], FeatureWarning::EmptyFilters { n: 4, n_filters: 20 });
 }
 
@@ -124,7 +121,7 @@ fn what_is_the_same_of_several_textures_is_said_once() {
         "21 of 25 patterns exceed the texture's range and are clamped to its maximum, 100 mm/s and 0.20 N";
     let mfcc = recommended();
     let cepstral =
-        per_pattern(&textures, &plan(&paper_patterns(), &mfcc), Statistic::Mean, &mut || true).unwrap();
+        per_pattern(&textures, &plan(&paper_patterns(), &mfcc), Statistic::Mean, &|| true).unwrap();
     let physical = physical_table(&textures, &paper_patterns()).unwrap();
     // Features that some textures lack are left out and produce warnings, too.
     for table in [cepstral.clone(), physical.clone(), cepstral.beside(&physical)] {
@@ -140,25 +137,20 @@ fn what_is_the_same_of_several_textures_is_said_once() {
 fn nonsense_is_refused() {
     let (models, contacts, mfcc) = (textures(), paper_patterns(), recommended());
     let plan = plan(&contacts, &mfcc);
-    assert_eq!(per_frame(&[], &plan, &mut || true), Err(FeatureError::NoTextures));
+    assert_eq!(per_frame(&[], &plan, &|| true), Err(FeatureError::NoTextures));
     let twice = [NamedTexture { name: "cork", model: &models[0] }; 2];
-    assert_eq!(
-        per_frame(&twice, &plan, &mut || true),
-        Err(FeatureError::SameName { name: "cork".to_owned() })
-    );
+    assert_eq!(per_frame(&twice, &plan, &|| true), Err(FeatureError::SameName { name: "cork".to_owned() }));
     assert!(matches!(physical_table(&twice, &contacts), Err(FeatureError::SameName { .. })));
     let too_many = MfccOptions { n_coefficients: 30, ..recommended() };
-    let error = per_frame(&twice[..1], &FeaturePlan { mfcc: &too_many, ..plan }, &mut || true).unwrap_err();
+    let error = per_frame(&twice[..1], &FeaturePlan { mfcc: &too_many, ..plan }, &|| true).unwrap_err();
     assert!(matches!(error, FeatureError::Mfcc(_)), "{error}");
     let short = PatternPlan { seconds: 0.02, ..plan.patterns };
-    let error = per_frame(&twice[..1], &FeaturePlan { patterns: short, ..plan }, &mut || true)
-        .unwrap_err()
-        .to_string();
+    let error =
+        per_frame(&twice[..1], &FeaturePlan { patterns: short, ..plan }, &|| true).unwrap_err().to_string();
     assert!(error.contains("cork at 50 mm/s, 0.1 N: the signal has 20 samples"), "{error}");
     let backwards = [Contact::from_mm_per_s_and_n(-1.0, 1.0)];
     let patterns = PatternPlan { contacts: &backwards, ..plan.patterns };
-    let error =
-        per_frame(&twice[..1], &FeaturePlan { patterns, ..plan }, &mut || true).unwrap_err().to_string();
+    let error = per_frame(&twice[..1], &FeaturePlan { patterns, ..plan }, &|| true).unwrap_err().to_string();
     assert!(error.starts_with("cork: pattern 0 is at -0.001 m/s"), "{error}");
 }
 

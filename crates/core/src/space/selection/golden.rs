@@ -100,7 +100,7 @@ fn parallel_analysis_is_the_references() {
     let random = group_correlations(&columns, &centered(&y));
     close(random[0].1, &v["vec_PA"]["threshold"], 1e-12);
     // Our own threshold gives the same result: the only group wins.
-    let got = analyze(&train, &y, &selected, &mut Thresholds::new(500)).unwrap();
+    let got = analyze(&train, &y, &selected, &Thresholds::new(500)).unwrap();
     assert_eq!(got.n_winning as u64, v["vec_PA"]["n_win"].as_u64().unwrap());
     for (index, count) in got.counts.iter().enumerate() {
         assert_eq!(v["vec_PA"]["counts"][index.to_string()].as_u64(), Some(*count as u64));
@@ -179,7 +179,7 @@ fn the_chain_on_noise_selects_as_in_the_reference() {
         for (order, _, counts, rs) in &mut found {
             let selected = select(&train, &y, *order, 20).features;
             counts.push(selected.len() as f64);
-            let kept = match analyze(&train, &y, &selected, &mut Thresholds::new(5)) {
+            let kept = match analyze(&train, &y, &selected, &Thresholds::new(5)) {
                 Some(parallel) => parallel.kept,
                 None => selected,
             };
@@ -206,7 +206,7 @@ fn nested_selection_on_noise_predicts_nothing() {
     for _ in 0..6 {
         let table = noise_table(&mut random, 21_658);
         let y: Vec<f64> = (0..25).map(|_| 100.0 * random.uniform()).collect();
-        let got = validate(&table, &y, Method::Paper(Order::Ranked), &scheme, &mut || true).unwrap();
+        let got = validate(&table, &y, Method::Paper(Order::Ranked), &scheme, &|| true).unwrap();
         assert!(got.cv_r > 0.3, "the selection bias is missing: {got:?}");
         rs.push(got.nested_cv_r);
     }

@@ -8,6 +8,9 @@
 //! Random normal features have no preferred direction, so the threshold depends only on the numbers of textures and
 //! features, not on the target. It is computed once for each pair of numbers.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use super::Standardized;
 use crate::maths::rng::{Random, derive_seed};
 use crate::maths::statistics::{centered, dot, quantile};
@@ -41,7 +44,7 @@ pub(super) fn analyze(
     train: &Standardized,
     target: &[f64],
     selected: &[usize],
-    thresholds: &mut Thresholds,
+    thresholds: &Thresholds,
 ) -> Option<Parallel> {
     (selected.len() >= GROUP).then(|| {
         let threshold = thresholds.get(train.n, selected.len());
@@ -123,17 +126,19 @@ pub(super) fn random_bests(n_textures: usize, n_features: usize, n_draws: usize,
 /// Thresholds by numbers of textures and features, computed on first use.
 pub(super) struct Thresholds {
     seed: u64,
-    known: std::collections::BTreeMap<(usize, usize), f64>,
+    known: Mutex<BTreeMap<(usize, usize), f64>>,
 }
 
 impl Thresholds {
     pub(super) fn new(seed: u64) -> Self {
-        Self { seed, known: std::collections::BTreeMap::new() }
+        Self { seed, known: Mutex::default() }
     }
 
-    fn get(&mut self, n_textures: usize, n_features: usize) -> f64 {
+    fn get(&self, n_textures: usize, n_features: usize) -> f64 {
         let seed = self.seed;
-        *self.known.entry((n_textures, n_features)).or_insert_with(|| {
+        // Held while a threshold is computed, so that no other thread computes it too.
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        *known.entry((n_textures, n_features)).or_insert_with(|| {
             // There is at least one draw, so the quantile exists; no correlation exceeds 1.
             quantile(&random_bests(n_textures, n_features, N_DRAWS, seed), RANK).unwrap_or(1.0)
         })

@@ -24,7 +24,7 @@
 //!
 //! It is within 0.025 of the best in every data set, and needs no inner folds.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, DVectorView, SymmetricEigen};
 
 use super::forward::ranked;
 use super::{AxisModel, Standardized, Term};
@@ -49,6 +49,7 @@ pub(super) fn groups(train: &Standardized, target: &[f64]) -> Vec<Vec<usize>> {
 pub(super) fn mean_model(
     train: &Standardized,
     target: &[f64],
+    products: &Products,
     groups: &[Vec<usize>],
     all: Option<&Kernel>,
 ) -> AxisModel {
@@ -64,7 +65,7 @@ pub(super) fn mean_model(
             }
         }
     };
-    groups.iter().filter_map(|group| Kernel::new(train, group)).for_each(|kernel| add(&kernel));
+    groups.iter().filter_map(|group| Kernel::new(train, products, group)).for_each(|kernel| add(&kernel));
     all.into_iter().for_each(&mut add);
     let share = 1.0 / f64::from(n_models.max(1));
     let term = |(feature, weight): (usize, &f64)| Term {
@@ -79,73 +80,111 @@ pub(super) fn mean_model(
 /// Eigenvalue, relative to the largest, below which it counts as rounding error.
 const LEAST_EIGENVALUE: f64 = 1e-12;
 
-/// Gram matrix of the textures over a set of features, as eigenvalues and eigenvectors.
+/// Gram matrix of the textures over a set of features, as eigenvalues and eigenvectors, with all that a ridge regression
+/// needs of them whatever its target.
 pub(super) struct Kernel {
     features: Vec<usize>,
     /// Nonzero eigenvalues, in any order.
-    eigenvalues: Vec<f64>,
-    /// Eigenvectors of the nonzero eigenvalues.
-    vectors: Vec<Vec<f64>>,
+    eigenvalues: DVector<f64>,
+    /// Eigenvectors of the nonzero eigenvalues, one column each.
+    vectors: DMatrix<f64>,
+    /// Candidate penalties.
+    penalties: Vec<f64>,
+    /// Fraction of the target along each eigenvector (row) that the regression with each penalty (column) keeps.
+    kept: DMatrix<f64>,
+    /// Leverage of each texture (row) with each penalty (column): weight of its own position in its prediction.
+    leverage: DMatrix<f64>,
+}
+
+/// Dot products between the features, computed once for all targets.
+pub(super) struct Products {
+    n_features: usize,
+    /// All products, feature by feature; empty for so many features that each product is computed when it is needed.
+    values: Vec<f64>,
+}
+
+impl Products {
+    /// Maximum number of features whose products are kept: 32 MB.
+    const MOST: usize = 2000;
+
+    pub(super) fn new(train: &Standardized) -> Self {
+        let n_features = train.means.len();
+        if n_features > Self::MOST {
+            return Self { n_features, values: Vec::new() };
+        }
+        let mut values = vec![0.0; n_features * n_features];
+        for (i, column) in train.columns().enumerate() {
+            for (j, other) in train.columns().enumerate().take(i + 1) {
+                let product = dot(column, other);
+                values[i * n_features + j] = product;
+                values[j * n_features + i] = product;
+            }
+        }
+        Self { n_features, values }
+    }
+
+    fn between(&self, train: &Standardized, i: usize, j: usize) -> f64 {
+        let product = self.values.get(i * self.n_features + j);
+        product.copied().unwrap_or_else(|| dot(train.column(i), train.column(j)))
+    }
 }
 
 impl Kernel {
     /// Kernel over these features; `None` if all of them are constant.
-    pub(super) fn new(train: &Standardized, features: &[usize]) -> Option<Self> {
-        let n = train.n;
-        // The two Gram matrices (features, textures) have the same nonzero eigenvalues; the smaller one is faster.
-        let by_feature = features.len() < n;
-        let products = if by_feature {
-            let product = |i: usize, j: usize| dot(train.column(features[i]), train.column(features[j]));
-            DMatrix::from_fn(features.len(), features.len(), product)
-        } else {
-            between_textures(train, features)
-        };
-        if products.is_empty() {
+    pub(super) fn new(train: &Standardized, products: &Products, features: &[usize]) -> Option<Self> {
+        if features.is_empty() {
             return None;
         }
-        let eigen = SymmetricEigen::new(products);
+        let n = train.n;
+        let columns = DMatrix::from_fn(n, features.len(), |texture, i| train.column(features[i])[texture]);
+        // The two Gram matrices (features, textures) have the same nonzero eigenvalues; the smaller one is faster.
+        let by_feature = features.len() < n;
+        let gram = if by_feature {
+            let product = |i: usize, j: usize| products.between(train, features[i], features[j]);
+            DMatrix::from_fn(features.len(), features.len(), product)
+        } else {
+            &columns * columns.transpose()
+        };
+        let eigen = SymmetricEigen::new(gram);
         let largest = eigen.eigenvalues.max();
-        let mut kernel = Self { features: features.to_vec(), eigenvalues: Vec::new(), vectors: Vec::new() };
-        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-            if *value <= LEAST_EIGENVALUE * largest {
-                continue;
-            }
-            let mut of_textures = vec![0.0; n];
-            if by_feature {
-                for (feature, loading) in features.iter().zip(vector.iter()) {
-                    for (sum, v) in of_textures.iter_mut().zip(train.column(*feature)) {
-                        *sum += loading * v / value.sqrt();
-                    }
-                }
-            } else {
-                of_textures.copy_from_slice(vector.as_slice());
-            }
-            kernel.eigenvalues.push(*value);
-            kernel.vectors.push(of_textures);
+        let used: Vec<usize> = (0..eigen.eigenvalues.len())
+            .filter(|i| eigen.eigenvalues[*i] > LEAST_EIGENVALUE * largest)
+            .collect();
+        if largest <= 0.0 {
+            return None;
         }
-        (largest > 0.0).then_some(kernel)
+        let eigenvalues = eigen.eigenvalues.select_rows(&used);
+        let mut vectors = eigen.eigenvectors.select_columns(&used);
+        if by_feature {
+            vectors = columns * vectors;
+            for (mut vector, value) in vectors.column_iter_mut().zip(&eigenvalues) {
+                vector /= value.sqrt();
+            }
+        }
+        let scale = eigenvalues.sum() / n as f64;
+        let penalties: Vec<f64> =
+            PENALTY_POWERS.map(|power| scale * 10.0_f64.powf(f64::from(power) / STEPS_PER_DECADE)).collect();
+        let kept = DMatrix::from_fn(used.len(), penalties.len(), |i, p| {
+            eigenvalues[i] / (eigenvalues[i] + penalties[p])
+        });
+        let leverage = (vectors.component_mul(&vectors) * &kept).add_scalar(1.0 / n as f64);
+        Some(Self { features: features.to_vec(), eigenvalues, vectors, penalties, kept, leverage })
     }
 
     /// Dual coefficients of the ridge regression with the smallest leave-one-out error; `None` if the mean is as good.
     fn solve(&self, target: &[f64]) -> Option<Vec<f64>> {
-        let n = target.len();
-        let along: Vec<f64> = self.vectors.iter().map(|v| dot(v, target)).collect();
-        let scale = self.eigenvalues.iter().sum::<f64>() / n as f64;
-        let intercept = 1.0 / n as f64;
+        let target = DVectorView::from_slice(target, target.len());
+        let along = self.vectors.tr_mul(&target);
+        let mut parts = self.kept.clone();
+        for mut part in parts.column_iter_mut() {
+            part.component_mul_assign(&along);
+        }
+        let fitted = &self.vectors * parts;
         // Leave-one-out error of the mean: the mean of the others misses a texture by its deviation times n / (n - 1).
-        let mut best = (dot(target, target) / (1.0 - intercept).powi(2), None);
-        let (mut fitted, mut leverage) = (vec![0.0; n], vec![0.0; n]);
-        for power in PENALTY_POWERS {
-            let penalty = scale * 10.0_f64.powf(f64::from(power) / STEPS_PER_DECADE);
-            fitted.fill(0.0);
-            leverage.fill(intercept);
-            for ((vector, value), part) in self.vectors.iter().zip(&self.eigenvalues).zip(&along) {
-                let kept = value / (value + penalty);
-                for ((f, l), v) in fitted.iter_mut().zip(&mut leverage).zip(vector) {
-                    *f += kept * part * v;
-                    *l += kept * v * v;
-                }
-            }
+        let intercept = 1.0 / target.len() as f64;
+        let mut best = (target.norm_squared() / (1.0 - intercept).powi(2), None);
+        let candidates = fitted.column_iter().zip(self.leverage.column_iter()).zip(&self.penalties);
+        for ((fitted, leverage), penalty) in candidates {
             let missed = |((t, f), l): ((&f64, &f64), &f64)| ((t - f) / (1.0 - l)).powi(2);
             let error: f64 = target.iter().zip(&fitted).zip(&leverage).map(missed).sum();
             if error < best.0 {
@@ -153,33 +192,14 @@ impl Kernel {
             }
         }
         let penalty = best.1?;
-        let mut dual = vec![0.0; n];
-        for ((vector, value), part) in self.vectors.iter().zip(&self.eigenvalues).zip(&along) {
-            for (d, v) in dual.iter_mut().zip(vector) {
-                *d += part / (value + penalty) * v;
-            }
-        }
-        Some(dual)
+        let dual = &self.vectors * along.zip_map(&self.eigenvalues, |part, value| part / (value + penalty));
+        Some(dual.as_slice().to_vec())
     }
-}
-
-fn between_textures(train: &Standardized, features: &[usize]) -> DMatrix<f64> {
-    let n = train.n;
-    let mut products = vec![0.0; n * n];
-    for feature in features {
-        let column = train.column(*feature);
-        for (row, value) in products.chunks_exact_mut(n).zip(column) {
-            for (product, other) in row.iter_mut().zip(column) {
-                *product += value * other;
-            }
-        }
-    }
-    DMatrix::from_vec(n, n, products)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Kernel;
+    use super::{Kernel, Products};
     use crate::maths::rng::lcg_noise;
     use crate::maths::statistics::{centered, dot};
     use crate::space::selection::{FeatureMatrix, Standardized};
@@ -198,7 +218,7 @@ mod tests {
         let table = FeatureMatrix::from_rows(&rows).unwrap();
         let train = Standardized::new(&table, &(0..n).collect::<Vec<_>>());
         let y = centered(&target);
-        let kernel = Kernel::new(&train, &[0, 1, 2, 3, 4]).unwrap();
+        let kernel = Kernel::new(&train, &Products::new(&train), &[0, 1, 2, 3, 4]).unwrap();
         // Slow oracle: solves the penalized equations without each texture; the features stay standardized on all
         // textures.
         let scale = kernel.eigenvalues.iter().sum::<f64>() / n as f64;
@@ -234,11 +254,16 @@ mod tests {
         // The eigenvectors reproduce the Gram matrix, and along each of them (eigenvalue + penalty) dual = y.
         for (i, j) in [(0, 0), (3, 7), (11, 2)] {
             let product: f64 = (0..m).map(|f| train.column(f)[i] * train.column(f)[j]).sum();
-            let again =
-                kernel.eigenvalues.iter().zip(&kernel.vectors).map(|(l, v)| l * v[i] * v[j]).sum::<f64>();
+            let again = kernel
+                .eigenvalues
+                .iter()
+                .zip(kernel.vectors.column_iter())
+                .map(|(l, v)| l * v[i] * v[j])
+                .sum::<f64>();
             assert!((again - product).abs() < 1e-12, "{again} differs from {product}");
         }
-        let used = dot(&kernel.vectors[0], &y) / dot(&kernel.vectors[0], &dual) - kernel.eigenvalues[0];
+        let first: Vec<f64> = kernel.vectors.column(0).iter().copied().collect();
+        let used = dot(&first, &y) / dot(&first, &dual) - kernel.eigenvalues[0];
         assert!((used / best - 1.0).abs() < 1e-9, "{used} differs from {best}");
     }
 }

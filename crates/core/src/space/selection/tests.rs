@@ -173,7 +173,7 @@ fn mean_over_noise(
     let mut random = Random::new(90 + n_features as u64);
     let mut one = || {
         let (table, target) = noise(&mut random, 25, n_features);
-        figure(&validate(&table, &target, method, scheme, &mut || true).unwrap())
+        figure(&validate(&table, &target, method, scheme, &|| true).unwrap())
     };
     (0..n_sets).map(|_| one()).sum::<f64>() / f64::from(n_sets)
 }
@@ -199,7 +199,7 @@ fn the_usual_correlation_would_be_minus_one_for_a_model_that_found_nothing() {
     let target: Vec<f64> = (0..12).map(|i| f64::from(i * i) * 0.8).collect();
     let table = FeatureMatrix::from_rows(&rows).unwrap();
     let one_out = Scheme { n_folds: 12, ..QUICK };
-    let got = validate(&table, &target, PAPER, &one_out, &mut || true).unwrap();
+    let got = validate(&table, &target, PAPER, &one_out, &|| true).unwrap();
     assert!((correlation(&got.predicted, &target).unwrap() + 1.0).abs() < 1e-9, "{got:?}");
     assert_eq!((got.nested_cv_r, got.nested_cv_plain_r), (0.0, 0.0));
     assert_eq!(got.nested_cv_rms_percent, got.mean_rms_percent);
@@ -225,16 +225,16 @@ fn the_p_value_is_uniform_on_noise_and_least_on_a_relation() {
     }
     let (rows, target) = textures(&mut Random::new(6), 25, 60);
     let table = FeatureMatrix::from_rows(&rows).unwrap();
-    let got =
-        validate(&table, &target, Method::Practical, &Scheme { n_permutations: 99, ..QUICK }, &mut || true)
-            .unwrap();
+    let got = validate(&table, &target, Method::Practical, &Scheme { n_permutations: 99, ..QUICK }, &|| true)
+        .unwrap();
     assert_eq!((got.permutation_p, got.n_permutations), (Some(0.01), 99));
     assert!(got.nested_cv_r > 0.7 && got.null_r_95.unwrap() < got.nested_cv_r, "{got:?}");
     assert!(got.nested_cv_rms_percent > got.mean_rms_percent + 3.0);
     let plain = correlation(&got.predicted, &target).unwrap();
     assert!((plain - got.nested_cv_r).abs() < 0.1);
     // With one assignment to folds, each texture is predicted once.
-    assert_eq!((QUICK.n_repeats, got.nested_cv_plain_r), (1, plain));
+    // One sums over the textures fold by fold, so the last digit may differ.
+    assert!(QUICK.n_repeats == 1 && (got.nested_cv_plain_r - plain).abs() < 1e-12);
 }
 
 #[test]
@@ -258,12 +258,12 @@ fn the_practical_method_predicts_new_textures_better_than_the_published_chain() 
 fn the_same_seed_gives_the_same_validation() {
     let (table, target) = noise(&mut Random::new(30), 25, 20);
     let scheme = Scheme { n_permutations: 20, ..STANDARD };
-    let once = validate(&table, &target, Method::Practical, &scheme, &mut || true).unwrap();
-    assert_eq!(once, validate(&table, &target, Method::Practical, &scheme, &mut || true).unwrap());
+    let once = validate(&table, &target, Method::Practical, &scheme, &|| true).unwrap();
+    assert_eq!(once, validate(&table, &target, Method::Practical, &scheme, &|| true).unwrap());
     let other = Scheme { seed: 77, ..scheme };
     assert_ne!(
         once.predicted,
-        validate(&table, &target, Method::Practical, &other, &mut || true).unwrap().predicted
+        validate(&table, &target, Method::Practical, &other, &|| true).unwrap().predicted
     );
 }
 
@@ -314,9 +314,8 @@ fn what_cannot_be_predicted_is_refused_by_name() {
         Err(SelectionError::RowLength { texture: 1, n: 0, expected: 1 })
     );
     assert_eq!(FeatureMatrix::from_rows(&[]), Err(SelectionError::NoFeatures));
-    let folds = validate(&table, &target, PAPER, &Scheme { n_folds: 11, ..QUICK }, &mut || true)
-        .unwrap_err()
-        .to_string();
+    let folds =
+        validate(&table, &target, PAPER, &Scheme { n_folds: 11, ..QUICK }, &|| true).unwrap_err().to_string();
     assert!(folds.contains("10 textures cannot be split into 11 folds"), "{folds}");
 }
 
@@ -327,7 +326,7 @@ fn eight_textures_and_one_feature_suffice() {
     let table = FeatureMatrix::from_rows(&rows).unwrap();
     for method in Method::ALL {
         let got =
-            validate(&table, &target, method, &Scheme { n_permutations: 9, ..QUICK }, &mut || true).unwrap();
+            validate(&table, &target, method, &Scheme { n_permutations: 9, ..QUICK }, &|| true).unwrap();
         assert!(got.nested_cv_r > 0.7, "{method:?} {got:?}");
         assert_eq!(Method::from_id(method.id()), Some(method));
     }

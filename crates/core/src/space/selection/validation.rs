@@ -1,5 +1,7 @@
 //! Cross-validation of an axis model: how well it predicts textures that it was not trained on.
 
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
 use super::folds::{outside, repeated};
 use super::standardized::Standardized;
 use super::{AxisModel, Choice, FeatureMatrix, Method, Prepared, SelectionError, all, table};
@@ -69,7 +71,7 @@ pub fn validate(
     target: &[f64],
     method: Method,
     scheme: &Scheme,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Validation, SelectionError> {
     table::check(features, target)?;
     let n = target.len();
@@ -87,8 +89,8 @@ pub fn validate(
     for fold in &folds {
         let textures = outside(fold, n);
         let train = Standardized::new(features, &textures);
-        let mut prepared = Prepared::new(&train, method);
-        for (index, (target, product)) in targets.iter().zip(&mut products).enumerate() {
+        let prepared = Prepared::new(&train, method);
+        let fits = targets.par_iter().zip(&mut products).enumerate().map(|(index, (target, product))| {
             if !go_on() {
                 return Err(SelectionError::Stopped);
             }
@@ -96,14 +98,19 @@ pub fn validate(
             let choice = prepared.choose(&train, &known);
             let model = prepared.estimate(&train, &known, &choice);
             let center = mean(&known);
+            let mut unpermuted = Vec::new();
             for texture in fold {
                 let predicted = position(&model, features, *texture).clamp(0.0, 100.0);
                 product.add(predicted - center, target[*texture] - center);
                 if index == 0 {
-                    nested.add(*texture, target[*texture], predicted);
-                    flat.add(*texture, target[*texture], center);
+                    unpermuted.push((*texture, target[*texture], predicted, center));
                 }
             }
+            Ok(unpermuted)
+        });
+        for (texture, target, predicted, center) in fits.collect::<Result<Vec<_>, _>>()?.concat() {
+            nested.add(texture, target, predicted);
+            flat.add(texture, target, center);
         }
     }
     let observed = products[0].r();

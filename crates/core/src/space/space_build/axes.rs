@@ -77,13 +77,15 @@ pub(super) struct Axes {
 /// Poles of the preferred axes.
 const USUAL: [[&str; 2]; 2] = [["rough", "smooth"], ["hard", "soft"]];
 
-/// Fits both axes. `go_on` is called before every model fit with the index of the axis; returning `false` stops.
+/// Fits both axes. `begin_axis` is called with the index of each axis before its model is selected; its error ends the
+/// work. `go_on` is called before every model fit; returning `false` stops.
 pub(super) fn fit_axes(
     adjectives: &[Adjective],
     points: &[Vec<f64>],
     features: &FeatureTable,
     options: &SpaceOptions,
-    go_on: &mut dyn FnMut(usize) -> bool,
+    begin_axis: &dyn Fn(usize) -> Result<(), SpaceBuildError>,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Axes, SpaceBuildError> {
     let chosen = choose(adjectives, options)?;
     let oriented = chosen.map(|(index, zero_at)| {
@@ -96,12 +98,13 @@ pub(super) fn fit_axes(
         second = orthogonal_to(&second, std::slice::from_ref(&first))
             .map_err(|source| SpaceBuildError::Axis { pair: adjectives[chosen[1].0].pair.name(), source })?;
     }
-    let mut fit = |at: usize, direction: Vec<f64>| -> Result<Axis, SpaceBuildError> {
+    let fit = |at: usize, direction: Vec<f64>| -> Result<Axis, SpaceBuildError> {
         let (adjective, zero_at) = chosen[at];
         let pair = as_axis(&adjectives[adjective].pair, zero_at);
         let felt = axis_positions(&project(points, &direction), ZeroAt::LowRatings)
             .ok_or_else(|| SpaceBuildError::FlatAxis { pair: pair.name() })?;
-        let prediction = match predict(features, &felt, options, &mut || go_on(at)) {
+        begin_axis(at)?;
+        let prediction = match predict(features, &felt, options, go_on) {
             Ok(prediction) => Some(prediction),
             Err(SelectionError::Stopped) => return Err(SpaceBuildError::Stopped),
             // A space with few textures is still a space, but without predictions.
@@ -120,11 +123,8 @@ fn predict(
     features: &FeatureTable,
     felt: &[f64],
     options: &SpaceOptions,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Prediction, SelectionError> {
-    if !go_on() {
-        return Err(SelectionError::Stopped);
-    }
     let rows: Vec<Vec<f64>> = features.values.rows().into_iter().map(|row| row.to_vec()).collect();
     let columns = selection::FeatureMatrix::from_rows(&rows)?;
     let (model, chain) = match options.method {

@@ -7,12 +7,14 @@
 
 use std::collections::BTreeMap;
 
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
 use crate::maths::rng::{Random, derive_seed};
 use crate::maths::statistics::{mean, standard_deviation};
 use crate::people::mds::{MdsOptions, nonmetric};
 use crate::people::property::{ZeroAt, angle_degrees, axis_positions, fit_property, orthogonal_to, project};
 use crate::people::ratings::RatingTable;
-use crate::people::sorting::{Sort, similarity};
+use crate::people::sorting::{Sort, pooled_dissimilarities};
 use crate::space::space_build::SpaceBuildError;
 
 /// Minimum number of sorters, and of raters, for a bootstrap.
@@ -58,11 +60,11 @@ pub(super) struct Drawn<'a> {
 ///
 /// # Errors
 /// [`SpaceBuildError::Stopped`] if `go_on`, which is called before every sample, returns `false`.
-pub(super) fn stability(
-    drawn: &Drawn<'_>,
+pub(super) fn stability<'a>(
+    drawn: &Drawn<'a>,
     n_draws: usize,
     seed: u64,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &(dyn Fn() -> bool + Sync),
     findings: &mut Vec<String>,
 ) -> Result<Option<Stability>, SpaceBuildError> {
     if n_draws == 0 {
@@ -80,18 +82,18 @@ pub(super) fn stability(
         return Ok(None);
     }
     let mut random = Random::new(derive_seed(seed, "participants"));
-    let mut places: Vec<Places> = Vec::new();
-    for _ in 0..n_draws {
-        if !go_on() {
-            return Err(SpaceBuildError::Stopped);
-        }
-        let mut participants = Vec::new();
-        for stratum in strata.values() {
-            let n = stratum.len();
-            participants.extend((0..n).map(|_| stratum[random.below(n)]));
-        }
-        places.extend(places_by(drawn, &participants));
-    }
+    let mut draw = || -> Vec<&str> {
+        let stratum = |stratum: &Vec<&'a str>| -> Vec<&'a str> {
+            (0..stratum.len()).map(|_| stratum[random.below(stratum.len())]).collect()
+        };
+        strata.values().flat_map(stratum).collect()
+    };
+    let draws: Vec<Vec<&str>> = (0..n_draws).map(|_| draw()).collect();
+    let places = draws.par_iter().map(|participants| {
+        if go_on() { Ok(places_by(drawn, participants)) } else { Err(SpaceBuildError::Stopped) }
+    });
+    let places: Vec<Option<Places>> = places.collect::<Result<_, _>>()?;
+    let places: Vec<Places> = places.into_iter().flatten().collect();
     if places.len() < MIN_SPACES {
         let n_failed = n_draws - places.len();
         findings.push(format!(
@@ -150,13 +152,10 @@ fn strata<'a>(drawn: &Drawn<'a>) -> BTreeMap<Did, Vec<&'a str>> {
 
 /// Positions from these participants; `None` if they yield no space.
 fn places_by(drawn: &Drawn<'_>, participants: &[&str]) -> Option<Places> {
-    let mut sorts = Vec::new();
-    for (copy, participant) in participants.iter().enumerate() {
-        let own = drawn.sorts.iter().filter(|sort| sort.participant == *participant);
-        // A participant drawn twice counts as two participants.
-        sorts.extend(own.map(|sort| Sort { participant: copy.to_string(), ..sort.clone() }));
-    }
-    let dissimilarities = similarity(drawn.textures, &sorts).ok()?.dissimilarities().ok()?;
+    // The sorts of a participant drawn twice count twice.
+    let own = |name| drawn.sorts.iter().filter(move |sort| sort.participant == name);
+    let sorts: Vec<&Sort> = participants.iter().copied().flat_map(own).collect();
+    let dissimilarities = pooled_dissimilarities(drawn.textures, &sorts).ok()?.ok()?;
     // The starts are the same every time, so that only the participants differ.
     let options = MdsOptions { n_random_starts: N_RANDOM_STARTS, ..drawn.mds.clone() };
     let points = nonmetric(&dissimilarities, drawn.n_dims, &options).ok()?.points;

@@ -8,8 +8,8 @@ use crate::maths::procrustes::procrustes;
 use crate::maths::rng::lcg_noise;
 use crate::people::dissimilarities::Dissimilarities;
 use crate::people::mds::axes::settle;
-use crate::people::mds::start::classical;
-use crate::people::mds::{MdsOptions, Ties, by_dimension, nonmetric, nonmetric_from};
+use crate::people::mds::start::Classical;
+use crate::people::mds::{ByDimension, MdsOptions, Ties, nonmetric, nonmetric_from};
 
 fn vectors() -> Value {
     serde_json::from_str(include_str!("../../../../../../vectors/d_mds/mds_vectors.json")).unwrap()
@@ -54,7 +54,7 @@ fn condensed(dissimilarities: &Dissimilarities) -> Vec<f64> {
 
 /// SMACOF from the classical start, as the reference script runs it.
 fn by_smacof(dissimilarities: &Dissimilarities, dims: usize, ties: Ties) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let mut points = classical(dissimilarities, dims, 0);
+    let mut points = Classical::new(dissimilarities).in_dims(dims, 0);
     let history = smacof(&condensed(dissimilarities), dims, ties, &mut points, 1e-9);
     (settle(&points, dims, 1.0), history)
 }
@@ -135,7 +135,9 @@ fn stress_is_no_higher_than_by_smacof() {
     for (name, ties) in [("primary", Ties::Primary), ("secondary", Ties::Secondary)] {
         let golden = floats(&v["stress1_dims1_10"][name]);
         let options = MdsOptions { ties, ..MdsOptions::usual(1) };
-        let stress: Vec<f64> = by_dimension(&textures, 1..=10, &options, &mut || true)
+        let stress: Vec<f64> = ByDimension::new(&textures, &options)
+            .unwrap()
+            .best(1..=10, None, &|| true)
             .unwrap()
             .iter()
             .map(|m| m.stress)
