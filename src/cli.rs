@@ -86,7 +86,7 @@ use clap::{CommandFactory as _, FromArgMatches as _};
 
 use crate::cli::window::OpenWindow;
 
-/// An authoring tool for haptic textures. Without a command it opens the window.
+/// A tool for authoring haptic textures. Without a command, it opens the window.
 #[derive(clap::Parser)]
 #[command(name = "shagreen", version, args_conflicts_with_subcommands = true)]
 struct Cli {
@@ -112,14 +112,13 @@ enum Command {
     #[command(subcommand)]
     Texture(TextureCommand),
     Export(export::Args),
-    /// Builds a texture space from sorts and ratings, simulates raters, or places textures from a table.
+    /// Builds a perceptual space of textures from sorts and ratings, simulates raters, or reads positions from a table.
     #[command(subcommand)]
     Space(SpaceCommand),
-    /// Evaluates interpolation and codec on signals, without participants.
+    /// Measures the errors of interpolation and codec on signals, without human participants.
     #[command(subcommand)]
     Evaluate(EvaluateCommand),
     Devices(devices::Args),
-    /// Drives an actuator with a texture.
     Play(play::Args),
     Latency(latency::Args),
     /// Lists, shows and exports actuator profiles.
@@ -132,16 +131,17 @@ enum Command {
     /// Encodes and decodes texture signals at 1.75 to 3.15 kbit/s.
     #[command(subcommand)]
     Codec(CodecCommand),
-    /// Analyzes spatial spectrograms of profiles: they keep the spectrum of each window, not positions within it.
+    /// Analyzes spatial spectrograms of surface profiles: the power in each window along the surface, by spatial
+    /// frequency.
     #[command(subcommand)]
     Spatial(SpatialCommand),
-    /// Predicts attributes of a recording, a photo or a prompt, with standard deviations.
+    /// Predicts perceptual attributes of a recording, a photo or a text prompt, with standard deviations.
     #[command(subcommand)]
     Predict(PredictCommand),
     /// Trains attribute predictors and reports their leave-one-texture-out error.
     #[command(subcommand)]
     Train(TrainCommand),
-    /// Registers, downloads and lists third-party networks.
+    /// Registers, downloads and lists third-party neural networks.
     #[command(subcommand)]
     Model(ModelCommand),
 }

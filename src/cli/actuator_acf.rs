@@ -13,16 +13,17 @@ use crate::cli::actuator_source::{grams, load_actuator, volts};
 use crate::cli::output;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Exports an actuator profile as an actuator configuration (ACF) for players of .haptic clips.
+/// Exports an actuator profile as an actuator configuration file (ACF) for players of .haptic clips.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in actuator, by id, or a profile file.
     #[arg(value_name = "ID_OR_FILE")]
     actuator: String,
-    /// Mass attached to the actuator, in g, without the actuator itself. Default: the load of the measurement.
+    /// Mass of the load on the actuator, in g, without the actuator itself. Default: the load at which the profile was
+    /// measured.
     #[arg(long, value_name = "G", value_parser = grams)]
     load_g: Option<f64>,
-    /// Voltage at the actuator when the player outputs digital full scale, in V.
+    /// Peak voltage at the actuator when the player outputs digital full scale, in V.
     #[arg(long, value_name = "V", default_value = "1", value_parser = volts)]
     full_scale_volts: f64,
     /// File to write.
@@ -36,7 +37,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let actuator = load_actuator(&args.actuator, args.load_g)?;
     if args.out.as_os_str().is_empty() {
-        bail!(output::Usage("--out needs a file name".to_owned()));
+        bail!(output::Usage("--out is empty; give a file name".to_owned()));
     }
     refuse_inputs(&[&args.out], &[Some(args.actuator.as_ref())])?;
     refuse_foreign(&args.out, "the configuration", |bytes| serde_json::from_slice::<AcfV1>(bytes).is_ok())?;

@@ -12,14 +12,15 @@ const TEXTURE_HZ: [f64; 2] = [20.0, 400.0];
 /// Fraction of the sample rate up to which the digital filter matches its analog prototype.
 const FAITHFUL_SHARE: f64 = 0.1;
 
-/// Shows an actuator profile: response on a load, electrical limits, headroom, and the inverse filter that flattens the
-/// response.
+/// Shows an actuator profile: frequency response with its load, drive voltage, continuous rating, and the inverse
+/// filter (equalizer) that flattens the response. --json adds electrical limits and physical parameters.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in actuator, by id, or a profile file.
     #[arg(value_name = "ID_OR_FILE")]
     actuator: String,
-    /// Mass attached to the actuator, in g, without the actuator itself. Default: the load of the measurement.
+    /// Mass of the load on the actuator, in g, without the actuator itself. Default: the load at which the profile was
+    /// measured.
     #[arg(long, value_name = "G", value_parser = grams)]
     load_g: Option<f64>,
     /// Sample rate of the inverse filter, in Hz.
@@ -78,9 +79,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             Err(_) => "Response unknown: calibrate the actuator.".to_owned(),
             Ok(response) => {
                 let load = actuator.measured.and_then(|m| m.load);
-                let load = load.map_or("an unknown load".to_owned(), |load| format!("{:.3} g", load.g()));
+                let load =
+                    load.map_or("an unknown load".to_owned(), |load| format!("a load of {:.3} g", load.g()));
                 format!(
-                    "On {load}: resonance {:.2} Hz, Q {:.3}, gain {:.4} (m/s²)/V far above resonance",
+                    "With {load}: resonance {:.2} Hz, Q {:.3}, gain {:.4} (m/s²)/V far above resonance",
                     response.resonance().0,
                     response.q(),
                     response.gain_mps2_per_v()

@@ -21,7 +21,10 @@ pub(crate) fn load_actuator(name: &str, load_g: Option<f64>) -> anyhow::Result<A
         read_actuator(&file::read_file(path)?).with_context(|| file::in_file(path))?
     } else {
         let ids: Vec<&str> = built_in.iter().map(|actuator| actuator.id.as_str()).collect();
-        bail!("there is no actuator and no file \"{name}\"; the built-in actuators are {}", ids.join(", "));
+        bail!(
+            "there is no actuator and no file \"{name}\"; give a profile file or a built-in actuator: {}",
+            ids.join(", ")
+        );
     };
     match load_g {
         None => Ok(actuator),
@@ -54,7 +57,7 @@ const LOADS_G: RangeInclusive<f64> = 0.01..=100_000.0;
 pub(crate) fn grams(text: &str) -> Result<f64, String> {
     let (least, most) = (LOADS_G.start(), LOADS_G.end());
     let load_g = text.parse().ok().filter(|load_g| LOADS_G.contains(load_g)); // Other values are rejected below.
-    load_g.ok_or_else(|| format!("needs a mass in g from {least} to {most}"))
+    load_g.ok_or_else(|| format!("it must be a mass in g from {least} to {most}"))
 }
 
 /// Parses a voltage in V, above zero.
@@ -65,5 +68,5 @@ pub(crate) fn volts(text: &str) -> Result<f64, String> {
 /// Parses a finite number above zero; `what` names it in the error.
 pub(crate) fn positive(text: &str, what: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
-    number.ok_or_else(|| format!("needs {what} above 0"))
+    number.ok_or_else(|| format!("it must be {what} above 0"))
 }

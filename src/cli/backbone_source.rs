@@ -10,8 +10,9 @@ use shagreen_studio::file;
 
 #[derive(clap::Args)]
 pub(crate) struct BackboneArgs {
-    /// Image backbone network, as safetensors: EfficientNet-Lite0, or ResNet-50 with torchvision's tensor names. "none"
-    /// uses texture statistics only. Default: the network that `shagreen model fetch` downloaded, otherwise none.
+    /// Pretrained image network (backbone), as a safetensors file: EfficientNet-Lite0, or ResNet-50 with torchvision's
+    /// tensor names. "none" uses only statistics of the picture. Default: the network that `shagreen model fetch`
+    /// downloaded, otherwise none.
     #[arg(long, value_name = "FILE")]
     backbone: Option<PathBuf>,
 }

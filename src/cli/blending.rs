@@ -12,20 +12,21 @@ use shagreen_studio::near_names::unknown_texture;
 /// Options of the interpolation.
 #[derive(clap::Args)]
 pub(crate) struct BlendArgs {
-    /// Interpolation mode. field: a smooth field over all textures. parametric: the mean parameters of the surrounding
-    /// textures. shared, power and paper mix the signals of the surrounding textures: with one shared excitation; as
-    /// independent signals at the mean level; as published.
+    /// Interpolation mode. field: one texture from a smooth field over all textures. parametric: one texture with the
+    /// mean spectral envelope and level of the surrounding textures. The other modes mix the signals of three textures.
+    /// shared: all driven by the same noise. power: independent noise, level corrected to the mean. paper: as published
+    /// by Hassan, Abdulali and Jeon (2020).
     #[arg(long, value_name = "MODE", value_parser = words(Mode::ALL, Mode::id), default_value = Mode::default().id())]
     blend: Mode,
-    /// Use natural-neighbor weights instead of barycentric weights; with --blend parametric.
+    /// Use natural-neighbor (Sibson) weights instead of barycentric weights; only with --blend parametric.
     #[arg(long)]
     natural: bool,
-    /// Extrapolate outside the convex hull of the textures, as far as the field supports, instead of using the nearest
-    /// point of the hull.
+    /// Extrapolate the field outside the convex hull of the textures, up to a limit, instead of using the nearest point
+    /// of the hull; only with --blend field.
     #[arg(long)]
     extrapolate: bool,
-    /// Pin this texture: the field passes through it at its position instead of smoothing it. Can be given several
-    /// times.
+    /// Pin this texture: the field passes through it exactly instead of smoothing it; only with --blend field. Can be
+    /// given several times.
     #[arg(long, value_name = "ID")]
     lock: Vec<String>,
 }
@@ -36,7 +37,9 @@ impl BlendArgs {
         let index = |id: &String| {
             let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
             if library.textures[index].place.is_none() {
-                bail!("\"{id}\" has no position in the space and cannot be pinned; place it first");
+                bail!(
+                    "\"{id}\" has no position in the space and cannot be pinned; assign one with `shagreen space place`"
+                );
             }
             Ok(index)
         };
@@ -61,7 +64,7 @@ fn warn_of_hidden_locks(library: &Library, locked: &[usize]) {
         if let Some(first) = first {
             let [first, later] = [first, later].map(|texture| library.textures[*texture].id.as_str());
             output::warn(&format!(
-                "\"{first}\" and \"{later}\" have the same position: the field passes only through \"{first}\""
+                "\"{first}\" and \"{later}\" have the same position: the field passes only through \"{first}\"; pin only one of them"
             ));
         }
     }

@@ -82,7 +82,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let base = args.actuator.as_deref().map(|name| load_actuator(name, None)).transpose()?;
     if args.full_scale_volts.is_none() {
         output::note(
-            "1 V is assumed for digital full scale: the profile is valid only for this output at this volume; for limits in volts, measure the voltage and give --full-scale-volts",
+            "1 V is assumed at digital full scale: the profile is valid only for this output at this volume, and its voltage limits are meaningless; measure the peak voltage and give --full-scale-volts",
         );
     }
     let drive = args.full_scale_volts.map_or(Ok(Drive::ASSUMED), |full| Drive::new(Volts(full)))?;
@@ -124,7 +124,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 fn source(args: &Args) -> anyhow::Result<Source<'_>> {
     let Some(id) = &args.output else {
         let Some(file) = &args.recording else {
-            bail!(output::Usage("give --recording FILE, or --output ID and a sensor".to_owned()));
+            bail!(output::Usage(
+                "give --recording FILE, or --output ID and a sensor (--input or --serial-sensor)".to_owned()
+            ));
         };
         return Ok(Source::File(file));
     };

@@ -36,7 +36,7 @@ pub(crate) fn record_live(
     }
     if heard.status.underruns > 0 {
         output::warn(&format!(
-            "the output had {} dropouts during the measurement: close other programs and measure again",
+            "the output had {} dropouts (underruns) during the measurement: close other programs and measure again",
             heard.status.underruns
         ));
     }

@@ -68,7 +68,11 @@ pub(crate) fn recorded_file(
     }
     let read = read_recording(&file_name(path), &bytes, sidecar.as_deref(), &map);
     let read = read
-        .map_err(|error| anyhow::anyhow!("{error}; give --sensitivity, --channel or --set KEY=VALUE"))
+        .map_err(|error| {
+            anyhow::anyhow!(
+                "{error}; state missing properties with --sensitivity, --channel or --set KEY=VALUE"
+            )
+        })
         .with_context(of_file)?;
     for question in &read.questions {
         output::warn(&format!("guessed {question}"));
@@ -84,7 +88,7 @@ fn no_channel(channel: usize, n: usize) -> anyhow::Error {
     let there = if n == 1 {
         "the recording has one; leave --channel out".to_owned()
     } else {
-        format!("the recording has {n}; choose one of them")
+        format!("the recording has {n}; choose --channel 1 to {n}")
     };
     anyhow::anyhow!("there is no channel {channel} of acceleration: {there}")
 }

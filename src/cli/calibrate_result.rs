@@ -67,7 +67,7 @@ pub(crate) fn print(
         }),
         || {
             let mut lines = vec![format!(
-                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, gain {gain:.4} ± {:.4} (m/s²)/V; fit error {:.2} dB rms",
+                "Resonance {hz:.2} ± {:.2} Hz, Q {q:.3} ± {:.3}, gain {gain:.4} ± {:.4} (m/s²)/V (± standard error); fit error {:.2} dB rms",
                 fit.resonance_error_hz, fit.q_error, fit.gain_error_mps2_per_v, fit.error_db
             )];
             if let Some(worst) = &worst {

@@ -24,7 +24,7 @@ pub(crate) struct SweepArgs {
     #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.seconds)]
     seconds: f64,
     /// Peak amplitude of the sweep, as a fraction of digital full scale.
-    #[arg(long, value_name = "SHARE", default_value_t = Sweep::USUAL.amplitude)]
+    #[arg(long, value_name = "FRACTION", default_value_t = Sweep::USUAL.amplitude)]
     amplitude: f64,
     /// Silence before and after the sweep, in s.
     #[arg(long, value_name = "S", default_value_t = Sweep::USUAL.silence_secs)]
@@ -81,7 +81,7 @@ pub(crate) fn write_sweep(sweep: &Sweep, rate_hz: u32, out: &Path, as_json: bool
         }),
         || {
             format!(
-                "Wrote a sweep of {} s from {} to {} Hz, {seconds} s with silence; play it without a pause and record it\n{}",
+                "Wrote a sweep of {} s from {} to {} Hz ({seconds} s with silence); play it without interruption and record the acceleration\n{}",
                 sweep.seconds,
                 sweep.low.0,
                 sweep.high.0,

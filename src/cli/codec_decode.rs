@@ -16,17 +16,17 @@ use crate::cli::output;
 use shagreen_studio::file;
 use shagreen_studio::replace::{is_sidecar, refuse_foreign, refuse_inputs};
 
-/// Decodes a stream of `codec encode` to a float WAV in m/s² at 2000 Hz, with a sidecar. `quality` compares it with the
-/// original signal.
+/// Decodes a stream of `codec encode` to a WAV file of 32-bit floats in m/s² at 2000 Hz, with a sidecar file (.json).
+/// `quality` compares it with the original signal.
 ///
-/// Damaged and missing frames are concealed and reported. The output never exceeds the peak that the stream states for
-/// the original.
+/// Damaged and missing frames are concealed and reported. The output never exceeds the peak of the original signal,
+/// which the stream contains.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Codec stream to decode.
     #[arg(value_name = "IN.shgc")]
     stream: PathBuf,
-    /// WAV file to write; OUT.json states its units.
+    /// WAV file to write; the sidecar OUT.json states its units.
     #[arg(short, long, value_name = "OUT.wav")]
     out: PathBuf,
     /// Print the result as one JSON object.
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let coded = read.value;
     if coded.n_samples == 0 {
-        return Err(anyhow!("the stream contains no samples; get the stream again"))
+        return Err(anyhow!("the stream contains no samples; encode the signal again"))
             .with_context(|| file::in_file(&args.stream));
     }
     let samples: Vec<f32> =

@@ -21,14 +21,15 @@ use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
 /// Encodes a texture signal at 1.75 to 3.15 kbit/s; 16-bit samples at 2000 Hz need 32 kbit/s.
 ///
-/// The signal is a WAV file in m/s². Frequencies above 1000 Hz, which are not perceptible, are removed. The codec has a
-/// delay of 35 ms and works frame by frame; the file has a checksum every 160 ms.
+/// The signal is a WAV file in m/s². Frequencies above 1000 Hz are removed; they lie above the range of vibrotactile
+/// perception. The codec works in frames of 20 ms with an algorithmic delay of 35 ms. The file has a checksum every
+/// 160 ms.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Signal to encode.
+    /// Signal to encode, as a WAV file.
     #[arg(value_name = "IN.wav")]
     signal: PathBuf,
-    /// Stream to write.
+    /// Codec stream to write.
     #[arg(short, long, value_name = "OUT.shgc")]
     out: PathBuf,
     /// Bit rate in kbit/s: 3.15, 2.75, 2.45, 2.15 or 1.75.
@@ -53,7 +54,7 @@ pub(crate) fn kbps(text: &str) -> Result<Bitrate, String> {
         .and_then(|kbps| Bitrate::ALL.into_iter().find(|rate| (rate.kbps() - kbps).abs() < 1e-9));
     found.ok_or_else(|| {
         let all = Bitrate::ALL.map(|rate| rate.kbps().to_string());
-        format!("the bit rates are {} kbit/s", all.join(", "))
+        format!("it must be one of {} kbit/s", all.join(", "))
     })
 }
 
@@ -66,9 +67,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = write_stream(&coded).with_context(|| file::in_file(&args.signal))?;
     let snr = snr_db(&signal, &coded.decode(&books));
     if snr < LEAST_SNR_DB {
-        output::warn(
-            "the codec represents this signal poorly: it is made for continuous vibration, not for single impacts",
-        );
+        output::warn(&format!(
+            "the signal-to-noise ratio is below {LEAST_SNR_DB} dB: the codec is designed for continuous vibration, not for single impacts"
+        ));
     }
     atomic::write(&args.out, &bytes)?;
     let (kbps, frames, bits, seconds) =

@@ -12,27 +12,27 @@ use crate::cli::devices_pens::{decode, list_descriptors};
 use crate::cli::hid_files::{meters, size_mm};
 use crate::cli::output;
 
-/// Lists styluses, audio outputs, audio inputs and serial ports without opening them; or decodes HID descriptors and
-/// reports of pens.
+/// Lists pens, outputs, audio inputs and serial ports without opening them, or decodes HID descriptors and reports of
+/// pens.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Show what HID report descriptors declare. The files contain raw bytes, the same bytes in hexadecimal, or
-    /// recordings of hid-recorder or usbhid-dump.
+    /// Show what HID report descriptors declare. Each file contains raw bytes, the same bytes in hexadecimal, or a
+    /// recording of hid-recorder or usbhid-dump.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["decode", "size_mm", "out"])]
     descriptor: Vec<PathBuf>,
-    /// Decode the reports of a pen (a recording of hid-recorder or usbhid-dump) with a report descriptor. The
+    /// Decode the reports of a pen, recorded with hid-recorder or usbhid-dump, with its report descriptor. The
     /// descriptor can be omitted if the recording contains it.
     ///
-    /// --json prints and --out writes the same samples: those with the pen in range, and of samples with the same time
-    /// only the last. t is in seconds from the first sample. x_mm and y_mm are in mm, rightward and downward from the
-    /// upper left corner of the pen's area.
+    /// --json prints and --out writes the same samples: those with the pen in range; of several samples with the same
+    /// time, only the last. t is in seconds from the first sample. x_mm and y_mm are in mm, rightward and downward from
+    /// the upper left corner of the pen's active area.
     #[arg(long, value_names = ["DESCRIPTOR", "REPORTS"], num_args = 1..=2)]
     decode: Vec<PathBuf>,
-    /// Width and height of the pen's area in mm, such as 216x135, if the pen declares none or wrong ones.
+    /// Width and height of the pen's active area in mm, such as 216x135, if the pen declares none or wrong ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm, requires = "decode", allow_hyphen_values = true)]
     size_mm: Option<[f64; 2]>,
-    /// Write the decoded stroke to a table (.csv) with the columns t_s, x_mm, y_mm, force_n in N and touching (0 or 1).
-    /// If the pen declares no force, pressure (0 to 1) replaces force_n.
+    /// Write the decoded stroke to a table (.csv) with the columns t_s, x_mm, y_mm, force_n (in N) and touching (0 or
+    /// 1). If the pen declares no force, the column pressure (0 to 1) replaces force_n.
     #[arg(short, long, value_name = "OUT.csv", requires = "decode")]
     out: Option<PathBuf>,
     /// Print the result as one JSON object.
@@ -69,11 +69,11 @@ fn list(as_json: bool) {
         "serial": serial.iter().map(serial_json).collect::<Vec<_>>(),
     });
     output::print(as_json, &result, || {
-        let mut lines = vec!["Styluses:".to_owned()];
+        let mut lines = vec!["Pens and mouse:".to_owned()];
         lines.extend(styluses.iter().map(|stylus| line(&stylus.id, &stylus.name)));
         lines.push("Outputs (play --output ID):".to_owned());
         lines.extend(outputs.iter().map(|output| line(&output.id, &output.name)));
-        lines.push("Inputs (calibrate and latency --input ID):".to_owned());
+        lines.push("Audio inputs (calibrate and latency --input ID):".to_owned());
         lines.extend(inputs.iter().map(|input| line(&input.id, &input.name)));
         lines.push("Serial ports (play --serial ID):".to_owned());
         lines.extend(serial.iter().map(|port| line(&port.id, &port.name)));

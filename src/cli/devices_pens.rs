@@ -109,14 +109,14 @@ fn in_words(entry: &Value) -> String {
     }
     let size = match (entry["x"]["mm"].as_f64(), entry["y"]["mm"].as_f64()) {
         (Some(width), Some(height)) if entry["size_doubtful"] == json!(true) => {
-            format!("{width} x {height} mm (doubtful)")
+            format!("{width} x {height} mm (probably wrong)")
         }
         (Some(width), Some(height)) => format!("{width} x {height} mm"),
         _ => "size not declared".to_owned(),
     };
     let levels = entry["pressure"]["logical_max"].as_i64().map_or("no pressure".to_owned(), |max| {
         let force = entry["pressure"]["newtons_max"].as_f64();
-        force.map_or(format!("pressure to {max}"), |force| format!("pressure to {max}, {force} N"))
+        force.map_or(format!("pressure up to {max}"), |force| format!("pressure up to {max} ({force} N)"))
     });
     let id = entry["report_id"].as_u64().map_or("reports without id".to_owned(), |id| format!("report {id}"));
     let tilt = if entry["tilt"] == json!(true) { ", tilt" } else { "" };
@@ -157,7 +157,7 @@ pub(crate) fn decode(
     }
     if recording.decoder.best().is_size_doubtful {
         output::warn(
-            "the size that the pen declares is doubtful; state the right one with --size-mm, such as 216x135",
+            "the size that the pen declares is probably wrong; state the right one with --size-mm, such as 216x135",
         );
     }
     let Decoded { rows, start_secs, n_ignored, n_out_of_range, n_same_time } = decoded(&recording);
@@ -180,7 +180,7 @@ pub(crate) fn decode(
     output::print(as_json, &result, || {
         let seconds = rows.last().map_or(0.0, |(secs, _)| *secs);
         format!(
-            "Decoded {} pen samples in {seconds:.3} s, {} of them in contact, at up to {:.0} mm/s; omitted: {n_out_of_range} out of range, {n_same_time} with the time of the next sample, {n_ignored} other reports",
+            "Decoded {} pen samples in {seconds:.3} s, {} of them in contact, maximum speed {:.0} mm/s; omitted: {n_out_of_range} out of range, {n_same_time} with the same time as the next sample, {n_ignored} reports of other kinds",
             rows.len(),
             touching.count(),
             1e3 * speed_max,
@@ -267,12 +267,14 @@ fn write_stroke(rows: &[(f64, TrackedSample)], out: &Path) -> anyhow::Result<()>
     };
     if rows.is_empty() {
         bail!(
-            "there is no stroke to write: no report has the pen in range; record again with the pen on its surface"
+            "there is no stroke to write: no report has the pen in range; record again with the pen on its tablet"
         );
     }
     let samples: Option<Vec<PenSample>> = rows.iter().map(sample).collect();
     let Some(samples) = samples else {
-        bail!("the stroke has no positions in mm; state the size of the pen's area with --size-mm");
+        bail!(
+            "the stroke has no positions in mm, because the pen declares no size; state it with --size-mm, such as 216x135"
+        );
     };
     let unit = if is_in_newtons { PressUnit::Newtons } else { PressUnit::FullScale };
     Ok(atomic::write(out, stroke_csv(&samples, unit).as_bytes())?)

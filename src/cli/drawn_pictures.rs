@@ -41,7 +41,7 @@ pub(crate) fn drawn_pictures(
         let is_part = backbone.is_none() && before.made_by.starts_with(&seen_by);
         ensure!(
             before.made_by == set.made_by || is_part,
-            "the saved features are of other materials or another network; choose another folder with --state: {}",
+            "the saved features belong to other materials or another network; choose another folder with --state: {}",
             path.display()
         );
         let n_features = N_FEATURES + backbone.map_or(0, |b| b.kind().n_features());

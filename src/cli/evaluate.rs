@@ -21,25 +21,28 @@ use crate::cli::quantity::within;
 use shagreen_studio::figure_files::{check_figures, figure_files, write_together};
 use shagreen_studio::file;
 
-/// Leaves out each texture, interpolates one at its position from the others, and compares the two on signals.
+/// Removes each texture in turn, interpolates a texture at its position from the others, and compares the spectra of
+/// the two.
 ///
-/// Only textures strictly inside the convex hull of the others are left out. Spectra at nine combinations of speed and
-/// force are compared in 40 channels. The baseline is a copy of the nearest texture, which an interpolated one should
-/// improve on. No person felt anything: these are no human ratings.
+/// Only textures strictly inside the convex hull of the others are evaluated. Spectra are compared at nine combinations
+/// of speed and force, in 40 frequency channels (20 to 480 Hz). The baseline is a copy of the nearest texture;
+/// interpolation should have a lower error. The errors are computed from signals, not from human ratings.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// Interpolation mode; all compares the modes.
+    /// Interpolation mode; `all` evaluates every mode.
     #[arg(long, value_name = "MODE", value_parser = modes_parser(), default_value = Mode::default().id())]
     blend: Modes,
-    /// Number of textures for which rendered signals are compared too. Default: all.
+    /// Number of textures whose rendered signals are compared, in addition to the models of all textures; 0 renders
+    /// none. Default: all.
     #[arg(long, value_name = "N")]
     signals: Option<usize>,
-    /// Duration of each signal, in seconds.
+    /// Duration of each rendered signal, in s.
     #[arg(long, value_name = "S", value_parser = signal_secs, default_value = "16")]
     seconds: f64,
-    /// Folder for figures, as SVG and CSV: a table of the methods, and a map of the errors of each.
+    /// Folder for figures, as SVG and CSV: a table of the methods, and for each method a map of the errors in the
+    /// space.
     #[arg(long, value_name = "FOLDER")]
     figures: Option<PathBuf>,
     /// Random seed of the noise; the same seed repeats all signals exactly.
@@ -54,7 +57,7 @@ pub(crate) struct Args {
 #[derive(Clone, Debug)]
 struct Modes(Vec<Mode>);
 
-/// Word for all modes.
+/// Value of --blend that selects every mode.
 const ALL: &str = "all";
 
 fn modes_parser() -> impl clap::builder::TypedValueParser<Value = Modes> {
@@ -63,7 +66,7 @@ fn modes_parser() -> impl clap::builder::TypedValueParser<Value = Modes> {
         .map(|id| Modes(Mode::from_id(&id).map_or_else(|| Mode::ALL.to_vec(), |mode| vec![mode])))
 }
 
-/// Shortest and longest signal, in s: three windows of its spectrum, and a limit on computing time.
+/// Signal duration limits, in s. The minimum gives three spectral windows; the maximum limits computing time.
 const SIGNAL_SECS: std::ops::RangeInclusive<f64> = 4.0..=600.0;
 
 fn signal_secs(text: &str) -> Result<f64, String> {
@@ -85,7 +88,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let beyond = measured.textures.iter().filter(|left| !left.is_within_measured).count();
     if beyond > 0 {
         output::warn(&format!(
-            "{} of {} textures were not measured at all speeds and forces of the comparison; the nearest measured ones are used",
+            "{} of {} textures lack measurements at some of the compared speeds and forces; their nearest measured speed and force is used",
             beyond,
             measured.textures.len()
         ));
@@ -135,28 +138,32 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     let n = measured.textures.len();
     let mut lines = vec![
         format!(
-            "{}: leave-one-out over {}, of {} with a position ({}; the errors are no human ratings)",
+            "{}: leave-one-out of {} ({} have a position; {} on the convex hull are not evaluated); {}; the errors are computed, not rated by people",
             library.name,
             counted(n, "texture"),
             n + measured.on_hull.len(),
+            measured.on_hull.len(),
             evaluation_source(library)
         ),
         format!(
-            "  {:10} {:>9} {:>9} {:>9} {:>6} {:>6} {:>6} {:>9}",
-            "", "error", "median", "level", "rank 1", "top 5", "NRS", "signals"
+            "  {:10} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>12}",
+            "", "mean error", "median error", "level error", "rank 1", "top 5", "NRS", "signal error"
         ),
     ];
     let best = best(measured).map(|summary| &summary.method);
     lines.extend(measured.methods.iter().map(|summary| row(summary, best == Some(&summary.method))));
-    lines.push(
-        "* smallest error: root mean square difference of channel levels from the original, over 9 contacts and 40 channels"
-            .to_owned(),
-    );
+    let notes = [
+        "* lowest mean error. Error: RMS difference of channel levels over 9 speed-force pairs and 40 channels, averaged over textures.",
+        "Level error: mean absolute difference of the total vibration level.",
+        "Rank 1, top 5: percentage of textures whose original is the closest, or among the five closest, to the interpolated one.",
+        "NRS: 1 - error / distance between the two textures farthest apart on the first axis, averaged over textures.",
+    ];
+    lines.extend(notes.map(str::to_owned));
     let checks = measured.methods.iter().filter_map(|summary| summary.signals);
     if let Some(largest) = checks.clone().map(|c| c.mean_difference_db).max_by(f64::total_cmp) {
         let rendered = checks.map(|check| check.n).max().unwrap_or(0);
         lines.push(format!(
-            "signals: the same error between rendered signals of {}; on average within {largest:.2} dB of that between the models",
+            "signal error: the same error computed on rendered signals of {}. It differs from the model error by at most {largest:.2} dB on average.",
             counted(rendered, "texture")
         ));
     }
@@ -169,7 +176,7 @@ fn row(summary: &Summary, is_best: bool) -> String {
     let nrs = summary.nrs_mean.map_or_else(none, |nrs| format!("{nrs:.2}"));
     let signals = summary.signals.map_or_else(none, |check| format!("{:.2} dB", check.error_db_mean));
     format!(
-        "{} {:10} {:6.2} dB {:6.2} dB {:6.2} dB {:4.0} % {:4.0} % {nrs:>6} {signals:>9}",
+        "{} {:10} {:9.2} dB {:9.2} dB {:9.2} dB {:4.0} % {:4.0} % {nrs:>6} {signals:>12}",
         if is_best { '*' } else { ' ' },
         method_id(&summary.method),
         summary.error_db_mean,

@@ -23,11 +23,11 @@ use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Progress};
 use crate::cli::quantity::{positive, within};
 
-/// Encodes every texture of a library at the codec's five rates and measures the loss: signal-to-noise ratio, and d' as
-/// a model predicts it.
+/// Encodes every texture of a library at the codec's five bit rates and measures the loss: the signal-to-noise ratio,
+/// and the discriminability d' that a model predicts.
 ///
 /// The codec's codebooks were trained on two thirds of the starter library's textures; the others are marked as held
-/// out. No person felt the signals: these are no human ratings.
+/// out. The values are computed from signals, not from human ratings.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -38,7 +38,7 @@ pub(crate) struct Args {
     /// Normal force, in N.
     #[arg(long, value_name = "F", value_parser = positive, default_value = "1")]
     force: f64,
-    /// Duration of each signal, in seconds: 0.8 or more.
+    /// Duration of each signal, in s: 0.8 to 60.
     #[arg(long, value_name = "S", value_parser = seconds, default_value = "4")]
     seconds: f64,
     /// Random seed of the noise; the same seed repeats all signals exactly.
@@ -129,7 +129,7 @@ impl Bench {
         let contact = Contact::from_mm_per_s_and_n(args.speed, args.force);
         let seed = args.seed.wrapping_mul(1000).wrapping_add(index as u64);
         let felt = signal(&texture.model, contact, args.seconds, seed)?;
-        ensure!(rms(&felt) > 0.0, "it is silent at this speed and force; choose other values");
+        ensure!(rms(&felt) > 0.0, "it is silent at this speed and force; choose another --speed or --force");
         let mut row = Row { texture, is_held_out, snr_db: [0.0; 5], d_prime: [0.0; 5] };
         for (i, rate) in Bitrate::ALL.into_iter().enumerate() {
             let decoded = Coded::encode(&felt, rate, &self.books)?.decode(&self.books);
@@ -153,7 +153,7 @@ fn table(library: &Library, rows: &[Row<'_>]) -> String {
     let rates = five(&Bitrate::ALL.map(Bitrate::kbps));
     let mut lines = vec![
         format!(
-            "{}: {} encoded and decoded, measured on signals (signal-to-noise ratio in dB, then predicted d'; no human ratings)",
+            "{}: {} encoded and decoded (left: signal-to-noise ratio in dB; right: predicted d'; measured on signals, not rated by people)",
             library.name,
             counted(rows.len(), "texture")
         ),

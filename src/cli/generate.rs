@@ -42,21 +42,21 @@ const DESCRIPTION: &str = "generated.json";
 /// Longest name of a texture, in characters.
 const LONGEST_NAME: usize = 60;
 
-/// Generates a picture from a prompt, estimates the position in the space from both, and writes the texture at this
-/// position.
+/// Generates a picture from a prompt, predicts a position in the space from the prompt and the picture, and writes the
+/// texture at this position.
 ///
-/// The picture tiles without a seam and comes with the heights that it shows. No network is needed: a lexicon
-/// interprets materials, patterns, colors, sizes and adjectives. If prompt and picture predict different attributes,
-/// this is reported.
+/// The built-in procedural generator needs no neural network: a lexicon interprets words for materials, patterns,
+/// colors, sizes and adjectives. Its picture is seamless, and the surface heights that it shows are written too. The
+/// command reports attributes for which prompt and picture predict different values.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Description of the surface, such as "a rough, soft carpet-like surface".
     #[arg(value_name = "PROMPT")]
     prompt: String,
-    /// Folder for the picture, the heights, the texture, the project and a description of them.
+    /// Folder to write to: the picture, its surface heights, the texture, a project and a description (generated.json).
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Random seed; another seed gives another piece of the same surface.
+    /// Random seed; another seed gives another part of the same surface.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Pixels along each side of the picture.
@@ -164,7 +164,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let quarrel = if disputed.is_empty() {
             String::new()
         } else {
-            format!("\nthe words and the picture differ in {}", disputed.join(" and "))
+            format!("\nthe prompt and the picture predict different values of {}", disputed.join(" and "))
         };
         let near: Vec<&str> = neighbors.iter().filter_map(|near| near["name"].as_str()).collect();
         format!(
@@ -204,11 +204,11 @@ fn felt_at(library: &Library, at: SpacePoint) -> anyhow::Result<TextureModel> {
         .context("the starter library has no positions; reinstall Shagreen")?;
     if authored.location.clamped {
         output::note(&format!(
-            "{at} lies outside the convex hull of the textures; the nearest point of the hull is used"
+            "the predicted position {at} lies outside the convex hull of the textures; the nearest point of the hull is used"
         ));
     }
     authored.model.with_context(|| {
-        format!("the field has no texture at {at}; use a more specific prompt, or another one")
+        format!("the interpolated field has no texture at {at}; use a more specific prompt, or another one")
     })
 }
 
@@ -220,7 +220,7 @@ fn by_diffusion(args: &Args) -> anyhow::Result<GeneratedPicture> {
     );
     let folder = model_folder()?;
     let added = folder.added_diffusion()?.context(
-        "there is no diffusion model on this machine; add one with `shagreen model add FOLDER`, or leave --diffusion out",
+        "no diffusion model is registered; register one with `shagreen model add FOLDER`, or leave --diffusion out",
     )?;
     let wish = Wish {
         negative: &args.negative,
@@ -263,7 +263,7 @@ fn write(folder: &Path, mut files: Vec<(PathBuf, Vec<u8>)>, result: &mut Value) 
 fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
     ensure!(
         !folder.exists() || folder.is_dir(),
-        "the result is written to a folder, but this is a file; choose another folder: {}",
+        "--out needs a folder, but this is a file; choose another folder: {}",
         folder.display()
     );
     let description = folder.join(DESCRIPTION);
@@ -281,7 +281,7 @@ fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
             && !is_ours(name, &bytes)
         {
             bail!(
-                "this file was not generated, or was changed since; choose another folder: {}",
+                "this file was not written by `shagreen generate`, or was changed since, and is not replaced; choose another folder: {}",
                 path.display()
             );
         }

@@ -19,8 +19,9 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let ids: Vec<&str> = PAGES.iter().map(|page| page.id).collect();
-    let found = page(&args.page)
-        .with_context(|| format!("the guide has no page \"{}\"; it has {}", args.page, ids.join(", ")))?;
+    let found = page(&args.page).with_context(|| {
+        format!("the guide has no page \"{}\"; choose one of {}", args.page, ids.join(", "))
+    })?;
     let result = json!({"page": found.id, "title": found.title(), "text": found.text, "pages": ids});
     output::print(args.json, &result, || found.text.trim_end().to_owned());
     Ok(())

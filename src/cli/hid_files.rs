@@ -47,7 +47,9 @@ pub(crate) fn read_descriptors(path: &Path) -> anyhow::Result<Vec<anyhow::Result
             })
             .collect();
         if found.is_empty() {
-            bail!("the recording contains no report descriptor; record again with one");
+            bail!(
+                "the recording contains no report descriptor; record again with hid-recorder or usbhid-dump --entity=all"
+            );
         }
         return Ok(found);
     }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
+use shagreen_core::words::counted;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, read_library, write_library};
 
@@ -14,7 +15,7 @@ use shagreen_studio::replace::refuse_inputs;
 /// Library that textures are imported into.
 #[derive(clap::Args)]
 pub(crate) struct Destination {
-    /// Library file to write; textures are added to an existing library.
+    /// Library file to write; if it exists, the textures are added to it.
     #[arg(long, value_name = "L")]
     out: PathBuf,
     /// Replace textures of the library that have the same id.
@@ -132,9 +133,13 @@ impl<'a> Outcome<'a> {
         if destination.json || n_imported > 0 {
             output::print(destination.json, &result, || {
                 let ids: Vec<&str> = textures.iter().filter_map(|texture| texture["id"].as_str()).collect();
+                let left_out = match failed.len() {
+                    0 => String::new(),
+                    n => format!("; not imported: {}", counted(n, "file")),
+                };
                 format!(
-                    "Imported {n_imported} of {} ({}): {}",
-                    n_imported + failed.len(),
+                    "Imported {} ({}){left_out}: {}",
+                    counted(n_imported, "texture"),
                     ids.join(", "),
                     destination.out.display()
                 )
@@ -166,7 +171,10 @@ fn existing(path: &Path) -> anyhow::Result<Library> {
     if !path.exists() {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            bail!("there is no such folder to write to; create it, or choose another: {}", folder.display());
+            bail!(
+                "the folder of the library file does not exist; create it, or choose another: {}",
+                folder.display()
+            );
         }
         return Ok(Library {
             name: path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),

@@ -13,8 +13,8 @@ use shagreen_studio::file::{self, file_name};
 
 /// Imports texture models in the XML of the Penn Haptic Texture Toolkit (HaTT).
 ///
-/// The published models are for non-profit research and must not be redistributed: their textures are marked as
-/// restricted, and exporting or packing them prints a warning.
+/// The published models are for non-profit research and must not be redistributed. Their textures are marked as
+/// restricted; commands that export them or save them in a library print a warning.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Model files, or folders of them.

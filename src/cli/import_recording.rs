@@ -21,11 +21,10 @@ use shagreen_studio::file::{self, file_name};
 use shagreen_studio::import::RECORDING_ENDINGS;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Fits texture models to recorded strokes: acceleration, speed and force, as WAV or as tables.
+/// Fits texture models to recorded strokes: acceleration, speed and force, as WAV files or tables.
 ///
-/// A property that a file does not state, such as the unit of acceleration, is a question. If the data determine the
-/// answer, it is guessed and reported; otherwise the file is rejected until --map or --set answers. No value is
-/// invented.
+/// If a file does not state a property, such as the unit of acceleration, the command infers it from the data where
+/// possible and prints a warning. Otherwise it rejects the file until you state the property with --set or --map.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Recordings: .wav, or tables such as .csv and .txt, or folders of them. Each file becomes a texture.
@@ -33,28 +32,29 @@ pub(crate) struct Args {
     files: Vec<PathBuf>,
     #[command(flatten)]
     destination: Destination,
-    /// TOML file that states the columns and their units.
+    /// Column map: a TOML file that states the columns and their units.
     #[arg(long, value_name = "MAP.toml")]
     map: Option<PathBuf>,
-    /// Answer a question, for example acceleration_unit=g or speed="100 mm/s"; overrides the map.
+    /// State a property that a file does not contain, for example acceleration_unit=g or speed="100 mm/s"; overrides
+    /// the column map. Can be given several times.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer)]
     answers: Vec<(Ask, String)>,
     /// Treat all files as strokes on one texture with this name.
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Rate of the model in Hz. Default: selected from the bandwidth of the recordings.
+    /// Model rate (sample rate of the model), in Hz. Default: selected from the bandwidth of the recordings.
     #[arg(long, value_name = "HZ", value_parser = parse_rate)]
     rate: Option<f64>,
-    /// Order of the linear predictor. Default: selected by the Bayesian information criterion.
+    /// Model order (order of the linear predictor). Default: selected by the Bayesian information criterion.
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=MAX_ORDER as i64))]
     order: Option<u8>,
     /// Interpolation of the model between the measured speeds and forces.
     #[arg(long, value_name = "MODE", value_parser = ["barycentric", "radial-basis"], default_value = "barycentric")]
     interpolation: String,
-    /// Licence of the textures, for example an SPDX expression.
+    /// License of the textures, for example an SPDX expression.
     #[arg(long, default_value = "", hide_default_value = true)]
     licence: String,
-    /// Folder for a page of plots (SVG) and a table of segments (CSV) of each texture.
+    /// Folder for a page of plots (SVG) and a table of the fitted segments (CSV) of each texture.
     #[arg(long, value_name = "FOLDER")]
     report: Option<PathBuf>,
 }
@@ -234,7 +234,5 @@ fn figures(files: &[&Path], fitted: &Fitted) -> Value {
 
 fn parse_rate(text: &str) -> Result<f64, String> {
     let rate = MODEL_RATES_HZ.into_iter().find(|rate| rate.to_string() == text);
-    rate.ok_or_else(|| {
-        format!("a model has a rate of {} Hz", MODEL_RATES_HZ.map(|rate| rate.to_string()).join(" or "))
-    })
+    rate.ok_or_else(|| format!("it must be {} Hz", MODEL_RATES_HZ.map(|rate| rate.to_string()).join(" or ")))
 }

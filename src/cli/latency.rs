@@ -23,11 +23,11 @@ use crate::cli::latency_onsets::{STROKE_SECS, quantile, stroke_onset, tap_onset}
 use crate::cli::output::{self, Progress};
 use crate::cli::rig::{Rig, RigArgs};
 
-/// Measures the latency of a pen: replays pen reports through the processing of a real pen, records the output signal,
-/// and compares the times.
+/// Measures the latency from a pen report to the output signal: replays simulated pen reports through the same
+/// processing as a real pen, records the output, and compares the times.
 ///
-/// The input must record the output: with a cable between them, an accelerometer on the actuator, or the monitor of a
-/// sound server's sink. The results include the input's own latency, as far as the input does not report it.
+/// The input must record the output: through a cable, an accelerometer on the actuator, or the monitor of a sound
+/// server's sink. If the input does not report its own latency, the results include it.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -35,7 +35,7 @@ pub(crate) struct Args {
     /// Input that records the output, by id; `shagreen devices` lists them.
     #[arg(long, value_name = "ID")]
     input: String,
-    /// Channel of the input, from 1.
+    /// Channel of the input, counted from 1.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
     input_channel: u16,
     /// Number of taps to measure, and number of strokes.
@@ -87,7 +87,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let (median, budget) = (number(of, "median_ms"), number(of, "budget_ms"));
         if median > budget {
             output::warn(&format!(
-                "{what} have a median latency of {median:.1} ms, above the budget of {budget:.0} ms"
+                "{what} have a median latency of {median:.1} ms, above the limit of {budget:.0} ms; use a smaller --buffer or another output"
             ));
         }
     }
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         || {
             let line = |what: &str, of: &Value| {
                 format!(
-                    "{what}: {:.1} ms (median of {}, {} missed), 95 % within {:.1} ms; the output reports {:.1} ms",
+                    "{what}: median {:.1} ms (n = {}, {} missed), 95th percentile {:.1} ms; estimated by the program: {:.1} ms",
                     number(of, "median_ms"),
                     of["n"],
                     of["missed"],
@@ -106,9 +106,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 )
             };
             format!(
-                "Latency from the pen report to the recorded signal\n{}\n{}",
-                line("Strokes, to half their level", &strokes),
-                line("Taps, to their first sample", &taps)
+                "Latency from the pen report to the recorded output signal\n{}\n{}",
+                line("Strokes, to half the final level", &strokes),
+                line("Tap transients, to the first sample", &taps)
             )
         },
     );
@@ -183,7 +183,7 @@ fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
 
 /// Returns an error if too few onsets were detected for a representative result.
 fn refuse_few(n_heard: usize, n: usize, what: &str, input: &str) -> anyhow::Result<()> {
-    let advice = "connect them, raise the input level, or choose another input or channel";
+    let advice = "connect the input to the output, raise the input level, or choose another input or channel";
     if n_heard == 0 {
         bail!("the input `{input}` records nothing of the output: {advice}");
     }

@@ -54,20 +54,20 @@ fn table(library: &Library) -> String {
     let widest = library.textures.iter().map(|texture| texture.id.chars().count()).max().unwrap_or(0);
     let line = |texture: &TextureEntry| {
         let place = texture.place.map_or_else(
-            || "not placed".to_owned(),
-            |place| format!("at {} ({})", place.at, place.source.label()),
+            || "no position".to_owned(),
+            |place| format!("position {} ({})", place.at, place.source.label()),
         );
         let model = &texture.model;
         let path = texture.path.as_ref().map_or_else(String::new, |path| {
             let (scale, unit) = path.along().unit();
             let length = path.length() / scale;
-            format!(", a path of {} textures along {length} {unit}", path.keys().len())
+            format!(", path of {} textures over {length} {unit}", path.keys().len())
         });
         let relief = model.relief().map_or_else(String::new, |relief| {
-            format!(", a relief of {:.1} mm", 1e3 * relief.profile().length_m())
+            format!(", relief of {:.1} mm", 1e3 * relief.profile().length_m())
         });
         format!(
-            "{:widest$}  {}, {place}, {} nodes of order {} at {}{path}{relief}",
+            "{:widest$}  {}, {place}, {} speed-force points, model order {}, model rate {}{path}{relief}",
             texture.id,
             texture.name,
             model.n_nodes(),

@@ -22,11 +22,12 @@ const ORIGIN: &str =
 
 /// Simulates a library of textures from the physical parameters of materials.
 ///
-/// A simulated pen strokes each material at five speeds and five forces; the picture shows the same relief. Positions
-/// are physical labels, not ratings.
+/// A simulated pen strokes each material at five speeds and five forces; the picture shows the same surface heights.
+/// Positions are physical labels: roughness is computed from the vibration level, hardness from the contact stiffness.
+/// No person rated them.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// TOML file with a `seed` and a list of `material` tables.
+    /// TOML file with a `seed` and one `[[material]]` table for each material.
     materials: PathBuf,
     /// Library file to write.
     #[arg(long, value_name = "L")]
@@ -34,7 +35,7 @@ pub(crate) struct Args {
     /// Name of the library.
     #[arg(long, default_value = "Starter")]
     name: String,
-    /// Licence of the library, for example an SPDX expression.
+    /// License of the library, for example an SPDX expression.
     #[arg(long, default_value = "", hide_default_value = true)]
     licence: String,
     /// Print the result as one JSON object.
@@ -57,7 +58,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     output::print(
         args.json,
         &json!({"out": args.out.display().to_string(), "textures": n_textures, "bytes": bytes.len(), "seed": materials.seed}),
-        || format!("Made {n_textures} textures, {} kB: {}", bytes.len() / 1000, args.out.display()),
+        || format!("Simulated {n_textures} textures, {} kB: {}", bytes.len() / 1000, args.out.display()),
     );
     Ok(())
 }

@@ -19,11 +19,11 @@ use shagreen_studio::file;
 use shagreen_studio::near_names::unknown_texture;
 use shagreen_studio::replace::{is_library, refuse_foreign, refuse_inputs};
 
-/// Adds a relief to a texture of a library: bumps, gaps or a weave at fixed positions, played by the position of the
-/// tip on top of the texture's noise.
+/// Adds a relief to a texture of a library: acceleration as a function of tip position, such as bumps, gaps or a weave,
+/// in addition to the texture's noise.
 ///
-/// Values of a signal are accelerations in m/s². Heights, brightness and friction have no such unit: --level states
-/// their level. Beyond its end a relief is mirrored.
+/// The values of a WAV file are accelerations in m/s². Heights, brightness and friction are not accelerations: for
+/// them, --level states the level of the relief. Beyond its end, the relief continues as its mirror image.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -33,10 +33,11 @@ pub(crate) struct Args {
     /// Texture of the library, by id.
     #[arg(long, value_name = "ID")]
     texture: String,
-    /// RMS level of the relief, in m/s². Without it a signal keeps its own level; other profiles need it.
+    /// RMS acceleration of the relief, in m/s². A WAV file keeps its own level by default; other profiles need this
+    /// option.
     #[arg(long, value_name = "MPS2", value_parser = positive)]
     level: Option<f64>,
-    /// Force at which the relief has its level, in N; the level is proportional to force.
+    /// Force at which the relief has this level, in N; the level is proportional to force.
     #[arg(long, value_name = "N", value_parser = positive, default_value = "1")]
     force: f64,
     /// Library file to write.
@@ -53,7 +54,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let profile = args.profile.load_felt()?;
     if args.level.is_none() && !args.profile.is_signal() {
         return Err(Usage(
-            "the values of this profile have no unit; state its level with --level in m/s²".to_owned(),
+            "the values of this profile are not accelerations; state the level of the relief with --level, in m/s²".to_owned(),
         )
         .into());
     }
@@ -71,7 +72,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let entry = &mut library.textures[index];
     if entry.path.is_some() {
         bail!(
-            "\"{}\" follows a path of textures and has no signal of its own; add the relief to the path's textures, then make the path again",
+            "\"{}\" is a texture path, which cannot have a relief; add the relief to the textures that the path is made from, then make the path again",
             args.texture
         );
     }
@@ -95,7 +96,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "\"{}\" has a relief of {length_mm:.2} mm in steps of {step_mm:.4} mm, {level_mps2:.3} m/s² at {} N: {}",
+                "Added to \"{}\" a relief of {length_mm:.2} mm in steps of {step_mm:.4} mm, {level_mps2:.3} m/s² rms at {} N: {}",
                 args.texture,
                 args.force,
                 args.out.display()

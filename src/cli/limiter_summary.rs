@@ -46,13 +46,13 @@ impl LimiterSummary {
                 ("of the output's full scale", "a higher --full-scale, or a lower --speed or --force")
             };
             warnings.push(format!(
-                "{:.1} % of the samples exceeded the limit {limit} and were attenuated: peaks are weaker than the texture's; try {advice}",
+                "{:.1} % of the samples exceeded the limit {limit} and were attenuated: the peaks are lower than those of the texture; try {advice}",
                 100.0 * self.share
             ));
         }
         if self.heat_gain < NEARLY_ALL {
             warnings.push(format!(
-                "the thermal limiter attenuated the output to {:.0} % at times, to keep the coil cool: it is weaker than the texture; try a lower --speed or --force, or shorter strokes",
+                "the thermal limiter attenuated the output to {:.0} % at times, to keep the coil cool: the output is weaker than the texture; try a lower --speed or --force, or shorter strokes",
                 100.0 * self.heat_gain
             ));
         }

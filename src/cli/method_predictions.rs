@@ -101,9 +101,9 @@ impl<'a> Comparison<'a> {
             format!("{what}\n{heading}{rows}")
         };
         format!(
-            "{}\n{}\nBest: {}.",
-            table_of("Mean absolute error, in points of 100", |errors| &errors.mae),
-            table_of("Root mean square error", |errors| &errors.rmse),
+            "{}\n{}\nLowest root mean square error, summed over the attributes: {}.",
+            table_of("Mean absolute error, in points (0 to 100)", |errors| &errors.mae),
+            table_of("Root mean square error, in points (0 to 100)", |errors| &errors.rmse),
             self.chosen()
         )
     }
@@ -148,6 +148,6 @@ mod tests {
         assert!((told["mae"]["a"].as_f64().unwrap() - 7.0 / 3.0).abs() < 1e-12);
         assert!((told["rmse"]["a"].as_f64().unwrap() - (25.0_f64 / 3.0).sqrt()).abs() < 1e-12);
         assert_eq!(told["baselines"]["mean of the others"]["mae"]["a"], 30.0);
-        assert!(comparison.text().contains("Best: near."));
+        assert!(comparison.text().contains("summed over the attributes: near."));
     }
 }

@@ -10,9 +10,10 @@ use crate::cli::output;
 /// Registers a diffusion model that generates pictures from text: Stable Diffusion 2.1, or another model with the same
 /// file layout.
 ///
-/// The folder must be in the layout of diffusers, with safetensors: unet, vae, text_encoder, scheduler and tokenizer.
-/// It stays where it is; the program stores its path and the SHA-256 of each file. The model's licence states what it
-/// may be used for. `generate --diffusion` generates pictures with it.
+/// The folder must have the file layout of the Python library diffusers, with safetensors files: unet, vae,
+/// text_encoder, scheduler and tokenizer. The files are not copied; the program stores the path of the folder and the
+/// SHA-256 of each file. The license of the model states its permitted uses. `generate --diffusion` generates pictures
+/// with the model.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Folder of the model.
@@ -24,15 +25,13 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    output::note(
-        "reading the whole model; this takes a while and needs memory of two to four times the model's size",
-    );
+    output::note("reading the whole model: this needs memory of two to four times the size of the model");
     let added = model_folder()?.add_diffusion(&args.folder)?;
     let result = json!({"model": added.name(), "folder": added.folder, "sha256": added.sha256});
     output::print(args.json, &result, || {
         let line = |(name, hash): (&String, &String)| format!("{hash}  {name}");
         let lines: Vec<String> = added.sha256.iter().map(line).collect();
-        format!("Added {}: {}\n{}", added.name(), added.folder.display(), lines.join("\n"))
+        format!("Registered {}: {}\n{}", added.name(), added.folder.display(), lines.join("\n"))
     });
     Ok(())
 }

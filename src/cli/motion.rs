@@ -20,11 +20,11 @@ pub(crate) struct MotionArgs {
     /// Normal force, in N.
     #[arg(long, value_name = "F", value_parser = quantity, conflicts_with = "stroke")]
     force: Option<f64>,
-    /// Duration, in seconds.
+    /// Duration, in s.
     #[arg(long, value_name = "S", value_parser = quantity, conflicts_with = "stroke")]
     seconds: Option<f64>,
-    /// Recorded stroke: pen samples (.svc); a table (.csv) with t, x, y and pressure or force, or with t, speed and
-    /// force; or pen reports with their descriptor, as recorded by hid-recorder or usbhid-dump.
+    /// Recorded stroke: pen samples (.svc); a table (.csv) with the columns t, x, y and pressure or force, or t, speed
+    /// and force; or pen reports with their descriptor, recorded with hid-recorder or usbhid-dump.
     #[arg(long, value_name = "FILE")]
     stroke: Option<PathBuf>,
     #[command(flatten)]
@@ -71,7 +71,7 @@ pub(crate) fn motion(args: &MotionArgs, default: Option<(f64, f64, f64)>) -> any
         _ => bail!(output::Usage("give --speed V --force F --seconds S, or --stroke FILE".to_owned())),
     };
     if seconds > MAX_SECS {
-        bail!("--seconds must be from 0 to {MAX_SECS}, got {seconds}; choose a shorter duration");
+        bail!("--seconds is {seconds}, but must be from 0 to {MAX_SECS}; choose a shorter duration");
     }
     Ok(Motion::Steady { contact: Contact::from_mm_per_s_and_n(speed, force), seconds })
 }

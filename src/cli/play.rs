@@ -25,7 +25,9 @@ use crate::cli::target::SoundArgs;
 use crate::cli::watch::Watch;
 use shagreen_studio::sound::Sound;
 
-/// Drives an actuator with a texture in real time: with a steady contact or a recorded stroke.
+/// Drives an actuator with a texture in real time, at constant speed and force or along a recorded stroke.
+///
+/// Defaults: speed 100 mm/s, force 1 N, duration 3 s.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -97,7 +99,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }),
         || {
             format!(
-                "Played {seconds:.3} s of {} on {} at {} Hz: latency {:.1} ms, {} underruns, load at most {:.0} %, samples limited: {}",
+                "Played {seconds:.3} s of {} on {} at {} Hz: latency {:.1} ms, {} dropouts, processing load at most {:.0} %, samples limited: {}",
                 chosen.parents_text(&library),
                 running.id(),
                 running.rate_hz(),
@@ -116,7 +118,7 @@ fn check(status: &Status) -> anyhow::Result<()> {
     if status.tripped {
         bail!(
             "a sample was not a finite number, so the output was silenced and playback is incomplete; \
-             try another --full-scale or texture, and report the error"
+             try another --full-scale or texture, and report this error"
         );
     }
     Ok(())

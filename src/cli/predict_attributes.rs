@@ -31,16 +31,17 @@ use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
 use shagreen_studio::file;
 
-/// Predicts the attributes of a recorded stroke, a photo or a prompt: 0 to 100, each with its standard deviation.
+/// Predicts the perceptual attributes of a recorded stroke, a photo or a prompt: 0 to 100, each with its standard
+/// deviation.
 ///
-/// Recordings are compared with a library of textures with known attributes. Default: the simulated library, which
-/// nobody rated. With --model, a network trained on strokes predicts them instead. Photos are judged by a model trained
-/// on pictures of materials with known roughness and hardness. Prompts are read with a lexicon, whose values are
-/// estimates.
+/// Recordings: predicted from a library of textures with known attributes; by default the simulated library, which no
+/// person rated. With --model, a network trained on strokes predicts them instead. Photos: predicted by a model trained
+/// on pictures of materials with computed roughness and hardness. Prompts: predicted from a lexicon with estimated
+/// attributes of words.
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true))]
 pub(crate) struct Args {
-    /// Recordings of strokes on one texture: acceleration, speed and force, as WAV or tables.
+    /// Recordings of strokes on one texture: acceleration, speed and force, as WAV files or tables.
     #[arg(long, value_name = "FILE", num_args = 1.., group = "what", conflicts_with = "backbone")]
     recording: Vec<PathBuf>,
     /// Photo of a surface, as JPEG or PNG.
@@ -50,17 +51,18 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TEXT", group = "what", conflicts_with_all = ["backbone", "library", "model"])]
     prompt: Option<String>,
     /// Model for photos, from `shagreen train photo`, or for recordings, from `shagreen train attributes`. Default: the
-    /// built-in model for photos, the library for recordings.
+    /// built-in model for photos; a prediction from the library for recordings.
     #[arg(long, value_name = "MODEL", conflicts_with = "library")]
     model: Option<PathBuf>,
     #[command(flatten)]
     backbone: BackboneArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    /// TOML file that states the columns of recordings and their units.
+    /// Column map: a TOML file that states the columns of recordings and their units.
     #[arg(long, value_name = "MAP.toml", requires = "recording")]
     map: Option<PathBuf>,
-    /// Answer a question about a recording, for example acceleration_unit=g; overrides the map.
+    /// State a property that a recording does not contain, for example acceleration_unit=g; overrides the column map.
+    /// Can be given several times.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer, requires = "recording")]
     answers: Vec<(Ask, String)>,
     /// Print the result as one JSON object.
@@ -98,7 +100,7 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
         "label_source": LabelSource::Estimated.id(),
     });
     output::print(args.json, &result, || {
-        format!("{}\npredicted by {what}\nan estimate: nobody rated it", table_text(&attributes))
+        format!("{}\npredicted by {what}\nan estimate: no person rated it", table_text(&attributes))
     });
     Ok(())
 }
@@ -179,7 +181,7 @@ fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Res
     let predicted = network.predict(&strokes)?.with_context(|| {
         let least = network.architecture().n_samples as f64 / PAPER_RATE.0;
         format!(
-            "no stroke lasts {least} s, the input length of the network; leave --model out, or record longer strokes"
+            "no stroke is as long as the {least} s that the network needs; leave --model out, or record longer strokes"
         )
     })?;
     warn_of_unknown(recordings, &strokes);
@@ -217,12 +219,12 @@ fn warn_of_unknown(recordings: &[Recording], strokes: &[Stroke]) {
     let percent = 100.0 * n_unknown as f64 / rows().count().max(1) as f64;
     if percent >= 1.0 {
         output::warn(&format!(
-            "{percent:.0} % of the strokes lie outside the network's training range (50 to 250 mm/s, 0.1 to 0.5 N); its standard deviations do not hold there"
+            "{percent:.0} % of the samples lie outside the range of speeds and forces on which the network was trained (50 to 250 mm/s, 0.1 to 0.5 N); its standard deviations are not valid there"
         ));
     }
     if let Some(recording) = recordings.iter().find(|recording| recording.rate.0 < 0.999 * PAPER_RATE.0) {
         output::warn(&format!(
-            "the network was trained at {} Hz; a recording of {:.0} Hz lacks the highest frequencies of its input",
+            "the network was trained at {} Hz; a recording at {:.0} Hz lacks the highest frequencies",
             PAPER_RATE.0, recording.rate.0
         ));
     }

@@ -17,17 +17,17 @@ use shagreen_studio::file;
 
 #[derive(clap::Args)]
 pub(crate) struct ProfileArgs {
-    /// Profile: a table of positions in mm and values (.csv), a signal (.wav) with --speed, or a row of a photo or
-    /// height map (.png, .jpg) with --width.
+    /// Surface profile: a table of positions in mm and values (.csv), a signal (.wav) with --speed, or one row of a
+    /// photo or height map (.png, .jpg) with --width.
     #[arg(value_name = "PROFILE")]
     path: PathBuf,
-    /// Tip speed at which a signal was recorded, in mm/s; it converts times to positions.
+    /// Tip speed at which the signal was recorded, in mm/s; it converts time to position.
     #[arg(long, value_name = "V", value_parser = positive)]
     speed: Option<f64>,
-    /// Width of the surface that a picture shows, in mm.
+    /// Width of the surface in the picture, in mm.
     #[arg(long, value_name = "MM", value_parser = positive)]
     width: Option<f64>,
-    /// Row of a picture, from 0 at its upper edge. Default: the row in the middle.
+    /// Row of the picture, counted from 0 at its upper edge. Default: the middle row.
     #[arg(long, value_name = "ROW", requires = "width")]
     row: Option<u32>,
     #[command(flatten)]
@@ -62,7 +62,7 @@ impl ProfileArgs {
     fn load_row(&self, width_mm: f64) -> anyhow::Result<Profile> {
         if self.speed.is_some() || self.signals.is_given() {
             return Err(Usage(
-                "--width is for pictures; --speed, --full-scale and --channel are for signals (.wav)"
+                "--width is for pictures; --speed, --full-scale and --channel are for signals (.wav); give one kind only"
                     .to_owned(),
             )
             .into());
@@ -105,17 +105,17 @@ impl ProfileArgs {
                     .with_context(|| file::in_file(&self.path))
             }
             None if is_signal => {
-                Err(Usage("a signal needs its tip speed to become a profile; give --speed in mm/s".to_owned()).into())
+                Err(Usage("a signal is converted to a profile by its tip speed; give --speed in mm/s".to_owned()).into())
             }
             speed if speed.is_some() || self.signals.is_given() => Err(Usage(
-                "a table already has positions and values; --speed, --full-scale and --channel are for signals (.wav)"
+                "a table already has positions and values; leave out --speed, --full-scale and --channel, which are for signals (.wav)"
                     .to_owned(),
             )
             .into()),
             _ => {
                 let bytes = file::read_file(&self.path)?;
                 if is_picture(&bytes) {
-                    return Err(Usage("a picture needs its width to become a profile; give --width in mm".to_owned()).into());
+                    return Err(Usage("a picture is converted to a profile by the width of its surface; give --width in mm".to_owned()).into());
                 }
                 read_profile_csv(&bytes).with_context(|| file::in_file(&self.path))
             }

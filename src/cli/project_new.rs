@@ -34,7 +34,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             found
                 .with_context(|| {
                     format!(
-                        "there is no project \"{id}\" among the examples; choose one of {}",
+                        "there is no project \"{id}\" among the example projects; choose one of {}",
                         known.join(", ")
                     )
                 })?

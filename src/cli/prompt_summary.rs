@@ -21,17 +21,19 @@ pub(crate) fn prompt_summary(understood: &PromptInterpretation) -> String {
     if understood.is_about_touch() {
         said.push(format!("understood: {}", taken.join(", ")));
     } else {
-        said.push("the prompt says nothing about touch: every surface is equally likely".to_owned());
+        said.push(
+            "the prompt contains no words about touch: all attribute values are equally likely".to_owned(),
+        );
     }
     if !understood.unknown.is_empty() {
         said.push(format!("not understood: {}", understood.unknown.join(", ")));
     }
     if !understood.disputed.is_empty() {
-        said.push(format!("the words contradict each other about {}", understood.disputed.join(", ")));
+        said.push(format!("the words contradict each other in {}", understood.disputed.join(", ")));
     }
     if understood.n_left_out > 0 {
         said.push(format!("{} at the end were ignored", counted(understood.n_left_out, "word")));
     }
-    said.push("estimates from words: nobody rated them".to_owned());
+    said.push("the attributes are estimates from words: no person rated them".to_owned());
     format!("\n{}", said.join("\n"))
 }

@@ -17,10 +17,13 @@ use shagreen_studio::file;
 
 /// Compares a signal with a reference by perceptual features and predicts their discriminability d'.
 ///
-/// Both are WAV files in m/s², compared sample by sample at 2000 Hz in segments of 0.8 s. The predicted d' is the
-/// distance in standard deviations: at d' = 1 about two of three answers are correct. It is meant for a signal and a
-/// degraded version of it; two different strokes on one texture have a large d'. Nobody felt these signals: a model
-/// with published weights predicts d', with distances scaled on a corpus of simulated textures.
+/// Both are WAV files in m/s², compared sample by sample at 2000 Hz in segments of 0.8 s. d' = z(H) - z(F), with the
+/// hit rate H and the false-alarm rate F of a same-different experiment: at d' = 1 an unbiased observer gives 69 %
+/// correct answers.
+///
+/// The prediction is meant for a signal and a processed version of it. Two different strokes on one texture give a
+/// large d' although they feel alike. No person rated these signals: a model with published weights predicts d', and
+/// its feature distances are scaled on a corpus of simulated textures.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Reference signal.
@@ -31,9 +34,9 @@ pub(crate) struct Args {
     test: PathBuf,
     #[command(flatten)]
     signals: SignalArgs,
-    /// Detection threshold: held-tool for a hand that holds a tool, pacinian or composite for bare skin on a large
-    /// contactor. The curves are approximate. pacinian and composite differ only below 40 Hz, outside the channels of
-    /// d'.
+    /// Detection threshold over frequency: held-tool for vibration felt through a held tool, pacinian or composite for
+    /// bare skin on a large contactor. The curves are approximate. pacinian and composite differ only below 40 Hz,
+    /// outside the frequency channels of d'.
     #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id),
         default_value = ThresholdKind::default().id())]
     threshold: ThresholdKind,
@@ -63,13 +66,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let d_prime = built_in_quality_model()?.d_prime(&distances);
     ensure!(
         d_prime.is_finite(),
-        "d' is not finite: the signals are far outside the range of touch; check their units"
+        "d' is not finite: the signal levels are too large or too small for the model; check their units (m/s²)"
     );
     let seconds = (n_samples / meter.n_segment()) as f64 * SEGMENT_SECS;
     if n_samples % meter.n_segment() > 0 {
         let whole = n_samples as f64 / rate.0;
         output::note(&format!(
-            "{seconds:.1} s of {whole:.2} s are compared: whole segments of {SEGMENT_SECS} s"
+            "{seconds:.1} s of {whole:.2} s are compared: only whole segments of {SEGMENT_SECS} s are used"
         ));
     }
     let similarities =
@@ -126,7 +129,7 @@ fn text(answer: &Value) -> String {
         lines.push(line.trim_end().to_owned());
     }
     lines.push(format!(
-        "predicted d' {:.2} (by a model, over {} s; nobody felt the signals)",
+        "d' {:.2}, predicted by a model over {} s, not rated by people",
         answer["dprime"].as_f64().unwrap_or(0.0),
         answer["seconds"]
     ));

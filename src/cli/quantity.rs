@@ -4,7 +4,7 @@
 pub(crate) fn quantity(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
-        _ => Err("it must be a number from 0 up".to_owned()),
+        _ => Err("it must be a number, 0 or greater".to_owned()),
     }
 }
 

@@ -39,7 +39,7 @@ pub(crate) fn map_of(path: Option<&Path>, answers: &[(Ask, String)]) -> anyhow::
         map.answer(*what, answer).map_err(|error| output::Usage(error.to_string()))?;
         for (column, now) in [(before.speed, &map.speed), (before.force, &map.force)] {
             if let (Some(column), None) = (column, now) {
-                output::note(&format!("--set {}={answer} overrides {column} of the map", what.key()));
+                output::note(&format!("--set {}={answer} overrides {column} of the column map", what.key()));
             }
         }
     }

@@ -52,7 +52,7 @@ pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead
         Err(RecordingFileError::NeedsAnswers(needed)) => {
             let mut warnings = guessed(&needed.questions);
             warnings.extend(needed.warnings.iter().cloned());
-            let reason = format!("{needed}; answer with --set KEY=VALUE or --map MAP.toml");
+            let reason = format!("{needed}; state this with --set KEY=VALUE or --map MAP.toml");
             RecordingRead { recording: Err(reason), questions: needed.questions, warnings }
         }
         Err(error) => failed(error.to_string()),

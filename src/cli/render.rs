@@ -18,10 +18,10 @@ use shagreen_studio::replace::{is_sidecar, refuse_foreign, refuse_inputs};
 use shagreen_studio::sound::Sound;
 use shagreen_studio::tap_transients::add_tap_transients;
 
-/// Renders the acceleration of a texture as felt with a stylus: mono float WAV in m/s², with a sidecar that describes
-/// it.
+/// Renders the acceleration of a texture at the tip of a tool to a mono WAV file of 32-bit floats in m/s², with a
+/// sidecar file (.json) that describes it.
 ///
-/// Contacts in a stroke add tap transients if the texture has them, as in playback.
+/// Each contact in a recorded stroke adds a tap transient if the texture has one, as in playback.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]

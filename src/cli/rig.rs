@@ -20,19 +20,19 @@ use crate::cli::watch::Watch;
 #[derive(clap::Args)]
 #[command(next_help_heading = "Output and actuator")]
 pub(crate) struct RigArgs {
-    /// Output to play on, by id; `shagreen devices` lists them. Default: the silent output. No output is ever guessed,
-    /// since an actuator's drive signal must not reach someone's headphones.
+    /// Output to play on, by id; `shagreen devices` lists them. Default: an output that plays nothing. The command
+    /// never selects an audio output by itself: the drive signal of an actuator must not reach headphones.
     #[arg(long, value_name = "ID", default_value = NULL_ID)]
     output: String,
-    /// Receiver on a serial port to play on, by the port's id or name: a microcontroller with the protocol of
-    /// docs/serial-protocol.md.
+    /// Serial port to play on, by id or name. A microcontroller with the protocol of docs/serial-protocol.md must be
+    /// connected to it.
     #[arg(long, value_name = "PORT", conflicts_with = "output")]
     serial: Option<String>,
-    /// Baud rate of the serial port, the same on both sides; USB ignores it.
+    /// Baud rate of the serial port, the same at both ends; USB ignores it.
     #[arg(long, value_name = "N", requires = "serial", conflicts_with = "output", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
-    /// Renderer for the serial port: `stream` sends samples; `control` sends speed, force and texture to firmware that
-    /// renders itself.
+    /// Data to send to the serial port: `stream` sends the samples of the drive signal; `control` sends speed, force
+    /// and texture to firmware that renders the texture itself.
     #[arg(
         long,
         value_name = "MODE",
@@ -41,26 +41,26 @@ pub(crate) struct RigArgs {
         default_value = "stream"
     )]
     serial_mode: SerialMode,
-    /// Drive only this channel, from 1. Default: the first two channels.
+    /// Drive only this output channel, counted from 1. Default: the first two channels.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     channel: Option<u16>,
-    /// Buffer size to request from the output, in frames: small buffers reduce latency and increase the risk of
+    /// Buffer size to request from the output, in frames. A smaller buffer reduces latency but increases the risk of
     /// dropouts.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65_536))]
     buffer: Option<u32>,
     /// Actuator, by id or profile file: its response is equalized and its electrical limits are enforced.
     #[arg(long, value_name = "ID_OR_FILE", conflicts_with = "full_scale", requires = "full_scale_volts")]
     actuator: Option<String>,
-    /// Mass attached to the actuator, in g, if it differs from that of its profile.
+    /// Mass of the load on the actuator, in g, without the actuator itself. Default: the load of its profile.
     #[arg(long, value_name = "G", requires = "actuator", value_parser = grams)]
     load_g: Option<f64>,
-    /// Peak voltage at the actuator when the output is at full scale, in V; all limits depend on it.
+    /// Peak voltage at the actuator when the output is at digital full scale, in V; all limits depend on it.
     #[arg(long, value_name = "V", requires = "actuator", value_parser = volts)]
     full_scale_volts: Option<f64>,
     /// Do not equalize the actuator's response; enforce only its limits.
     #[arg(long, requires = "actuator")]
     no_equalizer: bool,
-    /// Acceleration at which the output is at full scale, in m/s², if no actuator is given.
+    /// Acceleration at which the output reaches digital full scale, in m/s²; only without --actuator.
     #[arg(long, value_name = "A", value_parser = quantity, default_value_t = f64::from(UNCALIBRATED_FULL_SCALE_MPS2), conflicts_with_all = ["full_scale_volts", "load_g", "no_equalizer"])]
     full_scale: f64,
 }

@@ -16,10 +16,12 @@ use shagreen_studio::file::{self, file_name};
 
 #[derive(clap::Args)]
 pub(crate) struct SignalArgs {
-    /// Acceleration of a sample of 1.0 in m/s², for WAV files without a .json sidecar.
+    /// Full-scale acceleration in m/s²: the acceleration of a sample value of 1.0. Only for WAV files without a sidecar
+    /// file (.json).
     #[arg(long, value_name = "MPS2", value_parser = positive)]
     full_scale: Option<f64>,
-    /// Channel to use, from 1, if a WAV file has several. Without it three channels are the axes of one acceleration.
+    /// Channel of the WAV file to use, counted from 1. Default for three channels: combine them as the axes of an
+    /// accelerometer (DFT321).
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     channel: Option<u16>,
 }
@@ -55,7 +57,7 @@ impl SignalArgs {
         let (mean, varying) = (mean(samples), rms(&centered(samples)));
         if mean.abs() > varying && varying > 0.0 {
             output::warn(&format!(
-                "{}: a constant {mean:.2} m/s², such as gravity, exceeds the vibration; subtract it, or the result does not describe the vibration",
+                "{}: a constant acceleration of {mean:.2} m/s², such as gravity, is larger than the vibration; subtract it first, or the result does not describe the vibration",
                 file_name(path)
             ));
         }

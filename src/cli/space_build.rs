@@ -1,7 +1,7 @@
 //! `shagreen space build`: builds an authoring space from sorts and ratings.
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::bail;
 use shagreen_core::dsp::mfcc::{MfccOptions, htk, paper, recommended};
@@ -27,9 +27,9 @@ use shagreen_studio::space::{self, BuiltSpace};
 /// Builds an authoring space from judgments of textures and features of their vibrations.
 ///
 /// Multidimensional scaling of the sorts gives a perceptual space. The ratings give the direction of each adjective
-/// pair in it, and textures are projected onto the lines of two pairs, the axes. Features of the vibrations predict the
-/// axes; nested cross-validation and a null distribution show the quality of the prediction. A report (L2.report.json)
-/// and a page of plots (L2.report.svg) are written next to the library.
+/// pair in this space. The textures are projected onto the directions of two pairs, the axes. Features of the
+/// vibrations predict the positions on the axes; nested cross-validation and a permutation test measure the accuracy. A
+/// report (L2.report.json) and a page of plots (L2.report.svg) are written next to the library.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -58,14 +58,16 @@ pub(crate) struct Args {
     /// Parameters of the mel-frequency cepstral coefficients, if they are among the features [default: recommended].
     #[arg(long, value_parser = ["recommended", "paper", "htk"])]
     mfcc: Option<String>,
-    /// Method that predicts an axis from features: as in the paper, or practical, which predicts better.
+    /// Method that predicts an axis from features: practical, a mean of ridge regressions, which predicts better;
+    /// paper, as published by Hassan, Abdulali and Jeon (2020); paper-ranked, the same with features in a fixed order
+    /// of correlation.
     #[arg(long, default_value = "practical", value_parser = words(Method::ALL, Method::id))]
     selection: Method,
-    /// Positions of the textures: felt, from the judgments; predicted, from the features as in the paper; auto selects
-    /// for each axis the one that is probably closer to perception.
+    /// Positions of the textures: felt, from the judgments; predicted, from the features; auto selects for each axis
+    /// the positions that are probably closer to perception.
     #[arg(long, default_value = "auto", value_parser = words(Placement::ALL, Placement::id))]
     placement: Placement,
-    /// Number of permutations for the null distribution.
+    /// Number of permutations for the null distribution of the permutation test.
     #[arg(long, default_value_t = 1000, value_name = "N")]
     permutations: usize,
     /// Folder for each figure as SVG and CSV.
@@ -129,16 +131,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
     let progress = Progress::new("steps", Step::COUNT);
-    let mut n_done = 0;
-    let BuiltSpace { build: built, placed, figures, validation } =
-        space::build(&data, &options, &mut |step| {
-            while n_done < step.index() {
-                progress.step();
-                n_done += 1;
-            }
-            true
-        })
-        .map_err(|error| args.judgments.in_files(error, &library, &args.library))?;
+    let n_done = Mutex::new(0);
+    let BuiltSpace { build: built, placed, figures, validation } = space::build(&data, &options, &|step| {
+        let mut n_done = n_done.lock().unwrap_or_else(PoisonError::into_inner);
+        while *n_done < step.index() {
+            progress.step();
+            *n_done += 1;
+        }
+        true
+    })
+    .map_err(|error| args.judgments.in_files(error, &library, &args.library))?;
     progress.finish();
     let mut report = space_report(&built);
     for finding in &built.findings {

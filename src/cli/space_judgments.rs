@@ -23,16 +23,16 @@ use shagreen_studio::near_names::meant;
 
 #[derive(clap::Args)]
 pub(crate) struct JudgmentArgs {
-    /// CSV file of sorts, with a row for each texture of each sort (participant, trial, groups, texture, group), or a
-    /// column for each texture.
+    /// CSV file of sorts, with a row for each texture of each sort (columns participant, trial, groups, texture,
+    /// group), or a column for each texture.
     #[arg(long, value_name = "S.csv")]
     sorting: PathBuf,
-    /// CSV file of ratings, with a row for each rating (participant, texture, adjective, value), or a column for each
-    /// adjective pair.
+    /// CSV file of ratings, with a row for each rating (columns participant, texture, adjective, value), or a column
+    /// for each adjective pair.
     #[arg(long, value_name = "R.csv")]
     ratings: PathBuf,
-    /// CSV file of votes on the relevance of adjectives (participant, adjective, relevant): pairs with less than half
-    /// of the votes are left out.
+    /// CSV file of votes on the relevance of adjectives (columns participant, adjective, relevant). Adjective pairs
+    /// with less than half of the votes are not used.
     #[arg(long, value_name = "V.csv")]
     relevance: Option<PathBuf>,
     /// Scale of all ratings, if it is not 0,100; for example 1,7.

@@ -25,7 +25,8 @@ const USUAL: PanelConfig = PanelConfig::usual(1);
 /// Simulates participants who sort and rate the textures of a library, to try `space build` without people.
 ///
 /// They perceive the library's positions and attributes with noise, and each uses the rating scale differently. They
-/// are named `simulated-01` and so on, and every space built from them states that it is simulated.
+/// are named `simulated-01`, `simulated-02` and so on. A space that is built from their judgments states that it is
+/// simulated.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -39,17 +40,17 @@ pub(crate) struct Args {
     /// Number of participants.
     #[arg(long, default_value_t = USUAL.n_participants, value_name = "N")]
     participants: usize,
-    /// Numbers of groups to sort into, one trial each.
+    /// Numbers of groups that each participant sorts the textures into, one trial for each number; separated by commas.
     #[arg(long, default_values_t = USUAL_GROUPS, value_delimiter = ',')]
     groups: Vec<usize>,
-    /// Standard deviation of the noise in each perception of a texture, in points of an axis (0 to 100).
+    /// Standard deviation of the noise in each judgment of a texture, in points of an axis (0 to 100).
     #[arg(long, default_value_t = USUAL.noise_points, value_name = "POINTS")]
     noise: f64,
-    /// Standard deviation over participants of the constant bias on an adjective pair, in points.
+    /// Standard deviation, over the participants, of their constant bias on an adjective pair, in points (0 to 100).
     #[arg(long, default_value_t = USUAL.bias_points, value_name = "POINTS")]
     bias: f64,
-    /// Standard deviation over participants of the logarithm of the fraction of the scale that they use.
-    #[arg(long, default_value_t = USUAL.scale_log_spread, value_name = "SHARE")]
+    /// Standard deviation, over the participants, of the natural logarithm of the fraction of the scale that they use.
+    #[arg(long, default_value_t = USUAL.scale_log_spread, value_name = "SD")]
     scale: f64,
     /// Random seed; the same seed gives the same panel.
     #[arg(long, default_value_t = 1)]
@@ -68,7 +69,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         read_ratings_csv(bytes).is_ok_and(|ratings| ratings.iter().all(|r| is_simulated(&r.participant)))
     })?;
     if args.sorting == args.ratings {
-        bail!("sorts and ratings cannot be written to one file; name two files: {}", args.sorting.display());
+        bail!(
+            "sorts and ratings cannot be written to the same file; give two files: {}",
+            args.sorting.display()
+        );
     }
     let library = args.library.load()?;
     let SimulatedRaterLabels { pairs, ids, labels } = panel_labels(&library)?;

@@ -19,11 +19,12 @@ use shagreen_studio::replace::{has_format, is_library, refuse_foreign, refuse_in
 
 /// Places textures at the positions in a table.
 ///
-/// The table has the columns `id`, `rs` and `hs` (0 to 100, 0 = roughest, 0 = hardest). It can have further attributes,
-/// each named by its two poles, such as `flat-bumpy`. For other axes, name the columns of the position after them, such
-/// as `x:warm-cold` and `y:flat-bumpy`. `--scale` states a scale other than 0 to 100. A column `source` states the
-/// source of each position; otherwise `--source` states one for all. Textures that the table does not contain lose
-/// their position, because positions from different sources cannot be compared.
+/// The table has the columns `id`, `rs` (0 = roughest, 100 = smoothest) and `hs` (0 = hardest, 100 = softest). It can
+/// have columns of other attributes, each named by its two poles, such as `flat-bumpy`. For other axes, name the
+/// columns of the position `x:` and `y:` with the attribute, such as `x:warm-cold` and `y:flat-bumpy`. `--scale` states
+/// a scale other than 0 to 100. A column `source` states the source of each position; otherwise `--source` states one
+/// for all. Textures that the table does not contain lose their position, because positions from different sources
+/// cannot be compared.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -83,12 +84,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     library.space_report = None;
     output::CREATED_BY.clone_into(&mut library.created_by);
     if !missing.is_empty() {
-        warnings.push(format!("not in the table and therefore without a position: {}", missing.join(", ")));
+        warnings.push(format!(
+            "these textures are not in the table and have no position now: {}",
+            missing.join(", ")
+        ));
     }
     let sources = library.label_sources();
     if sources.len() > 1 {
         warnings.push(
-            "the positions come from different sources; interpolation between them means little".to_owned(),
+            "the positions come from different sources and cannot be compared; use one source for all textures".to_owned(),
         );
     }
     warnings.extend(old_report(&args.out));

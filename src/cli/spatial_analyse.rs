@@ -16,19 +16,20 @@ use crate::cli::profile_source::ProfileArgs;
 use crate::cli::quantity::positive;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Reconstructs a profile from its spatial spectrogram alone, for several window widths, and reports the reconstruction
-/// errors.
+/// Reconstructs a surface profile from its spatial spectrogram alone, for several window widths, and reports the
+/// accuracy of the reconstruction.
 ///
-/// A spectrogram keeps the spectrum of each window but not positions within it: narrower windows preserve more of the
-/// positions.
+/// A spatial spectrogram contains the power in each window along the profile, by spatial frequency, but not the phases.
+/// Positions within a window are lost: narrower windows preserve more of them.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     profile: ProfileArgs,
-    /// Window width in mm; can be given several times. Default: the widths of the paper that fit, 20 to 0.2.
+    /// Window width in mm; can be given several times. Default: the seven widths of Meyer, Peshkin and Colgate from 20
+    /// to 0.2 mm, as far as they fit the profile.
     #[arg(long = "window", value_name = "MM", value_parser = positive)]
     windows_mm: Vec<f64>,
-    /// Table to write with the spectrogram for one window width: position in mm, frequency in 1/mm, power.
+    /// Table to write with the spectrogram for one window width: position in mm, spatial frequency in 1/mm, power.
     #[arg(short, long, value_name = "OUT.csv")]
     out: Option<PathBuf>,
     /// Print the result as one JSON object.
@@ -62,7 +63,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         args.windows_mm.iter().map(|mm| args.profile.framing(&profile, *mm)).collect::<Result<_, _>>()?
     };
     if framings.is_empty() {
-        bail!("none of the paper's window widths fits the profile; give one with --window");
+        bail!("none of the default window widths fits the profile; give one with --window");
     }
     let (values, step_m) = (profile.values(), profile.step_m());
     if is_constant(values) {
@@ -82,7 +83,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     });
     output::print(args.json, &answer, || {
         let mut lines = vec![format!(
-            "{:.4} mm in {} steps; fidelity of the reconstruction by window width:",
+            "{:.4} mm in {} steps; accuracy of the reconstruction by window width (r: correlation with the original):",
             1e3 * profile.length_m(),
             values.len()
         )];

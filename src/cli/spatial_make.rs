@@ -13,13 +13,13 @@ use crate::cli::quantity::within;
 use crate::cli::words::words;
 use shagreen_studio::replace::refuse_foreign;
 
-/// Makes a test profile of the experiments with spatial spectrograms: values of 0 to 1, the range of a
-/// variable-friction display, in steps of 0.01 mm.
+/// Writes a test profile of the experiments on spatial spectrograms by Meyer, Peshkin and Colgate: values from 0 to 1,
+/// the range of a variable-friction display, in steps of 0.01 mm.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A: 1/f noise, amplitude modulated every 13 mm; B: square wave of 13 mm; C: bumps with 1/f noise; D: square wave
-    /// of 0.4 mm, amplitude modulated every 6 mm; gaps: noise with gaps; distractor: noise with the same spectrum and
-    /// no gaps.
+    /// A: 1/f noise, amplitude-modulated with a period of 13 mm; B: square wave with a period of 13 mm; C: bumps with
+    /// 1/f noise; D: square wave with a period of 0.4 mm, amplitude-modulated with a period of 6 mm; gaps: 1/f noise
+    /// with gaps; distractor: noise without gaps, with the same amplitude spectrum.
     #[arg(value_name = "WHAT", value_parser = words(Stimulus::ALL, Stimulus::id))]
     what: Stimulus,
     /// Length of the profile, in mm.
@@ -28,7 +28,7 @@ pub(crate) struct Args {
     /// Width of the gaps in mm, for gaps and distractor. Default: 5.
     #[arg(long, value_name = "MM", value_parser = gap)]
     gap: Option<f64>,
-    /// Random seed of the noise, for gaps and distractor; the textures A to D have a fixed noise. Default: 1.
+    /// Random seed of the noise, for gaps and distractor; profiles A to D are always the same. Default: 1.
     #[arg(long)]
     seed: Option<u64>,
     /// Table to write, with positions in mm and values.
@@ -85,7 +85,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let n_samples = (1e-3 * args.length / STEP_M).round() as usize;
     if matches!(args.what, Stimulus::Texture(_)) && (args.gap.is_some() || args.seed.is_some()) {
         return Err(Usage(
-            "the textures A to D have no gaps and a fixed noise; leave out --gap and --seed".to_owned(),
+            "profiles A to D have no gaps and no random seed; leave out --gap and --seed".to_owned(),
         )
         .into());
     }
@@ -114,7 +114,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "step_mm": 1e3 * STEP_M,
             "length_mm": args.length,
         }),
-        || format!("Made {} over {} mm: {}", args.what.id(), args.length, args.out.display()),
+        || format!("Wrote profile {} of {} mm: {}", args.what.id(), args.length, args.out.display()),
     );
     Ok(())
 }

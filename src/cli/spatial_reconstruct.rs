@@ -16,8 +16,9 @@ use crate::cli::quantity::positive;
 use crate::cli::spatial_analyse::{line, row};
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Reconstructs a profile from its spatial spectrogram, which does not keep positions within a window. The phases
-/// follow the rule of the paper; --refine improves them iteratively.
+/// Computes the spatial spectrogram of a surface profile, reconstructs the profile from it, and prints the accuracy. A
+/// spectrogram has no phases, so the position of a feature within a window is lost. The phases follow the rule of Meyer,
+/// Peshkin and Colgate. --refine then adjusts the profile iteratively, so that its spectrogram matches.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -25,8 +26,8 @@ pub(crate) struct Args {
     /// Window width in mm.
     #[arg(long, value_name = "MM", value_parser = positive)]
     window: f64,
-    /// Iterations of the fast Griffin-Lim algorithm. They reduce the error of the spectrogram, but not always that of
-    /// positions.
+    /// Iterations of the fast Griffin-Lim algorithm. They reduce the error of the spectrogram, but do not always
+    /// improve how well features are localized.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1000))]
     refine: u16,
     /// Table to write, with positions in mm and values.

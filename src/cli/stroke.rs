@@ -103,7 +103,11 @@ fn read_hid(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<TrackSample>>
             "the pen declares no size, so its speed is unknown; state the size with --size-mm, such as 216x135"
         );
     };
-    output::note(&format!("the pen's area is {:.1} by {:.1} mm", 1e3 * size_m[0], 1e3 * size_m[1]));
+    output::note(&format!(
+        "the active area of the pen is {:.1} x {:.1} mm",
+        1e3 * size_m[0],
+        1e3 * size_m[1]
+    ));
     let options = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: args.pressure_map() };
     let mut tracker = PenTracker::new(recording.decoder, options);
     let moments =
@@ -130,7 +134,7 @@ fn read_pen(bytes: &[u8], args: &StrokeArgs) -> anyhow::Result<Vec<PenSample>> {
     };
     let options = "--mm-per-count, --ms-per-tick and --pressure-max";
     output::note(&format!(
-        "the recording states no units; it contains {}, interpreted as {mapping} (change this with {options})",
+        "the recording states no units; it contains {}, read as {mapping} (change this with {options})",
         recording.flavor
     ));
     let samples = pen_samples(&recording, &mapping).with_context(|| format!("see {options}"))?;

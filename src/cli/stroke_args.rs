@@ -18,12 +18,12 @@ pub(crate) struct StrokeArgs {
     /// for fractions.
     #[arg(long, value_name = "MS", value_parser = quantity)]
     pub(crate) ms_per_tick: Option<f64>,
-    /// Number that means full pressure in a .svc file. The file does not state it. Default: 32767 (15 bits) for whole
+    /// Value of full pressure in a .svc file. The file does not state it. Default: 32767 (15 bits) for whole
     /// numbers, 1 for fractions.
     #[arg(long, value_name = "P", value_parser = quantity)]
     pub(crate) pressure_max: Option<f64>,
-    /// Width and height of the area of a recorded HID pen in mm, such as 216x135, if the pen declares none or wrong
-    /// ones.
+    /// Width and height of the active area of a recorded HID pen in mm, such as 216x135, if the pen declares none or
+    /// wrong ones.
     #[arg(long, value_name = "WxH", value_parser = size_mm)]
     pub(crate) size_mm: Option<[f64; 2]>,
     /// Force at the lowest pressure, in N, if the pen declares no force. Default: 0.03.
@@ -32,7 +32,7 @@ pub(crate) struct StrokeArgs {
     /// Force at full pressure, in N, if the pen declares no force. Default: 4.
     #[arg(long, value_name = "N", value_parser = quantity)]
     force_max: Option<f64>,
-    /// Curvature of the map from pressure to force: 0 is a straight line, higher values are steeper towards full
+    /// Curvature of the map from pressure to force: 0 is a straight line, higher values are steeper toward full
     /// pressure. Default: 2.
     #[arg(long, value_name = "C", value_parser = bend)]
     pressure_curve: Option<f64>,
@@ -102,7 +102,7 @@ mod tests {
         for words in [
             format!("lowest pressure, in N, if the pen declares no force. Default: {} ", usual.activation_n),
             format!("full pressure, in N, if the pen declares no force. Default: {} ", usual.full_n),
-            format!("towards full pressure. Default: {} ", usual.bend),
+            format!("toward full pressure. Default: {} ", usual.bend),
         ] {
             assert!(help.contains(&words), "{words} is not in {help}");
         }

@@ -20,7 +20,7 @@ pub(crate) struct SoundArgs {
     target: TargetArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Project whose textures are used instead of those of a library.
+    /// Project file. --at and --texture then use the textures of the project: its library and the textures added to it.
     #[arg(long, value_name = "PROJECT", conflicts_with = "library")]
     project: Option<PathBuf>,
     #[command(flatten)]
@@ -30,13 +30,15 @@ pub(crate) struct SoundArgs {
 #[derive(clap::Args)]
 #[group(required = true, multiple = false)]
 struct TargetArgs {
-    /// Point of the space: rough-smooth and hard-soft, 0 to 100 each, 0 = roughest, 0 = hardest.
+    /// Position in the space as RS,HS, each 0 to 100. RS (rough-smooth): 0 = roughest, 100 = smoothest. HS (hard-soft):
+    /// 0 = hardest, 100 = softest.
     #[arg(long, value_name = "RS,HS", value_parser = parse_point, allow_hyphen_values = true)]
     at: Option<SpacePoint>,
     /// Texture of the library, by id.
     #[arg(long, value_name = "ID")]
     texture: Option<String>,
-    /// Authored texture of the project, by name or key, with the interpolation set in the project.
+    /// Authored texture of the project, by name or number, with its interpolation settings in the project. `shagreen
+    /// project show` lists names and numbers.
     #[arg(long, value_name = "NAME", requires = "project", conflicts_with_all = ["blend", "natural", "extrapolate", "lock"])]
     authored: Option<String>,
 }
@@ -93,7 +95,9 @@ impl SoundArgs {
         if let Some(id) = &self.target.texture {
             return Sound::of_texture(library, id, blending.mode);
         }
-        let Some(point) = point else { bail!(output::Usage("give --at RS,HS or --texture ID".to_owned())) };
+        let Some(point) = point else {
+            bail!(output::Usage("no texture is selected; give --at RS,HS, --texture ID, or --project FILE with --authored NAME".to_owned()))
+        };
         Sound::of_point(library, point, &blending, &Printed)
     }
 }

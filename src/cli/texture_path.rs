@@ -18,18 +18,18 @@ use crate::cli::words::words;
 use shagreen_studio::authoring::authoring;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Makes a texture that changes along a stroke, from stop to stop through the space, and writes it as a library of its
-/// own. `render`, `play` and the window use it like any other texture.
+/// Makes a texture that changes along a stroke, following a path of stops through the space, and writes it to a new
+/// library file. `render`, `play` and the window use it like any other texture.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Point of the space, and the position along the stroke at which it is reached, in mm (or in s with --along time):
-    /// 30,70@0. Give at least two, the first at 0.
+    /// Position in the space, and the position along the stroke at which it is reached, in mm (or in s with --along
+    /// time): 30,70@0. Give this option at least twice, first with @0.
     #[arg(long = "stop", value_name = "RS,HS@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
     stops: Vec<(SpacePoint, f64)>,
     /// Quantity along the stroke: the distance that the tip has traveled, or the time in contact.
     #[arg(long, value_name = "WHAT", value_parser = words(Along::ALL, Along::id), default_value = Along::default().id())]
     along: Along,
-    /// Behavior at the end: hold the last texture, turn back, or repeat from the beginning.
+    /// Behavior at the end of the path: hold the last texture, turn back, or repeat from the beginning.
     #[arg(long, value_name = "WHAT", value_parser = words(AtEnd::ALL, AtEnd::id), default_value = AtEnd::default().id())]
     at_end: AtEnd,
     #[command(flatten)]
@@ -117,7 +117,7 @@ impl HullCounts {
             |n: usize, what: &str| (n > 0).then(|| format!("{n} of {n_keys} textures along the path {what}"));
         let clamped =
             "lie outside the convex hull of the library's textures; the nearest supported points are used";
-        let extrapolated = "are extrapolated: nothing was measured there";
+        let extrapolated = "are extrapolated: no texture was measured there";
         [of_all(self.n_clamped, clamped), of_all(self.n_extrapolated, extrapolated)]
             .into_iter()
             .flatten()
@@ -130,7 +130,7 @@ fn coarse(path: Option<&TexturePath>) -> Option<String> {
     let step = path?.widest_step();
     (step > COARSE).then(|| {
         format!(
-            "some neighboring textures of the path lie {step:.0} points of the space apart, and are only mixed in between: \
+            "some neighboring textures of the path are {step:.0} points apart in the space, and only their signals are mixed in between: \
              a path has at most {MAX_KEYS} textures; use fewer stops, or a shorter path"
         )
     })
@@ -164,7 +164,7 @@ mod tests {
         let (at, along) = parse_stop("30, 70.5 @ 12").unwrap();
         assert_eq!((at.rough_smooth, at.hard_soft, along), (30.0, 70.5, 12.0));
         for (text, words) in
-            [("30,70", "RS,HS@X"), ("30@1", "RS,HS"), ("30,70@-1", "from 0 up"), ("130,7@0", "130")]
+            [("30,70", "RS,HS@X"), ("30@1", "RS,HS"), ("30,70@-1", "0 or greater"), ("130,7@0", "130")]
         {
             let error = parse_stop(text).unwrap_err();
             assert!(error.contains(words), "{error}");

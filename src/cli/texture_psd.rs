@@ -15,8 +15,8 @@ use crate::cli::target::SoundArgs;
 use crate::cli::words::words;
 use shagreen_studio::near_names::unknown_texture;
 
-/// Computes the one-sided power spectral density of a texture's model, in (m/s²)²/Hz, from 5 Hz to just below half its
-/// rate.
+/// Computes the one-sided power spectral density (PSD) of a texture's model, in (m/s²)²/Hz, from 5 Hz to just below
+/// half the model rate.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -30,12 +30,13 @@ pub(crate) struct Args {
     /// Number of frequencies.
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(2..=65_536))]
     bins: u32,
-    /// Detection threshold that the level is compared with: held-tool for a hand that holds a tool, pacinian or
-    /// composite for bare skin on a large contactor. The curves are approximate.
+    /// Detection threshold that the level is compared with: held-tool for vibration felt through a held tool, pacinian
+    /// or composite for bare skin on a large contactor. The curves are approximate.
     #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id),
         default_value = ThresholdKind::default().id())]
     threshold: ThresholdKind,
-    /// Remove this texture from the library first, to see what is authored at its position without it.
+    /// Remove this texture from the library first, for example to see which texture is interpolated at its position
+    /// without it.
     #[arg(long, value_name = "ID")]
     without: Option<String>,
     /// Print the result as one JSON object.

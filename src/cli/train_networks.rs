@@ -61,18 +61,19 @@ impl Network {
 
 #[derive(clap::Args)]
 pub(crate) struct NetworkArgs {
-    /// Network to train too: that of the paper with 320 convolutional features (paper320) or as printed (literal), or
-    /// only its convolutional (convolutions) or LSTM part (memory). Can be given several times.
+    /// Network to train in addition: paper320, with the 320 convolutional features that the text of the paper states;
+    /// literal, with the pooling layers as printed in the paper; convolutions or memory, only the convolutional or the
+    /// LSTM part of paper320. Can be given several times.
     #[arg(long = "network", value_name = "NETWORK", value_parser = words(Network::ALL, Network::id))]
     networks: Vec<Network>,
     /// Largest number of epochs.
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     epochs: u32,
-    /// Number of epochs without a better prediction of the validation textures after which training stops; 0 never
-    /// stops early and uses no validation textures.
+    /// Number of epochs without a lower error on the validation textures after which training stops; 0 never stops
+    /// early and uses no validation textures.
     #[arg(long, default_value_t = 10)]
     patience: u32,
-    /// Fraction of each second of strokes to train on, 0.2 to 1; a small one gives a quick test.
+    /// Fraction of each training stroke of 1 s that is used, 0.2 to 1; a small fraction gives a quick test.
     #[arg(long, default_value_t = 1.0, value_parser = share)]
     share: f64,
     /// Random seed of the training.
@@ -81,7 +82,7 @@ pub(crate) struct NetworkArgs {
     /// Number of networks trained in parallel, each with about 0.5 GB of memory. Default: the number of processors.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// File for a network trained on all textures, of the kind of the first --network.
+    /// File to write: a network of the first --network kind, trained on all textures.
     #[arg(long, short, value_name = "MODEL")]
     out: Option<PathBuf>,
 }
@@ -93,8 +94,8 @@ impl NetworkArgs {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    let share: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
-    if (0.2..=1.0).contains(&share) { Ok(share) } else { Err(format!("{share} is not between 0.2 and 1")) }
+    let share = text.parse::<f64>().ok().filter(|share| (0.2..=1.0).contains(share)); // Other values are rejected below.
+    share.ok_or_else(|| "it must be a number from 0.2 to 1".to_owned())
 }
 
 /// Results of the networks.
@@ -107,7 +108,7 @@ pub(crate) struct Trained {
 /// Checks before hours of training that the trained network can be written.
 pub(crate) fn check_out(args: &NetworkArgs, library: Option<&Path>) -> anyhow::Result<()> {
     let Some(out) = &args.out else { return Ok(()) };
-    ensure!(!args.networks.is_empty(), "--out writes a network; choose one with --network");
+    ensure!(!args.networks.is_empty(), "--out needs a network to train; choose one with --network");
     refuse_inputs(&[out], &[library])?;
     refuse_foreign(out, "a model", is_model)?;
     Ok(atomic::check_all(&[out])?)
@@ -154,7 +155,7 @@ pub(crate) fn train_networks(
                 let Some(training) = training else { return Ok(None) };
                 let n_epochs = training.epochs().len();
                 let of = training.finish()?.predict(&left_out.strokes)?;
-                anyhow::Ok(Some((n_epochs, of.context("the strokes are shorter than a segment")?)))
+                anyhow::Ok(Some((n_epochs, of.context("the strokes are shorter than the input segment of the network; give a larger --share")?)))
             };
             // Stops the other trainings, which would take hours.
             without().inspect_err(|_| failed.store(true, Ordering::Relaxed))

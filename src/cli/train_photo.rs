@@ -25,43 +25,46 @@ use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
 /// Trains predictors of roughness and hardness from pictures and reports their leave-one-texture-out errors: each
-/// texture, with all its pictures, is predicted from a training on the others and on pictures of drawn materials.
+/// texture is predicted from a training on the other textures and on pictures of random materials.
 ///
-/// Drawn materials are simulated surfaces with random parameters, none of which is in a library; their roughness and
-/// hardness are computed, and nobody rated them. Texture statistics of the picture need no other file; a pretrained
-/// network is more accurate and can be downloaded with `shagreen model fetch`. On two cores, extracting features from
-/// 3,000 pictures takes half an hour, and training without each of 25 textures takes as long.
+/// Random materials (also called drawn materials) are simulated surfaces whose parameters are drawn at random. Their
+/// roughness and hardness are computed; no person rated them. Statistics of the picture need no other file; a
+/// pretrained image network (`shagreen model fetch`) is more accurate. On two cores, computing the features of 3,000
+/// pictures takes half an hour, and the leave-one-out training over 25 textures takes another half hour.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
     backbone: BackboneArgs,
-    /// Number of drawn materials to train on, in addition to the library.
+    /// Number of random materials to train on, in addition to the library.
     #[arg(long, default_value_t = 3000, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     drawn: u32,
     /// Largest number of epochs.
     #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     epochs: u32,
-    /// Number of epochs without a better prediction of the validation pictures after which a head stops.
+    /// Number of epochs without a lower error on the validation pictures after which the training of a head stops.
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     patience: u32,
-    /// Number of heads, which are trained independently and predict their mean.
+    /// Number of heads (output networks). They are trained independently; the prediction is their mean.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=16))]
     heads: u32,
-    /// Random seed of the training and of the drawn materials.
+    /// Random seed of the training and of the random materials.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder for the features of drawn pictures; extraction resumes from it and is not repeated.
+    /// Folder for the features of the pictures of random materials; they are computed only once, and an interrupted
+    /// computation resumes.
     #[arg(long, value_name = "FOLDER")]
     state: Option<PathBuf>,
-    /// File for a model trained on all pictures: with the network if there is one, otherwise with statistics.
+    /// File to write: a model trained on all pictures, with the image network if there is one, otherwise with
+    /// statistics of the picture.
     #[arg(long, short, value_name = "MODEL")]
     out: Option<PathBuf>,
-    /// Train on drawn materials alone, once: no texture of the library is used for training, so all are left out.
+    /// Train once, on random materials alone. No texture of the library is used for training; all are used for
+    /// evaluation.
     #[arg(long)]
     drawn_only: bool,
-    /// Only train the model, without evaluating it.
+    /// Only train the model, without measuring its error.
     #[arg(long, requires = "out")]
     unjudged: bool,
     /// Print the result as one JSON object.
@@ -140,7 +143,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     result.extend(more.as_object().cloned().unwrap_or_default());
     output::print(args.json, &Value::Object(result), || {
         format!(
-            "Leave-one-texture-out over {}; trained on {learned_from}. Labels of drawn materials are computed; nobody rated them.\n\n{}",
+            "Leave-one-texture-out errors over {}; trained on {learned_from}. The labels of drawn materials (random parameters) are computed; no person rated them.\n\n{}",
             counted(textures.len(), "texture"),
             comparison.text()
         )
@@ -222,9 +225,9 @@ fn pictured(library: &Library, backbone: Option<&Backbone>) -> anyhow::Result<Ve
     }
     ensure!(
         textures.len() >= 3,
-        "only {} of \"{}\" with a position and a picture, but at least three are needed; add pictures to the library in the window",
-        counted(textures.len(), "texture"),
-        library.name
+        "\"{}\" has only {} with a picture and a position that is not an estimate, but at least three are needed; add pictures to the library in the window",
+        library.name,
+        counted(textures.len(), "texture")
     );
     Ok(textures)
 }

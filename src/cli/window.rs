@@ -22,8 +22,8 @@ pub(crate) struct Args {
     /// Project to open, or a library (a file or a folder of files) to start a project with. Default: a new project with
     /// the starter library.
     file: Option<PathBuf>,
-    /// Output to open, by id; `shagreen devices` lists them. Default: the output that was last selected in the window,
-    /// or else the system's default output.
+    /// Output to play on, by id; `shagreen devices` lists them. Default: the output that was last selected in the
+    /// window, otherwise the default output of the system.
     #[arg(long, value_name = "ID")]
     output: Option<String>,
     /// Draw this many frames with the automatic stroke, print their times, and close.
@@ -74,7 +74,7 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
     let is_unset = |name: &str| std::env::var_os(name).is_none_or(|value| value.is_empty());
     if cfg!(target_os = "linux") && is_unset("DISPLAY") && is_unset("WAYLAND_DISPLAY") {
         bail!(
-            "there is no display to open the window on (neither DISPLAY nor WAYLAND_DISPLAY is set); \
+            "there is no display for the window (neither DISPLAY nor WAYLAND_DISPLAY is set); \
              the commands work without one: see shagreen --help"
         );
     }

@@ -81,7 +81,8 @@ fn what_descriptors_declare() {
     let said = bench.run(&format!("devices --descriptor {files}"));
     assert_eq!((said.code, said.stdout.lines().count()), (1, 8));
     assert!(
-        said.stdout.contains("pen.bin: pen, report 26, 209.66 x 157.25 mm, pressure to 4095, 4.016 N, tilt")
+        said.stdout
+            .contains("pen.bin: pen, report 26, 209.66 x 157.25 mm, pressure up to 4095 (4.016 N), tilt")
     );
 }
 

@@ -77,12 +77,12 @@ fn a_table_says_what_was_measured_and_which_is_best() {
     assert_eq!(said.code, 0, "{said:?}");
     assert!(
         said.stdout
-            .contains("measured on signals, positions from physical labels; the errors are no human ratings"),
+            .contains("measured on signals, positions from physical labels; the errors are computed, not rated by people"),
         "{said:?}"
     );
     let lines: Vec<&str> = said.stdout.lines().collect();
     assert!(lines[2].starts_with("  nearest") && lines[3].starts_with("* field"), "{said:?}");
-    assert!(!said.stdout.contains("signals:") && bench.files().is_empty(), "{said:?}");
+    assert!(!said.stdout.contains("signal error:") && bench.files().is_empty(), "{said:?}");
     let said = bench.run("evaluate leave-one-out --library simulated --signals 1 --seconds 4 --blend paper");
     assert!(said.stdout.contains("simulated raters") && said.stdout.contains("* nearest"), "{said:?}");
 }

@@ -226,7 +226,7 @@ fn reports_have_names_of_their_own() {
     assert_eq!(bench.run("import recording a/wood.csv --out wood.json --report b").code, 1);
     bench.fails("export --texture cork --format hatt -o b/wood.csv", 1, &["would replace"]);
     assert_eq!(std::fs::read(bench.path("b/wood.csv")).unwrap(), b"mine");
-    bench.fails("import recording a/wood.csv --out none/wood.json", 1, &["no such folder"]);
+    bench.fails("import recording a/wood.csv --out none/wood.json", 1, &["does not exist"]);
     bench.fails(
         "import recording a/wood.csv --out x.json --set speed=v --set speed=w",
         2,
@@ -267,7 +267,7 @@ fn what_is_odd_in_a_recording_is_said() {
         "import recording a.csv --out b.json --map map.toml --set speed=100mm/s --set acceleration_unit=g",
     );
     for words in [
-        "note: --set speed=100mm/s overrides \"w\" of the map",
+        "note: --set speed=100mm/s overrides \"w\" of the column map",
         "the unit of Acceleration in m/s^2 is m/s^2; the column map states g, which is used",
         "\"Speed in mm/s\" is not used, because a constant speed is stated",
     ] {

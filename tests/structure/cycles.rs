@@ -9,8 +9,16 @@ use std::path::Path;
 use crate::source_tree::{ModulePath, SourceTree};
 
 /// Folders of the source files of the checked crates.
-const SOURCES: [&str; 5] =
-    ["crates/core/src", "crates/device/src", "crates/formats/src", "crates/learn/src", "crates/synth/src"];
+const SOURCES: [&str; 8] = [
+    "crates/app/src",
+    "crates/core/src",
+    "crates/device/src",
+    "crates/formats/src",
+    "crates/learn/src",
+    "crates/studio/src",
+    "crates/synth/src",
+    "src",
+];
 
 type Graph = BTreeMap<String, BTreeSet<String>>;
 

@@ -245,13 +245,13 @@ impl Command {
             Self::TogglePathTool => Entry::new("Turn the path tool on or off").key(Key::P),
             Self::KeepPath => Entry::new("Add the path as a texture"),
             Self::Compare(CompareCommand::Hear(Side::A)) => {
-                Entry::new("Play A or the selected texture; feel signal A").key(Key::Num1)
+                Entry::new("Play A in the comparison; in Signals: feel A").key(Key::Num1)
             }
             Self::Compare(CompareCommand::Hear(Side::B)) => {
-                Entry::new("Play B or the selected texture; feel signal B").key(Key::Num2)
+                Entry::new("Play B in the comparison; in Signals: feel B").key(Key::Num2)
             }
             Self::Compare(CompareCommand::Hear(Side::X)) => {
-                Entry::new("Play X, which is A or B").key(Key::Num3)
+                Entry::new("Play X (A or B at random) in the comparison").key(Key::Num3)
             }
             Self::ToggleHand => Entry::new("Start or stop the automatic stroke").key(Key::Space),
             Self::Stroke(StrokeCommand::AskWhatToOpen) => Entry::new("Open a stroke recording"),

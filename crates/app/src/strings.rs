@@ -38,38 +38,38 @@ pub const HARD_SOFT: &str = "Hard to soft";
 pub const HARD_SOFT_HELP: &str = "0 is the hardest texture of the space, 100 the softest.";
 pub const AXIS_ACROSS: &str = "X axis";
 pub const AXIS_UP: &str = "Y axis";
-pub const AXES_HELP: &str = "Attribute shown on this axis; any two rated attributes can be chosen. Textures without a rating on one of them have no position.";
+pub const AXES_HELP: &str = "Attribute on this axis. Any two attributes with ratings can be chosen. A texture without a rating on one of them has no position.";
 pub const AXES_AS_PLACED: &str = "default";
 
 // Workspaces.
 
 // Libraries.
 pub const LIBRARIES: &str = "Libraries";
-pub const LIBRARIES_HELP: &str = "Opens another library. The point and the textures added to the project stay. Undo brings the old library back.";
+pub const LIBRARIES_HELP: &str = "Opens another library. The authored point and the textures added to the project are kept. Undo restores the previous library.";
 pub const NEW_TEXTURE: &str = "New texture";
-pub const DAMAGED_LIBRARY: &str = "This built-in library is damaged; install Shagreen again";
+pub const DAMAGED_LIBRARY: &str = "A built-in library is damaged; reinstall Shagreen";
 pub const SEARCH: &str = "Search textures";
 pub const SEARCH_HINT: &str = "Search…";
-pub const NO_MATCH: &str = "No texture matches the search in its name or tags.";
+pub const NO_MATCH: &str = "No texture contains these words in its name or tags.";
 pub const PARENTS: &str = "Contributions";
-pub const PARENTS_HELP: &str = "Textures that contribute at this point, with their weights. In the Field mode every texture contributes; distant ones slightly negatively. At its own position a pinned texture plays alone.";
+pub const PARENTS_HELP: &str = "Textures that contribute at this point, with their weights in percent. In the mode Field every texture contributes; distant ones slightly negatively. At the position of a pinned texture, only that texture plays.";
 
 // Canvas.
 pub const CANVAS: &str = "Space of textures";
 pub const POINT: &str = "Authored point";
 pub const POINT_HELP: &str = "Drag it, or move it with the arrow keys (Shift for larger steps).";
-pub const CLAMPED: &str = "Outside the convex hull of the textures: the nearest point of the hull plays.";
+pub const CLAMPED: &str =
+    "Outside the convex hull of the textures: the texture at the nearest point of the hull plays.";
 pub const NAME: &str = "Name of the texture";
 pub const BLEND: &str = "Mode";
 
 // Pad and automatic stroke.
 pub const PAD: &str = "Stroke pad";
 pub const PAD_HELP: &str =
-    "Stroke here with the mouse or a pen to feel the texture. The wheel sets the normal force.";
+    "Stroke here with the mouse or a pen to feel the texture. The mouse wheel sets the normal force, in N.";
 pub const HAND_START: &str = "Stroke";
 pub const HAND_STOP: &str = "Stop";
-pub const HAND_HELP: &str =
-    "Strokes the pad automatically with the chosen path, speed and normal force (Space).";
+pub const HAND_HELP: &str = "Starts or stops the automatic stroke: it moves along the selected path at the set speed and normal force (Space).";
 pub const HAND_SPEED: &str = "Speed of the automatic stroke";
 pub const HAND_FORCE: &str = "Normal force of the automatic stroke";
 pub const HAND_PATH: &str = "Path of the automatic stroke";
@@ -77,21 +77,21 @@ pub const DISMISS: &str = "Click to dismiss this message.";
 
 // Output.
 pub const MUTE_HELP: &str = "Silences the output; everything else keeps running (M).";
-pub const LIMITING_HELP: &str = "The signal exceeds the limit of the output or the actuator and is attenuated. Press less, stroke slower, or choose a weaker texture.";
+pub const LIMITING_HELP: &str = "The signal exceeds a limit of the output or the actuator and is attenuated. Reduce the normal force or the speed, or choose a weaker texture.";
 pub const SOLO: &str = "S";
-pub const SOLO_HELP: &str = "Plays only this texture, as stored in the library. Press again to return to the interpolated texture. The point does not move.";
+pub const SOLO_HELP: &str = "Plays this texture alone, as stored in the library. Press again to return to the interpolated texture. The authored point does not move.";
 pub const OUTPUT: &str = "Output";
-pub const OUTPUT_HELP: &str = "Output that drives the actuator. Shagreen never switches it by itself: if the output disappears, Shagreen is silent.";
+pub const OUTPUT_HELP: &str = "Output that drives the actuator. Shagreen never selects another output by itself: if this one disappears, nothing plays.";
 pub const OPENING: &str = "Opening the output…";
 pub const RESET_LIMITER: &str = "Reset limiter";
-pub const TRIPPED: &str = "Silenced: a sample was not finite";
+pub const TRIPPED: &str = "Silenced: invalid sample (infinite or NaN)";
 pub const TO_LIGHT: &str = "Light theme";
 pub const TO_DARK: &str = "Dark theme";
 pub const UNDO: &str = "Undo";
 pub const REDO: &str = "Redo";
 pub const MUTE: &str = "Mute";
 pub const UNMUTE: &str = "Unmute";
-pub const NO_SOUND: &str = "No audio output: the silent output is used";
+pub const NO_SOUND: &str = "The silent output is used, because no audio output could be opened";
 pub const OPENING_FAILED: &str = "Opening the output failed; choose it again or choose another";
 pub const NO_TEXTURES: &str = "This library has no textures.";
 pub const NO_PLACES: &str =
@@ -109,40 +109,43 @@ pub const PARAMETRIC_SHORT: &str = "mean of neighbors";
 pub const SHARED_SHORT: &str = "3 signals";
 pub const POWER_SHORT: &str = "3 signals, level kept";
 pub const PAPER_SHORT: &str = "as published";
-pub const FIELD_HELP: &str = "Computes one texture from a smooth field over all textures, without jumps or kinks. At the position of a texture the field is smoothed by its neighbors, unless the texture is pinned.";
-pub const PARAMETRIC_HELP: &str = "Computes one texture with the mean spectral envelope and level of the surrounding textures. Exact at each texture; its slope changes abruptly at triangle edges.";
-pub const SHARED_HELP: &str = "Mixes the three textures around the point, all driven by the same noise excitation. Their spectra interpolate without a loss of level.";
-pub const POWER_HELP: &str = "Mixes the three textures around the point, each with its own noise excitation. The level is corrected to the weighted mean of their levels.";
-pub const PAPER_HELP: &str = "As printed in the paper: mixes three textures by inverse distance, each with its own noise excitation. The level drops between textures and jumps at triangle edges.";
+pub const FIELD_HELP: &str = "Computes one texture from a smooth field over all textures, without jumps or kinks. At the position of a texture, its neighbors smooth the field, unless the texture is pinned.";
+pub const PARAMETRIC_HELP: &str = "Computes one texture with the weighted mean of the spectral envelopes and levels of the textures around the point. Exact at each texture; its slope changes abruptly at triangle edges.";
+pub const SHARED_HELP: &str = "Mixes the signals of the three textures around the point, all with the same noise excitation. The spectra are interpolated without a loss of level.";
+pub const POWER_HELP: &str = "Mixes the signals of the three textures around the point, each with its own noise excitation. The level is corrected to the weighted mean of their levels.";
+pub const PAPER_HELP: &str = "As published: mixes the signals of three textures with inverse-distance weights, each with its own noise excitation. The level drops between textures and jumps at triangle edges.";
 pub const BLEND_MODE: &str = "Interpolation mode";
 pub const BEYOND: &str = "Extrapolate outside hull";
-pub const BEYOND_HELP: &str = "Extrapolates the field outside the convex hull of the textures, as far as the textures support an estimate. When off, the nearest point of the hull plays.";
+pub const BEYOND_HELP: &str = "Extrapolates the field outside the convex hull of the textures, up to where the estimate becomes too uncertain. When off, the texture at the nearest point of the hull plays.";
 pub const NATURAL: &str = "Natural neighbors";
-pub const NATURAL_HELP: &str = "Weights all textures around the point by the Voronoi area that the point takes from each (Sibson weights). There is no kink at triangle edges.";
-pub const THREE_SIGNALS: &str = "mixes the textures at the triangle corners";
+pub const NATURAL_HELP: &str = "Weights all textures around the point by the Voronoi area that the point takes from each (Sibson weights). The texture then has no kink at triangle edges.";
+pub const THREE_SIGNALS: &str = "mixes the signals at the triangle corners";
 pub const PREPARING: &str = "computing the field…";
 pub const PREPARING_HELP: &str =
     "The field over all textures is being computed. Until then, the previous texture keeps playing.";
-pub const SMOOTHED: &str = "In the Field mode, neighbors smooth the texture at its own position. Pin it (right-click) to reproduce it exactly.";
+pub const SMOOTHED: &str = "In the mode Field, neighbors smooth this texture at its own position. Pin it (right-click) to reproduce it exactly.";
 pub const LOCKED: &str = "Pinned: the field passes through this texture exactly at its position.";
 pub const LOCK_HELP: &str = "The field passes exactly through a pinned texture at its position and is adjusted around it. An unpinned texture is smoothed by its neighbors.";
 pub const EXTRAPOLATED: &str = "extrapolated";
 pub const EXTRAPOLATED_HERE: &str =
-    "Extrapolated: no texture was measured outside the convex hull, so this is a guess.";
-pub const JUMPS_HERE: &str = "Paper mode: the texture jumps where the point crosses this triangle edge.";
-pub const JUMPS: &str = "Paper mode: the texture jumps where the point crosses a triangle edge.";
-pub const NO_TEXTURE_HERE: &str = "No texture can be computed at this point; move it closer to the textures";
+    "Extrapolated: the point is outside the convex hull of the textures, so its texture is uncertain.";
+pub const JUMPS_HERE: &str =
+    "Mode Paper: the texture changes abruptly where the point crosses this triangle edge.";
+pub const JUMPS: &str = "Mode Paper: the texture changes abruptly where the point crosses a triangle edge.";
+pub const NO_TEXTURE_HERE: &str =
+    "No texture can be computed at this point; move the point closer to the textures";
 pub const FIELD_FAILED: &str = "Computing the field failed; open the library again";
 
 // Status bar.
-pub const LATENCY_HELP: &str = "Estimated delay from a pen movement to the output: control tick, filters and output buffer (two blocks unless the device reports its delay). The mouse adds one frame of the window, a sound server its own buffer.";
-pub const LOAD_HELP: &str = "Share of the available processing time that audio rendering uses.";
+pub const LATENCY_HELP: &str = "Estimated latency from a pen report to the output, in ms: control tick, filters and output buffer (two blocks unless the device reports its delay). The mouse adds one frame of the window; a sound server adds its own buffer.";
+pub const LOAD_HELP: &str =
+    "Share of the available processing time that audio rendering uses, in percent. At 100 %, dropouts begin.";
 pub const DROPOUTS_HELP: &str = "Number of times the output ran out of samples (underruns).";
-pub const LEVEL_HELP: &str = "Level of the texture: root mean square acceleration, in dB re 1 m/s².";
-pub const STALLED: &str = "The output has stopped requesting samples";
+pub const LEVEL_HELP: &str = "Level of the texture before mute and limiter: root mean square acceleration over about 50 ms, in dB re 1 m/s².";
+pub const STALLED: &str = "The output has stopped requesting samples; choose it again";
 pub const LIMITING: &str = "limiting";
-pub const SOURCE_HELP: &str = "Source of the positions of the textures. Positions from physical labels or simulated raters are not human ratings.";
-pub const MIXED_SOURCES: &str = "mixed: not comparable";
+pub const SOURCE_HELP: &str = "Source of the texture positions. Positions from physical labels or simulated raters are not human ratings.";
+pub const MIXED_SOURCES: &str = "mixed, not comparable";
 pub const NOBODY_FELT: &str = ", no human data";
 pub const SOME_SIMULATED: &str = "; some are simulated";
 pub const NO_SOURCE: &str = "not stated";
@@ -150,12 +153,12 @@ pub const TEN_MM: &str = "10 mm";
 
 // List of textures.
 pub const NOT_PLACED_YET: &str = "no position yet";
-pub const NOT_PLACED_HELP: &str = "No position in the space yet: click to play it alone.";
+pub const NOT_PLACED_HELP: &str = "No position in the space yet. Click to play this texture alone.";
 pub const HEARD_ALONE: &str = "solo";
 pub const IMPORT: &str = "Import…";
 pub const IMPORT_HELP: &str = "Imports recordings, HaTT models, or the textures of another library. Files can also be dropped on the window.";
 pub const SAVE_LIBRARY: &str = "Save as…";
-pub const SAVE_LIBRARY_HELP: &str = "Saves all listed textures as one library file.";
+pub const SAVE_LIBRARY_HELP: &str = "Saves all textures of the list in one library file, including those that the filter or the search hides.";
 pub const DAMAGED_PICTURE: &str = "The picture cannot be read";
 
 // Paths of the automatic stroke.
@@ -168,7 +171,7 @@ pub fn dropouts(n: u64) -> String {
     if n == 1 { "1 dropout".to_owned() } else { format!("{n} dropouts") }
 }
 
-/// Accessible name of an axis from the words at its ends: [`ROUGH_SMOOTH`] and [`HARD_SOFT`] are two of them.
+/// Accessible name of an axis from the words at its ends, for example [`ROUGH_SMOOTH`] and [`HARD_SOFT`].
 pub fn axis([low, high]: &[String; 2]) -> String {
     let words = if high.is_empty() { low.clone() } else { format!("{low} to {high}") };
     let mut letters = words.chars();
@@ -219,7 +222,7 @@ pub fn of_the_blend(percent: f64) -> String {
 }
 
 pub fn plays_alone(texture: &str) -> String {
-    format!("Only {texture} plays. Move the point to return to the interpolated texture.")
+    format!("Only {texture} plays. Move the authored point to return to the interpolated texture.")
 }
 
 /// Label of the control that pins or unpins a texture, and the name of that edit.
@@ -246,7 +249,7 @@ pub fn locked_share(texture: &str, percent: f64) -> String {
 }
 
 pub fn extrapolated_to(at: SpacePoint) -> String {
-    format!("Extrapolated as far as the textures support an estimate: it stops at {at}.")
+    format!("The point is beyond the limit of extrapolation: the texture at {at} plays.")
 }
 
 /// Accessible name of the solo button of a texture.

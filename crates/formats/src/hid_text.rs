@@ -49,7 +49,7 @@ pub enum HidTextError {
     )]
     NotARecording,
     /// Lines have the format, but none is readable.
-    #[error("line {line}: {problem}; no other line is readable either; get a complete copy of the file")]
+    #[error("line {line}: {problem}; no line of the file is readable; get a complete copy of the file")]
     Unreadable {
         /// The first such line, from one.
         line: usize,

@@ -31,7 +31,7 @@ pub struct Scale {
 
 /// Why two numbers do not form a scale.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("a scale must run from a number to a higher one, not from {low} to {high}; correct its two ends")]
+#[error("the low end of a scale must be below its high end, but they are {low} and {high}; correct them")]
 pub struct ScaleError {
     /// The first number.
     pub low: f64,
@@ -135,7 +135,7 @@ pub enum PlacesCsvError {
     },
     /// An attribute value is not a number.
     #[error(
-        "{column} in line {line} is \"{found}\", not a number; if the column is not an adjective pair, remove it, or give it a name of one word"
+        "{column} in line {line} is \"{found}\", not a number; if the column is not an adjective pair, remove it, or rename it to one word"
     )]
     NotAValue {
         /// Name of the column.

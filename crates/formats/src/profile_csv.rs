@@ -35,7 +35,7 @@ pub enum ProfileCsvError {
     },
     /// The first column is not a position.
     #[error(
-        "the first column is {name:?}, which is not a position; use positions there, or use a signal (.wav) with its speed"
+        "the first column is {name:?}, which is not a position; use positions in mm there, or use a signal (.wav) with its speed"
     )]
     NoPosition {
         /// Name of the column.
@@ -43,7 +43,7 @@ pub enum ProfileCsvError {
     },
     /// Positions are not evenly spaced.
     #[error(
-        "the position in line {line} is {found}, but even spacing requires {wanted:.6}; resample the profile at even spacing"
+        "the position in line {line} is {found}, but equal steps require {wanted:.6}; resample the profile at equal steps"
     )]
     Uneven {
         /// The line, from one.
@@ -54,7 +54,7 @@ pub enum ProfileCsvError {
         wanted: f64,
     },
     /// The rows do not form a valid profile.
-    #[error("{0}; use rows of a position in mm, ascending, and a value")]
+    #[error("{0}; each row needs a position in mm, in ascending order, and a value")]
     Profile(#[from] ProfileError),
 }
 

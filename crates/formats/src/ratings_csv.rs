@@ -70,7 +70,7 @@ const RELEVANT: [&str; 4] = ["relevant", "selected", "vote", "chosen"];
 
 /// Suggestions for an invalid rating, in either format.
 const RESCALE: &str = "convert ratings on another scale first";
-const RESCALE_OR_RENAME: &str = "convert ratings on another scale first; if the column is not an adjective pair, remove it, or give it a name of one word";
+const RESCALE_OR_RENAME: &str = "convert ratings on another scale first; if the column is not an adjective pair, remove it, or rename it to one word";
 
 /// Reads ratings, including missing ones. Unused columns raise a warning.
 ///

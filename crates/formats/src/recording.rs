@@ -106,8 +106,8 @@ impl fmt::Display for NeedsAnswers {
         for fault in &self.faults {
             write!(f, "{fault}; ")?;
         }
-        let noun = if questions.len() == 1 { "answer is" } else { "answers are" };
-        write!(f, "{} {noun} needed: {}", questions.len(), questions.join("; "))
+        let noun = if questions.len() == 1 { "property is" } else { "properties are" };
+        write!(f, "{} {noun} not stated: {}", questions.len(), questions.join("; "))
     }
 }
 

@@ -61,7 +61,7 @@ pub struct KeptPrompt {
 #[non_exhaustive]
 pub enum SettingsError {
     /// The file is not a JSON object.
-    #[error("it is not a JSON object: {0}")]
+    #[error("it is not a JSON object ({0})")]
     Format(serde_json::Error),
     /// The device setup has a form that this version does not know.
     #[error("its field \"rig\" is invalid or from another version: {0}")]

@@ -42,7 +42,7 @@ pub enum SignalError {
     NotWav,
     /// The file lacks necessary facts.
     #[error(
-        "{what}; select the channel of the signal with --channel N, and state \"units\" and \"full_scale\" (the value of a sample of 1.0) in the .json file next to it"
+        "{what}; select the channel of the signal with --channel N, and state \"units\" and \"full_scale\" (the acceleration of a sample value of 1.0) in the sidecar file (.json) next to it"
     )]
     Unclear {
         /// The missing facts.
@@ -119,7 +119,7 @@ pub fn read_signal(
     warnings.extend(file.questions.into_iter().map(|question| question.text));
     if sidecar.is_none() && hints.full_scale_mps2.is_none() {
         warnings.push(
-            "the unit of the samples is not stated; a sample of 1.0 is read as 1 m/s² (set another value with --full-scale)"
+            "the unit of the samples is not stated; a sample value of 1.0 is read as 1 m/s² (set another value with --full-scale)"
                 .to_owned(),
         );
     }

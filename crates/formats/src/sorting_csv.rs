@@ -62,7 +62,7 @@ pub enum SortingCsvError {
     },
     /// Lines of one sort contradict each other.
     #[error(
-        "participant \"{participant}\", trial \"{trial}\": line {line} states another number of groups than earlier lines; correct it"
+        "participant \"{participant}\", trial \"{trial}\": the number of groups in line {line} differs from earlier lines; correct it"
     )]
     OtherCount {
         /// The participant.
@@ -74,7 +74,7 @@ pub enum SortingCsvError {
     },
     /// A sort is listed on two lines.
     #[error(
-        "participant \"{participant}\" has trial \"{trial}\" again in line {line}; number the trials, or remove one line"
+        "line {line} repeats trial \"{trial}\" of participant \"{participant}\"; number the trials, or remove one of the lines"
     )]
     SortTwice {
         /// The participant.
@@ -280,9 +280,9 @@ mod tests {
         check("participant,trial\np,1\n", "no column holds groups");
         check("who,trial,cork\np,1,a\n", "\"participant\"");
         check("participant,trial,groups,cork\np,1,many,a\n", "groups in line 2 is \"many\"");
-        check("participant,trial,cork\np,1,a\np,1,b\n", "again in line 3");
-        check("participant,cork\np,a\np,b\n", "again in line 3");
-        check("participant,trial,groups,texture,group\np,1,3,a,x\np,1,6,b,x\n", "line 3 states another");
+        check("participant,trial,cork\np,1,a\np,1,b\n", "line 3 repeats");
+        check("participant,cork\np,a\np,b\n", "line 3 repeats");
+        check("participant,trial,groups,texture,group\np,1,3,a,x\np,1,6,b,x\n", "groups in line 3 differs");
         check("participant,trial,texture,group\n,1,a,x\n", "line 2 has no participant");
     }
 }

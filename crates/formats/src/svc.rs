@@ -102,7 +102,7 @@ pub enum SvcError {
     },
     /// A pressure is negative or above full scale.
     #[error(
-        "pressure in line {line} is {pressure}, outside the range from 0 to the full scale of {full_scale}; state the pen's full scale"
+        "pressure in line {line} is {pressure}, outside the range from 0 to the full scale of {full_scale}; state the value of full pressure of the pen"
     )]
     Pressure {
         /// The line, from one.
@@ -243,7 +243,7 @@ pub fn pen_samples(
     let highest = recording.pressure_max();
     if highest > 0.0 && highest < 0.25 * full_scale {
         warnings.push(format!(
-            "the highest pressure is {highest} of a full scale of {full_scale}; if the pen has fewer levels, state its full scale"
+            "the highest pressure is {highest} of a full scale of {full_scale}; if the pen has fewer levels, state its value of full pressure"
         ));
     }
     Ok(Imported { value: recording.rows.iter().map(sample).collect(), warnings })

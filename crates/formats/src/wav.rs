@@ -138,7 +138,7 @@ pub struct TraceV1 {
 #[non_exhaustive]
 pub enum WavWriteError {
     /// The file would overwrite its own sidecar.
-    #[error("a signal file cannot end in .json, because its sidecar file does; use the ending .wav: {}", path.display())]
+    #[error("the name of a signal file cannot end in .json, because its sidecar file has this name; use the ending .wav: {}", path.display())]
     Name {
         /// The requested path.
         path: PathBuf,

@@ -18,14 +18,15 @@ use crate::report::Reporter;
 /// # Errors
 /// The positions cannot be triangulated, or the textures have no common rate.
 pub fn authoring(library: &Library, mode: Mode, reporter: &dyn Reporter) -> anyhow::Result<Authoring> {
-    let space = Space::new(&library.positions()).context("the positions of the textures form no space")?;
+    let space = Space::new(&library.positions())
+        .context("cannot compute the space from the positions of the textures")?;
     let authoring = Authoring::new(space);
     if !mode.makes_a_model() || authoring.space().sites().is_empty() {
         return Ok(authoring);
     }
     let placed: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
     let rate = highest_rate(placed.iter().map(|texture| &library.textures[*texture].model))
-        .context("there is nothing to author; place the textures first")?;
+        .context("no texture has a position, so none can be interpolated; assign positions first")?;
     let mut planes: Vec<Option<Plane>> = vec![None; library.textures.len()];
     for texture in &placed {
         planes[*texture] = Some(plane_at(&library.textures[*texture], rate, reporter)?);
@@ -51,8 +52,8 @@ pub fn plane_at(texture: &TextureEntry, rate: Hertz, reporter: &dyn Reporter) ->
     let converted = at_rate(&texture.model, rate)
         .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
     reporter.note(&format!(
-        "\"{}\" has a rate of {own} and is converted to {rate} for its neighbors: same levels, spectra \
-         within {:.1} dB (median of its speeds and forces; worst {:.1} dB)",
+        "\"{}\" has a model rate of {own} and is converted to {rate}, the rate of the other textures: the levels stay \
+         the same, the spectra change by {:.1} dB (median over its speeds and forces; at most {:.1} dB)",
         texture.id, converted.error_db_median, converted.error_db_worst
     ));
     Ok(Plane::new(&converted.model))

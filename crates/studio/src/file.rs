@@ -46,9 +46,9 @@ pub fn shown_name(path: &Path) -> String {
 pub fn read_file(path: &Path) -> anyhow::Result<Vec<u8>> {
     let reason = |error: &io::Error| match error.kind() {
         io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a folder; give a file in it".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder; choose a file in it".to_owned(),
         io::ErrorKind::PermissionDenied => {
-            "you lack permission to read it; change its permissions, or copy it".to_owned()
+            "you do not have permission to read it; change the permissions of the file".to_owned()
         }
         _ => format!("{error}; check its name and your permissions"),
     };

@@ -28,7 +28,7 @@ pub fn load(path: Option<&Path>, reporter: &dyn Reporter) -> anyhow::Result<Libr
     let sources: Vec<&str> = library.label_sources().into_iter().map(LabelSource::label).collect();
     if sources.len() > 1 {
         reporter.warn(&format!(
-            "the positions come from different sources ({}): interpolation between textures of two sources means little; \
+            "the positions come from different sources ({}): interpolation between textures of different sources is not meaningful; \
              `shagreen library list` shows the source of each",
             sources.join(", ")
         ));

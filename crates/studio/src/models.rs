@@ -66,7 +66,12 @@ impl ModelFolder {
             return Ok(None);
         }
         let backbone = Backbone::from_bytes(&read(&path)?);
-        backbone.map(Some).with_context(|| format!("fetch the network again: {}", path.display()))
+        backbone.map(Some).with_context(|| {
+            format!(
+                "the downloaded network is damaged; fetch the network again with `shagreen model fetch`: {}",
+                path.display()
+            )
+        })
     }
 
     /// Returns the picture predictor, with the downloaded backbone network or else with texture statistics.
@@ -104,11 +109,12 @@ impl ModelFolder {
         if !path.is_file() {
             return Ok(None);
         }
-        let added: AddedDiffusion = serde_json::from_slice(&read(&path)?)
-            .with_context(|| format!("add the model again, this file is damaged: {}", path.display()))?;
+        let added: AddedDiffusion = serde_json::from_slice(&read(&path)?).with_context(|| {
+            format!("the record of the diffusion model is damaged; add the model again with `shagreen model add`: {}", path.display())
+        })?;
         ensure!(
             added.format == ADDED,
-            "add the model again, this file is of another kind: {}",
+            "this file is not the record of a diffusion model; add the model again with `shagreen model add`: {}",
             path.display()
         );
         Ok(Some(added))
@@ -123,7 +129,7 @@ impl ModelFolder {
         let mut names = added.sha256.keys().chain(sha256.keys());
         if let Some(name) = names.find(|name| added.sha256.get(*name) != sha256.get(*name)) {
             anyhow::bail!(
-                "the file was changed since the model was added; put it back, or add the model again: {}",
+                "this file of the model was changed since the model was added; restore it, or add the model again: {}",
                 added.folder.join(name).display()
             );
         }

@@ -59,12 +59,12 @@ pub fn find_authored<'a>(project: &'a Project, name: &str) -> anyhow::Result<&'a
         ([], Some(one)) => Ok(one),
         ([], None) => {
             let names: Vec<String> = project.authored.iter().map(|t| format!("\"{}\"", t.name)).collect();
-            bail!("the project has no authored texture \"{name}\"; it has {}", names.join(", "))
+            bail!("the project has no authored texture \"{name}\"; choose one of {}", names.join(", "))
         }
         (several, _) => {
             let keys: Vec<String> = several.iter().map(|texture| texture.key.to_string()).collect();
             bail!(
-                "{} authored textures have this name; choose one by its key: {}",
+                "{} authored textures have the name \"{name}\"; choose one by its number: {}",
                 several.len(),
                 keys.join(", ")
             )

@@ -83,9 +83,9 @@ impl Sound {
         blending: &Blending,
         reporter: &dyn Reporter,
     ) -> anyhow::Result<Self> {
-        let authored = authoring(library, blending.mode, reporter)?.author(point, blending).context(
-            "no texture of the library has a position; use --texture, or place the textures first",
-        )?;
+        let authored = authoring(library, blending.mode, reporter)?
+            .author(point, blending)
+            .context("no texture of the library has a position; use --texture, or assign positions first")?;
         warn_outside_hull(point, &authored, reporter);
         let voice = |(voice, weight): (Voice<'_>, f64)| match voice {
             Voice::Texture(index) => (SoundVoice::Texture(index), weight),
@@ -93,7 +93,9 @@ impl Sound {
         };
         let voices: Vec<(SoundVoice, f64)> = authored.voices().into_iter().map(voice).collect();
         if voices.is_empty() {
-            bail!("the field has no texture at {point}; choose another point, or --blend shared");
+            bail!(
+                "the interpolated field has no texture at {point}; choose another point, or --blend shared"
+            );
         }
         Ok(Self {
             mode: blending.mode,
@@ -150,7 +152,7 @@ impl Sound {
         if highest(&trace.speed_mm_per_s) > known_mm_per_s || highest(&trace.force_n) > known_n {
             reporter.note(&format!(
                 "the texture was measured up to {known_mm_per_s:.0} mm/s and {known_n:.1} N; faster or harder strokes are \
-                 rendered with these values"
+                 rendered as at these values"
             ));
         }
     }
@@ -192,7 +194,7 @@ fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Repo
             "{point} lies outside the convex hull of the textures; the texture there is extrapolated"
         )),
         (true, true) => reporter.warn(&format!(
-            "{point} lies too far outside the convex hull of the textures; {at}, the farthest supported point, is \
+            "{point} lies too far outside the convex hull of the textures; {at}, the farthest point that can be computed, is \
              extrapolated"
         )),
     }

@@ -41,7 +41,7 @@ pub fn add_tap_transients(
     let n_ahead = frames_in(TICKS_AHEAD + 0.5);
     engine.process(&mut vec![0.0; n_ahead], 1);
     if handle.play_track(stroke).is_err() {
-        bail!("the tap transients cannot be rendered: the engine accepts no stroke");
+        bail!("the tap transients cannot be rendered: the engine does not accept the stroke; try again");
     }
     // The stroke's clock started at the end of the last tick that was rendered.
     let n_late = frames_in(TICKS_AHEAD + 1.0) - n_ahead;

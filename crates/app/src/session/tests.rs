@@ -111,7 +111,7 @@ fn another_library_is_opened_and_the_first_comes_back() {
     session.follow(&simulated, None, &ctx);
     assert_eq!(session.base(), &ProjectLibrary::BuiltIn(BuiltIn::Simulated));
     assert_eq!(session.other_libraries(), std::slice::from_ref(&begun.library));
-    assert_eq!(session.label_source(), "mixed: not comparable");
+    assert_eq!(session.label_source(), "mixed, not comparable");
     assert!(session.is_simulated());
     let read = BuiltIn::Simulated.read().unwrap();
     assert_eq!(session.textures()[..25], read.textures[..]);

@@ -403,7 +403,7 @@ mod tests {
                 Err(reason) => break reason,
             }
         };
-        assert!(refused.contains("can be stretched by at most"), "{refused}");
+        assert!(refused.contains("the maximum for this signal is"), "{refused}");
         assert_eq!(editor.labels()[0], Some(crate::strings::signals::STRETCHING));
         editor.forget();
         assert!(editor.undo(&now).is_none());

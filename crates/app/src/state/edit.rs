@@ -167,9 +167,9 @@ impl Edit {
             Self::AddTextures(_) => strings::ADD_TEXTURES.into(),
             Self::RemoveTexture(joined) => {
                 let name = |entry: &Arc<TextureEntry>| {
-                    strings::removed(project.renamed.get(&entry.id).unwrap_or(&entry.name))
+                    strings::removed_texture(project.renamed.get(&entry.id).unwrap_or(&entry.name))
                 };
-                project.joined.get(*joined).map_or_else(|| strings::removed(""), name).into()
+                project.joined.get(*joined).map_or_else(|| strings::removed_texture(""), name).into()
             }
             Self::RenameTexture { name, .. } => strings::renamed_to(name).into(),
             Self::Star { name, is_starred, .. } => strings::starred(name, *is_starred).into(),

@@ -45,7 +45,7 @@ impl Grid {
     }
 }
 
-/// LatestJob heat map, and the worker that refines it.
+/// Latest heat map, and the worker that refines it.
 #[derive(Default)]
 pub(crate) struct HeatMap {
     wanted: Option<Wanted>,
@@ -96,7 +96,7 @@ impl HeatMap {
         });
     }
 
-    /// LatestJob map, as far as it is computed.
+    /// Latest map, as far as it is computed.
     pub(crate) fn grid(&self) -> Option<&Grid> {
         self.grid.as_ref()
     }

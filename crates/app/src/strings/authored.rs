@@ -1,35 +1,32 @@
 //! Authored textures: list, details, and snapshots.
 
 pub const HEADING: &str = "Authored";
-pub const HELP: &str =
-    "Your textures: each is a point of the space with an interpolation mode. Click one to edit it.";
+pub const HELP: &str = "Authored textures of this project: each is a point of the space with an interpolation mode. Click one to edit it.";
 pub const ADD: &str = "Add";
-pub const ADD_HELP: &str =
-    "Adds a texture at the center of the space, with the interpolation of the selected one";
+pub const ADD_HELP: &str = "Adds a texture at the center of the space, with the interpolation mode and options of the selected texture";
 pub const DUPLICATE: &str = "Duplicate";
-pub const DUPLICATE_HELP: &str = "Adds a copy of this texture, slightly offset";
+pub const DUPLICATE_HELP: &str = "Adds a copy of this texture, slightly offset in the space";
 pub const DELETE: &str = "Delete";
 pub const DETAILS: &str = "Details";
 pub const DETAILS_HELP: &str = "Color, tags, notes and picture of this texture";
 pub const TAGS: &str = "Tags";
 pub const TAGS_HINT: &str = "none yet; for example: wood, dry";
 pub const NOTES: &str = "Notes";
-pub const NOTES_HINT: &str = "What is it for? What did people say?";
+pub const NOTES_HINT: &str = "Purpose of the texture, comments of participants…";
 pub const COLOR: &str = "Color";
 pub const COLORS: [&str; 8] = ["amber", "sky", "green", "yellow", "indigo", "vermilion", "pink", "gray"];
 pub const PICTURE: &str = "Picture";
-pub const NO_PICTURE: &str = "Interpolated from the neighboring textures. To set a photo (JPEG, PNG), drop it on the window while this menu is open.";
+pub const NO_PICTURE: &str = "The picture is interpolated from the contributing textures. To use a photo (JPEG, PNG), drop it on the window while this menu is open.";
 pub const PICTURE_WIDTH: &str = "Width of the picture";
 pub const PICTURE_WIDTH_HELP: &str = "Width of the surface that the picture shows, in mm";
 pub const TAKE_PICTURE_AWAY: &str = "Remove picture";
 pub const SNAPSHOTS_HELP: &str =
-    "Saved state: position, interpolation, path and picture. Click to restore it, right-click for more.";
+    "Saved state: position, interpolation, path and picture. Click to restore it; right-click for its menu.";
 pub const UNNAMED: &str = "(no name)";
 pub const KEEP: &str = "Snapshot";
-pub const KEEP_HELP: &str = "Saves the current state of the selected texture, so that it can be restored";
+pub const KEEP_HELP: &str = "Saves the state of the selected texture (position, interpolation, path, picture). You can restore it later.";
 pub const AS_OWN: &str = "Add as texture";
-pub const AS_OWN_HELP: &str =
-    "Adds a texture in this state, to edit it or to compare it (A, B, X) with the current one";
+pub const AS_OWN_HELP: &str = "Adds an authored texture with this state. You can edit it, or compare it with the current one (A, B, X).";
 
 /// Accessible name on the canvas of an authored texture that is not selected.
 pub fn on_canvas(name: &str) -> String {
@@ -59,7 +56,7 @@ pub fn delete_snapshot(number: usize) -> String {
     format!("Delete snapshot {number}")
 }
 
-/// Name of a texture that is made from a snapshot.
+/// Name of a texture that is added from a snapshot.
 pub fn state_of(name: &str, number: usize) -> String {
     format!("{name} ({number})")
 }

@@ -16,9 +16,9 @@ pub const VOTES: &str = "Relevance votes";
 pub const SORTING_HELP: &str =
     "CSV table of the groups into which each participant sorted the textures. Required.";
 pub const RATINGS_HELP: &str =
-    "CSV table of ratings: each texture between two adjectives, 0 to 100. Required.";
+    "CSV table of ratings of each texture between two opposite adjectives, 0 to 100. Required.";
 pub const VOTES_HELP: &str =
-    "CSV table of the adjectives that participants found relevant. Without it, all adjectives count.";
+    "CSV table of the adjectives that participants found relevant. Without it, all adjectives are used.";
 pub const PATH_HINT: &str = "Path of a CSV file…";
 pub const SAVE: &str = "Save";
 
@@ -31,7 +31,7 @@ pub const NOTHING_YET: &str = "none yet";
 pub const OPTIONAL: &str = "optional";
 pub const READING: &str = "Reading…";
 pub const SIMULATE: &str = "Try with simulated raters";
-pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate the textures from their library positions, attributes and physical quantities, with noise. For trying the workflow only, never for conclusions.";
+pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate the textures from their library positions, attributes and physical quantities, with noise. Use them only to try the workflow, never for conclusions.";
 pub const PARTICIPANTS: &str = "participants";
 pub const SIMULATED_PANEL: &str = "simulated raters";
 
@@ -40,7 +40,7 @@ pub const OPTIONS: &str = "Options";
 pub const DIMENSIONS: &str = "Dimensions";
 pub const DIMENSIONS_HELP: &str = "Number of dimensions of the perceptual space (multidimensional scaling). More dimensions lower the stress and fit the adjectives better.";
 pub const TIES: &str = "Ties";
-pub const TIES_HELP: &str = "Treatment of pairs with equal similarity: primary lets their distances differ, secondary makes their distances equal.";
+pub const TIES_HELP: &str = "Treatment of texture pairs with equal similarity: primary lets their distances differ, secondary makes their distances equal.";
 pub const FIRST_AXIS: &str = "X axis";
 pub const SECOND_AXIS: &str = "Y axis";
 pub const AXIS_HELP: &str = "Adjective pair that becomes this axis. Automatic takes rough to smooth and hard to soft if they were rated, else the pair that correlates best with each dimension.";
@@ -48,13 +48,13 @@ pub const AUTOMATIC: &str = "automatic";
 pub const FEATURES: &str = "Features";
 pub const FEATURES_HELP: &str = "Vibration features that predict the position of a texture.";
 pub const SELECTION: &str = "Selection";
-pub const SELECTION_HELP: &str = "Method that selects and weights the features.";
+pub const SELECTION_HELP: &str = "Method that selects and weights the features: the mean of ridge regressions, or the published forward selection, which adds features by partial F or in order of correlation (ranked).";
 pub const PLACEMENT: &str = "Positions";
-pub const PLACEMENT_HELP: &str = "Source of the positions: perceived (from the judgments) or predicted (from the features). Automatic chooses for each axis the one that is likely closer to perception.";
+pub const PLACEMENT_HELP: &str = "Source of the positions: perceived (from the judgments) or predicted (from the features). Automatic uses the prediction for an axis if its nested correlation is at least 0.85.";
 pub const ORTHOGONAL: &str = "Orthogonal axes";
 pub const ORTHOGONAL_HELP: &str = "Rotates the second axis to a right angle with the first, so that a move along one leaves the other unchanged.";
 pub const PERMUTATIONS: &str = "Permutations";
-pub const PERMUTATIONS_HELP: &str = "Number of permutations of the positions in the test against chance prediction. More take longer; 0 skips the test.";
+pub const PERMUTATIONS_HELP: &str = "Number of random permutations of the positions, for the test of the prediction against chance. More permutations take longer; 0 skips the test.";
 pub const SEED: &str = "Seed";
 pub const SEED_HELP: &str = "Seed of the random numbers: the same seed gives the same space.";
 
@@ -64,18 +64,19 @@ pub const BUILD_AGAIN: &str = "Build again";
 pub const CANCEL: &str = "Cancel";
 pub const CANCEL_HELP: &str = "Stops the build. The previous space stays.";
 pub const STOPPING: &str = "Stopping…";
-pub const NEEDS_BOTH: &str = "Sorting and ratings are required.";
-pub const CHANGED: &str = "Library, judgments or options have changed since this space was built.";
-pub const BROKEN: &str = "The build stopped unexpectedly; try other options, or part of the judgments.";
+pub const NEEDS_BOTH: &str = "A sorting table and a ratings table are required.";
+pub const CHANGED: &str =
+    "Library, judgments or options have changed since this space was built. Build it again.";
+pub const BROKEN: &str = "The build stopped unexpectedly; try other options, or only part of the judgments.";
 
 // Before a space is built.
 pub const EMPTY_TITLE: &str = "From judgments to a space";
 pub const EMPTY_STEPS: [&str; 3] = [
     "Participants sort the textures into groups by feel, and rate each one between pairs of adjectives.",
-    "Enter the path of both tables on the left, or drop the files here. Simulated raters need no tables.",
+    "Enter the paths of both tables on the left, or drop the files here. Simulated raters need no tables.",
     "Build the space, check its figures and validation, then use it.",
 ];
-pub const SORTING_EXAMPLE_TITLE: &str = "Sorting: one row for each texture of each sort";
+pub const SORTING_EXAMPLE_TITLE: &str = "Sorting: one row for each texture in each sort";
 pub const SORTING_EXAMPLE: &str = "participant,trial,groups,texture,group\np01,1,3,cork,a";
 pub const RATINGS_EXAMPLE_TITLE: &str = "Ratings: one row for each participant and texture, 0 to 100";
 pub const RATINGS_EXAMPLE: &str = "participant,texture,rough-smooth,hard-soft\np01,cork,41,70.5";
@@ -85,8 +86,8 @@ pub const EXAMPLE_NOTE: &str = "Textures are identified by their id in the libra
 pub const VERDICT: &str = "Validation";
 pub const NO_VERDICT: &str = "The validation summary appears here after you build a space.";
 pub const USE_SPACE: &str = "Use this space";
-pub const USE_HELP: &str = "Gives the textures the positions and ratings of this space. Undo restores the old ones. “Save as…” in the Author workspace writes them to a file, with the report.";
-pub const USE_NOTE: &str = "Undo restores the old positions.";
+pub const USE_HELP: &str = "Gives the textures the positions and ratings of this space. Undo restores the previous ones. “Save as…” in the Author workspace saves them in a library file, with the report.";
+pub const USE_NOTE: &str = "Undo restores the previous positions.";
 pub const IN_USE: &str = "In use";
 pub const GO_TO_AUTHOR: &str = "Open in Author";
 
@@ -191,7 +192,7 @@ pub fn ties(ties: Ties) -> &'static str {
 pub fn features(kind: FeatureKind) -> &'static str {
     match kind {
         FeatureKind::Mfcc => "MFCC (means)",
-        FeatureKind::MfccFrames => "MFCC (frames, paper)",
+        FeatureKind::MfccFrames => "MFCC (frames, published)",
         FeatureKind::Physical => "physical",
         FeatureKind::MfccAndPhysical => "MFCC and physical",
     }
@@ -199,9 +200,9 @@ pub fn features(kind: FeatureKind) -> &'static str {
 
 pub fn selection(method: Method) -> &'static str {
     match method.id() {
-        "paper" => "as in the paper",
-        "paper-ranked" => "as in the paper, ranked",
-        _ => "practical",
+        "paper" => "as published",
+        "paper-ranked" => "as published, ranked",
+        _ => "ridge regressions",
     }
 }
 
@@ -230,19 +231,19 @@ pub fn figure(name: &str) -> &str {
 
 pub fn to_save(title: &str, format: &str) -> String {
     match format {
-        "CSV" => format!("Saves the numbers of “{title}” in CSV format."),
+        "CSV" => format!("Saves the data of “{title}” in CSV format."),
         _ => format!("Saves “{title}” in {format} format."),
     }
 }
 
 /// Question before a figure of the same kind is replaced.
 pub fn exists(format: &str) -> String {
-    format!("A figure of this kind ({format}) exists at this path. Replace it, or choose another path.")
+    format!("A figure in {format} format exists at this path. Replace it, or choose another path.")
 }
 
 /// Why an existing file is not replaced by a figure.
 pub fn no_figure(format: &str) -> String {
     format!(
-        "Choose another path: the file there is not a figure of this kind ({format}) and is not replaced."
+        "The file at this path is not a figure of this kind ({format}) and is not replaced. Choose another path."
     )
 }

@@ -1,11 +1,12 @@
 //! Comparison of two authored textures.
 
 pub const HEADING: &str = "Compare";
-pub const HELP: &str = "Plays two authored textures in turn under the same stroke (keys 1 and 2). X (key 3) is randomly A or B: identify it.";
+pub const HELP: &str = "ABX comparison of two authored textures under the same stroke. Keys 1 and 2 play A and B. Key 3 plays X, which is A or B at random: choose which one it is.";
 pub const BLIND: &str = "Blind";
-pub const BLIND_HELP: &str = "Assigns A and B at random and hides which is which, until you clear this box";
+pub const BLIND_HELP: &str =
+    "Assigns the two textures to A and B at random and hides the assignment, until you clear this box";
 pub const HIDDEN: &str = "Hidden during a blind comparison";
-pub const NEEDS_TWO: &str = "Author two textures to compare them";
+pub const NEEDS_TWO: &str = "A comparison needs two authored textures; add another one";
 
 /// Accessible name of the button that plays a side.
 pub fn hear(letter: &str) -> String {

@@ -1,7 +1,7 @@
 //! Project files: menu, opening, saving, and recovery.
 
 pub const UNTITLED: &str = "Untitled";
-pub const BROKE_OFF: &str = "The operation stopped unexpectedly; try again";
+pub const BROKE_OFF: &str = "Opening or saving stopped unexpectedly. Try again.";
 pub const CANNOT_READ: &str = "The file cannot be read; check its path and permissions";
 pub const NEITHER: &str = "This is neither a project nor a texture library; choose another file, or import it as a recording or model";
 pub const NO_FILE: &str = "This is a folder or a device, not a file; choose another path";
@@ -9,17 +9,15 @@ pub const NO_FILE: &str = "This is a folder or a device, not a file; choose anot
 // File menu.
 pub const FILE: &str = "File";
 pub const NEW: &str = "New";
-pub const NEW_HELP: &str =
-    "Starts a project with one texture on the starter library, or a copy of your template project";
+pub const NEW_HELP: &str = "Starts a project with one authored texture and the starter library. If a template is set, starts from a copy of it.";
 pub const OPEN: &str = "Open…";
 pub const RECENT: &str = "Recent projects";
 pub const SAVE: &str = "Save";
 pub const SAVE_AS: &str = "Save as…";
 pub const KEEP_INSIDE: &str = "Embed library in the project";
-pub const KEEP_INSIDE_HELP: &str = "Stores all textures in the project file, so that the file can be shared alone. Otherwise the project only refers to its library.";
+pub const KEEP_INSIDE_HELP: &str = "Stores all textures in the project file, so that you can share the file without its library. Otherwise the project only refers to the library.";
 pub const TEMPLATE: &str = "Use as template for new projects";
-pub const TEMPLATE_HELP: &str =
-    "New projects start as a copy of this project's file. Choose it again to start with the starter library.";
+pub const TEMPLATE_HELP: &str = "New projects start as a copy of this project's file. To stop using a template, choose this command again.";
 pub const TEMPLATE_NEEDS_FILE: &str = "Save the project first: new projects start as a copy of its file.";
 pub const QUIT: &str = "Quit";
 
@@ -30,7 +28,7 @@ pub const OPEN_HINT: &str = "woods.shagreen or library.json";
 pub const OPEN_NOW: &str = "Open";
 pub const UP: &str = "Parent folder";
 pub const LISTING: &str = "Reading the folder…";
-pub const NOTHING_HERE: &str = "No project or library in this folder.";
+pub const NOTHING_HERE: &str = "No file in this folder can be opened here.";
 pub const OPENING: &str = "Opening…";
 pub const CANCEL: &str = "Cancel";
 
@@ -48,13 +46,13 @@ pub const RECOVERED_HELP: &str = "Shagreen ended before this work was saved. Rec
 pub const RECOVER: &str = "Recover";
 pub const DISCARD: &str = "Discard";
 pub const LATER: &str = "Later";
-pub const CHANGED: &str = "changed since it was saved";
+pub const CHANGED: &str = "has unsaved changes";
 
 pub fn would_be_lost(project: &str) -> String {
-    format!("Otherwise the unsaved changes in \"{project}\" are lost.")
+    format!("If you do not save, the changes in \"{project}\" are lost.")
 }
 
-pub const EXISTS: &str = "A project of this name exists. Replace it?";
+pub const EXISTS: &str = "A project file exists at this path. Replace it, or choose another path.";
 
 pub fn to_save(n_textures: usize, is_inside: bool) -> String {
     let textures = if n_textures == 1 {
@@ -68,19 +66,19 @@ pub fn to_save(n_textures: usize, is_inside: bool) -> String {
 
 /// Why an existing file is not replaced by a project.
 pub fn no_project(reason: &str) -> String {
-    format!("A file of this name exists, is not a project, and is not replaced: {reason}")
+    format!("The file at this path is not a project and is not replaced ({reason}). Choose another path.")
 }
 
 /// Why new projects do not start from the template.
 pub fn no_template(reason: &str) -> String {
     format!(
-        "New projects start with the starter library until the template can be read or you choose another: {reason}"
+        "The template cannot be used, and the new project starts with the starter library. Choose another template, or restore its file: {reason}"
     )
 }
 
-/// Why the template is no longer a project.
+/// Reason why the template cannot be used: its file is a library.
 pub fn is_library(path: &str) -> String {
-    format!("{path} is now a texture library")
+    format!("{path} is a texture library, not a project")
 }
 
 pub fn not_saved(reason: &str) -> String {
@@ -108,5 +106,5 @@ pub fn about(verb: &str, name: &str) -> String {
 
 /// Warning that autosave does not work.
 pub fn no_recovery(reason: &str) -> String {
-    format!("Unsaved work cannot be recovered after a crash ({reason}): save often")
+    format!("Autosave does not work ({reason}). Save often: a crash would lose unsaved work.")
 }

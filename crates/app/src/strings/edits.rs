@@ -1,12 +1,12 @@
 //! Names of edits, as they follow the words "Undo" and "Redo".
 
-pub const CHANGE_BLEND: &str = "Change interpolation";
+pub const CHANGE_BLEND: &str = "Change interpolation mode";
 pub const STAY_WITHIN: &str = "Stop extrapolating";
 pub const GO_BEYOND: &str = "Extrapolate outside hull";
 pub const USE_TRIANGLES: &str = "Use barycentric weights";
 pub const USE_NATURAL: &str = "Use natural neighbors";
-pub const CHANGE_NOTES: &str = "Change notes of the project";
-pub const KEEP_INSIDE: &str = "Embed library in the project";
+pub const CHANGE_NOTES: &str = "Change project notes";
+pub const KEEP_INSIDE: &str = "Embed library in project";
 pub const ADD_TEXTURES: &str = "Add textures";
 pub const HEAR_ALONE: &str = "Solo texture";
 pub const HEAR_BLEND: &str = "End solo";
@@ -18,8 +18,8 @@ pub const ADD_PATH_POINT: &str = "Add path point";
 pub const MOVE_PATH_POINT: &str = "Move path point";
 pub const DELETE_PATH_POINT: &str = "Delete path point";
 pub const CHANGE_PATH_LENGTH: &str = "Change path length";
-pub const CHANGE_PATH_MEASURE: &str = "Change path measure";
-pub const CHANGE_PATH_END: &str = "Change path end";
+pub const CHANGE_PATH_MEASURE: &str = "Switch path between distance and time";
+pub const CHANGE_PATH_END: &str = "Change behavior at path end";
 pub const CLEAR_PATH: &str = "Clear path";
 
 pub fn moved(name: &str) -> String {
@@ -64,6 +64,11 @@ pub fn removed(name: &str) -> String {
     format!("Delete {name}")
 }
 
+/// Edit that removes an added texture from the list.
+pub fn removed_texture(name: &str) -> String {
+    format!("Remove {name}")
+}
+
 pub fn selected(name: &str) -> String {
     format!("Select {name}")
 }
@@ -73,7 +78,7 @@ pub fn kept_snapshot(name: &str) -> String {
 }
 
 pub fn restored_snapshot(name: &str) -> String {
-    format!("Restore {name}")
+    format!("Restore snapshot to {name}")
 }
 
 pub fn opened(library: &str) -> String {

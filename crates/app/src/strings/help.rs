@@ -17,11 +17,11 @@ pub const SKIP: &str = "Skip tour";
 /// Keys and pointer actions that are not commands, with what they do.
 pub const MORE_KEYS: [(&str, &str); 6] = [
     ("Arrow keys", "Move the selected point (Shift: larger steps)"),
-    ("Tab", "Move to the next control"),
-    ("Ctrl with + - 0", "Enlarge, shrink or reset the interface"),
-    ("Wheel over the space", "Zoom"),
+    ("Tab", "Move the keyboard focus to the next control"),
+    ("Ctrl with + - 0", "Zoom the interface in or out, or reset it"),
+    ("Wheel over the space", "Zoom the view of the space"),
     ("Right or middle button", "Pan the view of the space"),
-    ("Wheel over the pad", "Change the force of the mouse and the automatic stroke"),
+    ("Wheel over the stroke pad", "Change the normal force of the mouse and the automatic stroke"),
 ];
 
 /// Heading and text of a step.
@@ -34,18 +34,18 @@ pub fn step(step: Step) -> [&'static str; 2] {
         ],
         Step::Stroke => [
             "Feel it",
-            "Stroke the large picture here with the mouse or a pen, or press Stroke for an automatic stroke. Devices… sets the \
-             output: headphones at first, a voice coil when you have one.",
+            "Stroke this pad with the mouse or a pen, or press Stroke for an automatic stroke. Devices… selects the output: \
+             a voice-coil actuator, or headphones for a first try.",
         ],
         Step::Blend => [
             "See its contributions",
-            "Name the texture here, set its position in numbers, and see the textures that contribute most, with their weights. \
-             S plays one of them alone.",
+            "Name the texture here, set its position in numbers, and see the textures with the largest weights. \
+             The button S plays one of them alone.",
         ],
         Step::Keep => [
             "Save it",
-            "File saves the project, exports the current texture as WAV, and opens the gallery. Add, below, creates another \
-             texture to compare with. Every edit can be undone.",
+            "The menu File saves the project, exports the audible texture as WAV, and opens the gallery. The button Add creates \
+             another texture for comparison. Every edit can be undone.",
         ],
     }
 }

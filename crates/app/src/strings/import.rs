@@ -6,7 +6,7 @@ use shagreen_core::units::Contact;
 // Files.
 pub const TITLE: &str = "Import";
 pub const DROP_HERE: &str = "Drop recordings, photos, models or a library";
-pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV) · photos (JPEG, PNG) · HaTT models (XML) · a Shagreen library (JSON) · a map.toml that names the columns · a folder of these";
+pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV) · photos (JPEG, PNG) · HaTT models (XML) · a Shagreen library (JSON) · a column map (map.toml) · a folder of these";
 pub const PATHS: &str = "Paths of files or folders";
 pub const PATHS_HINT: &str = "Path of a file or folder…";
 pub const READ: &str = "Read";
@@ -19,8 +19,9 @@ pub const GUESSED: &str = "guessed";
 pub const WORKING: &str = "working…";
 pub const FAILED: &str = "failed";
 pub const HELPER: &str = "metadata";
-pub const IS_MAP: &str = "A map: it names the columns of the recordings that came with it.";
-pub const IS_SIDECAR: &str = "A sidecar: it describes the samples of the WAV file of the same name.";
+pub const IS_MAP: &str =
+    "Column map: it names the columns and units of the recordings that are imported with it.";
+pub const IS_SIDECAR: &str = "Sidecar file: it describes the samples of the WAV file of the same name.";
 pub const BROKEN: &str =
     "Reading stopped unexpectedly; close this sheet and import the files one by one to find the cause.";
 pub const READING: &str = "Reading and fitting…";
@@ -29,15 +30,14 @@ pub const TERMS_NOT_STATED: &str = "not stated";
 // Questions about a file.
 pub const ASKS: &str = "Missing from the file";
 pub const GUESS: &str = "guess";
-pub const GUESS_HELP: &str = "Inferred from the numbers in the file, not stated there. Choose it to confirm it, or choose another value.";
+pub const GUESS_HELP: &str = "Guessed from the numbers in the file, which does not state it. Select this value to confirm it, or select another one.";
 pub const CHOOSE: &str = "choose…";
 pub const ANSWERED: &str = "answered";
 pub const NUMBER_HINT: &str = "number";
 pub const SPEED_HINT: &str = "or e.g. 100 mm/s";
 pub const FORCE_HINT: &str = "or e.g. 1 N";
 pub const FOR_ALL: &str = "Apply to all files with the same question";
-pub const ANSWER_FIRST: &str =
-    "Answer the marked questions first: without them the numbers of this file have no unit or meaning.";
+pub const ANSWER_FIRST: &str = "Answer the marked questions first. Without the answers, the units or the meaning of the numbers in this file are unknown.";
 
 // Plots.
 pub const ACCELERATION: &str = "Acceleration";
@@ -48,7 +48,7 @@ pub const FORCE: &str = "Force";
 pub const FORCE_UNIT: &str = "N";
 pub const EXCLUDED: &str = "shaded: excluded";
 pub const PLANE: &str = "Segments";
-pub const PLANE_UNIT: &str = "N over mm/s · click one";
+pub const PLANE_UNIT: &str = "N over mm/s · click to select";
 pub const NODES: &str = "Measured speeds and forces";
 pub const SPECTRUM: &str = "Spectrum";
 pub const SPECTRUM_UNIT: &str = "dB re 1 (m/s²)²/Hz";
@@ -70,11 +70,12 @@ pub const TAGS_HINT: &str = "wood, smooth";
 pub const FIT: &str = "Fit";
 pub const RATE: &str = "Sample rate";
 pub const RATE_HELP: &str =
-    "Sample rate of the model. Automatic: the lowest rate that keeps the bandwidth of the recording.";
+    "Sample rate of the model, in Hz. Automatic: the lowest rate that keeps the bandwidth of the recording.";
 pub const ORDER: &str = "Order";
 pub const ORDER_HELP: &str = "Order of the autoregressive model, the same at every speed and force. Automatic: by the Bayesian information criterion (BIC).";
 pub const INTERPOLATION: &str = "Interpolation";
-pub const INTERPOLATION_HELP: &str = "Interpolation between the measured speeds and forces.";
+pub const INTERPOLATION_HELP: &str =
+    "Interpolation of the model between the measured pairs of speed and force.";
 pub const BARYCENTRIC: &str = "barycentric";
 pub const RADIAL_BASIS: &str = "radial basis";
 pub const AUTOMATIC: &str = "automatic";
@@ -83,21 +84,21 @@ pub const N_SEGMENTS: &str = "segments";
 pub const MODEL_RATE: &str = "sample rate";
 pub const MODEL_ORDER: &str = "order";
 pub const COVERAGE: &str = "coverage";
-pub const COVERAGE_HELP: &str = "Share of the speed-force plane, from zero to the highest speed and force, that lies in the convex hull of the segments.";
+pub const COVERAGE_HELP: &str = "Share of the speed-force plane, from zero to the highest speed and force, that lies inside the convex hull of the segments, in percent.";
 pub const GFC_MEDIAN: &str = "GFC, median";
-pub const GFC_HELP: &str =
-    "Goodness-of-fit criterion (GFC) between the measured and the modeled spectrum, 0 to 1.";
+pub const GFC_HELP: &str = "Goodness-of-fit criterion (GFC) of the measured and the modeled power spectral density, 0 to 1. It is 1 if both have the same shape, whatever their levels.";
 pub const LEVEL_ERROR: &str = "level error, median";
 pub const LEVEL_ERROR_HELP: &str = "Absolute difference in level between the model and the segments, in dB.";
 pub const TAP: &str = "tap transient";
-pub const TAP_HELP: &str = "Transient when the tip makes contact: a decaying oscillation.";
+pub const TAP_HELP: &str = "Transient when the tip hits the surface: a decaying oscillation.";
 pub const NO_TAP: &str = "none found";
 pub const HELD_OUT: &str = "held-out segments: the compared model was fitted without them";
-pub const NOT_HELD_OUT: &str = "not held-out: with too few segments, the model is compared with its own data";
+pub const NOT_HELD_OUT: &str =
+    "not held-out: too few segments, so the model is compared with the data that it was fitted to";
 pub const WARNINGS: &str = "Warnings";
 pub const NOTES: &str = "Notes on the fit";
 pub const NO_FIT: &str = "There is no fit yet";
-pub const RESTRICTED: &str = "restricted: non-profit research, no redistribution";
+pub const RESTRICTED: &str = "restricted: non-profit research only, no redistribution";
 pub const RESTRICTED_SHORT: &str = "restricted";
 pub const TEXTURE_OF_FILE: &str = "Texture of the file";
 pub const FRICTION: &str = "friction coefficient";
@@ -105,9 +106,9 @@ pub const TERMS: &str = "license";
 pub const ORIGIN: &str = "origin";
 pub const UNKNOWN: &str = "not stated";
 pub const JOINS_UNPLACED: &str =
-    "It is added to the list without a position in the space: a click plays it alone.";
+    "It is added to the list without a position in the space. Click it in the list to play it alone.";
 pub const KEEPS_PLACE: &str =
-    "It keeps its position if that has the same source as the positions of this library.";
+    "It keeps its position if the position has the same source as those of the open library.";
 pub const N_NODES: &str = "speed-force points";
 pub const NEEDED: &str = "required";
 
@@ -117,7 +118,7 @@ pub const SAVE_PATH: &str = "Path of the library file";
 pub const SAVE_HINT: &str = "/path/to/library.json";
 pub const SAVE: &str = "Save";
 pub const REPLACE: &str = "Replace the file";
-pub const EXISTS: &str = "A library exists at this path. Replace it, or choose another path.";
+pub const EXISTS: &str = "A library file exists at this path. Replace it, or choose another path.";
 pub const NO_FILE: &str = "this is a folder or a device";
 pub const SAVING: &str = "Saving…";
 pub const CLOSE: &str = "Close";
@@ -221,7 +222,7 @@ pub fn of_segment(segment: &Segment) -> String {
 
 pub fn tap(fit: &TapFit) -> String {
     format!(
-        "{:.0} Hz, decay {:.0} 1/s ({} found, {:.0} % of the energy explained)",
+        "{:.0} Hz, decay {:.0} 1/s (taps found: {}; {:.0} % of their energy explained)",
         fit.tap.frequency.0,
         fit.tap.decay_per_sec,
         fit.n_landings,
@@ -244,13 +245,13 @@ pub fn spectrum_at(contact: Contact) -> String {
 }
 
 pub fn to_save(n_textures: usize) -> String {
-    format!("Saves all {n_textures} textures of the list in one file.")
+    format!("Saves all {n_textures} textures of the list in one library file.")
 }
 
 /// Why an existing file is not replaced.
 pub fn no_library(reason: &str) -> String {
     format!(
-        "Choose another path: the file there is not a readable Shagreen library and is not replaced ({reason})."
+        "The file at this path is not a readable Shagreen library and is not replaced ({reason}). Choose another path."
     )
 }
 
@@ -260,7 +261,7 @@ pub fn cannot_be_checked(reason: &str) -> String {
 }
 
 pub const PLACE_THEM: &str = "Estimate positions";
-pub const PLACE_THEM_HELP: &str = "Estimates the position of each recording from textures with similar vibration and a known position. The estimate is not a human rating.";
+pub const PLACE_THEM_HELP: &str = "Estimates the position of each recording from textures that have similar vibration and a known position. The estimate is not a human rating.";
 
 /// Description of an estimated position: name, mean and standard deviation for each axis.
 pub fn placed_by_estimate(axes: &[(&str, f64, f64); 2]) -> String {

@@ -1,4 +1,4 @@
-//! Color map behind the canvas.
+//! Heat map behind the canvas.
 
 use shagreen_core::space::heat_map::Quantity;
 
@@ -11,26 +11,26 @@ pub fn name(quantity: Option<Quantity>) -> &'static str {
         None => "No map",
         Some(Quantity::Level) => "Level",
         Some(Quantity::Centroid) => "Spectral centroid",
-        Some(Quantity::Roughness) => "Predicted x",
+        Some(Quantity::Roughness) => "Predicted x position",
         Some(Quantity::Distance) => "Texture distance",
     }
 }
 
 pub fn help(quantity: Option<Quantity>) -> &'static str {
     match quantity {
-        None => "Colors a quantity of the interpolated texture at every point of the space",
+        None => "No colors behind the space",
         Some(Quantity::Level) => {
-            "Level of the texture at each point, from its model, in dB re 1 m/s², at the speed and force of the stroke"
+            "Level of the interpolated texture at each point, in dB re 1 m/s². Computed from the models, at the speed and force of the automatic stroke"
         }
         Some(Quantity::Centroid) => {
-            "Spectral centroid of the model between 20 and 500 Hz, at the speed and force of the stroke"
+            "Spectral centroid of the interpolated texture at each point, from 20 to 500 Hz, in Hz. Computed from the models, at the speed and force of the automatic stroke"
         }
         Some(Quantity::Roughness) => {
-            "Position along the x axis (0 is its left end, the rough end in this space) predicted from level and spectral centroid \
-             alone. Where it differs from the actual position, vibration does not determine it alone. A prediction from signals, not a rating"
+            "x position predicted from level and spectral centroid alone (0 is the left end of the x axis, 100 the right end). \
+             Where it differs from the actual x position, level and centroid do not explain that position. It is computed from the models, not rated by people"
         }
         Some(Quantity::Distance) => {
-            "Distance to the nearest measured texture, in points of the axes (0 to 100). Far from all textures, the interpolated one is a guess"
+            "Distance in the space to the nearest texture, in axis points (each axis has 100). Far from all textures, the interpolated texture is uncertain"
         }
     }
 }
@@ -40,12 +40,12 @@ pub fn value(quantity: Quantity, value: f64) -> String {
         // Rounded first, so that nothing reads "-0 dB".
         Quantity::Level => format!("{:.0} dB", value.round() + 0.0),
         Quantity::Centroid => format!("{value:.0} Hz"),
-        Quantity::Roughness => format!("{:.0} of 100", value.round() + 0.0),
+        Quantity::Roughness => format!("x = {:.0}", value.round() + 0.0),
         Quantity::Distance => format!("{:.0} points", value.round() + 0.0),
     }
 }
 
-/// Color scale for a screen reader.
+/// Description of the color scale for a screen reader.
 pub fn scale(title: &str, low: &str, high: &str) -> String {
     format!("{title}, from {low} to {high}")
 }

@@ -4,25 +4,27 @@ use shagreen_core::surfaces::prompt::PromptInterpretation;
 
 pub const HINT: &str = "Describe a surface: a rough, soft carpet";
 pub const FIELD: &str = "Describe a surface";
-pub const FIELD_HELP: &str = "Generates a picture, a position in the space and a texture from the description (Enter). Photos dropped on the window get a position, too.";
+pub const FIELD_HELP: &str = "Generates a texture from the description: a picture and an estimated position in the space (Enter). A photo dropped on the window gives a texture, too.";
 pub const MAKE: &str = "Generate";
-pub const MAKE_HELP: &str = "Generates a texture from this description; the sliders then refine it";
+pub const MAKE_HELP: &str =
+    "Generates a texture from this description. You can then refine it with the sliders.";
 pub const STOP: &str = "Stop";
 pub const ANOTHER: &str = "Another";
-pub const ANOTHER_HELP: &str = "Generates another sample of the same surface, with the next seed";
+pub const ANOTHER_HELP: &str =
+    "Generates another picture and texture from the same description, with the next seed";
 pub const EARLIER: &str = "History";
 pub const EARLIER_HELP: &str = "Earlier descriptions with their seeds. The same seed gives the same texture.";
 pub const NO_EARLIER: &str = "No earlier descriptions";
 pub const DISMISS: &str = "Close the estimate";
 pub const PROCEDURAL: &str = "Procedural";
 pub const DIFFUSION: &str = "Diffusion";
-pub const GENERATOR_HELP: &str = "Generator of the picture. The built-in procedural generator takes about a second; the added diffusion model takes minutes to hours on a CPU.";
+pub const GENERATOR_HELP: &str = "Generator of the picture. The built-in procedural generator takes about a second; the installed diffusion model takes minutes to hours on a CPU.";
 pub const NO_DIFFUSION: &str =
-    "This needs a diffusion model, and none is installed any more: run \"shagreen model add\"";
+    "This entry needs a diffusion model, and none is installed. Install one with \"shagreen model add\".";
 pub const BROKEN_OFF: &str = "Generating stopped unexpectedly; try another description";
 pub const NO_MODELS: &str = "this system has no folder for models; use the procedural generator";
-pub const STILL_BUSY: &str = "A texture is being generated: wait for it, or stop it";
-pub const OTHER_AXES: &str = "The axes changed while the texture was generated: generate it again";
+pub const STILL_BUSY: &str = "A texture is being generated. Wait for it, or press Stop.";
+pub const OTHER_AXES: &str = "The axes changed while the texture was generated. Generate it again.";
 pub const NOTHING_SAID: &str = "No description";
 pub const A_PHOTO: &str = "photo";
 pub const NO_SCALE: &str = "The physical width of the picture is not known.";
@@ -34,15 +36,15 @@ pub fn along(ends: &[String; 2], mean: f64, deviation: f64) -> String {
 
 /// Number of photos in the queue.
 pub fn waiting(n: usize) -> String {
-    format!("{n} waiting")
+    if n == 1 { "1 photo waiting".to_owned() } else { format!("{n} photos waiting") }
 }
 
-/// Nearest textures.
+/// List of the nearest textures.
 pub fn near(names: &[String]) -> String {
     format!("near {}", names.join(", "))
 }
 
-/// Sentences about the words that were recognized.
+/// Sentences about the words of a prompt: understood, unknown and contradictory ones.
 pub fn said_of_words(understood: &PromptInterpretation) -> Vec<String> {
     let mut said = Vec::new();
     if understood.is_about_touch() {
@@ -51,30 +53,30 @@ pub fn said_of_words(understood: &PromptInterpretation) -> Vec<String> {
             format!("{not}{}", word.taken_for)
         };
         let words: Vec<String> = understood.words.iter().map(of).collect();
-        said.push(format!("PromptInterpretation: {}.", words.join(", ")));
+        said.push(format!("Understood: {}.", words.join(", ")));
     } else {
-        said.push("No word describes touch: any surface is equally likely.".to_owned());
+        said.push("No word describes how a surface feels: any surface is equally likely.".to_owned());
     }
     if !understood.unknown.is_empty() {
         said.push(format!("Not understood: {}.", understood.unknown.join(", ")));
     }
     if !understood.disputed.is_empty() {
-        said.push(format!("The words disagree about {}.", understood.disputed.join(", ")));
+        said.push(format!("The words contradict each other about {}.", understood.disputed.join(", ")));
     }
     said
 }
 
-/// Axes on which description and picture disagree.
+/// Sentence about the axes on which description and picture disagree.
 pub fn disputed(axes: &[String]) -> String {
-    format!("The words and the picture disagree about {}.", axes.join(" and "))
+    format!("Estimates from the words and from the picture disagree about {}.", axes.join(" and "))
 }
 
-/// Generator of the picture.
+/// Sentence about the generator of the picture.
 pub fn made_by(made_by: &str, seed: u64) -> String {
     format!("Picture: {made_by}, seed {seed}.")
 }
 
-/// Model that estimated the position from the picture.
+/// Sentence about the model that estimated the position from the picture.
 pub fn seen_by(eyes: &str) -> String {
     format!("Position estimated from the picture by {eyes}; nobody rated it.")
 }

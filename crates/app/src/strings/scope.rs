@@ -1,4 +1,4 @@
-//! Scope.
+//! Oscilloscope.
 
 use shagreen_formats::thresholds::ThresholdKind;
 
@@ -8,13 +8,14 @@ use crate::choices::scope::View;
 pub const VIEWS: [&str; 2] = ["Left view of the scope", "Right view of the scope"];
 pub const VIEW_HELP: &str = "Quantity in this view. Point at the plot to read values; drag across it to measure, and click to clear the measurement.";
 pub const FREEZE: &str = "Freeze";
-pub const FREEZE_HELP: &str = "Freezes the plots, to measure or save them; the texture keeps playing (F).";
+pub const FREEZE_HELP: &str =
+    "Stops the plots, so that you can measure or save them. The texture keeps playing (F).";
 pub const THRESHOLD: &str = "Threshold";
-pub const THRESHOLD_HELP: &str = "Detection threshold for vibration, shown with level and spectrum. Approximate curves from the literature (within about 3 dB), not measurements of you or your actuator.";
+pub const THRESHOLD_HELP: &str = "Detection threshold for vibration, shown in the spectrum and used for the level. The curves are from the literature and approximate (about ±3 dB). They were not measured on you or your actuator.";
 pub const SAVE: &str = "Save";
 /// Accessible names of the Save menus of the left and the right view.
 pub const SAVES: [&str; 2] = ["Save the left view", "Save the right view"];
-pub const SAVE_HELP: &str = "Saves this view as a picture or as numbers.";
+pub const SAVE_HELP: &str = "Saves this view as a picture (SVG, PNG) or as a table (CSV).";
 pub const PLAYED: &str = "output";
 pub const BLEND_LINE: &str = "interpolated (model)";
 pub const LIVE_LINE: &str = "live";
@@ -26,7 +27,7 @@ pub const FORCE_LINE: &str = "force, cN";
 pub const FREQUENCY_AXIS: &str = "frequency in Hz";
 pub const TIME_AXIS: &str = "time in s";
 pub const SHORT_TIME_AXIS: &str = "time in ms";
-pub const DENSITY: &str = "density";
+pub const DENSITY: &str = "PSD";
 pub const DENSITY_UNIT: &str = "dB re 1 (m/s²)²/Hz";
 pub const SIMULATED: &str = "positions from simulated raters";
 
@@ -41,7 +42,7 @@ pub fn threshold(kind: ThresholdKind) -> &'static str {
 pub fn threshold_help(kind: ThresholdKind) -> &'static str {
     match kind {
         ThresholdKind::HeldTool => {
-            "For a stylus: the Pacinian threshold of bare skin minus 15 dB, a rule of thumb for a hand around a vibrating tool"
+            "For a stylus: the Pacinian threshold of bare skin minus 15 dB, a rule of thumb for a hand-held vibrating tool"
         }
         ThresholdKind::Pacinian => "Bare skin on a large contactor, Pacinian channel (high frequencies)",
         ThresholdKind::Composite => {
@@ -92,12 +93,12 @@ pub fn view_help(view: View) -> &'static str {
             "Power spectral densities: the models of the contributing textures (in their colors) and of the interpolated texture, the output signal (live), and the detection threshold for one-third-octave noise"
         }
         View::Spectrogram => {
-            "Spectrogram of the output signal over the last 5 s; lighter is stronger, from -60 to 0 dB re 1 (m/s²)²/Hz"
+            "Spectrogram of the output signal over the last 5 s. Lighter is stronger; the colors cover -60 to 0 dB re 1 (m/s²)²/Hz"
         }
         View::Level => {
-            "Level of the output signal, before mute and limiter, and its distance from the detection threshold, in dB"
+            "Level of the output signal before mute and limiter, in dB re 1 m/s², and its height above the detection threshold, in dB"
         }
-        View::Contact => "Tip speed and normal force; 100 cN are 1 N",
+        View::Contact => "Tip speed, in mm/s, and normal force, in cN (100 cN = 1 N)",
     }
 }
 
@@ -110,12 +111,12 @@ pub fn title(view: View, texture: &str) -> String {
     format!("{} of {texture}", self::view(view))
 }
 
-/// Threshold that a figure shows.
+/// Note of the threshold that a figure shows.
 pub fn against(kind: ThresholdKind) -> String {
     format!("threshold: {}, approximate", threshold(kind))
 }
 
-/// LatestJob level, and its multiple of the detection threshold.
+/// Latest level, and its multiple of the detection threshold.
 pub fn level_now(level_db: f64, multiple: f64) -> String {
     format!("{level_db:.0} dB · {}×", times(multiple))
 }
@@ -135,9 +136,9 @@ fn times(multiple: f64) -> String {
 pub fn measured_help(view: View) -> &'static str {
     match view {
         View::Spectrum => {
-            "Level of the interpolated texture (model) between two frequencies, in dB re 1 m/s²"
+            "Level of the interpolated texture (model) in the band between two frequencies, in dB re 1 m/s²"
         }
-        View::Waveform => "Time between two instants, and the frequency with that period",
+        View::Waveform => "Time between two instants, and the frequency whose period it is",
         View::Spectrogram | View::Level | View::Contact => "Time between two instants",
     }
 }

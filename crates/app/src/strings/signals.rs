@@ -24,7 +24,7 @@ pub fn feel_help(slot: Slot) -> String {
         Slot::B => "2",
     };
     format!(
-        "Plays this signal by position under the pen, the mouse or the automatic stroke, at its speed and force ({key}). Press again to return to the authored texture."
+        "Plays this signal as a function of tip position, driven by the pen, the mouse or the automatic stroke ({key}). It follows the speed and force of the stroke. Press again to return to the authored texture."
     )
 }
 
@@ -41,16 +41,15 @@ pub fn play(slot: Slot) -> String {
     of(PLAY, slot)
 }
 
-pub const PLAY_HELP: &str = "Plays the signal at its own speed, regardless of the pen";
-pub const TAKE_HEARD: &str = "Authored";
+pub const PLAY_HELP: &str = "Plays the signal over time at its stroke speed. The pen has no effect.";
+pub const TAKE_HEARD: &str = "Use texture";
 
-/// Accessible name of the button that loads the authored texture.
+/// Accessible name of the button that loads the audible texture.
 pub fn take_heard(slot: Slot) -> String {
-    format!("Use the authored texture as {}", slot.name())
+    format!("Use texture as {}", slot.name())
 }
 
-pub const TAKE_HEARD_HELP: &str =
-    "Renders the authored texture for 5 s at the speed and force of the automatic stroke, and loads it here";
+pub const TAKE_HEARD_HELP: &str = "Renders the texture that is audible in Author for 5 s, at the speed and force of the automatic stroke (or the means of the recorded stroke), and loads the signal here";
 pub const OPEN: &str = "Open…";
 
 /// Accessible name of the Open button.
@@ -58,7 +57,7 @@ pub fn open(slot: Slot) -> String {
     of("Open a file as", slot)
 }
 
-pub const OPEN_HELP: &str = "A recording (.wav), a profile of positions and values (.csv), or one row of a photo or height map (.png, .jpg). Files can also be dropped on the window.";
+pub const OPEN_HELP: &str = "Opens a recording (.wav), a profile of positions and values (.csv), or one row of a photo or height map (.png, .jpg). Files can also be dropped on the window.";
 pub const PATH_HINT: &str = "or a path…";
 
 /// Accessible name of the path field.
@@ -69,7 +68,7 @@ pub fn path_of(slot: Slot) -> String {
 pub const OPEN_TITLE: &str = "Open a signal";
 pub const OPEN_PATH_HINT: &str = "Path of a .wav, .csv, .png or .jpg file…";
 
-/// Accessible name of the button that empties a slot.
+/// Accessible name of the button that removes signal A or B.
 pub fn remove(slot: Slot) -> String {
     of("Remove", slot)
 }
@@ -84,23 +83,22 @@ pub fn facts(seconds: f64, length_mm: f64, level_mps2: f64, mm_per_s: f64) -> St
 
 /// Warning about a signal that was truncated.
 pub fn cut(seconds: f64) -> String {
-    format!("only the first {seconds:.1} s are used: a signal can hold no more")
+    format!("the signal is too long; only the first {seconds:.1} s are used")
 }
 
 pub const SPEED: &str = "speed";
 pub const SPEED_HELP: &str =
-    "Stroke speed of the recording, or of the profile: it converts between time and position";
+    "Stroke speed of the recording or for the profile, in mm/s. It converts between time and position.";
 pub const FORCE: &str = "force";
-pub const FORCE_HELP: &str = "Force at which the signal has its stated level; the level scales with force";
+pub const FORCE_HELP: &str =
+    "Normal force at which the signal has its stated level, in N. The level scales with the force.";
 pub const LEVEL: &str = "level";
-pub const LEVEL_HELP: &str =
-    "Root mean square acceleration for a signal without a unit, such as heights, brightness or friction";
+pub const LEVEL_HELP: &str = "Root mean square acceleration, in m/s², for a signal that is not an acceleration, such as height, brightness or friction";
 pub const FULL_SCALE: &str = "full scale";
 pub const FULL_SCALE_HELP: &str =
-    "Acceleration of a sample value of 1.0, if no .json file of the same name states it";
+    "Acceleration of a sample value of 1.0, in m/s², if no .json file of the same name states it";
 pub const CHANNEL: &str = "channel";
-pub const CHANNEL_HELP: &str =
-    "Channel that is the signal. \"all\" combines all channels as the axes of one accelerometer.";
+pub const CHANNEL_HELP: &str = "Channel to use. \"all\" takes the channels as the axes of one accelerometer and combines them into one signal by DFT321.";
 
 /// Channel number as shown; below 1 all channels.
 pub fn channel(channel: f64) -> String {
@@ -110,7 +108,7 @@ pub fn channel(channel: f64) -> String {
 pub const WIDTH: &str = "width";
 pub const WIDTH_HELP: &str = "Width of the surface that the picture shows, in mm";
 pub const ROW: &str = "row";
-pub const ROW_HELP: &str = "Pixel row that is stroked, from 0 at the upper edge";
+pub const ROW_HELP: &str = "Pixel row that becomes the profile, counted from 0 at the upper edge";
 
 /// Row as shown; below 0 the middle row.
 pub fn row(row: f64) -> String {
@@ -126,7 +124,7 @@ pub const COPY_OF_A: &str = "Copy A to B";
 pub const COPY_OF_A_HELP: &str = "Copies A to B, to edit it there";
 pub const CODEC: &str = "Codec";
 pub const CODEC_HELP: &str =
-    "Sets B to A, encoded and decoded by the codec at this bit rate: 20 ms frames, band below 1 kHz";
+    "Encodes and decodes A at this bit rate and stores the result in B (20 ms frames, band below 1 kHz)";
 pub const BITRATE: &str = "Bit rate of the codec";
 
 pub fn kbps(kbps: f64) -> String {
@@ -139,10 +137,10 @@ pub fn remake(window_mm: f64) -> String {
 }
 
 pub const REMAKE: &str = "Resynthesize from the spatial spectrogram";
-pub const REMAKE_HELP: &str = "Resynthesizes B from the magnitude of the spatial spectrogram of A, with windows of this width (tab Spatial). The phases are lost.";
-pub const STEPS: &str = " steps";
+pub const REMAKE_HELP: &str = "Resynthesizes A from the magnitude of its spatial spectrogram and stores the result in B. Phases are lost. The tab Spatial sets the window width.";
+pub const STEPS: &str = " iterations";
 pub const REFINEMENTS: &str = "Griffin-Lim iterations";
-pub const REFINEMENTS_HELP: &str = "Iterations of the fast Griffin-Lim algorithm after the resynthesis. They reduce the spectral error, but do not always improve the positions.";
+pub const REFINEMENTS_HELP: &str = "Iterations of the fast Griffin-Lim algorithm after the resynthesis. They reduce the spectral error, but do not always improve how well events are localized.";
 
 /// Name of a signal after the codec.
 pub fn through_codec(name: &str, kbps: f64) -> String {
@@ -153,7 +151,7 @@ pub fn through_codec(name: &str, kbps: f64) -> String {
 pub fn remade(name: &str, window_mm: f64, n_steps: usize) -> String {
     match n_steps {
         0 => format!("{name}, resynthesized at {window_mm:.2} mm"),
-        n => format!("{name}, resynthesized at {window_mm:.2} mm in {n} steps"),
+        n => format!("{name}, resynthesized at {window_mm:.2} mm, {n} iterations"),
     }
 }
 
@@ -169,11 +167,10 @@ pub fn keep(slot: Slot) -> String {
     format!("Add {} as a relief texture", slot.name())
 }
 
-pub const KEEP_HELP: &str =
-    "Adds a texture to the Author workspace that plays this signal as a function of position (a relief)";
-pub const OVER: &str = "over";
-pub const OVER_WHICH: &str = "Texture under the relief";
-pub const OVER_HELP: &str = "Texture whose noise, friction and tap transients are added to the relief; \"none\" plays the relief alone";
+pub const KEEP_HELP: &str = "Adds a texture to the Author workspace with this signal as its relief: acceleration as a function of tip position";
+pub const OVER: &str = "base";
+pub const OVER_WHICH: &str = "Base texture of the relief";
+pub const OVER_HELP: &str = "Base texture: its noise, friction and tap transients are added to the relief. \"none\" plays the relief alone.";
 pub const NOTHING: &str = "none";
 
 /// Name of a texture with a signal as its relief.
@@ -197,15 +194,17 @@ pub fn view(view: View) -> &'static str {
 
 pub fn view_help(view: View) -> &'static str {
     match view {
-        View::Times => "Spectrograms: frequency over time, each signal at its own speed",
+        View::Times => "Spectrograms: frequency over time, each signal at its stroke speed",
         View::Places => {
-            "Spatial spectrograms: spatial frequency over position, their fidelity by window width, and editing tools"
+            "Spatial spectrograms (spatial frequency over position), fidelity of the resynthesis by window width, and editing tools"
         }
-        View::Differences => "Features of both signals, the predicted d', and the effect of the codec",
+        View::Differences => {
+            "Features of both signals, the predicted discriminability d', and d' by bit rate of the codec"
+        }
     }
 }
 
-/// Title of a map.
+/// Title of a spectrogram.
 pub fn map_title(view: View, name: &str, window_mm: f64) -> String {
     match view {
         View::Places => format!("{name}, {window_mm:.2} mm window"),
@@ -213,7 +212,7 @@ pub fn map_title(view: View, name: &str, window_mm: f64) -> String {
     }
 }
 
-/// Labels of the horizontal and the vertical axis of a map.
+/// Labels of the horizontal and the vertical axis of a spectrogram.
 pub fn map_axes(view: View) -> [&'static str; 2] {
     match view {
         View::Places => ["position in mm", "spatial frequency in 1/mm"],
@@ -221,15 +220,15 @@ pub fn map_axes(view: View) -> [&'static str; 2] {
     }
 }
 
-/// Accessible name of a map.
+/// Accessible name of a spectrogram.
 pub fn map_name(slot: Slot) -> &'static str {
     match slot {
-        Slot::A => "Map of A",
-        Slot::B => "Map of B",
+        Slot::A => "Spectrogram of A",
+        Slot::B => "Spectrogram of B",
     }
 }
 
-/// First part of the file names of a map.
+/// First part of the file names of a spectrogram.
 pub fn stem(view: View, slot: Slot) -> &'static str {
     match (view, slot) {
         (View::Places, Slot::A) => "spatial-spectrogram-a",
@@ -239,11 +238,11 @@ pub fn stem(view: View, slot: Slot) -> &'static str {
     }
 }
 
-/// Text in place of the map of an empty slot.
+/// Text in place of the spectrogram if there is no signal.
 pub fn nothing_in(slot: Slot) -> String {
     match slot {
         Slot::A => "A is empty.".to_owned(),
-        Slot::B => "B is empty. Create it from A on the left.".to_owned(),
+        Slot::B => "B is empty. Create it from A with the controls on the left.".to_owned(),
     }
 }
 
@@ -251,29 +250,29 @@ pub const AMPLITUDE: &str = "amplitude";
 pub const DB_MPS2: &str = "dB re 1 m/s²";
 
 pub const WINDOW: &str = "Window";
-pub const WINDOW_HELP: &str = "Window width of the spatial spectrogram. Wide windows resolve frequency, narrow windows resolve position.";
+pub const WINDOW_HELP: &str = "Window width of the spatial spectrogram, in mm. Wide windows resolve frequency; narrow windows resolve position.";
 pub const SHOW_ALL: &str = "Show all";
-pub const ZOOM_HELP: &str = "Scroll over a map to zoom in on a part of the signal";
+pub const ZOOM_HELP: &str = "Scroll over a spectrogram to zoom in on a part of the signal";
 
 pub const WAVE: &str = "waveform";
-pub const THIS_WINDOW: &str = "this window";
+pub const THIS_WINDOW: &str = "current window width";
 pub const FIDELITY: &str = "Fidelity by window width";
-pub const WINDOW_MM: &str = "window in mm";
-pub const CORRELATION: &str = "correlation of envelopes";
+pub const WINDOW_MM: &str = "window width in mm";
+pub const CORRELATION: &str = "correlation (A, B: envelope)";
 pub const MEASURED: &str = "computed from these signals";
 
 pub const BY_RATE: &str = "Predicted d' by codec bit rate";
 pub const KBPS: &str = "bit rate in kbit/s";
 pub const D_PRIME: &str = "predicted d'";
-pub const TOLD_APART: &str = "d' = 1, about 2 of 3 correct";
-pub const PREDICTED: &str = "predicted by a model, no human data";
+pub const TOLD_APART: &str = "d' = 1: 69 % correct (unbiased)";
+pub const PREDICTED: &str = "model prediction, not rated by people";
 
-pub const FEATURE_COLUMNS: [&str; 4] = ["A", "B", "distance", "part of d'"];
+pub const FEATURE_COLUMNS: [&str; 4] = ["A", "B", "distance", "d' contribution"];
 pub const FEATURE_COLUMNS_HELP: [&str; 4] = [
-    "Value of A, if the feature is defined for one signal",
-    "Value of B, if the feature is defined for one signal",
+    "Value for A; empty for features that only compare two signals",
+    "Value for B; empty for features that only compare two signals",
     "Distance between A and B, mean over segments of 0.8 s",
-    "Contribution of the distance to the predicted d'; features without a value are not in the model",
+    "Contribution of this distance to the predicted d'. Features without a value are not in the model.",
 ];
 
 /// Title of the table of features.
@@ -285,18 +284,18 @@ pub fn d_prime(d_prime: f64) -> String {
     format!("d' {d_prime:.2}")
 }
 
-pub const D_PRIME_HELP: &str = "Predicted discriminability of A and B, in standard deviations: at 1, about two of three answers are correct. A model with published weights predicts it; nobody felt these signals. The model compares a signal with a processed version of it: two strokes on the same texture already give a large d'.";
+pub const D_PRIME_HELP: &str = "Predicted discriminability of A and B: d' = z(H) - z(F), in standard deviations. At d' = 1, an unbiased observer answers 69 % correctly. A model with published weights predicts d'; no one has rated these signals. Use it for a signal and a processed version of it. Two strokes on the same texture give a large d' although they feel alike. The order of d' values is more reliable than their size.";
 
 /// Duration and signal-to-noise ratio of the comparison.
 pub fn compared(snr_db: f64, seconds: f64) -> String {
     let noise = if snr_db.is_finite() {
-        format!("signal-to-noise ratio {snr_db:.1} dB")
+        format!("signal-to-noise ratio of B relative to A {snr_db:.1} dB")
     } else if snr_db > 0.0 {
-        "identical samples".to_owned()
+        "A and B are identical".to_owned()
     } else {
         "A is silent".to_owned()
     };
-    format!("predicted over {seconds:.1} s; {noise}")
+    format!("compared over {seconds:.1} s; {noise}")
 }
 
 pub fn feature(feature: Feature) -> String {
@@ -307,29 +306,31 @@ pub fn feature_help(feature: Feature) -> &'static str {
     match feature {
         Feature::Roughness => "Logarithm (base 10) of the mean power in (m/s²)²",
         Feature::Brightness => "Spectral centroid, in Hz",
-        Feature::Regularity => "Largest autocorrelation at lags of 2 to 50 ms, at most 1",
+        Feature::Regularity => "Largest normalized autocorrelation at lags of 2 to 50 ms, at most 1",
         Feature::Asymmetry => "Skewness of the samples",
-        Feature::SpectralPower => "Activation of tuned channels (power), compared channel by channel",
-        Feature::SpectralAmplitude => "Activation of tuned channels (amplitude)",
-        Feature::Envelope => "Temporal envelope up to 20 Hz, compared at the best lag",
+        Feature::SpectralPower => "Activation of frequency-tuned tactile channels, by power",
+        Feature::SpectralAmplitude => "Activation of frequency-tuned tactile channels, by amplitude",
+        Feature::Envelope => {
+            "Temporal envelope up to 20 Hz. The distance is 1 minus the largest cross-correlation."
+        }
     }
 }
 
-pub const NEEDS_PAIR: &str = "A comparison needs two signals; one is missing.";
-pub const TOO_SHORT: &str = "a comparison needs at least 0.8 s, and the signal is shorter; use a longer signal or a lower stroke speed";
-pub const TOO_SHORT_TO_DRAW: &str = "the signal is too short for a spectrogram";
+pub const NEEDS_PAIR: &str = "A comparison needs two signals: load A and B.";
+pub const TOO_SHORT: &str = "the signal is shorter than 0.8 s, the minimum for a comparison; use a longer signal or a lower stroke speed";
+pub const TOO_SHORT_TO_DRAW: &str = "the signal is too short for a spectrogram; use a longer signal";
 pub const BROKE_OFF: &str = "the computation stopped unexpectedly; this is a bug, please report it";
 
 /// Error about a stretch factor that is too large.
 pub fn too_long(factor: f64) -> String {
-    format!("the signal can be stretched by at most {factor:.2}: it would become too long")
+    format!("the stretch factor is too large; the maximum for this signal is {factor:.2}")
 }
 
 pub const BEYOND_TOUCH: &str =
-    "the levels of the signals are far outside the range of touch; correct their units";
+    "the signal levels are too large or too small for the model; check their units (m/s²)";
 
 pub const PAINT_B: &str = "Edit B";
-pub const PAINT_B_HELP: &str = "The tools change the spatial spectrogram of B at this window width, and B is resynthesized from it at once";
+pub const PAINT_B_HELP: &str = "The tools change the spatial spectrogram of B at the current window width. B is resynthesized after each change.";
 
 pub fn tool(tool: Tool) -> &'static str {
     match tool {
@@ -343,26 +344,29 @@ pub fn tool(tool: Tool) -> &'static str {
 
 pub fn tool_help(tool: Tool) -> &'static str {
     match tool {
-        Tool::Louder => "Drag over the map of B to amplify the part under the brush; each touch adds gain",
-        Tool::Softer => {
-            "Drag over the map of B to attenuate the part under the brush; each touch removes gain"
+        Tool::Louder => {
+            "Drag over the spectrogram of B to amplify the part under the brush; repeated drags add gain"
         }
-        Tool::Erase => "Drag a rectangle on the map of B to erase its content",
-        Tool::Copy => "Drag a rectangle on the map of B to copy its content",
+        Tool::Softer => {
+            "Drag over the spectrogram of B to attenuate the part under the brush; repeated drags remove gain"
+        }
+        Tool::Erase => "Drag a rectangle on the spectrogram of B to erase its content",
+        Tool::Copy => "Drag a rectangle on the spectrogram of B to copy its content",
         Tool::Paste => {
-            "Click on the map of B to paste the copied part from that position on, at its own frequencies"
+            "Click on the spectrogram of B to paste the copied part. It starts at that position and keeps its frequencies."
         }
     }
 }
 
 pub const BRUSH_WIDTH: &str = "width";
-pub const BRUSH_WIDTH_HELP: &str = "Reach of the brush to either side, in mm";
+pub const BRUSH_WIDTH_HELP: &str = "Half-width of the brush along the position axis, in mm";
 pub const BRUSH_HEIGHT: &str = "height";
-pub const BRUSH_HEIGHT_HELP: &str = "Reach of the brush up and down, in octaves";
+pub const BRUSH_HEIGHT_HELP: &str = "Half-height of the brush along the frequency axis, in octaves";
 pub const BRUSH_GAIN: &str = "gain";
-pub const BRUSH_GAIN_HELP: &str = "Gain of one brush touch at the center of the brush, in dB";
+pub const BRUSH_GAIN_HELP: &str =
+    "Gain at the center of one brush touch, in dB. A drag consists of overlapping touches.";
 pub const STRETCH: &str = "Stretch";
-pub const STRETCH_HELP: &str = "Stretches B by this factor: events take longer, frequencies stay the same";
+pub const STRETCH_HELP: &str = "Stretches B by this factor: events become longer, frequencies stay the same";
 pub const STRETCH_FACTOR: &str = "Stretch factor";
 pub const UNDO_PAINTING: &str = "Undo";
 pub const REDO_PAINTING: &str = "Redo";
@@ -371,16 +375,16 @@ pub const ERASING: &str = "erase";
 pub const PASTING: &str = "paste";
 pub const REPLACING: &str = "replace B";
 pub const STRETCHING: &str = "stretch";
-pub const NOTHING_COPIED: &str = "the rectangle is empty; drag it over a larger part of the map";
-pub const NOTHING_TO_PASTE: &str = "Nothing has been copied yet";
+pub const NOTHING_COPIED: &str = "the rectangle is too small; drag over a larger area";
+pub const NOTHING_TO_PASTE: &str = "Nothing has been copied yet; use the tool Copy first";
 pub const PAINTED_MAP: &str = "Spatial spectrogram of B, editable";
 
 pub const EMPTY_TITLE: &str = "Compare and compress signals";
 pub const EMPTY_STEPS: [&str; 4] = [
-    "Load a signal into A: the authored texture, a recording, a profile, or one row of a photo or height map. Files can be dropped here.",
+    "Load a signal into A: the audible texture, a recording, a profile (values over position), or one row of a photo or height map. Files can be dropped here.",
     "Create B from A with the codec or by resynthesis from its spatial spectrogram, or load another signal into B.",
-    "Feel A and B in turn on the pad (1 and 2), compare their spectrograms, and read the predicted discriminability d'.",
-    "Edit the spatial spectrogram of B: the change can be felt at once. Add B as the relief of a texture.",
+    "Feel A and B in turn on the stroke pad (keys 1 and 2), compare their spectrograms, and read the predicted discriminability d'.",
+    "Edit the spatial spectrogram of B and feel the change at once. Add B to a texture as its relief: acceleration as a function of tip position.",
 ];
 pub const DROP_HERE: &str = "Drop signals here";
 pub const DROP_KINDS: &str = "recordings (.wav), profiles (.csv), photos or height maps (.png, .jpg)";

@@ -8,7 +8,7 @@ use crate::choices::textures::{End, Region};
 use crate::strings;
 
 pub const FILTER: &str = "Filter";
-pub const FILTER_HELP: &str = "Lists only textures with certain tags, from a part of the space, with a star, or added to this project. It does not change the playing texture.";
+pub const FILTER_HELP: &str = "Lists only textures with the selected tags, in a region of the space, with a star, or added to this project. The audible texture does not change.";
 pub const TAGS: &str = "Tags";
 pub const TAGS_HELP: &str = "Lists textures that have all selected tags.";
 pub const NO_TAGS: &str = "No texture has a tag.";
@@ -18,9 +18,9 @@ pub const NEAR_POINT: &str = "near the point";
 pub const NOT_PLACED: &str = "no position";
 pub const ONLY_STARRED: &str = "Starred only";
 pub const ONLY_STARRED_HELP: &str =
-    "Lists only textures with a star. They come first in the list in any case.";
+    "Lists only textures with a star. Without this filter, starred textures come first.";
 pub const ONLY_JOINED: &str = "Added to this project only";
-pub const ONLY_JOINED_HELP: &str = "Lists only textures that were imported, duplicated or made from a path. They belong to the project, not to the library.";
+pub const ONLY_JOINED_HELP: &str = "Lists only textures that were imported, duplicated, or added from a path or as a relief. They belong to the project, not to the library.";
 pub const CLEAR: &str = "Clear";
 pub const NONE_PASSES: &str = "No texture matches the filter.";
 pub const NONE_FOUND: &str = "No texture matches both the filter and the search.";
@@ -28,15 +28,14 @@ pub const SHOW_ALL: &str = "Show all textures";
 
 pub const DETAILS: &str = "Details…";
 pub const DETAILS_HELP: &str =
-    "Shows name, position, license, measured speeds and forces, and plots of level and spectrum";
+    "Shows name, position, license, range of speed and force, and plots of level and spectrum";
 pub const HEAR_ALONE: &str = "Solo";
-pub const HEAR_ALONE_HELP: &str =
-    "Plays this texture instead of the interpolated one until the point moves. Stroke the pad to feel it.";
+pub const HEAR_ALONE_HELP: &str = "Plays this texture instead of the interpolated one, until the authored point moves. Stroke the pad to feel it.";
 pub const STAR: &str = "Star";
 pub const UNSTAR: &str = "Unstar";
 pub const STAR_HELP: &str = "Starred textures come first in the list. The project stores the stars.";
 pub const RENAME: &str = "Rename…";
-pub const RENAME_HELP: &str = "Renames the texture in this project; the library file keeps its own name.";
+pub const RENAME_HELP: &str = "Renames the texture in this project. Its name in the library file does not change.";
 pub const DUPLICATE: &str = "Duplicate";
 pub const DUPLICATE_HELP: &str = "Adds a copy to the project, with a new name, under the same license and at the same position. If a built space is in use, the copy has no position there.";
 pub const REMOVE: &str = "Remove";
@@ -50,7 +49,7 @@ pub const NAME: &str = "Name of the texture in the list";
 pub const NAME_NEEDED: &str = "A texture needs a name: the previous one stays until you enter another.";
 pub const IDENTIFIER: &str = "identifier";
 pub const IDENTIFIER_HELP: &str =
-    "Name in files and on the command line. It does not change when the texture is renamed.";
+    "Identifier in files and on the command line. It does not change when the texture is renamed.";
 pub const PART_OF: &str = "part of";
 pub const THE_PROJECT: &str = "this project (added)";
 pub const PLACE: &str = "position";
@@ -59,29 +58,31 @@ pub const TAGS_LABEL: &str = "tags";
 pub const NONE: &str = "none";
 pub const PASSING_ON: &str = "sharing";
 pub const PASSED_ON_FREELY: &str = "allowed under its license";
-pub const TERMS_HELP: &str = "License for use and redistribution, as stated in its file.";
+pub const TERMS_HELP: &str = "License for use and redistribution, as stated in the library file.";
 pub const ATTRIBUTES: &str = "Attributes";
 pub const ATTRIBUTES_HELP: &str =
     "Values from 0 (first word) to 100 (second word). Any two attributes can be the axes of the space.";
 pub const MODEL: &str = "Model";
-pub const RATE_HELP: &str = "Sample rate of the model: it contains no frequencies above half of it.";
+pub const RATE_HELP: &str = "Sample rate of the model, in Hz. It contains no frequencies above half of it.";
 pub const NODES: &str = "speed-force points";
 pub const NODES_HELP: &str =
     "Number of pairs of speed and force with a model. Values between them are interpolated.";
 pub const SPEEDS: &str = "speeds";
 pub const FORCES: &str = "forces";
-pub const RANGE_HELP: &str = "Range of the model. Above it, the texture stays as at the end of the range.";
+pub const RANGE_HELP: &str =
+    "Range of speeds or forces with a model. Above it, the texture does not change any further.";
 pub const FRICTION_HELP: &str = "Ratio of tangential to normal force. A vibrating pen cannot render it.";
 pub const NO_FRICTION: &str = "not known";
 pub const NO_LANDING: &str = "not known: taps are silent";
 pub const LEVEL_MEASURED: &str = "level at 100 mm/s, 1 N";
 pub const STIFFNESS: &str = "stiffness at 1 N";
 pub const PHYSICAL_HELP: &str =
-    "Physical quantity used in place of a rating. It does not say how the texture feels.";
+    "Physical quantity that replaces a rating. It does not say how people perceive the texture.";
 pub const PATH: &str = "path";
-pub const PATH_HELP: &str = "The texture changes along a stroke; this sheet shows its beginning.";
+pub const PATH_HELP: &str =
+    "The texture changes along a stroke. This sheet shows the first texture of the path.";
 pub const LEVELS: &str = "Level over speed and force";
-pub const LEVELS_HELP: &str = "Level of the vibration: brighter is stronger. Dots are points with a model; all other values are interpolated.";
+pub const LEVELS_HELP: &str = "Level of the vibration, in dB re 1 m/s²: brighter is stronger. Dots are speed-force points with a model; all other values are interpolated.";
 pub const SPECTRA: &str = "Spectra";
 
 /// Label of the filter button, with the number of active filters.
@@ -110,10 +111,10 @@ pub fn region(region: Region, [across, up]: &[[String; 2]; 2]) -> String {
     }
 }
 
-/// Tooltip of the regions; `near` is in points of the axes.
+/// Tooltip of the regions; `near` is in axis points.
 pub fn region_help(near: f64) -> String {
     format!(
-        "Lists the textures of one quadrant of the space, those within {near:.0} points of the authored point, or those without a position."
+        "Lists the textures in one quadrant of the space, those within {near:.0} axis points of the authored point, or those without a position."
     )
 }
 
@@ -131,7 +132,7 @@ pub fn more(name: &str) -> String {
     format!("Menu of {name}")
 }
 
-/// Source of a position; simulated raters are marked, so that nobody takes them for people.
+/// Source of a position; simulated raters are marked, so that they are not mistaken for people.
 pub fn place_from(source: LabelSource) -> String {
     let nobody = if source == LabelSource::SimulatedRaters { strings::NOBODY_FELT } else { "" };
     format!("{}{nobody}", source.label())
@@ -144,7 +145,7 @@ pub fn range(low: &str, high: &str, unit: &str) -> String {
 
 /// Frequency and decay of a tap transient.
 pub fn landing(frequency_hz: f64, decay_per_s: f64) -> String {
-    format!("{frequency_hz:.0} Hz, decays to a third in about {:.0} ms", 1e3 / decay_per_s)
+    format!("{frequency_hz:.0} Hz, decay time constant {:.0} ms", 1e3 / decay_per_s)
 }
 
 pub fn level(level_mps2: f64) -> String {

@@ -179,7 +179,7 @@ fn what_cannot_be_opened_or_saved_is_said_and_nothing_changes() {
     let notes = folder.path().join("notes.shagreen");
     std::fs::write(&notes, "my notes").unwrap();
     save_as(&mut harness, &notes);
-    wait(&mut harness, "it is refused", |h| says(h, "is not a project, and is not replaced"));
+    wait(&mut harness, "it is refused", |h| says(h, "is not a project and is not replaced"));
     assert_eq!(std::fs::read(&notes).unwrap(), b"my notes");
     enter_path(&mut harness, document::SAVE_PATH, &folder.path().join("no/x.shagreen"));
     wait(&mut harness, "it cannot be written", |h| says(h, "cannot write the file"));

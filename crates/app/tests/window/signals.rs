@@ -67,7 +67,7 @@ fn what_is_heard_goes_through_the_codec_and_both_are_compared() {
     // B is A encoded at the lowest bit rate, so the curve and the pair have the same predicted d'.
     assert!((rates[0].d_prime - compared.d_prime).abs() < 1e-6);
     assert!(rates[0].d_prime > rates[4].d_prime && rates[0].snr_db < rates[4].snr_db);
-    assert!(says(&harness, &signals::d_prime(compared.d_prime)) && says(&harness, "no human data"));
+    assert!(says(&harness, &signals::d_prime(compared.d_prime)) && says(&harness, "not rated by people"));
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 }
 

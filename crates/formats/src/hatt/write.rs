@@ -81,13 +81,15 @@ pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
         ));
     }
     if entry.path.is_some() {
-        lost.push("the changes along the stroke: only the start is written".to_owned());
+        lost.push(
+            "the change along the stroke: only the texture at the start of the path is written".to_owned(),
+        );
     }
     if entry.model.tap().is_some() {
         lost.push("the tap transient".to_owned());
     }
     if entry.model.relief().is_some() {
-        lost.push("the relief".to_owned());
+        lost.push("the relief (acceleration as a function of position)".to_owned());
     }
     if entry.place.is_some() {
         lost.push("the position in the space".to_owned());
@@ -100,7 +102,7 @@ pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
     }
     let said = [&entry.description, &entry.license, &entry.origin];
     if !(entry.tags.is_empty() && said.iter().all(|text| text.is_empty())) {
-        lost.push("tags, description, licence and origin".to_owned());
+        lost.push("tags, description, license and origin".to_owned());
     }
     lost
 }

@@ -124,7 +124,7 @@ pub enum LibraryError {
         expected: &'static str,
     },
     /// An anchor lacks a number that the texture's interpolation mode needs.
-    #[error("anchor {index} of texture \"{id}\" has no {field}; add it, or remove the texture")]
+    #[error("entry {index} of `anchors` of texture \"{id}\" has no {field}; add it, or remove the texture")]
     Anchor {
         /// Identifier of the texture.
         id: String,

@@ -70,7 +70,7 @@ pub enum ProjectError {
     },
     /// The library file cannot be read.
     #[error(
-        "the library of the project cannot be read ({source}); put the file back where the project expects it: {}",
+        "the library of the project cannot be read ({source}); restore the file at this path: {}",
         path.display()
     )]
     LibraryFile {
@@ -91,7 +91,7 @@ pub enum ProjectError {
     },
     /// `library` states no location.
     #[error(
-        "`library` must have one of \"built_in\", \"file\" and \"inside\"; restore the project from a copy"
+        "`library` must have exactly one of the fields \"built_in\", \"file\" and \"inside\"; restore the project from a copy"
     )]
     NoLibrary,
     /// A field holds an unknown word.
@@ -129,7 +129,9 @@ pub enum ProjectError {
         needs: &'static str,
     },
     /// Two authored textures have the same key.
-    #[error("\"{first}\" and \"{second}\" have the same key {key}; give one of them another number")]
+    #[error(
+        "\"{first}\" and \"{second}\" have the same key {key}; change the `key` of one of them to an unused number"
+    )]
     Key {
         /// Name of the first texture.
         first: String,

@@ -158,7 +158,7 @@ fn a_library_beside_the_project_is_found_where_both_went() {
     let read = read_project(&written, other, &|_| Ok(changed.clone())).unwrap();
     assert!(read.warnings[0].contains("was changed since"), "{:?}", read.warnings);
     let missing = read_project(&written, other, &nothing).unwrap_err().to_string();
-    assert!(missing.contains("put the file back") && missing.contains("woods.json"), "{missing}");
+    assert!(missing.contains("restore the file") && missing.contains("woods.json"), "{missing}");
     let none = read_project(&written, other, &|_| Ok(b"{}".to_vec())).unwrap_err().to_string();
     assert!(none.contains("not a texture library") && none.contains("woods.json"), "{none}");
 }
@@ -182,7 +182,7 @@ fn each_fault_is_named() {
         ("length in inch", |wire| wire["units"]["length"] = json!("inch")),
         ("missing field `authored`", |wire| drop(wire.as_object_mut().unwrap().remove("authored"))),
         ("library \"other\"", |wire| wire["library"] = json!({"built_in": "other"})),
-        ("one of \"built_in\"", |wire| wire["library"] = json!({})),
+        ("exactly one of the fields \"built_in\"", |wire| wire["library"] = json!({})),
         ("cannot be read", |wire| wire["library"] = json!({"file": "none.json"})),
         ("the position of", |wire| wire["authored"][1]["rough_smooth"] = json!(101)),
         ("the position of", |wire| wire["authored"][1]["path"]["points"][0] = json!([0, -1])),
