@@ -13,15 +13,12 @@
 )]
 
 use std::cell::RefCell;
-use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::Instant;
 
 use anyhow::anyhow;
-use shagreen_formats::project::Project;
 
-use crate::session::OutputChoice;
-use crate::state::files::StoragePaths;
+pub use crate::window::{Begin, WindowTimes};
 
 pub mod author;
 pub mod build;
@@ -38,19 +35,6 @@ pub mod strings;
 pub mod window;
 pub mod workspace;
 
-/// Initial content of the window.
-#[derive(Clone, Debug)]
-pub struct Begin {
-    /// Open project.
-    pub project: Project,
-    /// File of the project, or `None` for an unsaved project.
-    pub path: Option<PathBuf>,
-    /// Output to open.
-    pub output: OutputChoice,
-    /// Paths of the files that outlive the program.
-    pub keeping: StoragePaths,
-}
-
 /// Options of a run.
 #[derive(Clone, Debug)]
 pub struct Start {
@@ -61,17 +45,6 @@ pub struct Start {
     pub measured_frames: Option<usize>,
     /// Start time of the program, from which the first frame is timed.
     pub started: Instant,
-}
-
-/// Frame times of a measured run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct WindowTimes {
-    /// Time from the start of the program until the first frame is handed to the screen, in seconds.
-    pub first_frame_secs: f64,
-    /// Layout time of each later frame, in seconds, without painting.
-    pub frame_secs: Vec<f64>,
-    /// Interval from each later frame to the next, in seconds.
-    pub interval_secs: Vec<f64>,
 }
 
 /// Opens the window and returns when it is closed.

@@ -1,43 +1,38 @@
 //! The window: lays out the panels, executes commands and requests frames.
 
+mod author_page;
 mod commands;
 pub(crate) mod file_menu;
 mod files;
+mod gesture_counter;
 mod pages;
 mod prompts;
 mod rig;
 mod signals;
+mod stage;
 pub mod status_bar;
 pub(crate) mod stopwatch;
 mod strokes;
 mod title_bar;
 pub mod tour;
 
-use self::rig::open_as_left;
+use self::gesture_counter::GestureCounter;
+use self::rig::{SelectedOutput, open_as_left};
+pub use self::stopwatch::WindowTimes;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Margin, Panel as Side, Ui};
-use shagreen_core::space::heat_map::Quantity;
+use egui::{Frame, Margin, Panel as Side, Ui};
 use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_studio::models::ModelFolder;
 
-use crate::Begin;
-use crate::author::canvas::{CanvasState, ShownMap, canvas_ui, point_id};
-use crate::author::inspector::inspector_ui;
-use crate::author::library_panel::{LibraryState, library_ui};
-use crate::author::pad::{PadState, pad_ui};
+use crate::author::canvas::point_id;
 use crate::author::prompt::Prompts;
-use crate::author::prompt::bar_ui::bar_ui;
-use crate::author::prompt::card_ui::card_ui;
-use crate::author::scope::{ScopeState, scope_ui};
 use crate::build::page::BuildPage;
 use crate::command::{Command, pressed};
 use crate::look::scale::Scale;
-use crate::look::theme::{
-    INSPECTOR_WIDTH, LIBRARY_WIDTH, PAD_WIDTH, STAGE_HEIGHTS, STAGE_SHARE, install, map_color, tokens,
-};
+use crate::look::theme::{install, tokens};
 use crate::panel::Panel;
 use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
@@ -46,19 +41,35 @@ use crate::signals::page::SignalsPage;
 use crate::state::compare::Compare;
 use crate::state::document::Document;
 use crate::state::edit::Edit;
-use crate::state::files::Files;
-use crate::state::heat_map::{Grid, HeatMap, Wanted};
+use crate::state::files::{Files, StoragePaths};
 use crate::state::history::History;
-use crate::state::photo::{OwnPicture, PhotoReader};
+use crate::state::photo::PhotoReader;
 use crate::state::pictures::Pictures;
 use crate::state::recorded_stroke::StrokeReader;
 use crate::window::pages::Pages;
 use crate::window::status_bar::status_ui;
-use crate::window::tour::{Places, Tour};
+use crate::window::tour::Tour;
 use crate::workspace::Workspace;
 
-/// Maximum number of pictures that are blended for the pad. More take longer without a visible difference.
-const MAX_PICTURED: usize = 6;
+/// Initial content of the window.
+#[derive(Clone, Debug)]
+pub struct Begin {
+    /// Open project.
+    pub project: Project,
+    /// File of the project, or `None` for an unsaved project.
+    pub path: Option<PathBuf>,
+    /// Output to open.
+    pub output: OutputChoice,
+    /// Paths of the files that outlive the program.
+    pub keeping: StoragePaths,
+}
+
+/// Readers of files, in the background.
+#[derive(Default)]
+struct Readers {
+    photo: PhotoReader,
+    strokes: StrokeReader,
+}
 
 /// The program window.
 pub struct Window {
@@ -67,36 +78,18 @@ pub struct Window {
     session: Session,
     files: Files,
     pictures: Pictures,
-    photo: PhotoReader,
-    own_picture: OwnPicture,
+    readers: Readers,
     prompts: Prompts,
-    guess_picture: OwnPicture,
-    strokes: StrokeReader,
     compare: Compare,
-    heat: HeatMap,
-    map: Option<Quantity>,
-    pad: PadState,
-    scope: ScopeState,
     scale: Scale,
-    canvas: CanvasState,
-    library: LibraryState,
     has_been_shown: bool,
-    gesture: u64,
-    was_holding: bool,
-    /// Widget with the keyboard focus in the last frame.
-    writing: Option<egui::Id>,
+    gesture: GestureCounter,
     sheet: Sheet,
     tour: Tour,
-    /// Rectangles of the tour's steps in the last frame.
-    tour_places: Places,
-    workspace: Workspace,
     pages: Pages,
     /// Default folder for saved figures, strokes and signals.
     exports_folder: PathBuf,
-    /// Output that the user selected in this window, until it is open.
-    asked_output: Option<String>,
-    /// Whether the output was given at program start and no other has been selected since.
-    is_output_given: bool,
+    output: SelectedOutput,
 }
 
 impl Window {
@@ -115,12 +108,15 @@ impl Window {
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
         let prompts = Prompts::new(keeping.models.clone().map(ModelFolder::new));
         let files = Files::new(&project, path, keeping);
-        let is_output_given = output != OutputChoice::SystemDefault;
+        let selected_output = SelectedOutput::at_start(&output);
         open_as_left(&mut session, output, &files, ctx);
         session.follow(&project, None, ctx);
         let pictures = Pictures::new(project.library.clone(), &project.joined, session.textures());
         let is_new_here = can_remember && !files.settings.has_seen_tour;
-        let tour = if is_new_here { Tour::begun() } else { Tour::default() };
+        let mut tour = Tour::default();
+        if is_new_here {
+            tour.begin();
+        }
         if let Some(is_light) = files.settings.is_light {
             ctx.set_theme(if is_light { egui::Theme::Light } else { egui::Theme::Dark });
         }
@@ -131,33 +127,19 @@ impl Window {
             history: History::default(),
             session,
             pictures,
-            photo: PhotoReader::new(),
-            own_picture: OwnPicture::default(),
+            readers: Readers::default(),
             prompts,
-            guess_picture: OwnPicture::default(),
-            strokes: StrokeReader::default(),
             files,
             compare: Compare::by_chance(),
-            heat: HeatMap::default(),
-            map: None,
-            pad: PadState::default(),
-            scope: ScopeState::default(),
             scale,
-            canvas: CanvasState::default(),
-            library: LibraryState::default(),
             has_been_shown: false,
-            gesture: 0,
-            was_holding: false,
-            writing: None,
+            gesture: GestureCounter::default(),
             sheet,
             tour,
-            tour_places: [egui::Rect::NOTHING; 4],
-            workspace: Workspace::default(),
             pages: Pages::default(),
             // Without a current folder, the user completes the path.
             exports_folder: std::env::current_dir().unwrap_or_default(),
-            asked_output: None,
-            is_output_given,
+            output: selected_output,
         })
     }
 
@@ -183,7 +165,7 @@ impl Window {
 
     /// Visible workspace.
     pub fn workspace(&self) -> Workspace {
-        self.workspace
+        self.pages.workspace
     }
 
     /// Build workspace.
@@ -222,8 +204,8 @@ impl Window {
             ctx.request_repaint();
         }
         self.pictures.collect(&ctx);
-        self.next_gesture(&ctx);
-        self.session.update(self.pad.contact(&self.session));
+        self.gesture.follow(&ctx);
+        self.session.update(self.pages.stage.pad.contact(&self.session));
         self.pages.collect(&ctx);
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
@@ -235,8 +217,8 @@ impl Window {
         } else {
             pressed(&ctx, point_id(self.project.texture().key))
         };
-        let is_author = self.workspace == Workspace::Author;
-        let has_stage = is_author || self.pages.page(self.workspace).is_some_and(|page| page.has_stage());
+        let is_author = self.pages.workspace == Workspace::Author;
+        let has_stage = is_author || self.pages.current().is_some_and(|page| page.has_stage());
         if !has_stage && !self.session.hand_is_running() {
             // The automatic stroke may be stopped where it is not visible, but not started.
             commands.retain(|command| !matches!(command, Command::ToggleHand));
@@ -244,11 +226,11 @@ impl Window {
         if !is_author {
             commands.retain(|command| !matches!(command, Command::TogglePathTool));
         }
-        if let Some(page) = self.pages.page(self.workspace) {
+        if let Some(page) = self.pages.current() {
             commands = commands.into_iter().filter_map(|command| page.accept(command)).collect();
         }
-        if self.workspace == Workspace::Author
-            && self.canvas.tool.is_on
+        if self.pages.workspace == Workspace::Author
+            && self.pages.author.canvas.tool.is_on
             && !self.sheet.is_open()
             && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
         {
@@ -269,7 +251,7 @@ impl Window {
                 self.stage_ui(ui, &ctx, &mut commands);
             }
             let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-            if let Some(page) = self.pages.page(self.workspace) {
+            if let Some(page) = self.pages.current() {
                 commands.extend(page.show(ui, &panel));
             }
         }
@@ -279,12 +261,9 @@ impl Window {
             commands.clear();
         }
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-        let target = self.pages.page(self.workspace).and_then(|page| page.drop_target());
-        commands.extend(self.sheet.show(&ctx, &panel, &self.files.document, self.workspace, target));
-        if self.workspace == Workspace::Author
-            && !self.sheet.is_open()
-            && self.tour.show(&ctx, self.tour_places)
-        {
+        let target = self.pages.current().and_then(|page| page.drop_target());
+        commands.extend(self.sheet.show(&ctx, &panel, &self.files.document, self.pages.workspace, target));
+        if self.pages.workspace == Workspace::Author && !self.sheet.is_open() && self.tour.show(&ctx) {
             self.files.settings.has_seen_tour = true;
         }
         for command in commands {
@@ -295,93 +274,6 @@ impl Window {
         self.pictures.follow(&project.library, &project.joined, textures);
         self.keep_scale(&ctx);
         self.keep_going(&ctx);
-    }
-
-    /// Draws the Author workspace.
-    fn author_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
-        let map = self.follow_map(ctx);
-        self.stage_ui(ui, ctx, commands);
-        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-        let library = &mut self.library;
-        Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
-            commands.extend(library_ui(ui, &panel, library));
-        });
-        Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
-            self.tour_places[2] = ui.max_rect();
-            commands.extend(inspector_ui(ui, &panel));
-        });
-        let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
-        CentralPanel::default().frame(frame).show(ui, |ui| {
-            commands.extend(bar_ui(ui, &mut self.prompts, &self.files.settings.prompts));
-            let guess = self.prompts.guess_of(self.project.texture());
-            if let Some(guess) = guess {
-                let picture =
-                    self.guess_picture.follow(Some(&guess.picture), ctx).map(|(picture, _)| picture);
-                commands.extend(card_ui(ui, &panel, guess, self.prompts.is_busy(), picture));
-            }
-            self.tour_places[0] = ui.available_rect_before_wrap();
-            commands.extend(canvas_ui(ui, &panel, &mut self.canvas, map.as_ref(), guess));
-        });
-    }
-
-    /// Heat map behind the canvas, as far as it is computed.
-    fn follow_map(&mut self, ctx: &egui::Context) -> Option<ShownMap> {
-        let session = &self.session;
-        let contact = self.pad.contact(session);
-        let wanted = self.map.map(|quantity| Wanted {
-            quantity,
-            blending: session.blending(&self.project.texture().blend),
-            contact,
-            generation: session.generation(),
-        });
-        self.heat.follow(wanted, || (session.authoring().clone(), session.planes().to_vec()), ctx);
-        let quantity = self.map?;
-        let range = self.heat.grid().and_then(Grid::range);
-        Some(ShownMap {
-            quantity,
-            picture: self.heat.picture(ctx, map_color).map(egui::TextureHandle::id),
-            range,
-        })
-    }
-
-    /// Draws the lower row with pad and scope.
-    fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
-        let parents = self.session.authored().map_or(&[][..], |authored| &authored.parents);
-        let parents = pictured(parents);
-        let blended = if parents.is_empty() { None } else { self.pictures.blend(ctx, &parents) };
-        let blended = blended.map(|(texture, mm)| (texture.id(), [mm, mm]));
-        let is_felt = self.session.felt_name().is_some();
-        let heard = self.heard_texture().filter(|_| !self.compare.is_hidden() && !is_felt);
-        let own = heard.and_then(|texture| texture.picture.clone());
-        let own = self.own_picture.follow(own.as_ref(), ctx).map(|(texture, mm)| (texture.id(), mm));
-        let picture = own.or(blended);
-        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-        let (pad, scope, place) = (&mut self.pad, &mut self.scope, &mut self.tour_places[1]);
-        let mut mouse = None;
-        let stage_height =
-            (STAGE_SHARE * ctx.content_rect().height()).clamp(*STAGE_HEIGHTS.start(), *STAGE_HEIGHTS.end());
-        Side::bottom("stage").exact_size(stage_height).resizable(false).show(ui, |ui| {
-            ui.horizontal_top(|ui| {
-                let (width, height) = (ui.available_width(), ui.available_height());
-                let top_down = egui::Layout::top_down(egui::Align::Min);
-                let pad_width = (0.36 * width).max(PAD_WIDTH.min(0.5 * width));
-                ui.allocate_ui_with_layout(egui::vec2(pad_width, height), top_down, |ui| {
-                    *place = ui.max_rect();
-                    let outcome = pad_ui(ui, &panel, pad, picture);
-                    commands.extend(outcome.commands);
-                    mouse = outcome.mouse;
-                });
-                ui.allocate_ui_with_layout(ui.available_size(), top_down, |ui| {
-                    commands.extend(scope_ui(ui, &panel, scope));
-                });
-            });
-        });
-        if let Some(report) = mouse {
-            self.session.mouse(report, self.pad.hand.force_n);
-        }
-        if self.session.hand_is_running() {
-            self.session.set_hand(Some(self.pad.input()));
-        }
     }
 
     /// Authored texture that a comparison makes audible.
@@ -398,7 +290,7 @@ impl Window {
 
     /// Sets a loaded photo as the picture of the texture on which it was dropped.
     fn collect_photo(&mut self, ctx: &egui::Context) {
-        match self.photo.collect() {
+        match self.readers.photo.collect() {
             // The texture may have been deleted in the meantime.
             Some((key, Ok(_))) if !self.project.authored.iter().any(|texture| texture.key == key) => {}
             Some((key, Ok(picture))) => {
@@ -416,22 +308,9 @@ impl Window {
         self.compare.follow(&self.project);
         let heard = self.compared_texture();
         self.session.set_hidden(self.compare.is_hidden());
-        let is_bench = self.workspace == Workspace::Signals;
+        let is_bench = self.pages.workspace == Workspace::Signals;
         self.session.feel(self.pages.signals.felt_signal().filter(|_| is_bench));
         self.session.follow(&self.project, heard.as_deref(), ctx);
-    }
-
-    /// Counts gestures. A gesture lasts while a button or key is held or a text field has the focus, and one frame
-    /// longer.
-    fn next_gesture(&mut self, ctx: &egui::Context) {
-        // Typing in one text field is one gesture, regardless of the number of keys.
-        let is_writing = ctx.memory(egui::Memory::focused) == self.writing && ctx.text_edit_focused();
-        self.writing = ctx.memory(egui::Memory::focused);
-        let holding = is_writing || ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty());
-        if !holding && !self.was_holding {
-            self.gesture += 1;
-        }
-        self.was_holding = holding;
     }
 
     /// Follows the zoom factor, which the keyboard and the window size determine, and stores the zoom that the user
@@ -454,12 +333,4 @@ impl Window {
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
         }
     }
-}
-
-/// Textures with the largest weights, and their weights normalized to a sum of one, for the blended picture.
-fn pictured(parents: &[(usize, f64)]) -> Vec<(usize, f64)> {
-    let largest = &parents[..parents.len().min(MAX_PICTURED)];
-    let sum: f64 = largest.iter().map(|(_, weight)| weight.max(0.0)).sum();
-    let share = |(texture, weight): &(usize, f64)| (*texture, weight.max(0.0) / sum);
-    largest.iter().map(share).filter(|(_, share)| *share > 0.0).collect()
 }

@@ -13,15 +13,12 @@ use crate::state::source::Source;
 const USUAL_WIDTH_MM: f64 = 50.0;
 
 /// Photo that is being read, with the key of its authored texture.
+#[derive(Default)]
 pub(crate) struct PhotoReader {
     reading: Option<(u32, Receiver<Result<Picture, String>>)>,
 }
 
 impl PhotoReader {
-    pub(crate) fn new() -> Self {
-        Self { reading: None }
-    }
-
     /// Reads a photo in the background, for the authored texture with this key.
     pub(crate) fn read(&mut self, source: Source, key: u32, ctx: &Context) {
         let name = source.name();

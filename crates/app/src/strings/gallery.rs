@@ -2,8 +2,7 @@
 
 pub const GALLERY: &str = "Gallery…";
 pub const TITLE: &str = "Gallery";
-pub const HELP: &str =
-    "Example projects to play and change. All use the starter library. Its textures are simulated; nobody rated them.";
+pub const HELP: &str = "Example projects to play and change. All use the starter library. Its textures are simulated; nobody rated them.";
 pub const CLOSE: &str = "Close";
 
 /// Accessible name of a project of the gallery.

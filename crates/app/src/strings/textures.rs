@@ -35,7 +35,8 @@ pub const STAR: &str = "Star";
 pub const UNSTAR: &str = "Unstar";
 pub const STAR_HELP: &str = "Starred textures come first in the list. The project stores the stars.";
 pub const RENAME: &str = "Rename…";
-pub const RENAME_HELP: &str = "Renames the texture in this project. Its name in the library file does not change.";
+pub const RENAME_HELP: &str =
+    "Renames the texture in this project. Its name in the library file does not change.";
 pub const DUPLICATE: &str = "Duplicate";
 pub const DUPLICATE_HELP: &str = "Adds a copy to the project, with a new name, under the same license and at the same position. If a built space is in use, the copy has no position there.";
 pub const REMOVE: &str = "Remove";

@@ -16,8 +16,6 @@ use crate::sheets::guide_sheet::GuideSheet;
 use crate::sheets::palette::PaletteSheet;
 use crate::sheets::save::SaveSheet;
 use crate::state::edit::Edit;
-use crate::state::history::Gesture;
-use crate::window::tour::Tour;
 use crate::workspace::Workspace;
 
 impl Window {
@@ -29,21 +27,24 @@ impl Window {
                 // Edits apply to the selected texture, so that texture must be audible.
                 self.compare.end();
                 if matches!(edit, Edit::AddTextures(_)) {
-                    self.library.show_all();
-                    self.library.reveal = Some(self.session.textures().len());
+                    self.pages.author.library.show_all();
+                    self.pages.author.library.reveal = Some(self.session.textures().len());
                 }
-                self.history.apply(&mut self.project, edit, Gesture(self.gesture));
+                self.history.apply(&mut self.project, edit, self.gesture.current());
             }
             Command::OpenTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::new(id))),
             Command::RenameTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::to_rename(id))),
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
             Command::OpenPalette => self.sheet = Sheet::Palette(PaletteSheet::default()),
             Command::OpenGuide => self.sheet = Sheet::Guide(Box::new(GuideSheet::new())),
-            Command::BeginTour => (self.workspace, self.tour) = (Workspace::Author, Tour::begun()),
+            Command::BeginTour => {
+                self.pages.workspace = Workspace::Author;
+                self.tour.begin();
+            }
             Command::Stroke(command) => self.carry_out_stroke(command, ctx),
-            Command::ReadPhoto(source) => self.photo.read(source, self.project.texture().key, ctx),
+            Command::ReadPhoto(source) => self.readers.photo.read(source, self.project.texture().key, ctx),
             Command::Prompt(command) => self.carry_out_prompt(command, ctx),
-            Command::ShowMap(quantity) => self.map = quantity,
+            Command::ShowMap(quantity) => self.pages.author.map = quantity,
             Command::Compare(command) => self.compare.carry_out(command),
             Command::Signals(command) => self.carry_out_signals(command, ctx),
             Command::Undo if self.painting_labels()[0].is_some() => self.pages.signals.undo(),
@@ -55,10 +56,10 @@ impl Window {
                 self.history.redo(&mut self.project);
             }
             Command::ToggleHand => {
-                let hand = (!self.session.hand_is_running()).then_some(self.pad.input());
+                let hand = (!self.session.hand_is_running()).then_some(self.pages.stage.pad.input());
                 self.session.set_hand(hand);
             }
-            Command::TogglePathTool => self.canvas.tool.toggle(),
+            Command::TogglePathTool => self.pages.author.canvas.tool.toggle(),
             Command::PlayPath(is_played) => self.session.play_path(is_played),
             Command::KeepPath => match kept_path(&self.project, &self.session) {
                 Some(Ok(entry)) => {
@@ -76,7 +77,7 @@ impl Window {
             Command::DismissMessage => self.session.forget_message(),
             Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => {
-                self.asked_output = Some(id.clone());
+                self.output.asked = Some(id.clone());
                 self.session.open_output(OutputChoice::Id(id), ctx);
             }
             Command::ResetLimiter => self.session.reset_limiter(),
@@ -92,7 +93,7 @@ impl Window {
             },
             Command::ToggleFreeze => {
                 let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-                self.scope.toggle_freeze(&panel);
+                self.pages.stage.scope.toggle_freeze(&panel);
             }
             Command::SetRig(rig) => {
                 self.remember_rig(&rig);
@@ -108,7 +109,7 @@ impl Window {
             Command::OpenImport => self.sheet.import(Vec::new(), ctx),
             Command::Import(sources) => self.sheet.import(sources, ctx),
             Command::ImportHere(sources) => self.sheet.import_here(sources, ctx),
-            Command::Show(workspace) => self.workspace = workspace,
+            Command::Show(workspace) => self.pages.workspace = workspace,
             Command::ReadJudgments(sources) => self.pages.build.read(sources, ctx),
             Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
             Command::SaveFigure(figure) => {

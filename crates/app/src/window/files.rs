@@ -71,7 +71,7 @@ impl Window {
             FileCommand::SaveTo(path) => self.files.document.save(&self.project, path, ctx),
             FileCommand::ExportSignal => {
                 let compared = self.compared_texture();
-                let contact = self.pad.contact(&self.session);
+                let contact = self.pages.stage.pad.contact(&self.session);
                 match self.session.signal(&self.project, compared.as_deref(), contact) {
                     Ok(signal) => {
                         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
@@ -213,8 +213,8 @@ impl Window {
         self.prompts.forget();
         self.history = History::default();
         self.session.play_path(false);
-        self.canvas.tool.leave();
-        self.library.show_all();
+        self.pages.author.canvas.tool.leave();
+        self.pages.author.library.show_all();
         self.sheet = Sheet::Closed;
     }
 

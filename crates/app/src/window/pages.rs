@@ -11,6 +11,8 @@ use crate::sheets::DropTarget;
 use crate::signals::page::SignalsPage;
 use crate::state::compare::{CompareCommand, Side};
 use crate::strings;
+use crate::window::author_page::AuthorPage;
+use crate::window::stage::Stage;
 use crate::workspace::Workspace;
 
 /// Behavior of a workspace in a frame.
@@ -37,13 +39,24 @@ pub(super) trait Page {
     }
 }
 
+/// Pages of the workspaces, and which one is visible.
 #[derive(Default)]
 pub(super) struct Pages {
+    /// Visible workspace.
+    pub(super) workspace: Workspace,
+    pub(super) author: AuthorPage,
+    /// Lower row of the pages that have one.
+    pub(super) stage: Stage,
     pub(super) build: BuildPage,
     pub(super) signals: SignalsPage,
 }
 
 impl Pages {
+    /// Visible page, or `None` for Author.
+    pub(super) fn current(&mut self) -> Option<&mut dyn Page> {
+        self.page(self.workspace)
+    }
+
     /// Page of a workspace, or `None` for Author.
     pub(super) fn page(&mut self, workspace: Workspace) -> Option<&mut dyn Page> {
         match workspace {

@@ -32,8 +32,11 @@ impl Window {
     /// Adds the generated texture, or replaces the one that it was generated for.
     pub(super) fn collect_prompt(&mut self, ctx: &Context) {
         // Results wait while the user drags, a sheet is open, another workspace is visible, or a blind comparison runs.
-        let is_free = !self.was_holding || ctx.text_edit_focused();
-        if !is_free || self.sheet.is_open() || self.workspace != Workspace::Author || self.compare.is_hidden()
+        let is_free = !self.gesture.was_holding || ctx.text_edit_focused();
+        if !is_free
+            || self.sheet.is_open()
+            || self.pages.workspace != Workspace::Author
+            || self.compare.is_hidden()
         {
             return;
         }

@@ -49,7 +49,7 @@ impl Window {
         self.pages.signals.feel(None);
         self.follow_project(ctx);
         let compared = self.compared_texture();
-        let contact = self.pad.contact(&self.session);
+        let contact = self.pages.stage.pad.contact(&self.session);
         match self.session.signal(&self.project, compared.as_deref(), contact) {
             Ok(file) => {
                 let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);

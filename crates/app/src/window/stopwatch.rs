@@ -4,9 +4,19 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Instant;
 
-use crate::WindowTimes;
 use crate::command::Command;
 use crate::window::Window;
+
+/// Frame times of a measured run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WindowTimes {
+    /// Time from the start of the program until the first frame is handed to the screen, in seconds.
+    pub first_frame_secs: f64,
+    /// Layout time of each later frame, in seconds, without painting.
+    pub frame_secs: Vec<f64>,
+    /// Interval from each later frame to the next, in seconds.
+    pub interval_secs: Vec<f64>,
+}
 
 /// Runs a window, and measures its frame times on request.
 pub(crate) struct Stopwatch {

@@ -20,7 +20,7 @@ impl Window {
                 self.sheet = Sheet::Open(OpenSheet::of_strokes(&self.usual_folder(), ctx));
             }
             StrokeCommand::Read(sources) => {
-                self.strokes.read(sources, self.session.rig().pressure_map, ctx);
+                self.readers.strokes.read(sources, self.session.rig().pressure_map, ctx);
             }
             StrokeCommand::Save => {
                 if let Some(stroke) = self.session.stroke() {
@@ -33,7 +33,7 @@ impl Window {
 
     /// Takes in a stroke recording that was read.
     pub(super) fn collect_strokes(&mut self) {
-        match self.strokes.collect() {
+        match self.readers.strokes.collect() {
             Some(Ok((stroke, mut warnings))) => {
                 if matches!(&self.sheet, Sheet::Open(sheet) if sheet.is_for_strokes()) {
                     self.sheet = Sheet::Closed;

@@ -13,7 +13,11 @@ impl Window {
     /// Names of the undo and redo steps of the spectrogram editor in the Signals workspace. They take precedence over
     /// edits of the project.
     pub(super) fn painting_labels(&self) -> [Option<&'static str>; 2] {
-        if self.workspace == Workspace::Signals { self.pages.signals.painting_labels() } else { [None; 2] }
+        if self.pages.workspace == Workspace::Signals {
+            self.pages.signals.painting_labels()
+        } else {
+            [None; 2]
+        }
     }
 
     /// Draws the title bar and returns the commands of the user.
@@ -33,13 +37,13 @@ impl Window {
                 can_export: self.session.authored().is_some() || self.session.felt_name().is_some(),
             };
             let menu = file_menu(ui, files);
-            self.tour_places[3] = menu.area;
+            self.tour.places[3] = menu.area;
             commands.extend(menu.commands);
             ui.add_space(10.0);
             for workspace in Workspace::ALL {
                 let command = Command::Show(workspace);
                 let keys = command.shortcut_text(ui.ctx());
-                let tab = ui.selectable_label(self.workspace == workspace, workspace.info().name);
+                let tab = ui.selectable_label(self.pages.workspace == workspace, workspace.info().name);
                 if tab.on_hover_text(format!("{} ({keys})", workspace.info().help)).clicked() {
                     commands.push(command);
                 }

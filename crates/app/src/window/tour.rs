@@ -16,20 +16,25 @@ impl Step {
     pub const ALL: [Self; 4] = [Self::Drag, Self::Stroke, Self::Blend, Self::Keep];
 }
 
-/// Rectangles of the steps, in the order of [`Step::ALL`].
-pub type Places = [Rect; 4];
-
 /// Progress of the tour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Tour {
     /// Index of the shown step.
     step: Option<usize>,
+    /// Rectangles of the steps in the last frame, in the order of [`Step::ALL`].
+    pub(crate) places: [Rect; Step::ALL.len()],
+}
+
+impl Default for Tour {
+    fn default() -> Self {
+        Self { step: None, places: [Rect::NOTHING; Step::ALL.len()] }
+    }
 }
 
 impl Tour {
-    /// Tour at its first step.
-    pub fn begun() -> Self {
-        Self { step: Some(0) }
+    /// Starts at the first step.
+    pub(crate) fn begin(&mut self) {
+        self.step = Some(0);
     }
 
     /// Whether a step is shown.
@@ -38,10 +43,10 @@ impl Tour {
     }
 
     /// Draws the present step, if any. Returns true in the frame in which the tour ends.
-    pub(crate) fn show(&mut self, ctx: &Context, places: Places) -> bool {
+    pub(crate) fn show(&mut self, ctx: &Context) -> bool {
         let Some(index) = self.step else { return false };
         let t = tokens(ctx);
-        let place = places[index].intersect(ctx.content_rect());
+        let place = self.places[index].intersect(ctx.content_rect());
         let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("tour place")));
         painter.rect_stroke(
             place.shrink(2.0),
