@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use shagreen_core::actuator::Actuator;
 use shagreen_core::units::Kilograms;
 use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator};
+use shagreen_formats::bounded_file::FileKind;
 
 use shagreen_studio::file;
 
@@ -18,7 +19,7 @@ pub(crate) fn load_actuator(name: &str, load_g: Option<f64>) -> anyhow::Result<A
         found.clone()
     } else if Path::new(name).exists() {
         let path = Path::new(name);
-        read_actuator(&file::read_file(path)?).with_context(|| file::in_file(path))?
+        read_actuator(&file::read_file(path, FileKind::Small)?).with_context(|| file::in_file(path))?
     } else {
         let ids: Vec<&str> = built_in.iter().map(|actuator| actuator.id.as_str()).collect();
         bail!(

@@ -6,6 +6,7 @@ use anyhow::Context as _;
 use shagreen_learn::backbone::Backbone;
 
 use crate::cli::model_folder::model_folder;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_studio::file;
 
 #[derive(clap::Args)]
@@ -33,7 +34,7 @@ pub(crate) fn read_backbone(args: &BackboneArgs) -> anyhow::Result<Option<Backbo
     match &args.backbone {
         Some(path) if is_none(path) => Ok(None),
         Some(path) => {
-            let backbone = Backbone::from_bytes(&file::read_file(path)?);
+            let backbone = Backbone::from_bytes(&file::read_file(path, FileKind::Network)?);
             backbone.map(Some).with_context(|| file::in_file(path))
         }
         // Without a folder for user files there is no downloaded network.

@@ -6,6 +6,7 @@ use anyhow::{Context as _, bail};
 use shagreen_core::maths::statistics::standard_deviation;
 use shagreen_core::recording::{RawClock, RawMotion, RawRecording, RawTrack, Recording, check_clock};
 use shagreen_core::units::Hertz;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::recording::{AccelerationUnit, Ask, Channel, ColumnMap, read_recording};
 
 use crate::cli::output;
@@ -30,7 +31,7 @@ pub(crate) fn recorded_file(
     answers: &[(Ask, String)],
 ) -> anyhow::Result<Recorded> {
     let of_file = || file::in_file(path);
-    let bytes = file::read_file(path)?;
+    let bytes = file::read_file(path, FileKind::Recording)?;
     let sidecar = sidecar(path).map_err(anyhow::Error::msg).with_context(of_file)?;
     let mut map = ColumnMap::default();
     // A sweep is no stroke: these placeholders keep the reader from asking for speed and force.

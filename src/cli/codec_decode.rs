@@ -8,6 +8,7 @@ use serde_json::json;
 use shagreen_core::dsp::spectrum::rms;
 use shagreen_core::signals::codec::CODEC_RATE;
 use shagreen_core::words::counted;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::codec_stream::read_stream;
 use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::wav::{SidecarV1, sidecar_path, write_wav};
@@ -38,7 +39,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let beside = sidecar_path(&args.out);
     refuse_inputs(&[&args.out, &beside], &[Some(&args.stream)])?;
     refuse_foreign(&beside, "the sidecar", is_sidecar)?;
-    let bytes = file::read_file(&args.stream)?;
+    let bytes = file::read_file(&args.stream, FileKind::Recording)?;
     let read = read_stream(&bytes).with_context(|| file::in_file(&args.stream))?;
     for warning in &read.warnings {
         output::warn(&format!("{}: {warning}", file::file_name(&args.stream)));

@@ -9,6 +9,7 @@ use shagreen_device::hid::tracker::{PenTracker, TrackedSample, TrackerOptions};
 use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::pressure::PressureMap;
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::stroke::{PenSample, PressUnit};
 use shagreen_formats::stroke_csv::{read_stroke_csv, stroke_csv};
 
@@ -140,7 +141,7 @@ pub(crate) fn decode(
         refuse_foreign(out, "the stroke", |bytes| read_stroke_csv(bytes).is_ok())?;
     }
     let declared = declared.map(|file| first_pen(file).map_err(|error| error.context(file::in_file(file))));
-    let bytes = file::read_file(reports);
+    let bytes = file::read_file(reports, FileKind::Table);
     if let (Some(Err(first)), Err(_)) = (&declared, &bytes) {
         // Both errors are reported, so that the user can correct both at once.
         output::warn(&file::one_line(first));

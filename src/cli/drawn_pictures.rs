@@ -8,6 +8,7 @@ use shagreen_core::surfaces::random_material::draw;
 use shagreen_core::surfaces::shading::Picture;
 use shagreen_core::surfaces::starter::{LabelSpan, Labels, pictured};
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_learn::backbone::Backbone;
 use shagreen_learn::picture_predictor::{LookingError, see};
 use shagreen_learn::picture_set::{PictureSet, Seen};
@@ -37,7 +38,8 @@ pub(crate) fn drawn_pictures(
     // A file with backbone features also contains the statistics.
     let mut kept = kept;
     if let Some(path) = kept.filter(|path| path.exists()) {
-        let before = PictureSet::from_bytes(&file::read_file(path)?).with_context(|| file::in_file(path))?;
+        let before = PictureSet::from_bytes(&file::read_file(path, FileKind::Network)?)
+            .with_context(|| file::in_file(path))?;
         let is_part = backbone.is_none() && before.made_by.starts_with(&seen_by);
         ensure!(
             before.made_by == set.made_by || is_part,

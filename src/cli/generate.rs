@@ -13,6 +13,7 @@ use shagreen_core::surfaces::prompt::{interpret, title};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::built_in_lexicon;
 use shagreen_formats::library::{Library, Place, TextureEntry, id_from_name, write_library};
@@ -269,15 +270,16 @@ fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
     let description = folder.join(DESCRIPTION);
     refuse_foreign(&description, "the description", |bytes| has_format(bytes, FORMAT))?;
     // A generated file that is unchanged may be replaced; a file that was edited since may not.
-    let before: Option<Value> =
-        std::fs::read(&description).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    let before: Option<Value> = bounded_file::read(&description, FileKind::Document)
+        .ok()
+        .and_then(|bytes| serde_json::from_slice(&bytes).ok());
     let is_ours = |name: &str, bytes: &[u8]| {
         let hash = before.as_ref().and_then(|before| before["sha256"][name].as_str());
         hash == Some(&sha256_of(bytes))
     };
     for name in [PICTURE, HEIGHTS, TEXTURE, project_name] {
         let path = folder.join(name);
-        if let Ok(bytes) = std::fs::read(&path)
+        if let Ok(bytes) = bounded_file::read(&path, FileKind::Document)
             && !is_ours(name, &bytes)
         {
             bail!(

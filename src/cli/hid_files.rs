@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::{Context as _, bail};
 use shagreen_device::hid::descriptor::{self, Descriptor};
 use shagreen_device::hid::pen::{PenDecoder, PenFormat};
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::hid_text::{HidRecording, TimedReport, bytes_of_hex_file, is_hid_text, read_hid_text};
 
 use crate::cli::output;
@@ -30,7 +31,7 @@ impl DeclaredDevice {
 /// Reads the report descriptors of a file: raw bytes, the same bytes in hexadecimal, or a recording of `hid-recorder`
 /// or `usbhid-dump`.
 pub(crate) fn read_descriptors(path: &Path) -> anyhow::Result<Vec<anyhow::Result<DeclaredDevice>>> {
-    let bytes = file::read_file(path)?;
+    let bytes = file::read_file(path, FileKind::Table)?;
     let declared = |name: Option<String>, identity, bytes: &[u8]| {
         let descriptor = descriptor::parse(bytes)?;
         Ok(DeclaredDevice { name, identity, descriptor })

@@ -6,6 +6,7 @@ use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, read_library, write_library};
 
 use crate::cli::output;
@@ -182,7 +183,7 @@ fn existing(path: &Path) -> anyhow::Result<Library> {
             ..Library::default()
         });
     }
-    let bytes = file::read_file(path)?;
+    let bytes = file::read_file(path, FileKind::Document)?;
     let read = read_library(&bytes).with_context(|| file::in_file(path))?;
     Ok(read.value)
 }

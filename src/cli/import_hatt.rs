@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use serde_json::json;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::hatt::read_hatt;
 use shagreen_formats::library::{Provenance, name_from_file};
 
@@ -30,7 +31,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut restricted = Vec::new();
     let progress = Progress::new("models", files.len());
     for file in &files {
-        let read = file::read_file(file).map_err(|error| format!("{error:#}"));
+        let read = file::read_file(file, FileKind::Document).map_err(|error| format!("{error:#}"));
         match read.and_then(|bytes| read_hatt(&bytes).map_err(|error| error.to_string())) {
             Err(reason) => outcome.failed(file, reason),
             Ok(read) => {

@@ -51,7 +51,13 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
 }
 
 fn table(library: &Library) -> String {
-    let widest = library.textures.iter().map(|texture| texture.id.chars().count()).max().unwrap_or(0);
+    let widest = library
+        .textures
+        .iter()
+        .map(|texture| texture.id.chars().count())
+        .max()
+        .unwrap_or(0)
+        .min(output::MAX_WIDTH);
     let line = |texture: &TextureEntry| {
         let place = texture.place.map_or_else(
             || "no position".to_owned(),

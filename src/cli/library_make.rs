@@ -7,6 +7,7 @@ use serde_json::json;
 use shagreen_core::space::LabelSource;
 use shagreen_core::surfaces::material::Material;
 use shagreen_core::surfaces::starter::{self, StarterTexture};
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::{Library, PhysicalLabels, Place, TextureEntry, write_library};
 use shagreen_formats::materials_toml::{Materials, read_materials};
 use shagreen_formats::{atomic, picture};
@@ -45,7 +46,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(&args.materials)])?;
-    let bytes = file::read_file(&args.materials)?;
+    let bytes = file::read_file(&args.materials, FileKind::Document)?;
     let materials = read_materials(&bytes).with_context(|| file::in_file(&args.materials))?;
     let progress = Progress::new("materials", materials.materials.len());
     let mut library = make_library(&materials, &|| progress.step())?;

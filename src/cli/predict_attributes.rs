@@ -15,6 +15,7 @@ use shagreen_core::surfaces::starter::FRAMING;
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::patterns::{PAPER_FORCES_N, PAPER_RATE, PAPER_SPEEDS_MM_PER_S};
 use shagreen_formats::attribute_table::attribute_table;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::{LEXICON_TEXT, built_in_lexicon};
 use shagreen_formats::picture::photo_pixels;
@@ -81,12 +82,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
     let backbone = read_backbone(&args.backbone)?;
     let looker = match &args.model {
-        Some(model) => {
-            PicturePredictor::new(&file::read_file(model)?, backbone).with_context(|| file::in_file(model))?
-        }
+        Some(model) => PicturePredictor::new(&file::read_file(model, FileKind::Network)?, backbone)
+            .with_context(|| file::in_file(model))?,
         None => PicturePredictor::built_in(backbone)?,
     };
-    let pixels = photo_pixels(&file::read_file(photo)?).with_context(|| file::in_file(photo))?;
+    let pixels =
+        photo_pixels(&file::read_file(photo, FileKind::Picture)?).with_context(|| file::in_file(photo))?;
     // The size of the surface in a photo is unknown; no feature depends on it.
     let seen =
         looker.look(&pixels.into_surface(FRAMING.millimeters)).with_context(|| file::in_file(photo))?;
@@ -175,7 +176,7 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
 /// Predicts the attributes of the recordings with a network trained on strokes. The standard deviations are its
 /// leave-one-texture-out RMSE.
 fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Result<()> {
-    let bytes = file::read_file(path)?;
+    let bytes = file::read_file(path, FileKind::Network)?;
     let (network, card) = StrokeModel::from_bytes(&bytes).with_context(|| file::in_file(path))?;
     let strokes = fit::strokes(recordings, PAPER_RATE).with_context(|| file::in_file(&args.recording[0]))?;
     let predicted = network.predict(&strokes)?.with_context(|| {

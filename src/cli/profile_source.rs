@@ -7,6 +7,7 @@ use shagreen_core::signals::spatial_spectrogram::Framing;
 use shagreen_core::texture::profile::Profile;
 use shagreen_core::texture::relief::felt_profile;
 use shagreen_core::units::{Hertz, MetersPerSecond};
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
 
@@ -67,7 +68,7 @@ impl ProfileArgs {
             )
             .into());
         }
-        let bytes = file::read_file(&self.path)?;
+        let bytes = file::read_file(&self.path, FileKind::Recording)?;
         let values = brightness_row(&bytes, self.row).with_context(|| file::in_file(&self.path))?;
         let step_m = 1e-3 * width_mm / values.len() as f64;
         Profile::new(step_m, values)
@@ -113,7 +114,7 @@ impl ProfileArgs {
             )
             .into()),
             _ => {
-                let bytes = file::read_file(&self.path)?;
+                let bytes = file::read_file(&self.path, FileKind::Recording)?;
                 if is_picture(&bytes) {
                     return Err(Usage("a picture is converted to a profile by the width of its surface; give --width in mm".to_owned()).into());
                 }

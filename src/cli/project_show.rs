@@ -42,7 +42,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "notes": project.notes,
     });
     output::print(args.json, &result, || {
-        let widest = project.authored.iter().map(|t| t.name.chars().count()).max().unwrap_or(0);
+        let widest =
+            project.authored.iter().map(|t| t.name.chars().count()).max().unwrap_or(0).min(output::MAX_WIDTH);
         let mut lines = vec![format!("{name}, {} textures", textures.textures.len())];
         lines.extend(project.authored.iter().map(|texture| line(texture, widest)));
         lines.join("\n")

@@ -18,6 +18,16 @@ pub(crate) fn within(text: &str, range: &std::ops::RangeInclusive<f64>, unit: &s
     }
 }
 
+/// Returns a parser of a count within a range.
+pub(crate) fn count(
+    range: std::ops::RangeInclusive<usize>,
+) -> impl Fn(&str) -> Result<usize, String> + Clone + Send + Sync {
+    move |text| match text.parse::<usize>() {
+        Ok(value) if range.contains(&value) => Ok(value),
+        _ => Err(format!("it must be a whole number from {} to {}", range.start(), range.end())),
+    }
+}
+
 /// Parses a quantity above 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let value = quantity(text)?;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::map_toml::read_map;
 use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_formats::wav;
@@ -24,7 +25,9 @@ pub(crate) fn parse_answer(text: &str) -> Result<(Ask, String), String> {
 pub(crate) fn map_of(path: Option<&Path>, answers: &[(Ask, String)]) -> anyhow::Result<ColumnMap> {
     let mut map = match path {
         None => ColumnMap::default(),
-        Some(path) => read_map(&file::read_file(path)?).with_context(|| file::in_file(path))?,
+        Some(path) => {
+            read_map(&file::read_file(path, FileKind::Small)?).with_context(|| file::in_file(path))?
+        }
     };
     for (i, (what, answer)) in answers.iter().enumerate() {
         if let Some((_, other)) =
@@ -52,7 +55,7 @@ pub(crate) fn sidecar(file: &Path) -> Result<Option<Vec<u8>>, String> {
         return Ok(None);
     }
     for name in wav::sidecar_names(&file_name(file)) {
-        match std::fs::read(file.with_file_name(&name)) {
+        match bounded_file::read(&file.with_file_name(&name), FileKind::Small) {
             Ok(bytes) => return Ok(Some(bytes)),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
             Err(error) => {

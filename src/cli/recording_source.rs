@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use shagreen_core::recording::Recording;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
 
 use crate::cli::recording_answers::sidecar;
@@ -26,7 +27,7 @@ pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead
         warnings: Vec::new(),
     };
     // The caller adds the name of the file.
-    let bytes = match file::read_file(file) {
+    let bytes = match file::read_file(file, FileKind::Recording) {
         Ok(bytes) => bytes,
         Err(error) => return failed(error.root_cause().to_string()),
     };

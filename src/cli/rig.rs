@@ -44,6 +44,9 @@ pub(crate) struct RigArgs {
     /// Drive only this output channel, counted from 1. Default: the first two channels.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     channel: Option<u16>,
+    /// Take the output over from another Shagreen that plays on it; the other one then goes silent.
+    #[arg(long, conflicts_with = "serial")]
+    take_over: bool,
     /// Buffer size to request from the output, in frames. A smaller buffer reduces latency but increases the risk of
     /// dropouts.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65_536))]
@@ -97,6 +100,7 @@ impl RigArgs {
             seed,
             drive: self.drive()?,
             channels: channels(self.channel),
+            take_over: self.take_over,
         };
         let rig = match &self.serial {
             None => {

@@ -7,6 +7,7 @@ use shagreen_core::dsp::filter::resample;
 use shagreen_core::dsp::spectrum::rms;
 use shagreen_core::maths::statistics::{centered, mean};
 use shagreen_core::units::Hertz;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::signal::{Signal, SignalHints, read_signal};
 
 use crate::cli::output;
@@ -44,7 +45,7 @@ impl SignalArgs {
 
     /// Loads the signal of a file.
     pub(crate) fn load(&self, path: &Path) -> anyhow::Result<Signal> {
-        let bytes = file::read_file(path)?;
+        let bytes = file::read_file(path, FileKind::Recording)?;
         let beside = sidecar(path).map_err(anyhow::Error::msg).with_context(|| file::in_file(path))?;
         let channel = self.channel.map(|channel| usize::from(channel) - 1);
         let hints = SignalHints { full_scale_mps2: self.full_scale, channel };

@@ -18,6 +18,7 @@ use shagreen_formats::space_report::{FIGURES, FORMAT, space_report, space_subtit
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
+use crate::cli::quantity::count;
 use crate::cli::space_judgments::{JudgmentArgs, Judgments};
 use crate::cli::words::words;
 use shagreen_studio::figure_files::{check_figures, figure_files, write_together};
@@ -68,7 +69,7 @@ pub(crate) struct Args {
     #[arg(long, default_value = "auto", value_parser = words(Placement::ALL, Placement::id))]
     placement: Placement,
     /// Number of permutations for the null distribution of the permutation test.
-    #[arg(long, default_value_t = 1000, value_name = "N")]
+    #[arg(long, default_value_t = 1000, value_name = "N", value_parser = count(0..=1_000_000))]
     permutations: usize,
     /// Folder for each figure as SVG and CSV.
     #[arg(long, value_name = "FOLDER")]

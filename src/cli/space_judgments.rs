@@ -8,6 +8,7 @@ use shagreen_core::people::ratings::{Rating, RelevanceVote};
 use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::space_build::SpaceBuildError;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
 use shagreen_formats::places_csv::Scale;
@@ -174,7 +175,7 @@ fn read<T>(
     warnings: &mut Vec<String>,
     reader: impl FnOnce(&[u8]) -> anyhow::Result<Imported<T>>,
 ) -> anyhow::Result<T> {
-    let bytes = file::read_file(path)?;
+    let bytes = file::read_file(path, FileKind::Table)?;
     let imported = reader(&bytes).with_context(|| file::in_file(path))?;
     warnings.extend(imported.warnings.iter().map(|warning| format!("{warning}: {}", path.display())));
     Ok(imported.value)

@@ -17,6 +17,7 @@ use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
+use crate::cli::quantity::count;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
 /// Default parameters of a panel.
@@ -38,10 +39,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "R.csv")]
     ratings: PathBuf,
     /// Number of participants.
-    #[arg(long, default_value_t = USUAL.n_participants, value_name = "N")]
+    #[arg(long, default_value_t = USUAL.n_participants, value_name = "N", value_parser = count(1..=10_000))]
     participants: usize,
     /// Numbers of groups that each participant sorts the textures into, one trial for each number; separated by commas.
-    #[arg(long, default_values_t = USUAL_GROUPS, value_delimiter = ',')]
+    #[arg(long, default_values_t = USUAL_GROUPS, value_delimiter = ',', value_parser = count(1..=1000))]
     groups: Vec<usize>,
     /// Standard deviation of the noise in each judgment of a texture, in points of an axis (0 to 100).
     #[arg(long, default_value_t = USUAL.noise_points, value_name = "POINTS")]

@@ -7,6 +7,7 @@ use serde_json::json;
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::library::write_library;
 use shagreen_formats::places_csv::{PlacesCsvError, Scale, looks_rescaled, place_textures, read_places};
 use shagreen_formats::space_report::FORMAT;
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(&args.attributes), args.library.path()])?;
     refuse_foreign(&args.out, "a library", is_library)?;
     let mut library = args.library.load()?;
-    let bytes = file::read_file(&args.attributes)?;
+    let bytes = file::read_file(&args.attributes, FileKind::Table)?;
     let read = read_places(&bytes, args.source, args.scale.unwrap_or(Scale::OF_SPACE))
         .map_err(|error| match error {
             PlacesCsvError::Range { .. } => anyhow!("{error} with --scale LOW,HIGH"),
@@ -126,7 +127,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 fn old_report(out: &Path) -> Option<String> {
     let report = out.with_extension("report.json");
     // A file that cannot be read is no report of this program.
-    let bytes = std::fs::read(&report).ok()?;
+    let bytes = bounded_file::read(&report, FileKind::Document).ok()?;
     has_format(&bytes, FORMAT).then(|| {
         format!(
             "the report next to the library describes a space that was built before, not these positions; move or remove it: {}",

@@ -8,6 +8,7 @@ use shagreen_device::hid::tracker::{PenTracker, TrackerOptions, stroke_samples};
 use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::pressure::PressureMap;
 use shagreen_device::track::{MAX_TRACK_SECS, PenSample as TrackSample, Track, TrackError};
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::hid_text::is_hid_text;
 use shagreen_formats::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use shagreen_formats::stroke_csv::read_stroke_csv;
@@ -35,7 +36,7 @@ pub(crate) fn load(path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeConta
     if high <= low {
         return Err(output::Usage(format!("--force-max {high} must be above --force-min {low}")).into());
     }
-    let bytes = file::read_file(path)?;
+    let bytes = file::read_file(path, FileKind::Table)?;
     contacts(&bytes, path, args).with_context(|| file::in_file(path))
 }
 

@@ -13,6 +13,7 @@ use shagreen_core::texture::patterns::{
 };
 use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::{Library, free_id, id_from_name};
 use shagreen_learn::cnn_lstm::{Architecture, Streams};
 use shagreen_learn::model_file::is_model;
@@ -205,7 +206,7 @@ fn train(
 ) -> anyhow::Result<Option<Training>> {
     let n_epochs = config.n_epochs;
     let mut training = match kept.filter(|path| path.exists()) {
-        Some(path) => Training::resume(textures, config, &file::read_file(path)?)
+        Some(path) => Training::resume(textures, config, &file::read_file(path, FileKind::Network)?)
             .with_context(|| file::in_file(path))?,
         None => Training::new(textures, config)?,
     };

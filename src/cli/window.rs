@@ -35,8 +35,8 @@ pub(crate) struct Args {
 pub(crate) struct WindowRequest {
     /// Project to show.
     pub(crate) project: Project,
-    /// File of the project; `None` for a new one.
-    pub(crate) path: Option<PathBuf>,
+    /// File of the project with its SHA-256; `None` for a new one.
+    pub(crate) file: Option<(PathBuf, String)>,
     /// Id of the output to open; `None` for the default.
     pub(crate) output: Option<String>,
     /// Folders and files of the user.
@@ -78,12 +78,12 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
              the commands work without one: see shagreen --help"
         );
     }
-    let (project, path) = project(args.file.as_deref())?;
+    let (project, file) = project(args.file.as_deref())?;
     // A measurement writes no user files.
     let folders = if args.measure_frames.is_some() { UserFolders::default() } else { user_folders() };
     let times = open_window(WindowRequest {
         project,
-        path,
+        file,
         output: args.output.clone(),
         folders,
         measured_frames: args.measure_frames,
@@ -96,7 +96,7 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
 }
 
 /// Returns the project of a file, or a new project with the library of a file; warnings are printed.
-fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<PathBuf>)> {
+fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<(PathBuf, String)>)> {
     let on = |library: ProjectLibrary| Project { library, ..new_project() };
     let Some(path) = file else { return Ok((new_project(), None)) };
     if let Some(built_in) = built_in(path) {
@@ -107,10 +107,10 @@ fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<PathBuf>)> {
         return Ok((on(ProjectLibrary::Inside(merged.into())), None));
     }
     match open(path)? {
-        Opened::Project(imported) => {
-            warn_of(&imported.warnings, path);
+        Opened::Project(opened) => {
+            warn_of(&opened.warnings, path);
             // An absolute path is valid from every working directory.
-            Ok((imported.value, Some(std::path::absolute(path)?)))
+            Ok((opened.project, Some((std::path::absolute(path)?, opened.sha256))))
         }
         Opened::Library(imported) => {
             warn_of(&imported.warnings, path);

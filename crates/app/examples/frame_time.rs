@@ -39,7 +39,7 @@ fn main() {
     let library = ProjectLibrary::Inside(crowded(n_textures).into());
     let begin = Begin {
         project: Project { library, ..new_project() },
-        path: None,
+        file: None,
         output: OutputChoice::Id("null".to_owned()),
         keeping: StoragePaths::default(),
     };

@@ -78,6 +78,8 @@ pub enum Command {
     ListPens,
     /// Resets the limiter, which silences the output after a fault.
     ResetLimiter,
+    /// Takes over the output on which another Shagreen plays.
+    TakeOverOutput,
     /// Opens the import sheet.
     OpenImport,
     /// Opens these files in the import sheet.
@@ -149,6 +151,10 @@ pub enum FileCommand {
     SaveAndLeave(Leave),
     /// Leaves the project without saving its changes.
     LeaveUnsaved(Leave),
+    /// Opens the project file again, which another window or program has changed. The open project is kept aside.
+    Reload,
+    /// Saves the project over its changed file.
+    Overwrite,
     /// Opens a recovered project, by its index in the list.
     Recover(usize),
     /// Deletes a recovered project, by its index in the list.
@@ -187,7 +193,7 @@ impl Entry {
 }
 
 /// Commands of the palette and of the list of shortcuts, in this order. Each has an [`Entry`].
-pub const LISTED: [Command; 32] = [
+pub const LISTED: [Command; 33] = [
     Command::File(FileCommand::New),
     Command::File(FileCommand::AskWhatToOpen),
     Command::File(FileCommand::OpenGallery),
@@ -215,6 +221,7 @@ pub const LISTED: [Command; 32] = [
     Command::ToggleFreeze,
     Command::ToggleMute,
     Command::ResetLimiter,
+    Command::TakeOverOutput,
     Command::ToggleTheme,
     Command::OpenDevices,
     Command::OpenGuide,
@@ -259,6 +266,7 @@ impl Command {
             Self::ToggleFreeze => Entry::new("Freeze or resume the scope").key(Key::F),
             Self::ToggleMute => Entry::new("Mute or unmute").key(Key::M),
             Self::ResetLimiter => Entry::new("Reset the limiter after a fault"),
+            Self::TakeOverOutput => Entry::new("Take over the output from another Shagreen"),
             Self::ToggleTheme => Entry::new("Switch between dark and light theme").command(Key::T),
             Self::OpenDevices => Entry::new("Devices").command(Key::D),
             Self::OpenGuide => Entry::new("Open the guide"),

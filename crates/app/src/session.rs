@@ -36,6 +36,7 @@ use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::project::{BlendChoice, Project, ProjectLibrary};
 use shagreen_studio::authoring::plane_at;
 use shagreen_studio::report::Warnings;
+use shagreen_studio::short_text::shortened;
 
 use crate::state::scope_buffer::ScopeBuffer;
 use crate::strings;
@@ -338,7 +339,7 @@ impl Session {
 
     /// Shows a message in the status bar.
     pub fn say(&mut self, message: String) {
-        self.sound.player.message = Some(message);
+        self.sound.player.message = Some(shortened(&message));
     }
 }
 

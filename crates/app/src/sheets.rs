@@ -1,5 +1,6 @@
 //! Modal sheets (dialogs) over the window, and the target of dropped files.
 
+pub(crate) mod conflict_ui;
 pub mod devices;
 pub(crate) mod gallery_sheet;
 pub(crate) mod guide_sheet;
@@ -22,6 +23,7 @@ use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
 use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
+use crate::sheets::conflict_ui::conflict_ui;
 use crate::sheets::devices::DevicesSheet;
 use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::guide_sheet::GuideSheet;
@@ -33,6 +35,7 @@ use crate::sheets::recovered_ui::recovered_ui;
 use crate::sheets::save::SaveSheet;
 use crate::sheets::shortcuts_ui::shortcuts_ui;
 use crate::sheets::unsaved_changes::leaving_ui;
+use crate::state::conflict::Conflict;
 use crate::state::document::Document;
 use crate::state::leave::Leave;
 use crate::state::recorded_stroke::is_stroke_file;
@@ -65,6 +68,8 @@ pub(crate) enum Sheet {
     Palette(PaletteSheet),
     /// Asks before unsaved work would be lost.
     Leaving(Leave),
+    /// Asks before saving over a project file that was changed by another window or program.
+    Conflict(Conflict),
     /// Offers projects that a crashed program left behind.
     Recovered(Vec<Leftover>),
 }
@@ -133,6 +138,7 @@ impl Sheet {
             Self::Guide(sheet) => sheet.show(ctx),
             Self::Palette(sheet) => sheet.show(ctx),
             Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name()),
+            Self::Conflict(conflict) => conflict_ui(ctx, conflict, &document.name()),
             Self::Recovered(leftovers) => recovered_ui(ctx, leftovers),
         };
         if matches!(self, Self::Save(sheet) if sheet.is_saving()) {

@@ -6,6 +6,7 @@
 pub(crate) mod background;
 pub mod bench_signal;
 pub mod compare;
+pub mod conflict;
 pub mod document;
 pub mod edit;
 pub(crate) mod figure_file;

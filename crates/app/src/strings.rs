@@ -7,6 +7,7 @@ use shagreen_core::space::SpacePoint;
 pub mod authored;
 pub mod build;
 pub mod compare;
+pub mod conflict;
 pub mod devices;
 pub mod document;
 pub mod edits;
@@ -92,6 +93,8 @@ pub const REDO: &str = "Redo";
 pub const MUTE: &str = "Mute";
 pub const UNMUTE: &str = "Unmute";
 pub const NO_SOUND: &str = "The silent output is used, because no audio output could be opened";
+pub const TAKE_OVER: &str = "Take over";
+pub const TAKE_OVER_HELP: &str = "Plays on this output instead of the other Shagreen, which then goes silent";
 pub const OPENING_FAILED: &str = "Opening the output failed; choose it again or choose another";
 pub const NO_TEXTURES: &str = "This library has no textures.";
 pub const NO_PLACES: &str =

@@ -39,7 +39,7 @@ use crate::sheets::Sheet;
 use crate::sheets::import::sheet::ImportSheet;
 use crate::signals::page::SignalsPage;
 use crate::state::compare::Compare;
-use crate::state::document::Document;
+use crate::state::document::{Document, DocumentFile};
 use crate::state::edit::Edit;
 use crate::state::files::{Files, StoragePaths};
 use crate::state::history::History;
@@ -57,7 +57,7 @@ pub struct Begin {
     /// Open project.
     pub project: Project,
     /// File of the project, or `None` for an unsaved project.
-    pub path: Option<PathBuf>,
+    pub file: Option<DocumentFile>,
     /// Output to open.
     pub output: OutputChoice,
     /// Paths of the files that outlive the program.
@@ -99,7 +99,7 @@ impl Window {
     /// The library cannot be read, or its positions do not form a space.
     pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
         install(ctx);
-        let Begin { project, path, output, keeping } = begin;
+        let Begin { project, file, output, keeping } = begin;
         let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
         let leftovers = Files::leftovers(&keeping);
@@ -107,7 +107,7 @@ impl Window {
         let can_remember = keeping.settings.is_some();
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
         let prompts = Prompts::new(keeping.models.clone().map(ModelFolder::new));
-        let files = Files::new(&project, path, keeping);
+        let files = Files::new(&project, file, keeping);
         let selected_output = SelectedOutput::at_start(&output);
         open_as_left(&mut session, output, &files, ctx);
         session.follow(&project, None, ctx);

@@ -24,6 +24,7 @@ use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer, PushError, RingBuffer};
 use shagreen_synth::drive::{DriveChain, Driven};
+use shagreen_synth::lift_gate::Touching;
 use shagreen_synth::renderer::{Mix, TextureId};
 use shagreen_synth::stream::Stream;
 use shagreen_synth::tap::{Tap, Taps};
@@ -129,6 +130,8 @@ pub struct Engine {
     frames_played: u64,
     /// Frames since the stream started or restarted.
     stream_frames: u64,
+    /// Whether the output is silent after lift-off, and nothing oscillates.
+    is_at_rest: bool,
     leaked: u64,
     orders: triple_buffer::Output<Orders>,
     commands: Consumer<Command>,
@@ -178,6 +181,7 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
         latency: Latency::default(),
         frames_played: 0,
         stream_frames: 0,
+        is_at_rest: true,
         leaked: 0,
         orders: orders_out,
         commands: commands_out,
@@ -317,6 +321,7 @@ impl Engine {
     fn render(&mut self, mono: &mut [f32]) {
         self.stream.process(&self.slots, &mut self.player, mono);
         self.add_taps(mono);
+        let touching = if self.signal.is_playing() { Touching::NotNeeded } else { self.touching() };
         let driven = self.signal.replace(mono);
         if driven == Driven::Acceleration {
             // Samples that do not fit are dropped: the scope is a display, not a recording.
@@ -327,13 +332,26 @@ impl Engine {
             let (gain, unmuted) = (self.gain.next(), self.unmuted.next());
             *sample *= if driven == Driven::Drive { unmuted } else { gain };
         }
-        self.chain.process(mono, driven);
+        self.chain.process(mono, driven, touching);
+        if self.chain.is_silenced() && !self.is_at_rest {
+            // What still oscillates would begin the next contact with a jump.
+            self.taps.reset();
+            self.stream.silence();
+        }
+        self.is_at_rest = self.chain.is_silenced();
         self.meter.note_output(mono);
         self.frames_played += mono.len() as u64;
         self.stream_frames += mono.len() as u64;
         if let Some(played) = self.signal.take_played() {
             self.return_or_leak(Returned::Signal(played));
         }
+    }
+
+    /// Contact of the tip, in frames of the stream.
+    fn touching(&self) -> Touching {
+        let Some((landed_secs, touched_secs)) = self.player.contact_secs() else { return Touching::Never };
+        let frame = |secs: f64| (secs * self.device_rate_hz).round() as u64;
+        Touching::Span { landed: frame(landed_secs), touched: frame(touched_secs) }
     }
 
     /// Adds tap transients, starting at the exact frame of the contact onset.
@@ -351,6 +369,7 @@ impl Engine {
                 self.taps.add_to(before);
                 self.taps.strike(self.tap, landing.strength);
                 self.landing = None;
+                self.player.note_contact(landing.stream_secs);
                 rest = after;
             }
         }

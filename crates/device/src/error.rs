@@ -9,6 +9,8 @@ pub enum DeviceErrorKind {
     NotFound,
     /// Another program uses the device. Ask the person to close that program, then try again.
     Busy,
+    /// Another Shagreen plays on the output. Ask the person whether to take it over.
+    Claimed,
     /// The system refuses access. The person must grant it; trying again does not help.
     Denied,
     /// An open device was disconnected or failed permanently. It is silent. Reopen it when the person requests it, and

@@ -45,6 +45,7 @@ pub mod live;
 pub mod measure;
 mod null_output;
 pub mod output;
+mod output_claim;
 mod output_options;
 pub mod pressure;
 #[cfg(target_os = "linux")]

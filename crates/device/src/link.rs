@@ -6,13 +6,16 @@ use std::time::{Duration, Instant};
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
-use crate::error::DeviceError;
+use crate::error::{DeviceError, DeviceErrorKind};
 use crate::status::{LinkState, Status};
 
 /// Time without a callback, in seconds, after which a device is stalled; with errors meanwhile, it is lost.
 pub const STALL_SECS: f64 = 1.0;
 /// The same limit, in seconds, for a newly opened device before its first callback; some take seconds to start.
 pub const START_SECS: f64 = 5.0;
+
+/// Text of the loss to another process.
+const TAKEN_OVER: &str = "the output was taken over by another Shagreen; open it again to take it back";
 
 /// Counters that all threads share without waiting.
 #[derive(Debug)]
@@ -25,6 +28,8 @@ pub(crate) struct Shared {
     underruns: AtomicU64,
     backend_errors: AtomicU64,
     lost: AtomicBool,
+    /// Whether the device was given up to another process.
+    given_up: AtomicBool,
 }
 
 impl Shared {
@@ -57,6 +62,12 @@ impl Shared {
     /// Adds errors after which the device continued.
     pub(crate) fn note_errors(&self, n: u64) {
         self.backend_errors.fetch_add(n, Ordering::Relaxed);
+    }
+
+    /// Marks the device as lost to another process; it is silent from now on.
+    pub(crate) fn give_up(&self) {
+        self.given_up.store(true, Ordering::Relaxed);
+        self.lost.store(true, Ordering::Relaxed);
     }
 
     pub(crate) fn is_lost(&self) -> bool {
@@ -141,6 +152,9 @@ impl Monitor {
     pub(crate) fn loss(&mut self) -> Option<&DeviceError> {
         if self.loss.is_none() {
             self.loss = self.losses.pop().ok(); // Empty: the device is not lost.
+            if self.loss.is_none() && self.shared.given_up.load(Ordering::Relaxed) {
+                self.loss = Some(DeviceError::new(DeviceErrorKind::Lost, TAKEN_OVER));
+            }
         }
         self.loss.as_ref()
     }
@@ -155,6 +169,7 @@ pub(crate) fn link() -> (Reporter, Monitor) {
         underruns: AtomicU64::new(0),
         backend_errors: AtomicU64::new(0),
         lost: AtomicBool::new(false),
+        given_up: AtomicBool::new(false),
     });
     let (producer, consumer) = RingBuffer::new(1);
     (

@@ -96,6 +96,7 @@ pub fn measure<E: Display>(
         seed: 1,
         drive,
         channels,
+        take_over: false,
     };
     let mut through = |handle: &mut Handle, running: &Running, sensor: &mut dyn Sensor| {
         let refuse = |message: String| DeviceError::new(DeviceErrorKind::Config, message);

@@ -2,10 +2,16 @@
 //!
 //! An output is opened by its id. If it is lost, there is silence and [`Handle::loss`] gives the reason. No other
 //! output ever replaces it, because actuator drive must not reach someone's headphones.
+//!
+//! An output has one owner: a second Shagreen cannot open it unless it takes it over, because the limits of two engines
+//! would add up.
+
+use std::borrow::Cow;
 
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::null_output::NullOutput;
+use crate::output_claim::Claim;
 use crate::output_options::make_engine;
 use crate::running::RunningFacts;
 use crate::serial::SerialOptions;
@@ -42,6 +48,7 @@ pub fn list_outputs() -> Vec<OutputInfo> {
 /// # Errors
 /// - [`DeviceErrorKind::NotFound`] if there is no such output.
 /// - [`DeviceErrorKind::Busy`] if another program uses it.
+/// - [`DeviceErrorKind::Claimed`] if another Shagreen plays on it and it is not taken over.
 /// - [`DeviceErrorKind::Denied`] if the system refuses access.
 /// - [`DeviceErrorKind::Unsupported`] if it has no suitable rate, format or channel.
 /// - [`DeviceErrorKind::Config`] if the options are contradictory.
@@ -52,13 +59,31 @@ pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceE
         return open_null_with_tap(options, |_| {});
     }
     check_buffer(options)?;
+    if id.starts_with(crate::serial::ID_PREFIX) {
+        // The system opens a serial port once only.
+        let connection = crate::serial::open(id, options, SerialOptions::default())?;
+        return Ok((connection.handle, connection.running));
+    }
+    let claim = Claim::new(&claimed_id(id), options.take_over)?;
+    let (handle, running) = open_device(id, options)?;
+    Ok((handle, running.claimed_by(claim)?))
+}
+
+/// Id under which an output is claimed. An ALSA route to the sound server is the server's default output.
+fn claimed_id(id: &str) -> Cow<'_, str> {
+    #[cfg(target_os = "linux")]
+    if matches!(id, "alsa:default" | "alsa:pulse" | "alsa:pipewire" | "alsa:sysdefault")
+        && let Some(output) = crate::pulse::list().into_iter().find(|output| output.is_default)
+    {
+        return Cow::Owned(output.id);
+    }
+    Cow::Borrowed(id)
+}
+
+fn open_device(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
     #[cfg(target_os = "linux")]
     if id.starts_with(crate::pulse::PREFIX) {
         return open_pulse(id, options);
-    }
-    if id.starts_with(crate::serial::ID_PREFIX) {
-        let connection = crate::serial::open(id, options, SerialOptions::default())?;
-        return Ok((connection.handle, connection.running));
     }
     let (handle, opened) = crate::audio::open(id, options)?;
     let buffer_frames = opened.buffer_frames;
@@ -140,6 +165,7 @@ pub(crate) mod tests {
         seed: 0,
         drive: DriveConfig::proportional(10.0, 0.9),
         channels: ChannelMask::FIRST_TWO,
+        take_over: false,
     };
 
     #[test]

@@ -66,6 +66,8 @@ pub struct OpenOptions {
     pub drive: DriveConfig,
     /// The channels that get the signal; the others are silent.
     pub channels: ChannelMask,
+    /// Whether to take the output over from another Shagreen that plays on it.
+    pub take_over: bool,
 }
 
 /// An engine at the device's actual rate, with its handle and the device's side of the status link.

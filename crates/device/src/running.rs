@@ -6,7 +6,9 @@ use std::time::{Duration, Instant};
 
 #[cfg(doc)]
 use crate::engine::Handle;
+use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Shared;
+use crate::output_claim::{Claim, ClaimGuard};
 use crate::status::Status;
 
 /// Interval at which a drain checks whether the device is lost.
@@ -19,6 +21,9 @@ pub struct Running {
     shared: Arc<Shared>,
     #[expect(dead_code, reason = "held to be dropped")]
     device: Box<dyn Debug + Send>,
+    /// Released last, when the device is closed.
+    #[expect(dead_code, reason = "held to be dropped")]
+    claim: Option<ClaimGuard>,
 }
 
 /// Properties of an open output.
@@ -41,7 +46,15 @@ pub(crate) struct RunningFacts {
 impl Running {
     /// An open output that holds `device` until it is dropped.
     pub(crate) fn new(facts: RunningFacts, shared: Arc<Shared>, device: impl Debug + Send + 'static) -> Self {
-        Self { facts, shared, device: Box::new(device) }
+        Self { facts, shared, device: Box::new(device), claim: None }
+    }
+
+    /// The output with a claim that it keeps until it is closed.
+    pub(crate) fn claimed_by(self, claim: Option<Claim>) -> Result<Self, DeviceError> {
+        let guard = claim.map(|claim| claim.guard(Arc::clone(&self.shared))).transpose();
+        let no_thread =
+            |error| DeviceError::new(DeviceErrorKind::Backend, format!("no thread can be started: {error}"));
+        Ok(Self { claim: guard.map_err(no_thread)?, ..self })
     }
 
     /// State that the device and the engine share.

@@ -163,8 +163,17 @@ pub(crate) mod tests {
 
     pub(crate) fn white_at(rate_hz: f32, level_mps2: f32) -> Result<OwnedTexture, super::TextureError> {
         // Evenly spaced LSFs give a predictor with zero coefficients and gain 1.
+        with_lsf(rate_hz, level_mps2, &[core::f32::consts::PI / 3.0, core::f32::consts::PI * 2.0 / 3.0])
+    }
+
+    /// A texture with one predictor everywhere, whose level scales as that of [`white`].
+    pub(crate) fn with_lsf(
+        rate_hz: f32,
+        level_mps2: f32,
+        frequencies: &[f32],
+    ) -> Result<OwnedTexture, super::TextureError> {
         let mut lsf = [0.0; MAX_ORDER];
-        (lsf[0], lsf[1]) = (core::f32::consts::PI / 3.0, core::f32::consts::PI * 2.0 / 3.0);
+        lsf[..frequencies.len()].copy_from_slice(frequencies);
         let node = |level_mps2| Node { level_mps2, lsf };
         let nodes = [node(0.0), node(0.0), node(level_mps2), node(0.0)];
         let triangle = |nodes, neighbors, weights| Triangle { nodes, neighbors, weights, ln_gain: [0.0; 6] };
@@ -175,7 +184,7 @@ pub(crate) mod tests {
         let (nodes, triangles) = (&nodes, &triangles);
         OwnedTexture::new(Parts {
             rate_hz,
-            order: 2,
+            order: frequencies.len(),
             ma_order: 0,
             speed_max_mps: 1.0,
             force_max_n: 1.0,

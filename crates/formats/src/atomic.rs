@@ -1,8 +1,11 @@
 //! Atomic file writing: write a temporary file in the same folder, flush it to disk, then rename it.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use tempfile::{NamedTempFile, TempPath};
 
@@ -39,7 +42,24 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// # Errors
 /// [`WriteError`] for the first file that could not be written; all files are then unchanged.
 pub fn write_all(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
-    replace(stage_all(files)?)
+    replace(stage_all(files, Access::Usual)?)
+}
+
+/// Same as [`write_all`], but only this user may read the files.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_private(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
+    replace(stage_all(files, Access::Private)?)
+}
+
+/// Who may read a new file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Access {
+    /// As the user's umask permits.
+    Usual,
+    /// This user.
+    Private,
 }
 
 /// Checks whether [`write_all`] could write these files now, as far as possible without replacing one. Call it before
@@ -49,14 +69,15 @@ pub fn write_all(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
 /// [`WriteError`] for the first file that could not be written.
 pub fn check_all(paths: &[&Path]) -> Result<(), WriteError> {
     let files: Vec<(&Path, &[u8])> = paths.iter().map(|path| (*path, &[][..])).collect();
-    stage_all(&files).map(drop)
+    stage_all(&files, Access::Usual).map(drop)
 }
 
 /// Writes all files under temporary names.
-fn stage_all<'a>(files: &[(&'a Path, &[u8])]) -> Result<Vec<Staged<'a>>, WriteError> {
+fn stage_all<'a>(files: &[(&'a Path, &[u8])], access: Access) -> Result<Vec<Staged<'a>>, WriteError> {
     let mut staged: Vec<Staged<'_>> = Vec::with_capacity(files.len());
     for (path, bytes) in files {
-        let file = stage(path, bytes).map_err(|source| WriteError { path: path.to_path_buf(), source })?;
+        let file =
+            stage(path, bytes, access).map_err(|source| WriteError { path: path.to_path_buf(), source })?;
         if let Some(twin) = staged.iter().find(|other| other.target == file.target) {
             let reason =
                 format!("it is the same file as {}, which is also being written", twin.path.display());
@@ -79,17 +100,23 @@ struct Staged<'a> {
 }
 
 /// Writes the bytes to a temporary file in the folder of the target of `path`.
-fn stage<'a>(path: &'a Path, bytes: &[u8]) -> io::Result<Staged<'a>> {
+fn stage<'a>(path: &'a Path, bytes: &[u8], access: Access) -> io::Result<Staged<'a>> {
     let target = behind_links(path)?;
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
         // The usual file mode under the user's umask; the default of `tempfile` is private to the user.
         use std::os::unix::fs::PermissionsExt as _;
-        builder.permissions(fs::Permissions::from_mode(0o666));
+        builder.permissions(fs::Permissions::from_mode(if access == Access::Private {
+            0o600
+        } else {
+            0o666
+        }));
     }
-    let mut file = builder.prefix(PREFIX).tempfile_in(folder_of(&target)).map_err(|error| unnamed(&error))?;
-    file.write_all(bytes)?;
+    sweep(folder_of(&target));
+    let file = builder.prefix(PREFIX).tempfile_in(folder_of(&target)).map_err(|error| unnamed(&error))?;
+    // Written to the inner file, whose errors do not name the temporary file.
+    file.as_file().write_all(bytes)?;
     file.as_file().sync_all()?;
     Ok(Staged { path, target, file })
 }
@@ -118,10 +145,42 @@ fn behind_links(path: &Path) -> io::Result<PathBuf> {
         // The path does not exist, or is a link to a missing file.
         match fs::read_link(&path) {
             Ok(next) => path = folder_of(&path).join(next),
-            Err(_) => return Ok(path),
+            Err(_) => return Ok(in_real_folder(&path)),
         }
     }
     Err(io::Error::new(io::ErrorKind::InvalidInput, "the path leads through too many symbolic links"))
+}
+
+/// Path of a file that does not exist yet, in its folder without links and detours: `a` and `./a` are one file.
+fn in_real_folder(path: &Path) -> PathBuf {
+    match (fs::canonicalize(folder_of(path)), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        // Writing the file reports a folder that does not exist.
+        _ => path.to_owned(),
+    }
+}
+
+/// Age from which a temporary file counts as left behind by a process that was killed.
+const STALE: Duration = Duration::from_secs(3600);
+
+/// Deletes temporary files that killed processes left in a folder. A process does this once for each folder.
+fn sweep(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let mut swept = SWEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if swept.insert(folder.to_owned()) {
+        sweep_older(folder, STALE);
+    }
+}
+
+fn sweep_older(folder: &Path, age: Duration) {
+    // A folder that cannot be read is not swept; writing to it may still be possible.
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let is_ours = entry.file_name().to_str().is_some_and(|name| name.starts_with(PREFIX));
+        let is_old = || entry.metadata().ok()?.modified().ok()?.elapsed().ok().map(|since| since >= age);
+        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) && is_old() == Some(true) {
+            fs::remove_file(entry.path()).ok(); // Another process may have removed it.
+        }
+    }
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -197,8 +256,9 @@ fn sync_folder(target: &Path) {
 
 #[cfg(test)]
 mod tests {
-    use super::{check_all, replace, stage, write, write_all};
+    use super::{Access, check_all, replace, stage, sweep_older, write, write_all};
     use std::fs;
+    use std::time::Duration;
 
     fn names(folder: &std::path::Path) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(folder)
@@ -248,7 +308,7 @@ mod tests {
     /// Stages three files, of which the last cannot be renamed because a folder has taken its name.
     fn fail_late(folder: &std::path::Path) {
         let [old, fresh, taken] = ["old", "fresh", "taken"].map(|name| folder.join(name));
-        let staged = [&old, &fresh, &taken].map(|path| stage(path, b"now").unwrap());
+        let staged = [&old, &fresh, &taken].map(|path| stage(path, b"now", Access::Usual).unwrap());
         fs::create_dir(&taken).unwrap();
         assert_eq!(replace(staged.into()).unwrap_err().path, taken);
         assert_eq!(names(folder), ["old", "taken"]);
@@ -281,10 +341,23 @@ mod tests {
     fn two_names_of_one_file_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         let [a, b] = ["a", "./a"].map(|name| folder.path().join(name));
+        assert!(write_all(&[(&a, b"new"), (&b, b"other")]).unwrap_err().to_string().contains("same file"));
         fs::write(&a, b"old").unwrap();
         let error = write_all(&[(&a, b"new"), (&b, b"other")]).unwrap_err();
         assert!(error.to_string().contains("same file"), "{error}");
         assert_eq!(fs::read(&a).unwrap(), b"old");
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_swept() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [".shagreen-abc", ".shagreen", "other"] {
+            fs::write(folder.path().join(name), b"x").unwrap();
+        }
+        sweep_older(folder.path(), Duration::from_secs(3600));
+        assert_eq!(names(folder.path()).len(), 3, "a young file may be in use");
+        sweep_older(folder.path(), Duration::ZERO);
+        assert_eq!(names(folder.path()), [".shagreen", "other"]);
     }
 
     #[cfg(unix)]

@@ -2,6 +2,9 @@
 
 use std::borrow::Cow;
 
+/// Longest line of a table, in bytes: more than 10,000 columns.
+const MAX_LINE_BYTES: usize = 1 << 20;
+
 /// Why bytes are not text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -17,6 +20,14 @@ pub enum TableTextError {
     /// UTF-16 with an unpaired surrogate or an odd byte.
     #[error("line {line} holds an incomplete UTF-16 character; save the table again as CSV in UTF-8")]
     Utf16 {
+        /// The line, from one.
+        line: u64,
+    },
+    /// A line is too long for a table.
+    #[error(
+        "line {line} is longer than {MAX_LINE_BYTES} bytes, so the file is not a table; save it as CSV with one row a line"
+    )]
+    LongLine {
         /// The line, from one.
         line: u64,
     },
@@ -42,8 +53,11 @@ pub(crate) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, TableTextError> {
         })?;
         Cow::Borrowed(utf8.trim_start_matches('\u{feff}'))
     };
-    match text.find('\0') {
-        Some(at) => Err(TableTextError::Zero { line: line_at(&text.as_bytes()[..at]) }),
+    if let Some(at) = text.find('\0') {
+        return Err(TableTextError::Zero { line: line_at(&text.as_bytes()[..at]) });
+    }
+    match text.split('\n').position(|line| line.len() > MAX_LINE_BYTES) {
+        Some(index) => Err(TableTextError::LongLine { line: index as u64 + 1 }),
         None => Ok(text),
     }
 }

@@ -1,5 +1,6 @@
 //! Pictures of surfaces: encoding and decoding.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 
 use image::codecs::jpeg::JpegEncoder;
@@ -272,9 +273,10 @@ fn photo_format(bytes: &[u8]) -> Option<ImageFormat> {
 
 /// Decodes a photo and applies its stored orientation.
 fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
-    let mut reader = ImageReader::new(Cursor::new(bytes));
-    let format = photo_format(bytes).ok_or(PictureError::NoPhoto)?;
-    if format == ImageFormat::Jpeg && is_cut_off(bytes) {
+    let bytes = without_large_texts(bytes);
+    let mut reader = ImageReader::new(Cursor::new(&*bytes));
+    let format = photo_format(&bytes).ok_or(PictureError::NoPhoto)?;
+    if format == ImageFormat::Jpeg && is_cut_off(&bytes) {
         return Err(PictureError::CutOff);
     }
     reader.set_format(format);
@@ -293,6 +295,28 @@ fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     let mut photo = DynamicImage::from_decoder(decoder).map_err(refused)?;
     photo.apply_orientation(orientation);
     Ok(photo)
+}
+
+/// Signature at the begin of a PNG.
+const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+/// Chunks of a PNG that hold compressed data besides the image. A few kilobytes can expand to gigabytes, and nothing of
+/// them is used.
+const COMPRESSED_CHUNKS: [&[u8]; 3] = [b"iCCP", b"zTXt", b"iTXt"];
+
+/// Returns a PNG without its color profile and compressed texts; any other file unchanged.
+fn without_large_texts(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let Some(mut rest) = bytes.strip_prefix(PNG_SIGNATURE) else { return Cow::Borrowed(bytes) };
+    let mut kept = PNG_SIGNATURE.to_vec();
+    // A chunk is its length, its name, its data and a checksum.
+    while let Some((length, name)) = rest.first_chunk::<4>().zip(rest.get(4..8)) {
+        let end = (u32::from_be_bytes(*length) as usize).saturating_add(12).min(rest.len());
+        if !COMPRESSED_CHUNKS.contains(&name) {
+            kept.extend_from_slice(&rest[..end]);
+        }
+        rest = &rest[end..];
+    }
+    kept.extend_from_slice(rest);
+    Cow::Owned(kept)
 }
 
 /// Returns whether a JPEG ends before its end marker. Decoders silently fill missing rows with gray. A complete file
@@ -349,12 +373,12 @@ fn decoder(picture: &Picture) -> Result<impl ImageDecoder + '_, PictureError> {
     Ok(decoder)
 }
 
-fn reader(picture: &Picture) -> ImageReader<Cursor<&[u8]>> {
+fn reader(picture: &Picture) -> ImageReader<Cursor<Cow<'_, [u8]>>> {
     let format = match picture.format {
         PictureFormat::Jpeg => ImageFormat::Jpeg,
         PictureFormat::Png => ImageFormat::Png,
     };
-    let mut reader = ImageReader::with_format(Cursor::new(picture.bytes.as_slice()), format);
+    let mut reader = ImageReader::with_format(Cursor::new(without_large_texts(&picture.bytes)), format);
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);

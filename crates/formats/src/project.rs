@@ -289,8 +289,13 @@ impl Project {
 
     /// Returns a key that no authored texture or snapshot of the project has.
     pub fn free_key(&self) -> u32 {
-        let highest = self.authored.iter().chain(&self.snapshots).map(|texture| texture.key).max();
-        highest.unwrap_or(0) + 1
+        let used = || self.authored.iter().chain(&self.snapshots).map(|texture| texture.key);
+        let highest = used().max().unwrap_or(0);
+        highest.checked_add(1).unwrap_or_else(|| {
+            let used: BTreeSet<u32> = used().collect();
+            // A project cannot hold as many textures as there are keys.
+            (1..u32::MAX).find(|key| !used.contains(key)).unwrap_or(u32::MAX)
+        })
     }
 }
 

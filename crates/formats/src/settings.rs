@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::layout;
+use crate::path_json;
 use crate::rig_settings::RigSettings;
 
 /// Nesting depth up to which values get their own lines.
@@ -21,6 +22,7 @@ pub const MAX_PROMPTS: usize = 24;
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Settings {
     /// Recently opened projects, newest first.
+    #[serde(serialize_with = "path_json::serialize_all")]
     pub recent: Vec<PathBuf>,
     /// Whether the light theme is selected; `None` follows the system.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -31,7 +33,7 @@ pub struct Settings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f32>,
     /// The project that new projects start from.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "path_json::serialize_option")]
     pub template: Option<PathBuf>,
     /// The device setup; `None` if the user has not selected any.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -98,16 +100,46 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
         Err(error) => (None, Some(SettingsError::Rig(error))),
     };
     let settings = Settings {
-        recent: taken(&mut all, "recent").unwrap_or_default(),
+        recent: taken(&mut all, "recent")
+            .map(|paths: Vec<Value>| paths.iter().filter_map(path_json::from_json).collect())
+            .unwrap_or_default(),
         is_light: taken(&mut all, "is_light"),
         has_seen_tour: taken(&mut all, "has_seen_tour").unwrap_or_default(),
         scale: taken(&mut all, "scale"),
-        template: taken(&mut all, "template"),
+        template: taken(&mut all, "template").and_then(|path: Value| path_json::from_json(&path)),
         prompts: taken(&mut all, "prompts").unwrap_or_default(),
         rig,
         unknown: all,
     };
     (settings, error)
+}
+
+/// Merges settings by key: those that changed from `base` to `ours` are ours, the others are `theirs`. Lists of recent
+/// things keep both. Two windows therefore do not undo each other's settings.
+pub fn merged(base: &Settings, ours: &Settings, theirs: Settings) -> Settings {
+    let mut merged = theirs;
+    if base.recent != ours.recent {
+        let others = merged.recent.into_iter().filter(|path| !ours.recent.contains(path));
+        merged.recent = ours.recent.iter().cloned().chain(others).take(MAX_RECENT).collect();
+    }
+    if base.prompts != ours.prompts {
+        let others = merged.prompts.into_iter().filter(|kept| !ours.prompts.contains(kept));
+        merged.prompts = ours.prompts.iter().cloned().chain(others).take(MAX_PROMPTS).collect();
+    }
+    if base.is_light != ours.is_light {
+        merged.is_light = ours.is_light;
+    }
+    merged.has_seen_tour |= ours.has_seen_tour;
+    if base.scale != ours.scale {
+        merged.scale = ours.scale;
+    }
+    if base.template != ours.template {
+        merged.template.clone_from(&ours.template);
+    }
+    if base.rig != ours.rig {
+        merged.rig.clone_from(&ours.rig);
+    }
+    merged
 }
 
 /// Removes and parses a setting whose loss is harmless.
@@ -124,7 +156,7 @@ pub fn write_settings(settings: &Settings) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::{
-        KeptPrompt, MAX_RECENT, RigSettings, Settings, SettingsError, read_settings, write_settings,
+        KeptPrompt, MAX_RECENT, RigSettings, Settings, SettingsError, merged, read_settings, write_settings,
     };
     use crate::rig_settings::{ActuatorSettings, PressureSettings, ProfileSettings};
     use std::path::Path;
@@ -141,6 +173,11 @@ mod tests {
         let mut settings = Settings { is_light: Some(true), ..Settings::default() };
         settings.note_project(Path::new("/a.shagreen"));
         (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
+        #[cfg(unix)]
+        {
+            use std::os::unix::ffi::OsStrExt as _;
+            settings.note_project(Path::new(std::ffi::OsStr::from_bytes(b"/a/\xff.shagreen")));
+        }
         for seed in [1, 2, 1] {
             settings.note_prompt(KeptPrompt { prompt: "rough".to_owned(), seed, by_diffusion: false });
         }
@@ -211,6 +248,25 @@ mod tests {
         }
         let before = read(b"{\"recent\": [], \"has_seen_tour\": true}");
         assert_eq!((before.rig, before.has_seen_tour), (None, true));
+    }
+
+    #[test]
+    fn settings_of_two_windows_are_merged_by_key() {
+        let path = |name: &str| Path::new(name).to_owned();
+        let mut base = Settings { recent: vec![path("/a"), path("/b")], ..Settings::default() };
+        base.unknown.insert("later".to_owned(), 1.into());
+        let (mut ours, mut theirs) = (base.clone(), base.clone());
+        ours.note_project(Path::new("/ours"));
+        ours.is_light = Some(true);
+        theirs.note_project(Path::new("/theirs"));
+        (theirs.scale, theirs.has_seen_tour) = (Some(1.5), true);
+        theirs.unknown.insert("later".to_owned(), 2.into());
+        let both = merged(&base, &ours, theirs.clone());
+        assert_eq!(both.recent, ["/ours", "/a", "/b", "/theirs"].map(path));
+        assert_eq!((both.is_light, both.scale, both.has_seen_tour), (Some(true), Some(1.5), true));
+        assert_eq!(both.unknown, theirs.unknown);
+        assert_eq!(merged(&base, &base, theirs.clone()), theirs);
+        assert_eq!(merged(&base, &ours, base.clone()), ours);
     }
 
     #[test]

@@ -4,6 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
+use shagreen_formats::bounded_file::{self, FileKind};
+
+use crate::short_text::shortened;
 
 /// Marks a context that only names a file.
 const IN_FILE: &str = "file ";
@@ -26,7 +29,7 @@ pub fn one_line(error: &anyhow::Error) -> String {
     }
     let paths = files.iter().map(|file| file.trim_start_matches(IN_FILE).to_owned());
     let line: Vec<String> = parts.into_iter().chain(paths).collect();
-    line.join(": ").replace(['\n', '\r'], " ")
+    shortened(&line.join(": ").replace(['\n', '\r'], " "))
 }
 
 /// Returns the last component of a path as text.
@@ -39,20 +42,21 @@ pub fn shown_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Reads a file.
+/// Reads a file of this kind.
 ///
 /// # Errors
-/// The file does not exist, is a folder or cannot be read; the message says what to do.
-pub fn read_file(path: &Path) -> anyhow::Result<Vec<u8>> {
+/// The file does not exist, is a folder, pipe or device, is too large or cannot be read; the message says what to do.
+pub fn read_file(path: &Path, kind: FileKind) -> anyhow::Result<Vec<u8>> {
     let reason = |error: &io::Error| match error.kind() {
         io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
         io::ErrorKind::IsADirectory => "it is a folder; choose a file in it".to_owned(),
         io::ErrorKind::PermissionDenied => {
             "you do not have permission to read it; change the permissions of the file".to_owned()
         }
+        io::ErrorKind::FileTooLarge | io::ErrorKind::InvalidInput => format!("{error}; choose another file"),
         _ => format!("{error}; check its name and your permissions"),
     };
-    std::fs::read(path)
+    bounded_file::read(path, kind)
         .map_err(|error| anyhow::anyhow!("cannot read the file: {}", reason(&error)))
         .with_context(|| in_file(path))
 }

@@ -31,6 +31,7 @@ pub mod project;
 pub mod render;
 pub mod replace;
 pub mod report;
+pub mod short_text;
 pub mod sound;
 pub mod space;
 pub mod tap_transients;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use shagreen_core::space::LabelSource;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Library, LibraryError, TextureEntry, read_library};
 
@@ -45,7 +46,7 @@ pub fn built_in(path: &Path) -> Option<BuiltIn> {
 
 /// Reads a library file. The inner error is for files that are not libraries, and still lacks the path.
 fn load_file(path: &Path, reporter: &dyn Reporter) -> anyhow::Result<Result<Library, LibraryError>> {
-    let bytes = read_file(path)?;
+    let bytes = read_file(path, FileKind::Document)?;
     Ok(read_library(&bytes).map(|imported| {
         for warning in &imported.warnings {
             reporter.warn(&format!("{warning}: {}", path.display()));

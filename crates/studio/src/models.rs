@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use serde::{Deserialize, Serialize};
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_learn::backbone::Backbone;
 use shagreen_learn::diffusion::{Diffusion, Files, Part};
 use shagreen_learn::model_file::sha256_of;
@@ -155,7 +156,7 @@ fn read_parts(folder: &Path) -> anyhow::Result<(Files, BTreeMap<String, String>)
 }
 
 fn read(path: &Path) -> anyhow::Result<Vec<u8>> {
-    std::fs::read(path).with_context(|| {
+    bounded_file::read(path, FileKind::Network).with_context(|| {
         format!("cannot read the file; check its name and your permissions: {}", path.display())
     })
 }

@@ -2,19 +2,31 @@
 
 use std::path::Path;
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, anyhow};
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::{LibraryError, read_library};
 use shagreen_formats::project::{LibraryFile, Project, ProjectError, read_project, sha256_hex};
 
-use crate::file::{folder_of, is_special};
+use crate::file::{folder_of, in_file, is_special};
 
 /// What a file contains.
 pub enum Opened {
     /// A project, with warnings.
-    Project(Box<Imported<Project>>),
+    Project(Box<OpenedProject>),
     /// A library, with warnings.
     Library(Box<Imported<LibraryFile>>),
+}
+
+/// A project that was read from a file.
+#[derive(Debug)]
+pub struct OpenedProject {
+    /// The project.
+    pub project: Project,
+    /// Warnings about the file.
+    pub warnings: Vec<String>,
+    /// SHA-256 of the file in hexadecimal digits; detects changes by others before it is saved.
+    pub sha256: String,
 }
 
 /// Reads a library, or a project with its library if that is a separate file.
@@ -22,16 +34,19 @@ pub enum Opened {
 /// # Errors
 /// The file cannot be read or is neither; the message names the file.
 pub fn open(path: &Path) -> anyhow::Result<Opened> {
-    let in_file = || path.display().to_string();
+    let in_file = || in_file(path);
     if is_special(path) {
-        bail!("{}: this is a folder or a device, not a file; choose a file", path.display());
+        return Err(anyhow!("this is a folder or a device, not a file; choose a file")).with_context(in_file);
     }
-    let bytes = std::fs::read(path)
+    let bytes = bounded_file::read(path, FileKind::Document)
         .context("the file cannot be read; check the path and your permissions")
         .with_context(in_file)?;
-    let as_project = read_project(&bytes, &folder_of(path), &|library| std::fs::read(library));
+    let as_project =
+        read_project(&bytes, &folder_of(path), &|library| bounded_file::read(library, FileKind::Document));
     match as_project {
-        Ok(imported) => Ok(Opened::Project(Box::new(imported))),
+        Ok(Imported { value: project, warnings }) => {
+            Ok(Opened::Project(Box::new(OpenedProject { project, warnings, sha256: sha256_hex(&bytes) })))
+        }
         Err(ProjectError::Format { .. }) => match read_library(&bytes) {
             Ok(Imported { value: library, warnings }) => {
                 // An absolute path is valid from every working folder.
@@ -39,11 +54,11 @@ pub fn open(path: &Path) -> anyhow::Result<Opened> {
                 let file = LibraryFile { path, sha256: sha256_hex(&bytes), library };
                 Ok(Opened::Library(Box::new(Imported { value: file, warnings })))
             }
-            Err(LibraryError::Format { .. }) => bail!(
-                "{}: this is neither a project nor a texture library; choose another file, or import it as a recording \
-                 or model",
-                path.display()
-            ),
+            Err(LibraryError::Format { .. }) => Err(anyhow!(
+                "this is neither a project nor a texture library; choose another file, or import it as a recording or \
+                 model"
+            ))
+            .with_context(in_file),
             Err(error) => Err(error).with_context(in_file),
         },
         Err(error) => Err(error).with_context(in_file),

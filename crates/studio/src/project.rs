@@ -24,11 +24,11 @@ pub fn new_project() -> Project {
 /// The file cannot be read or is not a project.
 pub fn load_project(path: &Path, reporter: &dyn Reporter) -> anyhow::Result<Project> {
     match open(path)? {
-        Opened::Project(imported) => {
-            for warning in &imported.warnings {
+        Opened::Project(opened) => {
+            for warning in &opened.warnings {
                 reporter.warn(&format!("{warning}: {}", path.display()));
             }
-            Ok(imported.value)
+            Ok(opened.project)
         }
         Opened::Library(_) => {
             bail!("{}: this is a library, not a project; give it to --library instead", path.display())

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::{library, wav};
 
 /// Returns an error if an output is one of the inputs, or a file of an input folder.
@@ -33,7 +34,7 @@ pub fn refuse_foreign(output: &Path, what: &str, is_ours: impl Fn(&[u8]) -> bool
     if !output.is_file() {
         return Ok(()); // It does not exist, or writing it fails.
     }
-    let Ok(bytes) = std::fs::read(output) else { return Ok(()) }; // Writing an unreadable file reports the error.
+    let Ok(bytes) = bounded_file::read(output, FileKind::Recording) else { return Ok(()) }; // Writing an unreadable file reports the error.
     if is_ours(&bytes) {
         return Ok(());
     }

@@ -1,7 +1,9 @@
-//! Output stage from texture acceleration to actuator drive: equalizer, thermal limiter, look-ahead limiter, limiter.
+//! Output stage from texture acceleration to actuator drive: equalizer, thermal limiter, look-ahead limiter, limiter, and
+//! the gate that silences it after lift-off.
 
 use crate::budget::{Budget, Heat};
 use crate::equalizer::{Biquad, Equalizer, Resonance};
+use crate::lift_gate::{LiftGate, Touching};
 use crate::limiter::Limiter;
 use crate::look_ahead::{LookAhead, MAX_LOOK_AHEAD};
 
@@ -70,6 +72,7 @@ pub struct DriveChain {
     heat_gain: f32,
     look_ahead: Option<LookAhead>,
     limiter: Limiter,
+    gate: LiftGate,
     rate_hz: f32,
 }
 
@@ -93,13 +96,17 @@ impl DriveChain {
             heat_gain: 1.0,
             look_ahead,
             limiter: Limiter::new(ceiling, knee_share),
+            gate: LiftGate::new(rate_hz),
             rate_hz,
         }
     }
 
     /// Converts samples to drive, in place. For samples that are drive already, adds the decaying response of the
     /// equalizer to the acceleration before. Cost: that of two second-order filters per sample.
-    pub fn process(&mut self, block: &mut [f32], driven: Driven) {
+    ///
+    /// `touching` is the contact of the tip, in frames of this stage. Without contact, the output fades to silence within
+    /// [`crate::lift_gate::SILENT_AFTER_SECS`].
+    pub fn process(&mut self, block: &mut [f32], driven: Driven, touching: Touching) {
         match driven {
             Driven::Acceleration => {
                 if let Some(equalizer) = &mut self.equalizer {
@@ -117,6 +124,10 @@ impl DriveChain {
         }
         for part in block.chunks_mut(HEAT_BLOCK) {
             self.limit(part);
+        }
+        self.gate.process(block, touching);
+        if let Some(equalizer) = self.equalizer.as_mut().filter(|_| self.gate.is_closed()) {
+            equalizer.reset();
         }
     }
 
@@ -140,6 +151,11 @@ impl DriveChain {
         self.look_ahead.as_ref().map_or(0, LookAhead::delay) as f32 / self.rate_hz
     }
 
+    /// Whether the output is silent because the tip was lifted some time ago.
+    pub fn is_silenced(&self) -> bool {
+        self.gate.is_closed()
+    }
+
     /// Whether a non-finite sample has latched silence.
     pub fn is_tripped(&self) -> bool {
         self.limiter.is_tripped()
@@ -148,6 +164,7 @@ impl DriveChain {
     /// Ends the latched silence and clears the equalizer and look-ahead; the thermal estimate is kept.
     pub fn reset(&mut self) {
         self.limiter.reset();
+        self.gate.reset();
         if let Some(equalizer) = &mut self.equalizer {
             equalizer.reset();
         }

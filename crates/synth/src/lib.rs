@@ -35,6 +35,7 @@ pub mod budget;
 pub mod contact;
 pub mod drive;
 pub mod equalizer;
+pub mod lift_gate;
 pub mod limiter;
 mod limits;
 pub mod look_ahead;

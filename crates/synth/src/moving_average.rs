@@ -43,6 +43,11 @@ impl MovingAverage {
         self.order == 0
     }
 
+    /// Clears the state; the coefficients stay.
+    pub(crate) fn clear(&mut self) {
+        self.memory.fill(0.0);
+    }
+
     /// Filters at most [`MAX_TICK`] samples in place. Cost per sample: [`MAX_ORDER`] multiply-adds.
     pub(crate) fn filter(&mut self, samples: &mut [f32]) {
         let n = samples.len().min(MAX_TICK);

@@ -188,6 +188,14 @@ impl Renderer {
         self.compensation = if self.blend == Blend::Power { 1.0 } else { 0.0 };
     }
 
+    /// Clears the state of all filters, so that they no longer oscillate. Fades and noise continue.
+    pub fn silence(&mut self) {
+        for slot in &mut self.slots {
+            slot.voice.clear_memory();
+            slot.relief.reset();
+        }
+    }
+
     /// Whether a voice of texture `id` is active, including fades.
     pub fn is_sounding(&self, id: TextureId) -> bool {
         self.slots.iter().any(|s| s.id == Some(id))

@@ -38,6 +38,11 @@ impl Stream {
         self.wanted = Some(mix);
     }
 
+    /// Clears what still oscillates, without an effect on fades, noise or clock. Call it only while nothing is touched.
+    pub fn silence(&mut self) {
+        self.renderer.silence();
+    }
+
     /// Whether texture `id` is active, fading or waiting to start.
     pub fn is_using(&self, id: TextureId) -> bool {
         self.renderer.is_sounding(id)

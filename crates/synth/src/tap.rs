@@ -23,7 +23,9 @@ const RINGING: usize = 4;
 /// Envelope in m/s² at which a transient ends.
 const ENDED_MPS2: f64 = 1e-5;
 /// Slowest decay that is rendered, in 1/s; a longer transient is not plausible for a tap.
-const SLOWEST_DECAY_PER_SEC: f64 = 2.0;
+pub const SLOWEST_DECAY_PER_SEC: f64 = 5.0;
+/// Highest amplitude that is rendered, in m/s².
+pub const MAX_AMPLITUDE_MPS2: f64 = 1000.0;
 
 /// One transient by its recursion `y[n] = 2r cos θ y[n-1] - r² y[n-2]`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,6 +55,7 @@ impl Taps {
 
     /// Starts a transient now, scaled by `strength` relative to the measured tap. Parameters without a valid
     /// oscillation are ignored: a frequency of zero or of at least half the sample rate, or a value that is not finite.
+    /// The decay is at least [`SLOWEST_DECAY_PER_SEC`], and the amplitude at most [`MAX_AMPLITUDE_MPS2`].
     pub fn strike(&mut self, tap: Tap, strength: f32) {
         let angle = TAU * f64::from(tap.frequency_hz) / self.rate_hz;
         let decay_per_sec = f64::from(tap.decay_per_sec).max(SLOWEST_DECAY_PER_SEC);
@@ -61,6 +64,7 @@ impl Taps {
         if !can_ring || amplitude == 0.0 {
             return;
         }
+        let amplitude = amplitude.clamp(-MAX_AMPLITUDE_MPS2, MAX_AMPLITUDE_MPS2);
         let decay = libm::exp(-decay_per_sec / self.rate_hz);
         self.ringing[self.next] = Ringing {
             twice_cos: 2.0 * decay * libm::cos(angle),
@@ -161,7 +165,12 @@ mod tests {
         taps.strike(Tap { decay_per_sec: f32::INFINITY, ..WOOD }, 1.0);
         taps.strike(Tap::SILENT, 1.0);
         assert!(!taps.are_ringing());
-        // A transient that would never decay ends too.
+        // A transient that would never decay ends too, and one that is too strong is bounded.
+        taps.strike(Tap { amplitude_mps2: f32::MAX, ..WOOD }, 1.0);
+        let mut strong = vec![0.0; 4800];
+        taps.add_to(&mut strong);
+        assert!(strong.iter().all(|x| f64::from(x.abs()) <= super::MAX_AMPLITUDE_MPS2));
+        taps.reset();
         taps.strike(Tap { decay_per_sec: -5.0, ..WOOD }, 1.0);
         taps.add_to(&mut vec![0.0; 480_000]);
         assert!(!taps.are_ringing());

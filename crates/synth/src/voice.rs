@@ -152,6 +152,12 @@ impl Voice {
         }
     }
 
+    /// Clears the filter state; coefficients and levels stay.
+    pub fn clear_memory(&mut self) {
+        self.memory.fill(0.0);
+        self.moving_average.clear();
+    }
+
     /// Clears the filter state and the coefficients.
     pub fn reset(&mut self) {
         *self = Self::new();

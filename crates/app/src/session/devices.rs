@@ -40,6 +40,20 @@ impl Session {
         self.open_output_again(ctx);
     }
 
+    /// Output that was asked for, if another Shagreen plays on it.
+    pub fn claimed_output(&self) -> Option<&str> {
+        self.sound.player.claimed.as_deref()
+    }
+
+    /// Takes over the output on which another Shagreen plays.
+    pub fn take_over_output(&mut self, ctx: &egui::Context) {
+        if let Some(id) = self.sound.player.claimed.take() {
+            self.sound.player.choice = Some(OutputChoice::Id(id));
+            self.sound.player.is_let_go = false;
+            self.begin_to_open(true, ctx);
+        }
+    }
+
     /// Device setup: output, actuator and pen.
     pub fn rig(&self) -> &Rig {
         &self.sound.rig
@@ -75,6 +89,10 @@ impl Session {
 
     /// Opens the last requested output with the present device setup and sample rate, unless it has been let go of.
     pub(super) fn open_output_again(&mut self, ctx: &egui::Context) {
+        self.begin_to_open(false, ctx);
+    }
+
+    fn begin_to_open(&mut self, take_over: bool, ctx: &egui::Context) {
         let Some(choice) = self.sound.player.choice.clone().filter(|_| !self.sound.player.is_let_go) else {
             return;
         };
@@ -83,7 +101,7 @@ impl Session {
                 self.sound.player.open(
                     choice,
                     &self.sound.rig,
-                    drive,
+                    (drive, take_over),
                     self.sound.rate_hz as f32,
                     ctx.clone(),
                 );

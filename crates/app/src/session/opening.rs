@@ -9,8 +9,15 @@ use shagreen_device::output::{NULL_ID, OpenOptions, Running, list_outputs, open}
 use crate::state::background::in_background;
 use crate::strings;
 
-/// The opened output or the error, and a warning if it is a fallback.
-pub(super) type Opened = (Result<(Handle, Running), DeviceError>, Option<String>);
+/// Result of opening an output.
+#[derive(Debug)]
+pub(super) struct Opened {
+    pub(super) outcome: Result<(Handle, Running), DeviceError>,
+    /// Warning, if the silent output was opened instead.
+    pub(super) warning: Option<String>,
+    /// Id of the wanted output, if another Shagreen plays on it.
+    pub(super) claimed: Option<String>,
+}
 
 /// Output to open.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,18 +32,34 @@ pub enum OutputChoice {
 impl OutputChoice {
     fn open(&self, options: OpenOptions) -> Opened {
         match self {
-            Self::Id(id) => (open(id, options), None),
+            Self::Id(id) => {
+                let outcome = open(id, options);
+                let claimed = outcome.as_ref().is_err_and(is_claimed).then(|| id.clone());
+                Opened { outcome, warning: None, claimed }
+            }
             Self::SystemDefault => {
+                let silent = |warning, claimed| Opened {
+                    outcome: open(NULL_ID, options),
+                    warning: Some(warning),
+                    claimed,
+                };
                 let Some(found) = list_outputs().into_iter().find(|o| o.is_default && o.id != NULL_ID) else {
-                    return (open(NULL_ID, options), Some(strings::NO_SOUND.to_owned()));
+                    return silent(strings::NO_SOUND.to_owned(), None);
                 };
                 match open(&found.id, options) {
-                    Err(error) => (open(NULL_ID, options), Some(format!("{}: {error}", strings::NO_SOUND))),
-                    opened => (opened, None),
+                    Err(error) => {
+                        let warning = format!("{}: {error}", strings::NO_SOUND);
+                        silent(warning, is_claimed(&error).then_some(found.id))
+                    }
+                    outcome => Opened { outcome, warning: None, claimed: None },
                 }
             }
         }
     }
+}
+
+fn is_claimed(error: &DeviceError) -> bool {
+    error.kind() == DeviceErrorKind::Claimed
 }
 
 #[derive(Debug)]
@@ -104,7 +127,8 @@ impl Opening {
         let opened = match receiver.try_recv() {
             Err(TryRecvError::Empty) => return Came::Nothing,
             Err(TryRecvError::Disconnected) => {
-                (Err(DeviceError::new(DeviceErrorKind::Backend, strings::OPENING_FAILED)), None)
+                let outcome = Err(DeviceError::new(DeviceErrorKind::Backend, strings::OPENING_FAILED));
+                Opened { outcome, warning: None, claimed: None }
             }
             Ok(opened) => opened,
         };
@@ -133,6 +157,7 @@ mod tests {
             seed: 0,
             drive: DriveConfig::proportional(10.0, 0.9),
             channels: ChannelMask::FIRST_TWO,
+            take_over: false,
         };
         Request { choice: OutputChoice::Id(NULL_ID.to_owned()), options, ctx: egui::Context::default() }
     }
@@ -159,7 +184,7 @@ mod tests {
         assert!(!opening.is_busy());
         opening.begin(*next);
         let Came::Opened(opened) = came(&mut opening) else { panic!("the last is") };
-        assert_eq!(opened.0.unwrap().1.buffer_frames(), Some(512));
+        assert_eq!(opened.outcome.unwrap().1.buffer_frames(), Some(512));
     }
 
     #[test]

@@ -25,7 +25,7 @@ use shagreen_device::synth::tap::Tap;
 use shagreen_device::texture::OwnedTexture;
 
 use super::audible::{Audible, Made, Source};
-use super::opening::{Came, Opening, OutputChoice, Request};
+use super::opening::{Came, Opened, Opening, OutputChoice, Request};
 use crate::state::background::in_background;
 use crate::state::mouse_report::MouseReport;
 use crate::state::recorded_stroke::RecordedStroke;
@@ -58,6 +58,8 @@ pub(super) struct Player {
     pub(super) inputs: Vec<InputInfo>,
     pub(super) output_id: Option<String>,
     pub(super) message: Option<String>,
+    /// Output on which another Shagreen plays, if it was asked for.
+    pub(super) claimed: Option<String>,
     pub(super) status: Option<Status>,
     pub(super) muted: bool,
     pub(super) limited_at: Option<Instant>,
@@ -93,6 +95,7 @@ impl Player {
             inputs: Vec::new(),
             output_id: None,
             message: None,
+            claimed: None,
             status: None,
             muted: false,
             limited_at: None,
@@ -152,7 +155,7 @@ impl Player {
         &mut self,
         choice: OutputChoice,
         rig: &Rig,
-        drive: DriveConfig,
+        (drive, take_over): (DriveConfig, bool),
         model_rate_hz: f32,
         ctx: egui::Context,
     ) {
@@ -163,6 +166,7 @@ impl Player {
             seed: 1,
             drive,
             channels: rig.channels(),
+            take_over,
         };
         self.begin(Request { choice, options, ctx });
     }
@@ -215,7 +219,7 @@ impl Player {
     }
 
     fn take_opened(&mut self, scope: &mut ScopeBuffer) -> bool {
-        let (opened, warning) = match self.opening.take() {
+        let Opened { outcome, warning, claimed } = match self.opening.take() {
             Came::Nothing => return false,
             Came::Next(request) => {
                 self.begin(*request);
@@ -224,7 +228,8 @@ impl Player {
             Came::Opened(opened) => *opened,
         };
         self.message = warning;
-        match opened {
+        self.claimed = claimed;
+        match outcome {
             Err(error) => {
                 self.message = Some(error.to_string());
                 if self.handle.is_some() {

@@ -21,7 +21,7 @@ pub(crate) fn recovered_ui(ctx: &Context, leftovers: &[Leftover]) -> Vec<Command
         ui.add(Label::new(strings::RECOVERED_HELP).wrap());
         ui.add_space(GAP);
         for (index, leftover) in leftovers.iter().enumerate() {
-            let stem = leftover.origin.as_ref().and_then(|path| path.file_stem());
+            let stem = leftover.origin.as_ref().and_then(|file| file.path.file_stem());
             let name = stem.map_or(strings::UNTITLED.to_owned(), |stem| stem.to_string_lossy().into_owned());
             // If the system clock was set back, the age is zero.
             let age = SystemTime::now().duration_since(leftover.written).unwrap_or_default();

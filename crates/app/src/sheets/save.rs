@@ -8,6 +8,7 @@ use egui::text::{CCursor, CCursorRange};
 use egui::{Button, Context, Id, Key, Label, RichText, TextEdit, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
 use shagreen_formats::project::{EXTENSION, Project, ProjectError, ProjectLibrary, read_project};
 
@@ -376,7 +377,7 @@ fn refusal(path: &Path, content: &Content) -> Option<String> {
     let bytes = match path.metadata() {
         // Reading a pipe or device would never end.
         Ok(metadata) if !metadata.is_file() => return Some(document::NO_FILE.to_owned()),
-        Ok(_) => std::fs::read(path),
+        Ok(_) => bounded_file::read(path, FileKind::Document),
         Err(error) => Err(error),
     };
     match bytes {

@@ -4,20 +4,31 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::Context;
-use shagreen_formats::atomic;
-use shagreen_formats::project::{Project, write_project};
-use shagreen_studio::file::folder_of;
+use shagreen_formats::bounded_file::{self, FileKind};
+use shagreen_formats::locked_update::update;
+use shagreen_formats::project::{Project, read_project, sha256_hex, write_project};
+use shagreen_studio::file::{folder_of, one_line};
 use shagreen_studio::open::{Opened, open};
 
 use crate::state::background::in_background;
+use crate::state::conflict::{Conflict, differences};
 use crate::strings::document as strings;
 
 /// Program name and version in written files.
 pub(crate) const CREATED_BY: &str = concat!("Shagreen ", env!("CARGO_PKG_VERSION"));
 
+/// Project file, as it was when it was read or saved last.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DocumentFile {
+    /// Path of the file.
+    pub path: PathBuf,
+    /// SHA-256 of its content in hexadecimal digits; `None` if the content is unknown.
+    pub sha256: Option<String>,
+}
+
 /// File of the open project.
 pub struct Document {
-    path: Option<PathBuf>,
+    file: Option<DocumentFile>,
     /// Project as saved, or `None` if no file contains it.
     on_disk: Option<Project>,
     is_changed: bool,
@@ -29,15 +40,25 @@ pub struct Document {
 
 /// Save operation in progress.
 struct Saving {
-    outcome: Receiver<Result<(), String>>,
+    outcome: Receiver<Result<Saved, String>>,
     project: Project,
     path: PathBuf,
+}
+
+/// Result of a save operation that did not fail.
+enum Saved {
+    /// The file was written; it has this SHA-256.
+    Written(String),
+    /// The file has changed since it was read, and was not written.
+    Changed(Conflict),
 }
 
 /// Result of saving or opening.
 pub(crate) enum Came {
     /// The project was saved to this file.
     Saved(PathBuf),
+    /// Nothing was saved, because another window or program has changed the file.
+    Conflict(Conflict),
     /// Saving failed for this reason.
     NotSaved(String),
     /// This was opened from this file.
@@ -47,10 +68,10 @@ pub(crate) enum Came {
 }
 
 impl Document {
-    /// Document of a new project, or of one that was read from `path`. It has no unsaved changes.
-    pub(crate) fn new(project: &Project, path: Option<PathBuf>) -> Self {
+    /// Document of a new project, or of one that was read from `file`. It has no unsaved changes.
+    pub(crate) fn new(project: &Project, file: Option<DocumentFile>) -> Self {
         Self {
-            path,
+            file,
             on_disk: Some(project.clone()),
             is_changed: false,
             revision: None,
@@ -59,19 +80,24 @@ impl Document {
         }
     }
 
-    /// Document of a recovered project. No file contains it, although `path` may be its file.
-    pub(crate) fn unsaved(path: Option<PathBuf>) -> Self {
-        Self { path, on_disk: None, is_changed: true, revision: None, saving: None, opening: None }
+    /// Document of a recovered project. No file contains it, although `file` may be its file.
+    pub(crate) fn unsaved(file: Option<DocumentFile>) -> Self {
+        Self { file, on_disk: None, is_changed: true, revision: None, saving: None, opening: None }
     }
 
     /// Path of the file, if the project has one.
     pub fn path(&self) -> Option<&Path> {
-        self.path.as_deref()
+        self.file.as_ref().map(|file| file.path.as_path())
+    }
+
+    /// Project file, if the project has one.
+    pub(crate) fn file(&self) -> Option<&DocumentFile> {
+        self.file.as_ref()
     }
 
     /// Name of the project, which is the file name without its ending.
     pub fn name(&self) -> String {
-        let stem = self.path.as_ref().and_then(|path| path.file_stem());
+        let stem = self.path().and_then(Path::file_stem);
         stem.map_or_else(|| strings::UNTITLED.to_owned(), |stem| stem.to_string_lossy().into_owned())
     }
 
@@ -103,22 +129,50 @@ impl Document {
         }
     }
 
-    /// Saves the project to `path` in the background and replaces an existing file.
+    /// Saves the project to `path` in the background and replaces an existing file. If it is the document's own file and
+    /// another window or program has changed it, nothing is written.
     pub(crate) fn save(&mut self, project: &Project, path: PathBuf, ctx: &Context) {
-        let (content, to) = (project.clone(), path.clone());
-        let work = move || {
-            let folder = folder_of(&to);
-            atomic::write(&to, &write_project(&content, &folder, CREATED_BY))
-                .map_err(|error| error.to_string())
-        };
-        let outcome = in_background(ctx.clone(), work);
+        let own = self.file.as_ref().filter(|file| file.path == path);
+        let expected = own.map(|file| file.sha256.clone());
+        self.begin_to_save(project, path, expected, ctx);
+    }
+
+    /// Saves the project over the changed file of a conflict, unless that has changed once more.
+    pub(crate) fn overwrite(&mut self, project: &Project, conflict: &Conflict, ctx: &Context) {
+        self.begin_to_save(project, conflict.path.clone(), Some(Some(conflict.sha256.clone())), ctx);
+    }
+
+    /// Saves the project. `expected` is the SHA-256 that an existing file must have; `Some(None)` accepts no existing
+    /// file, and `None` any.
+    fn begin_to_save(
+        &mut self,
+        project: &Project,
+        path: PathBuf,
+        expected: Option<Option<String>>,
+        ctx: &Context,
+    ) {
+        let (content, to, base) = (project.clone(), path.clone(), self.on_disk.clone());
+        let outcome = in_background(ctx.clone(), move || {
+            let bytes = write_project(&content, &folder_of(&to), CREATED_BY);
+            let sha256 = sha256_hex(&bytes);
+            let written = update(&to, FileKind::Document, |present| match (expected, present) {
+                (Some(expected), Some(present)) if expected.as_deref() != Some(&*sha256_hex(present)) => {
+                    Err(conflict(&to, base.as_ref(), &content, present))
+                }
+                _ => Ok(bytes),
+            });
+            match written.map_err(|error| error.to_string())? {
+                Ok(()) => Ok(Saved::Written(sha256)),
+                Err(conflict) => Ok(Saved::Changed(conflict)),
+            }
+        });
         self.saving = Some(Saving { outcome, project: project.clone(), path });
     }
 
     /// Opens `path` in the background.
     pub(crate) fn open(&mut self, path: PathBuf, ctx: &Context) {
         let from = path.clone();
-        let work = move || open(&from).map_err(|error| format!("{error:#}"));
+        let work = move || open(&from).map_err(|error| one_line(&error));
         self.opening = Some((in_background(ctx.clone(), work), path));
     }
 
@@ -135,11 +189,12 @@ impl Document {
         };
         let Saving { project, path, .. } = self.saving.take()?;
         Some(match outcome {
-            Ok(()) => {
+            Ok(Saved::Written(sha256)) => {
                 (self.on_disk, self.revision) = (Some(project), None);
-                self.path = Some(path.clone());
+                self.file = Some(DocumentFile { path: path.clone(), sha256: Some(sha256) });
                 Came::Saved(path)
             }
+            Ok(Saved::Changed(conflict)) => Came::Conflict(conflict),
             Err(reason) => Came::NotSaved(reason),
         })
     }
@@ -159,9 +214,19 @@ impl Document {
     }
 }
 
+/// Differences between the open project and the content of its changed file.
+fn conflict(path: &Path, base: Option<&Project>, here: &Project, present: &[u8]) -> Conflict {
+    let read = |library: &Path| bounded_file::read(library, FileKind::Document);
+    // A file that is no project any more has no differences to list.
+    let there = read_project(present, &folder_of(path), &read).ok();
+    let differences = there.map(|there| differences(base, here, &there.value)).unwrap_or_default();
+    Conflict { path: path.to_owned(), sha256: sha256_hex(present), differences }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Came, Document};
+    use super::{Came, Document, DocumentFile};
+    use crate::choices::conflict::Change;
     use crate::state::edit::{Edit, edited};
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{Project, ProjectLibrary};
@@ -198,8 +263,42 @@ mod tests {
         document.follow(&begun, 2);
         assert!(document.is_changed(), "undo goes back behind what is saved");
         document.open(path, &ctx);
-        let Came::Opened(Opened::Project(imported), _) = wait(&mut document) else { panic!("a project") };
-        assert_eq!((imported.value, imported.warnings), (project, Vec::new()));
+        let Came::Opened(Opened::Project(opened), _) = wait(&mut document) else { panic!("a project") };
+        assert_eq!((opened.project, opened.warnings), (project, Vec::new()));
+    }
+
+    #[test]
+    fn a_file_that_another_window_changed_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("Woods.shagreen");
+        let ctx = egui::Context::default();
+        let begun = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "New texture");
+        let renamed = |name: &str| edited(&begun, Edit::Rename(name.to_owned()));
+        let mut first = Document::new(&begun, None);
+        first.save(&begun, path.clone(), &ctx);
+        assert!(matches!(wait(&mut first), Came::Saved(_)));
+        let mut second = Document::new(&begun, first.file().cloned());
+        second.save(&renamed("Elm"), path.clone(), &ctx);
+        assert!(matches!(wait(&mut second), Came::Saved(_)));
+        first.save(&renamed("Ash"), path.clone(), &ctx);
+        let Came::Conflict(conflict) = wait(&mut first) else { panic!("a conflict") };
+        assert_eq!((conflict.differences.len(), conflict.differences[0].change), (1, Change::Both));
+        // A recovered project does not know the content of its file.
+        let unknown = DocumentFile { path: path.clone(), sha256: None };
+        let mut recovered = Document::unsaved(Some(unknown));
+        recovered.save(&renamed("Ash"), path.clone(), &ctx);
+        assert!(matches!(wait(&mut recovered), Came::Conflict(_)));
+        // Overwriting replaces the content that the user has seen, and no later one.
+        second.save(&renamed("Oak"), path.clone(), &ctx);
+        assert!(matches!(wait(&mut second), Came::Saved(_)));
+        first.overwrite(&renamed("Ash"), &conflict, &ctx);
+        let Came::Conflict(conflict) = wait(&mut first) else { panic!("it changed once more") };
+        first.overwrite(&renamed("Ash"), &conflict, &ctx);
+        assert!(matches!(wait(&mut first), Came::Saved(_)));
+        // A file that was deleted is written again.
+        std::fs::remove_file(&path).unwrap();
+        first.save(&renamed("Fir"), path.clone(), &ctx);
+        assert!(matches!(wait(&mut first), Came::Saved(_)));
     }
 
     #[test]

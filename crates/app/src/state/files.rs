@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use egui::Context;
-use shagreen_formats::imported::Imported;
 use shagreen_formats::project::Project;
 use shagreen_formats::settings::Settings;
+use shagreen_studio::open::OpenedProject;
 
-use crate::state::document::Document;
+use crate::state::document::{Document, DocumentFile};
 use crate::state::leave::Leave;
 use crate::state::recovery::{Leftover, Recovery, leftovers};
 use crate::state::settings_file::SettingsFile;
@@ -37,7 +37,9 @@ pub(crate) struct Files {
     /// Action after the project has been saved.
     pub(crate) after_saving: Option<Leave>,
     /// Project that was read and opens when the present one is left. The path is `None` for a copy.
-    pub(crate) waiting: Option<(Box<Imported<Project>>, Option<PathBuf>)>,
+    pub(crate) waiting: Option<(Box<OpenedProject>, Option<PathBuf>)>,
+    /// Changed file that is read again, after the open project was kept aside.
+    pub(crate) reloading: Option<PathBuf>,
     /// Whether the program may close.
     pub(crate) is_closing: bool,
     /// Whether the file being read is the template of a new project.
@@ -46,10 +48,10 @@ pub(crate) struct Files {
 
 impl Files {
     /// Files of a new project, or of one that was read from `path`.
-    pub(crate) fn new(project: &Project, path: Option<PathBuf>, keeping: StoragePaths) -> Self {
+    pub(crate) fn new(project: &Project, file: Option<DocumentFile>, keeping: StoragePaths) -> Self {
         let (settings_file, mut settings) = SettingsFile::open(keeping.settings);
-        if let Some(path) = &path {
-            settings.note_project(path);
+        if let Some(file) = &file {
+            settings.note_project(&file.path);
         }
         let (mut recovery, mut problem) = (None, None);
         if let Some(folder) = keeping.recovery {
@@ -59,7 +61,7 @@ impl Files {
             }
         }
         Self {
-            document: Document::new(project, path),
+            document: Document::new(project, file),
             settings,
             settings_file,
             recovery,
@@ -67,6 +69,7 @@ impl Files {
             recovered: None,
             after_saving: None,
             waiting: None,
+            reloading: None,
             is_closing: false,
             is_beginning: false,
         }
@@ -88,7 +91,7 @@ impl Files {
         self.settings_file.follow(&self.settings, ctx);
         let is_changed = self.document.is_changed();
         if let Some(recovery) = &mut self.recovery {
-            recovery.follow(project, revision, self.document.path(), is_changed, ctx);
+            recovery.follow(project, revision, self.document.file(), is_changed, ctx);
             let is_kept = recovery.has_written() || !is_changed;
             if let Some(leftover) = self.recovered.take_if(|_| is_kept) {
                 leftover.discard();
@@ -101,11 +104,11 @@ impl Files {
     }
 
     /// Replaces the open project.
-    pub(crate) fn begin(&mut self, project: &Project, path: Option<PathBuf>) {
-        if let Some(path) = &path {
-            self.settings.note_project(path);
+    pub(crate) fn begin(&mut self, project: &Project, file: Option<DocumentFile>) {
+        if let Some(file) = &file {
+            self.settings.note_project(&file.path);
         }
-        self.document = Document::new(project, path);
+        self.document = Document::new(project, file);
         self.restart_recovery();
     }
 
@@ -114,6 +117,15 @@ impl Files {
         self.document = Document::unsaved(leftover.origin.clone());
         self.recovered = Some(leftover);
         self.restart_recovery();
+    }
+
+    /// Puts a copy of the project into the recovery folder, where the next window offers it.
+    ///
+    /// # Errors
+    /// The copy cannot be written, or there is no recovery folder.
+    pub(crate) fn keep_aside(&self, project: &Project) -> Result<(), String> {
+        let Some(recovery) = &self.recovery else { return Err(strings::NO_RECOVERY.to_owned()) };
+        recovery.keep_aside(project, self.document.file()).map_err(|error| error.to_string())
     }
 
     /// Cancels leaving the project.

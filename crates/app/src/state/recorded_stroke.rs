@@ -9,6 +9,7 @@ use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
 use shagreen_device::pressure::PressureMap;
 use shagreen_device::repeat::Repeat;
 use shagreen_device::track::{PenSample, Track, TrackError};
+use shagreen_formats::bounded_file;
 use shagreen_formats::stroke::{self, PressUnit, Stroke, TimedContact};
 use shagreen_formats::stroke_csv::{is_stroke_table, read_stroke_csv, stroke_csv};
 
@@ -170,7 +171,7 @@ pub(crate) fn is_stroke_file(file: &DroppedFileHandle) -> bool {
     }
     if path.exists() {
         let mut head = Vec::new();
-        let read = std::fs::File::open(path).and_then(|from| from.take(HEAD_BYTES).read_to_end(&mut head));
+        let read = bounded_file::open(path).and_then(|from| from.take(HEAD_BYTES).read_to_end(&mut head));
         return read.is_ok() && is_stroke_table(&head);
     }
     // A file without a path in the file system is dropped with its bytes.

@@ -5,18 +5,20 @@
 //! ends in any way. A slot with a released lock is a leftover, and its project is offered. A window that closes
 //! normally deletes its slot.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use egui::Context;
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::project::{EXTENSION, Project, write_project};
 
 use crate::state::background::in_background;
-use crate::state::document::CREATED_BY;
+use crate::state::document::{CREATED_BY, DocumentFile};
 
 /// Minimum interval between writes of a changed project.
 pub const INTERVAL: Duration = Duration::from_secs(4);
@@ -42,8 +44,8 @@ pub struct Leftover {
     slot: PathBuf,
     /// Locked so that no other window offers the same project.
     _lock: File,
-    /// Path of the project file, if the project had one.
-    pub origin: Option<PathBuf>,
+    /// Project file, if the project had one.
+    pub origin: Option<DocumentFile>,
     /// Time of the last write.
     pub written: SystemTime,
 }
@@ -54,10 +56,9 @@ impl Recovery {
     /// # Errors
     /// The folder cannot be created or written to, or its file system does not support locks.
     pub fn new(folder: &Path) -> io::Result<Self> {
-        fs::create_dir_all(folder)?;
-        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-        let slot = folder.join(format!("{}-{}", now.as_nanos(), std::process::id()));
-        let lock = File::create_new(slot.with_extension(LOCK))?;
+        create_private(folder)?;
+        let slot = new_slot(folder);
+        let lock = private().create_new(true).open(slot.with_extension(LOCK))?;
         match lock.try_lock() {
             Ok(()) => {}
             Err(TryLockError::Error(error)) => return Err(error),
@@ -72,7 +73,7 @@ impl Recovery {
         &mut self,
         project: &Project,
         revision: u64,
-        origin: Option<&Path>,
+        origin: Option<&DocumentFile>,
         is_changed: bool,
         ctx: &Context,
     ) {
@@ -96,9 +97,19 @@ impl Recovery {
             return;
         }
         self.last = Instant::now();
-        let (project, slot, origin) = (project.clone(), self.slot.clone(), origin.map(Path::to_owned));
-        let work = move || write(&project, &slot, origin.as_deref()).map_err(|error| error.to_string());
+        let (project, slot, origin) = (project.clone(), self.slot.clone(), origin.cloned());
+        let work = move || write(&project, &slot, origin.as_ref()).map_err(|error| error.to_string());
         self.writing = Some((in_background(ctx.clone(), work), revision));
+    }
+
+    /// Writes a copy of the project into a slot that no window owns; the next window offers it.
+    ///
+    /// # Errors
+    /// The files cannot be written.
+    pub(crate) fn keep_aside(&self, project: &Project, origin: Option<&DocumentFile>) -> io::Result<()> {
+        let slot = new_slot(self.slot.parent().unwrap_or(Path::new(".")));
+        write(project, &slot, origin).map_err(|error| error.source)?;
+        private().create_new(true).open(slot.with_extension(LOCK)).map(drop)
     }
 
     /// Deletes the slot's files, which belong to the previous project.
@@ -161,7 +172,8 @@ fn leftover(lock_path: &Path) -> Option<Leftover> {
     if lock_path.extension()? != LOCK {
         return None;
     }
-    let lock = File::options().write(true).open(lock_path).ok()?;
+    // A pipe in place of the lock must not block the start.
+    let lock = bounded_file::open(lock_path).ok()?;
     lock.try_lock().ok()?;
     let slot = lock_path.with_extension("");
     let Ok(metadata) = fs::metadata(slot.with_extension(EXTENSION)) else {
@@ -169,18 +181,74 @@ fn leftover(lock_path: &Path) -> Option<Leftover> {
         let _ = fs::remove_file(lock_path);
         return None;
     };
-    let origin = fs::read_to_string(slot.with_extension(ORIGIN)).ok().filter(|path| !path.is_empty());
+    let origin = bounded_file::read(&slot.with_extension(ORIGIN), FileKind::Small).ok();
     let written = metadata.modified().unwrap_or(UNIX_EPOCH);
-    Some(Leftover { slot, _lock: lock, origin: origin.map(PathBuf::from), written })
+    Some(Leftover { slot, _lock: lock, origin: origin.and_then(|bytes| origin_in(&bytes)), written })
 }
 
-fn write(project: &Project, slot: &Path, origin: Option<&Path>) -> Result<(), atomic::WriteError> {
+/// Name of a slot that does not exist yet.
+fn new_slot(folder: &Path) -> PathBuf {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    folder.join(format!("{}-{}-{count}", now.as_nanos(), std::process::id()))
+}
+
+/// Creates a folder that only this user may enter: projects may be confidential.
+fn create_private(folder: &Path) -> io::Result<()> {
+    let mut builder = fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder)?;
+    #[cfg(unix)]
+    {
+        // A folder of an earlier version may be open to others.
+        use std::os::unix::fs::PermissionsExt as _;
+        fs::set_permissions(folder, fs::Permissions::from_mode(0o700))?;
+    }
+    Ok(())
+}
+
+/// Options of a new file that only this user may read.
+fn private() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.write(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options
+}
+
+/// Content of the file that names the project file: its SHA-256, a line break, and the bytes of its path.
+fn origin_bytes(origin: &DocumentFile) -> Vec<u8> {
+    let mut bytes = origin.sha256.clone().unwrap_or_default().into_bytes();
+    bytes.push(b'\n');
+    bytes.extend_from_slice(origin.path.as_os_str().as_encoded_bytes());
+    bytes
+}
+
+/// Project file that [`origin_bytes`] describes. Earlier versions wrote the path alone.
+fn origin_in(bytes: &[u8]) -> Option<DocumentFile> {
+    let (sha256, path) = match bytes.iter().position(|byte| *byte == b'\n') {
+        Some(end) => {
+            (std::str::from_utf8(&bytes[..end]).ok().filter(|hash| !hash.is_empty()), &bytes[end + 1..])
+        }
+        None => (None, bytes),
+    };
+    #[cfg(unix)]
+    let path = PathBuf::from(std::os::unix::ffi::OsStrExt::from_bytes(path) as &std::ffi::OsStr);
+    #[cfg(not(unix))]
+    let path = PathBuf::from(std::str::from_utf8(path).ok()?);
+    (!path.as_os_str().is_empty()).then(|| DocumentFile { path, sha256: sha256.map(str::to_owned) })
+}
+
+fn write(project: &Project, slot: &Path, origin: Option<&DocumentFile>) -> Result<(), atomic::WriteError> {
     // With an empty folder, library paths are written as absolute paths.
     let bytes = write_project(project, Path::new(""), CREATED_BY);
-    let origin = origin.map(|path| path.to_string_lossy().into_owned()).unwrap_or_default();
-    atomic::write_all(&[
+    let origin = origin.map(origin_bytes).unwrap_or_default();
+    atomic::write_private(&[
         (&slot.with_extension(EXTENSION), &bytes),
-        (&slot.with_extension(ORIGIN), origin.as_bytes()),
+        (&slot.with_extension(ORIGIN), &origin),
     ])
 }
 
@@ -193,7 +261,7 @@ fn forget(slot: &Path) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Recovery, leftovers, write};
+    use super::{DocumentFile, Recovery, leftovers, origin_bytes, origin_in, write};
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{Project, ProjectLibrary, read_project};
     use std::path::Path;
@@ -208,7 +276,8 @@ mod tests {
         let at = folder.path().join("recovery");
         assert!(leftovers(&at).is_empty());
         let slot = Recovery::new(&at).unwrap();
-        write(&project(), &slot.slot, Some(Path::new("/somewhere/Woods.shagreen"))).unwrap();
+        let origin = DocumentFile { path: "/somewhere/Woods.shagreen".into(), sha256: Some("ab".to_owned()) };
+        write(&project(), &slot.slot, Some(&origin)).unwrap();
         assert!(leftovers(&at).is_empty(), "its window lives");
         // Simulates a kill: the lock is released and the files remain.
         let path = slot.slot.clone();
@@ -224,7 +293,7 @@ mod tests {
         let found = leftovers(&at);
         assert_eq!(found.len(), 1);
         assert!(leftovers(&at).is_empty(), "it is offered once");
-        assert_eq!(found[0].origin.as_deref(), Some(Path::new("/somewhere/Woods.shagreen")));
+        assert_eq!(found[0].origin, Some(origin));
         let bytes = std::fs::read(found[0].path()).unwrap();
         let read = read_project(&bytes, Path::new("/"), &|_| Err(std::io::ErrorKind::NotFound.into()));
         assert_eq!(read.unwrap().value, project());
@@ -232,6 +301,51 @@ mod tests {
             left.discard();
         }
         assert_eq!(std::fs::read_dir(&at).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_copy_that_is_kept_aside_is_offered() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path().join("recovery");
+        let slot = Recovery::new(&at).unwrap();
+        slot.keep_aside(&project(), None).unwrap();
+        let found = leftovers(&at);
+        assert_eq!((found.len(), found[0].origin.clone()), (1, None));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn only_the_user_may_read_what_is_kept() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path().join("recovery");
+        let slot = Recovery::new(&at).unwrap();
+        slot.keep_aside(&project(), None).unwrap();
+        let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        assert_eq!(mode(&at), 0o700);
+        for entry in std::fs::read_dir(&at).unwrap() {
+            assert_eq!(mode(&entry.unwrap().path()), 0o600);
+        }
+    }
+
+    #[test]
+    fn the_project_file_is_named_in_bytes() {
+        let named = |path: &str, sha256: Option<&str>| DocumentFile {
+            path: path.into(),
+            sha256: sha256.map(str::to_owned),
+        };
+        for origin in [named("/a/ä.shagreen", Some("00ff")), named("/a\nb", None)] {
+            assert_eq!(origin_in(&origin_bytes(&origin)), Some(origin));
+        }
+        assert_eq!(origin_in(b"/old.shagreen"), Some(named("/old.shagreen", None)));
+        assert_eq!((origin_in(b""), origin_in(b"\n")), (None, None));
+        #[cfg(unix)]
+        {
+            use std::os::unix::ffi::OsStrExt as _;
+            let path = std::path::PathBuf::from(std::ffi::OsStr::from_bytes(b"/a/\xff.shagreen"));
+            let origin = DocumentFile { path, sha256: None };
+            assert_eq!(origin_in(&origin_bytes(&origin)), Some(origin));
+        }
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! The settings file, which is written when the settings change.
 
+use std::convert::Infallible;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::Context;
-use shagreen_formats::atomic;
-use shagreen_formats::settings::{Settings, read_settings, write_settings};
+use shagreen_formats::bounded_file::{self, FileKind};
+use shagreen_formats::locked_update::update;
+use shagreen_formats::settings::{Settings, merged, read_settings, write_settings};
 
 use crate::state::background::in_background;
 use crate::strings::rig as strings;
@@ -47,15 +49,14 @@ impl SettingsFile {
         }
         self.writing = None;
         let Some(path) = self.path.clone().filter(|_| self.written != *settings) else { return };
-        self.written = settings.clone();
-        let settings = settings.clone();
-        self.writing = Some(in_background(ctx.clone(), move || write(&path, &settings)));
+        let (before, settings) = (std::mem::replace(&mut self.written, settings.clone()), settings.clone());
+        self.writing = Some(in_background(ctx.clone(), move || write(&path, &before, &settings)));
     }
 }
 
 /// Missing or unreadable settings fall back to defaults. An unreadable device setup is reported.
 fn read(path: &Path) -> (Settings, Option<String>) {
-    let (settings, reason) = match std::fs::read(path) {
+    let (settings, reason) = match bounded_file::read(path, FileKind::Small) {
         Ok(bytes) => {
             let (settings, error) = read_settings(&bytes);
             (settings, error.map(|error| error.to_string()))
@@ -69,12 +70,20 @@ fn read(path: &Path) -> (Settings, Option<String>) {
     (settings, reason.map(|reason| strings::unreadable(&path.display().to_string(), &reason)))
 }
 
-/// Errors are ignored: without stored settings the program still works.
-fn write(path: &Path, settings: &Settings) {
+/// Writes the settings that changed since `before`; those that another window has changed stay. Errors are ignored:
+/// without stored settings the program still works.
+fn write(path: &Path, before: &Settings, settings: &Settings) {
     if let Some(folder) = path.parent() {
         let _ = std::fs::create_dir_all(folder);
     }
-    let _ = atomic::write(path, &write_settings(settings));
+    let merge = |present: Option<&[u8]>| -> Result<Vec<u8>, Infallible> {
+        // A file with an error is replaced, as the user was told.
+        let theirs = present.map(read_settings).and_then(|(theirs, error)| error.is_none().then_some(theirs));
+        Ok(write_settings(
+            &theirs.map_or_else(|| settings.clone(), |theirs| merged(before, settings, theirs)),
+        ))
+    };
+    let _ = update(path, FileKind::Small, merge);
 }
 
 #[cfg(test)]
@@ -88,7 +97,7 @@ mod tests {
         let path = folder.path().join("sub/settings.json");
         assert_eq!(read(&path), (Settings::default(), None));
         let settings = Settings { is_light: Some(true), ..Settings::default() };
-        write(&path, &settings);
+        write(&path, &Settings::default(), &settings);
         assert_eq!(read(&path), (settings, None));
         // An existing settings path that cannot be read is an error, not a first start.
         let (nothing, problem) = read(folder.path());

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::DroppedFileHandle;
+use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::wav::sidecar_names;
 
 use shagreen_studio::file::{is_special, shown_name};
@@ -38,7 +39,7 @@ impl Source {
             return Err(format!("{}; choose a file", strings::NO_FILE));
         }
         match self {
-            Self::Path(path) => std::fs::read(path).map_err(|error| {
+            Self::Path(path) => bounded_file::read(path, FileKind::Recording).map_err(|error| {
                 format!("the file cannot be read ({error}); check its path and permissions")
             }),
             Self::Dropped(file) => file.bytes().map_err(|error| {
@@ -94,7 +95,10 @@ pub(crate) fn sidecar_of(source: &Source, all: &[Source]) -> Option<Arc<[u8]>> {
         return beside.bytes().ok().map(Into::into);
     }
     // Most WAV files have no sidecar; the reader then asks for the units.
-    names.iter().find_map(|name| std::fs::read(source.path().with_file_name(name)).ok()).map(Into::into)
+    names
+        .iter()
+        .find_map(|name| bounded_file::read(&source.path().with_file_name(name), FileKind::Small).ok())
+        .map(Into::into)
 }
 
 #[cfg(test)]

@@ -46,6 +46,7 @@ pub const RECOVERED_HELP: &str = "Shagreen ended before this work was saved. Rec
 pub const RECOVER: &str = "Recover";
 pub const DISCARD: &str = "Discard";
 pub const LATER: &str = "Later";
+pub const NO_RECOVERY: &str = "there is no recovery folder";
 pub const CHANGED: &str = "has unsaved changes";
 
 pub fn would_be_lost(project: &str) -> String {

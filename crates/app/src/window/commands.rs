@@ -81,6 +81,7 @@ impl Window {
                 self.session.open_output(OutputChoice::Id(id), ctx);
             }
             Command::ResetLimiter => self.session.reset_limiter(),
+            Command::TakeOverOutput => self.session.take_over_output(ctx),
             Command::OpenDevices => match built_in_actuators() {
                 Ok(actuators) => {
                     self.session.list_outputs(ctx);

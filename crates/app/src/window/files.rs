@@ -9,7 +9,8 @@ use shagreen_formats::library::id_from_name;
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
 use shagreen_studio::export;
-use shagreen_studio::open::{Opened, open};
+use shagreen_studio::file::one_line;
+use shagreen_studio::open::{Opened, OpenedProject, open};
 use shagreen_studio::project::new_project;
 
 use super::Window;
@@ -19,7 +20,7 @@ use crate::sheets::Sheet;
 use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::open_sheet::OpenSheet;
 use crate::sheets::save::SaveSheet;
-use crate::state::document::Came;
+use crate::state::document::{Came, DocumentFile};
 use crate::state::edit::Edit;
 use crate::state::history::History;
 use crate::state::leave::Leave;
@@ -66,6 +67,23 @@ impl Window {
                 Some(path) => self.files.document.save(&self.project, path, ctx),
                 None => self.ask_where_to_save(),
             },
+            FileCommand::Reload => {
+                if let Sheet::Conflict(conflict) = &self.sheet {
+                    let path = conflict.path.clone();
+                    match self.files.keep_aside(&self.project) {
+                        Ok(()) => self.files.reloading = Some(path.clone()),
+                        // Otherwise the changes would be lost.
+                        Err(reason) => return self.session.say(strings::conflict::not_kept(&reason)),
+                    }
+                    self.sheet = Sheet::Closed;
+                    self.files.document.open(path, ctx);
+                }
+            }
+            FileCommand::Overwrite => {
+                if let Sheet::Conflict(conflict) = std::mem::take(&mut self.sheet) {
+                    self.files.document.overwrite(&self.project, &conflict, ctx);
+                }
+            }
             FileCommand::SetTemplate(path) => self.files.settings.template = path,
             FileCommand::SaveAs => self.ask_where_to_save(),
             FileCommand::SaveTo(path) => self.files.document.save(&self.project, path, ctx),
@@ -136,6 +154,10 @@ impl Window {
                     self.leave(leave, ctx);
                 }
             }
+            Came::Conflict(conflict) => {
+                self.files.after_saving = None;
+                self.sheet = Sheet::Conflict(conflict);
+            }
             Came::NotSaved(reason) => {
                 self.files.after_saving = None;
                 match &mut self.sheet {
@@ -143,9 +165,15 @@ impl Window {
                     _ => self.session.say(strings::document::not_saved(&reason)),
                 }
             }
-            Came::Opened(Opened::Project(imported), path) => {
-                self.files.waiting = Some((imported, (!is_beginning).then_some(path)));
-                self.leave(Leave::Open, ctx);
+            Came::Opened(Opened::Project(opened), path) => {
+                let is_reload = self.files.reloading.take().is_some_and(|reloading| reloading == path);
+                self.files.waiting = Some((opened, (!is_beginning).then_some(path)));
+                if is_reload {
+                    // The changes were kept aside.
+                    self.go(Leave::Open, ctx);
+                } else {
+                    self.leave(Leave::Open, ctx);
+                }
             }
             Came::Opened(Opened::Library(_), path) if is_beginning => {
                 self.begin_as_usual(&strings::document::is_library(&path.display().to_string()), ctx);
@@ -186,9 +214,10 @@ impl Window {
         match leave {
             Leave::New => self.begin(new_project(), None),
             Leave::Open => {
-                if let Some((imported, path)) = self.files.waiting.take() {
-                    self.begin(imported.value, path);
-                    self.say_warnings(&imported.warnings);
+                if let Some((opened, path)) = self.files.waiting.take() {
+                    let OpenedProject { project, warnings, sha256 } = *opened;
+                    self.begin(project, path.map(|path| DocumentFile { path, sha256: Some(sha256) }));
+                    self.say_warnings(&warnings);
                 }
             }
             Leave::Gallery(chosen) => match chosen.read() {
@@ -203,8 +232,8 @@ impl Window {
     }
 
     /// Replaces the open project.
-    fn begin(&mut self, project: Project, path: Option<PathBuf>) {
-        self.files.begin(&project, path);
+    fn begin(&mut self, project: Project, file: Option<DocumentFile>) {
+        self.files.begin(&project, file);
         self.show_project(project);
     }
 
@@ -222,15 +251,15 @@ impl Window {
     fn recover(&mut self, index: usize) {
         let Sheet::Recovered(leftovers) = &mut self.sheet else { return };
         match open(&leftovers[index].path()) {
-            Ok(Opened::Project(imported)) => {
+            Ok(Opened::Project(opened)) => {
                 let leftover = leftovers.remove(index);
                 self.files.begin_recovered(leftover);
-                self.show_project(imported.value);
-                self.say_warnings(&imported.warnings);
+                self.show_project(opened.project);
+                self.say_warnings(&opened.warnings);
             }
             Ok(Opened::Library(_)) => {}
             // The leftover remains.
-            Err(error) => self.session.say(format!("{error:#}")),
+            Err(error) => self.session.say(one_line(&error)),
         }
     }
 

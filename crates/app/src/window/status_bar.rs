@@ -53,6 +53,12 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
                 ui.add(label).on_hover_text(strings::PREPARING_HELP);
             }
             weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
+            if session.claimed_output().is_some() {
+                let button = ui.button(strings::TAKE_OVER).on_hover_text(strings::TAKE_OVER_HELP);
+                if button.clicked() {
+                    commands.push(Command::TakeOverOutput);
+                }
+            }
             for message in [session.output_message(), session.pen_message()].into_iter().flatten() {
                 let label = Label::new(RichText::new(message).color(t.error))
                     .truncate()

@@ -60,7 +60,7 @@ fn wait_until_saved(harness: &mut Author) {
 
 fn project_in(path: &Path) -> Project {
     match open::open(path).unwrap() {
-        Opened::Project(imported) => imported.value,
+        Opened::Project(opened) => opened.project,
         Opened::Library(_) => panic!("a project"),
     }
 }

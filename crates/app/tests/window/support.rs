@@ -40,7 +40,7 @@ pub(crate) fn author_on(library: Library, size: [f32; 2]) -> Author {
 pub(crate) fn begin(project: Project) -> Begin {
     Begin {
         project,
-        path: None,
+        file: None,
         output: OutputChoice::Id("null".to_owned()),
         keeping: StoragePaths::default(),
     }

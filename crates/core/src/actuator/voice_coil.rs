@@ -243,6 +243,10 @@ impl Actuator {
     }
 }
 
+/// Highest limits of a voice coil that vibrates a stylus or a fingertip.
+const MAX_VOLTS: f64 = 100.0;
+const MAX_AMPS: f64 = 50.0;
+
 /// Checks that all numbers are in range.
 ///
 /// # Errors
@@ -254,9 +258,6 @@ pub fn validate(actuator: &Actuator) -> Result<(), ActuatorError> {
     let numbers = [
         ("the lowest frequency in Hz", Some(actuator.lowest.0)),
         ("the load in kg", actuator.measured.and_then(|m| kilograms(m.load))),
-        ("the rated voltage in V rms", volts(limits.rated_volts_rms)),
-        ("the rated current in A rms", limits.rated_amps_rms),
-        ("the peak voltage in V", volts(limits.peak_volts)),
         ("the thermal time constant in s", Some(limits.thermal_secs)),
         ("the moving mass in kg", kilograms(physical.moving_mass)),
         ("the mass of the case in kg", kilograms(physical.body_mass)),
@@ -269,6 +270,22 @@ pub fn validate(actuator: &Actuator) -> Result<(), ActuatorError> {
     ];
     for (what, value) in numbers {
         value.map_or(Ok(()), |value| check_positive(what, value))?;
+    }
+    // A limit that no voice coil has would be none.
+    let bounded = [
+        (
+            "the rated voltage in V rms",
+            volts(limits.rated_volts_rms),
+            MAX_VOLTS,
+            "a number above 0, at most 100",
+        ),
+        ("the rated current in A rms", limits.rated_amps_rms, MAX_AMPS, "a number above 0, at most 50"),
+        ("the peak voltage in V", volts(limits.peak_volts), MAX_VOLTS, "a number above 0, at most 100"),
+    ];
+    for (what, value, most, needs) in bounded {
+        if let Some(value) = value.filter(|value| !(*value > 0.0 && *value <= most)) {
+            return Err(ActuatorError::Number { what, value, needs });
+        }
     }
     let errors = calibrated.map(|c| {
         [

@@ -67,6 +67,8 @@ pub(super) struct Player {
     /// Whether the tip touches at the current position of the stroke. Resuming there is not a contact onset.
     track_is_down: bool,
     last_landing_secs: f64,
+    /// Last contact onset and last time in contact, on the stream's clock.
+    contact_secs: Option<(f64, f64)>,
 }
 
 impl Player {
@@ -96,6 +98,7 @@ impl Player {
             track_landing: None,
             track_is_down: false,
             last_landing_secs: f64::NEG_INFINITY,
+            contact_secs: None,
         }
     }
 
@@ -186,7 +189,23 @@ impl Player {
 
     /// Restarts the stream's clock at zero.
     pub(super) fn restart_clock(&mut self) {
-        self.stream_secs = 0.0;
+        (self.stream_secs, self.contact_secs) = (0.0, None);
+    }
+
+    /// Last contact onset and last time in contact, on the stream's clock; `None` before the first contact.
+    pub(super) fn contact_secs(&self) -> Option<(f64, f64)> {
+        self.contact_secs
+    }
+
+    /// Notes that the tip is in contact at this time of the stream's clock, such as a tap between two ticks.
+    pub(super) fn note_contact(&mut self, stream_secs: f64) {
+        let was_touching = self.touch.contact.force_n > 0.0;
+        self.contact_secs = Some(match self.contact_secs {
+            Some((landed_secs, touched_secs)) if was_touching => {
+                (landed_secs.min(stream_secs), touched_secs.max(stream_secs))
+            }
+            _ => (stream_secs, stream_secs),
+        });
     }
 
     /// Touch of the last tick.
@@ -308,6 +327,9 @@ impl ContactSource for Player {
             // A lifting tip keeps its position.
             Input::Lifted => {}
             _ => self.place.set(f64::from(touch.x_m)),
+        }
+        if touch.contact.force_n > 0.0 {
+            self.note_contact(time_secs);
         }
         self.touch = touch;
         touch.contact

@@ -1,5 +1,6 @@
 //! Tests of engine and handle together, block by block.
 
+mod lift_off;
 mod relief;
 mod signals;
 

@@ -4,7 +4,7 @@ use std::ffi::CString;
 use std::io::{Cursor, Read as _, Write as _};
 use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use pulseaudio::protocol::{
     AuthParams, AuthReply, Command, CommandReply, DESCRIPTOR_SIZE, Descriptor, DescriptorFlags, MAX_VERSION,
@@ -108,8 +108,9 @@ impl Connection {
     /// Sends a command and waits for its reply. Other messages in between are discarded.
     pub(super) fn ask<T: CommandReply>(&mut self, command: &Command) -> Result<T, Failure> {
         let seq = self.say(command)?;
+        let until = Instant::now() + PATIENCE;
         loop {
-            let message = self.next()?;
+            let message = self.next_until(Some(until))?;
             match message.command {
                 Command::Reply if message.seq == seq => return message.reply(self.version),
                 Command::Error(error) if message.seq == seq => {
@@ -122,13 +123,19 @@ impl Connection {
 
     /// Returns the next message that can be decoded.
     pub(super) fn next(&mut self) -> Result<Message, Failure> {
+        self.next_until(None)
+    }
+
+    /// Same as [`Connection::next`], with a time limit for all of it.
+    fn next_until(&mut self, until: Option<Instant>) -> Result<Message, Failure> {
         loop {
-            let descriptor = read_descriptor(&mut self.socket)?;
+            let mut from = Patient { socket: &mut self.socket, until };
+            let descriptor = read_descriptor(&mut from)?;
             if descriptor.length > MAX_MESSAGE {
                 return Err(ProtocolError::Invalid("a message exceeds the length limit".into()).into());
             }
             let mut bytes = vec![0; descriptor.length as usize];
-            self.socket.read_exact(&mut bytes)?;
+            from.read_exact(&mut bytes)?;
             let mut payload = Cursor::new(bytes);
             // Commands unknown to this protocol version are skipped.
             if let Ok((seq, command)) = Command::read_tag_prefixed(&mut payload, self.version) {
@@ -151,6 +158,29 @@ impl Connection {
         self.out.extend_from_slice(&head);
         self.out.extend(samples.iter().flat_map(|sample| sample.to_le_bytes()));
         Ok(self.socket.write_all(&self.out)?)
+    }
+}
+
+/// Socket with a time limit for all reads together. A limit for each read would let a server that sends a byte now and
+/// then block for ever.
+struct Patient<'a> {
+    socket: &'a mut UnixStream,
+    until: Option<Instant>,
+}
+
+impl std::io::Read for Patient<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        if let Some(until) = self.until {
+            let left = until.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return Err(std::io::Error::new(
+                    std::io::ErrorKind::TimedOut,
+                    "the sound server is too slow",
+                ));
+            }
+            self.socket.set_read_timeout(Some(left))?;
+        }
+        self.socket.read(buffer)
     }
 }
 

@@ -3,9 +3,11 @@
 use shagreen_core::space::SpacePointError;
 use shagreen_core::space::texture_path::TexturePathError;
 use shagreen_core::texture::TextureModelError;
+use shagreen_core::texture::tap::TapError;
 
 use crate::library::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 use crate::own_json::HeaderFault;
+use crate::text_limits::TooLong;
 
 /// Why bytes are not a texture library.
 #[derive(Debug, thiserror::Error)]
@@ -141,17 +143,26 @@ pub enum LibraryError {
         /// Why it is invalid.
         reason: String,
     },
-    /// A tap transient is not a decaying oscillation.
-    #[error("the tap transient of texture \"{id}\" has {field} {value}; {needs}")]
+    /// A text is too long.
+    #[error(transparent)]
+    TooLong(#[from] TooLong),
+    /// A path has too many textures.
+    #[error("the path of texture \"{id}\" has {n} textures, but at most {most} are possible; remove some")]
+    PathKeys {
+        /// Identifier of the texture.
+        id: String,
+        /// Number of textures along the path.
+        n: usize,
+        /// Maximum number of textures.
+        most: usize,
+    },
+    /// A tap transient is none that a tap on a surface could cause.
+    #[error("the `tap` of texture \"{id}\" is invalid: {source}")]
     Tap {
         /// Identifier of the texture.
         id: String,
-        /// Name of the field.
-        field: &'static str,
-        /// The value in the file.
-        value: f64,
-        /// The permitted range.
-        needs: &'static str,
+        /// The invalid value.
+        source: TapError,
     },
     /// A path is invalid.
     #[error("the path of texture \"{id}\" is invalid: {source}; correct or remove it")]

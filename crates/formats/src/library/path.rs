@@ -10,6 +10,9 @@ use crate::library::v1::{KeyV1, PathV1, TapV1};
 use crate::library::{LibraryError, Unknown, UnknownOfKey};
 use crate::library::{relief, tap};
 
+/// Maximum number of textures along a path; the program writes up to 48.
+const MAX_KEYS: usize = 512;
+
 /// Converts and validates the path of a texture.
 pub(super) fn read(
     id: &str,
@@ -27,6 +30,9 @@ pub(super) fn read(
         Along::from_id(&wire.along).ok_or_else(|| word("path.along", &wire.along, "distance or time"))?;
     let at_end = AtEnd::from_id(&wire.at_end)
         .ok_or_else(|| word("path.at_end", &wire.at_end, "hold, turn or repeat"))?;
+    if wire.keys.len() > MAX_KEYS {
+        return Err(LibraryError::PathKeys { id: id.to_owned(), n: wire.keys.len(), most: MAX_KEYS });
+    }
     unknown.path = wire.unknown;
     let key = |(index, wire): (usize, KeyV1)| {
         let id = &format!("{id}, key {} of its path", index + 1);

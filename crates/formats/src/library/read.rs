@@ -18,6 +18,7 @@ use crate::library::{
 use crate::library::{attributes, path, relief, tap};
 use crate::own_json::{Header, HeaderFault, minor_version};
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
+use crate::text_limits::{self, MAX_ID, MAX_NAME, MAX_NOTES, TooLong};
 
 /// Reads a library.
 ///
@@ -53,12 +54,17 @@ fn checked(wire: LibraryV1, minor: u32) -> Result<Imported<Library>, LibraryErro
         ));
     }
     check_units(&wire.units)?;
+    text_limits::check("the name of the library", &wire.name, MAX_NAME)?;
+    for text in [&wire.description, &wire.origin, &wire.licence] {
+        text_limits::check("a text of the library", text, MAX_NOTES)?;
+    }
     let mut ids = HashSet::new();
     for (index, texture) in wire.textures.iter().enumerate() {
         let id = &texture.id;
         if id.is_empty() || id.contains(|c: char| c.is_whitespace() || c.is_control()) {
             return Err(LibraryError::Id { number: index + 1, id: id.clone() });
         }
+        check_texts(texture)?;
         if !ids.insert(id.clone()) {
             return Err(LibraryError::Duplicate { id: id.clone() });
         }
@@ -100,6 +106,18 @@ fn damaged(reason: String, bytes: &[u8]) -> LibraryError {
         Some(bad.get("id")?.as_str()?.to_owned())
     });
     LibraryError::Damaged { reason, texture }
+}
+
+fn check_texts(texture: &TextureV1) -> Result<(), TooLong> {
+    text_limits::check("the identifier of a texture", &texture.id, MAX_ID)?;
+    text_limits::check("the name of a texture", &texture.name, MAX_NAME)?;
+    for tag in &texture.tags {
+        text_limits::check("a tag of a texture", tag, MAX_NAME)?;
+    }
+    for text in [&texture.description, &texture.origin, &texture.licence] {
+        text_limits::check("a text of a texture", text, MAX_NOTES)?;
+    }
+    Ok(())
 }
 
 fn check_units(units: &UnitsV1) -> Result<(), LibraryError> {

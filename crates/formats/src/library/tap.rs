@@ -10,20 +10,12 @@ use crate::library::v1::TapV1;
 
 pub(super) fn read(id: &str, wire: TapV1, unknown: &mut Map<String, Value>) -> Result<Tap, LibraryError> {
     *unknown = wire.unknown;
-    for (field, value, is_fine, needs) in [
-        ("frequency_hz", wire.frequency_hz, wire.frequency_hz > 0.0, "it must be greater than zero"),
-        ("decay_per_s", wire.decay_per_s, wire.decay_per_s > 0.0, "it must be greater than zero"),
-        ("amplitude_mps2", wire.amplitude_mps2, wire.amplitude_mps2 >= 0.0, "it must not be negative"),
-    ] {
-        if !is_fine {
-            return Err(LibraryError::Tap { id: id.to_owned(), field, value, needs });
-        }
-    }
-    Ok(Tap {
+    let tap = Tap {
         frequency: Hertz(wire.frequency_hz),
         decay_per_sec: wire.decay_per_s,
         amplitude_mps2: wire.amplitude_mps2,
-    })
+    };
+    tap.checked().map_err(|source| LibraryError::Tap { id: id.to_owned(), source })
 }
 
 pub(super) fn write(tap: Tap) -> TapV1 {

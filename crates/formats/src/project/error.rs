@@ -7,6 +7,7 @@ use shagreen_core::space::SpacePointError;
 
 use crate::library::LibraryError;
 use crate::project::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
+use crate::text_limits::TooLong;
 
 /// Why bytes are not a project.
 #[derive(Debug, thiserror::Error)]
@@ -51,6 +52,28 @@ pub enum ProjectError {
         found: String,
         /// The supported unit.
         expected: &'static str,
+    },
+    /// A text is too long.
+    #[error(transparent)]
+    TooLong(#[from] TooLong),
+    /// The library lies on another computer.
+    #[error(
+        "the library of the project is on another computer, which is not contacted; copy it into the folder of the project: {}",
+        path.display()
+    )]
+    Network {
+        /// The path in the file.
+        path: PathBuf,
+    },
+    /// A drawn path has too many points.
+    #[error("the path of \"{name}\" has {n} points, but at most {most} are possible; remove some")]
+    PathPoints {
+        /// Name of the texture.
+        name: String,
+        /// Number of points.
+        n: usize,
+        /// Maximum number of points.
+        most: usize,
     },
     /// The named built-in library does not exist.
     #[error(

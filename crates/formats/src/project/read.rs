@@ -18,6 +18,7 @@ use crate::library::read::{library_inside, picture, place, texture};
 use crate::library::v1::PictureV1;
 use crate::library::{Attributes, LibraryError, TextureEntry, Unknown, attributes, read_library};
 use crate::own_json::{HeaderFault, minor_version};
+use crate::path_json;
 use crate::picture::Picture;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
 use crate::project::v1::{
@@ -28,6 +29,7 @@ use crate::project::{
     AuthoredTexture, BlendChoice, FORMAT, LibraryFile, N_COLORS, Project, ProjectError, ProjectLibrary,
     VERSION_MAJOR, VERSION_MINOR,
 };
+use crate::text_limits::{self, MAX_NAME, MAX_NOTES};
 
 /// Reads a project that lies in `folder`; `read` returns the bytes of its library file, if it has one.
 ///
@@ -57,6 +59,14 @@ pub fn read_project(
         .collect::<Result<_, _>>()
         .map_err(inside)?;
     let space = wire.space.map(placed_space).transpose().map_err(inside)?.map(Arc::new);
+    text_limits::check("the notes of the project", &wire.notes, MAX_NOTES)?;
+    for texture in wire.authored.iter().chain(&wire.snapshots) {
+        text_limits::check("the name of an authored texture", &texture.name, MAX_NAME)?;
+        text_limits::check("the notes of an authored texture", &texture.notes, MAX_NOTES)?;
+    }
+    for name in wire.renamed.values() {
+        text_limits::check("the name of a texture", name, MAX_NAME)?;
+    }
     let mut authored: Vec<Arc<AuthoredTexture>> = wire
         .authored
         .into_iter()
@@ -134,7 +144,12 @@ fn library(
             Ok(ProjectLibrary::Inside(Arc::new(imported.value)))
         }
         ProjectLibraryV1 { file: Some(file), sha256: told, .. } => {
-            let path = folder.join(PathBuf::from(file));
+            let stated = path_json::from_json(&file)
+                .ok_or_else(|| ProjectError::Damaged { reason: "`library.file` is not a path".to_owned() })?;
+            if is_on_network(&stated) {
+                return Err(ProjectError::Network { path: stated });
+            }
+            let path = folder.join(stated);
             let file = library_file(path, read, warnings)?;
             if told.is_some_and(|told| told != file.sha256) {
                 warnings.push(format!(
@@ -146,6 +161,15 @@ fn library(
         }
         ProjectLibraryV1 { .. } => Err(ProjectError::NoLibrary),
     }
+}
+
+/// Maximum number of points of a drawn path.
+const MAX_PATH_POINTS: usize = 10_000;
+
+/// Whether a path names another computer. Opening such a path would send the user's name and password hash there.
+fn is_on_network(path: &Path) -> bool {
+    let begin = path.as_os_str().as_encoded_bytes();
+    matches!(begin, [b'/' | b'\\', b'/' | b'\\', ..])
 }
 
 /// Reads a library from a separate file.
@@ -253,6 +277,13 @@ fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<UserPath, ProjectError> {
             let name = name.to_owned();
             return Err(ProjectError::Number { name, field, value, needs: "it must be greater than zero" });
         }
+    }
+    if wire.points.len() > MAX_PATH_POINTS {
+        return Err(ProjectError::PathPoints {
+            name: name.to_owned(),
+            n: wire.points.len(),
+            most: MAX_PATH_POINTS,
+        });
     }
     let point = |[rs, hs]: [f64; 2]| {
         SpacePoint::new(rs, hs).map_err(|source| ProjectError::Place { name: name.to_owned(), source })

@@ -53,7 +53,7 @@ pub(super) struct ProjectLibraryV1 {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) built_in: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) file: Option<String>,
+    pub(super) file: Option<Value>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) sha256: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]

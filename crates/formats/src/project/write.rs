@@ -1,6 +1,8 @@
 //! Conversion of a project to bytes; the same project always gives the same bytes.
 
-use std::path::{Component, Path};
+use std::path::Path;
+
+use serde_json::Value;
 
 use serde_json::Map;
 use shagreen_core::space::authoring::{Outside, Weights};
@@ -9,6 +11,7 @@ use crate::layout;
 use crate::library::numbers::{CONVERSION_DIGITS, digits};
 use crate::library::write::{picture, place, texture, wire as library_wire};
 use crate::library::{Unknown, attributes};
+use crate::path_json;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
 use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, PlacedTextureV1, ProjectLibraryV1, ProjectV1, UnitsV1,
@@ -74,14 +77,17 @@ fn library(library: &ProjectLibrary, folder: &Path) -> ProjectLibraryV1 {
 
 /// Returns the path of a library as a project in `folder` stores it: relative if it lies inside, so that both can be
 /// moved together, with slashes on every system.
-fn path_from(folder: &Path, file: &LibraryFile) -> String {
+fn path_from(folder: &Path, file: &LibraryFile) -> Value {
     match file.path.strip_prefix(folder) {
         // Without a project folder the path stays absolute.
         Ok(inside) if inside.is_relative() => {
-            let parts = inside.components().map(Component::as_os_str);
-            parts.map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/")
+            let parts = inside.components().map(|part| part.as_os_str().to_str());
+            match parts.collect::<Option<Vec<&str>>>() {
+                Some(parts) => parts.join("/").into(),
+                None => path_json::to_json(inside),
+            }
         }
-        _ => file.path.to_string_lossy().into_owned(),
+        _ => path_json::to_json(&file.path),
     }
 }
 

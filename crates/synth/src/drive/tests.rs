@@ -9,6 +9,7 @@ use std::vec::Vec;
 use super::{DriveChain, DriveConfig, Driven, HEAT_BLOCK, Inverse};
 use crate::budget::Budget;
 use crate::equalizer::Resonance;
+use crate::lift_gate::Touching;
 use crate::limiter::Limiter;
 
 const RATE_HZ: f32 = 48_000.0;
@@ -56,7 +57,7 @@ fn response_db(config: DriveConfig, hz: f64, amplitude_mps2: f64) -> f64 {
     let n = 48_000;
     let wave = |i: usize| (TAU * hz * i as f64 / f64::from(RATE_HZ)).sin();
     let mut block: Vec<f32> = (0..n).map(|i| (amplitude_mps2 * wave(i)) as f32).collect();
-    chain.process(&mut block, Driven::Acceleration);
+    chain.process(&mut block, Driven::Acceleration, Touching::NotNeeded);
     assert_eq!(chain.limited_samples(), 0, "the limiter must not act, it would hide the response");
     let volts: Vec<f64> = block.iter().map(|x| 5.0 * f64::from(*x)).collect();
     let felt = coil(&volts);
@@ -103,7 +104,7 @@ fn a_proportional_chain_is_the_limiter_alone() {
     let mut limiter = Limiter::new(0.9, 0.8);
     let mut block = noise(5000, 20.0);
     let expected: Vec<f32> = block.iter().map(|x| limiter.limit(*x * 10.0_f32.recip())).collect();
-    chain.process(&mut block, Driven::Acceleration);
+    chain.process(&mut block, Driven::Acceleration, Touching::NotNeeded);
     assert_eq!(block, expected);
     assert_eq!((chain.limited_samples(), chain.latency_secs()), (limiter.limited_samples(), 0.0));
     assert_eq!((chain.heat_used(), chain.heat_gain()), (0.0, 1.0));
@@ -116,7 +117,7 @@ fn blocks_do_not_change_the_limits() {
     let run = |block: usize| {
         let mut chain = DriveChain::new(MARK_II, RATE_HZ);
         let mut out = noise(96_000, 8.0);
-        out.chunks_mut(block).for_each(|part| chain.process(part, Driven::Acceleration));
+        out.chunks_mut(block).for_each(|part| chain.process(part, Driven::Acceleration, Touching::NotNeeded));
         out
     };
     let whole = run(96_000);
@@ -136,7 +137,7 @@ fn neither_peak_nor_heat_exceed_what_the_coil_stands() {
         let (mut square, mut highest, mut peak) = (0.0, 0.0_f64, 0.0_f32);
         for _ in 0..60 {
             let mut second = noise(48_000, 300.0);
-            chain.process(&mut second, driven);
+            chain.process(&mut second, driven, Touching::NotNeeded);
             for x in second {
                 peak = peak.max(x.abs());
                 square += forget * (f64::from(x * x) - square);
@@ -154,17 +155,17 @@ fn neither_peak_nor_heat_exceed_what_the_coil_stands() {
 fn nonsense_latches_silence_and_reset_keeps_the_heat() {
     for bad in [f32::NAN, f32::INFINITY] {
         let mut chain = DriveChain::new(MARK_II, RATE_HZ);
-        chain.process(&mut noise(48_000, 50.0), Driven::Acceleration);
+        chain.process(&mut noise(48_000, 50.0), Driven::Acceleration, Touching::NotNeeded);
         let heat = chain.heat_used();
         assert!(heat > 0.1);
         let mut block = vec![1.0; 480];
         block[200] = bad;
-        chain.process(&mut block, Driven::Acceleration);
+        chain.process(&mut block, Driven::Acceleration, Touching::NotNeeded);
         assert!(block.iter().all(|x| x.abs() <= 0.9));
         assert!(chain.is_tripped() && block[400..].iter().all(|&x| x == 0.0));
         chain.reset();
         let mut block = vec![1.0; 480];
-        chain.process(&mut block, Driven::Acceleration);
+        chain.process(&mut block, Driven::Acceleration, Touching::NotNeeded);
         assert!(!chain.is_tripped() && block[100..].iter().all(|x| x.is_finite() && *x != 0.0));
         assert!(chain.heat_used() > 0.99 * heat && chain.heat_used().is_finite());
     }
@@ -174,7 +175,7 @@ fn nonsense_latches_silence_and_reset_keeps_the_heat() {
 fn an_inverse_that_the_rate_cannot_hold_is_left_out() {
     let mut chain = DriveChain::new(MARK_II, 120.0);
     let mut block = vec![1.0; 10];
-    chain.process(&mut block, Driven::Acceleration);
+    chain.process(&mut block, Driven::Acceleration, Touching::NotNeeded);
     assert!(block.iter().all(|x| x.is_finite()));
 }
 
@@ -184,7 +185,7 @@ fn the_latency_is_that_of_the_look_ahead() {
     assert_eq!(chain.latency_secs(), 0.002);
     let mut block = vec![0.0; 200];
     block[0] = 0.3;
-    chain.process(&mut block, Driven::Drive);
+    chain.process(&mut block, Driven::Drive, Touching::NotNeeded);
     assert_eq!(block.iter().position(|x| *x != 0.0), Some(96));
     assert_eq!(block[96], 0.3);
 }
@@ -194,11 +195,11 @@ fn what_the_equalizer_rings_with_ends_beneath_drive_and_does_not_come_back() {
     let run = |driven| {
         let mut chain = DriveChain::new(DriveConfig { look_ahead_secs: 0.0, ..MARK_II }, RATE_HZ);
         let mut texture: Vec<f32> = (0..480_u16).map(|i| 0.1 - 0.1 * f32::from(i) / 480.0).collect();
-        chain.process(&mut texture, Driven::Acceleration);
+        chain.process(&mut texture, Driven::Acceleration, Touching::NotNeeded);
         let mut signal = vec![0.0; 48_000];
-        chain.process(&mut signal, driven);
+        chain.process(&mut signal, driven, Touching::NotNeeded);
         let mut after = vec![0.0; 4800];
-        chain.process(&mut after, Driven::Acceleration);
+        chain.process(&mut after, Driven::Acceleration, Touching::NotNeeded);
         (texture, signal, after)
     };
     let (texture, beneath_drive, after) = run(Driven::Drive);
@@ -211,4 +212,28 @@ fn what_the_equalizer_rings_with_ends_beneath_drive_and_does_not_come_back() {
     assert!(beneath_drive.iter().zip(&beneath_texture).all(|(x, y)| (x - y).abs() < 1e-6));
     // One second is 90 time constants of the filter at 20 Hz.
     assert!(after.iter().all(|x| x.abs() < 1e-12));
+}
+
+/// A stiff actuator profile may ring for long; after lift-off even that ends.
+#[test]
+fn all_is_silent_soon_after_lift_off() {
+    let inverse = Inverse {
+        resonance: Resonance { frequency_hz: 65.0, q: 900.0, gain_mps2_per_volt: 1.0 },
+        lowest_hz: 0.05,
+    };
+    for config in [MARK_II, DriveConfig { inverse: Some(inverse), ..MARK_II }] {
+        let mut chain = DriveChain::new(config, RATE_HZ);
+        let touching = Touching::Span { landed: 0, touched: 24_000 };
+        chain.process(&mut noise(24_000, 50.0), Driven::Acceleration, touching);
+        let silent = (crate::lift_gate::SILENT_AFTER_SECS * RATE_HZ).ceil() as usize + 2;
+        let mut after = noise(48_000, 50.0);
+        after.chunks_mut(480).for_each(|part| chain.process(part, Driven::Acceleration, touching));
+        assert!(after[..4800].iter().any(|x| x.abs() > 0.1));
+        assert!(after[silent..].iter().all(|x| *x == 0.0));
+        assert!(chain.is_silenced());
+        // A signal is played whether anything is touched or not.
+        let mut signal = [0.25; 480];
+        chain.process(&mut signal, Driven::Drive, Touching::NotNeeded);
+        assert!(signal[300..].iter().all(|x| *x > 0.0), "only the coil's heat may weaken it");
+    }
 }

@@ -129,7 +129,7 @@ fn numbers_that_are_none_are_refused() {
     assert!(Drive::new(Volts(-1.0)).is_err());
     let limits = Limits { peak_volts: Some(Volts(-4.5)), ..Limits::default() };
     let message = validate(&Actuator { limits, ..actuator() }).unwrap_err().to_string();
-    assert_eq!(message, "the peak voltage in V is -4.5, needs a number above 0");
+    assert_eq!(message, "the peak voltage in V is -4.5, needs a number above 0, at most 100");
     assert_eq!(validate(&actuator()), Ok(()));
 }
 

@@ -46,7 +46,8 @@ pub(super) fn ring(transients: &[Transient]) -> Option<FittedTap> {
             frequency: Hertz(f),
             decay_per_sec: b,
             amplitude_mps2: amplitude / transients.len() as f64,
-        },
+        }
+        .bounded(),
         n_landings: transients.len(),
         explained: if total > 0.0 { (explained / total).min(1.0) } else { 0.0 },
     })

@@ -37,6 +37,14 @@ pub enum TextureModelError {
         /// Index of the node.
         index: usize,
     },
+    /// The filter of a node would grow instead of decay in the renderer.
+    #[error(
+        "line spectral frequencies of node {index} are so close together that its filter is unstable in single precision; use a lower order, or fit the node again"
+    )]
+    Unstable {
+        /// Index of the node.
+        index: usize,
+    },
     /// A speed, force, level, variance or gain is out of range or not finite.
     #[error("{what} of node {index} is {value}; it must lie between {low} and {high}")]
     Value {

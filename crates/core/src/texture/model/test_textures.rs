@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 
 use crate::dsp::ar::test_signals::from_resonances;
 use crate::dsp::lsf::lsf_from_ar;
-use crate::texture::{GrainNode, PublishedNode, TextureModel};
+use crate::texture::{
+    Grain, GrainNode, Interpolation, MIN_LSF_GAP, PublishedNode, TextureModel, TextureModelError,
+};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
 /// Two resonances that shift with speed and force; the level is 10 v F^0.3 m/s².
@@ -25,6 +27,20 @@ pub(crate) fn two_resonances(speeds: &[f64], forces: &[f64]) -> TextureModel {
         }
     }
     TextureModel::new(Hertz(1000.0), nodes, Some(0.3)).unwrap()
+}
+
+/// A texture whose predictor is unstable in `f32`, which [`TextureModel::new`] would refuse: twenty line spectral
+/// frequencies at the minimum distance.
+pub(crate) fn unstable() -> TextureModel {
+    let mut model = two_resonances(&[0.08], &[0.7]);
+    let lsf = (1..=20).map(|i| 1.001 * MIN_LSF_GAP * f64::from(i)).collect();
+    let node = GrainNode { speed: MetersPerSecond(0.08), force: Newtons(0.7), lsf, level_mps2: 1e6 };
+    assert_eq!(
+        TextureModel::new(Hertz(1000.0), vec![node.clone()], None),
+        Err(TextureModelError::Unstable { index: 0 })
+    );
+    model.grain = Grain::Measured { nodes: vec![node], interpolation: Interpolation::Barycentric };
+    model
 }
 
 /// Published texture with these orders at 1 kHz, up to 0.2 m/s and 3 N. Its irregular spectra shift with speed and

@@ -131,11 +131,12 @@ fn any_model() -> impl Strategy<Value = Option<TextureModel>> {
     shape.prop_flat_map(move |(order, speed, force, rate)| {
         vec(node(order), 1..12).prop_map(move |nodes| {
             let node = |(gaps, x, y, level_mps2, packed, narrowest): (Vec<f64>, f64, f64, f64, bool, f64)| {
-                // Frequencies at the minimum distance near π, or about uniform.
+                // About uniform; or the last one at the minimum distance below π. More would be unstable in `f32`.
                 let share = PI / gaps.iter().sum::<f64>();
                 let sum = |i: usize| share * gaps[..=i].iter().sum::<f64>();
                 let from_top = |i: usize| PI - narrowest * MIN_LSF_GAP * (order - i) as f64;
-                let lsf = (0..order).map(|i| if packed { from_top(i) } else { sum(i) }).collect();
+                let is_packed = |i: usize| packed && i + 1 == order;
+                let lsf = (0..order).map(|i| if is_packed(i) { from_top(i) } else { sum(i) }).collect();
                 GrainNode { speed: MetersPerSecond(x * speed), force: Newtons(y * force), lsf, level_mps2 }
             };
             TextureModel::new(Hertz(rate), nodes.into_iter().map(node).collect(), None).ok()

@@ -6,8 +6,8 @@ use crate::texture::blend::{Mode, mixture_psd};
 use crate::texture::plane::{Plane, Prepared};
 use crate::texture::profile::Profile;
 use crate::texture::relief::Relief;
-use crate::texture::test_textures::arma;
-use crate::texture::{GrainNode, MIN_LSF_GAP, TextureModel};
+use crate::texture::test_textures::{arma, unstable};
+use crate::texture::{GrainNode, TextureModel};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 fn plane(low_hz: f64, level: f64) -> Plane {
@@ -119,10 +119,7 @@ fn bad_plans_are_named() {
 
 #[test]
 fn what_does_not_stay_finite_is_an_error_at_any_rate() {
-    // Twenty line spectral frequencies at the minimum distance: the predictor is unstable in `f32`.
-    let lsf = (1..=20).map(|i| 1.001 * MIN_LSF_GAP * f64::from(i)).collect();
-    let node = GrainNode { speed: MetersPerSecond(0.08), force: Newtons(0.7), lsf, level_mps2: 1e6 };
-    let prepared = Plane::new(&TextureModel::new(Hertz(1000.0), vec![node], None).unwrap()).prepare();
+    let prepared = Plane::new(&unstable()).prepare();
     let parents = [(&prepared, 1.0)];
     for rate in [1000.0, 8000.0] {
         let plan =

@@ -1,0 +1,205 @@
+//! Claims on outputs: at most one Shagreen plays on an output, across all processes of a user.
+//!
+//! The limiter bounds what one engine sends. Two engines on one output would add up to twice its ceiling.
+//!
+//! A claim is an advisory lock on a file named after the output, which the system releases when the process ends in any
+//! way. A newcomer that takes over writes a request next to it. The owner then goes silent and releases the lock.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use crate::error::{DeviceError, DeviceErrorKind};
+use crate::link::Shared;
+
+/// Interval at which the owner looks for a request, and the newcomer for the release.
+const POLL: Duration = Duration::from_millis(50);
+/// Time between silence and release, so that the last block before it has been played.
+const LET_IT_PLAY: Duration = Duration::from_millis(100);
+/// Time that an owner has to release the output.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Exclusive right to an output.
+#[derive(Debug)]
+pub(crate) struct Claim {
+    lock: File,
+    request: PathBuf,
+}
+
+impl Claim {
+    /// Claims output `id`. With `take_over`, an owner is asked to release it first.
+    ///
+    /// `None` if this system has no place for the lock, for example because its temporary folder is read-only.
+    ///
+    /// # Errors
+    /// [`DeviceErrorKind::Claimed`] if another Shagreen plays on the output, or does not release it.
+    pub(crate) fn new(id: &str, take_over: bool) -> Result<Option<Self>, DeviceError> {
+        Self::in_folder(&folder(), id, take_over)
+    }
+
+    fn in_folder(folder: &std::path::Path, id: &str, take_over: bool) -> Result<Option<Self>, DeviceError> {
+        let name = file_stem(id);
+        let [lock, request, owner] =
+            ["lock", "request", "owner"].map(|kind| folder.join(format!("{name}.{kind}")));
+        let Ok(file) = open_in(folder, &lock) else { return Ok(None) };
+        let claimed = || {
+            let process = fs::read_to_string(&owner).ok().and_then(|text| text.trim().parse::<u32>().ok());
+            let process = process.map_or_else(String::new, |process| format!(" (process {process})"));
+            let message = if take_over {
+                format!("the other Shagreen{process} does not release the output `{id}`; close it")
+            } else {
+                format!(
+                    "another Shagreen{process} plays on the output `{id}`; close it, or take over the output \
+                     (`--take-over`)"
+                )
+            };
+            DeviceError::new(DeviceErrorKind::Claimed, message)
+        };
+        let begun = Instant::now();
+        loop {
+            match file.try_lock() {
+                Ok(()) => break,
+                Err(TryLockError::WouldBlock) if take_over && begun.elapsed() < PATIENCE => {
+                    // The owner removes it when it has released the lock.
+                    if fs::write(&request, "").is_err() {
+                        return Err(claimed());
+                    }
+                    std::thread::sleep(POLL);
+                }
+                Err(TryLockError::WouldBlock) => {
+                    fs::remove_file(&request).ok(); // There may be none.
+                    return Err(claimed());
+                }
+                Err(TryLockError::Error(_)) => return Ok(None),
+            }
+        }
+        fs::remove_file(&request).ok(); // There may be none.
+        fs::write(&owner, std::process::id().to_string()).ok(); // It only completes a message.
+        Ok(Some(Self { lock: file, request }))
+    }
+
+    /// Keeps the claim until the guard is dropped, or until it is taken over: the output is then marked as lost.
+    ///
+    /// # Errors
+    /// The system cannot start a thread.
+    pub(crate) fn guard(self, shared: Arc<Shared>) -> io::Result<ClaimGuard> {
+        let (stop, stopped) = channel();
+        let watch = move || {
+            let Self { lock, request } = self;
+            while let Err(RecvTimeoutError::Timeout) = stopped.recv_timeout(POLL) {
+                if request.exists() {
+                    shared.give_up();
+                    std::thread::sleep(LET_IT_PLAY);
+                    break;
+                }
+            }
+            drop(lock);
+        };
+        let thread = std::thread::Builder::new().name("output claim".to_owned()).spawn(watch)?;
+        Ok(ClaimGuard { stop: Some(stop), thread: Some(thread) })
+    }
+}
+
+/// Holds a claim until it is dropped.
+#[derive(Debug)]
+pub(crate) struct ClaimGuard {
+    stop: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for ClaimGuard {
+    fn drop(&mut self) {
+        self.stop = None;
+        if let Some(thread) = self.thread.take() {
+            thread.join().ok(); // It has released the lock in any case.
+        }
+    }
+}
+
+fn open_in(folder: &std::path::Path, lock: &std::path::Path) -> io::Result<File> {
+    let mut builder = fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder)?;
+    OpenOptions::new().create(true).truncate(false).write(true).open(lock)
+}
+
+/// Folder of the locks of this user.
+fn folder() -> PathBuf {
+    match std::env::var_os("XDG_RUNTIME_DIR").filter(|folder| !folder.is_empty()) {
+        Some(runtime) => PathBuf::from(runtime).join("shagreen-outputs"),
+        None => {
+            let user = std::env::var("USER").or_else(|_| std::env::var("USERNAME")).unwrap_or_default();
+            std::env::temp_dir().join(format!("shagreen-outputs-{}", file_stem(&user)))
+        }
+    }
+}
+
+/// Readable and unique file name of an id: its letters and digits, and a hash (FNV-1a) of all of it.
+fn file_stem(id: &str) -> String {
+    let hash = id.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    let readable: String = id.chars().filter(char::is_ascii_alphanumeric).take(40).collect();
+    format!("{readable}-{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Claim, DeviceErrorKind, file_stem};
+    use crate::link::link;
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn an_output_has_one_owner_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let claim = |id, take_over| Claim::in_folder(folder.path(), id, take_over);
+        let first = claim("pulse:a", false).unwrap().unwrap();
+        let error = claim("pulse:a", false).unwrap_err();
+        assert_eq!(error.kind(), DeviceErrorKind::Claimed);
+        let text = error.to_string();
+        assert!(
+            text.contains(&format!("process {}", std::process::id())) && text.contains("--take-over"),
+            "{text}"
+        );
+        // Another output is free.
+        assert!(claim("pulse:b", false).unwrap().is_some());
+        let (reporter, _monitor) = link();
+        drop(first.guard(reporter.shared.clone()).unwrap());
+        assert!(claim("pulse:a", false).unwrap().is_some());
+        assert!(!reporter.shared.is_lost());
+    }
+
+    #[test]
+    fn a_newcomer_takes_over_and_the_owner_goes_silent() {
+        let folder = tempfile::tempdir().unwrap();
+        let claim = |take_over| Claim::in_folder(folder.path(), "x", take_over);
+        let (reporter, mut monitor) = link();
+        let guard = claim(false).unwrap().unwrap().guard(reporter.shared.clone()).unwrap();
+        let begun = Instant::now();
+        let second = claim(true).unwrap().unwrap();
+        assert!(begun.elapsed() < Duration::from_secs(3));
+        assert!(reporter.shared.is_lost());
+        let loss = monitor.loss().unwrap().to_string();
+        assert!(loss.contains("taken over"), "{loss}");
+        // The request is gone, so the new owner keeps the output.
+        let (reporter, _monitor) = link();
+        let _second = second.guard(reporter.shared.clone()).unwrap();
+        std::thread::sleep(Duration::from_millis(200));
+        assert!(!reporter.shared.is_lost());
+        drop(guard);
+        assert!(claim(false).is_err());
+    }
+
+    #[test]
+    fn names_are_unique_and_safe() {
+        assert_ne!(file_stem("alsa:hw:0"), file_stem("alsa:hw0"));
+        assert!(file_stem("a/../b\0ä").chars().all(|c| c.is_ascii_alphanumeric() || c == '-'));
+        assert!(file_stem(&"x".repeat(9000)).len() < 100);
+    }
+}

@@ -1,0 +1,47 @@
+//! Length limits of texts in files. A name of megabytes would take gigabytes of memory to draw.
+
+/// Longest identifier, in characters.
+pub const MAX_ID: usize = 200;
+/// Longest name or tag, in characters.
+pub const MAX_NAME: usize = 1000;
+/// Longest description, license, origin or notes, in characters.
+pub const MAX_NOTES: usize = 200_000;
+
+/// A text that is longer than its limit.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what} \"{begin}…\" has {n} characters, but at most {most} are possible; shorten it")]
+pub struct TooLong {
+    /// What the text is, for example "the name of a texture".
+    pub what: &'static str,
+    /// Its first characters.
+    pub begin: String,
+    /// Its number of characters.
+    pub n: usize,
+    /// The limit.
+    pub most: usize,
+}
+
+/// Checks the length of a text in characters.
+///
+/// # Errors
+/// [`TooLong`] above `most`.
+pub(crate) fn check(what: &'static str, text: &str, most: usize) -> Result<(), TooLong> {
+    // A character has at least one byte, so short texts need no count.
+    if text.len() <= most {
+        return Ok(());
+    }
+    let n = text.chars().count();
+    if n <= most { Ok(()) } else { Err(TooLong { what, begin: text.chars().take(20).collect(), n, most }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check;
+
+    #[test]
+    fn characters_count_and_not_bytes() {
+        assert!(check("it", &"ä".repeat(10), 10).is_ok());
+        let error = check("it", &"ä".repeat(65_536), 10).unwrap_err().to_string();
+        assert!(error.contains("65536 characters") && error.len() < 200, "{error}");
+    }
+}
