@@ -339,7 +339,7 @@ impl Session {
 
     /// Shows a message in the status bar.
     pub fn say(&mut self, message: String) {
-        self.sound.player.message = Some(shortened(&message));
+        self.sound.player.message = Some(shortened(message));
     }
 }
 

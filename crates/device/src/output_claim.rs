@@ -131,13 +131,11 @@ fn open_in(folder: &std::path::Path, lock: &std::path::Path) -> io::Result<File>
 
 /// Folder of the locks of this user.
 fn folder() -> PathBuf {
-    match std::env::var_os("XDG_RUNTIME_DIR").filter(|folder| !folder.is_empty()) {
-        Some(runtime) => PathBuf::from(runtime).join("shagreen-outputs"),
-        None => {
-            let user = std::env::var("USER").or_else(|_| std::env::var("USERNAME")).unwrap_or_default();
-            std::env::temp_dir().join(format!("shagreen-outputs-{}", file_stem(&user)))
-        }
+    if let Some(runtime) = std::env::var_os("XDG_RUNTIME_DIR").filter(|folder| !folder.is_empty()) {
+        return PathBuf::from(runtime).join("shagreen-outputs");
     }
+    let user = std::env::var("USER").or_else(|_| std::env::var("USERNAME")).unwrap_or_default();
+    std::env::temp_dir().join(format!("shagreen-outputs-{}", file_stem(&user)))
 }
 
 /// Readable and unique file name of an id: its letters and digits, and a hash (FNV-1a) of all of it.

@@ -161,7 +161,7 @@ fn in_real_folder(path: &Path) -> PathBuf {
 }
 
 /// Age from which a temporary file counts as left behind by a process that was killed.
-const STALE: Duration = Duration::from_secs(3600);
+const STALE: Duration = Duration::from_hours(1);
 
 /// Deletes temporary files that killed processes left in a folder. A process does this once for each folder.
 fn sweep(folder: &Path) {
@@ -354,7 +354,7 @@ mod tests {
         for name in [".shagreen-abc", ".shagreen", "other"] {
             fs::write(folder.path().join(name), b"x").unwrap();
         }
-        sweep_older(folder.path(), Duration::from_secs(3600));
+        sweep_older(folder.path(), Duration::from_hours(1));
         assert_eq!(names(folder.path()).len(), 3, "a young file may be in use");
         sweep_older(folder.path(), Duration::ZERO);
         assert_eq!(names(folder.path()), [".shagreen", "other"]);

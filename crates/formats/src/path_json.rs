@@ -34,6 +34,7 @@ pub(crate) fn serialize_all<S: Serializer>(paths: &[PathBuf], serializer: S) -> 
 }
 
 /// Serializes an optional path for a struct field.
+#[expect(clippy::ref_option, reason = "serde calls it with a reference to the field")]
 pub(crate) fn serialize_option<S: Serializer>(
     path: &Option<PathBuf>,
     serializer: S,

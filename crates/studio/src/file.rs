@@ -29,7 +29,7 @@ pub fn one_line(error: &anyhow::Error) -> String {
     }
     let paths = files.iter().map(|file| file.trim_start_matches(IN_FILE).to_owned());
     let line: Vec<String> = parts.into_iter().chain(paths).collect();
-    shortened(&line.join(": ").replace(['\n', '\r'], " "))
+    shortened(line.join(": ").replace(['\n', '\r'], " "))
 }
 
 /// Returns the last component of a path as text.

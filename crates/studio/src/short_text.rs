@@ -8,10 +8,9 @@ const MOST_OF_WORD: usize = 300;
 const MOST_DIGITS: usize = 24;
 
 /// Returns a message in which long words, long numbers and the message itself are cut in the middle.
-pub fn shortened(message: &str) -> String {
-    let is_short = message.len() <= MOST_DIGITS;
-    if is_short {
-        return message.to_owned();
+pub fn shortened(message: String) -> String {
+    if message.len() <= MOST_DIGITS {
+        return message;
     }
     let mut text = String::with_capacity(message.len().min(4 * MOST));
     for word in message.split_inclusive(char::is_whitespace) {
@@ -31,8 +30,7 @@ fn without_long_numbers(word: &str) -> String {
         let n_digits = rest[start..].bytes().take_while(u8::is_ascii_digit).count();
         let end = start + n_digits;
         if n_digits > MOST_DIGITS {
-            text.push_str(&rest[..start + 6]);
-            text.push_str(&format!("… ({n_digits} digits)"));
+            text = format!("{text}{}… ({n_digits} digits)", &rest[..start + 6]);
         } else {
             text.push_str(&rest[..end]);
         }
@@ -60,14 +58,14 @@ mod tests {
     #[test]
     fn what_a_file_contains_does_not_fill_the_screen() {
         let usual = "cork.csv, line 12: force is -0.4 N; remove the row or fix its sign";
-        assert_eq!(shortened(usual), usual);
+        assert_eq!(shortened(usual.to_owned()), usual);
         let long = format!("the name \"{}\" is taken: /a/b.json", "x".repeat(100_000));
-        let short = shortened(&long);
+        let short = shortened(long);
         assert!(short.len() < 500 && short.ends_with("/a/b.json") && short.contains('…'), "{short}");
         let huge = format!("{:.1} is out of range", 1e300);
-        let short = shortened(&huge);
+        let short = shortened(huge);
         assert!(short.contains("(301 digits)") && short.ends_with(".0 is out of range"), "{short}");
-        assert!(shortened(&"a b ".repeat(100_000)).chars().count() <= MOST + 1);
-        assert_eq!(shortened(&"ä".repeat(400)).chars().count(), 301);
+        assert!(shortened("a b ".repeat(100_000)).chars().count() <= MOST + 1);
+        assert_eq!(shortened("ä".repeat(400)).chars().count(), 301);
     }
 }

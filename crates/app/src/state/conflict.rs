@@ -45,7 +45,7 @@ pub(crate) fn differences(base: Option<&Project>, here: &Project, there: &Projec
             (Some(_), None) if base.is_none() => Change::AddedHere,
             (None, Some(there)) if base == Some(there) => Change::RemovedHere,
             (None, Some(_)) if base.is_none() => Change::AddedThere,
-            (here, there) => changed(base, here, there),
+            (here, there) => changed(base.as_ref(), here.as_ref(), there.as_ref()),
         };
         Some(Difference { part, change })
     };
@@ -71,12 +71,11 @@ fn compared<'a, T: PartialEq>(
     part: impl Fn(&'a Project) -> T,
 ) -> Option<Change> {
     let (here, there) = (part(here), part(there));
-    (here != there).then(|| changed(base.map(part), here, there))
+    (here != there).then(|| changed(base.map(part).as_ref(), Some(&here), Some(&there)))
 }
 
 /// How something was changed that differs between both sides.
-fn changed<T: PartialEq>(base: Option<T>, here: impl Into<Option<T>>, there: impl Into<Option<T>>) -> Change {
-    let (here, there) = (here.into(), there.into());
+fn changed<T: PartialEq>(base: Option<&T>, here: Option<&T>, there: Option<&T>) -> Change {
     if base.is_some() && base == there {
         Change::Here
     } else if base.is_some() && base == here {

@@ -38,6 +38,26 @@ pub struct Document {
     opening: Option<(Receiver<Result<Opened, String>>, PathBuf)>,
 }
 
+/// Content that an existing file may have when it is replaced.
+enum Expected {
+    /// Any, because the user chose to replace the file.
+    Any,
+    /// None: what the file contained when it was read is unknown.
+    Nothing,
+    /// Content with this SHA-256.
+    Content(String),
+}
+
+impl Expected {
+    fn allows(&self, present: &[u8]) -> bool {
+        match self {
+            Self::Any => true,
+            Self::Nothing => false,
+            Self::Content(sha256) => *sha256 == sha256_hex(present),
+        }
+    }
+}
+
 /// Save operation in progress.
 struct Saving {
     outcome: Receiver<Result<Saved, String>>,
@@ -133,30 +153,26 @@ impl Document {
     /// another window or program has changed it, nothing is written.
     pub(crate) fn save(&mut self, project: &Project, path: PathBuf, ctx: &Context) {
         let own = self.file.as_ref().filter(|file| file.path == path);
-        let expected = own.map(|file| file.sha256.clone());
+        let expected = own.map_or(Expected::Any, |file| match &file.sha256 {
+            Some(sha256) => Expected::Content(sha256.clone()),
+            None => Expected::Nothing,
+        });
         self.begin_to_save(project, path, expected, ctx);
     }
 
     /// Saves the project over the changed file of a conflict, unless that has changed once more.
     pub(crate) fn overwrite(&mut self, project: &Project, conflict: &Conflict, ctx: &Context) {
-        self.begin_to_save(project, conflict.path.clone(), Some(Some(conflict.sha256.clone())), ctx);
+        self.begin_to_save(project, conflict.path.clone(), Expected::Content(conflict.sha256.clone()), ctx);
     }
 
-    /// Saves the project. `expected` is the SHA-256 that an existing file must have; `Some(None)` accepts no existing
-    /// file, and `None` any.
-    fn begin_to_save(
-        &mut self,
-        project: &Project,
-        path: PathBuf,
-        expected: Option<Option<String>>,
-        ctx: &Context,
-    ) {
+    /// Saves the project if an existing file has the expected content.
+    fn begin_to_save(&mut self, project: &Project, path: PathBuf, expected: Expected, ctx: &Context) {
         let (content, to, base) = (project.clone(), path.clone(), self.on_disk.clone());
         let outcome = in_background(ctx.clone(), move || {
             let bytes = write_project(&content, &folder_of(&to), CREATED_BY);
             let sha256 = sha256_hex(&bytes);
-            let written = update(&to, FileKind::Document, |present| match (expected, present) {
-                (Some(expected), Some(present)) if expected.as_deref() != Some(&*sha256_hex(present)) => {
+            let written = update(&to, FileKind::Document, |present| match present {
+                Some(present) if !expected.allows(present) => {
                     Err(conflict(&to, base.as_ref(), &content, present))
                 }
                 _ => Ok(bytes),

@@ -19,6 +19,19 @@ use crate::state::edit::Edit;
 use crate::workspace::Workspace;
 
 impl Window {
+    fn open_devices(&mut self, ctx: &egui::Context) {
+        match built_in_actuators() {
+            Ok(actuators) => {
+                self.session.list_outputs(ctx);
+                self.session.list_pens(ctx);
+                self.session.list_inputs(ctx);
+                let sheet = DevicesSheet::new(self.session.rig(), actuators);
+                self.sheet = Sheet::Devices(Box::new(sheet));
+            }
+            Err(error) => self.session.say(error.to_string()),
+        }
+    }
+
     /// Executes a command.
     pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
         match command {
@@ -81,17 +94,11 @@ impl Window {
                 self.session.open_output(OutputChoice::Id(id), ctx);
             }
             Command::ResetLimiter => self.session.reset_limiter(),
-            Command::TakeOverOutput => self.session.take_over_output(ctx),
-            Command::OpenDevices => match built_in_actuators() {
-                Ok(actuators) => {
-                    self.session.list_outputs(ctx);
-                    self.session.list_pens(ctx);
-                    self.session.list_inputs(ctx);
-                    let sheet = DevicesSheet::new(self.session.rig(), actuators);
-                    self.sheet = Sheet::Devices(Box::new(sheet));
-                }
-                Err(error) => self.session.say(error.to_string()),
-            },
+            Command::TakeOverOutput => {
+                self.output.asked = self.session.claimed_output().map(str::to_owned);
+                self.session.take_over_output(ctx);
+            }
+            Command::OpenDevices => self.open_devices(ctx),
             Command::ToggleFreeze => {
                 let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                 self.pages.stage.scope.toggle_freeze(&panel);

@@ -44,7 +44,9 @@ proptest! {
         coil in (30.0_f64..300.0, 0.5_f64..3000.0, 0.01_f64..30.0),
     ) {
         let sum: f32 = gaps.iter().sum();
-        gaps.iter_mut().for_each(|gap| *gap *= std::f32::consts::PI / sum);
+        for gap in &mut gaps {
+            *gap *= std::f32::consts::PI / sum;
+        }
         let lsf: Vec<f32> = gaps[..gaps.len() - 1]
             .iter()
             .scan(0.0, |at, gap| { *at += gap; Some(*at) })
