@@ -13,6 +13,7 @@ mod author;
 mod devices;
 mod errors;
 mod evaluate;
+mod hostile;
 mod import;
 mod learn;
 mod library;

@@ -22,6 +22,8 @@ mod calibrate_by_sound;
 mod latency;
 #[cfg(target_os = "linux")]
 mod null_sink;
+#[cfg(target_os = "linux")]
+mod one_owner;
 #[cfg(unix)]
 mod serial;
 #[cfg(target_os = "linux")]
