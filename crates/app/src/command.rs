@@ -193,7 +193,12 @@ impl Entry {
 }
 
 /// Commands of the palette and of the list of shortcuts, in this order. Each has an [`Entry`].
-pub const LISTED: [Command; 33] = [
+pub fn listed() -> impl Iterator<Item = Command> {
+    let workspaces = Workspace::ALL.into_iter().map(Command::Show);
+    FILES_AND_EDITS.into_iter().chain(workspaces).chain(OTHERS)
+}
+
+const FILES_AND_EDITS: [Command; 12] = [
     Command::File(FileCommand::New),
     Command::File(FileCommand::AskWhatToOpen),
     Command::File(FileCommand::OpenGallery),
@@ -206,9 +211,9 @@ pub const LISTED: [Command; 33] = [
     Command::OpenSave,
     Command::Undo,
     Command::Redo,
-    Command::Show(Workspace::Author),
-    Command::Show(Workspace::Build),
-    Command::Show(Workspace::Signals),
+];
+
+const OTHERS: [Command; 18] = [
     Command::OpenPalette,
     Command::TogglePathTool,
     Command::KeepPath,
@@ -230,7 +235,7 @@ pub const LISTED: [Command; 33] = [
 ];
 
 impl Command {
-    /// Label and shortcut of a command in [`LISTED`].
+    /// Label and shortcut of a command in [`listed`].
     pub fn entry(&self) -> Option<Entry> {
         Some(match self {
             Self::File(FileCommand::New) => Entry::new("New project").command(Key::N),
@@ -295,7 +300,7 @@ pub fn pressed(ctx: &egui::Context, canvas: egui::Id) -> Vec<Command> {
     // The shortcut of redo contains that of undo, and that of "save as" contains that of "save". Longer ones come
     // first.
     let has_shift = |c: &Command| c.shortcut().is_some_and(|s| s.modifiers.shift);
-    let mut commands = LISTED.to_vec();
+    let mut commands: Vec<Command> = listed().collect();
     commands.sort_by_key(|c| !has_shift(c));
     commands.retain(|command| {
         let Some(shortcut) = command.shortcut() else { return false };

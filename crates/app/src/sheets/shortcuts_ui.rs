@@ -2,7 +2,7 @@
 
 use egui::{Context, Grid, Label, RichText};
 
-use crate::command::{Command, LISTED};
+use crate::command::{Command, listed};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::strings::help as strings;
@@ -22,7 +22,7 @@ pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
             let entry = command.entry()?;
             Some((ctx.format_shortcut(&entry.shortcut?), entry.label))
         };
-        let commands = LISTED.into_iter().filter_map(keys_of);
+        let commands = listed().filter_map(keys_of);
         let more = strings::MORE_KEYS.into_iter().map(|(keys, what)| (keys.to_owned(), what));
         let all: Vec<(String, &str)> = commands.chain(more).collect();
         // In two columns, so that a low window shows them all.

@@ -358,7 +358,7 @@ fn the_keys_are_shown_and_each_is_named() {
         close.bottom() < SIZE[1] && harness.get_by_label(help::SHORTCUTS).rect().top() > 0.0,
         "{close:?}"
     );
-    for command in shagreen_app::command::LISTED {
+    for command in shagreen_app::command::listed() {
         let entry = command.entry().expect("every listed command has words");
         assert!(entry.shortcut.is_none() || says(&harness, entry.label), "{}", entry.label);
     }
