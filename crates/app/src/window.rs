@@ -71,7 +71,7 @@ struct Readers {
     strokes: StrokeReader,
 }
 
-/// The program window.
+/// The program window. It has many fields, because it owns all that its panels only read.
 pub struct Window {
     project: Project,
     history: History,

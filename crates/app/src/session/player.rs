@@ -47,7 +47,7 @@ struct MadeSlots {
     next: Option<(u64, TextureId)>,
 }
 
-/// An output, and everything to be sent to it.
+/// An output, and everything to be sent to it: many fields, because the output takes all of it through one handle.
 pub(super) struct Player {
     /// Input of the last computed mix: point, interpolation options, index of the soloed texture, and key on its path.
     pub(super) wanted: Option<(SpacePoint, Blending, Option<usize>, Option<usize>)>,
